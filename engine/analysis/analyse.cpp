@@ -1,0 +1,156 @@
+#include "analysis/analyse.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "analysis/comparison.h"
+#include "analysis/gum.h"
+#include "analysis/rounding.h"
+#include "analysis/sobol.h"
+#include "analysis/summary.h"
+#include "base/instruction_set.h"
+#include "base/units.h"
+#include "base/version.h"
+
+namespace gumshoe::analysis {
+
+std::string statement(const Summary& s, const Budget& b, double p, bool virtual_experiment) {
+  const auto shown = [&](double x) { return units::from_si(x, s.output.unit, s.output.si_unit); };
+  const auto width = [&](double x) { return units::from_si(x, s.output.unit, s.output.si_unit, units::Kind::difference); };
+  const std::string unit = s.output.unit == "1" ? "" : " " + s.output.unit;
+  const int d = decimals_for(width(std::isfinite(s.standard_uncertainty) ? s.standard_uncertainty : s.symmetric.high - s.symmetric.low));
+  std::string text = virtual_experiment
+                         ? fmt::format("{}: the stated value errs by {}{} in the mean", s.output.name, fixed(width(s.estimate), d), unit)
+                         : fmt::format("{} = {}{}", s.output.name, fixed(shown(s.estimate), d), unit);
+  if (std::isfinite(s.standard_uncertainty))
+    text += fmt::format("{} u = {}{}", virtual_experiment ? " with a standard deviation" : " with a standard uncertainty",
+                        fixed(width(s.standard_uncertainty), d), unit);
+  else text += " without a standard uncertainty (" + s.warning + ")";
+  text += fmt::format("; the shortest {:.4g} % coverage interval is [{}, {}]{}", 100 * p, fixed(shown(s.shortest.low), d),
+                      fixed(shown(s.shortest.high), d), unit);
+  if (b.applicable && b.expanded_uncertainty > 0)
+    text += fmt::format(". GUM framework: U = {}{} with k = {:.2f}{}", fixed(width(b.expanded_uncertainty), d), unit, b.coverage_factor,
+                        b.effective_degrees_of_freedom > 0 ? fmt::format(" ({:.0f} effective degrees of freedom)", b.effective_degrees_of_freedom) : "");
+  return text + ".";
+}
+
+namespace {
+
+/// A variate of infinite variance that moves the output (t with two degrees of freedom or fewer).
+std::string infinite_variance(const propagation::Experiment& e, const Budget& budget) {
+  for (const Contribution& c : budget.contributions)
+    for (const auto& v : e.plan().variates)
+      if (v.name == c.name && !std::isfinite(v.distribution.variance()) && c.sensitivity != 0)
+        return v.name + " has no standard uncertainty: t with two degrees of freedom or fewer";
+  return {};
+}
+
+void describe(Results& r, const propagation::Experiment& e) {
+  const auto& s = e.scenario();
+  const ModelCard& card = *e.model().card;
+  r.title = s.title;
+  r.model = s.model;
+  r.model_title = card.title;
+  r.method = s.method == scenario::Method::propagation ? "propagation" : "virtual_experiment";
+  r.evaluation = s.evaluation;
+  r.scenario_file = s.file;
+  r.scenario_text = s.text;
+  r.scenario_hash = s.hash;
+  r.version = version;
+  r.git_hash = git_hash;
+  r.instruction_set = name(best_instruction_set());
+  constexpr std::array designs{"monte_carlo", "latin_hypercube", "sobol"};
+  r.design = designs[static_cast<std::size_t>(s.run.design)];
+  r.seed = s.run.seed;
+  r.samples = s.run.samples;
+  r.coverage_probability = s.analysis.coverage_probability;
+  r.notes = s.notes;
+  r.readings = s.readings;
+  for (const auto& c : card.conditions) r.condition_names.emplace_back(c.name), r.condition_units.emplace_back(c.si_unit);
+  for (const auto& i : card.indications) r.indication_names.emplace_back(i.name), r.indication_units.emplace_back(i.si_unit);
+  for (const auto& q : s.quantities)
+    for (const auto& entry : q.entries) {
+      InputRecord record;
+      record.name = q.name;
+      record.unit = q.unit;
+      record.si_unit = q.si_unit;
+      record.value = entry.value;
+      record.source = entry.source;
+      for (const auto& [label, value] : entry.labels) record.labels += (record.labels.empty() ? "" : ", ") + label + " " + value;
+      double variance = 0;
+      for (const auto& c : entry.components) {
+        variance += c.distribution.variance();
+        record.value += c.distribution.mean();
+        for (const auto& f : quantities::families())
+          if (f.family == c.distribution.family) record.distribution += (record.distribution.empty() ? "" : " + ") + std::string(f.name);
+        if (record.evaluation.find(c.evaluation) == std::string::npos) record.evaluation += c.evaluation;
+        record.scope = scope_text(c);
+        if (!c.source.empty()) record.source += (record.source.empty() ? "" : "; ") + c.source;
+      }
+      record.standard_uncertainty = std::sqrt(variance);
+      r.inputs.push_back(record);
+    }
+}
+
+void count_failures(Results& r, const std::vector<std::uint8_t>& status) {
+  std::array<std::uint64_t, 256> count{}, first{};
+  for (std::size_t i = 0; i < status.size(); ++i)
+    if (status[i] != 0 && count[status[i]]++ == 0) first[status[i]] = i;
+  for (std::size_t k = 1; k < count.size(); ++k)
+    if (count[k] > 0) {
+      r.failed += count[k];
+      r.failures.push_back(fmt::format("{}: {} samples, the first is sample {} (gumshoe replay FILE --sample {})",
+                                       propagation::status_name(static_cast<propagation::Status>(k)), count[k], first[k], first[k]));
+    }
+}
+
+/// First-order indices beside the GUM contributions, and what is left for interactions.
+void add_monte_carlo_column(Results& r) {
+  for (std::size_t o = 0; o < r.sensitivities.size(); ++o) {
+    double sum = 0;
+    for (const SobolIndex& index : r.sensitivities[o].indices) {
+      sum += index.first;
+      for (Contribution& c : r.budgets[o].contributions)
+        if (c.name == index.input) c.monte_carlo_share = index.first;
+    }
+    r.budgets[o].monte_carlo_interactions = 1 - sum;
+  }
+}
+
+} // namespace
+
+Results analyse(const propagation::Experiment& e, const Samples& samples, int threads) {
+  Results r;
+  const auto& s = e.scenario();
+  describe(r, e);
+  count_failures(r, samples.status());
+  const bool virtual_experiment = s.method == scenario::Method::virtual_experiment;
+  std::vector<std::vector<double>> kept(e.outputs().size());
+  for (std::size_t o = 0; o < e.outputs().size(); ++o) {
+    auto values = samples.values(o);
+    const auto& output = e.outputs()[o];
+    r.summaries.push_back(summarise(output, values, s.analysis.coverage_probability));
+    Summary& summary = r.summaries.back();
+    r.budgets.push_back(budget(e, o, s.analysis.coverage_probability));
+    if (const std::string reason = infinite_variance(e, r.budgets.back()); !reason.empty()) {
+      summary.standard_uncertainty = summary.standard_uncertainty_se = summary.estimate_se = std::nan("");
+      summary.warning = reason + "; the interval's ends are quantiles and hold";
+    }
+    r.validations.push_back(validate(r.budgets.back(), summary, s.analysis.validation_digits));
+    r.statements.push_back(statement(summary, r.budgets.back(), s.analysis.coverage_probability, virtual_experiment));
+    const bool compared = std::ranges::any_of(s.analysis.comparisons, [&](const auto& c) { return c.measurand == output.measurand; });
+    if (compared) kept[o] = std::move(values);
+  }
+  if (s.analysis.sobol_samples > 0) {
+    r.sensitivities = sobol_indices(e, s.analysis.sobol_samples, threads);
+    add_monte_carlo_column(r);
+  }
+  r.comparisons = compare(e, kept, r.summaries);
+  r.printed = beside_printed(e, r.summaries);
+  return r;
+}
+
+} // namespace gumshoe::analysis

@@ -1,0 +1,68 @@
+#include "analysis/comparison.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/summary.h"
+
+namespace gumshoe::analysis {
+
+namespace {
+
+std::string label_value(const quantities::Labels& labels, const std::string& label) {
+  for (const auto& [name, value] : labels)
+    if (name == label) return value;
+  return {};
+}
+
+bool matches(const quantities::Labels& labels, const quantities::Labels& wanted) {
+  return std::ranges::all_of(wanted, [&](const auto& w) { return label_value(labels, w.first) == w.second; });
+}
+
+} // namespace
+
+std::vector<ComparisonResult> compare(const propagation::Experiment& e, const std::vector<std::vector<double>>& values,
+                                      const std::vector<Summary>& summaries) {
+  std::vector<ComparisonResult> results;
+  const auto& readings = e.scenario().readings;
+  for (const auto& c : e.scenario().analysis.comparisons)
+    for (std::size_t i = 0; i < e.outputs().size(); ++i)
+      for (std::size_t j = i + 1; j < e.outputs().size(); ++j) {
+        const auto &a = e.outputs()[i], &b = e.outputs()[j];
+        const auto &la = readings[a.reading].labels, &lb = readings[b.reading].labels;
+        if (a.measurand != c.measurand || b.measurand != c.measurand) continue;
+        if (label_value(la, c.between) == label_value(lb, c.between)) continue;
+        if (!c.within.empty() && label_value(la, c.within) != label_value(lb, c.within)) continue;
+        std::vector<double> difference(values[i].size());
+        for (std::size_t k = 0; k < difference.size(); ++k) difference[k] = values[i][k] - values[j][k];
+        const Summary s = summarise(a, difference, e.scenario().analysis.coverage_probability);
+        ComparisonResult r;
+        r.a = label_value(la, c.between);
+        r.b = label_value(lb, c.between);
+        r.name = c.measurand + ": " + r.a + " - " + r.b;
+        if (!c.within.empty()) r.name += ", " + c.within + " " + label_value(la, c.within);
+        r.unit = a.unit;
+        r.si_unit = a.si_unit;
+        r.difference = s.estimate;
+        r.standard_uncertainty = s.standard_uncertainty;
+        r.root_sum_square = std::hypot(summaries[i].standard_uncertainty, summaries[j].standard_uncertainty);
+        r.expanded_uncertainty = 0.5 * (s.shortest.high - s.shortest.low);
+        r.normalised_error = r.difference / r.expanded_uncertainty;
+        results.push_back(r);
+      }
+  return results;
+}
+
+std::vector<PrintedResult> beside_printed(const propagation::Experiment& e, const std::vector<Summary>& summaries) {
+  std::vector<PrintedResult> results;
+  for (const auto& printed : e.scenario().analysis.printed)
+    for (std::size_t o = 0; o < e.outputs().size(); ++o) {
+      const auto& output = e.outputs()[o];
+      if (output.measurand != printed.measurand || !matches(e.scenario().readings[output.reading].labels, printed.labels)) continue;
+      results.push_back({output.name, printed.source, output.unit, output.si_unit, printed.value, summaries[o].estimate,
+                         0.5 * (summaries[o].shortest.high - summaries[o].shortest.low)});
+    }
+  return results;
+}
+
+} // namespace gumshoe::analysis

@@ -1,0 +1,96 @@
+#include "analysis/derivatives.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gumshoe::analysis {
+
+namespace {
+
+constexpr std::size_t chunk = 8;
+
+/// Calls the model at one reading in scalar T; `point` holds all quantities in scenario order.
+template <class T>
+models::PointOutcome call(const propagation::Experiment& e, std::size_t reading, const std::vector<T>& point,
+                          std::vector<T>& measurands, models::PointOutcome (*evaluate)(const models::PointCall<T>&)) {
+  models::PointCall<T> c;
+  c.quantities = point.data();
+  c.effects = point.data() + e.model_quantities();
+  c.active = e.active();
+  c.conditions = e.scenario().readings[reading].conditions.data();
+  c.indications = point.data() + e.model_quantities() + e.effect_quantities();
+  measurands.resize(e.model().card->measurands.size());
+  c.measurands = measurands.data();
+  c.evaluation = static_cast<int>(e.evaluation());
+  return evaluate(c);
+}
+
+double plain(const propagation::Experiment& e, std::size_t reading, std::size_t m, const std::vector<double>& point) {
+  std::vector<models::Gradient> x(point.begin(), point.end()), y;
+  const auto outcome = call(e, reading, x, y, e.model().evaluate_gradient);
+  return outcome.status == 0 ? y[m].v : std::nan("");
+}
+
+/// At a kink: which quantities the kink concerns, by comparing the slopes on either side.
+void one_sided(const propagation::Experiment& e, std::size_t reading, std::size_t m, const std::vector<double>& point,
+               Derivatives& d) {
+  for (std::size_t q = 0; q < point.size(); ++q) {
+    const double h = 1e-6 * std::max(1e-3, std::fabs(point[q]));
+    auto up = point, down = point;
+    up[q] += h;
+    down[q] -= h;
+    const double right = (plain(e, reading, m, up) - d.value) / h, left = (d.value - plain(e, reading, m, down)) / h;
+    const double scale = std::max({std::fabs(left), std::fabs(right), 1e-9});
+    // On a smooth branch the slopes differ by h times the curvature; at a kink by their own size.
+    if (!(std::fabs(right - left) < 1e-2 * scale)) {
+      d.differentiable[q] = false;
+      d.first[q] = std::nan("");
+    } else {
+      d.first[q] = 0.5 * (left + right);
+    }
+  }
+}
+
+} // namespace
+
+Derivatives differentiate(const propagation::Experiment& e, std::size_t reading, std::size_t m,
+                          const std::vector<double>& point, bool second) {
+  const std::size_t n = point.size();
+  Derivatives d;
+  d.first.assign(n, 0);
+  d.differentiable.assign(n, true);
+  bool kink = false;
+  for (std::size_t at = 0; at < n; at += chunk) {
+    std::vector<models::Gradient> x(point.begin(), point.end()), y;
+    for (std::size_t q = at; q < std::min(n, at + chunk); ++q) x[q] = models::Gradient::variable(point[q], static_cast<int>(q - at));
+    const auto outcome = call(e, reading, x, y, e.model().evaluate_gradient);
+    d.status = std::max(d.status, outcome.status);
+    kink |= outcome.kink;
+    d.value = y[m].v;
+    for (std::size_t q = at; q < std::min(n, at + chunk); ++q) d.first[q] = y[m].d[q - at];
+  }
+  if (d.status != 0) return d;
+  if (kink) {
+    one_sided(e, reading, m, point, d);
+    return d;
+  }
+  if (!second) return d;
+  d.second.assign(n * n, 0);
+  for (std::size_t row = 0; row < n; row += chunk)
+    for (std::size_t column = row; column < n; column += chunk) {
+      std::vector<models::Curvature> x, y;
+      for (std::size_t q = 0; q < n; ++q) {
+        models::Curvature c(point[q]);
+        if (q >= column && q < column + chunk) c.v = models::Gradient::variable(point[q], static_cast<int>(q - column));
+        if (q >= row && q < row + chunk) c.d[q - row] = models::Gradient(1.0);
+        x.push_back(c);
+      }
+      call(e, reading, x, y, e.model().evaluate_curvature);
+      for (std::size_t i = row; i < std::min(n, row + chunk); ++i)
+        for (std::size_t j = column; j < std::min(n, column + chunk); ++j)
+          d.second[i * n + j] = d.second[j * n + i] = y[m].d[i - row].d[j - column];
+    }
+  return d;
+}
+
+} // namespace gumshoe::analysis

@@ -1,0 +1,22 @@
+#pragma once
+/// Exact derivatives of one reading's measurands by its quantities.
+#include <vector>
+
+#include "propagation/experiment.h"
+
+namespace gumshoe::analysis {
+
+/// Of measurand m at a reading, by every quantity of the scenario (model, effects, indications), SI.
+struct Derivatives {
+  std::uint8_t status = 0;
+  double value = 0;
+  std::vector<double> first;          ///< [quantity]
+  std::vector<double> second;         ///< [quantity][quantity], if asked for
+  std::vector<bool> differentiable;   ///< [quantity]
+};
+
+/// At the given point (Experiment::point). `second` costs a pass per pair of chunks of 8 quantities.
+Derivatives differentiate(const propagation::Experiment& experiment, std::size_t reading, std::size_t measurand,
+                          const std::vector<double>& point, bool second);
+
+} // namespace gumshoe::analysis

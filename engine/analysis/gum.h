@@ -1,0 +1,21 @@
+#pragma once
+/// The GUM uncertainty framework: JCGM 100 clause 5 and Annex G, with exact derivatives.
+#include "analysis/results.h"
+#include "propagation/experiment.h"
+
+namespace gumshoe::analysis {
+
+/// The budget of one output by the law of propagation of uncertainty. One row per variate that reaches
+/// the output; c_i by dual numbers through the solver; second-order terms of 5.1.2 note, with the
+/// third derivatives as differences of exact first ones. Where the model has no derivative at the
+/// estimate the row says so and the framework does not apply. A virtual experiment has no measurement
+/// model of its inputs, so its budget is "not applicable".
+Budget budget(const propagation::Experiment& experiment, std::size_t output, double coverage_probability);
+
+/// JCGM 101 clause 8: d_low, d_high against the numerical tolerance of u at `digits`.
+Validation validate(const Budget& budget, const Summary& summary, int digits);
+
+/// "per setup", "per rod, setup", "" for a draw that all readings share.
+std::string scope_text(const quantities::Component& component);
+
+} // namespace gumshoe::analysis

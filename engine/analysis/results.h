@@ -1,0 +1,128 @@
+#pragma once
+/// Everything a finished run says, as plain data in SI units: what the file holds and the report shows.
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "propagation/run.h"
+#include "quantities/input_quantity.h"
+
+namespace gumshoe::analysis {
+
+struct Interval {
+  double low = 0, high = 0;
+  double low_se = 0, high_se = 0; ///< Monte Carlo standard errors of the ends
+  double low_rank = 0, high_rank = 0; ///< ends that hold whatever values the failed samples had
+};
+
+struct Summary {
+  propagation::Output output;
+  std::uint64_t valid = 0, failed = 0;
+  double estimate = 0, estimate_se = 0;
+  double standard_uncertainty = 0, standard_uncertainty_se = 0; ///< NaN if none exists; see `warning`
+  double skewness = 0, kurtosis = 0;
+  Interval symmetric; ///< probabilistically symmetric coverage interval, JCGM 101 5.3.3
+  Interval shortest;  ///< shortest coverage interval, JCGM 101 5.3.4
+  std::vector<double> bin_edges; ///< histogram: n + 1 edges,
+  std::vector<double> density;   ///< n densities, 1/unit
+  std::string warning;           ///< "no standard uncertainty: ..." or empty
+};
+
+/// One row of an uncertainty budget: one component of one input quantity that reaches the output.
+struct Contribution {
+  std::string name;         ///< "beam_pitch[setup 1]", with ": component" where there are several
+  std::string quantity;     ///< "beam_pitch"
+  std::string unit, si_unit;
+  double estimate = 0;
+  double standard_uncertainty = 0; ///< NaN: infinite variance
+  char evaluation = 'B';
+  std::string distribution;
+  double degrees_of_freedom = 0;   ///< 0: infinite
+  bool differentiable = true;
+  double sensitivity = 0;          ///< c_i, SI; NaN if not differentiable here
+  double contribution = 0;         ///< |c_i| u_i, SI
+  double share = 0;                ///< (c_i u_i)^2 / u_c^2
+  double monte_carlo_share = 0;    ///< first-order Sobol' index; NaN if not computed
+  std::string scope;               ///< "per setup", "" for the whole run
+  std::string source;
+};
+
+/// The GUM framework for one output: JCGM 100 clause 5, Annex G.
+struct Budget {
+  propagation::Output output;
+  bool applicable = true;
+  std::string reason;              ///< why the framework does not apply
+  double estimate = 0;             ///< model at the estimates
+  std::vector<Contribution> contributions;
+  double correlation_share = 0;    ///< the one correlation row, adding up to 1 with the shares
+  double monte_carlo_interactions = 0; ///< 1 - sum of first-order indices; NaN if not computed
+  double combined_standard_uncertainty = 0; ///< u_c, first order
+  double second_order_uncertainty = 0;      ///< u_c with the terms of 5.1.2 note
+  double second_order_bias = 0;             ///< half the sum of H_ii u_i^2: mean minus estimate
+  double effective_degrees_of_freedom = 0;  ///< truncated (G.4.1); 0: infinite; NaN: inputs correlated
+  double coverage_factor = 0;
+  double expanded_uncertainty = 0;
+};
+
+/// JCGM 101 clause 8.
+struct Validation {
+  propagation::Output output;
+  double delta = 0, d_low = 0, d_high = 0;
+  double monte_carlo_tolerance = 0; ///< must be below delta / 5
+  int digits = 2;
+  std::string verdict;              ///< "validated", "not validated", "undecided", "not applicable"
+  std::string reason;
+};
+
+struct SobolIndex {
+  std::string input;
+  double first = 0, first_low = 0, first_high = 0;
+  double total = 0, total_low = 0, total_high = 0;
+  std::string verdict; ///< "resolved", "zero within its interval", "not converged"
+};
+struct Sensitivity {
+  propagation::Output output;
+  std::uint64_t base_samples = 0, dropped_rows = 0;
+  std::vector<SobolIndex> indices;
+};
+
+/// d = a - b from joint samples; E_n = d / U(d), U(d) half the shortest coverage interval.
+struct ComparisonResult {
+  std::string name, a, b;      ///< "laser_z: rod 1 - rod 2, setup 1"
+  std::string unit, si_unit;
+  double difference = 0, standard_uncertainty = 0;
+  double root_sum_square = 0;  ///< what ignoring the common inputs would give
+  double expanded_uncertainty = 0, normalised_error = 0;
+};
+
+struct PrintedResult {
+  std::string output, source, unit, si_unit;
+  double printed = 0, ours = 0, expanded_uncertainty = 0;
+};
+
+/// A quantity as the scenario knows it, for the record.
+struct InputRecord {
+  std::string name, unit, si_unit, labels, distribution, evaluation, scope, source;
+  double value = 0, standard_uncertainty = 0;
+};
+
+struct Results {
+  std::string title, model, model_title, method, evaluation, scenario_file, scenario_text, scenario_hash;
+  std::string version, git_hash, instruction_set, design;
+  std::uint64_t seed = 0, samples = 0, failed = 0;
+  double coverage_probability = 0.95;
+  std::vector<std::string> failures;   ///< "never_covered: 12 samples, first 345"
+  std::vector<std::string> statements; ///< the result in GUM words, one per output
+  std::vector<std::string> notes;
+  std::vector<quantities::Reading> readings;
+  std::vector<std::string> condition_names, condition_units, indication_names, indication_units; ///< SI units
+  std::vector<InputRecord> inputs;
+  std::vector<Summary> summaries;
+  std::vector<Budget> budgets;
+  std::vector<Validation> validations;
+  std::vector<Sensitivity> sensitivities;
+  std::vector<ComparisonResult> comparisons;
+  std::vector<PrintedResult> printed;
+};
+
+} // namespace gumshoe::analysis

@@ -1,0 +1,20 @@
+#include "analysis/rounding.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace gumshoe::analysis {
+
+int decimals_for(double u) {
+  if (!(u > 0) || !std::isfinite(u)) return 6;
+  int decimals = 1 - static_cast<int>(std::floor(std::log10(u)));
+  // 0.0996 rounds to 0.10: two digits again.
+  if (std::round(u * std::pow(10.0, decimals)) >= 100) --decimals;
+  return std::clamp(decimals, 0, 15);
+}
+
+std::string fixed(double value, int decimals) { return fmt::format("{:.{}f}", value, decimals); }
+
+} // namespace gumshoe::analysis

@@ -1,0 +1,22 @@
+#pragma once
+/// Statistics of Monte Carlo values: JCGM 101 clauses 7.6 and 7.7.
+#include <span>
+#include <vector>
+
+#include "analysis/results.h"
+
+namespace gumshoe::analysis {
+
+/// Central moments by pairwise sums over fixed leaves of 1,024 values in order, so the bits depend on
+/// neither threads nor block size.
+struct Moments {
+  double mean = 0, variance = 0; ///< variance with divisor n - 1
+  double skewness = 0, kurtosis = 0;
+};
+Moments moments(std::span<const double> values);
+
+/// Estimate, u, both coverage intervals and their Monte Carlo standard errors. NaN counts as failed;
+/// the rank bounds hold whatever values the failed samples had. `values` is in sample order, SI.
+Summary summarise(const propagation::Output& output, std::span<const double> values, double coverage_probability);
+
+} // namespace gumshoe::analysis

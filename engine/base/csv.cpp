@@ -1,0 +1,148 @@
+#include "base/csv.h"
+
+#include <charconv>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/text_file.h"
+
+namespace gumshoe {
+namespace {
+
+constexpr std::size_t most_problems = 20;
+
+std::string trimmed(const std::string& text) {
+  const auto first = text.find_first_not_of(" \t");
+  if (first == std::string::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+/// Walks through the text once, row by row.
+class Reader {
+public:
+  Reader(std::string_view text, const std::string& file) : text_(text), file_(file) {
+    if (text_.starts_with("\xEF\xBB\xBF")) text_.remove_prefix(3);
+  }
+
+  bool next(std::vector<CsvCell>& row) {
+    row.clear();
+    while (at_ < text_.size()) {
+      bool more = true;
+      while (more) more = cell(row);
+      if (row.size() == 1 && row[0].text.empty()) { // a blank line
+        row.clear();
+        continue;
+      }
+      return true;
+    }
+    return false;
+  }
+
+private:
+  /// Reads one cell; true if another one follows on the same row.
+  bool cell(std::vector<CsvCell>& row) {
+    CsvCell cell{{}, line_, static_cast<int>(at_ - line_start_) + 1};
+    while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t')) ++at_, ++cell.column;
+    if (at_ < text_.size() && text_[at_] == '"') {
+      quoted(cell);
+      const std::size_t after = at_;
+      while (at_ < text_.size() && !ends_cell(text_[at_])) ++at_;
+      if (!trimmed(std::string(text_.substr(after, at_ - after))).empty())
+        throw InputError({{{file_, cell.line, cell.column}, "text after a closing quote", "", ""}});
+    } else {
+      const std::size_t begin = at_;
+      while (at_ < text_.size() && !ends_cell(text_[at_])) ++at_;
+      cell.text = trimmed(std::string(text_.substr(begin, at_ - begin)));
+    }
+    row.push_back(std::move(cell));
+    if (at_ >= text_.size()) return false;
+    const char end = text_[at_++];
+    if (end == ',') return true;
+    if (end == '\r' && at_ < text_.size() && text_[at_] == '\n') ++at_;
+    new_line();
+    return false;
+  }
+
+  void quoted(CsvCell& cell) {
+    for (++at_; at_ < text_.size(); ++at_) {
+      if (text_[at_] == '"') {
+        if (at_ + 1 >= text_.size() || text_[at_ + 1] != '"') {
+          ++at_;
+          return;
+        }
+        ++at_;
+      }
+      cell.text += text_[at_];
+      if (text_[at_] == '\n') {
+        ++line_;
+        line_start_ = at_ + 1;
+      }
+    }
+    throw InputError({{{file_, cell.line, cell.column}, "a quote is not closed", "", ""}});
+  }
+
+  static bool ends_cell(char c) { return c == ',' || c == '\n' || c == '\r'; }
+  void new_line() {
+    ++line_;
+    line_start_ = at_;
+  }
+
+  std::string_view text_;
+  const std::string& file_;
+  std::size_t at_ = 0, line_start_ = 0;
+  int line_ = 1;
+};
+
+} // namespace
+
+int Csv::find(std::string_view name) const {
+  for (std::size_t i = 0; i < header.size(); ++i)
+    if (header[i].text == name) return static_cast<int>(i);
+  return -1;
+}
+
+std::vector<std::string> Csv::names() const {
+  std::vector<std::string> out;
+  for (const CsvCell& cell : header) out.push_back(cell.text);
+  return out;
+}
+
+double Csv::number(const CsvCell& cell) const {
+  double value = 0;
+  const char* begin = cell.text.data();
+  const char* const end = begin + cell.text.size();
+  if (cell.text.size() > 1 && *begin == '+' && begin[1] != '-') ++begin;
+  const auto [stop, error] = std::from_chars(begin, end, value);
+  if (error != std::errc() || stop != end || !std::isfinite(value))
+    throw InputError({{at(cell), fmt::format("'{}' is not a number", cell.text), "", ""}});
+  return value;
+}
+
+Csv parse_csv(std::string_view text, const std::string& file) {
+  Csv csv;
+  csv.file = file;
+  Reader reader(text, csv.file);
+  std::vector<Problem> problems;
+  if (!reader.next(csv.header)) throw InputError({{{file, 0, 0}, "the file is empty", "", "a header and rows?"}});
+  for (std::size_t i = 0; i < csv.header.size(); ++i) {
+    const CsvCell& cell = csv.header[i];
+    if (cell.text.empty()) problems.push_back({csv.at(cell), "a column has no name", "", ""});
+    else if (csv.find(cell.text) != static_cast<int>(i))
+      problems.push_back({csv.at(cell), fmt::format("column '{}' appears twice", cell.text), "", ""});
+  }
+  for (std::vector<CsvCell> row; problems.size() < most_problems && reader.next(row);) {
+    if (row.size() != csv.header.size()) {
+      problems.push_back({csv.at(row.front()),
+                          fmt::format("the row has {} cells, the header {}", row.size(), csv.header.size()), "", ""});
+    } else {
+      csv.rows.push_back(std::move(row));
+    }
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
+  return csv;
+}
+
+Csv read_csv(const std::string& path, std::size_t limit) { return parse_csv(read_text_file(path, limit), path); }
+
+} // namespace gumshoe

@@ -1,0 +1,60 @@
+#include "base/error.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include <fmt/format.h>
+
+namespace gumshoe {
+
+std::string format(const Problem& p) {
+  std::string text;
+  if (!p.where.file.empty()) {
+    text += p.where.file + ':';
+    if (p.where.line > 0) text += fmt::format("{}:{}:", p.where.line, p.where.column);
+    text += ' ';
+  }
+  text += "error: " + p.what;
+  if (!p.why.empty()) text += " (" + p.why + ')';
+  if (!p.remedy.empty()) text += ' ' + p.remedy;
+  return text;
+}
+
+InputError::InputError(std::vector<Problem> problems) : problems_(std::move(problems)) {
+  for (const Problem& p : problems_) text_ += (text_.empty() ? "" : "\n") + format(p);
+}
+
+InputError::InputError(std::string what, std::string why, std::string remedy)
+    : InputError(std::vector<Problem>{{{}, std::move(what), std::move(why), std::move(remedy)}}) {}
+
+namespace {
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), 0);
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t substituted = diagonal + (a[i - 1] != b[j - 1]);
+      diagonal = row[j];
+      row[j] = std::min({substituted, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row.back();
+}
+} // namespace
+
+std::string nearest(const std::string& word, const std::vector<std::string>& candidates) {
+  std::string best;
+  std::size_t best_distance = std::max<std::size_t>(2, word.size() / 2) + 1;
+  for (const std::string& candidate : candidates) {
+    const std::size_t d = edit_distance(word, candidate);
+    if (d < best_distance) {
+      best = candidate;
+      best_distance = d;
+    }
+  }
+  return best;
+}
+
+} // namespace gumshoe

@@ -1,0 +1,40 @@
+#include "base/text_file.h"
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+
+namespace gumshoe {
+
+std::string read_text_file(const std::string& path, std::size_t limit) {
+  const auto refuse = [&](std::string what, std::string why = {}, std::string remedy = {}) {
+    throw InputError(std::vector<Problem>{{{path, 0, 0}, std::move(what), std::move(why), std::move(remedy)}});
+  };
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (status.type() == std::filesystem::file_type::not_found) refuse("there is no such file");
+  if (std::filesystem::is_directory(status)) refuse("this is a directory, not a file");
+  errno = 0;
+  std::ifstream in(path, std::ios::binary);
+  if (!in) refuse("the file cannot be read", std::strerror(errno));
+  std::string text;
+  char buffer[1 << 16];
+  while (in.read(buffer, sizeof buffer), in.gcount() > 0) {
+    text.append(buffer, static_cast<std::size_t>(in.gcount()));
+    if (text.size() > limit) {
+      refuse("the file is too large", fmt::format("more than {} bytes", limit), "is it the right file?");
+    }
+  }
+  if (in.bad()) refuse("the file cannot be read", errno ? std::strerror(errno) : "");
+  if (text.find('\0') != std::string::npos) {
+    refuse("the file is not text", "it contains NUL bytes", "is it the right file?");
+  }
+  return text;
+}
+
+} // namespace gumshoe

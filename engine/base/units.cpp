@@ -1,0 +1,277 @@
+#include "base/units.h"
+
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include <fmt/format.h>
+#include <udunits2.h>
+
+#include "base/error.h"
+
+namespace gumshoe::units {
+namespace {
+
+/// value in base units = factor * number + offset; base as udunits writes it, without factor and offset.
+struct Unit {
+  double factor = 1;
+  double offset = 0;
+  std::string base;
+  int radians = 0; ///< exponent of the radian, which udunits takes for a plain number
+  bool ratio = false; ///< a plain number written as a ratio: "um/m", "%"
+};
+
+bool starts_number(char c) { return c >= '0' && c <= '9'; }
+bool letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || static_cast<unsigned char>(c) >= 0x80; }
+
+/// udunits reads "mm 3" as 3 mm and "mm@3" as a shifted scale: only names, exponents and * / . ^ ( ) pass.
+bool plain_grammar(const std::string& unit) {
+  if (unit.starts_with("1e-") && unit.find_first_not_of("0123456789", 3) == std::string::npos) return true;
+  if (std::string_view("*/.^-").find(unit.back()) != std::string_view::npos) return false;
+  int open = 0;
+  for (std::size_t i = 0; i < unit.size(); ++i) {
+    const char c = unit[i];
+    open += c == '(' ? 1 : c == ')' ? -1 : 0;
+    if (open < 0) return false;
+    if (starts_number(c)) {
+      const char before = i ? unit[i - 1] : '\0';
+      const bool exponent = i && (letter(before) || before == '-' || before == '^' || starts_number(before));
+      if (!exponent && !(c == '1' && i == 0 && (unit.size() == 1 || unit[1] == '/'))) return false;
+    } else if (c == '-') {
+      if (i == 0 || !(letter(unit[i - 1]) || unit[i - 1] == '^')) return false;
+    } else if (!letter(c) && std::string_view("*/.^()%'\" ").find(c) == std::string_view::npos) {
+      return false;
+    }
+  }
+  return open == 0;
+}
+
+/// Names of the field that udunits does not know.
+std::string with_known_names(const std::string& unit) {
+  std::string out;
+  for (std::size_t i = 0; i < unit.size();) {
+    std::size_t end = i;
+    while (end < unit.size() && letter(unit[end])) ++end;
+    if (end == i) {
+      out += unit[i++];
+      continue;
+    }
+    const std::string word = unit.substr(i, end - i);
+    out += word == "deg" ? "degree" : word == "rev" ? "revolution" : word;
+    i = end;
+  }
+  return out;
+}
+
+int radian_exponent(const std::string& base) {
+  for (std::size_t at = base.find("rad"); at != std::string::npos; at = base.find("rad", at + 1)) {
+    const char after = at + 3 < base.size() ? base[at + 3] : '\0';
+    if ((at && letter(base[at - 1])) || letter(after)) continue;
+    return after == '-' || starts_number(after) ? std::atoi(base.c_str() + at + 3) : 1;
+  }
+  return 0;
+}
+
+/// The library is not thread-safe; its objects live until the program ends.
+class Library {
+public:
+  const Unit* find(const std::string& name) {
+    const std::lock_guard lock(mutex_);
+    auto [it, fresh] = known_.try_emplace(name);
+    if (fresh) it->second = look_up(name);
+    return it->second ? &*it->second : nullptr;
+  }
+
+private:
+  struct Free {
+    void operator()(ut_unit* u) const { ut_free(u); }
+  };
+
+  std::optional<Unit> look_up(const std::string& name) {
+    if (!system_) {
+      ut_set_error_message_handler(ut_ignore);
+      system_ = ut_read_xml(nullptr);
+      if (!system_) throw InputError("the unit database of udunits2 cannot be read", "package libudunits2-data");
+    }
+    if (name.empty() || !plain_grammar(name)) return std::nullopt;
+    const std::unique_ptr<ut_unit, Free> unit(ut_parse(system_, with_known_names(name).c_str(), UT_UTF8));
+    if (!unit) return std::nullopt;
+    char text[256];
+    const int length = ut_format(unit.get(), text, sizeof text, UT_ASCII | UT_DEFINITION);
+    if (length < 0 || length >= static_cast<int>(sizeof text)) return std::nullopt;
+    return read_definition(std::string(text, static_cast<std::size_t>(length)), name);
+  }
+
+  /// "0.555555555555556 K @ 459.67" has a factor, a base and an offset in its own unit.
+  static std::optional<Unit> read_definition(std::string text, const std::string& name) {
+    if (text.find('(') != std::string::npos) return std::nullopt; // logarithmic
+    Unit unit;
+    if (const std::size_t at = text.find(" @ "); at != std::string::npos) {
+      unit.offset = std::atof(text.c_str() + at + 3);
+      text.resize(at);
+    }
+    char* end = nullptr;
+    if (const double factor = std::strtod(text.c_str(), &end); end != text.c_str() && *end == ' ') {
+      unit.factor = factor;
+      text.erase(0, static_cast<std::size_t>(end - text.c_str()) + 1);
+    }
+    // Fifteen printed digits of degrees and minutes are not enough: take the factor from its inverse where
+    // that is a whole number, and from pi for angles.
+    unit.base = text;
+    unit.radians = radian_exponent(text);
+    sharpen(unit);
+    unit.offset *= unit.factor;
+    unit.ratio = unit.base == "1" && name != "1";
+    return unit;
+  }
+
+  static void sharpen(Unit& unit) {
+    const double pi = std::acos(-1.0);
+    for (const double constant : {1.0, pi}) {
+      for (const bool inverse : {false, true}) {
+        const double whole = inverse ? constant / unit.factor : unit.factor / constant;
+        const double rounded = std::round(whole);
+        if (rounded >= 1 && rounded < 9e15 && std::abs(whole / rounded - 1) < 2e-14) {
+          unit.factor = inverse ? constant / rounded : rounded * constant;
+          return;
+        }
+      }
+    }
+  }
+
+  std::mutex mutex_;
+  ut_system* system_ = nullptr;
+  std::map<std::string, std::optional<Unit>> known_;
+};
+
+const Unit* find(const std::string& name) {
+  static Library* const library = new Library; // never destroyed: units may be read while the program ends
+  return library->find(name);
+}
+
+std::string without(std::string base, std::string_view word) {
+  for (std::size_t at = base.find(word); at != std::string::npos; at = base.find(word)) {
+    std::size_t end = at + word.size();
+    while (end < base.size() && (base[end] == '-' || starts_number(base[end]))) ++end;
+    base.erase(at, end - at);
+  }
+  std::erase(base, '.');
+  return base == "1" ? std::string() : base;
+}
+
+bool same_kind(const Unit& a, const Unit& b) {
+  if (a.radians != b.radians) return a.ratio && b.base == "rad"; // um/m is a small angle; Hz is not rad/s
+  return a.radians ? without(a.base, "rad") == without(b.base, "rad") : a.base == b.base;
+}
+
+struct Row {
+  std::string_view si_unit, name, remedy;
+};
+constexpr Row kinds[] = {
+    {"m", "a length", "use mm or um?"},
+    {"rad", "an angle", "use deg or mrad?"},
+    {"s", "a time", "use s or ms?"},
+    {"1", "a plain number", "use a number, % or um/m?"},
+    {"m/s", "a speed", "use mm/min or m/s?"},
+    {"m/s2", "an acceleration", "use m/s2?"},
+    {"rad/s", "an angular speed", "use rpm or rad/s?"},
+    {"K", "a temperature", "use K or degC?"},
+    {"1/K", "a relative change per temperature", "use um/m/K or 1/K?"},
+    {"m/K", "a length per temperature", "use um/K?"},
+    {"1/s", "a frequency", "use Hz?"},
+    {"kg", "a mass", "use kg?"},
+    {"N", "a force", "use N?"},
+};
+
+const Row* row(const std::string& si_unit) {
+  for (const Row& r : kinds)
+    if (r.si_unit == si_unit) return &r;
+  return nullptr;
+}
+
+struct Pair {
+  const Unit& from;
+  const Unit& to;
+};
+
+Pair pair(const std::string& unit, const std::string& si_unit) {
+  const Unit* const from = find(unit);
+  const Unit* const to = find(si_unit);
+  const Row* const r = row(si_unit);
+  const std::string remedy(r ? r->remedy : std::string_view());
+  if (!from) throw InputError(fmt::format("'{}' is not a unit", unit), "", remedy);
+  if (!to) throw InputError(fmt::format("'{}' is not a unit", si_unit));
+  if (!same_kind(*from, *to)) {
+    throw InputError(fmt::format("'{}' is not {}", unit, kind_name(si_unit)),
+                     si_unit == "1" ? "must be dimensionless" : "must convert to " + si_unit, remedy);
+  }
+  return {*from, *to};
+}
+
+/// x * factor, rounded once where the factor is one over a whole number: 0.6 mm is exactly 0.6 / 1000.
+double times(double x, double factor) {
+  const double inverse = 1 / factor;
+  if (factor < 1 && std::round(inverse) == inverse) return x / inverse;
+  return x * factor;
+}
+double over(double x, double factor) {
+  const double inverse = 1 / factor;
+  if (factor < 1 && std::round(inverse) == inverse) return x * inverse;
+  return x / factor;
+}
+
+} // namespace
+
+Measure parse(std::string_view text) {
+  const auto trim = [](std::string_view s) {
+    const auto first = s.find_first_not_of(" \t\r\n");
+    if (first == std::string_view::npos) return std::string_view();
+    return s.substr(first, s.find_last_not_of(" \t\r\n") - first + 1);
+  };
+  const std::string_view whole = trim(text);
+  const bool plus = whole.starts_with('+') && whole.size() > 1 && whole[1] != '-';
+  const char* const begin = whole.data() + plus;
+  const char* const end = whole.data() + whole.size();
+  Measure measure;
+  const auto [stop, error] = std::from_chars(begin, end, measure.number);
+  const auto refuse = [&](std::string why) {
+    throw InputError(fmt::format("'{}' is not a number with a unit", text), std::move(why), "write it like \"0.6 um\"?");
+  };
+  if (error == std::errc::result_out_of_range) refuse("too large or too small for a number");
+  if (error != std::errc() || stop == begin) refuse("no number in front");
+  if (!std::isfinite(measure.number)) refuse("not finite");
+  if (stop != end && *stop == ',') refuse("the decimal sign is a point");
+  if (stop != end && (*stop == '_' || *stop == '.')) refuse("one number only");
+  measure.unit = trim({stop, static_cast<std::size_t>(end - stop)});
+  if (measure.unit.empty()) measure.unit = "1";
+  return measure;
+}
+
+double to_si(double number, const std::string& unit, const std::string& si_unit, Kind kind) {
+  const auto [from, to] = pair(unit, si_unit);
+  const double base = times(number, from.factor) + (kind == Kind::point ? from.offset - to.offset : 0.0);
+  return to.factor == 1 ? base : over(base, to.factor);
+}
+
+double from_si(double value, const std::string& unit, const std::string& si_unit, Kind kind) {
+  const auto [from, to] = pair(unit, si_unit);
+  const double base = to.factor == 1 ? value : times(value, to.factor);
+  return over(base - (kind == Kind::point ? from.offset - to.offset : 0.0), from.factor);
+}
+
+bool convertible(const std::string& unit, const std::string& si_unit) {
+  const Unit* const from = find(unit);
+  const Unit* const to = find(si_unit);
+  return from && to && same_kind(*from, *to);
+}
+
+std::string kind_name(const std::string& si_unit) {
+  const Row* const r = row(si_unit);
+  return r ? std::string(r->name) : "convertible to " + si_unit;
+}
+
+} // namespace gumshoe::units

@@ -1,0 +1,35 @@
+#pragma once
+/// Units of measurement. The only door to udunits2. Inside the engine everything is SI
+/// (m, rad, s, m/s, K, 1, 1/K ...); conversion happens here, at the edges.
+#include <string>
+#include <string_view>
+
+namespace gumshoe::units {
+
+/// Whether a value is a point on a scale (20 degC = 293.15 K) or a difference, width or standard
+/// uncertainty on it (1 degC = 1 K).
+enum class Kind { point, difference };
+
+/// A number with its unit as the user wrote it, e.g. {0.6, "um"}. The unit is "1" when none stood there.
+struct Measure {
+  double number = 0;
+  std::string unit;
+};
+
+/// Splits "0.6 um" into number and unit; throws InputError if there is no finite number in front.
+Measure parse(std::string_view text);
+
+/// The SI unit of `unit`, e.g. "mm/min" -> "m/s"; one of the names the model cards use.
+/// Throws InputError("'foo' is not a unit").
+/// Both throw if the units are not convertible: "'N' is not a length" (must convert to m).
+/// An angle is no plain number: deg does not convert to 1, but um/m converts to rad.
+double to_si(double number, const std::string& unit, const std::string& si_unit, Kind kind = Kind::point);
+double from_si(double value, const std::string& unit, const std::string& si_unit, Kind kind = Kind::point);
+
+/// True if `unit` is known and converts to `si_unit`.
+bool convertible(const std::string& unit, const std::string& si_unit);
+
+/// What a quantity of this SI unit is called in a message: m -> "a length", rad -> "an angle".
+std::string kind_name(const std::string& si_unit);
+
+} // namespace gumshoe::units

@@ -1,0 +1,33 @@
+#include <iostream>
+
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "propagation/experiment.h"
+
+namespace gumshoe::cli {
+
+void add_check(CLI::App& app, Action& action) {
+  auto* command = app.add_subcommand("check", "reads a scenario and says what is wrong with it, or how it was understood");
+  struct Options {
+    std::string file;
+    bool explain = false;
+  };
+  const auto o = std::make_shared<Options>();
+  command->add_option("scenario", o->file, "scenario file (TOML)")->required();
+  command->add_flag("--explain", o->explain, "print the scenario as understood, in SI, with every default");
+  command->callback([=, &action] {
+    action = [=] {
+      const auto known = catalogue();
+      const scenario::Scenario s = scenario::read(o->file, known);
+      const propagation::Experiment experiment(s); // labels, correlations and values fit together
+      if (o->explain) std::cout << scenario::explain(s, known);
+      for (const std::string& note : s.notes) std::cout << "note: " << note << '\n';
+      std::cout << fmt::format("{}: good: model {}, {} readings, {} variates, {} outputs\n", o->file, s.model, s.readings.size(),
+                               experiment.plan().variates.size(), experiment.outputs().size());
+      return ExitCode::done;
+    };
+  });
+}
+
+} // namespace gumshoe::cli

@@ -1,0 +1,31 @@
+#pragma once
+/// The subcommands of `gumshoe`, one file each. Numbers go to stdout, progress and errors to stderr.
+#include <functional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "base/error.h"
+#include "models/model.h"
+#include "scenario/scenario.h"
+
+namespace gumshoe::cli {
+
+/// What the chosen subcommand will do; main runs it and maps errors to exit codes.
+using Action = std::function<ExitCode()>;
+
+void add_check(CLI::App& app, Action& action);
+void add_run(CLI::App& app, Action& action);
+void add_report(CLI::App& app, Action& action);
+void add_evaluate(CLI::App& app, Action& action);
+void add_replay(CLI::App& app, Action& action);
+void add_models(CLI::App& app, Action& action);
+void add_effects(CLI::App& app, Action& action);
+
+/// Models and effects as the scenario parser wants them.
+scenario::Catalogue catalogue();
+
+/// "1e6" or "1000000" as a positive whole number; throws InputError naming the option.
+std::uint64_t whole_number(const std::string& text, const std::string& option);
+
+} // namespace gumshoe::cli

@@ -1,0 +1,76 @@
+/// `gumshoe evaluate`: the forward model at the points of a table.
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <iostream>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "propagation/point_table.h"
+
+namespace gumshoe::cli {
+
+namespace {
+
+std::string quoted(const std::string& cell) {
+  if (cell.find_first_of(",\"\n\r") == std::string::npos) return cell;
+  std::string text = "\"";
+  for (const char c : cell) text += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return text + '"';
+}
+
+std::string to_csv(const Csv& in, const propagation::PointTable& added) {
+  std::string text;
+  for (const CsvCell& cell : in.header) text += quoted(cell.text) + ',';
+  for (const std::string& name : added.header) text += name + ',';
+  text += "status\n";
+  for (std::size_t r = 0; r < in.rows.size(); ++r) {
+    for (const CsvCell& cell : in.rows[r]) text += quoted(cell.text) + ',';
+    for (const auto& column : added.columns) text += added.status[r] == "ok" ? fmt::format("{:.15g},", column[r]) : "nan,";
+    text += added.status[r] + '\n';
+  }
+  return text;
+}
+
+void write_file(const std::string& path, const std::string& text) {
+  std::FILE* file = std::fopen(path.c_str(), "wb");
+  const bool wrote = file && std::fwrite(text.data(), 1, text.size(), file) == text.size();
+  const bool closed = file && std::fclose(file) == 0;
+  if (!wrote || !closed) throw OutputError(path + ": cannot be written", std::strerror(errno));
+}
+
+} // namespace
+
+void add_evaluate(CLI::App& app, Action& action) {
+  auto* command = app.add_subcommand("evaluate", "the forward model at the points of a table, no sampling");
+  struct Options {
+    std::string model, table, out, evaluation;
+  };
+  const auto o = std::make_shared<Options>();
+  command->add_option("model", o->model, "a model (gumshoe models)")->required();
+  command->add_option("--table", o->table, "CSV file; header cells `name (unit)`, one row a point")->required();
+  command->add_option("--out", o->out, "write here instead of standard output");
+  command->add_option("--evaluation", o->evaluation, "one of the model's evaluations (default: its first)");
+  command->callback([=, &action] {
+    action = [=] {
+      const models::Model* model = models::find(o->model);
+      if (!model) {
+        std::vector<std::string> names;
+        for (const auto* m : models::catalogue()) names.emplace_back(m->card->name);
+        const std::string meant = nearest(o->model, names);
+        throw InputError("unknown model '" + o->model + "'", "", meant.empty() ? "" : "did you mean '" + meant + "'?");
+      }
+      const Csv table = read_csv(o->table);
+      const auto points = propagation::evaluate_points(*model, table, o->evaluation);
+      const std::string text = to_csv(table, points);
+      if (o->out.empty()) std::cout << text;
+      else write_file(o->out, text);
+      for (const Problem& p : points.impossible) std::cerr << format(p) << '\n';
+      return points.impossible.empty() ? ExitCode::done : ExitCode::bad_input;
+    };
+  });
+}
+
+} // namespace gumshoe::cli

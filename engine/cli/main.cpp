@@ -1,0 +1,42 @@
+#include <cstdio>
+#include <exception>
+#include <iostream>
+#include <new>
+
+#include "base/version.h"
+#include "cli/command.h"
+
+int main(int argc, char** argv) {
+  using namespace gumshoe;
+  CLI::App app{"Gumshoe: uncertainty and sensitivity analysis of on-machine measurement", "gumshoe"};
+  app.set_version_flag("--version", std::string("gumshoe ") + version + " (" + git_hash + ")");
+  app.require_subcommand(1);
+  app.footer("Exit codes: 0 done, 2 bad input, 3 too many failed samples, 130 interrupted (the same command resumes).");
+  cli::Action action;
+  cli::add_check(app, action);
+  cli::add_run(app, action);
+  cli::add_report(app, action);
+  cli::add_evaluate(app, action);
+  cli::add_replay(app, action);
+  cli::add_models(app, action);
+  cli::add_effects(app, action);
+  try {
+    app.parse(argc, argv);
+    const ExitCode code = action ? action() : ExitCode::done;
+    std::cout.flush();
+    if (!std::cout || std::fflush(stdout) != 0) {
+      std::cerr << "error: standard output cannot be written\n";
+      return static_cast<int>(ExitCode::bad_input);
+    }
+    return static_cast<int>(code);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::bad_input);
+  } catch (const std::bad_alloc&) {
+    std::cerr << "error: out of memory (the run needs more than there is) fewer samples?\n";
+  } catch (const InputError& error) {
+    std::cerr << error.what() << '\n';
+  } catch (const std::exception& error) {
+    std::cerr << "error: " << error.what() << '\n';
+  }
+  return static_cast<int>(ExitCode::bad_input);
+}

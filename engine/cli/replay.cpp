@@ -1,0 +1,92 @@
+/// `gumshoe replay`: one sample of a run again, with every intermediate value.
+#include <iostream>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "base/units.h"
+#include "cli/command.h"
+#include "propagation/propagate.h"
+#include "store/result_file.h"
+
+namespace gumshoe::cli {
+
+namespace {
+
+scenario::Scenario scenario_of(const store::Identity& identity, const std::string& result) {
+  scenario::Scenario s = scenario::read(identity.scenario_file, catalogue());
+  if (s.hash != identity.scenario_hash)
+    throw InputError(result + ": " + identity.scenario_file + " is no longer the scenario of this result",
+                     "hash " + s.hash + ", the result says " + identity.scenario_hash, "bring back the scenario and its data, or run again?");
+  s.run.samples = identity.samples;
+  s.run.seed = identity.seed;
+  return s;
+}
+
+void print_reading(const propagation::Experiment& e, std::size_t r, const std::vector<double>& variates) {
+  const auto& s = e.scenario();
+  const std::string name = propagation::reading_name(s.readings[r]);
+  std::cout << "\nreading" << (name.empty() ? "" : " [" + name + "]") << '\n';
+  const auto point = e.point(r, variates.data());
+  for (std::size_t q = 0; q < point.size(); ++q)
+    std::cout << fmt::format("  {:<44} {:.17g} {}\n", s.quantities[q].name, units::from_si(point[q], s.quantities[q].unit, s.quantities[q].si_unit),
+                             s.quantities[q].unit);
+  models::PointCall<double> call;
+  call.quantities = point.data();
+  call.effects = point.data() + e.model_quantities();
+  call.active = e.active();
+  call.conditions = s.readings[r].conditions.data();
+  call.indications = point.data() + e.model_quantities() + e.effect_quantities();
+  call.evaluation = static_cast<int>(e.evaluation());
+  if (s.method == scenario::Method::virtual_experiment) return; // its readout is simulated: see the outputs
+  std::cout << "  intermediate values\n";
+  for (const auto& i : e.model().explain(call)) std::cout << fmt::format("    {:<42} {:.17g} {}\n", i.name, i.value, i.unit);
+}
+
+} // namespace
+
+void add_replay(CLI::App& app, Action& action) {
+  auto* command = app.add_subcommand("replay", "computes one sample of a result again, with every intermediate value");
+  struct Options {
+    std::string file, sample;
+  };
+  const auto o = std::make_shared<Options>();
+  command->add_option("result", o->file, "result file (HDF5)")->required();
+  command->add_option("--sample", o->sample, "index of the sample, from 0")->required();
+  command->callback([=, &action] {
+    action = [=] {
+      const store::Stored stored = store::read_identity(o->file);
+      const std::uint64_t sample = o->sample == "0" ? 0 : whole_number(o->sample, "--sample");
+      if (sample >= stored.identity.samples)
+        throw InputError(fmt::format("--sample: {} is beyond the run", sample), fmt::format("{} samples, counted from 0", stored.identity.samples));
+      const scenario::Scenario s = scenario_of(stored.identity, o->file);
+      const propagation::Experiment e(s);
+      const auto variates = propagation::variates_of(e, sample);
+      std::cout << fmt::format("sample {} of {} (seed {}, {})\n\nvariates: deviations drawn\n", sample, stored.identity.samples, s.run.seed, s.file);
+      for (std::size_t v = 0; v < variates.size(); ++v) {
+        const auto& q = s.quantities[e.plan().variates[v].quantity];
+        std::cout << fmt::format("  {:<44} {:.17g} {}\n", e.plan().variates[v].name,
+                                 units::from_si(variates[v], q.unit, q.si_unit, units::Kind::difference), q.unit);
+      }
+      for (std::size_t r = 0; r < s.readings.size(); ++r) print_reading(e, r, variates);
+
+      // Through the block kernels, as in the run: the same bits.
+      propagation::Workspace w;
+      std::vector<double> drawn, outputs(e.outputs().size() * 8);
+      for (const double v : variates) drawn.insert(drawn.end(), 8, v);
+      std::vector<const double*> pointers;
+      for (std::size_t v = 0; v < variates.size(); ++v) pointers.push_back(&drawn[v * 8]);
+      std::vector<std::uint8_t> status(8);
+      e.run(pointers, 8, w, outputs.data(), status.data());
+      std::cout << "\noutputs\n";
+      for (std::size_t i = 0; i < e.outputs().size(); ++i) {
+        const auto& out = e.outputs()[i];
+        std::cout << fmt::format("  {:<44} {:.17g} {}\n", out.name, units::from_si(outputs[i * 8], out.unit, out.si_unit), out.unit);
+      }
+      std::cout << "status " << propagation::status_name(static_cast<propagation::Status>(status[0])) << '\n';
+      return ExitCode::done;
+    };
+  });
+}
+
+} // namespace gumshoe::cli

@@ -1,0 +1,150 @@
+/// `gumshoe run`: samples, analysis, result file.
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "analysis/analyse.h"
+#include "base/instruction_set.h"
+#include "base/units.h"
+#include "base/version.h"
+#include "cli/command.h"
+#include "propagation/propagate.h"
+#include "store/result_file.h"
+
+namespace gumshoe::cli {
+
+namespace {
+
+struct Options {
+  std::string file, out, samples, seed, format = "text";
+  int threads = 0;
+};
+
+std::atomic<bool> stop{false};
+void on_signal(int) { stop = true; }
+
+/// One line on stderr, rewritten: rate, share, time left. Silent when stderr is no terminal.
+class ProgressLine {
+public:
+  void operator()(const propagation::Progress& p) {
+    if (!terminal_) return;
+    const auto now = std::chrono::steady_clock::now();
+    if (first_ == 0) first_ = p.done, started_ = now;
+    if (p.done < p.total && now - shown_ < std::chrono::milliseconds(200)) return;
+    shown_ = now;
+    const double seconds = std::chrono::duration<double>(now - started_).count();
+    const double rate = seconds > 0 ? static_cast<double>(p.done - first_) / seconds : 0;
+    std::cerr << fmt::format("\r{:5.1f} %  {:.3g} samples/s  {:.0f} s left   ", 100.0 * static_cast<double>(p.done) / static_cast<double>(p.total),
+                             rate, rate > 0 ? static_cast<double>(p.total - p.done) / rate : 0)
+              << (p.done == p.total ? "\n" : "") << std::flush;
+  }
+
+private:
+  bool terminal_ = isatty(2) != 0;
+  std::uint64_t first_ = 0;
+  std::chrono::steady_clock::time_point started_, shown_;
+};
+
+void print_text(const analysis::Results& r, const std::string& out) {
+  std::cout << r.title << '\n';
+  for (const std::string& s : r.statements) std::cout << s << '\n';
+  for (const auto& v : r.validations)
+    if (v.verdict != "validated") std::cout << "GUM framework for " << v.output.name << ": " << v.verdict << " (" << v.reason << ")\n";
+  for (const auto& c : r.comparisons) {
+    const auto shown = [&](double x) { return units::from_si(x, c.unit, c.si_unit, units::Kind::difference); };
+    std::cout << fmt::format("{} = {:.4f} {}, U = {:.4f} {}, E_n = {:.2f}\n", c.name, shown(c.difference), c.unit, shown(c.expanded_uncertainty),
+                             c.unit, c.normalised_error);
+  }
+  for (const auto& p : r.printed) {
+    const auto shown = [&](double x) { return units::from_si(x, p.unit, p.si_unit); };
+    std::cout << fmt::format("{}: ours {:.4f} {}, printed {:.4f} {} ({})\n", p.output, shown(p.ours), p.unit, shown(p.printed), p.unit, p.source);
+  }
+  for (const std::string& note : r.notes) std::cout << "note: " << note << '\n';
+  for (const std::string& f : r.failures) std::cout << "failed: " << f << '\n';
+  std::cout << fmt::format("{} samples, seed {}, {}, {}: {}\n", r.samples, r.seed, r.method, r.evaluation, out);
+}
+
+void print_table(const analysis::Results& r, bool json) {
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  if (!json) std::cout << "output,unit,estimate,standard_uncertainty,symmetric_low,symmetric_high,shortest_low,shortest_high,valid,failed\n";
+  for (const auto& s : r.summaries) {
+    const auto shown = [&](double x) { return units::from_si(x, s.output.unit, s.output.si_unit); };
+    const double u = units::from_si(s.standard_uncertainty, s.output.unit, s.output.si_unit, units::Kind::difference);
+    const auto number = [](double x) { return std::isfinite(x) ? nlohmann::ordered_json(x) : nlohmann::ordered_json(nullptr); };
+    if (json)
+      all.push_back({{"output", s.output.name}, {"unit", s.output.unit}, {"estimate", number(shown(s.estimate))}, {"standard_uncertainty", number(u)},
+                     {"symmetric", {number(shown(s.symmetric.low)), number(shown(s.symmetric.high))}},
+                     {"shortest", {number(shown(s.shortest.low)), number(shown(s.shortest.high))}}, {"valid", s.valid}, {"failed", s.failed}});
+    else
+      std::cout << fmt::format("\"{}\",{},{:.15g},{:.6g},{:.15g},{:.15g},{:.15g},{:.15g},{},{}\n", s.output.name, s.output.unit, shown(s.estimate), u,
+                               shown(s.symmetric.low), shown(s.symmetric.high), shown(s.shortest.low), shown(s.shortest.high), s.valid, s.failed);
+  }
+  if (json) std::cout << all.dump(2) << '\n';
+}
+
+ExitCode run(const Options& o) {
+  scenario::Scenario s = scenario::read(o.file, catalogue());
+  if (!o.samples.empty()) s.run.samples = whole_number(o.samples, "--samples");
+  if (!o.seed.empty()) s.run.seed = whole_number(o.seed, "--seed");
+  const propagation::Experiment experiment(s);
+  const std::string out = !o.out.empty() ? o.out : "results/" + std::filesystem::path(o.file).stem().string() + ".h5";
+  if (o.out.empty()) std::filesystem::create_directories("results");
+
+  // The description is cheap and names the run; the same fields go into the file twice otherwise.
+  store::Identity identity{s.hash, s.text, s.file, s.model, s.method == scenario::Method::propagation ? "propagation" : "virtual_experiment",
+                           s.evaluation, fmt::format("{}", static_cast<int>(s.run.design)), version, name(best_instruction_set()), s.run.seed,
+                           s.run.samples, s.run.store_samples};
+  constexpr const char* designs[] = {"monte_carlo", "latin_hypercube", "sobol"};
+  identity.design = designs[static_cast<int>(s.run.design)];
+  store::ResultFile file(out, identity, experiment.outputs(), experiment.reading_names());
+
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+  propagation::RunSettings settings;
+  settings.threads = o.threads;
+  settings.first = file.samples_done();
+  settings.stop = &stop;
+  settings.progress = [line = ProgressLine()](const propagation::Progress& p) mutable { line(p); };
+  if (settings.first > 0) std::cerr << fmt::format("resuming after {} samples\n", settings.first);
+  const std::uint64_t done = propagation::propagate(experiment, file, settings);
+  if (done < s.run.samples) {
+    std::cerr << fmt::format("\ninterrupted after {} of {} samples; the same command resumes\n", done, s.run.samples);
+    return ExitCode::interrupted;
+  }
+  const analysis::Samples samples{[&](std::size_t output) { return file.read(output, 0, s.run.samples); },
+                                  [&] { return file.read_status(0, s.run.samples); }};
+  const analysis::Results results = analysis::analyse(experiment, samples, o.threads);
+  file.finish(results);
+  if (o.format == "text") print_text(results, out);
+  else print_table(results, o.format == "json");
+  if (static_cast<double>(results.failed) > s.run.max_failed_share * static_cast<double>(results.samples)) {
+    std::cerr << fmt::format("error: {} of {} samples failed (more than max_failed_share = {})\n", results.failed, results.samples,
+                             s.run.max_failed_share);
+    return ExitCode::too_many_failures;
+  }
+  return ExitCode::done;
+}
+
+} // namespace
+
+void add_run(CLI::App& app, Action& action) {
+  auto* command = app.add_subcommand("run", "runs a scenario and writes its result file");
+  const auto o = std::make_shared<Options>();
+  command->add_option("scenario", o->file, "scenario file (TOML)")->required();
+  command->add_option("--samples", o->samples, "instead of the scenario's, e.g. 1e6");
+  command->add_option("--seed", o->seed, "instead of the scenario's");
+  command->add_option("--threads", o->threads, "0: all processors")->check(CLI::Range(0, 1024));
+  command->add_option("--out", o->out, "result file (default: results/SCENARIO.h5)");
+  command->add_option("--format", o->format, "text, csv or json")->check(CLI::IsMember({"text", "csv", "json"}));
+  command->callback([=, &action] { action = [=] { return run(*o); }; });
+}
+
+} // namespace gumshoe::cli

@@ -1,0 +1,40 @@
+#pragma once
+/// The effects' functions for one scalar, in catalogue order. Adding an effect: its folder, its
+/// include here, and its line in catalogue.def.
+#include <array>
+
+#include "effects/beam_offset/beam_offset.h"
+#include "effects/reclamp/reclamp.h"
+#include "effects/rod_expansion/rod_expansion.h"
+#include "effects/rod_runout/rod_runout.h"
+#include "effects/thermal_growth/thermal_growth.h"
+#include "effects/trigger_latency/trigger_latency.h"
+#include "effects/z_reversal/z_reversal.h"
+#include "effects/z_scale/z_scale.h"
+
+namespace gumshoe::effects {
+
+template <class T> using Apply = void (*)(const T* quantities, chain::ProbingEvent<T>& event);
+
+#define GUMSHOE_EFFECT(folder, type) +1
+inline constexpr std::size_t count = 0
+#include "effects/catalogue.def"
+    ;
+#undef GUMSHOE_EFFECT
+
+template <class T> const std::array<Apply<T>, count>& functions() {
+#define GUMSHOE_EFFECT(folder, type) &type::apply<T>,
+  static const std::array<Apply<T>, count> table{
+#include "effects/catalogue.def"
+  };
+#undef GUMSHOE_EFFECT
+  return table;
+}
+
+/// A freed effect: which one, and where its quantities start in the row of effect quantities.
+struct Active {
+  std::size_t effect = 0;
+  std::size_t first = 0;
+};
+
+} // namespace gumshoe::effects

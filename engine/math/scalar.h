@@ -1,0 +1,66 @@
+#pragma once
+/// What physics may ask of its scalar: double, Lanes, or a dual number over double.
+/// Elementary functions of a double go through a lane, so that scalar and batched runs, and every
+/// instruction set, give the same bits.
+#include <utility>
+
+#include "math/dual.h"
+#include "math/lanes.h"
+
+namespace gumshoe::num {
+
+inline double sqrt(double x) { return std::sqrt(x); }
+inline double sin(double x) { return xsimd::sin(Lanes(x)).get(0); }
+inline double cos(double x) { return xsimd::cos(Lanes(x)).get(0); }
+inline double exp(double x) { return xsimd::exp(Lanes(x)).get(0); }
+inline double atan2(double y, double x) { return xsimd::atan2(Lanes(y), Lanes(x)).get(0); }
+inline double abs(double x) { return std::fabs(x); }
+
+inline Lanes sqrt(const Lanes& x) { return xsimd::sqrt(x); }
+inline Lanes sin(const Lanes& x) { return xsimd::sin(x); }
+inline Lanes cos(const Lanes& x) { return xsimd::cos(x); }
+inline Lanes exp(const Lanes& x) { return xsimd::exp(x); }
+inline Lanes atan2(const Lanes& y, const Lanes& x) { return xsimd::atan2(y, x); }
+inline Lanes abs(const Lanes& x) { return xsimd::abs(x); }
+
+// Declared first: each needs the others at the level below.
+template <class R, int N> Dual<R, N> sqrt(const Dual<R, N>& x);
+template <class R, int N> Dual<R, N> sin(const Dual<R, N>& x);
+template <class R, int N> Dual<R, N> cos(const Dual<R, N>& x);
+template <class R, int N> Dual<R, N> exp(const Dual<R, N>& x);
+template <class R, int N> Dual<R, N> atan2(const Dual<R, N>& y, const Dual<R, N>& x);
+
+template <class R, int N> Dual<R, N> sqrt(const Dual<R, N>& x) {
+  const R s = sqrt(x.v);
+  return chain_rule<R, N>(s, 0.5 / s, x);
+}
+template <class R, int N> Dual<R, N> sin(const Dual<R, N>& x) { return chain_rule<R, N>(sin(x.v), cos(x.v), x); }
+template <class R, int N> Dual<R, N> cos(const Dual<R, N>& x) { return chain_rule<R, N>(cos(x.v), -sin(x.v), x); }
+template <class R, int N> Dual<R, N> exp(const Dual<R, N>& x) {
+  const R e = exp(x.v);
+  return chain_rule<R, N>(e, e, x);
+}
+template <class R, int N> Dual<R, N> atan2(const Dual<R, N>& y, const Dual<R, N>& x) {
+  const R n = 1.0 / (x.v * x.v + y.v * y.v);
+  return chain_rule<R, N>(atan2(y.v, x.v), x.v * n, y, -(y.v * n), x);
+}
+
+/// The plain number inside, through every level of duals.
+inline double value(double x) { return x; }
+template <class R, int N> double value(const Dual<R, N>& x) { return value(x.v); }
+
+template <class R, int N> Dual<R, N> abs(const Dual<R, N>& x) { return value(x) < 0 ? -x : x; }
+
+/// How many times a Newton step must be repeated at the root to carry all derivatives along.
+template <class T> inline constexpr int derivative_levels = 0;
+template <class R, int N> inline constexpr int derivative_levels<Dual<R, N>> = 1 + derivative_levels<R>;
+
+/// mask ? a : b, lane by lane.
+inline double select(bool mask, double a, double b) { return mask ? a : b; }
+inline Lanes select(const Lanes::batch_bool_type& mask, const Lanes& a, const Lanes& b) {
+  return xsimd::select(mask, a, b);
+}
+inline bool any(bool mask) { return mask; }
+inline bool any(const Lanes::batch_bool_type& mask) { return xsimd::any(mask); }
+
+} // namespace gumshoe::num

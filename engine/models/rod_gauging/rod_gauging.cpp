@@ -1,0 +1,111 @@
+#include "models/rod_gauging/rod_gauging.h"
+
+#include "models/kernel_choice.h"
+
+GUMSHOE_DECLARE_KERNELS(rod_gauging)
+
+namespace gumshoe::models {
+
+namespace {
+
+constexpr double mm = 1e-3, deg = chain::pi / 180, huge = 1e3;
+
+constexpr QuantityCard quantities[] = {
+    {"rod_radius", "mm", "m", 5 * mm, {0, huge, true}, "R_r", "radius of the rod's cylinder"},
+    {"fillet_radius", "mm", "m", 0.03 * mm, {0, huge}, "R_f", "radius of the rounding between cylinder and bottom; at most rod_radius (ball end)"},
+    {"bottom_elevation", "deg", "rad", 90 * deg, {0, chain::pi, true, true}, "phi", "elevation of the bottom plane's normal; 90 deg is a square end"},
+    {"bottom_azimuth", "deg", "rad", 0, {-huge, huge}, "tau", "azimuth of the bottom plane's normal in the tool-holder frame"},
+    {"rod_length", "mm", "m", 150 * mm, {0, huge, true}, "L_r", "from the spindle reference point to the bottom's centre, at 20 degC"},
+    {"holder_angle", "deg", "rad", 0, {-huge, huge}, "theta_th", "from machine X to the tool holder's X"},
+    {"beam_yaw", "deg", "rad", 0, {-huge, huge}, "alpha", "of the beam about Z, from machine X"},
+    {"beam_pitch", "deg", "rad", 0, {-90 * deg, 90 * deg, true, true}, "beta", "of the beam out of the horizontal, positive upwards along the beam"},
+    {"beam_radius", "mm", "m", 0.2 * mm, {0, huge, true}, "R_l", "radius of the beam's disc on the receiver"},
+    {"trigger_fraction", "1", "1", 0.5, {0, 1, true, true}, "eta", "share of the disc that is covered when the trigger fires"},
+    {"laser_z", "mm", "m", 0, {-huge, huge}, "Z_ts", "true height of the beam's axis where it passes the spindle axis; only simulation reads it"},
+};
+constexpr VariableCard conditions[] = {
+    {"feed", "mm/min", "m/s", 4 * mm / 60, "feed of the spindle towards the beam"},
+    {"time", "s", "s", 0, "since the start of the work"},
+    {"direction", "1", "1", -1, "of approach along Z: -1 downwards"},
+};
+constexpr VariableCard indications[] = {{"spindle_z", "mm", "m", 0, "spindle height latched at the trigger, Z'_s"}};
+constexpr VariableCard measurands[] = {
+    {"bottom_height", "mm", "m", 0, "height of the bottom's centre above the beam's axis at the trigger, Z'_d"},
+    {"laser_z", "mm", "m", 0, "height of the beam's axis where it passes the spindle axis: spindle_z - rod_length - bottom_height"},
+};
+constexpr EvaluationCard evaluations[] = {
+    {"full", "the geometry of rod and beam solved: Fang 2022, section 2.4"},
+    {"conventional", "square rod, aligned beam: bottom_height = 0; what ignoring the geometry costs"},
+};
+constexpr std::string_view stages[] = {"pose", "motion", "trigger"};
+
+constexpr ModelCard card{
+    "rod_gauging",
+    "Gauging a laser tool setter with a measuring rod",
+    "A rod in the spindle is lowered into a laser beam; the trigger fires when its shadow covers a share of the beam's "
+    "disc; from the spindle height at that moment follows the height of the beam's axis.",
+    "Fang 2022, chapter 2 (eqs 2.3 to 2.38), derived anew; see reports/errata.md",
+    quantities, conditions, indications, measurands, evaluations, stages};
+
+template <class T> PointOutcome evaluate_point(const PointCall<T>& call) {
+  T condition[rod::conditions];
+  for (int i = 0; i < rod::conditions; ++i) condition[i] = T(call.conditions[i]);
+  const auto event = rod::probing_event<T>(call.quantities, condition, call.effects, call.active);
+  chain::Solved<T> height{T(0.0)};
+  if (call.evaluation == rod::full)
+    height = chain::differentiable_height(rod::rod(call.quantities, event), rod::beam(call.quantities));
+  call.measurands[rod::bottom_height_row] = height.value;
+  call.measurands[rod::laser_z_row] = rod::evaluate(call.indications[0], call.quantities, height.value, event);
+  return {static_cast<std::uint8_t>(height.status), height.kink};
+}
+
+std::vector<Intermediate> explain(const PointCall<double>& call) {
+  const double* q = call.quantities;
+  double condition[rod::conditions];
+  std::copy_n(call.conditions, static_cast<std::size_t>(rod::conditions), condition);
+  const auto event = rod::probing_event<double>(q, condition, call.effects, call.active);
+  const auto body = rod::rod(q, event);
+  const auto beam = rod::beam(q);
+  std::vector<Intermediate> out{
+      {"tool axis beside the beam's reference point, X", "mm", event.tool_x / mm},
+      {"tool axis beside the beam's reference point, Y", "mm", event.tool_y / mm},
+      {"tool growth", "mm", event.tool_growth / mm},
+      {"axis error", "mm", event.axis_error / mm},
+      {"axis scale", "um/m", event.axis_scale * 1e6},
+      {"latch delay", "s", event.latch_delay},
+  };
+  if (call.evaluation == rod::full && chain::in_domain(body, beam)) {
+    const auto edge = chain::shadow_edge(body, beam);
+    const auto chord = chain::solve_chord<double>(edge, beam.radius, beam.fraction);
+    out.insert(out.end(), {{"shrunk radius rho", "mm", edge.rho / mm},
+                           {"shadow edge: depth of the half-ellipse", "mm", edge.depth / mm},
+                           {"shadow edge: shear", "1", edge.shear},
+                           {"shadow edge: sideways", "mm", edge.side / mm},
+                           {"solved by the fast chord iteration", "1", chord.failed == 0 ? 1.0 : 0.0}});
+    if (chord.failed == 0)
+      out.insert(out.end(), {{"covered chord: left end, sin w", "1", chord.left}, {"covered chord: right end, sin w", "1", chord.right}});
+  }
+  const auto solved = chain::trigger_height(body, beam);
+  const double height = call.evaluation == rod::full ? solved.value : 0.0;
+  const double actual = chain::actual_of(call.indications[0], event);
+  out.insert(out.end(), {{"bottom_height", "mm", height / mm},
+                         {"spindle height, effects removed", "mm", actual / mm},
+                         {"laser_z", "mm", rod::evaluate(call.indications[0], q, height, event) / mm}});
+  return out;
+}
+
+std::string check(const double* q) {
+  if (q[rod::fillet] > q[rod::radius]) return "fillet_radius exceeds rod_radius";
+  return {};
+}
+
+bool solve_reads(std::size_t quantity) { return quantity != rod::length && quantity != rod::laser_z; }
+
+const Kernels* kernels() { return GUMSHOE_BEST_KERNELS(rod_gauging); }
+
+} // namespace
+
+extern const Model rod_gauging;
+const Model rod_gauging{&card, &kernels, &evaluate_point<Gradient>, &evaluate_point<Curvature>, &explain, &check, &solve_reads};
+
+} // namespace gumshoe::models

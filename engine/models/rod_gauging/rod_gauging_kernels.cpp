@@ -1,0 +1,84 @@
+/// Block loops of the rod model, compiled once per instruction set.
+#include "models/rod_gauging/rod_gauging.h"
+
+namespace gumshoe::models {
+namespace {
+
+constexpr std::size_t width = Lanes::size;
+
+Lanes load(const Column& c, std::size_t i) {
+  return c.stride == 0 ? Lanes(c.data[0]) : Lanes::load_unaligned(c.data + i);
+}
+
+/// Lanes whose values no rod or beam can have, or that the fast solve cannot take.
+template <class V> auto needs_general_solve(const chain::Rod<V>& r, const chain::Beam<V>& b, const V& failed) {
+  const V zero(0.0);
+  auto fine = (r.radius > zero) && (r.fillet_radius >= zero) && (r.fillet_radius <= r.radius) &&
+              (r.bottom_elevation > zero) && (r.bottom_elevation < V(chain::pi)) && (b.radius > zero) &&
+              (b.fraction > zero) && (b.fraction < V(1.0)) && (num::abs(b.pitch) < V(0.5 * chain::pi)) &&
+              (failed < V(0.5));
+  return !fine;
+}
+
+void solve_group(const Lanes* q, const chain::ProbingEvent<Lanes>& event, double* height, std::uint8_t* status) {
+  const chain::Rod<Lanes> rod = rod::rod(q, event);
+  const chain::Beam<Lanes> beam = rod::beam(q);
+  const auto chord = chain::solve_chord<Lanes>(chain::shadow_edge(rod, beam), beam.radius, beam.fraction);
+  const Lanes fast = chain::bottom_height_of(chord.k, rod, beam);
+  fast.store_unaligned(height);
+  const auto general = needs_general_solve(rod, beam, chord.failed);
+  if (!num::any(general)) return;
+  for (std::size_t l = 0; l < width; ++l) {
+    if (!general.get(l)) continue;
+    const auto solved = chain::general_height(
+        {rod.radius.get(l), rod.fillet_radius.get(l), rod.bottom_elevation.get(l), rod.bottom_azimuth.get(l),
+         rod.axis_x.get(l), rod.axis_y.get(l)},
+        {beam.yaw.get(l), beam.pitch.get(l), beam.radius.get(l), beam.fraction.get(l)});
+    height[l] = solved.value;
+    if (solved.status != chain::SolveStatus::ok) status[l] = static_cast<std::uint8_t>(solved.status);
+  }
+}
+
+template <class Finish> void for_each_group(const BlockCall& call, bool with_solve, const Finish& finish) {
+  Lanes q[rod::count], condition[rod::conditions];
+  std::vector<Lanes> e(call.effect_quantities + 1);
+  for (std::size_t r = 0; r < call.readings; ++r) {
+    const Column* columns = call.quantities + r * rod::count;
+    const Column* effect_columns = call.effects + r * call.effect_quantities;
+    double* height_row = call.measurands[r * rod::measurands + rod::bottom_height_row];
+    const std::size_t twin = call.solved_as[r];
+    for (std::size_t i = 0; i < call.samples; i += width) {
+      for (std::size_t j = 0; j < rod::count; ++j) q[j] = load(columns[j], i);
+      for (std::size_t j = 0; j < call.effect_quantities; ++j) e[j] = load(effect_columns[j], i);
+      for (std::size_t j = 0; j < rod::conditions; ++j) condition[j] = load(call.conditions[r * rod::conditions + j], i);
+      const auto event = rod::probing_event<Lanes>(q, condition, e.data(), call.active);
+      if (!with_solve) Lanes(0.0).store_unaligned(height_row + i);
+      else if (twin == r) solve_group(q, event, height_row + i, call.status + i);
+      else Lanes::load_unaligned(call.measurands[twin * rod::measurands] + i).store_unaligned(height_row + i);
+      finish(r, i, q, event, Lanes::load_unaligned(height_row + i));
+    }
+  }
+}
+
+void simulate(const BlockCall& call) {
+  for_each_group(call, true, [&](std::size_t r, std::size_t i, const Lanes* q, const auto& event, const Lanes& height) {
+    rod::simulate(q, height, event).store_unaligned(call.simulated[r] + i);
+    q[rod::laser_z].store_unaligned(call.measurands[r * rod::measurands + rod::laser_z_row] + i);
+  });
+}
+
+void evaluate(const BlockCall& call) {
+  for_each_group(call, call.evaluation == rod::full,
+                 [&](std::size_t r, std::size_t i, const Lanes* q, const auto& event, const Lanes& height) {
+                   const Lanes z = rod::evaluate(load(call.indications[r], i), q, height, event);
+                   z.store_unaligned(call.measurands[r * rod::measurands + rod::laser_z_row] + i);
+                 });
+}
+
+} // namespace
+} // namespace gumshoe::models
+
+extern "C" {
+extern const gumshoe::models::Kernels GUMSHOE_KERNEL(gumshoe_rod_gauging_);
+const gumshoe::models::Kernels GUMSHOE_KERNEL(gumshoe_rod_gauging_){&gumshoe::models::simulate, &gumshoe::models::evaluate};
+}

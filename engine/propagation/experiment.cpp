@@ -1,0 +1,182 @@
+#include "propagation/experiment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+
+namespace gumshoe::propagation {
+
+std::string reading_name(const quantities::Reading& reading) {
+  std::string name;
+  for (const auto& [label, value] : reading.labels) name += (name.empty() ? "" : ", ") + label + " " + value;
+  return name;
+}
+
+Experiment::Experiment(const scenario::Scenario& s) : scenario_(s), model_(models::find(s.model)) {
+  if (!model_) throw InputError(fmt::format("model: unknown model '{}'", s.model));
+  plan_ = quantities::make_plan(s.quantities, s.correlations, s.readings, s.run.seed);
+  const ModelCard& card = *model_->card;
+  indications_ = card.indications.size();
+  measurands_ = card.measurands.size();
+  effect_quantities_ = s.quantities.size() - card.quantities.size() - indications_;
+  for (std::size_t e = 0, at = 0; e < effects::cards().size(); ++e) {
+    const std::string prefix = std::string(effects::cards()[e]->name) + ".";
+    if (at < effect_quantities_ && s.quantities[card.quantities.size() + at].name.starts_with(prefix)) {
+      active_.push_back({e, at});
+      at += effects::cards()[e]->quantities.size();
+    }
+  }
+  for (std::size_t i = 0; i < card.evaluations.size(); ++i)
+    if (card.evaluations[i].name == s.evaluation) evaluation_ = i;
+  for (std::size_t c = 0; c < plan_.columns.size(); ++c) column_estimates_.push_back(plan_.estimate(c));
+
+  for (std::size_t r = 0; r < s.readings.size(); ++r) {
+    const std::string at = reading_name(s.readings[r]);
+    for (std::size_t m = 0; m < measurands_; ++m)
+      outputs_.push_back({std::string(card.measurands[m].name) + (at.empty() ? "" : "[" + at + "]"),
+                          std::string(card.measurands[m].name), r, std::string(card.measurands[m].unit),
+                          std::string(card.measurands[m].si_unit)});
+    for (std::size_t c = 0; c < card.conditions.size(); ++c) conditions_.push_back(s.readings[r].conditions.at(c));
+    const std::string problem = model_->check(point(r).data());
+    if (!problem.empty())
+      throw InputError({{{s.file}, "quantities: " + problem + (at.empty() ? "" : " at reading [" + at + "]"),
+                         "physically impossible", ""}});
+  }
+
+  // Readings that agree in everything the solve reads share one solve.
+  const auto same = [&](std::size_t a, std::size_t b) {
+    for (std::size_t q = 0; q < card.quantities.size() + effect_quantities_; ++q)
+      if ((q >= card.quantities.size() || model_->solve_reads(q)) && plan_.gather[a][q] != plan_.gather[b][q]) return false;
+    const std::size_t c = card.conditions.size();
+    return active_.empty() || std::equal(&conditions_[a * c], &conditions_[a * c] + c, &conditions_[b * c]);
+  };
+  for (std::size_t r = 0; r < s.readings.size(); ++r) {
+    std::size_t twin = 0;
+    while (!same(r, twin)) ++twin;
+    solved_as_.push_back(twin);
+  }
+}
+
+std::vector<std::string> Experiment::reading_names() const {
+  std::vector<std::string> names;
+  for (const auto& r : scenario_.readings) names.push_back(reading_name(r));
+  return names;
+}
+
+std::vector<double> Experiment::point(std::size_t reading, const double* variates) const {
+  std::vector<double> values;
+  const std::size_t first_noise = model_quantities() + effect_quantities_;
+  for (std::size_t q = 0; q < scenario_.quantities.size(); ++q) {
+    const std::size_t c = plan_.gather[reading][q];
+    double x = column_estimates_[c];
+    if (variates) {
+      x = plan_.columns[c].value;
+      for (const std::size_t v : plan_.columns[c].variates) x += variates[v];
+    }
+    if (q >= first_noise && !scenario_.readings[reading].indications.empty())
+      x += scenario_.readings[reading].indications[q - first_noise];
+    values.push_back(x);
+  }
+  return values;
+}
+
+/// Points the call's columns at the block's buffers: drawn columns, or the estimates.
+void Experiment::wire(Workspace& w, std::size_t n, bool estimates) const {
+  const std::size_t readings = scenario_.readings.size(), nq = model_quantities();
+  const auto column = [&](std::size_t c) -> models::Column {
+    if (estimates || plan_.columns[c].variates.empty()) return {&column_estimates_[c], 0};
+    return {&w.columns[c * n], 1};
+  };
+  w.quantity_columns.clear();
+  w.effect_columns.clear();
+  w.condition_columns.clear();
+  for (std::size_t r = 0; r < readings; ++r) {
+    for (std::size_t q = 0; q < nq; ++q) w.quantity_columns.push_back(column(plan_.gather[r][q]));
+    for (std::size_t q = 0; q < effect_quantities_; ++q) w.effect_columns.push_back(column(plan_.gather[r][nq + q]));
+  }
+  for (const double& c : conditions_) w.condition_columns.push_back({&c, 0});
+}
+
+void Experiment::run(std::span<const double* const> variates, std::size_t n, Workspace& w, double* outputs,
+                     std::uint8_t* status) const {
+  const std::size_t readings = scenario_.readings.size(), rows = readings * measurands_;
+  const bool virtual_experiment = scenario_.method == scenario::Method::virtual_experiment;
+  w.columns.resize(plan_.columns.size() * n);
+  w.indications.resize(readings * indications_ * n);
+  w.measurands.resize(rows);
+  for (std::size_t i = 0; i < rows; ++i) w.measurands[i] = outputs + i * n;
+  std::fill_n(status, n, std::uint8_t{0});
+
+  // Constant columns are read with stride 0 and need no buffer.
+  for (std::size_t c = 0; c < plan_.columns.size(); ++c) {
+    const auto& plan = plan_.columns[c];
+    for (std::size_t v = 0; v < plan.variates.size(); ++v) {
+      double* out = &w.columns[c * n];
+      const double* drawn = variates[plan.variates[v]];
+      for (std::size_t i = 0; i < n; ++i) out[i] = (v == 0 ? plan.value : out[i]) + drawn[i];
+    }
+  }
+  wire(w, n, false);
+
+  models::BlockCall call;
+  call.samples = n;
+  call.readings = readings;
+  call.quantities = w.quantity_columns.data();
+  call.effects = w.effect_columns.data();
+  call.effect_quantities = effect_quantities_;
+  call.active = active_;
+  call.conditions = w.condition_columns.data();
+  call.measurands = w.measurands.data();
+  call.solved_as = solved_as_.data();
+  call.status = status;
+  call.evaluation = static_cast<int>(evaluation_);
+
+  if (virtual_experiment) {
+    w.truth.resize(rows * n);
+    w.true_measurands.resize(rows);
+    for (std::size_t i = 0; i < rows; ++i) w.true_measurands[i] = &w.truth[i * n];
+    w.simulated.resize(readings * indications_);
+    for (std::size_t i = 0; i < w.simulated.size(); ++i) w.simulated[i] = &w.indications[i * n];
+    call.measurands = w.true_measurands.data();
+    call.simulated = w.simulated.data();
+    model_->kernels()->simulate(call);
+  }
+
+  // Indications: what was read (or simulated) plus the drawn noise.
+  const std::size_t first_noise = model_quantities() + effect_quantities_;
+  w.indication_columns.clear();
+  for (std::size_t r = 0; r < readings; ++r)
+    for (std::size_t k = 0; k < indications_; ++k) {
+      double* x = &w.indications[(r * indications_ + k) * n];
+      const std::size_t c = plan_.gather[r][first_noise + k];
+      const bool noisy = !plan_.columns[c].variates.empty();
+      const double* noise = noisy ? &w.columns[c * n] : nullptr;
+      if (virtual_experiment) {
+        if (noisy)
+          for (std::size_t i = 0; i < n; ++i) x[i] += noise[i];
+      } else {
+        const double read = scenario_.readings[r].indications[k];
+        for (std::size_t i = 0; i < n; ++i) x[i] = noisy ? read + noise[i] : read;
+      }
+      w.indication_columns.push_back({x, 1});
+    }
+  call.indications = w.indication_columns.data();
+  call.measurands = w.measurands.data();
+  if (virtual_experiment) wire(w, n, true);
+  model_->kernels()->evaluate(call);
+
+  if (virtual_experiment)
+    for (std::size_t i = 0; i < rows * n; ++i) outputs[i] -= w.truth[i];
+  for (std::size_t row = 0; row < rows; ++row)
+    for (std::size_t i = 0; i < n; ++i)
+      if (status[i] == 0 && std::isnan(outputs[row * n + i])) status[i] = static_cast<std::uint8_t>(Status::no_solution);
+  for (std::size_t i = 0; i < n; ++i)
+    if (status[i] != 0)
+      for (std::size_t row = 0; row < rows; ++row) outputs[row * n + i] = std::numeric_limits<double>::quiet_NaN();
+}
+
+} // namespace gumshoe::propagation

@@ -1,0 +1,58 @@
+#pragma once
+/// A scenario made ready to run: model, plan of variates and columns, and the wiring between them.
+#include <memory>
+
+#include "models/model.h"
+#include "propagation/run.h"
+#include "quantities/sample_plan.h"
+#include "scenario/scenario.h"
+
+namespace gumshoe::propagation {
+
+/// Buffers of one thread, reused from block to block.
+struct Workspace {
+  std::vector<double> columns, indications, truth;
+  std::vector<models::Column> quantity_columns, effect_columns, condition_columns, indication_columns;
+  std::vector<double*> simulated, measurands, true_measurands;
+};
+
+class Experiment {
+public:
+  /// Throws InputError: an unknown model, labels that do not match, values that exclude each other.
+  explicit Experiment(const scenario::Scenario& scenario);
+
+  const scenario::Scenario& scenario() const { return scenario_; }
+  const models::Model& model() const { return *model_; }
+  const quantities::SamplePlan& plan() const { return plan_; }
+  const std::vector<Output>& outputs() const { return outputs_; }
+  std::vector<std::string> reading_names() const;
+  std::span<const effects::Active> active() const { return active_; }
+  std::size_t model_quantities() const { return model_->card->quantities.size(); }
+  std::size_t effect_quantities() const { return effect_quantities_; }
+  std::size_t evaluation() const { return evaluation_; }
+
+  /// Outputs for given variates (variates[v] points to n values, n a multiple of 8):
+  /// outputs[row * n + i], SI, NaN where status[i] is not ok. Virtual experiment: errors, evaluated minus true.
+  void run(std::span<const double* const> variates, std::size_t n, Workspace& w, double* outputs,
+           std::uint8_t* status) const;
+
+  /// Values of all quantities at a reading (model, effects, indications in this order): the estimates,
+  /// or one sample's when `variates` holds one value per variate.
+  std::vector<double> point(std::size_t reading, const double* variates = nullptr) const;
+
+private:
+  void wire(Workspace& w, std::size_t n, bool estimates) const;
+  const scenario::Scenario& scenario_;
+  const models::Model* model_;
+  quantities::SamplePlan plan_;
+  std::vector<Output> outputs_;
+  std::vector<effects::Active> active_;
+  std::size_t effect_quantities_ = 0, indications_ = 0, measurands_ = 0, evaluation_ = 0;
+  std::vector<std::size_t> solved_as_;
+  std::vector<double> column_estimates_, conditions_;
+};
+
+/// "rod 2, 1": the label values of a reading, or "" where it has none.
+std::string reading_name(const quantities::Reading& reading);
+
+} // namespace gumshoe::propagation

@@ -1,0 +1,103 @@
+#include "propagation/propagate.h"
+
+#include <algorithm>
+
+#include <oneapi/tbb/enumerable_thread_specific.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_pipeline.h>
+#include <oneapi/tbb/task_arena.h>
+
+namespace gumshoe::propagation {
+
+namespace tbb = oneapi::tbb;
+
+quantities::PointSet point_set(scenario::Design design) {
+  switch (design) {
+  case scenario::Design::latin_hypercube: return quantities::PointSet::latin_hypercube;
+  case scenario::Design::sobol: return quantities::PointSet::sobol;
+  default: return quantities::PointSet::monte_carlo;
+  }
+}
+
+namespace {
+
+quantities::Sampler make_sampler(const Experiment& e) {
+  const auto& run = e.scenario().run;
+  return quantities::Sampler(e.plan(), run.seed, point_set(run.design), run.samples);
+}
+
+struct ThreadBuffers {
+  Workspace workspace;
+  std::vector<double> variates, outputs;
+  std::vector<std::uint8_t> status;
+};
+
+/// Samples [first, first + count) into a block; drawn in multiples of 8, the surplus is cut off.
+ResultBlock run_block(const Experiment& e, const quantities::Sampler& sampler, std::uint64_t first, std::size_t count,
+                      ThreadBuffers& b) {
+  const std::size_t n = (count + 7) / 8 * 8, variates = e.plan().variates.size(), rows = e.outputs().size();
+  b.variates.resize(variates * n);
+  b.outputs.resize(rows * n);
+  b.status.resize(n);
+  sampler.draw(first, n, quantities::Purpose::sampling, b.variates.data(), n);
+  std::vector<const double*> pointers(variates);
+  for (std::size_t v = 0; v < variates; ++v) pointers[v] = &b.variates[v * n];
+  e.run(pointers, n, b.workspace, b.outputs.data(), b.status.data());
+  ResultBlock block{first, count, std::vector<double>(rows * count), {b.status.begin(), b.status.begin() + static_cast<long>(count)}};
+  for (std::size_t r = 0; r < rows; ++r) std::copy_n(&b.outputs[r * n], count, &block.outputs[r * count]);
+  return block;
+}
+
+} // namespace
+
+std::uint64_t propagate(const Experiment& e, Sink& sink, const RunSettings& settings) {
+  const quantities::Sampler sampler = make_sampler(e);
+  const std::uint64_t total = e.scenario().run.samples;
+  const int threads = settings.threads > 0 ? settings.threads : tbb::this_task_arena::max_concurrency();
+  tbb::task_arena arena(threads);
+  tbb::enumerable_thread_specific<ThreadBuffers> buffers;
+  std::uint64_t next = settings.first, done = settings.first;
+  arena.execute([&] {
+    tbb::parallel_pipeline(
+        static_cast<std::size_t>(4 * threads),
+        tbb::make_filter<void, std::uint64_t>(tbb::filter_mode::serial_in_order,
+                                              [&](tbb::flow_control& control) -> std::uint64_t {
+                                                if (next >= total || (settings.stop && *settings.stop)) {
+                                                  control.stop();
+                                                  return 0;
+                                                }
+                                                const std::uint64_t first = next;
+                                                next = std::min<std::uint64_t>(total, (first / block_samples + 1) * block_samples);
+                                                return first;
+                                              }) &
+            tbb::make_filter<std::uint64_t, ResultBlock>(
+                tbb::filter_mode::parallel,
+                [&](std::uint64_t first) {
+                  const std::uint64_t end = std::min<std::uint64_t>(total, (first / block_samples + 1) * block_samples);
+                  return run_block(e, sampler, first, static_cast<std::size_t>(end - first), buffers.local());
+                }) &
+            tbb::make_filter<ResultBlock, void>(tbb::filter_mode::serial_in_order, [&](const ResultBlock& block) {
+              sink.write(block);
+              done = block.first_sample + block.samples;
+              if (settings.progress) settings.progress({done, total});
+            }));
+  });
+  return done;
+}
+
+std::vector<double> variates_of(const Experiment& e, std::uint64_t sample) {
+  const quantities::Sampler sampler = make_sampler(e);
+  const std::uint64_t first = sample / 64 * 64;
+  std::vector<double> drawn(e.plan().variates.size() * 64), one;
+  sampler.draw(first, 64, quantities::Purpose::sampling, drawn.data(), 64);
+  for (std::size_t v = 0; v < e.plan().variates.size(); ++v) one.push_back(drawn[v * 64 + (sample - first)]);
+  return one;
+}
+
+void parallel_for(std::size_t n, int threads, const std::function<void(std::size_t)>& body) {
+  tbb::task_arena arena(threads > 0 ? threads : tbb::this_task_arena::max_concurrency());
+  arena.execute([&] { tbb::parallel_for(std::size_t{0}, n, body); });
+}
+
+} // namespace gumshoe::propagation

@@ -1,0 +1,36 @@
+#pragma once
+/// Runs the samples of an experiment, block by block, in parallel and in order (the only door to oneTBB).
+#include <atomic>
+#include <functional>
+
+#include "propagation/experiment.h"
+
+namespace gumshoe::propagation {
+
+struct Progress {
+  std::uint64_t done = 0, total = 0;
+};
+
+struct RunSettings {
+  int threads = 0;            ///< 0: all processors
+  std::uint64_t first = 0;    ///< resume here; a multiple of the block size or 0
+  const std::atomic<bool>* stop = nullptr;      ///< set from a signal handler: finish the blocks under way, then return
+  std::function<void(const Progress&)> progress; ///< called in order, from one thread at a time
+};
+
+/// Samples per block: blocks start at multiples of this. Numbers do not depend on it.
+inline constexpr std::size_t block_samples = 2048;
+
+/// Draws and evaluates samples [first, scenario.run.samples) and hands them to the sink in order.
+/// Returns the number of samples done (fewer than asked for if stopped).
+std::uint64_t propagate(const Experiment& experiment, Sink& sink, const RunSettings& settings);
+
+/// The variates of one sample, as in the run. For replay.
+std::vector<double> variates_of(const Experiment& experiment, std::uint64_t sample);
+
+/// Calls body(i) for i in [0, n) on `threads` threads (0: all).
+void parallel_for(std::size_t n, int threads, const std::function<void(std::size_t)>& body);
+
+quantities::PointSet point_set(scenario::Design design);
+
+} // namespace gumshoe::propagation

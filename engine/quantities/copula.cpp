@@ -1,0 +1,124 @@
+#include "quantities/copula.h"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <fmt/format.h>
+
+#include "base/error.h"
+
+namespace gumshoe::quantities {
+namespace {
+
+constexpr int terms = 300;
+
+bool has_steps(const Distribution& d) {
+  return d.family == Family::constant || d.family == Family::discrete || d.family == Family::empirical;
+}
+
+/// Orthonormal Hermite polynomials h_0 .. h_terms at z, times the square root of the normal density.
+std::vector<double> hermite_functions(double z) {
+  std::vector<double> h(terms + 1);
+  h[0] = std::exp(-z * z / 4) / std::pow(2 * std::numbers::pi, 0.25);
+  h[1] = z * h[0];
+  for (int k = 1; k < terms; ++k) h[k + 1] = (z * h[k] - std::sqrt(double(k)) * h[k - 1]) / std::sqrt(k + 1.0);
+  return h;
+}
+
+double root_density(double z) { return std::exp(-z * z / 4) / std::pow(2 * std::numbers::pi, 0.25); }
+
+/// a_k = E[x h_k(z)] / sd, k >= 1, of x = quantile(Phi(z)).
+std::vector<double> hermite_coefficients(const Distribution& d) {
+  std::vector<double> a(terms + 1, 0.0);
+  const double sd = std::sqrt(d.variance());
+  if (d.family == Family::normal) {
+    a[1] = 1;
+  } else if (has_steps(d)) {
+    // A step of x at z: the integral of h_k over the density beyond z is h_(k-1)(z) phi(z) / sqrt(k).
+    const auto& values = *d.values;
+    for (std::size_t i = 0; i + 1 < values.size(); ++i) {
+      const double rise = values[i + 1] - values[i], p = d.probability(values[i]);
+      if (rise == 0 || p <= 0 || p >= 1) continue;
+      const double z = Distribution{Family::normal, {0, 1}, {}, {}}.quantile(p);
+      const auto h = hermite_functions(z);
+      for (int k = 1; k <= terms; ++k) a[k] += rise / sd * h[k - 1] * root_density(z) / std::sqrt(double(k));
+    }
+  } else {
+    // The trapezoidal rule converges faster than any power; beyond 8.2 u no longer differs from 0 or 1.
+    constexpr double step = 1.0 / 64, end = 8.2;
+    const QuantileFunction quantile(d);
+    const double mean = d.mean();
+    for (double z = -end; z <= end; z += step) {
+      double lanes[8] = {std::erfc(-z / std::numbers::sqrt2) / 2, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5};
+      lanes[0] = std::min(std::max(lanes[0], 0x1p-53), 1 - 0x1p-53);
+      quantile(lanes, lanes, 8);
+      const auto h = hermite_functions(z);
+      for (int k = 1; k <= terms; ++k) a[k] += step * (lanes[0] - mean) / sd * h[k] * root_density(z);
+    }
+  }
+  return a;
+}
+
+double pearson_of(double rho, const std::vector<double>& a, const std::vector<double>& b) {
+  double sum = 0;
+  for (int k = terms; k >= 1; --k) sum = (sum + a[k] * b[k]) * rho;
+  return sum;
+}
+
+double from_pearson(double r, const Distribution& a, const Distribution& b, const std::string& pair) {
+  if (a.family == Family::normal && b.family == Family::normal) return r;
+  if (a.family == Family::rectangular && b.family == Family::rectangular) return 2 * std::sin(std::numbers::pi * r / 6);
+  for (const Distribution* d : {&a, &b})
+    if (!std::isfinite(d->variance()) || !(d->variance() > 0))
+      throw InputError(fmt::format("correlation of {}: no Pearson coefficient exists", pair),
+                       "one of them has no finite, positive variance", "state a copula or spearman coefficient?");
+  const auto ca = hermite_coefficients(a), cb = hermite_coefficients(b);
+  double low = -1, high = 1;
+  const double least = pearson_of(low, ca, cb), greatest = pearson_of(high, ca, cb);
+  if (r < least || r > greatest)
+    throw InputError(fmt::format("correlation of {}: no Gaussian copula has the Pearson coefficient {}", pair, r),
+                     fmt::format("their distributions allow {:.4f} to {:.4f}", least, greatest));
+  while (high - low > 1e-14) {
+    const double middle = (low + high) / 2;
+    if (middle <= low || middle >= high) break;
+    (pearson_of(middle, ca, cb) < r ? low : high) = middle;
+  }
+  return (low + high) / 2;
+}
+
+} // namespace
+
+double copula_coefficient(Correlation::Kind kind, double r, const Distribution& a, const Distribution& b,
+                          const std::string& pair) {
+  if (r == 0) return 0;
+  switch (kind) {
+  case Correlation::Kind::copula:
+    return r;
+  case Correlation::Kind::spearman:
+    if (has_steps(a) || has_steps(b))
+      throw InputError(fmt::format("correlation of {}: spearman is defined here for continuous distributions", pair),
+                       "ranks of discrete values tie", "state a copula or pearson coefficient?");
+    return 2 * std::sin(std::numbers::pi * r / 6);
+  case Correlation::Kind::pearson:
+    return from_pearson(r, a, b, pair);
+  }
+  return r;
+}
+
+std::vector<double> cholesky_factor(const std::vector<double>& matrix, std::size_t n, const std::string& group) {
+  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const auto size = static_cast<Eigen::Index>(n);
+  const Eigen::Map<const Matrix> m(matrix.data(), size, size);
+  const double smallest = Eigen::SelfAdjointEigenSolver<Matrix>(m, Eigen::EigenvaluesOnly).eigenvalues().minCoeff();
+  const Eigen::LLT<Matrix> factor(m);
+  if (!(smallest > 1e-12) || factor.info() != Eigen::Success)
+    throw InputError(fmt::format("correlation of {}: the copula's matrix is not positive definite", group),
+                     fmt::format("its smallest eigenvalue is {:.6g}", smallest));
+  const Matrix lower = factor.matrixL();
+  return {lower.data(), lower.data() + lower.size()};
+}
+
+} // namespace gumshoe::quantities

@@ -1,0 +1,57 @@
+#pragma once
+/// Input quantities (JCGM 200, 2.50) as a scenario states them: values, components of uncertainty,
+/// scopes and correlations. Plain data, SI units; quantities of models, of effects and the noise of
+/// indications are the same kind of thing.
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "quantities/distribution.h"
+
+namespace gumshoe::quantities {
+
+/// Label values, e.g. {{"rod", "rod 2"}, {"setup", "1"}}.
+using Labels = std::vector<std::pair<std::string, std::string>>;
+
+/// One source of uncertainty: a deviation added to the quantity's value.
+struct Component {
+  std::string name;          ///< unique within the quantity; part of the random stream's key
+  Distribution distribution; ///< of the deviation, SI
+  char evaluation = 'B';     ///< Type A or Type B evaluation (GUM 2.3.2, 2.3.3)
+  double degrees_of_freedom = 0; ///< 0 means infinite; for the effective degrees of freedom
+  std::vector<std::string> per;  ///< scope: one draw per combination of these labels ("reading": per reading)
+  std::string source;
+};
+
+/// A value, and components, that hold for the given label values (all readings if `labels` is empty).
+struct Entry {
+  Labels labels;
+  double value = 0;
+  std::vector<Component> components;
+  std::string source;
+};
+
+struct InputQuantity {
+  std::string name;     ///< "fillet_radius", "trigger_latency.delay", indication noise: "spindle_z"
+  std::string unit;     ///< shown to people
+  std::string si_unit;
+  std::vector<Entry> entries;  ///< at least one; several only with different labels (`by`)
+};
+
+/// Correlation between single-component quantities, through a Gaussian copula.
+struct Correlation {
+  enum class Kind { copula, pearson, spearman };
+  Kind kind = Kind::copula;
+  std::vector<std::string> quantities; ///< names, or "quantity.component"
+  std::vector<double> matrix;          ///< row-major, n x n, of the stated kind
+};
+
+/// One reading: the mean of `repeats` readouts taken under the same labels and conditions.
+struct Reading {
+  Labels labels;
+  std::vector<double> conditions;  ///< by position in the model's card, SI
+  std::vector<double> indications; ///< means, by position in the model's card, SI; empty if nothing was read
+  int repeats = 1;
+};
+
+} // namespace gumshoe::quantities

@@ -1,0 +1,77 @@
+#pragma once
+/// From input quantities and readings to columns of numbers.
+///
+/// A variate is one drawn number per sample: (quantity, entry, component, cell), the cell being the
+/// combination of label values its scope distinguishes. A column is a quantity's value plus the sum
+/// of the variates of its components, and differs between readings only if their labels do. The
+/// gather says which column a reading uses; what is equal is drawn and solved once.
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "quantities/input_quantity.h"
+
+namespace gumshoe::quantities {
+
+struct Variate {
+  std::string name;           ///< "beam_pitch[setup 1]", with ": component" where a quantity has several
+  std::size_t quantity = 0;   ///< index into the quantities given
+  std::size_t entry = 0, component = 0;
+  Labels cell;                ///< labels that this draw is for (entry labels and scope)
+  std::uint64_t key = 0;      ///< hash of (seed, quantity name, component name, cell): the Philox key
+  Distribution distribution;  ///< of the deviation
+};
+
+struct Column {
+  double value = 0;                  ///< of the entry; deviations are added to it
+  std::vector<std::size_t> variates; ///< indices into SamplePlan::variates
+};
+
+/// Variates tied by a Gaussian copula: lower Cholesky factor of the copula's matrix, row-major.
+struct CopulaGroup {
+  std::vector<std::size_t> variates;
+  std::vector<double> cholesky;
+  std::vector<double> matrix;
+};
+
+struct SamplePlan {
+  std::vector<Variate> variates;
+  std::vector<Column> columns;
+  std::vector<std::vector<std::size_t>> gather; ///< [reading][quantity] -> column
+  std::vector<CopulaGroup> copulas;
+  /// Expectation of a column: value plus the means of its variates' distributions (the estimate).
+  double estimate(std::size_t column) const;
+};
+
+/// Throws InputError: a label value of a reading that no entry of a `by` quantity has; a scope that
+/// names no label; a correlation matrix that is not positive definite (with its smallest
+/// eigenvalue), or that no copula reaches; a correlated quantity with several components.
+/// Correlated quantities are tied cell by cell: same cell with same cell.
+SamplePlan make_plan(std::span<const InputQuantity> quantities, std::span<const Correlation> correlations,
+                     std::span<const Reading> readings, std::uint64_t seed);
+
+/// What a stream of random numbers is for; part of the counter, so purposes never share numbers.
+enum class Purpose : std::uint32_t { sampling = 0, pick_freeze = 1, bootstrap = 2, stein = 3, fresh = 4 };
+enum class PointSet { monte_carlo, latin_hypercube, sobol };
+
+/// Draws the variates of a plan. Sample i has the same values whatever the block, thread or order.
+/// Thread-safe after construction; no allocation per call beyond the first on a thread.
+class Sampler {
+public:
+  /// `total` is the run's number of samples (Latin hypercube needs it; the other designs do not depend on it).
+  Sampler(const SamplePlan& plan, std::uint64_t seed, PointSet design, std::uint64_t total);
+  ~Sampler();
+  /// Variates of samples [first, first + n): out[variate * stride + i]. first is a multiple of 64,
+  /// n a multiple of 8, stride >= n.
+  void draw(std::uint64_t first, std::size_t n, Purpose purpose, double* out, std::size_t stride) const;
+  /// Columns from variates: out[column * stride + i] = value + sum of variates; `variates[v]` points to n values.
+  void assemble(std::span<const double* const> variates, std::size_t n, double* out, std::size_t stride) const;
+
+private:
+  struct Impl;
+  std::unique_ptr<const Impl> impl_;
+};
+
+} // namespace gumshoe::quantities

@@ -1,0 +1,151 @@
+#include <algorithm>
+#include <optional>
+#include <set>
+
+#include "base/hash.h"
+#include "quantities/cells.h"
+#include "quantities/quantile_kernels.h"
+#include "quantities/sample_plan.h"
+#include "random/latin_hypercube.h"
+#include "random/sobol.h"
+
+namespace gumshoe::quantities {
+namespace {
+
+constexpr std::uint32_t purposes = 5;
+/// Each purpose has its own dimensions, so that the two matrices of a pick-freeze design are independent.
+constexpr std::uint32_t dimensions_per_purpose = random::sobol_dimensions / purposes;
+
+/// A free Sobol' dimension by hash of the variate's key. Where two variates hash to the same one the
+/// later in the plan moves on, so adding a variate rarely, and only by such an accident, moves another.
+std::optional<std::uint32_t> take_dimension(std::uint64_t key, std::set<std::uint32_t>& taken) {
+  for (std::uint64_t attempt = 0; attempt < 64; ++attempt) {
+    const auto dimension = static_cast<std::uint32_t>(mix64(key + attempt) % dimensions_per_purpose);
+    if (taken.insert(dimension).second) return dimension;
+  }
+  return std::nullopt; // hundreds of variates: the rest are plain Monte Carlo
+}
+
+} // namespace
+
+struct Sampler::Impl {
+  struct Source {
+    random::Stream stream;
+    QuantileFunction quantile;
+    bool normal; ///< takes z directly in a copula
+    double mean, u;
+    std::optional<std::uint32_t> dimension;
+    std::vector<random::SobolDimension> sobol; ///< by purpose
+  };
+
+  PointSet design;
+  std::uint64_t total;
+  std::vector<Source> sources;
+  std::vector<Column> columns;
+  std::vector<CopulaGroup> copulas;
+  std::vector<bool> tied;
+
+  Impl(const SamplePlan& plan, PointSet point_set, std::uint64_t samples)
+      : design(point_set), total(samples), columns(plan.columns), copulas(plan.copulas),
+        tied(plan.variates.size(), false) {
+    std::set<std::uint32_t> taken;
+    for (const Variate& variate : plan.variates) {
+      const Distribution& d = variate.distribution;
+      Source source{{variate.key, reading_of(variate.cell), 0, 0},
+                    QuantileFunction(d),
+                    d.family == Family::normal,
+                    d.parameters[0],
+                    d.parameters[1],
+                    {},
+                    {}};
+      // Draws per reading are many and matter little each: they stay plain Monte Carlo.
+      if (design == PointSet::sobol && source.stream.reading == 0) {
+        source.dimension = take_dimension(variate.key, taken);
+        for (std::uint32_t purpose = 0; source.dimension && purpose < purposes; ++purpose) {
+          random::Stream stream = source.stream;
+          stream.purpose = static_cast<std::uint16_t>(purpose);
+          source.sobol.emplace_back(purpose * dimensions_per_purpose + *source.dimension,
+                                    random::derived_key(stream, 0x736f'626f'6c00)); // "sobol"
+        }
+      }
+      sources.push_back(std::move(source));
+    }
+    for (const CopulaGroup& group : copulas)
+      for (const std::size_t v : group.variates) tied[v] = true;
+  }
+
+  void uniforms(const Source& source, std::uint64_t first, std::size_t n, Purpose purpose, double* out) const {
+    random::Stream stream = source.stream;
+    stream.purpose = static_cast<std::uint16_t>(purpose);
+    if (design == PointSet::latin_hypercube) {
+      random::latin_hypercube(stream, total, first, n, out);
+    } else if (!source.sobol.empty()) {
+      source.sobol[static_cast<std::size_t>(purpose)](first, n, out);
+    } else {
+      kernels().uniforms(&stream, first, n, out);
+    }
+  }
+
+  /// Normal scores z, tied by L z in place, then back to deviates.
+  void draw_group(const CopulaGroup& group, std::uint64_t first, std::size_t n, Purpose purpose, double* out,
+                  std::size_t stride) const {
+    const std::size_t size = group.variates.size();
+    static const QuantileFunction score(Distribution{Family::normal, {0, 1}, {}, {}});
+    const auto row = [&](std::size_t i) { return out + group.variates[i] * stride; };
+    for (std::size_t i = 0; i < size; ++i) {
+      uniforms(sources[group.variates[i]], first, n, purpose, row(i));
+      score(row(i), row(i), n);
+    }
+    for (std::size_t i = size; i-- > 0;) { // from the last, which alone needs all the others
+      const double* factor = group.cholesky.data() + i * size;
+      double* z = row(i);
+      for (std::size_t k = 0; k < n; ++k) z[k] *= factor[i];
+      for (std::size_t j = 0; j < i; ++j) {
+        const double* other = row(j);
+        for (std::size_t k = 0; k < n; ++k) z[k] += factor[j] * other[k];
+      }
+      const Source& source = sources[group.variates[i]];
+      if (source.normal) {
+        for (std::size_t k = 0; k < n; ++k) z[k] = source.mean + source.u * z[k];
+      } else {
+        kernels().normal_probability(z, z, n);
+        source.quantile(z, z, n);
+      }
+    }
+  }
+};
+
+Sampler::Sampler(const SamplePlan& plan, std::uint64_t /*seed: in the variates' keys*/, PointSet design,
+                 std::uint64_t total)
+    : impl_(std::make_unique<const Impl>(plan, design, total)) {}
+
+Sampler::~Sampler() = default;
+
+void Sampler::draw(std::uint64_t first, std::size_t n, Purpose purpose, double* out, std::size_t stride) const {
+  constexpr std::size_t strip = 512; // stays in the first-level cache between the steps
+  for (std::size_t start = 0; start < n; start += strip) {
+    const std::size_t count = std::min(strip, n - start);
+    for (std::size_t v = 0; v < impl_->sources.size(); ++v) {
+      if (impl_->tied[v]) continue;
+      double* row = out + v * stride + start;
+      impl_->uniforms(impl_->sources[v], first + start, count, purpose, row);
+      impl_->sources[v].quantile(row, row, count);
+    }
+    for (const CopulaGroup& group : impl_->copulas)
+      impl_->draw_group(group, first + start, count, purpose, out + start, stride);
+  }
+}
+
+void Sampler::assemble(std::span<const double* const> variates, std::size_t n, double* out, std::size_t stride) const {
+  for (std::size_t c = 0; c < impl_->columns.size(); ++c) {
+    const Column& column = impl_->columns[c];
+    double* row = out + c * stride;
+    std::fill(row, row + n, column.value);
+    for (const std::size_t v : column.variates) {
+      const double* deviation = variates[v];
+      for (std::size_t i = 0; i < n; ++i) row[i] += deviation[i];
+    }
+  }
+}
+
+} // namespace gumshoe::quantities

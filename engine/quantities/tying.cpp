@@ -1,0 +1,130 @@
+#include "quantities/tying.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "quantities/cells.h"
+#include "quantities/copula.h"
+
+namespace gumshoe::quantities {
+namespace {
+
+/// Ties the variates of one correlation, cell by cell.
+class Tying {
+public:
+  Tying(std::span<const InputQuantity> quantities, const Correlation& correlation, SamplePlan& plan)
+      : quantities_(quantities), correlation_(correlation), plan_(plan), n_(correlation.quantities.size()),
+        group_(fmt::format("{}", fmt::join(correlation.quantities, ", "))) {}
+
+  void tie() {
+    check_matrix();
+    // Cell to the variates of the members; a member left out has the index none.
+    std::map<Labels, std::vector<std::size_t>> cells;
+    for (std::size_t i = 0; i < n_; ++i)
+      for (const std::size_t v : members(correlation_.quantities[i])) {
+        auto& row = cells.try_emplace(plan_.variates[v].cell, n_, none).first->second;
+        row[i] = v;
+      }
+    for (const auto& [cell, variates] : cells) {
+      for (std::size_t i = 0; i < n_; ++i)
+        if (variates[i] == none)
+          fail(fmt::format("{} has no draw{}", correlation_.quantities[i], cell.empty() ? "" : " for " + text_of(cell)),
+               "correlated quantities are tied draw by draw", "the same labels and the same scope ('per') for all?");
+      tie_cell(variates);
+    }
+  }
+
+private:
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+
+  [[noreturn]] void fail(const std::string& what, const std::string& why = {}, const std::string& remedy = {}) const {
+    throw InputError(fmt::format("correlation of {}: {}", group_, what), why, remedy);
+  }
+
+  void check_matrix() const {
+    const auto& m = correlation_.matrix;
+    if (n_ < 2) fail("needs at least two quantities");
+    if (m.size() != n_ * n_) fail(fmt::format("the matrix needs {} x {} numbers, not {}", n_, n_, m.size()));
+    for (std::size_t i = 0; i < n_; ++i)
+      for (std::size_t j = 0; j < n_; ++j) {
+        const double r = m[i * n_ + j];
+        if (!(std::abs(r) <= 1)) fail(fmt::format("the coefficient {} does not lie between -1 and 1", r));
+        if (i == j && r != 1) fail("the matrix has a diagonal element that is not 1");
+        if (r != m[j * n_ + i]) fail("the matrix is not symmetric");
+      }
+  }
+
+  /// Variates of "quantity" (with one component) or "quantity.component".
+  std::vector<std::size_t> members(const std::string& name) const {
+    std::string quantity = name, component;
+    auto found = find(quantity);
+    if (found == quantities_.size() && name.rfind('.') != std::string::npos) {
+      quantity = name.substr(0, name.rfind('.'));
+      component = name.substr(name.rfind('.') + 1);
+      found = find(quantity);
+    }
+    if (found == quantities_.size()) {
+      std::vector<std::string> known;
+      for (const InputQuantity& q : quantities_) known.push_back(q.name);
+      const std::string near = nearest(name, known);
+      fail(fmt::format("'{}' is no quantity", name), "", near.empty() ? "" : "'" + near + "'?");
+    }
+    std::vector<std::size_t> result;
+    for (std::size_t v = 0; v < plan_.variates.size(); ++v) {
+      const Variate& variate = plan_.variates[v];
+      if (variate.quantity != found) continue;
+      const auto& components = quantities_[found].entries[variate.entry].components;
+      if (component.empty() && components.size() > 1)
+        fail(fmt::format("{} has several components", quantity), "only one of them can be meant",
+             fmt::format("'{}.{}'?", quantity, components.front().name));
+      if (component.empty() || components[variate.component].name == component) result.push_back(v);
+    }
+    if (result.empty()) fail(fmt::format("'{}' is not drawn", name), "it has no such component, or is a constant");
+    return result;
+  }
+
+  std::size_t find(const std::string& name) const {
+    std::size_t q = 0;
+    while (q < quantities_.size() && quantities_[q].name != name) ++q;
+    return q;
+  }
+
+  void tie_cell(const std::vector<std::size_t>& variates) {
+    for (std::size_t i = 0; i < n_; ++i) {
+      if (std::count(variates.begin(), variates.end(), variates[i]) > 1)
+        fail(fmt::format("{} is named twice", correlation_.quantities[i]));
+      for (const CopulaGroup& other : plan_.copulas)
+        if (std::count(other.variates.begin(), other.variates.end(), variates[i]) > 0)
+          fail(fmt::format("{} is tied by another correlation already", correlation_.quantities[i]), "",
+               "one matrix for all of them?");
+    }
+    CopulaGroup group{variates, {}, correlation_.matrix};
+    for (std::size_t i = 0; i < n_; ++i)
+      for (std::size_t j = 0; j < i; ++j) {
+        const Variate &a = plan_.variates[variates[i]], &b = plan_.variates[variates[j]];
+        group.matrix[i * n_ + j] = group.matrix[j * n_ + i] =
+            copula_coefficient(correlation_.kind, correlation_.matrix[i * n_ + j], a.distribution, b.distribution,
+                               b.name + " and " + a.name);
+      }
+    group.cholesky = cholesky_factor(group.matrix, n_, group_);
+    plan_.copulas.push_back(std::move(group));
+  }
+
+  std::span<const InputQuantity> quantities_;
+  const Correlation& correlation_;
+  SamplePlan& plan_;
+  std::size_t n_;
+  std::string group_;
+};
+
+} // namespace
+
+void tie(std::span<const InputQuantity> quantities, const Correlation& correlation, SamplePlan& plan) {
+  Tying(quantities, correlation, plan).tie();
+}
+
+} // namespace gumshoe::quantities

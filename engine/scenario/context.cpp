@@ -1,0 +1,112 @@
+#include "scenario/context.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "base/hash.h"
+#include "base/text_file.h"
+
+namespace gumshoe::scenario {
+namespace {
+constexpr std::size_t largest_data_file = std::size_t{256} << 20;
+}
+
+DataFiles::DataFiles(const std::string& scenario_file)
+    : folder_(std::filesystem::path(scenario_file).parent_path().string()) {}
+
+const Csv* DataFiles::open(const Node& node, const std::string& path, Problems& problems) {
+  const auto name = read_text(node, path, problems);
+  if (!name) return nullptr;
+  const std::string file = (std::filesystem::path(folder_) / *name).string();
+  for (const File& f : files_)
+    if (f.name == file) return f.csv.get();
+  files_.push_back({file, {}, nullptr});
+  try {
+    files_.back().bytes = read_text_file(file, largest_data_file);
+    files_.back().csv = std::make_unique<Csv>(parse_csv(files_.back().bytes, file));
+  } catch (const InputError& error) {
+    for (const Problem& p : error.problems()) {
+      if (p.where.line > 0) problems.add(InputError(std::vector<Problem>{p}));
+      else problems.add(node, fmt::format("{}: '{}': {}", path, file, p.what), p.why, p.remedy);
+    }
+  }
+  return files_.back().csv.get();
+}
+
+std::uint64_t DataFiles::hash(std::uint64_t hash) const {
+  for (const File& file : files_) hash = hash64(file.bytes, hash);
+  return hash;
+}
+
+int find_column(Table& table, const std::string& key, const Csv& csv) {
+  const auto name = table.text(key);
+  if (!name) return -1;
+  const int column = csv.find(*name);
+  if (column < 0) {
+    table.problems().add(*table.find(key), fmt::format("{}: '{}' has no column '{}'", table.path(key), csv.file, *name),
+                         "", did_you_mean(*name, csv.names()));
+  }
+  return column;
+}
+
+std::optional<DataColumn> read_data_column(Table& table, const std::string& si_unit, DataFiles& files) {
+  DataColumn out;
+  const Node* file = table.require("file");
+  const Node* column = table.require("column");
+  const auto unit = table.text("unit");
+  if (file) out.csv = files.open(*file, table.path("file"), table.problems());
+  if (!table.has("unit") && si_unit != "1")
+    table.add(fmt::format("{}: missing", table.path("unit")), "the column's numbers carry none", "unit = \"mm\"?");
+  out.unit = unit.value_or("1");
+  const bool known = table.has("unit") ? unit && units::convertible(out.unit, si_unit) : si_unit == "1";
+  if (unit && !known) {
+    try {
+      units::to_si(0, *unit, si_unit);
+    } catch (const InputError& error) {
+      const Problem& p = error.problems().front();
+      table.problems().add(*table.find("unit"), table.path("unit") + ": " + p.what, p.why, p.remedy);
+    }
+  }
+  if (out.csv && column) out.column = find_column(table, "column", *out.csv);
+  if (out.column < 0 || !known) return std::nullopt;
+  return out;
+}
+
+std::optional<double> read_cell(const Csv& csv, const CsvCell& cell, const std::string& unit,
+                                const Dimension& dimension, Problems& problems) {
+  try {
+    return units::to_si(csv.number(cell), unit, dimension.si_unit, dimension.kind);
+  } catch (const InputError& error) {
+    problems.add(error);
+    return std::nullopt;
+  }
+}
+
+std::vector<std::string> Context::label_names() const {
+  std::vector<std::string> names;
+  for (const auto& [name, values] : label_values) names.push_back(name);
+  return names;
+}
+
+const std::string* find_label(const quantities::Labels& labels, const std::string& name) {
+  for (const auto& [key, value] : labels)
+    if (key == name) return &value;
+  return nullptr;
+}
+
+bool matches(const quantities::Labels& labels, const quantities::Labels& some) {
+  return std::all_of(some.begin(), some.end(), [&](const auto& label) {
+    const std::string* value = find_label(labels, label.first);
+    return value && *value == label.second;
+  });
+}
+
+std::string text_of(const quantities::Labels& labels) {
+  std::string out;
+  for (const auto& [key, value] : labels) out += (out.empty() ? "" : ", ") + key + " = " + value;
+  return out;
+}
+
+} // namespace gumshoe::scenario

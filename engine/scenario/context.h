@@ -1,0 +1,68 @@
+#pragma once
+/// What the parts of the parser share: problems, notes, data files and the labels of the readings.
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "base/csv.h"
+#include "quantities/input_quantity.h"
+#include "scenario/reader.h"
+
+namespace gumshoe::scenario {
+
+/// Data files named by a scenario, relative to its folder; each is read once and hashed.
+class DataFiles {
+public:
+  explicit DataFiles(const std::string& scenario_file);
+  /// The file named by the text node; null and a problem if it cannot be read or is no CSV.
+  const Csv* open(const Node& name, const std::string& path, Problems& problems);
+  /// Continues `hash` over the bytes of every file opened, in order.
+  std::uint64_t hash(std::uint64_t hash) const;
+
+private:
+  struct File {
+    std::string name, bytes;
+    std::unique_ptr<Csv> csv; ///< null if it was no CSV
+  };
+  std::string folder_;
+  std::vector<File> files_;
+};
+
+/// A column of a data file in SI: { file = "...", column = "...", unit = "..." }.
+struct DataColumn {
+  const Csv* csv = nullptr;
+  int column = -1;
+  std::string unit;
+};
+/// Finds the column named by `key` of the table; -1 and a problem if it is not there.
+int find_column(Table& table, const std::string& key, const Csv& csv);
+/// Reads file, column and unit; nullopt and problems if something is wrong.
+std::optional<DataColumn> read_data_column(Table& table, const std::string& si_unit, DataFiles& files);
+/// A cell in SI; nullopt and a problem located in the data file.
+std::optional<double> read_cell(const Csv& csv, const CsvCell& cell, const std::string& unit,
+                                const Dimension& dimension, Problems& problems);
+
+struct Context {
+  Problems& problems;
+  DataFiles& files;
+  std::vector<std::string>& notes;
+  /// Labels of every reading; what a `by` or `per` may name.
+  std::vector<quantities::Labels> readings;
+  /// Label values that occur in the data, also in rows that `where` leaves out.
+  std::map<std::string, std::set<std::string>> label_values;
+  bool readings_known = true; ///< false if they had problems: then labels are not checked
+
+  std::vector<std::string> label_names() const;
+};
+
+/// The value of a label, or null.
+const std::string* find_label(const quantities::Labels& labels, const std::string& name);
+/// True if every one of `some` is among `labels`.
+bool matches(const quantities::Labels& labels, const quantities::Labels& some);
+/// "rod = rod 2, setup = 1"
+std::string text_of(const quantities::Labels& labels);
+
+} // namespace gumshoe::scenario

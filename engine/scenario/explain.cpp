@@ -1,0 +1,152 @@
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "base/units.h"
+#include "scenario/context.h"
+#include "scenario/scenario.h"
+
+namespace gumshoe::scenario {
+namespace {
+
+using quantities::Component;
+using quantities::Distribution;
+using quantities::Entry;
+using quantities::Family;
+using quantities::InputQuantity;
+using quantities::Reading;
+
+using Lines = std::back_insert_iterator<std::string>;
+
+/// "0.005 m (5 mm)"
+std::string both(double si, std::string_view unit, std::string_view si_unit) {
+  if (unit == "1") return fmt::format("{:.12g}", si);
+  if (unit == si_unit) return fmt::format("{:.12g} {}", si, unit);
+  const double shown = units::from_si(si, std::string(unit), std::string(si_unit));
+  return fmt::format("{:.12g} {} ({:.12g} {})", si, si_unit, shown, unit);
+}
+
+std::string suffix(const std::string& si_unit) { return si_unit == "1" ? "" : " " + si_unit; }
+
+std::string parameters(const Distribution& d, const std::string& si_unit) {
+  if (d.values) return fmt::format("{} values", d.values->size());
+  std::string out;
+  const auto families = quantities::families();
+  const auto card = std::find_if(families.begin(), families.end(), [&](const auto& f) { return f.family == d.family; });
+  for (std::size_t i = 0; card != families.end() && i < card->parameters.size(); ++i) {
+    const auto& p = card->parameters[i];
+    const bool plain = p.dimension == quantities::ParameterCard::Dimension::number ||
+                       p.dimension == quantities::ParameterCard::Dimension::log;
+    out += fmt::format("{}{} {:.6g}{}", out.empty() ? "" : ", ", p.key, d.parameters[i], plain ? "" : suffix(si_unit));
+  }
+  return out;
+}
+
+std::string family_name(const Distribution& d) {
+  for (const auto& card : quantities::families())
+    if (card.family == d.family) return std::string(card.name);
+  return "?";
+}
+
+void explain(const Component& c, const InputQuantity& q, Lines out) {
+  const double variance = c.distribution.variance();
+  const std::string u = std::isfinite(variance) ? fmt::format("u {:.6g}{}", std::sqrt(variance), suffix(q.si_unit))
+                                                : std::string("no standard uncertainty");
+  fmt::format_to(out, "      {}: {} ({}), {}, Type {}, {}", c.name, family_name(c.distribution),
+                 parameters(c.distribution, q.si_unit), u, c.evaluation,
+                 c.per.empty() ? "one draw" : fmt::format("one draw per {}", fmt::join(c.per, ", ")));
+  if (c.degrees_of_freedom > 0) fmt::format_to(out, ", {:.6g} degrees of freedom", c.degrees_of_freedom);
+  if (!c.source.empty()) fmt::format_to(out, ", source: {}", c.source);
+  fmt::format_to(out, "\n");
+}
+
+void explain(const InputQuantity& q, const ModelCard& model, Lines out) {
+  const bool noise = std::any_of(model.indications.begin(), model.indications.end(), [&](const auto& i) { return i.name == q.name; });
+  for (const Entry& e : q.entries) {
+    const std::string labels = e.labels.empty() ? "" : " [" + text_of(e.labels) + "]";
+    fmt::format_to(out, "  {}{}{} = {}", noise ? "noise of " : "", q.name, labels, both(e.value, q.unit, q.si_unit));
+    if (e.source == "default") fmt::format_to(out, ", default");
+    else if (!e.source.empty() && e.components.empty()) fmt::format_to(out, ", source: {}", e.source);
+    fmt::format_to(out, "{}\n", e.components.empty() ? ", exact" : "");
+    for (const Component& c : e.components) explain(c, q, out);
+  }
+}
+
+void explain(const Reading& r, std::size_t number, const ModelCard& model, Lines out) {
+  fmt::format_to(out, "  {}{}:", number, r.labels.empty() ? "" : " [" + text_of(r.labels) + "]");
+  for (std::size_t i = 0; i < model.conditions.size(); ++i) {
+    const VariableCard& c = model.conditions[i];
+    fmt::format_to(out, " {} {};", c.name, both(r.conditions[i], c.unit, c.si_unit));
+  }
+  for (std::size_t i = 0; i < r.indications.size(); ++i) {
+    const VariableCard& c = model.indications[i];
+    fmt::format_to(out, " {} {};", c.name, both(r.indications[i], c.unit, c.si_unit));
+  }
+  fmt::format_to(out, " {}\n", r.repeats == 1 ? "one readout" : fmt::format("mean of {} readouts", r.repeats));
+}
+
+void explain(const quantities::Correlation& c, Lines out) {
+  constexpr std::string_view kinds[] = {"copula", "pearson", "spearman"};
+  fmt::format_to(out, "  {} ({}):", fmt::join(c.quantities, ", "), kinds[static_cast<int>(c.kind)]);
+  for (std::size_t i = 0; i < c.matrix.size(); ++i)
+    fmt::format_to(out, "{}{:.6g}", i && i % c.quantities.size() == 0 ? "; " : " ", c.matrix[i]);
+  fmt::format_to(out, "\n");
+}
+
+void explain_options(const Scenario& s, const ModelCard& model, Lines out) {
+  constexpr std::string_view designs[] = {"monte_carlo", "latin_hypercube", "sobol"};
+  fmt::format_to(out, "run\n  samples {}, seed {}, design {}, max_failed_share {}, store_samples {}\n", s.run.samples,
+                 s.run.seed, designs[static_cast<int>(s.run.design)], s.run.max_failed_share, s.run.store_samples);
+  fmt::format_to(out, "analysis\n  coverage_probability {}, validation_digits {}, sensitivity {}\n",
+                 s.analysis.coverage_probability, s.analysis.validation_digits,
+                 s.analysis.sobol_samples ? fmt::format("sobol {}", s.analysis.sobol_samples) : "none");
+  for (const Comparison& c : s.analysis.comparisons)
+    fmt::format_to(out, "  compare {} between values of {}{}\n", c.measurand, c.between, c.within.empty() ? "" : ", within " + c.within);
+  for (const Printed& p : s.analysis.printed) {
+    const auto card = std::find_if(model.measurands.begin(), model.measurands.end(), [&](const auto& m) { return m.name == p.measurand; });
+    const std::string labels = p.labels.empty() ? "" : " [" + text_of(p.labels) + "]";
+    fmt::format_to(out, "  printed {}{} = {}{}\n", p.measurand, labels,
+                   card == model.measurands.end() ? std::string("?") : both(p.value, card->unit, card->si_unit),
+                   p.source.empty() ? "" : ", source: " + p.source);
+  }
+}
+
+std::string null_effects(const Scenario& s, const ModelCard& model, const Catalogue& catalogue) {
+  std::string out;
+  for (const EffectCard* effect : catalogue.effects) {
+    if (catalogue.applies && !catalogue.applies(model, *effect)) continue;
+    const std::string prefix = std::string(effect->name) + '.';
+    const bool freed = std::any_of(s.quantities.begin(), s.quantities.end(), [&](const auto& q) { return q.name.starts_with(prefix); });
+    if (!freed) out += (out.empty() ? "" : ", ") + std::string(effect->name);
+  }
+  return out;
+}
+
+} // namespace
+
+std::string explain(const Scenario& s, const Catalogue& catalogue) {
+  std::string text;
+  const Lines out = std::back_inserter(text);
+  fmt::format_to(out, "{} (hash {})\n", s.file, s.hash);
+  if (!s.title.empty()) fmt::format_to(out, "title: {}\n", s.title);
+  fmt::format_to(out, "model {}, method {}, evaluation {}\n", s.model,
+                 s.method == Method::propagation ? "propagation" : "virtual_experiment", s.evaluation);
+  const auto model = std::find_if(catalogue.models.begin(), catalogue.models.end(), [&](const auto* m) { return m->name == s.model; });
+  if (model == catalogue.models.end()) return text;
+  fmt::format_to(out, "readings\n");
+  for (std::size_t i = 0; i < s.readings.size(); ++i) explain(s.readings[i], i + 1, **model, out);
+  fmt::format_to(out, "quantities (SI; a component is a deviation from the value)\n");
+  for (const InputQuantity& q : s.quantities) explain(q, **model, out);
+  if (!s.correlations.empty()) fmt::format_to(out, "correlations\n");
+  for (const auto& c : s.correlations) explain(c, out);
+  if (const std::string left = null_effects(s, **model, catalogue); !left.empty())
+    fmt::format_to(out, "effects at their null value\n  {}\n", left);
+  explain_options(s, **model, out);
+  if (!s.notes.empty()) fmt::format_to(out, "notes\n");
+  for (const std::string& note : s.notes) fmt::format_to(out, "  {}\n", note);
+  return text;
+}
+
+} // namespace gumshoe::scenario

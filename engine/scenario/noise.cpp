@@ -1,0 +1,272 @@
+#include "scenario/noise.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "scenario/quantity.h"
+
+namespace gumshoe::scenario {
+namespace {
+
+using quantities::Component;
+using quantities::Entry;
+using quantities::Family;
+using quantities::InputQuantity;
+using quantities::Labels;
+
+struct Repeatability {
+  enum class Kind { none, readings, declared } kind = Kind::none;
+  Scatter scatter; ///< declared or pooled; degrees_of_freedom 0 means infinite
+  char evaluation = 'A';
+  std::string source;
+};
+
+double sum_of_squares(const std::vector<double>& x) {
+  double mean = 0, sum = 0;
+  for (const double v : x) mean += v / static_cast<double>(x.size());
+  for (const double v : x) sum += (v - mean) * (v - mean);
+  return sum;
+}
+
+class NoiseReader {
+public:
+  NoiseReader(Table& table, const VariableCard& card, const IndicationReadouts& readouts, Context& context)
+      : table_(table), card_(card), readouts_(readouts), context_(context) {}
+
+  InputQuantity read() {
+    InputQuantity out{std::string(card_.name), std::string(card_.unit), std::string(card_.si_unit), {}};
+    const auto step = read_step();
+    const Repeatability repeatability = read_repeatability();
+    double unused = 0;
+    const auto further = read_components(table_, std::string(card_.si_unit), true, unused, context_);
+    for (const Component& c : further) {
+      if (c.name == "resolution" || c.name == "repeatability")
+        table_.add(fmt::format("{}.components: the name '{}' is taken", table_.path(), c.name), "", "choose another name?");
+    }
+    std::vector<Entry> entries;
+    for (const Readouts& reading : readouts_.used) add(entries, reading, choose(reading, step, repeatability));
+    if (entries.empty()) entries.push_back({});
+    if (std::all_of(entries.begin(), entries.end(), [&](const Entry& e) { return alike(e, entries.front()); })) {
+      entries.resize(1);
+      entries.front().labels.clear();
+    } else {
+      refuse_shared(further, entries);
+    }
+    for (Entry& e : entries) e.components.insert(e.components.end(), further.begin(), further.end());
+    if (entries.front().components.empty()) {
+      note("no component of uncertainty is stated: the readouts count as exact");
+    }
+    out.entries = std::move(entries);
+    return out;
+  }
+
+private:
+  void note(const std::string& text) {
+    const std::string line = std::string(card_.name) + ": " + text;
+    if (std::find(context_.notes.begin(), context_.notes.end(), line) == context_.notes.end()) context_.notes.push_back(line);
+  }
+  std::string shown(double value) const {
+    const bool length = card_.si_unit == "m"; // scatter of lengths reads best in um
+    const std::string unit(length ? "um" : card_.unit);
+    return fmt::format("{:.3g} {}", units::from_si(value, unit, std::string(card_.si_unit), units::Kind::difference), unit);
+  }
+
+  std::optional<double> read_step() {
+    const auto step = table_.measure("resolution", {std::string(card_.si_unit), units::Kind::difference});
+    if (step && *step <= 0) {
+      context_.problems.add(*table_.find("resolution"), table_.path("resolution") + ": must be above 0");
+      return std::nullopt;
+    }
+    return step;
+  }
+
+  Repeatability read_repeatability() {
+    const Node* node = table_.find("repeatability");
+    if (!node) return {};
+    const std::string path = table_.path("repeatability");
+    if (node->kind == Node::Kind::text && node->text == "readings") {
+      own_repeats(*node, path);
+      return {Repeatability::Kind::readings, {}, 'A', "repeats of each reading"};
+    }
+    if (node->kind != Node::Kind::table) {
+      context_.problems.add(*node, path + ": not understood", "", "\"readings\", { s = \"...\" } or { pooled = true }?");
+      return {};
+    }
+    Table table(*node, path, context_.problems);
+    Repeatability out = table.boolean("pooled").value_or(false) ? pooled(table) : declared(table);
+    if (const std::string source = table.rendered("source"); !source.empty()) out.source = source;
+    if (const auto evaluation = table.choice("evaluation", {"A", "B"})) out.evaluation = *evaluation ? 'B' : 'A';
+    table.refuse_unknown();
+    return out;
+  }
+
+  void own_repeats(const Node& node, const std::string& path) {
+    if (!context_.readings_known) return;
+    for (const Readouts& r : readouts_.used) {
+      if (r.values.size() > 1) continue;
+      const std::string of = r.labels.empty() ? "" : fmt::format(" (reading {})", text_of(r.labels));
+      context_.problems.add(node, fmt::format("{}: {} readout(s){} say nothing of their scatter", path, r.values.size(), of),
+                            "", "repeat, or declare or pool s?");
+      return;
+    }
+  }
+
+  Repeatability pooled(Table& table) {
+    for (const char* key : {"s", "degrees_of_freedom"})
+      if (table.has(key)) table.add(fmt::format("{}: {} beside pooled", table.path(), key), "the data say it", "leave it out?");
+    const Scatter scatter = pooled_scatter(readouts_.all);
+    if (!(scatter.degrees_of_freedom > 0)) {
+      if (context_.readings_known) table.add(table.path() + ": nothing to pool", "no reading was repeated", "declare s?");
+      return {};
+    }
+    return {Repeatability::Kind::declared, scatter, 'A',
+            fmt::format("s = {} pooled over {} readings, {} degrees of freedom (GUM 4.2.4)", shown(scatter.s),
+                        readouts_.all.size(), scatter.degrees_of_freedom)};
+  }
+
+  Repeatability declared(Table& table) {
+    Repeatability out{Repeatability::Kind::declared, {}, 'A', {}};
+    const Node* node = table.require("s", "s = \"...\", or pooled = true?");
+    const auto s = table.measure("s", {std::string(card_.si_unit), units::Kind::difference});
+    out.scatter.degrees_of_freedom = table.positive("degrees_of_freedom").value_or(0);
+    if (!table.has("degrees_of_freedom")) out.evaluation = 'B';
+    if (node && s && *s <= 0) context_.problems.add(*node, table.path("s") + ": must be above 0");
+    if (!s || *s <= 0) return {};
+    out.scatter.s = *s;
+    return out;
+  }
+
+  /// Scale and degrees of freedom of the mean of a reading.
+  std::optional<Component> repeatability_of(const Readouts& reading, const Repeatability& r, Scatter& scatter) {
+    if (r.kind == Repeatability::Kind::none) return std::nullopt;
+    scatter = r.scatter;
+    if (r.kind == Repeatability::Kind::readings) {
+      if (reading.values.size() < 2) return std::nullopt;
+      scatter.degrees_of_freedom = static_cast<double>(reading.values.size()) - 1;
+      scatter.s = std::sqrt(sum_of_squares(reading.values) / scatter.degrees_of_freedom);
+      if (!(scatter.s > 0)) note(fmt::format("{} identical readouts: their Type A evaluation is zero", reading.repeats));
+    }
+    if (!(scatter.s > 0)) return std::nullopt;
+    const double scale = scatter.s / std::sqrt(static_cast<double>(reading.repeats));
+    Component c;
+    c.name = "repeatability";
+    // A mean with a (pooled) s of finite degrees of freedom is a t, JCGM 101:2008, 6.4.9.
+    if (scatter.degrees_of_freedom > 0) c.distribution = {Family::t, {0, scale, scatter.degrees_of_freedom}, nullptr, nullptr};
+    else c.distribution = {Family::normal, {0, scale}, nullptr, nullptr};
+    c.evaluation = r.evaluation;
+    c.degrees_of_freedom = scatter.degrees_of_freedom;
+    c.per = {"reading"};
+    c.source = r.source;
+    return c;
+  }
+
+  static std::optional<Component> resolution_of(const std::optional<double>& step) {
+    if (!step) return std::nullopt;
+    Component c;
+    c.name = "resolution";
+    c.distribution = {Family::rectangular, {-*step / 2, *step / 2}, nullptr, nullptr};
+    c.per = {"reading"};
+    c.source = "half a step of the readout either way, one draw per mean";
+    return c;
+  }
+
+  std::vector<Component> choose(const Readouts& reading, const std::optional<double>& step, const Repeatability& r) {
+    Scatter scatter;
+    const auto repeatability = repeatability_of(reading, r, scatter);
+    auto resolution = resolution_of(step);
+    if (resolution) resolution->source = fmt::format("step {}, {}", shown(*step), resolution->source);
+    if (!repeatability && !resolution) return {};
+    if (!repeatability) {
+      if (r.kind != Repeatability::Kind::none) note("resolution used, not repeatability, which is zero");
+      return {*resolution};
+    }
+    const double scale = repeatability->distribution.parameters[1];
+    if (!resolution) return warned(*repeatability, reading);
+    const double u = *step / (2 * std::sqrt(3.0));
+    const bool rounding = u >= scale;
+    note(fmt::format("{} used, not {}: step/(2 sqrt 3) = {} is {} than s/sqrt(n) = {} (s = {}, n = {}); s of rounded "
+                     "readouts already contains the rounding",
+                     rounding ? "resolution" : "repeatability", rounding ? "repeatability" : "resolution", shown(u),
+                     u > scale ? "larger" : u < scale ? "smaller" : "not larger", shown(scale), shown(scatter.s), reading.repeats));
+    if (rounding) return {*resolution};
+    return warned(*repeatability, reading);
+  }
+
+  std::vector<Component> warned(const Component& repeatability, const Readouts& reading) {
+    if (repeatability.distribution.family == Family::t && repeatability.degrees_of_freedom <= 2) {
+      note(fmt::format("{} readouts give a t distribution with {} degree(s) of freedom, which has no standard "
+                       "uncertainty: only quantiles are stated",
+                       reading.repeats, repeatability.degrees_of_freedom));
+    }
+    return {repeatability};
+  }
+
+  static double spread(const Entry& e) {
+    if (e.components.empty()) return 0;
+    const auto& d = e.components.front().distribution;
+    return d.family == Family::rectangular ? d.parameters[1] / std::sqrt(3.0) : d.parameters[1];
+  }
+
+  static bool alike(const Entry& a, const Entry& b) {
+    return std::equal(a.components.begin(), a.components.end(), b.components.begin(), b.components.end(),
+                      [](const Component& x, const Component& y) {
+                        return x.name == y.name && x.distribution.family == y.distribution.family &&
+                               x.distribution.parameters == y.distribution.parameters;
+                      });
+  }
+
+  /// Entries are told apart by labels; of readings that differ by conditions only the largest noise holds.
+  void add(std::vector<Entry>& entries, const Readouts& reading, std::vector<Component> components) {
+    Entry entry{reading.labels, 0, std::move(components), {}};
+    for (Entry& e : entries) {
+      if (e.labels != entry.labels) continue;
+      if (!alike(e, entry)) {
+        note(fmt::format("readings with equal labels ({}) differ in noise: the largest is used for all", text_of(e.labels)));
+        if (spread(entry) > spread(e)) e = std::move(entry);
+      }
+      return;
+    }
+    entries.push_back(std::move(entry));
+  }
+
+  void refuse_shared(const std::vector<Component>& further, const std::vector<Entry>& entries) {
+    for (const Component& c : further) {
+      const auto scoped = [&](const std::string& name) { return std::find(c.per.begin(), c.per.end(), name) != c.per.end(); };
+      if (scoped("reading")) continue;
+      for (const auto& [label, value] : entries.front().labels) {
+        if (scoped(label)) continue;
+        table_.add(fmt::format("{}.components: '{}' is shared by readings of different noise", table_.path(), c.name),
+                   "its draws would no longer be shared", "per = \"reading\", or an equal number of repeats?");
+        return;
+      }
+    }
+  }
+
+  Table& table_;
+  const VariableCard& card_;
+  const IndicationReadouts& readouts_;
+  Context& context_;
+};
+
+} // namespace
+
+Scatter pooled_scatter(const std::vector<Readouts>& cells) {
+  Scatter out;
+  double squares = 0;
+  for (const Readouts& cell : cells) {
+    if (cell.values.size() < 2) continue;
+    squares += sum_of_squares(cell.values);
+    out.degrees_of_freedom += static_cast<double>(cell.values.size()) - 1;
+  }
+  if (out.degrees_of_freedom > 0) out.s = std::sqrt(squares / out.degrees_of_freedom);
+  return out;
+}
+
+quantities::InputQuantity read_noise(Table& table, const VariableCard& card, const IndicationReadouts& readouts,
+                                     Context& context) {
+  return NoiseReader(table, card, readouts, context).read();
+}
+
+} // namespace gumshoe::scenario

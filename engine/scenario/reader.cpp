@@ -1,0 +1,233 @@
+#include "scenario/reader.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace gumshoe::scenario {
+
+void Problems::add(int line, int column, std::string what, std::string why, std::string remedy) {
+  list_.push_back({{file_, line, column}, std::move(what), std::move(why), std::move(remedy)});
+}
+
+void Problems::add(const InputError& error) {
+  list_.insert(list_.end(), error.problems().begin(), error.problems().end());
+}
+
+void Problems::raise() const {
+  if (list_.empty()) return;
+  std::vector<Problem> sorted = list_;
+  std::stable_sort(sorted.begin(), sorted.end(), [&](const Problem& a, const Problem& b) {
+    const bool other_a = a.where.file != file_, other_b = b.where.file != file_;
+    return std::tie(other_a, a.where.line, a.where.column) < std::tie(other_b, b.where.line, b.where.column);
+  });
+  // Two readers of one key may find the same fault.
+  sorted.erase(std::unique(sorted.begin(), sorted.end(),
+                           [](const Problem& a, const Problem& b) { return format(a) == format(b); }),
+               sorted.end());
+  throw InputError(std::move(sorted));
+}
+
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates) {
+  const std::string near = nearest(word, candidates);
+  if (!near.empty()) return fmt::format("did you mean '{}'?", near);
+  if (candidates.empty() || candidates.size() > 12) return {};
+  return fmt::format("one of {}?", fmt::join(candidates, ", "));
+}
+
+std::optional<double> read_measure(const Node& node, const std::string& path, const Dimension& dimension,
+                                   Problems& problems) {
+  const std::string kind = units::kind_name(dimension.si_unit);
+  if (node.kind == Node::Kind::integer || node.kind == Node::Kind::real) {
+    if (!std::isfinite(node.number)) {
+      problems.add(node, fmt::format("{}: not a finite number", path));
+    } else if (dimension.si_unit == "1") {
+      return node.number;
+    } else {
+      problems.add(node, fmt::format("{}: {} is not {}", path, node.number, kind), "a number with a dimension carries its unit",
+                   fmt::format("write it as text with a unit, like \"{} ...\"?", node.number));
+    }
+    return std::nullopt;
+  }
+  if (node.kind != Node::Kind::text) {
+    problems.add(node, fmt::format("{}: {} is not {}", path, describe(node.kind), kind), "",
+                 "write it as text with a unit, like \"0.6 um\"?");
+    return std::nullopt;
+  }
+  try {
+    const units::Measure measure = units::parse(node.text);
+    return units::to_si(measure.number, measure.unit, dimension.si_unit, dimension.kind);
+  } catch (const InputError& error) {
+    Problem p = error.problems().front();
+    const std::string number_and_unit = units::kind_name(dimension.si_unit);
+    // "'N' is not a length" names the unit; a reader looks for what he wrote.
+    if (p.what.ends_with("is not " + number_and_unit)) p.what = fmt::format("'{}' is not {}", node.text, kind);
+    problems.add(node, path + ": " + p.what, p.why, p.remedy);
+    return std::nullopt;
+  }
+}
+
+std::optional<double> read_number(const Node& node, const std::string& path, Problems& problems) {
+  if (node.kind != Node::Kind::integer && node.kind != Node::Kind::real) {
+    problems.add(node, fmt::format("{}: expected a number without a unit, found {}", path, describe(node.kind)));
+    return std::nullopt;
+  }
+  if (!std::isfinite(node.number)) {
+    problems.add(node, fmt::format("{}: not a finite number", path));
+    return std::nullopt;
+  }
+  return node.number;
+}
+
+std::optional<std::string> read_text(const Node& node, const std::string& path, Problems& problems) {
+  if (node.kind == Node::Kind::text) return node.text;
+  problems.add(node, fmt::format("{}: expected text, found {}", path, describe(node.kind)), "", "put it in quotes?");
+  return std::nullopt;
+}
+
+std::optional<Table> as_table(const Node& node, const std::string& path, Problems& problems) {
+  if (node.kind == Node::Kind::table) return Table(node, path, problems);
+  problems.add(node, fmt::format("{}: expected a table, found {}", path, describe(node.kind)));
+  return std::nullopt;
+}
+
+const Node* Table::find(const std::string& key) {
+  known_.insert(key);
+  for (const Member& m : node_->members)
+    if (m.key == key) return &m.value;
+  return nullptr;
+}
+
+const Node* Table::require(const std::string& key, const std::string& remedy) {
+  const Node* node = find(key);
+  if (!node) add(fmt::format("{}: missing", path(key)), "", remedy);
+  return node;
+}
+
+std::optional<std::string> Table::text(const std::string& key) {
+  const Node* node = find(key);
+  return node ? read_text(*node, path(key), *problems_) : std::nullopt;
+}
+
+std::optional<double> Table::number(const std::string& key) {
+  const Node* node = find(key);
+  return node ? read_number(*node, path(key), *problems_) : std::nullopt;
+}
+
+std::optional<double> Table::positive(const std::string& key) {
+  const auto value = number(key);
+  if (value && *value <= 0) {
+    problems_->add(*find(key), fmt::format("{}: {} must be above 0", path(key), *value));
+    return std::nullopt;
+  }
+  return value;
+}
+
+std::optional<double> Table::measure(const std::string& key, const Dimension& dimension) {
+  const Node* node = find(key);
+  return node ? read_measure(*node, path(key), dimension, *problems_) : std::nullopt;
+}
+
+std::optional<bool> Table::boolean(const std::string& key) {
+  const Node* node = find(key);
+  if (!node) return std::nullopt;
+  if (node->kind == Node::Kind::boolean) return node->boolean;
+  problems_->add(*node, fmt::format("{}: expected true or false, found {}", path(key), describe(node->kind)));
+  return std::nullopt;
+}
+
+std::optional<std::int64_t> Table::integer(const std::string& key, std::int64_t low, std::int64_t high) {
+  const Node* node = find(key);
+  const auto value = node ? read_number(*node, path(key), *problems_) : std::nullopt;
+  if (!value) return std::nullopt;
+  if (std::floor(*value) != *value || std::abs(*value) > 9e15) {
+    problems_->add(*node, fmt::format("{}: {} is not a whole number", path(key), *value));
+    return std::nullopt;
+  }
+  const auto whole = static_cast<std::int64_t>(*value);
+  if (whole < low || whole > high) {
+    problems_->add(*node, fmt::format("{}: {} must lie between {} and {}", path(key), whole, low, high));
+    return std::nullopt;
+  }
+  return whole;
+}
+
+std::optional<Table> Table::table(const std::string& key) {
+  const Node* node = find(key);
+  return node ? as_table(*node, path(key), *problems_) : std::nullopt;
+}
+
+const std::vector<Node>* Table::array(const std::string& key) {
+  const Node* node = find(key);
+  if (!node) return nullptr;
+  if (node->kind == Node::Kind::array) return &node->items;
+  problems_->add(*node, fmt::format("{}: expected an array, found {}", path(key), describe(node->kind)));
+  return nullptr;
+}
+
+std::vector<std::string> Table::texts(const std::string& key) {
+  const Node* node = find(key);
+  std::vector<std::string> out;
+  if (!node) return out;
+  if (node->kind != Node::Kind::array) {
+    if (auto one = read_text(*node, path(key), *problems_)) out.push_back(*one);
+    return out;
+  }
+  for (const Node& item : node->items)
+    if (auto one = read_text(item, path(key), *problems_)) out.push_back(*one);
+  return out;
+}
+
+namespace {
+std::string render(const Node& node) {
+  switch (node.kind) {
+  case Node::Kind::text:
+  case Node::Kind::date: return node.text;
+  case Node::Kind::integer: return fmt::format("{}", node.integer);
+  case Node::Kind::real: return fmt::format("{}", node.number);
+  case Node::Kind::boolean: return node.boolean ? "true" : "false";
+  case Node::Kind::array: {
+    std::string out;
+    for (const Node& item : node.items) out += (out.empty() ? "" : ", ") + render(item);
+    return out;
+  }
+  case Node::Kind::table: {
+    std::string out;
+    for (const Member& m : node.members) out += (out.empty() ? "" : ", ") + m.key + ": " + render(m.value);
+    return out;
+  }
+  }
+  return {};
+}
+} // namespace
+
+std::string Table::rendered(const std::string& key) {
+  const Node* node = find(key);
+  return node ? render(*node) : std::string();
+}
+
+std::optional<std::size_t> Table::choice(const std::string& key, const std::vector<std::string>& words) {
+  const auto word = text(key);
+  if (!word) return std::nullopt;
+  const auto it = std::find(words.begin(), words.end(), *word);
+  if (it != words.end()) return static_cast<std::size_t>(it - words.begin());
+  problems_->add(*find(key), fmt::format("{}: '{}' is unknown", path(key), *word), "", did_you_mean(*word, words));
+  return std::nullopt;
+}
+
+const std::vector<Member>& Table::members() {
+  for (const Member& m : node_->members) known_.insert(m.key);
+  return node_->members;
+}
+
+void Table::refuse_unknown() {
+  for (const Member& m : node_->members) {
+    if (known_.contains(m.key)) continue;
+    const std::string prefix = path_.empty() ? "" : path_ + ": ";
+    problems_->add(m.line, m.column, fmt::format("{}unknown key '{}'", prefix, m.key), "",
+                   did_you_mean(m.key, {known_.begin(), known_.end()}));
+  }
+}
+
+} // namespace gumshoe::scenario

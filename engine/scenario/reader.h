@@ -1,0 +1,104 @@
+#pragma once
+/// Typed access to tables that records every problem with its place and remembers which keys were
+/// asked for, so that keys nobody asked for are found without a list.
+#include <functional>
+#include <initializer_list>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "base/units.h"
+#include "scenario/document.h"
+
+namespace gumshoe::scenario {
+
+/// Problems found so far, in one file or in files it names.
+class Problems {
+public:
+  explicit Problems(std::string file) : file_(std::move(file)) {}
+  void add(int line, int column, std::string what, std::string why = {}, std::string remedy = {});
+  void add(const Node& node, std::string what, std::string why = {}, std::string remedy = {}) {
+    add(node.line, node.column, std::move(what), std::move(why), std::move(remedy));
+  }
+  void add(const InputError& error);
+  bool empty() const { return list_.empty(); }
+  std::size_t size() const { return list_.size(); }
+  const std::string& file() const { return file_; }
+  /// Throws InputError if there are any, in the order of the file.
+  void raise() const;
+
+private:
+  std::string file_;
+  std::vector<Problem> list_;
+};
+
+/// How a quantity's numbers are read: "0.6 um" in SI; a bare number only where si_unit is "1".
+struct Dimension {
+  std::string si_unit;
+  units::Kind kind = units::Kind::point;
+};
+
+/// A value as text with unit or bare number; nullopt and a problem if it is not.
+std::optional<double> read_measure(const Node& node, const std::string& path, const Dimension& dimension,
+                                   Problems& problems);
+/// A bare, finite number.
+std::optional<double> read_number(const Node& node, const std::string& path, Problems& problems);
+std::optional<std::string> read_text(const Node& node, const std::string& path, Problems& problems);
+
+/// One table of the document. A getter of an absent key gives nullopt and no problem.
+class Table {
+public:
+  /// `path` is how messages call the table: "quantities.rod_radius"; empty for the document.
+  Table(const Node& node, std::string path, Problems& problems)
+      : node_(&node), path_(std::move(path)), problems_(&problems) {}
+
+  const Node& node() const { return *node_; }
+  const std::string& path() const { return path_; }
+  std::string path(const std::string& key) const { return path_.empty() ? key : path_ + '.' + key; }
+  Problems& problems() const { return *problems_; }
+
+  /// Null if absent. Asking makes the key a known one.
+  const Node* find(const std::string& key);
+  bool has(const std::string& key) { return find(key) != nullptr; }
+  /// As find, with a problem at the table if absent.
+  const Node* require(const std::string& key, const std::string& remedy = {});
+  std::optional<std::string> text(const std::string& key);
+  std::optional<double> number(const std::string& key);
+  std::optional<double> positive(const std::string& key);
+  std::optional<double> measure(const std::string& key, const Dimension& dimension);
+  std::optional<bool> boolean(const std::string& key);
+  /// A whole number from low to high; 1e6 counts as one.
+  std::optional<std::int64_t> integer(const std::string& key, std::int64_t low, std::int64_t high);
+  std::optional<Table> table(const std::string& key);
+  /// An array's nodes; null if absent or not an array.
+  const std::vector<Node>* array(const std::string& key);
+  /// Text or an array of texts.
+  std::vector<std::string> texts(const std::string& key);
+  /// Text, or anything else rendered as text: {certificate = "12"} becomes "certificate: 12".
+  std::string rendered(const std::string& key);
+  /// One of the words; its index.
+  std::optional<std::size_t> choice(const std::string& key, const std::vector<std::string>& words);
+  /// Every key, each known from now on.
+  const std::vector<Member>& members();
+  void add(std::string what, std::string why = {}, std::string remedy = {}) const {
+    problems_->add(*node_, std::move(what), std::move(why), std::move(remedy));
+  }
+  /// Reports the keys that were never asked for. Call it last.
+  void refuse_unknown();
+
+private:
+  const Node* node_;
+  std::string path_;
+  Problems* problems_;
+  std::set<std::string> known_;
+};
+
+/// "did you mean 'high'?", or a list of few candidates, or empty.
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates);
+
+/// The node as a table; nullopt and a problem if it is not.
+std::optional<Table> as_table(const Node& node, const std::string& path, Problems& problems);
+
+} // namespace gumshoe::scenario

@@ -1,0 +1,191 @@
+#include "scenario/scenario.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "base/hash.h"
+#include "base/text_file.h"
+#include "scenario/noise.h"
+#include "scenario/options.h"
+#include "scenario/quantity.h"
+
+namespace gumshoe::scenario {
+namespace {
+
+using quantities::InputQuantity;
+using quantities::Reading;
+
+constexpr std::size_t largest_scenario = std::size_t{4} << 20;
+
+class ScenarioReader {
+public:
+  ScenarioReader(const std::string& path, const Catalogue& catalogue)
+      : catalogue_(catalogue), problems_(path), files_(path), context_{problems_, files_, out_.notes, {}, {}, true} {
+    out_.file = path;
+    out_.text = read_text_file(path, largest_scenario);
+  }
+
+  Scenario read() {
+    document_ = parse_document(out_.text, out_.file);
+    if (document_.members.empty()) throw InputError({{{out_.file, 0, 0}, "the scenario is empty", "", "schema = 1 and [model]?"}});
+    Table top(document_, "", problems_);
+    if (top.require("schema", "schema = 1?")) top.integer("schema", 1, 1);
+    out_.title = top.text("title").value_or("");
+    const ModelCard* model = read_model(top);
+    if (!model) { // nothing below has a meaning without its model
+      top.members();
+      problems_.raise();
+    }
+    read_readings(top, *model);
+    read_quantities(top, *model);
+    read_effects(top, *model);
+    out_.quantities.insert(out_.quantities.end(), noise_.begin(), noise_.end());
+    if (const auto* items = top.array("correlations")) out_.correlations = read_correlations(*items, problems_, out_.quantities);
+    if (auto run = top.table("run")) out_.run = read_run(*run);
+    if (auto analysis = top.table("analysis")) out_.analysis = read_analysis(*analysis, *model, context_);
+    top.refuse_unknown();
+    problems_.raise();
+    out_.hash = fmt::format("{:016x}", files_.hash(hash64(out_.text)));
+    return std::move(out_);
+  }
+
+private:
+  const ModelCard* read_model(Table& top) {
+    if (!top.require("model", "[model] with a name?")) return nullptr;
+    auto table = top.table("model");
+    if (!table) return nullptr;
+    std::vector<std::string> names;
+    for (const ModelCard* m : catalogue_.models) names.emplace_back(m->name);
+    const auto index = table->require("name") ? table->choice("name", names) : std::nullopt;
+    if (const auto method = table->choice("method", {"propagation", "virtual_experiment"})) out_.method = static_cast<Method>(*method);
+    const ModelCard* model = index ? catalogue_.models[*index] : nullptr;
+    std::vector<std::string> evaluations;
+    if (model)
+      for (const EvaluationCard& e : model->evaluations) evaluations.emplace_back(e.name);
+    if (model) out_.model = model->name;
+    if (!evaluations.empty()) out_.evaluation = evaluations.front();
+    if (!model) table->find("evaluation");
+    else if (const auto e = table->choice("evaluation", evaluations)) out_.evaluation = evaluations[*e];
+    table->refuse_unknown();
+    return model;
+  }
+
+  void read_readings(Table& top, const ModelCard& model) {
+    const std::size_t before = problems_.size();
+    const auto conditions = read_conditions(top.table("conditions"), model);
+    auto indications = top.table("indications");
+    static const Node nothing;
+    std::vector<IndicationReadouts> readouts;
+    std::vector<Table> tables;
+    for (const VariableCard& card : model.indications) {
+      const std::string name(card.name);
+      std::optional<Table> table = indications ? indications->table(name) : std::nullopt;
+      if (out_.method == Method::propagation && !table) {
+        problems_.add(indications ? indications->node() : top.node(), fmt::format("indications.{}: missing", name),
+                      "propagation of distributions evaluates readouts", fmt::format("[indications.{}] with readings?", name));
+      }
+      tables.push_back(table ? *table : Table(nothing, "indications." + name, problems_));
+      readouts.push_back(read_readouts(tables.back(), card, model, conditions, context_));
+      if (table && out_.method == Method::propagation) need_values(*table, readouts.back());
+    }
+    if (indications) indications->refuse_unknown();
+    merge(model, readouts, tables);
+    context_.readings_known = problems_.size() == before;
+    for (const Reading& r : out_.readings) context_.readings.push_back(r.labels);
+    for (const auto& of_one : readouts)
+      for (const Readouts& r : of_one.all)
+        for (const auto& [label, value] : r.labels) context_.label_values[label].insert(value);
+    for (std::size_t i = 0; i < tables.size(); ++i) {
+      noise_.push_back(read_noise(tables[i], model.indications[i], readouts[i], context_));
+      tables[i].refuse_unknown();
+    }
+  }
+
+  void need_values(Table& table, const IndicationReadouts& readouts) {
+    for (const Readouts& r : readouts.used) {
+      if (!r.values.empty()) continue;
+      if (table.has("readings") && table.find("readings")->kind == Node::Kind::array) return; // said already
+      const std::string of = r.labels.empty() ? "" : " for " + text_of(r.labels);
+      table.add(fmt::format("{}: no readings{}", table.path(), of), "propagation of distributions evaluates readouts",
+                "readings = [\"...\"]?");
+      return;
+    }
+  }
+
+  /// One reading per group of equal labels and conditions, in the order of the first indication.
+  void merge(const ModelCard& model, const std::vector<IndicationReadouts>& readouts, std::vector<Table>& tables) {
+    for (std::size_t i = 0; i < readouts.size(); ++i) {
+      for (const Readouts& r : readouts[i].used) {
+        auto it = std::find_if(out_.readings.begin(), out_.readings.end(), [&](const Reading& known) {
+          return matches(known.labels, r.labels) && matches(r.labels, known.labels) && known.conditions == r.conditions;
+        });
+        if (i == 0) it = out_.readings.insert(out_.readings.end(), {r.labels, r.conditions, {}, r.repeats});
+        if (it == out_.readings.end()) {
+          tables[i].add(fmt::format("{}: {} has no reading {}", tables[i].path(), model.indications[0].name, text_of(r.labels)),
+                        "every indication of a reading is needed");
+          continue;
+        }
+        if (r.values.empty()) continue;
+        double mean = 0;
+        for (const double v : r.values) mean += (v - r.values.front()) / static_cast<double>(r.values.size());
+        it->indications.push_back(r.values.front() + mean);
+      }
+    }
+    for (const Reading& r : out_.readings) {
+      if (r.indications.empty() || r.indications.size() == readouts.size()) continue;
+      tables.back().add(fmt::format("indications: the reading {} lacks an indication", text_of(r.labels)));
+    }
+    if (out_.readings.empty()) out_.readings.push_back({{}, std::vector<double>(model.conditions.size()), {}, 1});
+  }
+
+  void read_quantities(Table& top, const ModelCard& model) {
+    auto table = top.table("quantities");
+    for (const QuantityCard& card : model.quantities) {
+      const std::string name(card.name);
+      const Node* node = table ? table->find(name) : nullptr;
+      out_.quantities.push_back(node ? read_quantity(*node, "quantities." + name, card, name, context_)
+                                     : default_quantity(card, name));
+    }
+    if (table) table->refuse_unknown();
+  }
+
+  void read_effects(Table& top, const ModelCard& model) {
+    auto table = top.table("effects");
+    if (!table) return;
+    for (const EffectCard* effect : catalogue_.effects) {
+      const std::string name(effect->name);
+      auto own = table->table(name);
+      if (!own) continue;
+      if (catalogue_.applies && !catalogue_.applies(model, *effect)) {
+        own->add(fmt::format("effects.{}: {} cannot carry it", name, model.name), fmt::format("no stage '{}'", effect->stage));
+        continue;
+      }
+      bool any = false;
+      std::vector<InputQuantity> freed;
+      for (const QuantityCard& card : effect->quantities) {
+        const std::string key(card.name), full = name + '.' + key;
+        const Node* node = own->find(key);
+        any |= node != nullptr;
+        freed.push_back(node ? read_quantity(*node, "effects." + full, card, full, context_) : default_quantity(card, full));
+      }
+      own->refuse_unknown();
+      if (any) out_.quantities.insert(out_.quantities.end(), freed.begin(), freed.end());
+    }
+    table->refuse_unknown();
+  }
+
+  const Catalogue& catalogue_;
+  Scenario out_;
+  Problems problems_;
+  DataFiles files_;
+  Context context_;
+  Node document_;
+  std::vector<InputQuantity> noise_;
+};
+
+} // namespace
+
+Scenario read(const std::string& path, const Catalogue& catalogue) { return ScenarioReader(path, catalogue).read(); }
+
+} // namespace gumshoe::scenario

@@ -1,0 +1,115 @@
+#include "scenario/uncertainty.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "scenario/family.h"
+
+namespace gumshoe::scenario {
+namespace {
+
+using quantities::Component;
+using quantities::Distribution;
+using quantities::Family;
+
+/// Type A: the mean of n observations is a t with n - 1 degrees of freedom and scale s/sqrt(n),
+/// JCGM 101:2008, 6.4.9.
+std::optional<Uncertainty> read_observations(Table& table, const Form& form, Context& context) {
+  const auto* items = table.array("observations");
+  if (!items) return std::nullopt;
+  std::vector<double> x;
+  for (const Node& item : *items)
+    if (const auto v = read_measure(item, table.path("observations"), {form.si_unit}, context.problems)) x.push_back(*v);
+  if (x.size() != items->size()) return std::nullopt;
+  if (x.size() < 2) {
+    context.problems.add(*table.find("observations"),
+                         fmt::format("{}: {} observation(s) say nothing of their scatter", table.path(), x.size()), "",
+                         "two or more?");
+    return std::nullopt;
+  }
+  const double n = static_cast<double>(x.size());
+  double mean = 0, squares = 0;
+  for (const double v : x) mean += v / n;
+  for (const double v : x) squares += (v - mean) * (v - mean);
+  const double scale = std::sqrt(squares / (n - 1) / n);
+  Uncertainty out;
+  out.value = form.value.value_or(mean);
+  out.exact = !(scale > 0);
+  out.component.distribution = {Family::t, {0, scale, n - 1}, nullptr, nullptr};
+  out.component.evaluation = 'A';
+  out.component.degrees_of_freedom = n - 1;
+  if (out.exact) {
+    context.notes.push_back(fmt::format("{}: the {} observations are equal: their Type A evaluation is zero, which the "
+                                        "resolution of the readout should replace",
+                                        table.path(), x.size()));
+  } else if (x.size() < 4) {
+    context.notes.push_back(fmt::format("{}: {} observations give a t distribution with {} degrees of freedom, which "
+                                        "has no standard uncertainty: only quantiles are stated",
+                                        table.path(), x.size(), x.size() - 1));
+  }
+  return out;
+}
+
+std::optional<Uncertainty> read_distribution(Table& table, const Form& form, Context& context) {
+  std::string name = "normal"; // u, or U with k, alone
+  if (table.has("distribution")) {
+    std::vector<std::string> names;
+    for (const auto& family : quantities::families())
+      if (family.family != Family::constant) names.emplace_back(family.name);
+    const auto index = table.choice("distribution", names);
+    if (!index) {
+      table.members(); // the parameters cannot be judged
+      return std::nullopt;
+    }
+    name = names[*index];
+  } else if (!table.has("u") && !table.has("U")) {
+    table.add(table.path() + ": no distribution", "", "distribution, u, U with k, or observations?");
+    return std::nullopt;
+  }
+  const auto* card = quantities::find_family(name);
+  const auto located = card ? read_family(table, *card, form, context) : std::nullopt;
+  if (!located) return std::nullopt;
+  Uncertainty out;
+  out.component.distribution = located->distribution;
+  out.value = located->value;
+  return out;
+}
+
+void check_scope(Table& table, const std::vector<std::string>& per, Context& context) {
+  if (!context.readings_known) return;
+  std::vector<std::string> names = context.label_names();
+  names.emplace_back("reading");
+  for (const std::string& name : per) {
+    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+    context.problems.add(*table.find("per"), fmt::format("{}: no reading has the label '{}'", table.path("per"), name),
+                         "a scope names labels of the readings, or \"reading\"", did_you_mean(name, names));
+  }
+}
+
+} // namespace
+
+std::optional<Uncertainty> read_uncertainty(Table& table, const Form& form, Context& context) {
+  const bool observed = table.has("observations");
+  if (observed && (table.has("distribution") || table.has("u") || table.has("U"))) {
+    table.add(table.path() + ": observations beside another statement", "both say how uncertain it is", "leave one out?");
+  }
+  auto out = observed ? read_observations(table, form, context) : read_distribution(table, form, context);
+
+  // Read in any case, so that these keys are known and their problems are told too.
+  const auto evaluation = table.choice("evaluation", {"A", "B"});
+  const auto degrees = table.positive("degrees_of_freedom");
+  const auto per = table.texts("per");
+  check_scope(table, per, context);
+  const std::string source = table.rendered("source");
+  if (!out) return std::nullopt;
+  Component& c = out->component;
+  if (evaluation) c.evaluation = *evaluation ? 'B' : 'A';
+  if (degrees) c.degrees_of_freedom = *degrees;
+  c.per = per;
+  c.source = source;
+  return out;
+}
+
+} // namespace gumshoe::scenario

@@ -1,0 +1,203 @@
+#include "store/hdf5.h"
+
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+#include <hdf5_hl.h>
+
+#include "base/error.h"
+
+namespace gumshoe::store::hdf5 {
+
+std::recursive_mutex& library() {
+  static std::recursive_mutex mutex;
+  // At exit the library would try again to flush a file on a full disk, and fail loudly: our handles
+  // have closed everything by then.
+  static const bool quiet = [] {
+    H5dont_atexit();
+    H5open();
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    return true;
+  }();
+  (void)quiet;
+  return mutex;
+}
+
+std::string last_error() {
+  std::string reason;
+  const auto take_first = [](unsigned, const H5E_error2_t* entry, void* out) -> herr_t {
+    auto& text = *static_cast<std::string*>(out);
+    if (text.empty() && entry->desc) text = entry->desc;
+    return 0;
+  };
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, take_first, &reason);
+  // "file write failed: time = ..., errno = 28, error message = 'No space left on device', buf = ..."
+  const std::string mark = "error message = '";
+  if (const auto at = reason.find(mark); at != std::string::npos) {
+    reason = reason.substr(at + mark.size());
+    reason = reason.substr(0, reason.find('\''));
+  }
+  return reason;
+}
+
+bool Handle::close() noexcept {
+  const hid_t id = std::exchange(id_, H5I_INVALID_HID);
+  return id < 0 || close_(id) >= 0;
+}
+
+Handle& Handle::operator=(Handle&& other) noexcept {
+  close();
+  id_ = std::exchange(other.id_, H5I_INVALID_HID);
+  close_ = other.close_;
+  return *this;
+}
+
+void require(herr_t result, const char* action) {
+  if (result < 0) throw OutputError(std::string("cannot ") + action, last_error());
+}
+
+Handle own(hid_t id, Handle::Close close, const char* action) {
+  if (id < 0) throw OutputError(std::string("cannot ") + action, last_error());
+  return {id, close};
+}
+
+Handle open_group(hid_t parent, const std::string& name) {
+  return own(H5Gopen2(parent, name.c_str(), H5P_DEFAULT), H5Gclose, "open a group");
+}
+
+bool has(hid_t parent, const std::string& name) { return H5Lexists(parent, name.c_str(), H5P_DEFAULT) > 0; }
+
+void drop(hid_t parent, const std::string& name) {
+  if (has(parent, name)) require(H5Ldelete(parent, name.c_str(), H5P_DEFAULT), "remove an object");
+}
+
+Handle create_group(hid_t parent, const std::string& name) {
+  drop(parent, name);
+  return own(H5Gcreate2(parent, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, "create a group");
+}
+
+template <> hid_t memory_type<double>() { return H5T_NATIVE_DOUBLE; }
+template <> hid_t memory_type<std::uint64_t>() { return H5T_NATIVE_UINT64; }
+template <> hid_t memory_type<int>() { return H5T_NATIVE_INT; }
+template <> hid_t memory_type<std::uint8_t>() { return H5T_NATIVE_UINT8; }
+template <> hid_t file_type<double>() { return H5T_IEEE_F64LE; }
+template <> hid_t file_type<std::uint64_t>() { return H5T_STD_U64LE; }
+template <> hid_t file_type<int>() { return H5T_STD_I32LE; }
+template <> hid_t file_type<std::uint8_t>() { return H5T_STD_U8LE; }
+
+Handle text_type() {
+  Handle type = own(H5Tcopy(H5T_C_S1), H5Tclose, "describe text");
+  H5Tset_size(type, H5T_VARIABLE);
+  H5Tset_cset(type, H5T_CSET_UTF8);
+  return type;
+}
+
+namespace {
+void write_raw(hid_t object, const std::string& name, hid_t type, hid_t memory, const void* data, hsize_t count) {
+  if (H5Aexists(object, name.c_str()) > 0) require(H5Adelete(object, name.c_str()), "replace an attribute");
+  const Handle space =
+      own(count == 0 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &count, nullptr), H5Sclose, "describe an attribute");
+  const Handle attribute =
+      own(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, "create an attribute");
+  require(H5Awrite(attribute, memory, data), "write an attribute");
+}
+
+Handle open_attribute(hid_t object, const std::string& name, H5T_class_t wanted) {
+  Handle attribute = own(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose, "read an attribute");
+  const Handle type = own(H5Aget_type(attribute), H5Tclose, "read an attribute");
+  const Handle space = own(H5Aget_space(attribute), H5Sclose, "read an attribute");
+  const bool scalar = H5Sget_simple_extent_npoints(space) == 1;
+  if (!scalar || H5Tget_class(type) != wanted || (wanted == H5T_STRING && H5Tis_variable_str(type) <= 0))
+    throw OutputError("cannot read an attribute", "'" + name + "' is of another type");
+  return attribute;
+}
+} // namespace
+
+void write_attribute(hid_t object, const std::string& name, const std::string& text) {
+  const char* data = text.c_str();
+  const Handle type = text_type();
+  write_raw(object, name, type, type, &data, 0);
+}
+void write_attribute(hid_t object, const std::string& name, double value) {
+  write_raw(object, name, file_type<double>(), memory_type<double>(), &value, 0);
+}
+void write_attribute(hid_t object, const std::string& name, std::uint64_t value) {
+  write_raw(object, name, file_type<std::uint64_t>(), memory_type<std::uint64_t>(), &value, 0);
+}
+void write_attribute(hid_t object, const std::string& name, int value) {
+  write_raw(object, name, file_type<int>(), memory_type<int>(), &value, 0);
+}
+void write_attribute(hid_t object, const std::string& name, const std::vector<std::uint8_t>& values) {
+  write_raw(object, name, file_type<std::uint8_t>(), memory_type<std::uint8_t>(), values.data(), values.size());
+}
+
+std::string read_text(hid_t object, const std::string& name) {
+  const Handle attribute = open_attribute(object, name, H5T_STRING);
+  const Handle type = text_type();
+  char* data = nullptr;
+  require(H5Aread(attribute, type, &data), "read an attribute");
+  std::string text = data ? data : "";
+  H5free_memory(data);
+  return text;
+}
+
+std::uint64_t read_integer(hid_t object, const std::string& name) {
+  const Handle attribute = open_attribute(object, name, H5T_INTEGER);
+  std::uint64_t value = 0;
+  require(H5Aread(attribute, memory_type<std::uint64_t>(), &value), "read an attribute");
+  return value;
+}
+
+Handle create_dataset(hid_t parent, const std::string& name, hid_t type, const std::vector<hsize_t>& shape,
+                      const std::string& units, const std::string& long_name, bool fill_nan) {
+  const Handle plist = own(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "describe a dataset");
+  H5Pset_layout(plist, H5D_CONTIGUOUS);
+  H5Pset_alloc_time(plist, H5D_ALLOC_TIME_EARLY);
+  H5Pset_obj_track_times(plist, false); // same run, same bytes
+  if (fill_nan) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    H5Pset_fill_value(plist, H5T_NATIVE_DOUBLE, &nan);
+    H5Pset_fill_time(plist, H5D_FILL_TIME_ALLOC);
+  } else if (H5Tget_class(type) != H5T_STRING) { // text needs its empty fill, or HDF5 refuses
+    H5Pset_fill_time(plist, H5D_FILL_TIME_NEVER);
+  }
+  const Handle space =
+      own(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose, "describe a dataset");
+  Handle dataset = own(H5Dcreate2(parent, name.c_str(), type, space, H5P_DEFAULT, plist, H5P_DEFAULT), H5Dclose,
+                       "allocate a dataset");
+  write_attribute(dataset, "units", units);
+  write_attribute(dataset, "long_name", long_name);
+  return dataset;
+}
+
+void write_texts(hid_t dataset, const std::vector<std::string>& texts) {
+  std::vector<const char*> data;
+  for (const std::string& text : texts) data.push_back(text.c_str());
+  if (!data.empty()) require(H5Dwrite(dataset, text_type(), H5S_ALL, H5S_ALL, H5P_DEFAULT, data.data()), "write text");
+}
+
+Handle create_dimension(hid_t parent, const std::string& name, hsize_t length) {
+  const Handle plist = own(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "describe a dimension");
+  H5Pset_obj_track_times(plist, false);
+  const Handle space = own(H5Screate_simple(1, &length, nullptr), H5Sclose, "describe a dimension");
+  // Allocated late and never written: takes no room however long it is.
+  Handle scale = own(H5Dcreate2(parent, name.c_str(), H5T_IEEE_F32BE, space, H5P_DEFAULT, plist, H5P_DEFAULT), H5Dclose,
+                     "create a dimension");
+  const std::string mark = fmt::format("This is a netCDF dimension but not a netCDF variable.{:10d}", length);
+  require(H5DSset_scale(scale, mark.c_str()), "create a dimension");
+  write_attribute(scale, "units", std::string("1"));
+  write_attribute(scale, "long_name", "dimension " + name + ", without values");
+  return scale;
+}
+
+void make_scale(hid_t dataset, const std::string& name) {
+  require(H5DSset_scale(dataset, name.c_str()), "make a dimension scale");
+}
+
+void attach(hid_t dataset, unsigned axis, hid_t scale, const std::string& name) {
+  require(H5DSattach_scale(dataset, scale, axis), "attach a dimension scale");
+  require(H5DSset_label(dataset, axis, name.c_str()), "label a dimension");
+}
+
+} // namespace gumshoe::store::hdf5

@@ -1,0 +1,80 @@
+#pragma once
+/// HDF5 handles that close themselves, and the few kinds of object our files are made of. Private to
+/// this folder, which is the only door to HDF5.
+///
+/// Every failure is an OutputError whose reason is HDF5's innermost message ("No space left on
+/// device"). The library is not thread-safe: callers hold `library()` while they use it.
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <hdf5.h>
+
+namespace gumshoe::store::hdf5 {
+
+/// One lock for the whole library; the first call also silences its error printing.
+std::recursive_mutex& library();
+
+/// What the library last complained about, innermost message first; the system's words if it has them.
+std::string last_error();
+
+/// Owns an identifier. Closing never throws; close() tells whether it worked.
+class Handle {
+public:
+  using Close = herr_t (*)(hid_t);
+  Handle() = default;
+  Handle(hid_t id, Close close) : id_(id), close_(close) {}
+  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, H5I_INVALID_HID)), close_(other.close_) {}
+  Handle& operator=(Handle&& other) noexcept;
+  ~Handle() { close(); }
+  operator hid_t() const { return id_; }
+  explicit operator bool() const { return id_ >= 0; }
+  bool close() noexcept;
+
+private:
+  hid_t id_ = H5I_INVALID_HID;
+  Close close_ = nullptr;
+};
+
+/// Throws OutputError("cannot <action>") with the library's reason if `result` is negative.
+void require(herr_t result, const char* action);
+Handle own(hid_t id, Handle::Close close, const char* action);
+
+Handle open_group(hid_t parent, const std::string& name);
+/// A new group; one of that name left by an interrupted run is dropped.
+Handle create_group(hid_t parent, const std::string& name);
+bool has(hid_t parent, const std::string& name);
+void drop(hid_t parent, const std::string& name);
+
+/// HDF5's native type of a C++ number, and the portable little-endian one it is stored as.
+template <class T> hid_t memory_type();
+template <class T> hid_t file_type();
+/// UTF-8 text of variable length.
+Handle text_type();
+
+void write_attribute(hid_t object, const std::string& name, const std::string& text);
+void write_attribute(hid_t object, const std::string& name, double value);
+void write_attribute(hid_t object, const std::string& name, std::uint64_t value);
+void write_attribute(hid_t object, const std::string& name, int value);
+void write_attribute(hid_t object, const std::string& name, const std::vector<std::uint8_t>& values);
+
+/// Readers throw OutputError if the attribute is missing or of another type.
+std::string read_text(hid_t object, const std::string& name);
+std::uint64_t read_integer(hid_t object, const std::string& name);
+
+/// A contiguous dataset, allocated at once, with `units` and `long_name`. Nothing is written to it,
+/// not even a fill value, unless `fill_nan`.
+Handle create_dataset(hid_t parent, const std::string& name, hid_t type, const std::vector<hsize_t>& shape,
+                      const std::string& units, const std::string& long_name, bool fill_nan = false);
+void write_texts(hid_t dataset, const std::vector<std::string>& texts);
+
+/// A named dimension without values of its own, as netCDF-4 writes it.
+Handle create_dimension(hid_t parent, const std::string& name, hsize_t length);
+/// Turns a dataset into the scale of the dimension it is named after.
+void make_scale(hid_t dataset, const std::string& name);
+void attach(hid_t dataset, unsigned axis, hid_t scale, const std::string& name);
+
+} // namespace gumshoe::store::hdf5

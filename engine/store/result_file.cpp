@@ -1,0 +1,387 @@
+#include "store/result_file.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <limits>
+#include <stdexcept>
+#include <tuple>
+
+#include "base/error.h"
+#include "base/version.h"
+#include "store/place.h"
+#include "store/results_writer.h"
+#include "store/table.h"
+
+namespace gumshoe::store {
+namespace {
+
+constexpr int format_version = 1;
+
+using Lock = std::lock_guard<std::recursive_mutex>;
+
+/// Runs `action` and puts the path into whatever OutputError it throws.
+template <class Action> auto naming(const std::string& path, Action action) {
+  try {
+    return action();
+  } catch (const OutputError& error) {
+    const Problem& p = error.problems().front();
+    if (p.what.find(path) != std::string::npos) throw;
+    throw OutputError("'" + path + "': " + p.what, p.why, p.remedy);
+  }
+}
+
+auto fields(const Identity& i) {
+  return std::tie(i.scenario_hash, i.scenario_text, i.model, i.method, i.evaluation, i.design, i.version,
+                  i.instruction_set, i.seed, i.samples, i.store_samples);
+}
+
+void write_identity(hid_t file, const Identity& i) {
+  const std::pair<const char*, std::string> texts[] = {{"program", "gumshoe"},
+                                                       {"version", i.version},
+                                                       {"git_hash", git_hash},
+                                                       {"instruction_set", i.instruction_set},
+                                                       {"model", i.model},
+                                                       {"method", i.method},
+                                                       {"evaluation", i.evaluation},
+                                                       {"design", i.design},
+                                                       {"scenario_file", i.scenario_file},
+                                                       {"scenario_text", i.scenario_text},
+                                                       {"scenario_hash", i.scenario_hash}};
+  for (const auto& [name, text] : texts) hdf5::write_attribute(file, name, text);
+  hdf5::write_attribute(file, "format_version", format_version);
+  hdf5::write_attribute(file, "seed", i.seed);
+  hdf5::write_attribute(file, "samples", i.samples);
+  hdf5::write_attribute(file, "store_samples", i.store_samples ? 1 : 0);
+  hdf5::write_attribute(file, "complete", 0);
+}
+
+Stored read_stored(hid_t file) {
+  Stored s;
+  Identity& i = s.identity;
+  if (hdf5::read_text(file, "program") != "gumshoe") throw OutputError("another program made it");
+  if (hdf5::read_integer(file, "format_version") != format_version) throw OutputError("another format version");
+  const std::pair<const char*, std::string*> texts[] = {{"version", &i.version},
+                                                        {"instruction_set", &i.instruction_set},
+                                                        {"model", &i.model},
+                                                        {"method", &i.method},
+                                                        {"evaluation", &i.evaluation},
+                                                        {"design", &i.design},
+                                                        {"scenario_file", &i.scenario_file},
+                                                        {"scenario_text", &i.scenario_text},
+                                                        {"scenario_hash", &i.scenario_hash}};
+  for (const auto& [name, text] : texts) *text = hdf5::read_text(file, name);
+  i.seed = hdf5::read_integer(file, "seed");
+  i.samples = hdf5::read_integer(file, "samples");
+  i.store_samples = hdf5::read_integer(file, "store_samples") != 0;
+  s.complete = hdf5::read_integer(file, "complete") != 0;
+  const hdf5::Handle marker =
+      hdf5::own(H5Dopen2(file, "samples_done", H5P_DEFAULT), H5Dclose, "read the progress marker");
+  const hdf5::Handle space = hdf5::own(H5Dget_space(marker), H5Sclose, "read the progress marker");
+  if (H5Sget_simple_extent_npoints(space) != 1) throw OutputError("cannot read the progress marker");
+  hdf5::require(H5Dread(marker, H5T_NATIVE_UINT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, &s.samples_done),
+                "read the progress marker");
+  if (s.samples_done > i.samples) throw OutputError("the progress marker is damaged");
+  return s;
+}
+
+hdf5::Handle open_file(const std::string& path, unsigned flags) {
+  const hdf5::Handle access = hdf5::own(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "open");
+  H5Pset_sieve_buf_size(access, 0);               // blocks are large: no second copy
+  H5Pset_fclose_degree(access, H5F_CLOSE_STRONG); // after an error nothing stays open
+  if (flags & H5F_ACC_TRUNC)
+    return hdf5::own(H5Fcreate(path.c_str(), flags, H5P_DEFAULT, access), H5Fclose, "create the file");
+  return hdf5::own(H5Fopen(path.c_str(), flags, access), H5Fclose, "open the file");
+}
+
+bool is_hdf5(const std::string& path) { return H5Fis_hdf5(path.c_str()) > 0; }
+
+bool empty_or_absent(const std::string& path) {
+  std::FILE* file = std::fopen(path.c_str(), "rb");
+  if (!file) return true; // destination() has checked the permissions
+  const bool empty = std::fgetc(file) == EOF;
+  std::fclose(file);
+  return empty;
+}
+
+} // namespace
+
+struct ResultFile::Impl {
+  std::string path;
+  Identity identity;
+  struct Row {
+    std::size_t dataset;
+    hsize_t reading;
+  };
+  std::vector<std::string> measurands;
+  std::vector<Row> rows;
+  hdf5::Handle file, marker, status;
+  std::vector<hdf5::Handle> datasets;
+  std::vector<double> values;              ///< without a file's samples: row * samples + i
+  std::vector<std::uint8_t> status_values; ///< the same for the status
+  std::uint64_t done = 0, marked = 0;
+  std::chrono::steady_clock::time_point marked_at = std::chrono::steady_clock::now();
+  bool finished = false;
+
+  void plan(const std::vector<propagation::Output>& outputs, std::size_t readings);
+  void create(const std::vector<propagation::Output>& outputs, const std::vector<std::string>& labels);
+  bool resume(std::size_t readings);
+  void open_datasets(hid_t from);
+  void mark();
+  void transfer(bool write, hid_t dataset, hid_t type, int rank, hsize_t reading, hsize_t first, hsize_t count,
+                void* data) const;
+};
+
+void ResultFile::Impl::plan(const std::vector<propagation::Output>& outputs, std::size_t readings) {
+  for (const auto& output : outputs) {
+    if (output.reading >= readings) throw std::logic_error("output of an unknown reading");
+    const auto at = std::find(measurands.begin(), measurands.end(), output.measurand);
+    rows.push_back({static_cast<std::size_t>(at - measurands.begin()), output.reading});
+    if (at == measurands.end()) measurands.push_back(output.measurand);
+  }
+}
+
+void ResultFile::Impl::create(const std::vector<propagation::Output>& outputs, const std::vector<std::string>& labels) {
+  const std::string temporary = temporary_name(path);
+  const std::uint64_t reserve = (1u << 20) + 65536 * rows.size(); // for what comes last
+  if (identity.store_samples)
+    require_space(path, static_cast<double>(identity.samples) *
+                                (8.0 * static_cast<double>(measurands.size() * labels.size()) + 1) +
+                            static_cast<double>(reserve));
+  try {
+    file = open_file(temporary, H5F_ACC_TRUNC);
+    write_identity(file, identity);
+    const std::uint64_t none = 0;
+    marker = hdf5::create_dataset(file, "samples_done", H5T_STD_U64LE, {1}, "1", "samples written so far");
+    hdf5::make_scale(marker, "samples_done");
+    hdf5::require(H5Dwrite(marker, H5T_NATIVE_UINT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, &none), "write the marker");
+    if (identity.store_samples) {
+      const hdf5::Handle group = hdf5::create_group(file, "outputs");
+      const hdf5::Handle sample = hdf5::create_dimension(group, "sample", identity.samples);
+      const hdf5::Handle reading = hdf5::create_dataset(group, "reading", hdf5::text_type(), {labels.size()}, "1",
+                                                        "label values of the reading");
+      hdf5::write_texts(reading, labels);
+      hdf5::make_scale(reading, "reading");
+      for (std::size_t d = 0; d < measurands.size(); ++d) {
+        const auto covered = std::count_if(rows.begin(), rows.end(), [&](const Row& r) { return r.dataset == d; });
+        const auto& output =
+            *std::find_if(outputs.begin(), outputs.end(), [&](const auto& o) { return o.measurand == measurands[d]; });
+        std::string long_name = measurands[d];
+        std::replace(long_name.begin(), long_name.end(), '_', ' ');
+        const bool holes = static_cast<std::size_t>(covered) < labels.size();
+        const hdf5::Handle dataset =
+            hdf5::create_dataset(group, measurands[d], H5T_IEEE_F64LE, {labels.size(), identity.samples},
+                                 output.si_unit, long_name + ", samples", holes);
+        const Display shown = display(output.unit, output.si_unit);
+        hdf5::write_attribute(dataset, "display_units", shown.units);
+        hdf5::write_attribute(dataset, "display_factor", shown.factor);
+        hdf5::write_attribute(dataset, "display_offset", shown.offset);
+        hdf5::attach(dataset, 0, reading, "reading");
+        hdf5::attach(dataset, 1, sample, "sample");
+      }
+      const hdf5::Handle flags =
+          hdf5::create_dataset(group, "status", H5T_STD_U8LE, {identity.samples}, "1", "why a sample has no value");
+      hdf5::write_attribute(flags, "flag_values", std::vector<std::uint8_t>{0, 1, 2, 3, 4});
+      hdf5::write_attribute(flags, "flag_meanings", "ok never_covered not_converged out_of_domain no_solution");
+      hdf5::attach(flags, 0, sample, "sample");
+    }
+    hdf5::require(H5Fflush(file, H5F_SCOPE_GLOBAL), "write the file");
+    claim_space(temporary, reserve);
+    // Only now does it take the place of an older result.
+    if (std::rename(temporary.c_str(), path.c_str()) != 0) throw OutputError("cannot take its place");
+  } catch (...) {
+    marker.close();
+    file.close();
+    std::remove(temporary.c_str());
+    throw;
+  }
+  open_datasets(file);
+}
+
+bool ResultFile::Impl::resume(std::size_t readings) {
+  hdf5::Handle old = open_file(path, H5F_ACC_RDWR);
+  const Stored stored = read_stored(old);
+  if (stored.complete || !identity.store_samples || fields(stored.identity) != fields(identity)) return false;
+  try {
+    const hdf5::Handle group = hdf5::open_group(old, "outputs");
+    for (std::size_t d = 0; d <= measurands.size(); ++d) {
+      const bool status = d == measurands.size();
+      const hdf5::Handle dataset = hdf5::own(H5Dopen2(group, status ? "status" : measurands[d].c_str(), H5P_DEFAULT),
+                                             H5Dclose, "open a dataset");
+      const hdf5::Handle space = hdf5::own(H5Dget_space(dataset), H5Sclose, "open a dataset");
+      hsize_t shape[2] = {0, 0};
+      if (H5Sget_simple_extent_ndims(space) != (status ? 1 : 2)) return false;
+      H5Sget_simple_extent_dims(space, shape, nullptr);
+      if (status ? shape[0] != identity.samples : shape[0] != readings || shape[1] != identity.samples) return false;
+    }
+  } catch (const OutputError&) {
+    return false;
+  }
+  file = std::move(old);
+  done = marked = stored.samples_done;
+  open_datasets(file);
+  return true;
+}
+
+void ResultFile::Impl::open_datasets(hid_t from) {
+  const auto open = [](hid_t group, const char* name) {
+    return hdf5::own(H5Dopen2(group, name, H5P_DEFAULT), H5Dclose, "open a dataset");
+  };
+  marker = open(from, "samples_done");
+  if (!identity.store_samples) {
+    values.resize(rows.size() * identity.samples);
+    status_values.resize(identity.samples);
+    return;
+  }
+  const hdf5::Handle group = hdf5::open_group(from, "outputs");
+  datasets.clear();
+  for (const std::string& measurand : measurands) datasets.push_back(open(group, measurand.c_str()));
+  status = open(group, "status");
+}
+
+/// The marker follows the data: both reach the operating system, in this order.
+void ResultFile::Impl::mark() {
+  marked_at = std::chrono::steady_clock::now();
+  if (marked == done || !identity.store_samples) return;
+  hdf5::require(H5Fflush(file, H5F_SCOPE_GLOBAL), "write samples");
+  hdf5::require(H5Dwrite(marker, H5T_NATIVE_UINT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, &done), "write the marker");
+  hdf5::require(H5Fflush(file, H5F_SCOPE_GLOBAL), "write the marker");
+  marked = done;
+}
+
+void ResultFile::Impl::transfer(bool write, hid_t dataset, hid_t type, int rank, hsize_t reading, hsize_t first,
+                                hsize_t count, void* data) const {
+  if (count == 0) return;
+  const hdf5::Handle space = hdf5::own(H5Dget_space(dataset), H5Sclose, "select samples");
+  const hsize_t start[2] = {rank == 2 ? reading : first, first}, size[2] = {rank == 2 ? 1 : count, count};
+  hdf5::require(H5Sselect_hyperslab(space, H5S_SELECT_SET, start, nullptr, size, nullptr), "select samples");
+  const hdf5::Handle memory = hdf5::own(H5Screate_simple(1, &count, nullptr), H5Sclose, "select samples");
+  hdf5::require(write ? H5Dwrite(dataset, type, memory, space, H5P_DEFAULT, data)
+                      : H5Dread(dataset, type, memory, space, H5P_DEFAULT, data),
+                write ? "write samples" : "read samples");
+}
+
+ResultFile::ResultFile(const std::string& path, const Identity& identity,
+                       const std::vector<propagation::Output>& outputs, const std::vector<std::string>& reading_labels)
+    : impl_(std::make_unique<Impl>()) {
+  const Lock lock(hdf5::library());
+  survive_size_limit();
+  naming(path, [&] {
+    impl_->path = destination(path);
+    impl_->identity = identity;
+    impl_->plan(outputs, reading_labels.size());
+    bool resumed = false;
+    if (!empty_or_absent(impl_->path)) {
+      const std::string remedy = "choose another name?";
+      if (!is_hdf5(impl_->path)) throw OutputError("not overwritten", "it is no result of ours", remedy);
+      try {
+        resumed = impl_->resume(reading_labels.size());
+      } catch (const OutputError& error) {
+        throw OutputError("not overwritten",
+                          "it is no result of ours: " + error.problems().front().what +
+                              (error.problems().front().why.empty() ? "" : ", " + error.problems().front().why),
+                          remedy);
+      }
+    }
+    if (!resumed) impl_->create(outputs, reading_labels);
+  });
+}
+
+ResultFile::~ResultFile() {
+  const Lock lock(hdf5::library());
+  try {
+    if (impl_->file && !impl_->finished) impl_->mark();
+  } catch (...) { // the marker stays where it was: the file is good up to there
+  }
+  impl_->datasets.clear();
+  impl_->status.close();
+  impl_->marker.close();
+  impl_->file.close();
+}
+
+std::uint64_t ResultFile::samples_done() const { return impl_->done; }
+
+void ResultFile::write(const propagation::ResultBlock& block) {
+  Impl& f = *impl_;
+  if (f.finished || block.first_sample != f.done || block.first_sample + block.samples > f.identity.samples ||
+      block.outputs.size() < f.rows.size() * block.samples || block.status.size() < block.samples)
+    throw std::logic_error("blocks must come whole and in sample order");
+  if (!f.identity.store_samples) {
+    for (std::size_t row = 0; row < f.rows.size(); ++row)
+      std::copy_n(block.outputs.begin() + static_cast<std::ptrdiff_t>(row * block.samples), block.samples,
+                  f.values.begin() + static_cast<std::ptrdiff_t>(row * f.identity.samples + block.first_sample));
+    std::copy_n(block.status.begin(), block.samples,
+                f.status_values.begin() + static_cast<std::ptrdiff_t>(block.first_sample));
+    f.done += block.samples;
+    return;
+  }
+  const Lock lock(hdf5::library());
+  naming(f.path, [&] {
+    for (std::size_t row = 0; row < f.rows.size(); ++row)
+      f.transfer(true, f.datasets[f.rows[row].dataset], H5T_NATIVE_DOUBLE, 2, f.rows[row].reading, block.first_sample,
+                 block.samples, const_cast<double*>(block.outputs.data() + row * block.samples));
+    f.transfer(true, f.status, H5T_NATIVE_UINT8, 1, 0, block.first_sample, block.samples,
+               const_cast<std::uint8_t*>(block.status.data()));
+    f.done += block.samples;
+    if (std::chrono::steady_clock::now() - f.marked_at > std::chrono::seconds(1)) f.mark();
+  });
+}
+
+std::vector<double> ResultFile::read(std::size_t output, std::uint64_t first, std::uint64_t count) const {
+  const Impl& f = *impl_;
+  if (output >= f.rows.size() || first > f.done || count > f.done - first)
+    throw std::out_of_range("samples that are not there");
+  std::vector<double> values(count);
+  if (!f.identity.store_samples) {
+    std::copy_n(f.values.begin() + static_cast<std::ptrdiff_t>(output * f.identity.samples + first), count,
+                values.begin());
+    return values;
+  }
+  const Lock lock(hdf5::library());
+  naming(f.path, [&] {
+    f.transfer(false, f.datasets.at(f.rows[output].dataset), H5T_NATIVE_DOUBLE, 2, f.rows[output].reading, first, count,
+               values.data());
+  });
+  return values;
+}
+
+std::vector<std::uint8_t> ResultFile::read_status(std::uint64_t first, std::uint64_t count) const {
+  const Impl& f = *impl_;
+  if (first > f.done || count > f.done - first) throw std::out_of_range("samples that are not there");
+  std::vector<std::uint8_t> values(count);
+  if (!f.identity.store_samples) {
+    std::copy_n(f.status_values.begin() + static_cast<std::ptrdiff_t>(first), count, values.begin());
+    return values;
+  }
+  const Lock lock(hdf5::library());
+  naming(f.path, [&] { f.transfer(false, f.status, H5T_NATIVE_UINT8, 1, 0, first, count, values.data()); });
+  return values;
+}
+
+void ResultFile::finish(const analysis::Results& results) {
+  Impl& f = *impl_;
+  if (f.done != f.identity.samples) throw std::logic_error("finished before the last sample");
+  const Lock lock(hdf5::library());
+  naming(f.path, [&] {
+    f.mark();
+    write_results(f.file, results);
+    hdf5::require(H5Dwrite(f.marker, H5T_NATIVE_UINT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, &f.done), "write the marker");
+    hdf5::require(H5Fflush(f.file, H5F_SCOPE_GLOBAL), "write results");
+    hdf5::write_attribute(f.file, "complete", 1);
+    hdf5::require(H5Fflush(f.file, H5F_SCOPE_GLOBAL), "complete the file");
+    f.finished = true;
+  });
+}
+
+Stored read_identity(const std::string& path) {
+  const Lock lock(hdf5::library());
+  try {
+    if (!is_hdf5(path)) throw OutputError("no HDF5 file");
+    return read_stored(open_file(path, H5F_ACC_RDONLY));
+  } catch (const OutputError& error) {
+    const Problem& p = error.problems().front();
+    throw InputError("'" + path + "' is no result of ours", p.what + (p.why.empty() ? "" : ": " + p.why));
+  }
+}
+
+} // namespace gumshoe::store

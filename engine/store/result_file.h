@@ -1,0 +1,51 @@
+#pragma once
+/// The result file (layout: README.md beside this file). The only door to HDF5.
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/results.h"
+#include "propagation/run.h"
+
+namespace gumshoe::store {
+
+/// What fixes a run's numbers; a file is resumed only if all of it matches.
+struct Identity {
+  std::string scenario_hash, scenario_text, scenario_file, model, method, evaluation, design, version, instruction_set;
+  std::uint64_t seed = 0, samples = 0;
+  bool store_samples = true;
+};
+
+/// The samples of a run, written block by block in order. Throws OutputError naming path and reason
+/// (unwritable, disk full, not one of our files: never overwritten).
+class ResultFile : public propagation::Sink {
+public:
+  /// Creates the file, or opens it to resume if it holds an unfinished run of the same identity.
+  ResultFile(const std::string& path, const Identity& identity, const std::vector<propagation::Output>& outputs,
+             const std::vector<std::string>& reading_labels);
+  ~ResultFile() override;
+  /// Samples already there, 0 for a new file.
+  std::uint64_t samples_done() const;
+  void write(const propagation::ResultBlock& block) override;
+  /// Values of one output row (SI, NaN where failed), samples [first, first + count).
+  std::vector<double> read(std::size_t output, std::uint64_t first, std::uint64_t count) const;
+  std::vector<std::uint8_t> read_status(std::uint64_t first, std::uint64_t count) const;
+  /// Writes everything but the samples and marks the file complete.
+  void finish(const analysis::Results& results);
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// The attributes of an existing result, for `replay` and for resuming. Throws InputError if the
+/// path is no result of ours (a directory, garbage, another program's HDF5).
+struct Stored {
+  Identity identity;
+  std::uint64_t samples_done = 0;
+  bool complete = false;
+};
+Stored read_identity(const std::string& path);
+
+} // namespace gumshoe::store

@@ -1,0 +1,14 @@
+#pragma once
+/// Writes everything but the samples: Results as the groups of README.md. Private to this folder.
+#include "analysis/results.h"
+#include "store/hdf5.h"
+
+namespace gumshoe::store {
+
+/// Replaces whatever of it an interrupted run left in `file`.
+void write_results(hid_t file, const analysis::Results& results);
+
+/// Label values of a reading in one line: "rod 2, 1".
+std::string label_text(const quantities::Labels& labels);
+
+} // namespace gumshoe::store

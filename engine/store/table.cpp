@@ -1,0 +1,71 @@
+#include "store/table.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "base/units.h"
+
+namespace gumshoe::store {
+
+Display display(const std::string& unit, const std::string& si_unit) {
+  try {
+    return {unit, units::from_si(1, unit, si_unit, units::Kind::difference),
+            units::from_si(0, unit, si_unit, units::Kind::point)};
+  } catch (const InputError&) {
+    return {si_unit, 1, 0};
+  }
+}
+
+std::string common_units(const std::vector<std::string>& si_units) {
+  if (si_units.empty()) return "1";
+  const bool same = std::all_of(si_units.begin(), si_units.end(), [&](const auto& u) { return u == si_units[0]; });
+  return same ? si_units[0] : "see units";
+}
+
+Table::Table(hid_t group, std::string dimension, std::size_t rows)
+    : group_(group), dimension_(std::move(dimension)), rows_(rows) {
+  if (rows_ > 0) scale_ = hdf5::create_dimension(group_, dimension_, rows_);
+}
+
+template <class T>
+void Table::numbers(const std::string& name, const std::vector<T>& values, const std::string& units,
+                    const std::string& long_name) {
+  if (rows_ == 0) return;
+  if (values.size() != rows_) throw OutputError("cannot write column '" + name + "'", "it has another length");
+  const hdf5::Handle dataset =
+      hdf5::create_dataset(group_, name, hdf5::file_type<T>(), {rows_}, units.empty() ? "1" : units, long_name);
+  hdf5::require(H5Dwrite(dataset, hdf5::memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
+                "write a column");
+  hdf5::attach(dataset, 0, scale_, dimension_);
+}
+template void Table::numbers(const std::string&, const std::vector<double>&, const std::string&, const std::string&);
+template void Table::numbers(const std::string&, const std::vector<std::uint64_t>&, const std::string&,
+                             const std::string&);
+template void Table::numbers(const std::string&, const std::vector<int>&, const std::string&, const std::string&);
+template void Table::numbers(const std::string&, const std::vector<std::uint8_t>&, const std::string&,
+                             const std::string&);
+
+void Table::texts(const std::string& name, const std::vector<std::string>& values, const std::string& long_name) {
+  if (rows_ == 0) return;
+  if (values.size() != rows_) throw OutputError("cannot write column '" + name + "'", "it has another length");
+  const hdf5::Handle dataset = hdf5::create_dataset(group_, name, hdf5::text_type(), {rows_}, "1", long_name);
+  hdf5::write_texts(dataset, values);
+  hdf5::attach(dataset, 0, scale_, dimension_);
+}
+
+void Table::units(const std::vector<std::string>& si_units, const std::vector<std::string>& display_units) {
+  std::vector<std::string> shown;
+  std::vector<double> factors, offsets;
+  for (std::size_t i = 0; i < si_units.size(); ++i) {
+    const Display d = display(display_units[i], si_units[i]);
+    shown.push_back(d.units);
+    factors.push_back(d.factor);
+    offsets.push_back(d.offset);
+  }
+  texts("units", si_units, "SI unit of the row");
+  texts("display_units", shown, "unit shown to people");
+  numbers("display_factor", factors, "1", "display unit over SI unit: shown = SI * factor");
+  numbers("display_offset", offsets, "1", "added to a point on a scale, not to a difference or an uncertainty");
+}
+
+} // namespace gumshoe::store

@@ -1,0 +1,52 @@
+#pragma once
+/// A group whose datasets are the columns of one table: 1-D, one named dimension, `units` and
+/// `long_name` on each. Private to this folder.
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "store/hdf5.h"
+
+namespace gumshoe::store {
+
+/// What turns SI numbers into the unit people are shown: SI * factor (+ offset if a point on a scale,
+/// such as a temperature, and no difference or uncertainty).
+struct Display {
+  std::string units;
+  double factor = 1, offset = 0;
+};
+/// Falls back to the SI unit if `unit` does not convert: no finished run is lost over its display.
+Display display(const std::string& unit, const std::string& si_unit);
+
+/// The one unit of all rows, or "see units" where rows differ.
+std::string common_units(const std::vector<std::string>& si_units);
+
+/// One member of every row, as a column.
+template <class Row, class Member> auto column(const std::vector<Row>& rows, Member member) {
+  std::vector<std::decay_t<std::invoke_result_t<Member, const Row&>>> values;
+  values.reserve(rows.size());
+  for (const Row& row : rows) values.push_back(std::invoke(member, row));
+  return values;
+}
+
+class Table {
+public:
+  /// A new dimension of `rows` rows in `group`, which must outlive this. A table without rows writes nothing.
+  Table(hid_t group, std::string dimension, std::size_t rows);
+
+  /// T: double, std::uint64_t, int or std::uint8_t.
+  template <class T>
+  void numbers(const std::string& name, const std::vector<T>& values, const std::string& units,
+               const std::string& long_name);
+  void texts(const std::string& name, const std::vector<std::string>& values, const std::string& long_name);
+  /// The columns `units`, `display_units`, `display_factor` and `display_offset`.
+  void units(const std::vector<std::string>& si_units, const std::vector<std::string>& display_units);
+
+private:
+  hid_t group_;
+  std::string dimension_;
+  hsize_t rows_;
+  hdf5::Handle scale_;
+};
+
+} // namespace gumshoe::store

@@ -1,0 +1,188 @@
+"""Figures as inline SVG: text stays text, no identifiers clash, nothing is loaded from elsewhere."""
+import io
+import math
+import re
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.ticker import MaxNLocator
+
+from . import rounding
+
+BLUE, ORANGE, GREY, PALE, INK = "#0b5fa5", "#c8500a", "#6b7280", "#d5e3f0", "#1f2933"  # apart for every eye
+
+matplotlib.rcParams.update({
+    "svg.fonttype": "none", "svg.hashsalt": "gumshoe", "font.size": 9, "axes.spines.top": False,
+    "axes.spines.right": False, "axes.edgecolor": GREY, "axes.labelcolor": INK, "xtick.color": GREY,
+    "ytick.color": GREY, "xtick.labelcolor": INK, "ytick.labelcolor": INK, "axes.linewidth": 0.7,
+    "xtick.major.width": 0.7, "ytick.major.width": 0.7, "axes.axisbelow": True, "axes.unicode_minus": True,
+    "text.parse_math": False,
+})
+
+
+def svg(figure, name, title):
+    """The figure as an <svg> element whose ids start with `name`."""
+    buffer = io.StringIO()
+    figure.savefig(buffer, format="svg", transparent=True, metadata={"Date": None})
+    plt.close(figure)
+    text = buffer.getvalue()
+    text = text[text.index("<svg"):]
+    text = re.sub(r"<metadata>.*?</metadata>", "", text, flags=re.S)
+    text = re.sub(r'\s(xmlns(:\w+)?)="[^"]*"', "", text)
+    text = re.sub(r'(\bid="|href="#|url\(#)', rf"\g<1>{name}-", text.replace("xlink:href", "href"))
+    text = re.sub(r"(font: ?[^;\"]*?px)[^;\"]*", r"\1 sans-serif", text)
+    width = re.search(r'width="([\d.]+)pt"', text).group(1)
+    text = re.sub(r'(<svg[^>]*?) (?:height|width)="[\d.]+pt"', r"\1", text)
+    text = re.sub(r'(<svg[^>]*?) (?:height|width)="[\d.]+pt"', r"\1", text)
+    escaped = title.replace("&", "&amp;").replace("<", "&lt;").replace('"', "&quot;")
+    return text.replace("<svg", f'<svg role="img" aria-label="{escaped}" style="max-width:{width}pt"', 1)
+
+
+def deviation(output):
+    """Reference (display units), unit and factor: shown = (SI value in display units - reference) * factor."""
+    width = output.shortest_high - output.shortest_low
+    size = output.standard_uncertainty if math.isfinite(output.standard_uncertainty) else width / 4
+    size *= output.display_factor
+    unit, factor = rounding.finer(output.display_units, size)
+    places = rounding.decimals(size)
+    estimate = output.estimate if math.isfinite(output.estimate) else output.symmetric_low / 2 + output.symmetric_high / 2
+    reference = estimate * output.display_factor + output.display_offset
+    return (reference if places is None else round(reference, places)), unit, factor, places
+
+
+def scaler(output):
+    reference, unit, factor, places = deviation(output)
+    to_axis = lambda si: (np.asarray(si) * output.display_factor + output.display_offset - reference) * factor
+    shown = f"{rounding.fixed(reference, places)} {rounding.unit_text(output.display_units)}".strip()
+    return to_axis, f"deviation of {output.name} from {shown}" + (f", in {rounding.unit_text(unit)}" if unit != "1" else "")
+
+
+def view(output, to_axis, budget):
+    """Axis limits: the intervals with room on both sides, not the farthest sample of a million."""
+    ends = [output.symmetric_low, output.symmetric_high, output.shortest_low, output.shortest_high]
+    if budget is not None and budget.applicable and math.isfinite(budget.expanded_uncertainty):
+        ends += [budget.estimate - budget.expanded_uncertainty, budget.estimate + budget.expanded_uncertainty]
+    low, high = float(np.min(to_axis(ends))), float(np.max(to_axis(ends)))
+    room = 0.35 * (high - low) or 1
+    edges = to_axis(output.histogram_edges)
+    if len(edges):
+        return max(low - room, min(edges[0], low - 0.05 * room)), min(high + room, max(edges[-1], high + 0.05 * room))
+    return low - room, high + room
+
+
+def histogram(axes, output, to_axis):
+    if len(output.histogram):
+        edges = to_axis(output.histogram_edges)
+        scale = (output.histogram_edges[-1] - output.histogram_edges[0]) / (edges[-1] - edges[0])
+        axes.stairs(output.histogram * scale, edges, fill=True, color=PALE)
+        axes.stairs(output.histogram * scale, edges, color=BLUE, linewidth=0.8)
+    axes.set_ylim(bottom=0)
+    axes.set_yticks([])
+    axes.spines["left"].set_visible(False)
+
+
+def distribution(output, budget, p, name):
+    to_axis, label = scaler(output)
+    figure, (top, low) = plt.subplots(2, 1, sharex=True, figsize=(7.2, 3.5), layout="constrained",
+                                      gridspec_kw={"height_ratios": [4, 1.25], "hspace": 0})
+    histogram(top, output, to_axis)
+    limits = view(output, to_axis, budget)
+    rows = [("symmetric", to_axis([output.symmetric_low, output.symmetric_high]), BLUE, "-"),
+            ("shortest", to_axis([output.shortest_low, output.shortest_high]), ORANGE, "-")]
+    if budget is not None and budget.applicable and budget.combined_standard_uncertainty > 0:
+        u = budget.combined_standard_uncertainty
+        x = np.linspace(*limits, 400)
+        centre, spread = float(to_axis(budget.estimate)), float(to_axis(budget.estimate + u) - to_axis(budget.estimate))
+        top.plot(x, np.exp(-0.5 * ((x - centre) / spread) ** 2) / (spread * math.sqrt(2 * math.pi)), color=INK,
+                 linewidth=1.1, linestyle=(0, (4, 2)), label="GUM framework: normal, u_c")
+        ends = budget.estimate + np.array([-1, 1]) * budget.expanded_uncertainty
+        rows.append(("GUM  y ± U", to_axis(ends), INK, (0, (4, 2))))
+        top.legend(loc="upper right", frameon=False, fontsize=8)
+    if math.isfinite(output.estimate):
+        top.axvline(float(to_axis(output.estimate)), color=BLUE, linewidth=0.8, ymax=0.94)
+    for k, (text, ends, colour, style) in enumerate(rows):
+        low.plot(ends, [-k, -k], color=colour, linewidth=1.8, linestyle=style)
+        low.plot(ends, [-k, -k], color=colour, marker="|", markersize=8, linestyle="none", markeredgewidth=1.8)
+        for end in ends:
+            if limits[0] < end < limits[1]:
+                top.axvline(end, color=colour, linewidth=0.6, linestyle=style, alpha=0.6)
+    low.set_ylim(-len(rows) + 0.4, 0.6)
+    low.set_yticks([-k for k in range(len(rows))], [row[0] for row in rows])
+    low.tick_params(axis="y", length=0)
+    low.spines["left"].set_visible(False)
+    low.set_xlim(*limits)
+    low.set_xlabel(label)
+    top.tick_params(axis="x", length=0)
+    top.set_title(f"Probability density and intervals for {rounding.probability(p)}", loc="left", fontsize=9, color=INK)
+    return svg(figure, name, f"Distribution of {output.name} with its coverage intervals")
+
+
+def sobol(sensitivity, name, most=12):
+    rows = sorted(sensitivity.rows, key=lambda r: -(r.total if math.isfinite(r.total) else 0))[:most]
+    figure, axes = plt.subplots(figsize=(7.2, 0.75 + 0.36 * len(rows)), layout="constrained")
+    bars = [("first", -0.18, BLUE, "first order"), ("total", 0.18, ORANGE, "total")]
+    for key, shift, colour, label in bars:
+        values = np.array([getattr(r, key) for r in rows])
+        ends = np.array([[getattr(r, key + "_low"), getattr(r, key + "_high")] for r in rows])
+        y = np.arange(len(rows)) + shift
+        axes.barh(y, np.clip(np.nan_to_num(values), 0, None), height=0.3, color=colour, alpha=0.85, label=label)
+        axes.hlines(y, ends[:, 0], ends[:, 1], color=INK, linewidth=1)
+    axes.set_yticks(range(len(rows)), [r.input for r in rows])
+    axes.tick_params(axis="y", length=0)
+    axes.invert_yaxis()
+    axes.set_xlim(left=min(0, min((r.first_low for r in rows), default=0)))
+    axes.xaxis.set_major_locator(MaxNLocator(6))
+    axes.grid(axis="x", color="#e5e7eb", linewidth=0.7)
+    axes.set_xlabel("share of the variance; lines: 95 % confidence intervals of the index")
+    axes.legend(loc="lower right", frameon=False, fontsize=8)
+    return svg(figure, name, f"Sobol' indices of {sensitivity.output}")
+
+
+def overview(outputs, name):
+    """Estimate and symmetric interval of every output of one measurand, as deviations from their mean."""
+    reference = outputs[0]
+    display = lambda o, si: si * o.display_factor + o.display_offset
+    widths = [abs(o.symmetric_high - o.symmetric_low) / 4 * o.display_factor for o in outputs]
+    middle = float(np.mean([display(o, (o.symmetric_low + o.symmetric_high) / 2) for o in outputs]))
+    spread = max(float(np.median(widths)), 1e-300)
+    unit, factor = rounding.finer(reference.display_units, spread)
+    places = rounding.decimals(spread)
+    middle = middle if places is None else round(middle, places)
+    figure, axes = plt.subplots(figsize=(7.2, 0.7 + 0.26 * len(outputs)), layout="constrained")
+    for k, o in enumerate(outputs):
+        ends = [(display(o, e) - middle) * factor for e in (o.symmetric_low, o.symmetric_high)]
+        axes.plot(ends, [k, k], color=BLUE, linewidth=1.8, solid_capstyle="butt")
+        if math.isfinite(o.estimate):
+            axes.plot((display(o, o.estimate) - middle) * factor, k, "o", color=BLUE, markersize=5)
+    axes.set_yticks(range(len(outputs)), [o.name for o in outputs])
+    axes.tick_params(axis="y", length=0)
+    axes.invert_yaxis()
+    axes.grid(axis="x", color="#e5e7eb", linewidth=0.7)
+    axes.spines["left"].set_visible(False)
+    shown = f"{rounding.fixed(middle, places)} {rounding.unit_text(reference.display_units)}".strip()
+    axes.set_xlabel(f"deviation from {shown}" + (f", in {rounding.unit_text(unit)}" if unit != "1" else ""))
+    return svg(figure, name, f"Estimates and coverage intervals of {reference.measurand}")
+
+
+def small_multiples(outputs, name, columns=4):
+    count = math.ceil(len(outputs) / columns)
+    figure, grid = plt.subplots(count, columns, figsize=(7.2, 1.35 * count), layout="constrained", squeeze=False)
+    for axes in grid.flat[len(outputs):]:
+        axes.set_visible(False)
+    for axes, o in zip(grid.flat, outputs):
+        to_axis, label = scaler(o)
+        histogram(axes, o, to_axis)
+        axes.set_xlim(*view(o, to_axis, None))
+        for end in to_axis([o.symmetric_low, o.symmetric_high]):
+            axes.axvline(end, color=BLUE, linewidth=0.8)
+        for end in to_axis([o.shortest_low, o.shortest_high]):
+            axes.axvline(end, color=ORANGE, linewidth=0.8)
+        axes.set_title(o.name, fontsize=7.5, color=INK, loc="left")
+        axes.tick_params(axis="x", labelsize=7)
+        axes.xaxis.set_major_locator(MaxNLocator(4))
+        unit = label.rpartition(", in ")[2]
+        axes.set_xlabel(unit if unit != label else "", fontsize=7, loc="right", labelpad=0)
+    return svg(figure, name, "Distributions of all outputs")

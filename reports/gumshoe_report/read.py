@@ -1,0 +1,80 @@
+"""The result file as plain Python: attributes, and one list of rows per table (engine/store/README.md)."""
+import types
+
+import h5py
+import numpy as np
+
+
+class NotAResult(Exception):
+    """The message names the file, what is wrong with it and what would be right."""
+
+
+def plain(value):
+    if isinstance(value, bytes):
+        return value.decode("utf-8", "replace")
+    return value.item() if isinstance(value, np.generic) else value
+
+
+def is_dimension(dataset):
+    return bytes(dataset.attrs.get("NAME", b"")).startswith(b"This is a netCDF dimension but not")
+
+
+def rows(group):
+    """The columns of a table, turned into rows; `columns` of other lengths (histograms) are left out."""
+    if group is None:
+        return []
+    columns = {name: d for name, d in group.items() if isinstance(d, h5py.Dataset) and not is_dimension(d)}
+    if not columns:
+        return []
+    first = "name" if "name" in columns else next(iter(columns))
+    dimension = columns[first].dims[0].label
+    values = {n: d[()] for n, d in columns.items() if d.dims[0].label == dimension}
+    return [types.SimpleNamespace(**{n: plain(v[i]) for n, v in values.items()})
+            for i in range(len(values[first]))]
+
+
+def numbered(group):
+    """Sub-groups 000, 001, ...: their attributes and their rows."""
+    found = []
+    for name in sorted(group or ()):
+        attributes = {k: plain(v) for k, v in group[name].attrs.items()}
+        found.append(types.SimpleNamespace(**attributes, rows=rows(group[name])))
+    return found
+
+
+def texts(file, name):
+    return [plain(t) for t in file[name][()]] if name in file else []
+
+
+def result(path):
+    """Everything but the samples of a finished run. Throws NotAResult."""
+    if not path.exists():
+        raise NotAResult(f"'{path}' does not exist")
+    try:
+        file = h5py.File(path, "r")
+    except OSError as problem:
+        raise NotAResult(f"'{path}' is no result of ours ({problem})") from None
+    with file:
+        r = types.SimpleNamespace(**{k: plain(v) for k, v in file.attrs.items()}, path=path)
+        if getattr(r, "program", "") != "gumshoe":
+            raise NotAResult(f"'{path}' is no result of ours (another program made it)")
+        if not r.complete:
+            done = int(file["samples_done"][0])
+            raise NotAResult(f"'{path}' is not finished ({done} of {r.samples} samples) "
+                             "give the same run command again to resume it?")
+        r.outputs = rows(file.get("summary"))
+        for k, output in enumerate(r.outputs):
+            for key in ("histogram", "histogram_edges"):
+                name = f"summary/{key}_{k:03d}"
+                setattr(output, key, file[name][()] if name in file else np.zeros(0))
+        r.budgets = numbered(file.get("budget"))
+        r.sensitivities = numbered(file.get("sensitivity"))
+        r.validations = rows(file.get("validation"))
+        r.comparisons = rows(file.get("comparison"))
+        r.printed = rows(file.get("printed"))
+        r.inputs = rows(file.get("inputs"))
+        r.readings = rows(file.get("readings"))
+        readings = file.get("readings")
+        r.reading_units = {n: plain(d.attrs.get("units", "1")) for n, d in readings.items()} if readings else {}
+        r.failures, r.notes = texts(file, "failures"), texts(file, "notes")
+    return r

@@ -1,0 +1,70 @@
+"""Numbers as people write them: the uncertainty to two digits, the estimate to the same place (GUM 7.2.6)."""
+import math
+
+# One unit down, for deviations that would otherwise be 0.0004 mm.
+FINER = {"m": ("mm", 1e3), "mm": ("um", 1e3), "deg": ("arcsec", 3600.0), "rad": ("urad", 1e6), "s": ("ms", 1e3),
+         "mrad": ("urad", 1e3)}
+# Units to show where a column has only its SI unit.
+COMMON = {"m": ("mm", 1e3), "rad": ("deg", 180 / math.pi), "m/s": ("mm/min", 6e4), "rad/s": ("rpm", 30 / math.pi)}
+SYMBOLS = {"um": "µm", "deg": "°", "arcsec": "″", "degC": "°C", "1": "", "urad": "µrad"}
+
+
+def unit_text(unit):
+    return "/".join(SYMBOLS.get(part, part) or "1" for part in unit.split("/")) if unit != "1" else ""
+
+
+def finer(unit, size):
+    """Unit and factor in which a deviation of this size has digits before the point."""
+    factor = 1.0
+    while unit in FINER and 0 < size * factor < 0.1:
+        unit, step = FINER[unit]
+        factor *= step
+    return unit, factor
+
+
+def decimals(u, digits=2):
+    """Decimal places that show `digits` significant digits of u; None if u gives no place."""
+    if not math.isfinite(u) or u <= 0:
+        return None
+    places = digits - 1 - math.floor(math.log10(u))
+    # 0.0996 rounds to 0.100: one digit more than asked for.
+    return places - 1 if round(u, places) >= 10 ** (digits - places) else places
+
+
+def fixed(value, places):
+    """A value at a decimal place; `places` None shows six significant digits."""
+    if not math.isfinite(value):
+        return "–"
+    if places is None:
+        text = f"{value:.6g}"
+    elif places > 9:
+        text = f"{value:.{max(1, places + math.floor(math.log10(abs(value) or 1)))}e}"
+    else:
+        text = f"{round(value, places):.{max(places, 0)}f}"
+    if float(text) == 0:
+        text = text.lstrip("-")
+    return text.replace("-", "−", 1) if text.startswith("-") else text
+
+
+def significant(value, digits=2):
+    """So many significant digits, plain from 0.001 to 99999, else with an exponent."""
+    if value is None or not math.isfinite(value):
+        return "–"
+    if value == 0:
+        return "0"
+    if not 1e-4 <= abs(value) < 1e5:
+        mantissa, exponent = f"{value:.{digits - 1}e}".split("e")
+        return f"{mantissa}e{int(exponent)}".replace("-", "−")
+    return fixed(value, decimals(abs(value), digits))
+
+
+def percent(share):
+    if share is None or not math.isfinite(share):
+        return "–"
+    if 0 < abs(share) < 0.0005:
+        return "<\u202f0.1\u202f%"
+    return fixed(100 * share, 1) + "\u202f%"
+
+
+def probability(p):
+    return f"{100 * p:.10g}\u202f%"

@@ -1,0 +1,160 @@
+"""The tables of a report: rows of text for people, and CSV in display units with all digits."""
+import csv
+import math
+import types
+
+from .rounding import COMMON, decimals, finer, fixed, percent, significant, unit_text
+
+FOLDED_BELOW = 5e-4  # shares that the page sums up in one line when a budget is long
+
+
+def point(row, value):
+    return value * row.display_factor + row.display_offset
+
+
+def spread(row, value):
+    return value * row.display_factor
+
+
+def summary_row(o):
+    width = (o.shortest_high - o.shortest_low) / 4
+    places = decimals(spread(o, o.standard_uncertainty if math.isfinite(o.standard_uncertainty) else width))
+    show = lambda value: fixed(point(o, value), places)
+    total = o.valid + o.failed
+    return types.SimpleNamespace(
+        name=o.name, unit=unit_text(o.display_units), estimate=show(o.estimate),
+        u=fixed(spread(o, o.standard_uncertainty), places), symmetric=(show(o.symmetric_low), show(o.symmetric_high)),
+        shortest=(show(o.shortest_low), show(o.shortest_high)),
+        failed=f"{o.failed} of {total}" if o.failed else "",
+        rank=(show(o.symmetric_low_rank), show(o.symmetric_high_rank)) if o.failed else None,
+        estimate_se=significant(spread(o, o.estimate_se)), u_se=significant(spread(o, o.standard_uncertainty_se)),
+        skewness=fixed(o.skewness, 2), kurtosis=fixed(o.kurtosis, 2), warning=o.warning, statement=o.statement)
+
+
+def coefficient_unit(output_unit, unit):
+    if unit in ("1", output_unit):
+        return unit_text(output_unit) if unit == "1" else ""
+    return f"{unit_text(output_unit) or '1'}/{unit_text(unit)}"
+
+
+def budget_row(b, c, factor):
+    """`factor`: from the output's display unit to the unit of the contributions."""
+    u = spread(c, c.standard_uncertainty)
+    return types.SimpleNamespace(
+        name=c.name, unit=unit_text(c.display_units) or "1", estimate=fixed(point(c, c.estimate), decimals(u)),
+        u=significant(u) if math.isfinite(c.standard_uncertainty) else "none", evaluation=c.evaluation,
+        distribution=c.distribution, dof=f"{c.degrees_of_freedom:.4g}" if c.degrees_of_freedom > 0 else "∞",
+        differentiable=bool(c.differentiable),
+        sensitivity=significant(c.sensitivity * b.display_factor / c.display_factor, 3),
+        sensitivity_unit=coefficient_unit(b.display_units, c.display_units),
+        contribution=significant(factor * spread(b, c.contribution)), share=percent(c.share),
+        width=max(0.0, min(100.0, 100 * c.share)) if math.isfinite(c.share) else 0,
+        monte_carlo=percent(c.monte_carlo_share), scope=c.scope, source=c.source)
+
+
+def budget(b, u_monte_carlo=math.nan):
+    """The budget of one output as text; `u_monte_carlo` in SI."""
+    ordered = sorted(b.rows, key=lambda c: -max([s for s in (c.share, c.monte_carlo_share) if math.isfinite(s)] + [0.0]))
+    small = [c for c in ordered if c.differentiable and math.isfinite(c.share) and c.share < FOLDED_BELOW and
+             not c.monte_carlo_share >= FOLDED_BELOW]
+    folded = small if len(ordered) > 10 and len(small) > 3 else []
+    u = b.combined_standard_uncertainty
+    dof = b.effective_degrees_of_freedom
+    fine, factor = finer(b.display_units, spread(b, u) if u > 0 else abs(spread(b, u_monte_carlo)))
+    moved = [f"second-order terms change u_c to {significant(spread(b, b.second_order_uncertainty))} and shift the mean "
+             f"by {significant(spread(b, b.second_order_bias))} {unit_text(b.display_units)}"] \
+        if u > 0 and (abs(b.second_order_uncertainty / u - 1) > 0.05 or abs(b.second_order_bias) > 0.1 * u) else []
+    return types.SimpleNamespace(
+        output=b.output, unit=unit_text(b.display_units), applicable=bool(b.applicable), reason=b.reason,
+        rows=[budget_row(b, c, factor) for c in ordered if c not in folded], folded=len(folded),
+        folded_share=percent(sum(c.share for c in folded)),
+        has_monte_carlo=any(math.isfinite(c.monte_carlo_share) for c in b.rows),
+        correlation=percent(b.correlation_share), fine_unit=unit_text(fine),
+        interactions=percent(b.monte_carlo_interactions), u=significant(spread(b, u)),
+        u_fine=significant(factor * spread(b, u)), u_monte_carlo=significant(factor * spread(b, u_monte_carlo)),
+        dof="∞" if dof == 0 else fixed(dof, 0) if math.isfinite(dof) else "not defined, inputs correlated",
+        k=fixed(b.coverage_factor, 2), U=significant(spread(b, b.expanded_uncertainty)),
+        estimate=fixed(point(b, b.estimate), decimals(spread(b, u))), remarks=moved)
+
+
+def validation_row(v):
+    fine, factor = finer(v.display_units, spread(v, v.delta) or math.inf)
+    size = lambda value: significant(factor * spread(v, value))
+    return types.SimpleNamespace(name=v.name, verdict=v.verdict, reason=v.reason, digits=v.digits, delta=size(v.delta),
+                                 d_low=size(v.d_low), d_high=size(v.d_high), tolerance=size(v.monte_carlo_tolerance),
+                                 unit=unit_text(fine))
+
+
+def comparison_row(c):
+    places = decimals(spread(c, c.standard_uncertainty))
+    show = lambda value: fixed(spread(c, value), places)
+    return types.SimpleNamespace(
+        name=c.name, unit=unit_text(c.display_units), d=show(c.difference), u=show(c.standard_uncertainty),
+        rss=show(c.root_sum_square), U=show(c.expanded_uncertainty), en=fixed(c.normalised_error, 2),
+        consistent=abs(c.normalised_error) <= 1)
+
+
+def printed_row(p):
+    known = math.isfinite(p.expanded_uncertainty) and p.expanded_uncertainty > 0
+    places = decimals(spread(p, p.expanded_uncertainty if known else abs(p.ours - p.printed)))
+    show = lambda value: fixed(point(p, value), places)
+    return types.SimpleNamespace(
+        output=p.output, source=p.source, unit=unit_text(p.display_units), printed=f"{point(p, p.printed):.10g}"
+        .replace("-", "−"), ours=show(p.ours), difference=fixed(spread(p, p.ours - p.printed), places),
+        U=fixed(spread(p, p.expanded_uncertainty), places), known=known,
+        within=abs(p.ours - p.printed) <= p.expanded_uncertainty)
+
+
+def input_row(i):
+    u = spread(i, i.standard_uncertainty)
+    return types.SimpleNamespace(
+        name=i.name, labels=i.labels, value=fixed(point(i, i.value), decimals(u)), unit=unit_text(i.display_units) or "1",
+        u=("none" if not math.isfinite(u) else significant(u) if u > 0 else "exact"), distribution=i.distribution,
+        evaluation=i.evaluation, scope=i.scope, source=i.source)
+
+
+def readings(r):
+    """Head and rows of the readings table; SI columns in the unit common in a workshop."""
+    names = [n for n in (vars(r.readings[0]) if r.readings else {}) if n not in ("label", "repeats")]
+    shown = {n: COMMON.get(r.reading_units[n], (r.reading_units[n], 1.0)) for n in names}
+    heads = [f"{n} ({unit_text(shown[n][0])})" if unit_text(shown[n][0]) else n for n in names]
+    lines = [[f"{getattr(row, n) * shown[n][1]:.10g}".replace("-", "−") for n in names] for row in r.readings]
+    return types.SimpleNamespace(heads=heads, lines=[(row.label, row.repeats, line)
+                                                     for row, line in zip(r.readings, lines)])
+
+
+def write_csv(r, folder, stem):
+    """Five tables; a table without rows is not written. Returns the paths."""
+    def of(row, points="", spreads=""):
+        return {**{n: point(row, getattr(row, n)) for n in points.split()},
+                **{n: spread(row, getattr(row, n)) for n in spreads.split()}}
+    ends = "symmetric_low symmetric_high shortest_low shortest_high"
+    tables = {
+        "summary": [{"output": o.name, "unit": o.display_units, **of(o, "estimate"),
+                     **of(o, "", "standard_uncertainty"), **of(o, ends), "coverage_probability": r.coverage_probability,
+                     **of(o, "", "estimate_se standard_uncertainty_se"), "valid": o.valid, "failed": o.failed,
+                     "warning": o.warning, "statement": o.statement} for o in r.outputs],
+        "budget": [{"output": b.output, "quantity": c.name, "unit": c.display_units, **of(c, "estimate"),
+                    **of(c, "", "standard_uncertainty"), "type": c.evaluation, "distribution": c.distribution,
+                    "degrees_of_freedom": c.degrees_of_freedom or math.inf, "differentiable": c.differentiable,
+                    "sensitivity": c.sensitivity * b.display_factor / c.display_factor,
+                    "contribution": spread(b, c.contribution), "contribution_unit": b.display_units,
+                    "share_gum": c.share, "share_monte_carlo": c.monte_carlo_share, "scope": c.scope,
+                    "source": c.source} for b in r.budgets for c in b.rows],
+        "sensitivity": [{"output": s.output, **vars(i)} for s in r.sensitivities for i in s.rows],
+        "validation": [{"output": v.name, "unit": v.display_units, **of(v, "", "delta d_low d_high monte_carlo_tolerance"),
+                        "digits": v.digits, "verdict": v.verdict, "reason": v.reason} for v in r.validations],
+        "comparison": [{"comparison": c.name, "a": c.a, "b": c.b, "unit": c.display_units,
+                        **of(c, "", "difference standard_uncertainty root_sum_square expanded_uncertainty"),
+                        "normalised_error": c.normalised_error} for c in r.comparisons],
+    }
+    written = []
+    for name, lines in tables.items():
+        if lines:
+            path = folder / f"{stem}_{name}.csv"
+            with open(path, "w", newline="", encoding="utf-8") as file:
+                writer = csv.DictWriter(file, list(lines[0]))
+                writer.writeheader()
+                writer.writerows(lines)
+            written.append(path)
+    return written

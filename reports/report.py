@@ -1,0 +1,40 @@
+#!/usr/bin/python3
+"""Report of a result file: one self-contained HTML page and CSV tables beside it.
+
+report.py RESULT.h5 [--out FILE.html] [--csv DIR]
+"""
+import argparse
+import pathlib
+import sys
+
+sys.dont_write_bytecode = True
+from gumshoe_report import page, read, tables
+
+
+def main():
+    parser = argparse.ArgumentParser(description="One self-contained HTML page and CSV tables from a result file.")
+    parser.add_argument("result", type=pathlib.Path, help="result file (HDF5)")
+    parser.add_argument("--out", type=pathlib.Path, help="HTML file (default: beside the result)")
+    parser.add_argument("--csv", type=pathlib.Path, help="folder for the CSV tables (default: beside the HTML)")
+    arguments = parser.parse_args()
+    out = arguments.out or arguments.result.with_suffix(".html")
+    folder = arguments.csv or out.parent
+    try:
+        result = read.result(arguments.result)
+        html = page.render(result)
+        folder.mkdir(parents=True, exist_ok=True)
+        out.write_text(html, encoding="utf-8")
+        written = [out] + tables.write_csv(result, folder, out.stem)
+    except read.NotAResult as problem:
+        print(f"error: {problem}", file=sys.stderr)
+        return 2
+    except OSError as problem:
+        print(f"error: '{problem.filename or out}' cannot be written ({problem.strerror})", file=sys.stderr)
+        return 2
+    for path in written:
+        print(path)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

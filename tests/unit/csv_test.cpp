@@ -1,0 +1,39 @@
+#include <catch2/catch.hpp>
+
+#include "base/csv.h"
+
+using gumshoe::InputError;
+using gumshoe::parse_csv;
+
+TEST_CASE("cells know where they stand", "[csv]") {
+  const auto csv = parse_csv("\xEF\xBB\xBF" "a, b (mm) ,c\r\n1,\"x, \"\"y\"\"\", 3\r\n\n4,5,6", "t.csv");
+  REQUIRE(csv.rows.size() == 2);
+  CHECK(csv.find("b (mm)") == 1);
+  CHECK(csv.find("d") == -1);
+  CHECK(csv.rows[0][1].text == "x, \"y\"");
+  CHECK(csv.rows[0][2].text == "3");
+  CHECK(csv.rows[1][2].line == 4);
+  CHECK(csv.rows[1][2].column == 5);
+  CHECK(csv.number(csv.rows[1][0]) == 4);
+}
+
+TEST_CASE("quoted cells may span lines", "[csv]") {
+  const auto csv = parse_csv("a,b\n\"1\n2\",3\n4,5\n", "t.csv");
+  REQUIRE(csv.rows.size() == 2);
+  CHECK(csv.rows[0][0].text == "1\n2");
+  CHECK(csv.rows[1][0].line == 4);
+}
+
+TEST_CASE("malformed tables are refused with their place", "[csv]") {
+  CHECK_THROWS_WITH(parse_csv("", "t.csv"), Catch::Contains("t.csv: error: the file is empty"));
+  CHECK_THROWS_WITH(parse_csv("a,a\n", "t.csv"), Catch::Contains("t.csv:1:3: error: column 'a' appears twice"));
+  CHECK_THROWS_WITH(parse_csv("a,\n", "t.csv"), Catch::Contains("t.csv:1:3: error: a column has no name"));
+  CHECK_THROWS_WITH(parse_csv("a,b\n1,2\n1\n1,2,3\n", "t.csv"), Catch::Contains("t.csv:3:1: error: the row has 1 cells, the header 2") &&
+                                                                    Catch::Contains("t.csv:4:1:"));
+  CHECK_THROWS_WITH(parse_csv("a\n\"1\n", "t.csv"), Catch::Contains("t.csv:2:1: error: a quote is not closed"));
+  CHECK_THROWS_WITH(parse_csv("a\n\"1\"2\n", "t.csv"), Catch::Contains("t.csv:2:1: error: text after a closing quote"));
+  const auto csv = parse_csv("a,b\n1,x\nnan,\n", "t.csv");
+  CHECK_THROWS_WITH(csv.number(csv.rows[0][1]), "t.csv:2:3: error: 'x' is not a number");
+  CHECK_THROWS_AS(csv.number(csv.rows[1][0]), InputError);
+  CHECK_THROWS_AS(csv.number(csv.rows[1][1]), InputError);
+}

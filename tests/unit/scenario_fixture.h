@@ -1,0 +1,88 @@
+#pragma once
+/// A small catalogue for the tests of the parser, and scenarios written to files on the fly.
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <unistd.h>
+
+#include "base/error.h"
+#include "scenario/scenario.h"
+
+namespace scenario_fixture {
+
+using namespace gumshoe;
+
+inline constexpr double huge = HUGE_VAL;
+inline constexpr double degree = 3.14159265358979323846 / 180;
+
+inline constexpr QuantityCard quantity_cards[] = {
+    {"rod_radius", "mm", "m", 5e-3, {0, huge, true, true}, "R_r", "radius"},
+    {"rod_length", "mm", "m", 0.15, {0, huge, true, true}, "L_r", "length"},
+    {"beam_pitch", "deg", "rad", 0, {-90 * degree, 90 * degree, true, true}, "beta", "pitch"},
+    {"trigger_fraction", "1", "1", 0.5, {0, 1, true, true}, "", "share"},
+};
+inline constexpr VariableCard condition_cards[] = {{"feed", "mm/min", "m/s", 4e-3 / 60, "feed"}, {"time", "s", "s", 0, "time"}};
+inline constexpr VariableCard indication_cards[] = {{"spindle_z", "mm", "m", 0, "height"}};
+inline constexpr VariableCard measurand_cards[] = {{"laser_z", "mm", "m", 0, "height"}};
+inline constexpr EvaluationCard evaluation_cards[] = {{"full", ""}, {"conventional", ""}};
+inline constexpr ModelCard model{"rod", "a rod", "", "", quantity_cards, condition_cards, indication_cards, measurand_cards, evaluation_cards, {}};
+
+inline constexpr QuantityCard latency_cards[] = {{"delay", "s", "s", 0, {-1e-2, 1e-2}, "", "delay", Role::amplitude}};
+inline constexpr QuantityCard runout_cards[] = {{"x", "um", "m", 0, {-1e-3, 1e-3}, "", "", Role::pair},
+                                                {"y", "um", "m", 0, {-1e-3, 1e-3}, "", "", Role::pair}};
+inline constexpr EffectCard latency{"trigger_latency", "", "trigger", 0, "", "", "", "", latency_cards};
+inline constexpr EffectCard runout{"rod_runout", "", "pose", 0, "", "", "", "", runout_cards};
+inline constexpr EffectCard orientation{"orientation", "", "spindle", 0, "", "", "", "", latency_cards};
+
+inline scenario::Catalogue catalogue() {
+  return {{&model}, {&runout, &latency, &orientation}, [](const ModelCard&, const EffectCard& e) { return e.stage != "spindle"; }};
+}
+
+/// A folder for one test's files, removed at its end.
+class Folder {
+public:
+  Folder() {
+    std::string name = (std::filesystem::temp_directory_path() / "gumshoe_XXXXXX").string();
+    path_ = mkdtemp(name.data());
+  }
+  ~Folder() { std::filesystem::remove_all(path_); }
+  std::string write(const std::string& name, const std::string& text) const {
+    const std::string file = path_ + '/' + name;
+    std::ofstream(file, std::ios::binary) << text;
+    return file;
+  }
+  const std::string& path() const { return path_; }
+
+private:
+  std::string path_;
+};
+
+inline const std::string head = "schema = 1\nmodel = { name = \"rod\" }\n";
+inline const std::string one_reading = "[indications.spindle_z]\nreadings = [\"-329.932 mm\"]\n";
+
+inline scenario::Scenario read_text(const std::string& text) {
+  const Folder folder;
+  return scenario::read(folder.write("s.toml", text), catalogue());
+}
+
+/// What the parser says of a text, with the file called s.toml; empty if it accepts it.
+inline std::string complaint(const std::string& text) {
+  const Folder folder;
+  try {
+    scenario::read(folder.write("s.toml", text), catalogue());
+  } catch (const InputError& error) {
+    std::string out = error.what();
+    for (std::size_t at; (at = out.find(folder.path() + '/')) != std::string::npos;) out.erase(at, folder.path().size() + 1);
+    return out;
+  }
+  return {};
+}
+
+inline const quantities::InputQuantity& quantity(const scenario::Scenario& s, const std::string& name) {
+  for (const auto& q : s.quantities)
+    if (q.name == name) return q;
+  throw InputError("no quantity " + name);
+}
+
+} // namespace scenario_fixture

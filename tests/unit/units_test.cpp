@@ -1,0 +1,77 @@
+#include <catch2/catch.hpp>
+
+#include "base/error.h"
+#include "base/units.h"
+
+using namespace gumshoe;
+using units::Kind;
+
+namespace {
+constexpr double pi = 3.14159265358979323846;
+double si(const char* text, const char* unit, Kind kind = Kind::point) {
+  const auto m = units::parse(text);
+  return units::to_si(m.number, m.unit, unit, kind);
+}
+} // namespace
+
+TEST_CASE("decimal units are the nearest double, not a rounded factor", "[units]") {
+  CHECK(si("-329.932 mm", "m") == -329.932 / 1000);
+  CHECK(si("0.6 um", "m") == 0.6 / 1e6);
+  CHECK(si("0.6 \xC2\xB5m", "m") == 0.6 / 1e6);
+  CHECK(si("4 mm/min", "m/s") == 4.0 / 60000);
+  CHECK(si("8 um/m/K", "1/K") == 8.0 / 1e6);
+  CHECK(si("50 %", "1") == 0.5);
+  CHECK(si("0.5", "1") == 0.5);
+  CHECK(si("1.5 ms", "s") == 1.5 / 1000);
+}
+
+TEST_CASE("angles", "[units]") {
+  // 1 ulp of the factor pi/180; udunits' fifteen printed digits would miss by 4e-15 relative.
+  CHECK(si("90 deg", "rad") == Approx(pi / 2).epsilon(3e-16));
+  CHECK(si("1 arcsec", "rad") == Approx(pi / 648000).epsilon(3e-16));
+  CHECK(si("1000 rpm", "rad/s") == Approx(2 * pi * 1000 / 60).epsilon(5e-16));
+  CHECK(si("60 rev/min", "rad/s") == Approx(2 * pi).epsilon(5e-16));
+  CHECK(si("8 um/m", "rad") == 8.0 / 1e6); // a small slope is an angle
+  CHECK_FALSE(units::convertible("1", "rad"));
+  CHECK_FALSE(units::convertible("deg", "1"));
+  CHECK_FALSE(units::convertible("mrad", "1"));
+  CHECK_FALSE(units::convertible("Hz", "rad/s")); // 2 pi apart
+  CHECK_FALSE(units::convertible("deg", "rad/s"));
+  CHECK(units::convertible("deg/min", "rad/s"));
+}
+
+TEST_CASE("points and differences on a scale with an offset", "[units]") {
+  CHECK(si("20 degC", "K") == Approx(293.15).epsilon(1e-15));
+  CHECK(si("20 degC", "K", Kind::difference) == 20);
+  CHECK(si("68 degF", "K") == Approx(293.15).epsilon(1e-14));
+  CHECK(si("9 degF", "K", Kind::difference) == Approx(5).epsilon(1e-14));
+  CHECK(units::from_si(293.15, "degC", "K") == Approx(20).epsilon(1e-13));
+  CHECK(units::from_si(1, "degC", "K", Kind::difference) == 1);
+}
+
+TEST_CASE("from_si inverts to_si", "[units]") {
+  struct { const char* unit; const char* si; } rows[] = {{"mm", "m"}, {"um", "m"}, {"deg", "rad"}, {"mm/min", "m/s"}, {"um/h", "m/s"},
+      {"um/m/K", "1/K"}, {"um/m", "1"}, {"min", "s"}, {"rpm", "rad/s"}, {"degC", "K"}, {"um/K", "m/K"}, {"1/K", "1/K"}, {"1", "1"}};
+  for (const auto& row : rows)
+    for (const double x : {0.1, 160.591, -329.932, 1e-7})
+      CHECK(units::from_si(units::to_si(x, row.unit, row.si), row.unit, row.si) ==
+            Approx(x).epsilon(1e-15).margin(std::string(row.si) == "K" ? 1e-13 : 0)); // the offset of 273.15 costs digits
+}
+
+TEST_CASE("what is no number with a unit is refused", "[units]") {
+  for (const char* text : {"", " ", "mm", "five mm", "nan mm", "inf mm", "-inf", "1e400 mm", "0,5 mm", "1_000 mm", "1.5.2 mm", "+-5 mm"})
+    CHECK_THROWS_AS(units::parse(text), InputError);
+  const auto m = units::parse("  +5.25e-1mm ");
+  CHECK(m.number == 0.525);
+  CHECK(m.unit == "mm");
+  CHECK(units::parse("7").unit == "1");
+}
+
+TEST_CASE("what is no unit is refused, though udunits would take it", "[units]") {
+  for (const char* unit : {"foo", "mm 3", "3 mm", "mm@3", "lg(re mm)", "mm since 1990", "m#", "", "mm)", "(mm", "mm/", "mm*", "mm^", "."}) {
+    INFO(unit);
+    CHECK_FALSE(units::convertible(unit, "m"));
+  }
+  CHECK_THROWS_WITH(units::to_si(1, "foo", "m"), Catch::Contains("'foo' is not a unit"));
+  CHECK_THROWS_WITH(units::to_si(1, "N", "m"), "error: 'N' is not a length (must convert to m) use mm or um?");
+}
