@@ -54,7 +54,7 @@ void describe(Results& r, const propagation::Experiment& e) {
   r.title = s.title;
   r.model = s.model;
   r.model_title = card.title;
-  r.method = s.method == scenario::Method::propagation ? "propagation" : "virtual_experiment";
+  r.method = scenario::name(s.method);
   r.evaluation = s.evaluation;
   r.scenario_file = s.file;
   r.scenario_text = s.text;
@@ -62,8 +62,7 @@ void describe(Results& r, const propagation::Experiment& e) {
   r.version = version;
   r.git_hash = git_hash;
   r.instruction_set = name(best_instruction_set());
-  constexpr std::array designs{"monte_carlo", "latin_hypercube", "sobol"};
-  r.design = designs[static_cast<std::size_t>(s.run.design)];
+  r.design = scenario::name(s.run.design);
   r.seed = s.run.seed;
   r.samples = s.run.samples;
   r.coverage_probability = s.analysis.coverage_probability;

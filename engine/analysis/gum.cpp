@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "analysis/derivatives.h"
-#include "analysis/rounding.h"
+#include "base/units.h"
 
 namespace gumshoe::analysis {
 
@@ -190,9 +190,11 @@ Validation validate(const Budget& b, const Summary& s, int digits) {
     if (u == 0 && s.standard_uncertainty == 0) v.verdict = "validated", v.reason = "nothing is uncertain";
     return v;
   }
-  int exponent = static_cast<int>(std::floor(std::log10(u))) - (digits - 1);
-  if (std::round(u / std::pow(10.0, exponent)) >= std::pow(10.0, digits)) ++exponent;
-  v.delta = 0.5 * std::pow(10.0, exponent);
+  // The power of ten is of the unit that people read.
+  const double factor = units::from_si(1, b.output.unit, b.output.si_unit, units::Kind::difference);
+  int exponent = static_cast<int>(std::floor(std::log10(u * factor))) - (digits - 1);
+  if (std::round(u * factor / std::pow(10.0, exponent)) >= std::pow(10.0, digits)) ++exponent;
+  v.delta = 0.5 * std::pow(10.0, exponent) / factor;
   v.d_low = std::fabs(b.estimate - b.expanded_uncertainty - s.symmetric.low);
   v.d_high = std::fabs(b.estimate + b.expanded_uncertainty - s.symmetric.high);
   v.monte_carlo_tolerance = 2 * std::max(s.symmetric.low_se, s.symmetric.high_se);

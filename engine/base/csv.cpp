@@ -127,7 +127,8 @@ Csv parse_csv(std::string_view text, const std::string& file) {
   if (!reader.next(csv.header)) throw InputError({{{file, 0, 0}, "the file is empty", "", "a header and rows?"}});
   for (std::size_t i = 0; i < csv.header.size(); ++i) {
     const CsvCell& cell = csv.header[i];
-    if (cell.text.empty()) problems.push_back({csv.at(cell), "a column has no name", "", ""});
+    if (cell.text.empty())
+      problems.push_back({csv.at(cell), "a column has no name", "", ""});
     else if (csv.find(cell.text) != static_cast<int>(i))
       problems.push_back({csv.at(cell), fmt::format("column '{}' appears twice", cell.text), "", ""});
   }

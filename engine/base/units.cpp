@@ -21,12 +21,14 @@ struct Unit {
   double factor = 1;
   double offset = 0;
   std::string base;
-  int radians = 0; ///< exponent of the radian, which udunits takes for a plain number
+  int radians = 0;    ///< exponent of the radian, which udunits takes for a plain number
   bool ratio = false; ///< a plain number written as a ratio: "um/m", "%"
 };
 
 bool starts_number(char c) { return c >= '0' && c <= '9'; }
-bool letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || static_cast<unsigned char>(c) >= 0x80; }
+bool letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || static_cast<unsigned char>(c) >= 0x80;
+}
 
 /// udunits reads "mm 3" as 3 mm and "mm@3" as a shifted scale: only names, exponents and * / . ^ ( ) pass.
 bool plain_grammar(const std::string& unit) {
@@ -239,7 +241,8 @@ Measure parse(std::string_view text) {
   Measure measure;
   const auto [stop, error] = std::from_chars(begin, end, measure.number);
   const auto refuse = [&](std::string why) {
-    throw InputError(fmt::format("'{}' is not a number with a unit", text), std::move(why), "write it like \"0.6 um\"?");
+    throw InputError(fmt::format("'{}' is not a number with a unit", text), std::move(why),
+                     "write it like \"0.6 um\"?");
   };
   if (error == std::errc::result_out_of_range) refuse("too large or too small for a number");
   if (error != std::errc() || stop == begin) refuse("no number in front");

@@ -28,13 +28,22 @@ template <class T> Beam<double> value(const Beam<T>& b) {
   return {num::value(b.yaw), num::value(b.pitch), num::value(b.radius), num::value(b.fraction)};
 }
 
+/// The solved chord as crossings of the boundary, for carrying derivatives along.
+inline BoundarySolve crossings_of(const ChordSolve<double>& chord) {
+  const auto crossing = [](double s) {
+    return Crossing{s < 0 ? Piece::left_quarter : Piece::right_quarter, std::acos(std::fabs(s))};
+  };
+  return {chord.k, {crossing(chord.left), crossing(chord.right)}, SolveStatus::ok};
+}
+
 /// Height with its derivatives, for dual numbers; `kink` where there are none.
 template <class T> Solved<T> differentiable_height(const Rod<T>& rod, const Beam<T>& beam) {
   const Rod<double> r = value(rod);
   const Beam<double> b = value(beam);
   if (!in_domain(r, b)) return {T(std::nan("")), SolveStatus::out_of_domain};
   const ShadowEdge<double> plain = shadow_edge(r, b);
-  const BoundarySolve s = solve_boundary(plain, b.radius, b.fraction);
+  const auto chord = solve_chord<double>(plain, b.radius, b.fraction);
+  const BoundarySolve s = chord.failed == 0 ? crossings_of(chord) : solve_boundary(plain, b.radius, b.fraction);
   if (s.status != SolveStatus::ok) return {T(std::nan("")), s.status};
   const ShadowEdge<T> edge = shadow_edge(rod, beam);
   const T k = refine_height(edge, beam.radius, beam.fraction, s);

@@ -1,4 +1,5 @@
 /// `gumshoe run`: samples, analysis, result file.
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <csignal>
@@ -53,11 +54,23 @@ private:
   std::chrono::steady_clock::time_point started_, shown_;
 };
 
+/// One line per verdict, with the outputs it holds for.
+void print_validations(const analysis::Results& r) {
+  std::vector<std::pair<std::string, std::string>> lines;
+  for (const auto& v : r.validations) {
+    const std::string text = v.verdict + " (" + v.reason + ")";
+    const auto line = std::ranges::find(lines, text, &std::pair<std::string, std::string>::first);
+    if (line == lines.end()) lines.emplace_back(text, v.output.name);
+    else line->second += ", " + v.output.name;
+  }
+  for (const auto& [text, outputs] : lines)
+    std::cout << fmt::format("GUM framework against Monte Carlo (JCGM 101 clause 8): {}: {}\n", text, outputs);
+}
+
 void print_text(const analysis::Results& r, const std::string& out) {
   std::cout << r.title << '\n';
   for (const std::string& s : r.statements) std::cout << s << '\n';
-  for (const auto& v : r.validations)
-    if (v.verdict != "validated") std::cout << "GUM framework for " << v.output.name << ": " << v.verdict << " (" << v.reason << ")\n";
+  print_validations(r);
   for (const auto& c : r.comparisons) {
     const auto shown = [&](double x) { return units::from_si(x, c.unit, c.si_unit, units::Kind::difference); };
     std::cout << fmt::format("{} = {:.4f} {}, U = {:.4f} {}, E_n = {:.2f}\n", c.name, shown(c.difference), c.unit, shown(c.expanded_uncertainty),
@@ -98,12 +111,9 @@ ExitCode run(const Options& o) {
   const std::string out = !o.out.empty() ? o.out : "results/" + std::filesystem::path(o.file).stem().string() + ".h5";
   if (o.out.empty()) std::filesystem::create_directories("results");
 
-  // The description is cheap and names the run; the same fields go into the file twice otherwise.
-  store::Identity identity{s.hash, s.text, s.file, s.model, s.method == scenario::Method::propagation ? "propagation" : "virtual_experiment",
-                           s.evaluation, fmt::format("{}", static_cast<int>(s.run.design)), version, name(best_instruction_set()), s.run.seed,
-                           s.run.samples, s.run.store_samples};
-  constexpr const char* designs[] = {"monte_carlo", "latin_hypercube", "sobol"};
-  identity.design = designs[static_cast<int>(s.run.design)];
+  const store::Identity identity{s.hash,        s.text,     s.file,         s.model,
+                                 scenario::name(s.method), s.evaluation, scenario::name(s.run.design), version,
+                                 name(best_instruction_set()), s.run.seed, s.run.samples, s.run.store_samples};
   store::ResultFile file(out, identity, experiment.outputs(), experiment.reading_names());
 
   std::signal(SIGINT, on_signal);

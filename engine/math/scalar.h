@@ -5,21 +5,22 @@
 #include <utility>
 
 #include "math/dual.h"
+#include "math/lane_functions.h"
 #include "math/lanes.h"
 
 namespace gumshoe::num {
 
 inline double sqrt(double x) { return std::sqrt(x); }
-inline double sin(double x) { return xsimd::sin(Lanes(x)).get(0); }
-inline double cos(double x) { return xsimd::cos(Lanes(x)).get(0); }
-inline double exp(double x) { return xsimd::exp(Lanes(x)).get(0); }
+inline double sin(double x) { return sine_cosine_lane(Lanes(x)).sine.get(0); }
+inline double cos(double x) { return sine_cosine_lane(Lanes(x)).cosine.get(0); }
+inline double exp(double x) { return exp_lane(Lanes(x)).get(0); }
 inline double atan2(double y, double x) { return xsimd::atan2(Lanes(y), Lanes(x)).get(0); }
 inline double abs(double x) { return std::fabs(x); }
 
 inline Lanes sqrt(const Lanes& x) { return xsimd::sqrt(x); }
-inline Lanes sin(const Lanes& x) { return xsimd::sin(x); }
-inline Lanes cos(const Lanes& x) { return xsimd::cos(x); }
-inline Lanes exp(const Lanes& x) { return xsimd::exp(x); }
+inline Lanes sin(const Lanes& x) { return sine_cosine_lane(x).sine; }
+inline Lanes cos(const Lanes& x) { return sine_cosine_lane(x).cosine; }
+inline Lanes exp(const Lanes& x) { return exp_lane(x); }
 inline Lanes atan2(const Lanes& y, const Lanes& x) { return xsimd::atan2(y, x); }
 inline Lanes abs(const Lanes& x) { return xsimd::abs(x); }
 

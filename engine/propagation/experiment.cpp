@@ -12,7 +12,9 @@ namespace gumshoe::propagation {
 
 std::string reading_name(const quantities::Reading& reading) {
   std::string name;
-  for (const auto& [label, value] : reading.labels) name += (name.empty() ? "" : ", ") + label + " " + value;
+  for (const auto& [label, value] : reading.labels)
+    // "rod 2" says that it is a rod; "1" does not say that it is a setup.
+    name += (name.empty() ? "" : ", ") + (value.starts_with(label) ? value : label + " " + value);
   return name;
 }
 

@@ -55,6 +55,7 @@ std::uint64_t propagate(const Experiment& e, Sink& sink, const RunSettings& sett
   const quantities::Sampler sampler = make_sampler(e);
   const std::uint64_t total = e.scenario().run.samples;
   const int threads = settings.threads > 0 ? settings.threads : tbb::this_task_arena::max_concurrency();
+  const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
   tbb::task_arena arena(threads);
   tbb::enumerable_thread_specific<ThreadBuffers> buffers;
   std::uint64_t next = settings.first, done = settings.first;

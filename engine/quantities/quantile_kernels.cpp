@@ -6,7 +6,7 @@
 #include "quantities/quantile_kernels.h"
 
 #include "math/lanes.h"
-#include "quantities/lane_functions.h"
+#include "math/lane_functions.h"
 #include "random/philox.h"
 
 namespace gumshoe::quantities {

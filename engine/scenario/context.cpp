@@ -28,8 +28,10 @@ const Csv* DataFiles::open(const Node& node, const std::string& path, Problems& 
     files_.back().csv = std::make_unique<Csv>(parse_csv(files_.back().bytes, file));
   } catch (const InputError& error) {
     for (const Problem& p : error.problems()) {
-      if (p.where.line > 0) problems.add(InputError(std::vector<Problem>{p}));
-      else problems.add(node, fmt::format("{}: '{}': {}", path, file, p.what), p.why, p.remedy);
+      if (p.where.line > 0)
+        problems.add(InputError(std::vector<Problem>{p}));
+      else
+        problems.add(node, fmt::format("{}: '{}': {}", path, file, p.what), p.why, p.remedy);
     }
   }
   return files_.back().csv.get();

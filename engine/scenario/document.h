@@ -12,9 +12,9 @@ struct Node {
   enum class Kind { table, array, text, integer, real, boolean, date };
   Kind kind = Kind::table;
   int line = 0, column = 0;
-  std::string text;           ///< text; a date as written
-  double number = 0;          ///< integer and real
-  std::int64_t integer = 0;   ///< integer
+  std::string text;         ///< text; a date as written
+  double number = 0;        ///< integer and real
+  std::int64_t integer = 0; ///< integer
   bool boolean = false;
   std::vector<Member> members; ///< of a table, in file order
   std::vector<Node> items;     ///< of an array

@@ -63,12 +63,15 @@ void explain(const Component& c, const InputQuantity& q, Lines out) {
 }
 
 void explain(const InputQuantity& q, const ModelCard& model, Lines out) {
-  const bool noise = std::any_of(model.indications.begin(), model.indications.end(), [&](const auto& i) { return i.name == q.name; });
+  const bool noise =
+      std::any_of(model.indications.begin(), model.indications.end(), [&](const auto& i) { return i.name == q.name; });
   for (const Entry& e : q.entries) {
     const std::string labels = e.labels.empty() ? "" : " [" + text_of(e.labels) + "]";
     fmt::format_to(out, "  {}{}{} = {}", noise ? "noise of " : "", q.name, labels, both(e.value, q.unit, q.si_unit));
-    if (e.source == "default") fmt::format_to(out, ", default");
-    else if (!e.source.empty() && e.components.empty()) fmt::format_to(out, ", source: {}", e.source);
+    if (e.source == "default")
+      fmt::format_to(out, ", default");
+    else if (!e.source.empty() && e.components.empty())
+      fmt::format_to(out, ", source: {}", e.source);
     fmt::format_to(out, "{}\n", e.components.empty() ? ", exact" : "");
     for (const Component& c : e.components) explain(c, q, out);
   }
@@ -103,9 +106,11 @@ void explain_options(const Scenario& s, const ModelCard& model, Lines out) {
                  s.analysis.coverage_probability, s.analysis.validation_digits,
                  s.analysis.sobol_samples ? fmt::format("sobol {}", s.analysis.sobol_samples) : "none");
   for (const Comparison& c : s.analysis.comparisons)
-    fmt::format_to(out, "  compare {} between values of {}{}\n", c.measurand, c.between, c.within.empty() ? "" : ", within " + c.within);
+    fmt::format_to(out, "  compare {} between values of {}{}\n", c.measurand, c.between,
+                   c.within.empty() ? "" : ", within " + c.within);
   for (const Printed& p : s.analysis.printed) {
-    const auto card = std::find_if(model.measurands.begin(), model.measurands.end(), [&](const auto& m) { return m.name == p.measurand; });
+    const auto card = std::find_if(model.measurands.begin(), model.measurands.end(),
+                                   [&](const auto& m) { return m.name == p.measurand; });
     const std::string labels = p.labels.empty() ? "" : " [" + text_of(p.labels) + "]";
     fmt::format_to(out, "  printed {}{} = {}{}\n", p.measurand, labels,
                    card == model.measurands.end() ? std::string("?") : both(p.value, card->unit, card->si_unit),
@@ -118,7 +123,8 @@ std::string null_effects(const Scenario& s, const ModelCard& model, const Catalo
   for (const EffectCard* effect : catalogue.effects) {
     if (catalogue.applies && !catalogue.applies(model, *effect)) continue;
     const std::string prefix = std::string(effect->name) + '.';
-    const bool freed = std::any_of(s.quantities.begin(), s.quantities.end(), [&](const auto& q) { return q.name.starts_with(prefix); });
+    const bool freed = std::any_of(s.quantities.begin(), s.quantities.end(),
+                                   [&](const auto& q) { return q.name.starts_with(prefix); });
     if (!freed) out += (out.empty() ? "" : ", ") + std::string(effect->name);
   }
   return out;
@@ -132,8 +138,9 @@ std::string explain(const Scenario& s, const Catalogue& catalogue) {
   fmt::format_to(out, "{} (hash {})\n", s.file, s.hash);
   if (!s.title.empty()) fmt::format_to(out, "title: {}\n", s.title);
   fmt::format_to(out, "model {}, method {}, evaluation {}\n", s.model,
-                 s.method == Method::propagation ? "propagation" : "virtual_experiment", s.evaluation);
-  const auto model = std::find_if(catalogue.models.begin(), catalogue.models.end(), [&](const auto* m) { return m->name == s.model; });
+                 name(s.method), s.evaluation);
+  const auto model =
+      std::find_if(catalogue.models.begin(), catalogue.models.end(), [&](const auto* m) { return m->name == s.model; });
   if (model == catalogue.models.end()) return text;
   fmt::format_to(out, "readings\n");
   for (std::size_t i = 0; i < s.readings.size(); ++i) explain(s.readings[i], i + 1, **model, out);

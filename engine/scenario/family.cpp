@@ -25,20 +25,31 @@ public:
   std::optional<Located> read() {
     const std::size_t problems = context_.problems.size();
     switch (card_.family) {
-    case Family::constant: break;
+    case Family::constant:
+      break;
     case Family::rectangular:
     case Family::curvilinear_trapezoid:
     case Family::trapezoid:
     case Family::triangular:
-    case Family::arcsine: bounded(); break;
+    case Family::arcsine:
+      bounded();
+      break;
     case Family::normal:
-    case Family::t: around_value(); break;
-    case Family::truncated_normal: truncated(); break;
+    case Family::t:
+      around_value();
+      break;
+    case Family::truncated_normal:
+      truncated();
+      break;
     case Family::exponential:
     case Family::gamma:
-    case Family::lognormal: from_zero(); break;
+    case Family::lognormal:
+      from_zero();
+      break;
     case Family::discrete:
-    case Family::empirical: listed(); break;
+    case Family::empirical:
+      listed();
+      break;
     }
     if (context_.problems.size() != problems) return std::nullopt;
     if (const std::string wrong = invalid_parameters(out_.distribution); !wrong.empty()) {
@@ -52,9 +63,7 @@ public:
 private:
   double& parameter(std::size_t i) { return out_.distribution.parameters[i]; }
   Dimension difference() const { return {form_.si_unit, units::Kind::difference}; }
-  Dimension location() const {
-    return {form_.si_unit, form_.absolute ? units::Kind::point : units::Kind::difference};
-  }
+  Dimension location() const { return {form_.si_unit, form_.absolute ? units::Kind::point : units::Kind::difference}; }
   void missing(const std::string& what, const std::string& remedy = {}) {
     table_.add(fmt::format("{}: missing", table_.path(what)), std::string(card_.name), remedy);
   }
@@ -143,7 +152,8 @@ private:
 
   void listed() {
     out_.value = form_.value.value_or(0);
-    const Dimension dimension{form_.si_unit, form_.value || !form_.absolute ? units::Kind::difference : units::Kind::point};
+    const Dimension dimension{form_.si_unit,
+                              form_.value || !form_.absolute ? units::Kind::difference : units::Kind::point};
     std::vector<double> values = read_values(dimension);
     std::vector<double> shares;
     if (card_.family == Family::discrete) shares = read_probabilities(values.size());
@@ -177,7 +187,8 @@ private:
       source.refuse_unknown();
     } else if (const auto* items = table_.array("values")) {
       for (const Node& item : *items)
-        if (const auto v = read_measure(item, table_.path("values"), dimension, context_.problems)) values.push_back(*v);
+        if (const auto v = read_measure(item, table_.path("values"), dimension, context_.problems))
+          values.push_back(*v);
     }
     return values;
   }
@@ -232,7 +243,8 @@ std::optional<double> read_standard_uncertainty(Table& table, const std::string&
     return std::nullopt;
   }
   if (!has_expanded && has_k) {
-    table.problems().add(*table.find("k"), table.path("k") + ": k belongs to an expanded uncertainty U", "", "U, not u?");
+    table.problems().add(*table.find("k"), table.path("k") + ": k belongs to an expanded uncertainty U", "",
+                         "U, not u?");
     return std::nullopt;
   }
   const auto given = has_u ? u : expanded;

@@ -14,7 +14,8 @@ struct Located {
 };
 
 /// Reads the family's parameters; nullopt and problems if something is wrong.
-std::optional<Located> read_family(Table& table, const quantities::FamilyCard& card, const Form& form, Context& context);
+std::optional<Located> read_family(Table& table, const quantities::FamilyCard& card, const Form& form,
+                                   Context& context);
 
 /// `u`, or `U` with `k`: the standard uncertainty, above 0; nullopt and a problem otherwise.
 std::optional<double> read_standard_uncertainty(Table& table, const std::string& si_unit);

@@ -43,7 +43,8 @@ public:
     const auto further = read_components(table_, std::string(card_.si_unit), true, unused, context_);
     for (const Component& c : further) {
       if (c.name == "resolution" || c.name == "repeatability")
-        table_.add(fmt::format("{}.components: the name '{}' is taken", table_.path(), c.name), "", "choose another name?");
+        table_.add(fmt::format("{}.components: the name '{}' is taken", table_.path(), c.name), "",
+                   "choose another name?");
     }
     std::vector<Entry> entries;
     for (const Readouts& reading : readouts_.used) add(entries, reading, choose(reading, step, repeatability));
@@ -65,12 +66,14 @@ public:
 private:
   void note(const std::string& text) {
     const std::string line = std::string(card_.name) + ": " + text;
-    if (std::find(context_.notes.begin(), context_.notes.end(), line) == context_.notes.end()) context_.notes.push_back(line);
+    if (std::find(context_.notes.begin(), context_.notes.end(), line) == context_.notes.end())
+      context_.notes.push_back(line);
   }
   std::string shown(double value) const {
     const bool length = card_.si_unit == "m"; // scatter of lengths reads best in um
     const std::string unit(length ? "um" : card_.unit);
-    return fmt::format("{:.3g} {}", units::from_si(value, unit, std::string(card_.si_unit), units::Kind::difference), unit);
+    return fmt::format("{:.3g} {}", units::from_si(value, unit, std::string(card_.si_unit), units::Kind::difference),
+                       unit);
   }
 
   std::optional<double> read_step() {
@@ -91,7 +94,8 @@ private:
       return {Repeatability::Kind::readings, {}, 'A', "repeats of each reading"};
     }
     if (node->kind != Node::Kind::table) {
-      context_.problems.add(*node, path + ": not understood", "", "\"readings\", { s = \"...\" } or { pooled = true }?");
+      context_.problems.add(*node, path + ": not understood", "",
+                            "\"readings\", { s = \"...\" } or { pooled = true }?");
       return {};
     }
     Table table(*node, path, context_.problems);
@@ -107,7 +111,8 @@ private:
     for (const Readouts& r : readouts_.used) {
       if (r.values.size() > 1) continue;
       const std::string of = r.labels.empty() ? "" : fmt::format(" (reading {})", text_of(r.labels));
-      context_.problems.add(node, fmt::format("{}: {} readout(s){} say nothing of their scatter", path, r.values.size(), of),
+      context_.problems.add(node,
+                            fmt::format("{}: {} readout(s){} say nothing of their scatter", path, r.values.size(), of),
                             "", "repeat, or declare or pool s?");
       return;
     }
@@ -115,10 +120,12 @@ private:
 
   Repeatability pooled(Table& table) {
     for (const char* key : {"s", "degrees_of_freedom"})
-      if (table.has(key)) table.add(fmt::format("{}: {} beside pooled", table.path(), key), "the data say it", "leave it out?");
+      if (table.has(key))
+        table.add(fmt::format("{}: {} beside pooled", table.path(), key), "the data say it", "leave it out?");
     const Scatter scatter = pooled_scatter(readouts_.all);
     if (!(scatter.degrees_of_freedom > 0)) {
-      if (context_.readings_known) table.add(table.path() + ": nothing to pool", "no reading was repeated", "declare s?");
+      if (context_.readings_known)
+        table.add(table.path() + ": nothing to pool", "no reading was repeated", "declare s?");
       return {};
     }
     return {Repeatability::Kind::declared, scatter, 'A',
@@ -146,15 +153,18 @@ private:
       if (reading.values.size() < 2) return std::nullopt;
       scatter.degrees_of_freedom = static_cast<double>(reading.values.size()) - 1;
       scatter.s = std::sqrt(sum_of_squares(reading.values) / scatter.degrees_of_freedom);
-      if (!(scatter.s > 0)) note(fmt::format("{} identical readouts: their Type A evaluation is zero", reading.repeats));
+      if (!(scatter.s > 0))
+        note(fmt::format("{} identical readouts: their Type A evaluation is zero", reading.repeats));
     }
     if (!(scatter.s > 0)) return std::nullopt;
     const double scale = scatter.s / std::sqrt(static_cast<double>(reading.repeats));
     Component c;
     c.name = "repeatability";
     // A mean with a (pooled) s of finite degrees of freedom is a t, JCGM 101:2008, 6.4.9.
-    if (scatter.degrees_of_freedom > 0) c.distribution = {Family::t, {0, scale, scatter.degrees_of_freedom}, nullptr, nullptr};
-    else c.distribution = {Family::normal, {0, scale}, nullptr, nullptr};
+    if (scatter.degrees_of_freedom > 0)
+      c.distribution = {Family::t, {0, scale, scatter.degrees_of_freedom}, nullptr, nullptr};
+    else
+      c.distribution = {Family::normal, {0, scale}, nullptr, nullptr};
     c.evaluation = r.evaluation;
     c.degrees_of_freedom = scatter.degrees_of_freedom;
     c.per = {"reading"};
@@ -189,7 +199,10 @@ private:
     note(fmt::format("{} used, not {}: step/(2 sqrt 3) = {} is {} than s/sqrt(n) = {} (s = {}, n = {}); s of rounded "
                      "readouts already contains the rounding",
                      rounding ? "resolution" : "repeatability", rounding ? "repeatability" : "resolution", shown(u),
-                     u > scale ? "larger" : u < scale ? "smaller" : "not larger", shown(scale), shown(scatter.s), reading.repeats));
+                     u > scale   ? "larger"
+                     : u < scale ? "smaller"
+                                 : "not larger",
+                     shown(scale), shown(scatter.s), reading.repeats));
     if (rounding) return {*resolution};
     return warned(*repeatability, reading);
   }
@@ -223,7 +236,8 @@ private:
     for (Entry& e : entries) {
       if (e.labels != entry.labels) continue;
       if (!alike(e, entry)) {
-        note(fmt::format("readings with equal labels ({}) differ in noise: the largest is used for all", text_of(e.labels)));
+        note(fmt::format("readings with equal labels ({}) differ in noise: the largest is used for all",
+                         text_of(e.labels)));
         if (spread(entry) > spread(e)) e = std::move(entry);
       }
       return;
@@ -233,7 +247,9 @@ private:
 
   void refuse_shared(const std::vector<Component>& further, const std::vector<Entry>& entries) {
     for (const Component& c : further) {
-      const auto scoped = [&](const std::string& name) { return std::find(c.per.begin(), c.per.end(), name) != c.per.end(); };
+      const auto scoped = [&](const std::string& name) {
+        return std::find(c.per.begin(), c.per.end(), name) != c.per.end();
+      };
       if (scoped("reading")) continue;
       for (const auto& [label, value] : entries.front().labels) {
         if (scoped(label)) continue;

@@ -14,8 +14,10 @@ void read_share(Table& table, const char* key, double& value, bool ends_allowed)
   const auto share = table.number(key);
   if (!share) return;
   const bool inside = ends_allowed ? *share >= 0 && *share <= 1 : *share > 0 && *share < 1;
-  if (inside) value = *share;
-  else table.problems().add(*table.find(key), fmt::format("{}: {} must lie between 0 and 1", table.path(key), *share));
+  if (inside)
+    value = *share;
+  else
+    table.problems().add(*table.find(key), fmt::format("{}: {} must lie between 0 and 1", table.path(key), *share));
 }
 
 const VariableCard* read_measurand(Table& table, const ModelCard& model) {
@@ -40,7 +42,8 @@ Comparison read_comparison(Table table, const ModelCard& model, Context& context
   out.within = table.text("within").value_or("");
   if (!out.between.empty()) check_label(table, "between", out.between, context);
   if (!out.within.empty()) check_label(table, "within", out.within, context);
-  if (!out.between.empty() && out.between == out.within) table.add(table.path() + ": between and within are the same label");
+  if (!out.between.empty() && out.between == out.within)
+    table.add(table.path() + ": between and within are the same label");
   table.refuse_unknown();
   return out;
 }
@@ -53,7 +56,8 @@ Printed read_printed(Table table, const ModelCard& model, Context& context) {
   if (value && measurand) out.value = table.measure("value", {std::string(measurand->si_unit)}).value_or(0);
   if (auto labels = table.table("labels")) {
     for (const Member& m : labels->members())
-      if (const auto text = read_text(m.value, labels->path(m.key), context.problems)) out.labels.emplace_back(m.key, *text);
+      if (const auto text = read_text(m.value, labels->path(m.key), context.problems))
+        out.labels.emplace_back(m.key, *text);
   }
   const auto fits = [&](const quantities::Labels& reading) { return matches(reading, out.labels); };
   if (context.readings_known && std::none_of(context.readings.begin(), context.readings.end(), fits))
@@ -69,7 +73,8 @@ RunOptions read_run(Table table) {
   RunOptions out;
   if (const auto n = table.integer("samples", 2, most)) out.samples = static_cast<std::uint64_t>(*n);
   if (const auto n = table.integer("seed", 0, most)) out.seed = static_cast<std::uint64_t>(*n);
-  if (const auto d = table.choice("design", {"monte_carlo", "latin_hypercube", "sobol"})) out.design = static_cast<Design>(*d);
+  if (const auto d = table.choice("design", {"monte_carlo", "latin_hypercube", "sobol"}))
+    out.design = static_cast<Design>(*d);
   read_share(table, "max_failed_share", out.max_failed_share, true);
   out.store_samples = table.boolean("store_samples").value_or(out.store_samples);
   table.refuse_unknown();
@@ -128,7 +133,8 @@ quantities::Correlation read_correlation(Table table, const std::vector<std::str
   for (const std::string& name : out.quantities) {
     const Node& node = *table.find("quantities");
     if (std::find(names.begin(), names.end(), name) == names.end())
-      problems.add(node, fmt::format("{}: '{}' is no quantity here", table.path("quantities"), name), "", did_you_mean(name, names));
+      problems.add(node, fmt::format("{}: '{}' is no quantity here", table.path("quantities"), name), "",
+                   did_you_mean(name, names));
     if (std::find(seen.begin(), seen.end(), name) != seen.end())
       problems.add(node, fmt::format("{}: '{}' is named twice", table.path("quantities"), name));
     seen.push_back(name);
@@ -145,7 +151,8 @@ quantities::Correlation read_correlation(Table table, const std::vector<std::str
   } else if (coefficient && n != 2) {
     table.add(fmt::format("{}: one coefficient for {} quantities", table.path(), n), "", "a matrix?");
   } else if (coefficient && std::abs(*coefficient) > 1) {
-    problems.add(*table.find("coefficient"), fmt::format("{}: {} must lie between -1 and 1", table.path("coefficient"), *coefficient));
+    problems.add(*table.find("coefficient"),
+                 fmt::format("{}: {} must lie between -1 and 1", table.path("coefficient"), *coefficient));
   } else if (coefficient) {
     out.matrix = {1, *coefficient, *coefficient, 1};
   }
@@ -166,7 +173,8 @@ std::vector<quantities::Correlation> read_correlations(const std::vector<Node>& 
   }
   std::vector<quantities::Correlation> out;
   for (std::size_t i = 0; i < items.size(); ++i)
-    if (auto row = as_table(items[i], fmt::format("correlations[{}]", i + 1), problems)) out.push_back(read_correlation(*row, names));
+    if (auto row = as_table(items[i], fmt::format("correlations[{}]", i + 1), problems))
+      out.push_back(read_correlation(*row, names));
   return out;
 }
 

@@ -25,8 +25,10 @@ public:
     Table table(node, path, context_.problems);
     const std::string own = table.rendered("source");
     const std::string& told = own.empty() ? source : own;
-    if (table.has("by")) by(table, labels, told);
-    else entry(table, labels, told);
+    if (table.has("by"))
+      by(table, labels, told);
+    else
+      entry(table, labels, told);
     table.refuse_unknown();
   }
 
@@ -61,7 +63,8 @@ private:
       table.add(table.path() + ": neither a value nor an uncertainty", "", "value = \"...\"?");
     }
     if (given && !value) return;
-    if (context_.problems.size() == problems) keep(std::move(e), given ? *table.find("value") : table.node(), table.path());
+    if (context_.problems.size() == problems)
+      keep(std::move(e), given ? *table.find("value") : table.node(), table.path());
   }
 
   /// Anything beside value and source states an uncertainty, or is a mistake that its reader finds.
@@ -96,7 +99,8 @@ private:
       seen.push_back(row.key);
       Labels here = labels;
       if (find_label(here, label.key)) {
-        context_.problems.add(row.line, row.column, fmt::format("{}: the label '{}' is nested in itself", by->path(), label.key));
+        context_.problems.add(row.line, row.column,
+                              fmt::format("{}: the label '{}' is nested in itself", by->path(), label.key));
         return;
       }
       here.emplace_back(label.key, row.key);
@@ -114,7 +118,8 @@ private:
                           did_you_mean(row.key, {values.begin(), values.end()}));
   }
 
-  void complete(const Member& label, const std::vector<std::string>& seen, const Labels& labels, const std::string& path) {
+  void complete(const Member& label, const std::vector<std::string>& seen, const Labels& labels,
+                const std::string& path) {
     if (!context_.readings_known) return;
     std::set<std::string> told;
     for (const Labels& reading : context_.readings) {
@@ -177,8 +182,8 @@ void check_limits(const Entry& entry, const QuantityCard& card, const Node& node
   const bool low = std::isfinite(least) && least < limits.low - rounding;
   const bool high = std::isfinite(most) && most > limits.high + rounding;
   if (low || high) {
-    problems.add(node, fmt::format("{}: can become {}", path, shown(low ? least : most, card)), limit_text(limits, low, card),
-                 "narrow the distribution?");
+    problems.add(node, fmt::format("{}: can become {}", path, shown(low ? least : most, card)),
+                 limit_text(limits, low, card), "narrow the distribution?");
   }
 }
 
@@ -202,7 +207,8 @@ std::vector<Component> read_components(Table& table, const std::string& si_unit,
     const bool mean_counts = component.has("observations") && !value_given;
     if (mean_counts) form.value.reset();
     if (mean_counts && replaced) {
-      component.add(component.path() + ": observations twice without a value", "which mean is the value?", "give value?");
+      component.add(component.path() + ": observations twice without a value", "which mean is the value?",
+                    "give value?");
     }
     replaced |= mean_counts;
     auto uncertainty = read_uncertainty(component, form, context);

@@ -45,7 +45,8 @@ std::optional<double> read_measure(const Node& node, const std::string& path, co
     } else if (dimension.si_unit == "1") {
       return node.number;
     } else {
-      problems.add(node, fmt::format("{}: {} is not {}", path, node.number, kind), "a number with a dimension carries its unit",
+      problems.add(node, fmt::format("{}: {} is not {}", path, node.number, kind),
+                   "a number with a dimension carries its unit",
                    fmt::format("write it as text with a unit, like \"{} ...\"?", node.number));
     }
     return std::nullopt;
@@ -183,10 +184,14 @@ namespace {
 std::string render(const Node& node) {
   switch (node.kind) {
   case Node::Kind::text:
-  case Node::Kind::date: return node.text;
-  case Node::Kind::integer: return fmt::format("{}", node.integer);
-  case Node::Kind::real: return fmt::format("{}", node.number);
-  case Node::Kind::boolean: return node.boolean ? "true" : "false";
+  case Node::Kind::date:
+    return node.text;
+  case Node::Kind::integer:
+    return fmt::format("{}", node.integer);
+  case Node::Kind::real:
+    return fmt::format("{}", node.number);
+  case Node::Kind::boolean:
+    return node.boolean ? "true" : "false";
   case Node::Kind::array: {
     std::string out;
     for (const Node& item : node.items) out += (out.empty() ? "" : ", ") + render(item);

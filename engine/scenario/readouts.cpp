@@ -35,7 +35,8 @@ Labels read_labels(Table table) {
 }
 
 std::size_t condition_index(const ModelCard& model, const std::string& name) {
-  const auto it = std::find_if(model.conditions.begin(), model.conditions.end(), [&](const auto& c) { return c.name == name; });
+  const auto it =
+      std::find_if(model.conditions.begin(), model.conditions.end(), [&](const auto& c) { return c.name == name; });
   return static_cast<std::size_t>(it - model.conditions.begin());
 }
 
@@ -61,8 +62,10 @@ public:
       Problems silent(context_.problems.file());
       csv = context_.files.open(*file, table_.path("file"), silent);
     }
-    if (csv) columns(*csv);
-    else for (const char* key : {"labels", "conditions", "where"}) table_.find(key);
+    if (csv)
+      columns(*csv);
+    else
+      for (const char* key : {"labels", "conditions", "where"}) table_.find(key);
     where();
     table_.refuse_unknown();
     if (!data || !complete_) return out;
@@ -94,8 +97,10 @@ private:
     if (auto labels = table_.table("labels")) {
       for (const Member& m : labels->members()) {
         const int column = find_column(*labels, m.key, csv);
-        if (column < 0 || reserved(m.key, m, labels->path(), context_.problems)) complete_ = false;
-        else labels_.push_back({m.key, static_cast<std::size_t>(column)});
+        if (column < 0 || reserved(m.key, m, labels->path(), context_.problems))
+          complete_ = false;
+        else
+          labels_.push_back({m.key, static_cast<std::size_t>(column)});
       }
     }
     auto conditions = table_.table("conditions");
@@ -103,8 +108,9 @@ private:
     for (const Member& m : conditions->members()) {
       const std::size_t index = condition_index(model_, m.key);
       if (index == model_.conditions.size()) {
-        context_.problems.add(m.line, m.column, fmt::format("{}: {} has no condition '{}'", conditions->path(), model_.name, m.key),
-                              "", did_you_mean(m.key, condition_names(model_)));
+        context_.problems.add(m.line, m.column,
+                              fmt::format("{}: {} has no condition '{}'", conditions->path(), model_.name, m.key), "",
+                              did_you_mean(m.key, condition_names(model_)));
         complete_ = false;
         continue;
       }
@@ -115,7 +121,8 @@ private:
         const std::string unit = one->text("unit").value_or("1"), si(model_.conditions[index].si_unit);
         complete_ &= column >= 0;
         if (!units::convertible(unit, si)) {
-          one->add(fmt::format("{}: '{}' is not {}", one->path("unit"), unit, units::kind_name(si)), "must convert to " + si);
+          one->add(fmt::format("{}: '{}' is not {}", one->path("unit"), unit, units::kind_name(si)),
+                   "must convert to " + si);
           complete_ = false;
         }
         if (complete_) conditions_.push_back({index, static_cast<std::size_t>(column), unit});
@@ -132,7 +139,8 @@ private:
     for (const LabelColumn& l : labels_) names.push_back(l.label);
     for (const Member& m : where->members()) {
       if (!complete_ || std::find(names.begin(), names.end(), m.key) != names.end()) continue;
-      context_.problems.add(m.line, m.column, fmt::format("{}: '{}' is no label of these readings", where->path(), m.key),
+      context_.problems.add(m.line, m.column,
+                            fmt::format("{}: '{}' is no label of these readings", where->path(), m.key),
                             "where chooses by labels", did_you_mean(m.key, names));
     }
   }
@@ -142,7 +150,8 @@ private:
     for (const LabelColumn& l : labels_) {
       const CsvCell& cell = row[l.column];
       if (cell.text.empty()) {
-        context_.problems.add(InputError(std::vector<Problem>{{csv.at(cell), fmt::format("the label '{}' is empty", l.label), "", ""}}));
+        context_.problems.add(
+            InputError(std::vector<Problem>{{csv.at(cell), fmt::format("the label '{}' is empty", l.label), "", ""}}));
         good = false;
       }
       labels.emplace_back(l.label, cell.text);
@@ -150,8 +159,10 @@ private:
     for (const ConditionColumn& c : conditions_) {
       const auto value = read_cell(csv, row[c.column], c.unit, {std::string(model_.conditions[c.condition].si_unit)},
                                    context_.problems);
-      if (value) conditions[c.condition] = *value;
-      else good = false;
+      if (value)
+        conditions[c.condition] = *value;
+      else
+        good = false;
     }
     return good;
   }
@@ -165,10 +176,11 @@ private:
       if (!values.contains(value)) remedy = did_you_mean(value, {values.begin(), values.end()});
     }
     const Node* at = table_.find("where");
-    context_.problems.add(at ? *at : table_.node(),
-                          where_.empty() ? fmt::format("{}: '{}' has no rows", table_.path(), csv.file)
-                                         : fmt::format("{}: no row of '{}' has {}", table_.path("where"), csv.file, text_of(where_)),
-                          "", remedy);
+    context_.problems.add(
+        at ? *at : table_.node(),
+        where_.empty() ? fmt::format("{}: '{}' has no rows", table_.path(), csv.file)
+                       : fmt::format("{}: no row of '{}' has {}", table_.path("where"), csv.file, text_of(where_)),
+        "", remedy);
   }
 
   Table table_;
@@ -203,7 +215,8 @@ void read_rows(const std::vector<Node>& rows, const std::string& path, const Var
       if (items->empty()) table->add(table->path("values") + ": empty");
     }
     if (const auto repeats = table->integer("repeats", 1, 1'000'000)) {
-      if (table->has("values")) table->add(table->path() + ": repeats beside values", "the values are counted", "leave it out?");
+      if (table->has("values"))
+        table->add(table->path() + ": repeats beside values", "the values are counted", "leave it out?");
       group.repeats = static_cast<int>(*repeats);
     }
     for (const Member& m : table->members()) {

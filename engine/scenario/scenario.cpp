@@ -28,7 +28,8 @@ public:
 
   Scenario read() {
     document_ = parse_document(out_.text, out_.file);
-    if (document_.members.empty()) throw InputError({{{out_.file, 0, 0}, "the scenario is empty", "", "schema = 1 and [model]?"}});
+    if (document_.members.empty())
+      throw InputError({{{out_.file, 0, 0}, "the scenario is empty", "", "schema = 1 and [model]?"}});
     Table top(document_, "", problems_);
     if (top.require("schema", "schema = 1?")) top.integer("schema", 1, 1);
     out_.title = top.text("title").value_or("");
@@ -41,7 +42,8 @@ public:
     read_quantities(top, *model);
     read_effects(top, *model);
     out_.quantities.insert(out_.quantities.end(), noise_.begin(), noise_.end());
-    if (const auto* items = top.array("correlations")) out_.correlations = read_correlations(*items, problems_, out_.quantities);
+    if (const auto* items = top.array("correlations"))
+      out_.correlations = read_correlations(*items, problems_, out_.quantities);
     if (auto run = top.table("run")) out_.run = read_run(*run);
     if (auto analysis = top.table("analysis")) out_.analysis = read_analysis(*analysis, *model, context_);
     top.refuse_unknown();
@@ -58,15 +60,18 @@ private:
     std::vector<std::string> names;
     for (const ModelCard* m : catalogue_.models) names.emplace_back(m->name);
     const auto index = table->require("name") ? table->choice("name", names) : std::nullopt;
-    if (const auto method = table->choice("method", {"propagation", "virtual_experiment"})) out_.method = static_cast<Method>(*method);
+    if (const auto method = table->choice("method", {"propagation", "virtual_experiment"}))
+      out_.method = static_cast<Method>(*method);
     const ModelCard* model = index ? catalogue_.models[*index] : nullptr;
     std::vector<std::string> evaluations;
     if (model)
       for (const EvaluationCard& e : model->evaluations) evaluations.emplace_back(e.name);
     if (model) out_.model = model->name;
     if (!evaluations.empty()) out_.evaluation = evaluations.front();
-    if (!model) table->find("evaluation");
-    else if (const auto e = table->choice("evaluation", evaluations)) out_.evaluation = evaluations[*e];
+    if (!model)
+      table->find("evaluation");
+    else if (const auto e = table->choice("evaluation", evaluations))
+      out_.evaluation = evaluations[*e];
     table->refuse_unknown();
     return model;
   }
@@ -83,7 +88,8 @@ private:
       std::optional<Table> table = indications ? indications->table(name) : std::nullopt;
       if (out_.method == Method::propagation && !table) {
         problems_.add(indications ? indications->node() : top.node(), fmt::format("indications.{}: missing", name),
-                      "propagation of distributions evaluates readouts", fmt::format("[indications.{}] with readings?", name));
+                      "propagation of distributions evaluates readouts",
+                      fmt::format("[indications.{}] with readings?", name));
       }
       tables.push_back(table ? *table : Table(nothing, "indications." + name, problems_));
       readouts.push_back(read_readouts(tables.back(), card, model, conditions, context_));
@@ -122,8 +128,9 @@ private:
         });
         if (i == 0) it = out_.readings.insert(out_.readings.end(), {r.labels, r.conditions, {}, r.repeats});
         if (it == out_.readings.end()) {
-          tables[i].add(fmt::format("{}: {} has no reading {}", tables[i].path(), model.indications[0].name, text_of(r.labels)),
-                        "every indication of a reading is needed");
+          tables[i].add(
+              fmt::format("{}: {} has no reading {}", tables[i].path(), model.indications[0].name, text_of(r.labels)),
+              "every indication of a reading is needed");
           continue;
         }
         if (r.values.empty()) continue;
@@ -158,7 +165,8 @@ private:
       auto own = table->table(name);
       if (!own) continue;
       if (catalogue_.applies && !catalogue_.applies(model, *effect)) {
-        own->add(fmt::format("effects.{}: {} cannot carry it", name, model.name), fmt::format("no stage '{}'", effect->stage));
+        own->add(fmt::format("effects.{}: {} cannot carry it", name, model.name),
+                 fmt::format("no stage '{}'", effect->stage));
         continue;
       }
       bool any = false;
@@ -167,7 +175,8 @@ private:
         const std::string key(card.name), full = name + '.' + key;
         const Node* node = own->find(key);
         any |= node != nullptr;
-        freed.push_back(node ? read_quantity(*node, "effects." + full, card, full, context_) : default_quantity(card, full));
+        freed.push_back(node ? read_quantity(*node, "effects." + full, card, full, context_)
+                             : default_quantity(card, full));
       }
       own->refuse_unknown();
       if (any) out_.quantities.insert(out_.quantities.end(), freed.begin(), freed.end());

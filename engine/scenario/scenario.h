@@ -14,6 +14,11 @@ enum class Method {
   virtual_experiment, ///< draw the truth, simulate, evaluate: distribution of the error
 };
 enum class Design { monte_carlo, latin_hypercube, sobol };
+/// As written in a scenario.
+constexpr const char* name(Method m) { return m == Method::propagation ? "propagation" : "virtual_experiment"; }
+constexpr const char* name(Design d) {
+  return d == Design::monte_carlo ? "monte_carlo" : d == Design::latin_hypercube ? "latin_hypercube" : "sobol";
+}
 
 struct RunOptions {
   std::uint64_t samples = 1'000'000;

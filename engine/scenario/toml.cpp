@@ -1,4 +1,17 @@
 // The only door to toml++.
+#include <stdexcept>
+
+namespace {
+// Some malformed text reaches assertions of toml++ 3.3: they must end in a message, not in an abort.
+struct ParserGaveUp : std::runtime_error {
+  ParserGaveUp() : std::runtime_error("not understood") {}
+};
+constexpr void expect(bool holds) {
+  if (!holds) throw ParserGaveUp();
+}
+} // namespace
+#undef NDEBUG // or toml++ would promise the compiler that they hold
+#define TOML_ASSERT(expr) expect(static_cast<bool>(expr))
 #define TOML_EXCEPTIONS 1
 #define TOML_ENABLE_FORMATTERS 1
 #include <toml++/toml.h>
@@ -26,8 +39,8 @@ Node convert(const toml::node& in) {
     out.kind = Node::Kind::table;
     for (const auto& [key, value] : *table) {
       const auto place = key.source().begin;
-      out.members.push_back({std::string(key.str()), static_cast<int>(place.line), static_cast<int>(place.column),
-                             convert(value)});
+      out.members.push_back(
+          {std::string(key.str()), static_cast<int>(place.line), static_cast<int>(place.column), convert(value)});
     }
     // toml++ sorts by name; file order is what a reader expects of labels.
     std::stable_sort(out.members.begin(), out.members.end(), [](const Member& a, const Member& b) {
@@ -69,20 +82,30 @@ Node parse_document(const std::string& text, const std::string& file) {
     std::string what(error.description());
     if (const std::size_t at = what.find(": "); what.starts_with("Error while parsing") && at != std::string::npos)
       what.erase(0, at + 2); // where it happened says the place already
-    throw InputError(std::vector<Problem>{{{file, static_cast<int>(place.line), static_cast<int>(place.column)},
-                                           std::move(what), "TOML", ""}});
+    throw InputError(std::vector<Problem>{
+        {{file, static_cast<int>(place.line), static_cast<int>(place.column)}, std::move(what), "TOML", ""}});
+  } catch (const ParserGaveUp&) {
+    throw InputError(std::vector<Problem>{
+        {{file, 0, 0}, "this is not TOML", "the parser gave up", "a quote or a bracket too few?"}});
   }
 }
 
 std::string describe(Node::Kind kind) {
   switch (kind) {
-  case Node::Kind::table: return "a table";
-  case Node::Kind::array: return "an array";
-  case Node::Kind::text: return "text";
-  case Node::Kind::integer: return "an integer";
-  case Node::Kind::real: return "a number";
-  case Node::Kind::boolean: return "true or false";
-  case Node::Kind::date: return "a date";
+  case Node::Kind::table:
+    return "a table";
+  case Node::Kind::array:
+    return "an array";
+  case Node::Kind::text:
+    return "text";
+  case Node::Kind::integer:
+    return "an integer";
+  case Node::Kind::real:
+    return "a number";
+  case Node::Kind::boolean:
+    return "true or false";
+  case Node::Kind::date:
+    return "a date";
   }
   return "?";
 }

@@ -21,7 +21,8 @@ std::optional<Uncertainty> read_observations(Table& table, const Form& form, Con
   if (!items) return std::nullopt;
   std::vector<double> x;
   for (const Node& item : *items)
-    if (const auto v = read_measure(item, table.path("observations"), {form.si_unit}, context.problems)) x.push_back(*v);
+    if (const auto v = read_measure(item, table.path("observations"), {form.si_unit}, context.problems))
+      x.push_back(*v);
   if (x.size() != items->size()) return std::nullopt;
   if (x.size() < 2) {
     context.problems.add(*table.find("observations"),
@@ -93,7 +94,8 @@ void check_scope(Table& table, const std::vector<std::string>& per, Context& con
 std::optional<Uncertainty> read_uncertainty(Table& table, const Form& form, Context& context) {
   const bool observed = table.has("observations");
   if (observed && (table.has("distribution") || table.has("u") || table.has("U"))) {
-    table.add(table.path() + ": observations beside another statement", "both say how uncertain it is", "leave one out?");
+    table.add(table.path() + ": observations beside another statement", "both say how uncertain it is",
+              "leave one out?");
   }
   auto out = observed ? read_observations(table, form, context) : read_distribution(table, form, context);
 

@@ -6,7 +6,9 @@ using gumshoe::InputError;
 using gumshoe::parse_csv;
 
 TEST_CASE("cells know where they stand", "[csv]") {
-  const auto csv = parse_csv("\xEF\xBB\xBF" "a, b (mm) ,c\r\n1,\"x, \"\"y\"\"\", 3\r\n\n4,5,6", "t.csv");
+  const auto csv = parse_csv("\xEF\xBB\xBF"
+                             "a, b (mm) ,c\r\n1,\"x, \"\"y\"\"\", 3\r\n\n4,5,6",
+                             "t.csv");
   REQUIRE(csv.rows.size() == 2);
   CHECK(csv.find("b (mm)") == 1);
   CHECK(csv.find("d") == -1);
@@ -28,8 +30,9 @@ TEST_CASE("malformed tables are refused with their place", "[csv]") {
   CHECK_THROWS_WITH(parse_csv("", "t.csv"), Catch::Contains("t.csv: error: the file is empty"));
   CHECK_THROWS_WITH(parse_csv("a,a\n", "t.csv"), Catch::Contains("t.csv:1:3: error: column 'a' appears twice"));
   CHECK_THROWS_WITH(parse_csv("a,\n", "t.csv"), Catch::Contains("t.csv:1:3: error: a column has no name"));
-  CHECK_THROWS_WITH(parse_csv("a,b\n1,2\n1\n1,2,3\n", "t.csv"), Catch::Contains("t.csv:3:1: error: the row has 1 cells, the header 2") &&
-                                                                    Catch::Contains("t.csv:4:1:"));
+  CHECK_THROWS_WITH(parse_csv("a,b\n1,2\n1\n1,2,3\n", "t.csv"),
+                    Catch::Contains("t.csv:3:1: error: the row has 1 cells, the header 2") &&
+                        Catch::Contains("t.csv:4:1:"));
   CHECK_THROWS_WITH(parse_csv("a\n\"1\n", "t.csv"), Catch::Contains("t.csv:2:1: error: a quote is not closed"));
   CHECK_THROWS_WITH(parse_csv("a\n\"1\"2\n", "t.csv"), Catch::Contains("t.csv:2:1: error: text after a closing quote"));
   const auto csv = parse_csv("a,b\n1,x\nnan,\n", "t.csv");

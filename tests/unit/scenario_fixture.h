@@ -22,11 +22,13 @@ inline constexpr QuantityCard quantity_cards[] = {
     {"beam_pitch", "deg", "rad", 0, {-90 * degree, 90 * degree, true, true}, "beta", "pitch"},
     {"trigger_fraction", "1", "1", 0.5, {0, 1, true, true}, "", "share"},
 };
-inline constexpr VariableCard condition_cards[] = {{"feed", "mm/min", "m/s", 4e-3 / 60, "feed"}, {"time", "s", "s", 0, "time"}};
+inline constexpr VariableCard condition_cards[] = {{"feed", "mm/min", "m/s", 4e-3 / 60, "feed"},
+                                                   {"time", "s", "s", 0, "time"}};
 inline constexpr VariableCard indication_cards[] = {{"spindle_z", "mm", "m", 0, "height"}};
 inline constexpr VariableCard measurand_cards[] = {{"laser_z", "mm", "m", 0, "height"}};
 inline constexpr EvaluationCard evaluation_cards[] = {{"full", ""}, {"conventional", ""}};
-inline constexpr ModelCard model{"rod", "a rod", "", "", quantity_cards, condition_cards, indication_cards, measurand_cards, evaluation_cards, {}};
+inline constexpr ModelCard model{
+    "rod", "a rod", "", "", quantity_cards, condition_cards, indication_cards, measurand_cards, evaluation_cards, {}};
 
 inline constexpr QuantityCard latency_cards[] = {{"delay", "s", "s", 0, {-1e-2, 1e-2}, "", "delay", Role::amplitude}};
 inline constexpr QuantityCard runout_cards[] = {{"x", "um", "m", 0, {-1e-3, 1e-3}, "", "", Role::pair},
@@ -36,7 +38,9 @@ inline constexpr EffectCard runout{"rod_runout", "", "pose", 0, "", "", "", "", 
 inline constexpr EffectCard orientation{"orientation", "", "spindle", 0, "", "", "", "", latency_cards};
 
 inline scenario::Catalogue catalogue() {
-  return {{&model}, {&runout, &latency, &orientation}, [](const ModelCard&, const EffectCard& e) { return e.stage != "spindle"; }};
+  return {{&model}, {&runout, &latency, &orientation}, [](const ModelCard&, const EffectCard& e) {
+            return e.stage != "spindle";
+          }};
 }
 
 /// A folder for one test's files, removed at its end.
@@ -73,7 +77,8 @@ inline std::string complaint(const std::string& text) {
     scenario::read(folder.write("s.toml", text), catalogue());
   } catch (const InputError& error) {
     std::string out = error.what();
-    for (std::size_t at; (at = out.find(folder.path() + '/')) != std::string::npos;) out.erase(at, folder.path().size() + 1);
+    for (std::size_t at; (at = out.find(folder.path() + '/')) != std::string::npos;)
+      out.erase(at, folder.path().size() + 1);
     return out;
   }
   return {};

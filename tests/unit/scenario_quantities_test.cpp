@@ -10,11 +10,14 @@ using quantities::Family;
 namespace {
 /// A scenario with one quantity stated as given.
 scenario::Scenario with(const std::string& section) { return read_text(head + one_reading + section); }
-const quantities::Entry& entry(const scenario::Scenario& s, const std::string& name) { return quantity(s, name).entries.at(0); }
+const quantities::Entry& entry(const scenario::Scenario& s, const std::string& name) {
+  return quantity(s, name).entries.at(0);
+}
 } // namespace
 
 TEST_CASE("every quantity is there, in card order, then freed effects, then noise", "[scenario]") {
-  const auto s = with("[quantities]\nrod_length = \"160.591 mm\"\n[effects.trigger_latency]\ndelay = \"1.5 ms\"\n[effects.rod_runout]\nx = { u = \"2 um\" }\n");
+  const auto s = with("[quantities]\nrod_length = \"160.591 mm\"\n[effects.trigger_latency]\ndelay = \"1.5 "
+                      "ms\"\n[effects.rod_runout]\nx = { u = \"2 um\" }\n");
   std::vector<std::string> names;
   for (const auto& q : s.quantities) names.push_back(q.name);
   CHECK(names == std::vector<std::string>{"rod_radius", "rod_length", "beam_pitch", "trigger_fraction", "rod_runout.x",
@@ -40,7 +43,8 @@ TEST_CASE("defaults of a scenario", "[scenario]") {
 
 TEST_CASE("a single distribution becomes a value and a deviation", "[scenario]") {
   SECTION("normal from U and k") {
-    const auto s = with("[quantities.rod_length]\nvalue = \"160 mm\"\nU = \"2 um\"\nk = 4\nsource = { certificate = \"12\", date = 2026-01-15 }\n");
+    const auto s = with("[quantities.rod_length]\nvalue = \"160 mm\"\nU = \"2 um\"\nk = 4\nsource = { certificate = "
+                        "\"12\", date = 2026-01-15 }\n");
     const auto& c = entry(s, "rod_length").components.at(0);
     CHECK(c.name == "c1");
     CHECK(c.distribution.family == Family::normal);
@@ -49,19 +53,22 @@ TEST_CASE("a single distribution becomes a value and a deviation", "[scenario]")
     CHECK(c.evaluation == 'B');
   }
   SECTION("rectangular from its ends") {
-    const auto s = with("[quantities.rod_radius]\ndistribution = \"rectangular\"\nlow = \"4.9 mm\"\nhigh = \"5.3 mm\"\n");
+    const auto s =
+        with("[quantities.rod_radius]\ndistribution = \"rectangular\"\nlow = \"4.9 mm\"\nhigh = \"5.3 mm\"\n");
     const auto& e = entry(s, "rod_radius");
     CHECK(e.value == Approx(5.1e-3).epsilon(1e-15));
     CHECK(e.components.at(0).distribution.parameters[0] == Approx(-0.2e-3).epsilon(1e-13)); // difference of two ends
     CHECK(e.components.at(0).distribution.parameters[1] == -e.components.at(0).distribution.parameters[0]);
   }
   SECTION("a width about the value, a shape parameter") {
-    const auto s = with("[quantities.trigger_fraction]\ndistribution = \"trapezoid\"\nvalue = 0.5\nhalf_width = 0.02\ntop_ratio = 0.25\n");
+    const auto s = with("[quantities.trigger_fraction]\ndistribution = \"trapezoid\"\nvalue = 0.5\nhalf_width = "
+                        "0.02\ntop_ratio = 0.25\n");
     const auto& d = entry(s, "trigger_fraction").components.at(0).distribution;
     CHECK(d.parameters == std::array<double, 4>{-0.02, 0.02, 0.25, 0});
   }
   SECTION("t carries its degrees of freedom, and the scale as u") {
-    const auto s = with("[quantities.beam_pitch]\ndistribution = \"t\"\nvalue = \"1 deg\"\nu = \"0.1 deg\"\ndegrees_of_freedom = 9\nevaluation = \"A\"\n");
+    const auto s = with("[quantities.beam_pitch]\ndistribution = \"t\"\nvalue = \"1 deg\"\nu = \"0.1 "
+                        "deg\"\ndegrees_of_freedom = 9\nevaluation = \"A\"\n");
     const auto& c = entry(s, "beam_pitch").components.at(0);
     CHECK(c.distribution.parameters[1] == Approx(0.1 * degree).epsilon(1e-15));
     CHECK(c.distribution.parameters[2] == 9);
@@ -69,7 +76,8 @@ TEST_CASE("a single distribution becomes a value and a deviation", "[scenario]")
     CHECK(c.evaluation == 'A');
   }
   SECTION("a truncated normal's value is the mean that is left") {
-    const auto s = with("[quantities.rod_radius]\ndistribution = \"truncated_normal\"\nvalue = \"5 mm\"\nu = \"1 mm\"\nlow = \"5 mm\"\nhigh = \"50 mm\"\n");
+    const auto s = with("[quantities.rod_radius]\ndistribution = \"truncated_normal\"\nvalue = \"5 mm\"\nu = \"1 "
+                        "mm\"\nlow = \"5 mm\"\nhigh = \"50 mm\"\n");
     const auto& e = entry(s, "rod_radius");
     // Half a normal: mean = 5 mm + u sqrt(2/pi), JCGM-independent closed form.
     CHECK(e.value == Approx(5e-3 + 1e-3 * std::sqrt(2 / 3.14159265358979323846)).epsilon(1e-12));
@@ -77,7 +85,8 @@ TEST_CASE("a single distribution becomes a value and a deviation", "[scenario]")
     CHECK(e.components.at(0).distribution.mean() == Approx(0).margin(1e-14));
   }
   SECTION("families without a centre keep their values") {
-    const auto s = with("[quantities.rod_length]\ndistribution = \"discrete\"\nvalues = [\"161 mm\", \"160 mm\"]\nprobabilities = [0.25, 0.75]\n");
+    const auto s = with("[quantities.rod_length]\ndistribution = \"discrete\"\nvalues = [\"161 mm\", \"160 "
+                        "mm\"]\nprobabilities = [0.25, 0.75]\n");
     const auto& e = entry(s, "rod_length");
     CHECK(e.value == 0);
     CHECK(*e.components.at(0).distribution.values == std::vector<double>{0.160, 0.161});
@@ -90,11 +99,13 @@ TEST_CASE("a single distribution becomes a value and a deviation", "[scenario]")
 }
 
 TEST_CASE("components add up, each with its own scope", "[scenario]") {
-  const auto s = read_text(head + "[indications.spindle_z]\nreadings = [\"1 mm\"]\nlabels = { rod = \"a\", setup = \"1\" }\n"
-                                  "[quantities.beam_pitch]\nvalue = \"0.2836 deg\"\ncomponents = [\n"
-                                  "  { distribution = \"t\", u = \"0.002 deg\", degrees_of_freedom = 9, evaluation = \"A\", per = [\"setup\", \"rod\"], source = \"10 settings\" },\n"
-                                  "  { distribution = \"rectangular\", half_width = \"0.001 deg\", per = \"reading\", name = \"level\" },\n"
-                                  "  { distribution = \"triangular\", low = \"-0.001 deg\", high = \"0.003 deg\" },\n]\n");
+  const auto s = read_text(
+      head + "[indications.spindle_z]\nreadings = [\"1 mm\"]\nlabels = { rod = \"a\", setup = \"1\" }\n"
+             "[quantities.beam_pitch]\nvalue = \"0.2836 deg\"\ncomponents = [\n"
+             "  { distribution = \"t\", u = \"0.002 deg\", degrees_of_freedom = 9, evaluation = \"A\", per = "
+             "[\"setup\", \"rod\"], source = \"10 settings\" },\n"
+             "  { distribution = \"rectangular\", half_width = \"0.001 deg\", per = \"reading\", name = \"level\" },\n"
+             "  { distribution = \"triangular\", low = \"-0.001 deg\", high = \"0.003 deg\" },\n]\n");
   const auto& c = entry(s, "beam_pitch").components;
   REQUIRE(c.size() == 3);
   CHECK(c[0].name == "c1");
@@ -109,7 +120,8 @@ TEST_CASE("components add up, each with its own scope", "[scenario]") {
 
 TEST_CASE("observations are a Type A evaluation", "[scenario]") {
   // 5.001, 5.002, 5.003 mm: mean 5.002, s = 1 um, scale 1/sqrt(3) um, t with 2 degrees of freedom.
-  const auto s = with("[quantities.rod_radius]\ncomponents = [ { observations = [\"5.001 mm\", \"5.002 mm\", \"5.003 mm\"] } ]\n");
+  const auto s =
+      with("[quantities.rod_radius]\ncomponents = [ { observations = [\"5.001 mm\", \"5.002 mm\", \"5.003 mm\"] } ]\n");
   const auto& e = entry(s, "rod_radius");
   CHECK(e.value == Approx(5.002e-3).epsilon(1e-14));
   const auto& c = e.components.at(0);
@@ -117,18 +129,21 @@ TEST_CASE("observations are a Type A evaluation", "[scenario]") {
   CHECK(c.distribution.family == Family::t);
   CHECK(c.distribution.parameters[1] == Approx(1e-6 / std::sqrt(3.0)).epsilon(1e-9)); // 1e-6 of 5e-3 loses 4 digits
   CHECK(c.distribution.parameters[2] == 2);
-  CHECK(std::any_of(s.notes.begin(), s.notes.end(), [](const std::string& note) {
-    return note.find("no standard uncertainty") != std::string::npos;
-  }));
+  CHECK(std::any_of(s.notes.begin(), s.notes.end(),
+                    [](const std::string& note) { return note.find("no standard uncertainty") != std::string::npos; }));
 
-  const auto around = with("[quantities.rod_radius]\nvalue = \"5 mm\"\ncomponents = [ { observations = [\"5.001 mm\", \"5.002 mm\", \"5.003 mm\"] } ]\n");
+  const auto around = with("[quantities.rod_radius]\nvalue = \"5 mm\"\ncomponents = [ { observations = [\"5.001 mm\", "
+                           "\"5.002 mm\", \"5.003 mm\"] } ]\n");
   CHECK(entry(around, "rod_radius").value == 5e-3);
 }
 
 TEST_CASE("values by label", "[scenario]") {
-  const std::string rows = "[indications.spindle_z]\nrows = [ { rod = \"rod 1\", setup = \"1\", values = [\"1 mm\"] }, { rod = \"rod 2\", setup = \"1\", feed = \"8 mm/min\", values = [\"2 mm\", \"4 mm\"] } ]\n";
-  const auto s = read_text(head + rows + "[quantities.rod_length.by.rod]\n\"rod 2\" = { value = \"180 mm\", U = \"2 um\", k = 2 }\n\"rod 1\" = \"160 mm\"\n"
-                                         "[quantities.beam_pitch.by.setup.1.by.rod]\n\"rod 1\" = \"1 deg\"\n\"rod 2\" = \"2 deg\"\n");
+  const std::string rows = "[indications.spindle_z]\nrows = [ { rod = \"rod 1\", setup = \"1\", values = [\"1 mm\"] }, "
+                           "{ rod = \"rod 2\", setup = \"1\", feed = \"8 mm/min\", values = [\"2 mm\", \"4 mm\"] } ]\n";
+  const auto s = read_text(head + rows +
+                           "[quantities.rod_length.by.rod]\n\"rod 2\" = { value = \"180 mm\", U = \"2 um\", k = 2 "
+                           "}\n\"rod 1\" = \"160 mm\"\n"
+                           "[quantities.beam_pitch.by.setup.1.by.rod]\n\"rod 1\" = \"1 deg\"\n\"rod 2\" = \"2 deg\"\n");
   REQUIRE(s.readings.size() == 2);
   CHECK(s.readings[1].repeats == 2);
   CHECK(s.readings[1].indications[0] == Approx(3e-3).epsilon(1e-15));
@@ -144,7 +159,8 @@ TEST_CASE("values by label", "[scenario]") {
 }
 
 TEST_CASE("explain shows SI values, defaults and effects left out", "[scenario]") {
-  const auto s = with("[quantities.beam_pitch]\nvalue = \"0.2836 deg\"\nu = \"0.002 deg\"\nsource = \"level\"\n[effects.rod_runout]\nx = { u = \"2 um\" }\n");
+  const auto s = with("[quantities.beam_pitch]\nvalue = \"0.2836 deg\"\nu = \"0.002 deg\"\nsource = "
+                      "\"level\"\n[effects.rod_runout]\nx = { u = \"2 um\" }\n");
   const std::string text = scenario::explain(s, catalogue());
   CHECK_THAT(text, Catch::Contains("rod_radius = 0.005 m (5 mm), default, exact"));
   CHECK_THAT(text, Catch::Contains("beam_pitch = 0.00494975375866 rad (0.2836 deg)"));
@@ -154,12 +170,16 @@ TEST_CASE("explain shows SI values, defaults and effects left out", "[scenario]"
 }
 
 TEST_CASE("correlations name their kind", "[scenario]") {
-  const std::string pair = "[quantities]\nrod_radius = { u = \"1 um\" }\nrod_length = { u = \"1 um\" }\n[[correlations]]\nquantities = [\"rod_radius\", \"rod_length\"]\n";
+  const std::string pair = "[quantities]\nrod_radius = { u = \"1 um\" }\nrod_length = { u = \"1 um\" "
+                           "}\n[[correlations]]\nquantities = [\"rod_radius\", \"rod_length\"]\n";
   const auto s = with(pair + "kind = \"spearman\"\ncoefficient = -0.5\n");
   REQUIRE(s.correlations.size() == 1);
   CHECK(s.correlations[0].kind == quantities::Correlation::Kind::spearman);
   CHECK(s.correlations[0].matrix == std::vector<double>{1, -0.5, -0.5, 1});
-  CHECK_THAT(complaint(head + one_reading + pair + "coefficient = 0.5\n"), Catch::Contains("correlations[1].kind: missing"));
-  CHECK_THAT(complaint(head + one_reading + pair + "kind = \"pearson\"\ncoefficient = 1.5\n"), Catch::Contains("must lie between -1 and 1"));
-  CHECK_THAT(complaint(head + one_reading + pair + "kind = \"pearson\"\nmatrix = [[1, 0.5], [0.4, 1]]\n"), Catch::Contains("symmetric"));
+  CHECK_THAT(complaint(head + one_reading + pair + "coefficient = 0.5\n"),
+             Catch::Contains("correlations[1].kind: missing"));
+  CHECK_THAT(complaint(head + one_reading + pair + "kind = \"pearson\"\ncoefficient = 1.5\n"),
+             Catch::Contains("must lie between -1 and 1"));
+  CHECK_THAT(complaint(head + one_reading + pair + "kind = \"pearson\"\nmatrix = [[1, 0.5], [0.4, 1]]\n"),
+             Catch::Contains("symmetric"));
 }

@@ -17,7 +17,9 @@ std::string from_rods(const std::string& where) {
 std::string readings(const std::string& values, const std::string& rest) {
   return head + "[indications.spindle_z]\nreadings = [" + values + "]\n" + rest;
 }
-const std::vector<quantities::Component>& noise(const scenario::Scenario& s) { return quantity(s, "spindle_z").entries.at(0).components; }
+const std::vector<quantities::Component>& noise(const scenario::Scenario& s) {
+  return quantity(s, "spindle_z").entries.at(0).components;
+}
 std::string notes(const scenario::Scenario& s) {
   std::string out;
   for (const auto& note : s.notes) out += note + '\n';
@@ -42,7 +44,8 @@ TEST_CASE("rows of equal labels are repeats of one reading", "[scenario][reading
 TEST_CASE("s pooled over all cells of the data, though one is read", "[scenario][readings]") {
   // Cells that scatter: (.513 .515 .513), (.460 .460 .461), (.271 .270 .270): squares (8 + 2 + 2)/3 um^2
   // = 4 um^2 over 12 cells x 2 degrees of freedom: s = sqrt(4/24) um = 0.408 um.
-  const auto s = read_text(from_rods(", where = { rod = \"rod2\", setup = \"1\" }") + "repeatability = { pooled = true }\n");
+  const auto s =
+      read_text(from_rods(", where = { rod = \"rod2\", setup = \"1\" }") + "repeatability = { pooled = true }\n");
   REQUIRE(noise(s).size() == 1);
   const auto& c = noise(s)[0];
   CHECK(c.name == "repeatability");
@@ -50,7 +53,8 @@ TEST_CASE("s pooled over all cells of the data, though one is read", "[scenario]
   CHECK(c.distribution.family == Family::t);
   CHECK(c.degrees_of_freedom == 24);
   CHECK(c.distribution.parameters[2] == 24);
-  CHECK(c.distribution.parameters[1] == Approx(std::sqrt(4.0 / 24) * 1e-6 / std::sqrt(3.0)).epsilon(1e-8)); // um of 0.3 m
+  CHECK(c.distribution.parameters[1] ==
+        Approx(std::sqrt(4.0 / 24) * 1e-6 / std::sqrt(3.0)).epsilon(1e-8)); // um of 0.3 m
   CHECK(c.per == std::vector<std::string>{"reading"});
 }
 
@@ -59,16 +63,19 @@ TEST_CASE("of resolution and repeatability the larger counts, and a note says wh
   REQUIRE(noise(pooled).size() == 1);
   CHECK(noise(pooled)[0].name == "resolution");
   CHECK(noise(pooled)[0].distribution.parameters[1] == Approx(0.5e-6).epsilon(1e-15));
-  CHECK_THAT(notes(pooled), Catch::Contains("resolution used, not repeatability") && Catch::Contains("0.289 um") && Catch::Contains("0.236 um"));
+  CHECK_THAT(notes(pooled), Catch::Contains("resolution used, not repeatability") && Catch::Contains("0.289 um") &&
+                                Catch::Contains("0.236 um"));
 
-  const auto scattered = read_text(readings("\"1 mm\"", "resolution = \"1 um\"\nrepeatability = { s = \"3 um\", degrees_of_freedom = 24 }\n"));
+  const auto scattered = read_text(
+      readings("\"1 mm\"", "resolution = \"1 um\"\nrepeatability = { s = \"3 um\", degrees_of_freedom = 24 }\n"));
   REQUIRE(noise(scattered).size() == 1);
   CHECK(noise(scattered)[0].name == "repeatability");
   CHECK_THAT(notes(scattered), Catch::Contains("repeatability used, not resolution") && Catch::Contains("3 um"));
 }
 
 TEST_CASE("identical readouts have a Type A evaluation of zero", "[scenario][readings]") {
-  const auto s = read_text(readings("\"1 mm\", \"1 mm\", \"1 mm\"", "resolution = \"1 um\"\nrepeatability = \"readings\"\n"));
+  const auto s =
+      read_text(readings("\"1 mm\", \"1 mm\", \"1 mm\"", "resolution = \"1 um\"\nrepeatability = \"readings\"\n"));
   REQUIRE(noise(s).size() == 1);
   CHECK(noise(s)[0].name == "resolution");
   CHECK_THAT(notes(s), Catch::Contains("Type A evaluation is zero"));
@@ -80,21 +87,27 @@ TEST_CASE("fewer than four readouts have no standard uncertainty of their own", 
   CHECK(noise(three)[0].distribution.parameters[1] == Approx(2e-6 / std::sqrt(3.0)).epsilon(1e-10));
   CHECK(std::isinf(noise(three)[0].distribution.variance()));
   CHECK_THAT(notes(three), Catch::Contains("no standard uncertainty"));
-  const auto four = read_text(readings("\"1 mm\", \"1.002 mm\", \"1.004 mm\", \"1 mm\"", "repeatability = \"readings\"\n"));
+  const auto four =
+      read_text(readings("\"1 mm\", \"1.002 mm\", \"1.004 mm\", \"1 mm\"", "repeatability = \"readings\"\n"));
   CHECK(four.notes.empty());
-  CHECK_THAT(complaint(readings("\"1 mm\"", "repeatability = \"readings\"\n")), Catch::Contains("say nothing of their scatter"));
-  CHECK_THAT(complaint(readings("\"1 mm\"", "repeatability = { pooled = true }\n")), Catch::Contains("nothing to pool"));
+  CHECK_THAT(complaint(readings("\"1 mm\"", "repeatability = \"readings\"\n")),
+             Catch::Contains("say nothing of their scatter"));
+  CHECK_THAT(complaint(readings("\"1 mm\"", "repeatability = { pooled = true }\n")),
+             Catch::Contains("nothing to pool"));
 }
 
 TEST_CASE("noise by labels where readings differ in their number of repeats", "[scenario][readings]") {
-  const std::string rows = head + "[indications.spindle_z]\nrows = [ { rod = \"a\", values = [\"1 mm\"] }, { rod = \"b\", values = [\"1 mm\", \"1 mm\", \"1 mm\", \"1 mm\"] } ]\nrepeatability = { s = \"2 um\" }\n";
+  const std::string rows =
+      head + "[indications.spindle_z]\nrows = [ { rod = \"a\", values = [\"1 mm\"] }, { rod = \"b\", values = [\"1 "
+             "mm\", \"1 mm\", \"1 mm\", \"1 mm\"] } ]\nrepeatability = { s = \"2 um\" }\n";
   const auto s = read_text(rows);
   const auto& entries = quantity(s, "spindle_z").entries;
   REQUIRE(entries.size() == 2);
   CHECK(entries[0].components[0].distribution.parameters[1] == Approx(2e-6).epsilon(1e-15));
   CHECK(entries[1].components[0].distribution.parameters[1] == Approx(1e-6).epsilon(1e-15));
   CHECK(entries[1].labels == quantities::Labels{{"rod", "b"}});
-  CHECK_THAT(complaint(rows + "components = [ { u = \"1 um\" } ]\n"), Catch::Contains("shared by readings of different noise"));
+  CHECK_THAT(complaint(rows + "components = [ { u = \"1 um\" } ]\n"),
+             Catch::Contains("shared by readings of different noise"));
 }
 
 TEST_CASE("a virtual experiment needs no readouts", "[scenario][readings]") {
@@ -102,18 +115,24 @@ TEST_CASE("a virtual experiment needs no readouts", "[scenario][readings]") {
   const auto bare = read_text(virtual_head);
   REQUIRE(bare.readings.size() == 1);
   CHECK(bare.readings[0].indications.empty());
-  const auto rows = read_text(virtual_head + "[indications.spindle_z]\nrows = [ { rod = \"a\", repeats = 4 }, { rod = \"b\", repeats = 4 } ]\nrepeatability = { s = \"2 um\", degrees_of_freedom = 24 }\n");
+  const auto rows =
+      read_text(virtual_head + "[indications.spindle_z]\nrows = [ { rod = \"a\", repeats = 4 }, { rod = \"b\", repeats "
+                               "= 4 } ]\nrepeatability = { s = \"2 um\", degrees_of_freedom = 24 }\n");
   REQUIRE(rows.readings.size() == 2);
   CHECK(rows.readings[1].repeats == 4);
   CHECK(noise(rows)[0].distribution.parameters[1] == Approx(1e-6).epsilon(1e-15));
   CHECK_THAT(complaint(head), Catch::Contains("indications.spindle_z: missing"));
-  CHECK_THAT(complaint(head + "[indications.spindle_z]\nresolution = \"1 um\"\n"), Catch::Contains("indications.spindle_z: no readings"));
+  CHECK_THAT(complaint(head + "[indications.spindle_z]\nresolution = \"1 um\"\n"),
+             Catch::Contains("indications.spindle_z: no readings"));
 }
 
 TEST_CASE("conditions from a column; other rows than the labels say are other readings", "[scenario][readings]") {
   const Folder folder;
   folder.write("d.csv", "z,f\n1,4\n3,4\n5,8\n");
-  const auto s = scenario::read(folder.write("s.toml", head + "[indications.spindle_z]\nreadings = { file = \"d.csv\", column = \"z\", unit = \"mm\", conditions = { feed = { column = \"f\", unit = \"mm/min\" } } }\n"), catalogue());
+  const auto s = scenario::read(
+      folder.write("s.toml", head + "[indications.spindle_z]\nreadings = { file = \"d.csv\", column = \"z\", unit = "
+                                    "\"mm\", conditions = { feed = { column = \"f\", unit = \"mm/min\" } } }\n"),
+      catalogue());
   REQUIRE(s.readings.size() == 2);
   CHECK(s.readings[0].indications[0] == Approx(2e-3).epsilon(1e-15));
   CHECK(s.readings[1].conditions[0] == 8.0 / 60000);
@@ -121,7 +140,8 @@ TEST_CASE("conditions from a column; other rows than the labels say are other re
 
 TEST_CASE("the hash follows the text and the data", "[scenario][readings]") {
   const Folder folder;
-  const std::string text = head + "[indications.spindle_z]\nreadings = { file = \"d.csv\", column = \"z\", unit = \"mm\" }\n";
+  const std::string text =
+      head + "[indications.spindle_z]\nreadings = { file = \"d.csv\", column = \"z\", unit = \"mm\" }\n";
   const auto hash = [&](const std::string& scenario_text, const std::string& data) {
     folder.write("d.csv", data);
     return scenario::read(folder.write("s.toml", scenario_text), catalogue()).hash;

@@ -50,16 +50,22 @@ TEST_CASE("points and differences on a scale with an offset", "[units]") {
 }
 
 TEST_CASE("from_si inverts to_si", "[units]") {
-  struct { const char* unit; const char* si; } rows[] = {{"mm", "m"}, {"um", "m"}, {"deg", "rad"}, {"mm/min", "m/s"}, {"um/h", "m/s"},
-      {"um/m/K", "1/K"}, {"um/m", "1"}, {"min", "s"}, {"rpm", "rad/s"}, {"degC", "K"}, {"um/K", "m/K"}, {"1/K", "1/K"}, {"1", "1"}};
+  struct {
+    const char* unit;
+    const char* si;
+  } rows[] = {{"mm", "m"},       {"um", "m"},    {"deg", "rad"}, {"mm/min", "m/s"}, {"um/h", "m/s"},
+              {"um/m/K", "1/K"}, {"um/m", "1"},  {"min", "s"},   {"rpm", "rad/s"},  {"degC", "K"},
+              {"um/K", "m/K"},   {"1/K", "1/K"}, {"1", "1"}};
   for (const auto& row : rows)
     for (const double x : {0.1, 160.591, -329.932, 1e-7})
-      CHECK(units::from_si(units::to_si(x, row.unit, row.si), row.unit, row.si) ==
-            Approx(x).epsilon(1e-15).margin(std::string(row.si) == "K" ? 1e-13 : 0)); // the offset of 273.15 costs digits
+      CHECK(
+          units::from_si(units::to_si(x, row.unit, row.si), row.unit, row.si) ==
+          Approx(x).epsilon(1e-15).margin(std::string(row.si) == "K" ? 1e-13 : 0)); // the offset of 273.15 costs digits
 }
 
 TEST_CASE("what is no number with a unit is refused", "[units]") {
-  for (const char* text : {"", " ", "mm", "five mm", "nan mm", "inf mm", "-inf", "1e400 mm", "0,5 mm", "1_000 mm", "1.5.2 mm", "+-5 mm"})
+  for (const char* text :
+       {"", " ", "mm", "five mm", "nan mm", "inf mm", "-inf", "1e400 mm", "0,5 mm", "1_000 mm", "1.5.2 mm", "+-5 mm"})
     CHECK_THROWS_AS(units::parse(text), InputError);
   const auto m = units::parse("  +5.25e-1mm ");
   CHECK(m.number == 0.525);
@@ -68,7 +74,8 @@ TEST_CASE("what is no number with a unit is refused", "[units]") {
 }
 
 TEST_CASE("what is no unit is refused, though udunits would take it", "[units]") {
-  for (const char* unit : {"foo", "mm 3", "3 mm", "mm@3", "lg(re mm)", "mm since 1990", "m#", "", "mm)", "(mm", "mm/", "mm*", "mm^", "."}) {
+  for (const char* unit : {"foo", "mm 3", "3 mm", "mm@3", "lg(re mm)", "mm since 1990", "m#", "", "mm)", "(mm", "mm/",
+                           "mm*", "mm^", "."}) {
     INFO(unit);
     CHECK_FALSE(units::convertible(unit, "m"));
   }

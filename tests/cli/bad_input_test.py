@@ -1,0 +1,371 @@
+"""Wrong input never crashes and never yields a number: exit code 2 and one clear message, with its place.
+
+usage: bad_input_test.py path/to/gumshoe [unittest options]
+"""
+import os
+import pathlib
+import random
+import resource
+import subprocess
+import tempfile
+import unittest
+
+import h5py
+
+from program import SCENARIO, complaint, gumshoe, places
+
+
+def swap(old, new):
+    assert old in SCENARIO, old
+    return SCENARIO.replace(old, new, 1)
+
+
+def of_radius(text):
+    return swap('value = "5 mm"\nu = "1 um"', text)
+
+
+def of_pitch(text, more=""):
+    return swap('[quantities.beam_pitch]\nvalue = "0.2836 deg"\nu = "0.005 deg"', text) + more
+
+
+# name: (scenario, line of the mistake, words of the message)
+MISTAKES = {
+    "unknown unit": (of_radius('value = "5 parsnip"'), 5, ["quantities.rod_radius.value", "parsnip"]),
+    "unknown unit of u": (of_radius('value = "5 mm"\nu = "1 parsnip"'), 6, ["quantities.rod_radius.u", "parsnip"]),
+    "wrong dimension": (of_radius('value = "5 N"'), 5, ["quantities.rod_radius.value", "'5 N'", "length"]),
+    "an angle for a length": (of_radius('value = "5 deg"'), 5, ["length"]),
+    "no unit": (of_radius("value = 5"), 5, ["unit"]),
+    "misspelt key": (of_radius('valeu = "5 mm"'), 5, ["'valeu'", "did you mean 'value'?"]),
+    "misspelt section": (swap("[quantities.rod_radius]", "[quantites.rod_radius]"), 4, ["did you mean 'quantities'?"]),
+    "misspelt quantity": (swap(".rod_radius]", ".rod_radus]"), 4, ["'rod_radus'", "did you mean 'rod_radius'?"]),
+    "misspelt indication": (swap("spindle_z", "spindel_z"), 10, ["did you mean 'spindle_z'?"]),
+    "unknown model": (swap('"rod_gauging"', '"rod_gaugin"'), 3, ["did you mean 'rod_gauging'?"]),
+    "no model": (swap('[model]\nname = "rod_gauging"\n', ""), 1, ["model"]),
+    "unknown effect": (SCENARIO + '[effects.triger_latency]\ndelay = "1 ms"\n', 14, ["did you mean 'trigger_latency'?"]),
+    "unknown quantity of an effect": (SCENARIO + '[effects.trigger_latency]\ndelya = "1 ms"\n', 15, ["did you mean 'delay'?"]),
+    "unknown method": (swap('"rod_gauging"', '"rod_gauging"\nmethod = "guess"'), 4, ["'guess'", "propagation"]),
+    "another schema": (swap("schema = 1", "schema = 2"), 1, ["schema"]),
+    "no schema": (swap("schema = 1", "title = 'x'"), 1, ["schema"]),
+    "negative radius": (of_radius('value = "-5 mm"'), 5, ["rod_radius", "-5 mm", "above 0"]),
+    "radius of zero": (of_radius('value = "0 mm"'), 5, ["rod_radius", "above 0"]),
+    "radius that can become negative": (of_radius('value = "5 mm"\ndistribution = "rectangular"\nhalf_width = "6 mm"'), 5, ["rod_radius"]),
+    "fillet larger than the rod": (SCENARIO + '[quantities.fillet_radius]\nvalue = "6 mm"\n', 15, ["fillet_radius", "rod_radius"]),
+    "fraction of 0": (SCENARIO + "[quantities.trigger_fraction]\nvalue = 0\n", 15, ["trigger_fraction", "above 0"]),
+    "fraction of 1": (SCENARIO + "[quantities.trigger_fraction]\nvalue = 1\n", 15, ["trigger_fraction", "below 1"]),
+    "pitch of 90 deg": (of_pitch('[quantities.beam_pitch]\nvalue = "90 deg"'), 8, ["beam_pitch", "90"]),
+    "duplicate quantity": (SCENARIO + '[quantities.rod_radius]\nvalue = "5 mm"\n', 14, ["rod_radius"]),
+    "duplicate key": (of_radius('value = "5 mm"\nvalue = "6 mm"'), 6, ["value"]),
+    "NaN in text": (of_radius('value = "nan mm"'), 5, ["rod_radius", "finite"]),
+    "NaN": (SCENARIO + "[quantities.trigger_fraction]\nvalue = nan\n", 15, ["trigger_fraction", "finite"]),
+    "infinity": (of_radius('value = "inf mm"'), 5, ["rod_radius", "finite"]),
+    "too large for a number": (of_radius('value = "1e400 mm"'), 5, ["rod_radius", "1e400"]),
+    "NaN as an uncertainty": (of_radius('value = "5 mm"\nu = "nan um"'), 6, ["rod_radius.u"]),
+    "NaN as a reading": (swap('"-329.931 mm"', '"nan mm"'), 11, ["readings"]),
+    "negative u": (of_radius('value = "5 mm"\nu = "-1 um"'), 6, ["above 0"]),
+    "U without k": (of_radius('value = "5 mm"\nU = "1 um"'), 6, ["k"]),
+    "low above high": (of_radius('distribution = "rectangular"\nlow = "6 mm"\nhigh = "5 mm"'), 6, ["low"]),
+    "unknown distribution": (of_radius('value = "5 mm"\ndistribution = "normla"\nu = "1 um"'), 6, ["did you mean 'normal'?"]),
+    "no indication": (SCENARIO.split("[indications")[0], 1, ["indications.spindle_z", "missing"]),
+    "no readings": (SCENARIO.split("readings =")[0], 10, ["indications.spindle_z", "no readings"]),
+    "readings without a value": (SCENARIO.split("readings =")[0] + "readings = []\n", 11, ["empty"]),
+    "readings from no file": (SCENARIO.split("readings =")[0] + 'readings = { file = "none.csv", column = "z", unit = "mm" }\n', 11, ["none.csv"]),
+    "label without readings": (of_pitch('[quantities.beam_pitch.by.setup]\n1 = "0.2836 deg"'), 7, ["'setup'"]),
+    "label value without a row": (
+        of_pitch('[quantities.beam_pitch.by.setup]\n1 = "0.2836 deg"', 'labels = { setup = "2" }\n'), 7, ["no value for setup = '2'"]),
+    "label without rows": (of_pitch("[quantities.beam_pitch.by.setup]", 'labels = { setup = "2" }\n'), 7, ["no value for setup = '2'"]),
+    "unknown scope": (swap('u = "0.005 deg"', 'u = "0.005 deg"\nper = "setup"'), 10, ["'setup'"]),
+    # 1 and 2 as well as 2 and 3 alike, 1 and 3 opposite: eigenvalues 1.9, 1.9, -0.8.
+    "correlation matrix not positive definite": (
+        SCENARIO + '[quantities.beam_yaw]\nu = "0.01 deg"\n[[correlations]]\nquantities = ["rod_radius", "beam_pitch", "beam_yaw"]\n'
+        'kind = "copula"\nmatrix = [[1, 0.9, -0.9], [0.9, 1, 0.9], [-0.9, 0.9, 1]]\n', 16, ["positive definite", "-0.8"]),
+    "correlation of what is not drawn": (
+        SCENARIO + '[[correlations]]\nquantities = ["rod_radius", "beam_yaw"]\nkind = "copula"\ncoefficient = 0.5\n', 14, ["beam_yaw"]),
+    "correlation beyond 1": (
+        SCENARIO + '[[correlations]]\nquantities = ["rod_radius", "beam_pitch"]\nkind = "copula"\ncoefficient = 1.5\n', 17, ["coefficient"]),
+    "correlation without a kind": (
+        SCENARIO + '[[correlations]]\nquantities = ["rod_radius", "beam_pitch"]\ncoefficient = 0.5\n', 14, ["kind", "copula"]),
+    "no samples": (SCENARIO + "[run]\nsamples = 0\n", 15, ["samples"]),
+    "one sample": (SCENARIO + "[run]\nsamples = 1\n", 15, ["samples"]),
+    "samples below zero": (SCENARIO + "[run]\nsamples = -5\n", 15, ["samples"]),
+    "half a sample": (SCENARIO + "[run]\nsamples = 1.5\n", 15, ["samples"]),
+    "samples in words": (SCENARIO + '[run]\nsamples = "many"\n', 15, ["samples"]),
+    "coverage probability of 1": (SCENARIO + "[analysis]\ncoverage_probability = 1\n", 15, ["coverage_probability"]),
+    "no TOML": ("schema = = 1\n", 1, []),
+    "nested without end": ("a = " + "[" * 100000, 1, []),
+}
+
+garbage = random.Random(1).randbytes
+# name: bytes that are no scenario and no table
+FILES = {
+    "empty": b"",
+    "binary": garbage(5000),
+    "zeros": bytes(5000),
+    "broken UTF-8": b"schema = 1\ntitle = '\xff\xfe\xfd'\n",
+    "10 MB of garbage": garbage(10_000_000),
+    "10 MB of garbage without NUL": garbage(10_000_000).replace(b"\0", b"x"),
+    "10 MB of letters": b"x" * 10_000_000,
+    "10 MB of lines": b"a = 1\n" * 1_700_000,
+}
+
+# name: (CSV, line or None, words)
+TABLES = {
+    "text in a number": ("rod_radius (mm)\n5\nfive\n", 3, ["'five'"]),
+    "number with a tail": ("rod_radius (mm)\n5x\n", 2, ["'5x'"]),
+    "decimal comma": ('rod_radius (mm)\n"5,0"\n', 2, ["'5,0'"]),
+    "empty cell": ("rod_radius (mm),beam_yaw (deg)\n5,\n", 2, ["''"]),
+    "empty cell between quotes": ('rod_radius (mm)\n5\n""\n', 3, ["''"]),
+    "NaN": ("rod_radius (mm)\nnan\n", 2, ["nan"]),
+    "infinity": ("rod_radius (mm)\ninf\n", 2, ["inf"]),
+    "too large for a number": ("rod_radius (mm)\n1e999\n", 2, ["1e999"]),
+    "unknown column": ("rod_radus (mm)\n5\n", 1, ["did you mean 'rod_radius'?"]),
+    "column of our own": ("rod_radius (mm),status\n5,ok\n", 1, ["'status'"]),
+    "column without a name": ("rod_radius (mm),\n5,1\n", 1, ["name"]),
+    "repeated column": ("rod_radius (mm),rod_radius (mm)\n5,5\n", 1, ["rod_radius", "twice"]),
+    "column repeated in another unit": ("rod_radius (mm),rod_radius (um)\n5,5000\n", 1, ["rod_radius", "twice"]),
+    "unknown unit": ("rod_radius (parsnip)\n5\n", 1, ["parsnip"]),
+    "wrong dimension": ("rod_radius (N)\n5\n", 1, ["'N'", "length"]),
+    "no unit": ("rod_radius\n5\n", 1, ["rod_radius", "length"]),
+    "row too short": ("rod_radius (mm),beam_yaw (deg)\n5,0\n5\n", 3, ["1 cell", "2"]),
+    "row too long": ("rod_radius (mm)\n5,6\n", 2, ["2 cells"]),
+    "quote not closed": ('"rod_radius (mm)\n5\n', 1, ["quote"]),
+    "unknown effect": ("triger_latency.delay (ms)\n1\n", 1, ["did you mean 'trigger_latency.delay'?"]),
+    "unknown quantity of an effect": ("trigger_latency.dely (ms)\n1\n", 1, ["did you mean 'trigger_latency.delay'?"]),
+}
+
+
+class BadInput(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        temporary = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(temporary.cleanup)
+        cls.folder = pathlib.Path(temporary.name)
+        cls.good = cls.folder / "good.toml"
+        cls.good.write_text(SCENARIO)
+        cls.result = cls.folder / "good.h5"
+        run = gumshoe("run", cls.good, "--samples", 1000, "--out", cls.result)
+        assert run.returncode == 0, run.stderr
+        cls.table = cls.folder / "good.csv"
+        cls.table.write_text("rod_radius (mm)\n5\n")
+
+    def refused(self, run, words=(), stdout=""):
+        self.assertIsNone(complaint(run), run.stderr[:500])
+        self.assertEqual(run.stdout or "", stdout)
+        for word in words:
+            self.assertIn(word, run.stderr)
+
+    def write(self, name, content):
+        path = self.folder / name
+        path.write_bytes(content if isinstance(content, bytes) else content.encode())
+        return path
+
+    # scenarios
+
+    def test_good_scenario_is_good(self):  # or the mistakes below would prove nothing
+        run = gumshoe("check", self.good)
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+
+    def test_mistakes_in_a_scenario(self):
+        out = self.folder / "never.h5"
+        for name, (text, line, words) in MISTAKES.items():
+            path = self.write("bad.toml", text)
+            for command in (["check"], ["check", "--explain"], ["run", "--samples", 1000, "--out", out]):
+                with self.subTest(name, command=command[0]):
+                    out.unlink(missing_ok=True)
+                    run = gumshoe(command[0], path, *command[1:])
+                    self.refused(run, words)
+                    self.assertIn(line, [at for at, _ in places(run, path)], run.stderr)
+                    self.assertFalse(out.exists())
+
+    def test_all_mistakes_at_once(self):
+        path = self.write("bad.toml", SCENARIO.replace("5 mm", "5 N").replace("0.005 deg", "0.005 parsnip").replace("resolution", "resolutoin"))
+        run = gumshoe("check", path)
+        self.refused(run, ["parsnip", "'5 N'", "did you mean 'resolution'?"])
+        self.assertEqual([line for line, _ in places(run, path)], [5, 9, 12])
+
+    def test_mistakes_in_the_data_of_a_scenario(self):
+        text = SCENARIO.split("readings =")[0] + 'readings = { file = "data.csv", column = "z", unit = "mm" }\n'
+        path, data = self.write("data.toml", text), self.folder / "data.csv"
+        self.write("data.csv", "z\n-329.932\n-329.931\n")
+        self.assertEqual(gumshoe("check", path).returncode, 0)
+        for name, (csv, words) in {
+            "text in a number": ("z\n-329.932\nhigh\n", ["data.csv:3:1: error:", "'high'"]),
+            "NaN": ("z\n-329.932\nnan\n", ["data.csv:3:1: error:"]),
+            "no such column": ("y\n-329.932\n", ["'z'"]),
+            "repeated column": ("z,z\n1,1\n", ["twice"]),
+            "row too long": ("z\n-329.932\n-329.932,5\n", ["data.csv:3:"]),
+            "no rows": ("z\n", []),
+            **{name: (csv, []) for name, csv in FILES.items()},
+        }.items():
+            with self.subTest(name):
+                self.write("data.csv", csv)
+                self.refused(gumshoe("check", path), words)
+        data.unlink()
+        data.mkdir()
+        self.refused(gumshoe("check", path), ["directory"])
+        data.rmdir()
+
+    # files that are none of ours
+
+    def test_files_that_are_no_input(self):
+        for name, content in FILES.items():
+            path = self.write("garbage", content)
+            for command in (["check", path], ["run", path, "--out", self.folder / "never.h5"],
+                            ["evaluate", "rod_gauging", "--table", path], ["replay", path, "--sample", 1], ["report", path]):
+                with self.subTest(name, command=command[0]):
+                    self.refused(gumshoe(*command), [str(path)])
+
+    def test_a_directory_and_nothing(self):
+        for path, word in ((self.folder, "directory"), (self.folder / "nothing", "no such file")):
+            for command in (["check", path], ["run", path, "--out", self.folder / "never.h5"],
+                            ["evaluate", "rod_gauging", "--table", path], ["replay", path, "--sample", 1], ["report", path]):
+                with self.subTest(word, command=command[0]):
+                    self.refused(gumshoe(*command), [str(path), word])
+
+    def test_results_that_are_damaged(self):
+        whole = self.result.read_bytes()
+        damaged = bytearray(whole)
+        for i in range(600, 3000, 7):
+            damaged[i] ^= 0x5A
+        self.write("half.h5", whole[: len(whole) // 2])
+        self.write("damaged.h5", bytes(damaged))
+        with h5py.File(self.folder / "foreign.h5", "w") as file:
+            file["x"] = [1, 2, 3]
+        with h5py.File(self.folder / "other.h5", "w") as file:
+            file.attrs["program"] = "another"
+        for name in ("half", "damaged", "foreign", "other"):
+            path = self.folder / f"{name}.h5"
+            for command in (["replay", path, "--sample", 1], ["report", path]):
+                with self.subTest(name, command=command[0]):
+                    self.refused(gumshoe(*command), [str(path)])
+
+    def test_result_whose_scenario_has_changed(self):
+        path, result = self.write("changing.toml", SCENARIO), self.folder / "changing.h5"
+        self.assertEqual(gumshoe("run", path, "--samples", 1000, "--out", result).returncode, 0)
+        path.write_text(SCENARIO.replace("5 mm", "6 mm"))
+        self.refused(gumshoe("replay", result, "--sample", 1), [str(path)])
+        path.unlink()
+        self.refused(gumshoe("replay", result, "--sample", 1), [str(path)])
+
+    # tables
+
+    def test_mistakes_in_a_table(self):
+        out = self.folder / "never.csv"
+        for name, (csv, line, words) in TABLES.items():
+            path = self.write("bad.csv", csv)
+            for more in ([], ["--out", out]):
+                with self.subTest(name, more=bool(more)):
+                    out.unlink(missing_ok=True)
+                    run = gumshoe("evaluate", "rod_gauging", "--table", path, *more)
+                    self.refused(run, words)
+                    self.assertIn(line, [at for at, _ in places(run, path)], run.stderr)
+                    self.assertFalse(out.exists())
+
+    # words of the command line
+
+    def test_mistakes_in_the_command_line(self):
+        run = ["run", self.good, "--out", self.folder / "never.h5"]
+        for name, (command, words) in {
+            **{f"--samples {n}": ([*run, "--samples", n], ["--samples"]) for n in ("0", "-5", "abc", "1.5", "1", "", "nan", "1e30", "1e6x")},
+            **{f"--seed {n}": ([*run, "--seed", n], ["--seed"]) for n in ("-1", "abc", "1.5", "")},
+            **{f"--threads {n}": ([*run, "--threads", n], ["--threads"]) for n in ("-1", "abc", "1.5")},
+            "--format": ([*run, "--format", "xml"], ["xml"]),
+            "unknown option": ([*run, "--sampels", "5"], ["--sampels"]),
+            "no scenario": (["run"], ["scenario"]),
+            "unknown model": (["evaluate", "rod_gaugin", "--table", self.table], ["did you mean 'rod_gauging'?"]),
+            "unknown evaluation": (["evaluate", "rod_gauging", "--table", self.table, "--evaluation", "ful"], ["'ful'"]),
+            "no table": (["evaluate", "rod_gauging"], ["--table"]),
+            "models": (["models", "rod_gaugin"], ["did you mean 'rod_gauging'?"]),
+            "models, far off": (["models", "zzz"], ["'zzz'"]),
+            "effects": (["effects", "trigger_latencey"], ["did you mean 'trigger_latency'?"]),
+            "effects, far off": (["effects", "zzz"], ["'zzz'"]),
+            "no command": ([], []),
+            "unknown command": (["frobnicate"], ["frobnicate"]),
+            **{f"--sample {n}": (["replay", self.result, "--sample", n], ["--sample"]) for n in ("1000", "1e15", "1e30", "-1", "abc", "1.5", "nan", "")},
+            "no sample": (["replay", self.result], ["--sample"]),
+        }.items():
+            with self.subTest(name):
+                self.refused(gumshoe(*command), words)
+
+    def test_seed_zero_is_a_seed(self):  # the scenario's format allows it
+        run = gumshoe("run", self.good, "--samples", 1000, "--seed", 0, "--out", self.folder / "zero.h5")
+        self.assertEqual(run.returncode, 0, run.stderr)
+
+    # places that cannot be written
+
+    def test_unwritable_outputs(self):
+        inside_a_file = self.good / "x"
+        for command in (["run", self.good, "--samples", 1000, "--out"], ["evaluate", "rod_gauging", "--table", self.table, "--out"],
+                        ["report", self.result, "--out"]):
+            for path in (inside_a_file, self.folder, "/dev/full"):
+                with self.subTest(command[0], path=str(path)):
+                    self.refused(gumshoe(*command, path), [str(self.good) if path is inside_a_file else str(path)])
+        self.assertEqual(self.good.read_text(), SCENARIO)
+
+    def test_what_is_not_ours_is_not_overwritten(self):
+        foreign = self.write("letter.txt", "dear reader")
+        hdf5 = self.folder / "theirs.h5"
+        with h5py.File(hdf5, "w") as file:
+            file["x"] = [1, 2, 3]
+        for path in (foreign, hdf5, self.good):
+            before = path.read_bytes()
+            with self.subTest(path.name):
+                self.refused(gumshoe("run", self.good, "--samples", 1000, "--out", path), [str(path)])
+                self.assertEqual(path.read_bytes(), before)
+
+    def test_no_command_destroys_its_own_input(self):
+        table, result = self.write("own.csv", "rod_radius (mm)\n5\n"), self.write("own.h5", self.result.read_bytes())
+        for path, command in ((table, ["evaluate", "rod_gauging", "--table", table, "--out", table]), (result, ["report", result, "--out", result])):
+            before = path.read_bytes()
+            with self.subTest(command[0]):
+                self.refused(gumshoe(*command), [str(path)])
+                self.assertEqual(path.read_bytes(), before)
+
+    def test_full_standard_output(self):
+        commands = {
+            "check": ["check", self.good, "--explain"],
+            "run": ["run", self.good, "--samples", 1000, "--out", self.folder / "full.h5"],
+            "evaluate": ["evaluate", "rod_gauging", "--table", self.table],
+            "replay": ["replay", self.result, "--sample", 1],
+            "report": ["report", self.result, "--out", self.folder / "full.html"],
+            "models": ["models"],
+            "effects": ["effects", "z_scale", "--format", "json"],
+        }
+        for name, command in commands.items():
+            with self.subTest(name), open("/dev/full", "w") as full:
+                self.refused(gumshoe(*command, stdout=full))
+
+    def test_limit_on_file_sizes(self):  # like a full disk, without being root
+        def limit():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (65536, 65536))
+
+        long = self.write("long.csv", "rod_radius (mm)\n" + "5\n" * 10000)
+        out, older = self.folder / "limited.h5", self.result.read_bytes()
+        self.refused(gumshoe("run", self.good, "--samples", 20000, "--out", out, preexec_fn=limit), [str(out)])
+        self.assertFalse(out.exists())
+        self.refused(gumshoe("run", self.good, "--samples", 20000, "--out", self.result, preexec_fn=limit), [str(self.result)])
+        self.assertEqual(self.result.read_bytes(), older)
+        table = self.folder / "limited.csv"
+        self.refused(gumshoe("evaluate", "rod_gauging", "--table", long, "--out", table, preexec_fn=limit), [str(table)])
+
+    @unittest.skipUnless(os.geteuid() == 0, "only root can mount a small disk")
+    def test_full_disk(self):
+        disk = self.folder / "disk"
+        disk.mkdir(exist_ok=True)
+        if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=256k", "tmpfs", str(disk)], capture_output=True).returncode:
+            self.skipTest("mounting is not allowed here")
+        try:
+            out = disk / "x.h5"
+            self.refused(gumshoe("run", self.good, "--samples", 1000000, "--out", out), [str(out)])
+            with self.assertRaises(OSError), open(disk / "ballast", "wb", buffering=0) as ballast:
+                while ballast.write(bytes(4096)):
+                    pass
+            self.refused(gumshoe("report", self.result, "--out", disk / "x.html"), [str(disk)])
+            long = self.write("long.csv", "rod_radius (mm)\n" + "5\n" * 10000)
+            self.refused(gumshoe("evaluate", "rod_gauging", "--table", long, "--out", disk / "x.csv"), [str(disk)])
+            self.assertFalse(out.exists())
+        finally:
+            subprocess.run(["umount", str(disk)], check=True)
+
+
+if __name__ == "__main__":
+    unittest.main()

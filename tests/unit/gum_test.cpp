@@ -1,0 +1,213 @@
+/// The GUM framework and Sobol' indices on the rod, against hand calculation and against each other.
+#include <catch2/catch.hpp>
+
+#include <map>
+
+#include "analysis/analyse.h"
+#include "analysis/derivatives.h"
+#include "analysis/gum.h"
+#include "analysis/sobol.h"
+#include "analysis/summary.h"
+#include "base/error.h"
+#include "effects/catalogue.h"
+#include "propagation/propagate.h"
+
+using namespace gumshoe;
+using quantities::Family;
+
+namespace {
+
+constexpr double deg = 3.14159265358979323846 / 180, um = 1e-6;
+
+/// Rod 2 on the beam of Table 2.5; uncertain is what `uncertain` says.
+scenario::Scenario rod2(const std::map<std::string, std::vector<quantities::Component>>& uncertain,
+                        const std::map<std::string, double>& values = {}) {
+  scenario::Scenario s;
+  s.model = "rod_gauging";
+  s.evaluation = "full";
+  const std::map<std::string, double> rod{{"rod_radius", 5e-3}, {"fillet_radius", 3e-5}, {"bottom_elevation", 88.041 * deg},
+                                          {"bottom_azimuth", 144.086 * deg}, {"rod_length", 0.179822}, {"beam_yaw", 0.6241 * deg},
+                                          {"beam_pitch", 0.2836 * deg}};
+  for (const auto& q : models::find("rod_gauging")->card->quantities) {
+    const std::string name(q.name);
+    double value = rod.count(name) ? rod.at(name) : q.default_value;
+    if (values.count(name)) value = values.at(name);
+    s.quantities.push_back({name, std::string(q.unit), std::string(q.si_unit), {{{}, value, {}, ""}}});
+    if (uncertain.count(name)) s.quantities.back().entries[0].components = uncertain.at(name);
+  }
+  s.quantities.push_back({"spindle_z", "mm", "m", {{{}, 0.0, {}, ""}}});
+  if (uncertain.count("spindle_z")) s.quantities.back().entries[0].components = uncertain.at("spindle_z");
+  s.readings.push_back({{}, {4e-3 / 60, 0, -1}, {-0.329932}, 3});
+  s.run.samples = 200'000;
+  return s;
+}
+
+quantities::Component component(Family family, std::array<double, 4> p, double dof = 0, const char* name = "c1") {
+  quantities::Component c;
+  c.name = name;
+  c.distribution = {family, p, nullptr, nullptr};
+  c.degrees_of_freedom = dof;
+  c.evaluation = dof > 0 ? 'A' : 'B';
+  return c;
+}
+
+struct Memory : propagation::Sink {
+  std::vector<std::vector<double>> rows;
+  std::vector<std::uint8_t> status;
+  explicit Memory(std::size_t n) : rows(n) {}
+  void write(const propagation::ResultBlock& b) override {
+    for (std::size_t r = 0; r < rows.size(); ++r) rows[r].insert(rows[r].end(), &b.outputs[r * b.samples], &b.outputs[r * b.samples] + b.samples);
+    status.insert(status.end(), b.status.begin(), b.status.end());
+  }
+};
+
+} // namespace
+
+TEST_CASE("budget of laser_z: lengths enter with slope one, pitch with the rod's lever", "[gum]") {
+  const auto s = rod2({{"rod_length", {component(Family::normal, {0, 1 * um})}},
+                       {"spindle_z", {component(Family::rectangular, {-0.5 * um, 0.5 * um})}},
+                       {"beam_pitch", {component(Family::normal, {0, 0.01 * deg})}}});
+  const propagation::Experiment e(s);
+  const auto b = analysis::budget(e, 1, 0.95);
+  REQUIRE(b.applicable);
+  REQUIRE(b.contributions.size() == 3);
+  double sum = 0;
+  for (const auto& c : b.contributions) {
+    if (c.quantity == "rod_length") CHECK(c.sensitivity == -1);
+    if (c.quantity == "spindle_z") CHECK(c.contribution == Approx(0.5 * um / std::sqrt(3.0)).epsilon(1e-12));
+    // 0.01 deg = 0.87 um at 4.97 mm/rad; laser_z = ... - bottom_height, whose slope is -4.97 for rod 2.
+    if (c.quantity == "beam_pitch") CHECK(c.sensitivity == Approx(4.97e-3).epsilon(2e-3));
+    sum += c.share;
+  }
+  CHECK(sum + b.correlation_share == Approx(1).epsilon(1e-12));
+  CHECK(b.combined_standard_uncertainty ==
+        Approx(std::hypot(1 * um, 0.5 * um / std::sqrt(3.0), 4.97e-3 * 0.01 * deg)).epsilon(2e-3));
+  CHECK(b.effective_degrees_of_freedom == 0);
+  CHECK(b.coverage_factor == Approx(1.959964));
+}
+
+TEST_CASE("effective degrees of freedom are truncated, and k is from t", "[gum]") {
+  const auto s = rod2({{"rod_length", {component(Family::normal, {0, 3 * um})}},
+                       {"spindle_z", {component(Family::t, {0, 4 * um, 5}, 5)}}});
+  const propagation::Experiment e(s);
+  const auto b = analysis::budget(e, 1, 0.95);
+  // Welch-Satterthwaite: 25^2 / (16^2 / 5) = 12.207 -> 12; k = t_0.975(12) = 2.1788.
+  CHECK(b.combined_standard_uncertainty == Approx(5 * um).epsilon(1e-12));
+  CHECK(b.effective_degrees_of_freedom == 12);
+  CHECK(b.coverage_factor == Approx(2.17881).epsilon(1e-5));
+}
+
+TEST_CASE("correlated inputs: one correlation row, and no Welch-Satterthwaite", "[gum]") {
+  auto s = rod2({{"rod_length", {component(Family::normal, {0, 3 * um})}}, {"spindle_z", {component(Family::normal, {0, 4 * um}, 9)}}});
+  s.correlations.push_back({quantities::Correlation::Kind::pearson, {"rod_length", "spindle_z"}, {1, 0.5, 0.5, 1}});
+  const propagation::Experiment e(s);
+  const auto b = analysis::budget(e, 1, 0.95);
+  // laser_z = z - L: variance 9 + 16 - 2 * 0.5 * 12 = 13 um^2.
+  CHECK(b.combined_standard_uncertainty == Approx(std::sqrt(13.0) * um).epsilon(1e-9));
+  CHECK(b.correlation_share == Approx(-12.0 / 13).epsilon(1e-9));
+  CHECK(std::isnan(b.effective_degrees_of_freedom));
+  CHECK_THROWS_AS(analysis::sobol_indices(e, 1024, 1), InputError);
+  Memory memory(2);
+  propagation::propagate(e, memory, {});
+  const auto summary = analysis::summarise(e.outputs()[1], memory.rows[1], 0.95);
+  CHECK(summary.standard_uncertainty == Approx(std::sqrt(13.0) * um).epsilon(4 * std::sqrt(0.5 / 2e5)));
+}
+
+TEST_CASE("an aligned square rod: the framework does not apply, and says by what", "[gum]") {
+  const auto s = rod2({{"beam_pitch", {component(Family::normal, {0, 0.01 * deg})}}, {"rod_length", {component(Family::normal, {0, 1 * um})}}},
+                      {{"bottom_elevation", 90 * deg}, {"beam_pitch", 0}, {"beam_yaw", 0}});
+  const propagation::Experiment e(s);
+  const auto b = analysis::budget(e, 1, 0.95);
+  CHECK_FALSE(b.applicable);
+  CHECK(b.reason == "no derivative at the estimate by beam_pitch");
+  Memory memory(2);
+  propagation::propagate(e, memory, {});
+  const auto summary = analysis::summarise(e.outputs()[0], memory.rows[0], 0.95);
+  CHECK(analysis::validate(b, summary, 2).verdict == "not applicable");
+  // 5 mm times |pitch|, pitch ~ N(0, 0.01 deg): bias 4.97 mm E|pitch| = 0.70 um.
+  const double exact = 4.97e-3 * 0.01 * deg * std::sqrt(2 / 3.14159265358979);
+  CHECK(exact == Approx(0.69 * um).epsilon(0.01));
+  CHECK(summary.estimate == Approx(exact).epsilon(0.01));
+}
+
+TEST_CASE("second-order terms: mean and u agree with Monte Carlo where curvature matters", "[gum]") {
+  // Pitch so uncertain that the height's curvature shows; the fraction too.
+  const auto s = rod2({{"trigger_fraction", {component(Family::normal, {0, 0.12})}}});
+  const propagation::Experiment e(s);
+  const auto b = analysis::budget(e, 0, 0.95);
+  Memory memory(2);
+  propagation::propagate(e, memory, {});
+  const auto summary = analysis::summarise(e.outputs()[0], memory.rows[0], 0.95);
+  const double first_error = std::fabs(b.combined_standard_uncertainty - summary.standard_uncertainty);
+  const double second_error = std::fabs(b.second_order_uncertainty - summary.standard_uncertainty);
+  CHECK(first_error > 8 * summary.standard_uncertainty_se);
+  CHECK(second_error < 0.4 * first_error);
+}
+
+TEST_CASE("Sobol' indices of a nearly linear budget are its GUM shares", "[sobol]") {
+  const auto s = rod2({{"rod_length", {component(Family::normal, {0, 1 * um})}},
+                       {"beam_pitch", {component(Family::normal, {0, 0.02 * deg})}},
+                       {"fillet_radius", {component(Family::rectangular, {-5 * um, 5 * um})}},
+                       {"spindle_z", {component(Family::rectangular, {-1 * um, 1 * um})}}});
+  const propagation::Experiment e(s);
+  const auto b = analysis::budget(e, 1, 0.95);
+  const auto sobol = analysis::sobol_indices(e, 16384, 2);
+  REQUIRE(sobol[1].indices.size() == b.contributions.size());
+  double sum = 0;
+  for (std::size_t i = 0; i < b.contributions.size(); ++i) {
+    const auto& index = sobol[1].indices[i];
+    INFO(index.input);
+    const double slack = index.first_high - index.first_low;
+    CHECK(std::fabs(index.first - b.contributions[i].share) < slack + 1e-4);
+    CHECK(std::fabs(index.total - b.contributions[i].share) < index.total_high - index.total_low + 1e-4);
+    CHECK(slack < 0.05);
+    sum += index.first;
+  }
+  CHECK(sum == Approx(1).margin(0.03));
+}
+
+TEST_CASE("bits do not depend on threads; the first samples of a long run are the short run", "[propagation]") {
+  auto s = rod2({{"beam_pitch", {component(Family::normal, {0, 0.02 * deg})}}, {"fillet_radius", {component(Family::t, {0, 1 * um, 4}, 4)}}});
+  s.run.samples = 10'007;
+  const propagation::Experiment e(s);
+  Memory one(2), two(2), seven(2);
+  propagation::RunSettings settings;
+  settings.threads = 1;
+  propagation::propagate(e, one, settings);
+  settings.threads = 2;
+  propagation::propagate(e, two, settings);
+  settings.threads = 7;
+  propagation::propagate(e, seven, settings);
+  REQUIRE(one.rows[0].size() == 10'007);
+  CHECK(one.rows == two.rows);
+  CHECK(one.rows == seven.rows);
+  auto shorter = s;
+  shorter.run.samples = 3'001;
+  const propagation::Experiment f(shorter);
+  Memory head(2);
+  propagation::propagate(f, head, settings);
+  CHECK(std::equal(head.rows[1].begin(), head.rows[1].end(), one.rows[1].begin()));
+  // One sample alone, as replay does it.
+  const auto variates = propagation::variates_of(e, 9'999);
+  const auto point = e.point(0, variates.data());
+  std::vector<models::Gradient> x(point.begin(), point.end()), y(2);
+  CHECK(point[7] != 0.2836 * deg);
+}
+
+TEST_CASE("a virtual experiment of a perfect evaluation shows only what was drawn", "[propagation]") {
+  auto s = rod2({{"rod_length", {component(Family::normal, {0, 2 * um})}}});
+  s.method = scenario::Method::virtual_experiment;
+  const propagation::Experiment e(s);
+  Memory memory(2);
+  propagation::propagate(e, memory, {});
+  const auto error = analysis::summarise(e.outputs()[1], memory.rows[1], 0.95);
+  // The rod is longer than stated by d: the evaluation puts the beam too high by d.
+  CHECK(error.standard_uncertainty == Approx(2 * um).epsilon(4 * std::sqrt(0.5 / 2e5)));
+  CHECK(std::fabs(error.estimate) < 4 * error.estimate_se);
+  s.evaluation = "conventional";
+  const propagation::Experiment conventional(s);
+  Memory biased(2);
+  propagation::propagate(conventional, biased, {});
+  // Ignoring the geometry of rod 2 puts the beam 0.1119 mm too high.
+  CHECK(analysis::summarise(e.outputs()[1], biased.rows[1], 0.95).estimate == Approx(0.111943e-3).epsilon(1e-3));
+}
