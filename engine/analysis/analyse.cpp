@@ -19,21 +19,29 @@ namespace gumshoe::analysis {
 
 std::string statement(const Summary& s, const Budget& b, double p, bool virtual_experiment) {
   const auto shown = [&](double x) { return units::from_si(x, s.output.unit, s.output.si_unit); };
-  const auto width = [&](double x) { return units::from_si(x, s.output.unit, s.output.si_unit, units::Kind::difference); };
+  const auto width = [&](double x) {
+    return units::from_si(x, s.output.unit, s.output.si_unit, units::Kind::difference);
+  };
   const std::string unit = s.output.unit == "1" ? "" : " " + s.output.unit;
-  const int d = decimals_for(width(std::isfinite(s.standard_uncertainty) ? s.standard_uncertainty : s.symmetric.high - s.symmetric.low));
-  std::string text = virtual_experiment
-                         ? fmt::format("{}: the stated value errs by {}{} in the mean", s.output.name, fixed(width(s.estimate), d), unit)
-                         : fmt::format("{} = {}{}", s.output.name, fixed(shown(s.estimate), d), unit);
+  const int d = decimals_for(
+      width(std::isfinite(s.standard_uncertainty) ? s.standard_uncertainty : s.symmetric.high - s.symmetric.low));
+  std::string text = virtual_experiment ? fmt::format("{}: the stated value errs by {}{} in the mean", s.output.name,
+                                                      fixed(width(s.estimate), d), unit)
+                                        : fmt::format("{} = {}{}", s.output.name, fixed(shown(s.estimate), d), unit);
   if (std::isfinite(s.standard_uncertainty))
-    text += fmt::format("{} u = {}{}", virtual_experiment ? " with a standard deviation" : " with a standard uncertainty",
-                        fixed(width(s.standard_uncertainty), d), unit);
-  else text += " without a standard uncertainty (" + s.warning + ")";
-  text += fmt::format("; the shortest {:.4g} % coverage interval is [{}, {}]{}", 100 * p, fixed(shown(s.shortest.low), d),
-                      fixed(shown(s.shortest.high), d), unit);
+    text +=
+        fmt::format("{} u = {}{}", virtual_experiment ? " with a standard deviation" : " with a standard uncertainty",
+                    fixed(width(s.standard_uncertainty), d), unit);
+  else
+    text += " without a standard uncertainty (" + s.warning + ")";
+  text += fmt::format("; the shortest {:.4g} % coverage interval is [{}, {}]{}", 100 * p,
+                      fixed(shown(s.shortest.low), d), fixed(shown(s.shortest.high), d), unit);
   if (b.applicable && b.expanded_uncertainty > 0)
-    text += fmt::format(". GUM framework: U = {}{} with k = {:.2f}{}", fixed(width(b.expanded_uncertainty), d), unit, b.coverage_factor,
-                        b.effective_degrees_of_freedom > 0 ? fmt::format(" ({:.0f} effective degrees of freedom)", b.effective_degrees_of_freedom) : "");
+    text += fmt::format(". GUM framework: U = {}{} with k = {:.2f}{}", fixed(width(b.expanded_uncertainty), d), unit,
+                        b.coverage_factor,
+                        b.effective_degrees_of_freedom > 0
+                            ? fmt::format(" ({:.0f} effective degrees of freedom)", b.effective_degrees_of_freedom)
+                            : "");
   return text + ".";
 }
 
@@ -68,8 +76,10 @@ void describe(Results& r, const propagation::Experiment& e) {
   r.coverage_probability = s.analysis.coverage_probability;
   r.notes = s.notes;
   r.readings = s.readings;
-  for (const auto& c : card.conditions) r.condition_names.emplace_back(c.name), r.condition_units.emplace_back(c.si_unit);
-  for (const auto& i : card.indications) r.indication_names.emplace_back(i.name), r.indication_units.emplace_back(i.si_unit);
+  for (const auto& c : card.conditions)
+    r.condition_names.emplace_back(c.name), r.condition_units.emplace_back(c.si_unit);
+  for (const auto& i : card.indications)
+    r.indication_names.emplace_back(i.name), r.indication_units.emplace_back(i.si_unit);
   for (const auto& q : s.quantities)
     for (const auto& entry : q.entries) {
       InputRecord record;
@@ -78,13 +88,15 @@ void describe(Results& r, const propagation::Experiment& e) {
       record.si_unit = q.si_unit;
       record.value = entry.value;
       record.source = entry.source;
-      for (const auto& [label, value] : entry.labels) record.labels += (record.labels.empty() ? "" : ", ") + label + " " + value;
+      for (const auto& [label, value] : entry.labels)
+        record.labels += (record.labels.empty() ? "" : ", ") + label + " " + value;
       double variance = 0;
       for (const auto& c : entry.components) {
         variance += c.distribution.variance();
         record.value += c.distribution.mean();
         for (const auto& f : quantities::families())
-          if (f.family == c.distribution.family) record.distribution += (record.distribution.empty() ? "" : " + ") + std::string(f.name);
+          if (f.family == c.distribution.family)
+            record.distribution += (record.distribution.empty() ? "" : " + ") + std::string(f.name);
         if (record.evaluation.find(c.evaluation) == std::string::npos) record.evaluation += c.evaluation;
         record.scope = scope_text(c);
         if (!c.source.empty()) record.source += (record.source.empty() ? "" : "; ") + c.source;
@@ -102,8 +114,16 @@ void count_failures(Results& r, const std::vector<std::uint8_t>& status) {
     if (count[k] > 0) {
       r.failed += count[k];
       r.failures.push_back(fmt::format("{}: {} samples, the first is sample {} (gumshoe replay FILE --sample {})",
-                                       propagation::status_name(static_cast<propagation::Status>(k)), count[k], first[k], first[k]));
+                                       propagation::status_name(static_cast<propagation::Status>(k)), count[k],
+                                       first[k], first[k]));
     }
+}
+
+/// Latin hypercube and Sobol' points are not independent: the standard errors' formulas do not hold for
+/// one randomisation of them, so none are stated.
+void drop_standard_errors(Summary& s) {
+  s.estimate_se = s.standard_uncertainty_se = std::nan("");
+  for (Interval* i : {&s.symmetric, &s.shortest}) i->low_se = i->high_se = std::nan("");
 }
 
 /// First-order indices beside the GUM contributions, and what is left for interactions.
@@ -134,19 +154,24 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, int th
     r.summaries.push_back(summarise(output, values, s.analysis.coverage_probability));
     Summary& summary = r.summaries.back();
     r.budgets.push_back(budget(e, o, s.analysis.coverage_probability));
+    if (s.run.design != scenario::Design::monte_carlo) drop_standard_errors(summary);
     if (const std::string reason = infinite_variance(e, r.budgets.back()); !reason.empty()) {
       summary.standard_uncertainty = summary.standard_uncertainty_se = summary.estimate_se = std::nan("");
       summary.warning = reason + "; the interval's ends are quantiles and hold";
     }
     r.validations.push_back(validate(r.budgets.back(), summary, s.analysis.validation_digits));
     r.statements.push_back(statement(summary, r.budgets.back(), s.analysis.coverage_probability, virtual_experiment));
-    const bool compared = std::ranges::any_of(s.analysis.comparisons, [&](const auto& c) { return c.measurand == output.measurand; });
+    const bool compared =
+        std::ranges::any_of(s.analysis.comparisons, [&](const auto& c) { return c.measurand == output.measurand; });
     if (compared) kept[o] = std::move(values);
   }
   if (s.analysis.sobol_samples > 0) {
     r.sensitivities = sobol_indices(e, s.analysis.sobol_samples, threads);
     add_monte_carlo_column(r);
   }
+  if (s.run.design != scenario::Design::monte_carlo)
+    r.notes.push_back(fmt::format(
+        "design {}: its points are not independent, so no Monte Carlo standard errors are stated", r.design));
   r.comparisons = compare(e, kept, r.summaries);
   r.printed = beside_printed(e, r.summaries);
   return r;

@@ -58,7 +58,9 @@ std::vector<PrintedResult> beside_printed(const propagation::Experiment& e, cons
   for (const auto& printed : e.scenario().analysis.printed)
     for (std::size_t o = 0; o < e.outputs().size(); ++o) {
       const auto& output = e.outputs()[o];
-      if (output.measurand != printed.measurand || !matches(e.scenario().readings[output.reading].labels, printed.labels)) continue;
+      if (output.measurand != printed.measurand ||
+          !matches(e.scenario().readings[output.reading].labels, printed.labels))
+        continue;
       results.push_back({output.name, printed.source, output.unit, output.si_unit, printed.value, summaries[o].estimate,
                          0.5 * (summaries[o].shortest.high - summaries[o].shortest.low)});
     }

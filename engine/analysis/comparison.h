@@ -9,9 +9,11 @@ namespace gumshoe::analysis {
 
 /// Every pair of readings that differ in `between` and agree in `within`. `values[output]` are the samples;
 /// empty vectors for outputs that no comparison needs.
-std::vector<ComparisonResult> compare(const propagation::Experiment& experiment, const std::vector<std::vector<double>>& values,
+std::vector<ComparisonResult> compare(const propagation::Experiment& experiment,
+                                      const std::vector<std::vector<double>>& values,
                                       const std::vector<Summary>& summaries);
 
-std::vector<PrintedResult> beside_printed(const propagation::Experiment& experiment, const std::vector<Summary>& summaries);
+std::vector<PrintedResult> beside_printed(const propagation::Experiment& experiment,
+                                          const std::vector<Summary>& summaries);
 
 } // namespace gumshoe::analysis

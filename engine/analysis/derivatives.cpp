@@ -62,7 +62,8 @@ Derivatives differentiate(const propagation::Experiment& e, std::size_t reading,
   bool kink = false;
   for (std::size_t at = 0; at < n; at += chunk) {
     std::vector<models::Gradient> x(point.begin(), point.end()), y;
-    for (std::size_t q = at; q < std::min(n, at + chunk); ++q) x[q] = models::Gradient::variable(point[q], static_cast<int>(q - at));
+    for (std::size_t q = at; q < std::min(n, at + chunk); ++q)
+      x[q] = models::Gradient::variable(point[q], static_cast<int>(q - at));
     const auto outcome = call(e, reading, x, y, e.model().evaluate_gradient);
     d.status = std::max(d.status, outcome.status);
     kink |= outcome.kink;

@@ -10,9 +10,9 @@ namespace gumshoe::analysis {
 struct Derivatives {
   std::uint8_t status = 0;
   double value = 0;
-  std::vector<double> first;          ///< [quantity]
-  std::vector<double> second;         ///< [quantity][quantity], if asked for
-  std::vector<bool> differentiable;   ///< [quantity]
+  std::vector<double> first;        ///< [quantity]
+  std::vector<double> second;       ///< [quantity][quantity], if asked for
+  std::vector<bool> differentiable; ///< [quantity]
 };
 
 /// At the given point (Experiment::point). `second` costs a pass per pair of chunks of 8 quantities.

@@ -71,7 +71,8 @@ void second_order(Budget& b, const propagation::Experiment& e, std::size_t readi
       extra += (0.5 * h * h + (std::isfinite(third) ? at.first[i] * third : 0)) * u[i] * u[i] * u[j] * u[j];
     }
   }
-  b.second_order_uncertainty = std::sqrt(std::max(0.0, b.combined_standard_uncertainty * b.combined_standard_uncertainty + extra));
+  b.second_order_uncertainty =
+      std::sqrt(std::max(0.0, b.combined_standard_uncertainty * b.combined_standard_uncertainty + extra));
 }
 
 } // namespace
@@ -87,7 +88,8 @@ Budget budget(const propagation::Experiment& e, std::size_t output, double cover
   Derivatives d;
   if (virtual_experiment) {
     b.applicable = false;
-    b.reason = "a virtual experiment draws the truth and evaluates at the estimates: its inputs have no measurement model";
+    b.reason =
+        "a virtual experiment draws the truth and evaluates at the estimates: its inputs have no measurement model";
     d.first.assign(point.size(), nan);
     d.differentiable.assign(point.size(), true);
   } else {
@@ -158,8 +160,10 @@ Budget budget(const propagation::Experiment& e, std::size_t output, double cover
   b.correlation_share = total > 0 ? cross / total : 0;
 
   const double tail = 0.5 * (1 + coverage_probability);
-  if (correlated) b.effective_degrees_of_freedom = nan; // G.4.1 holds for independent inputs only
-  else if (satterthwaite > 0) b.effective_degrees_of_freedom = std::floor(total * total / satterthwaite);
+  if (correlated)
+    b.effective_degrees_of_freedom = nan; // G.4.1 holds for independent inputs only
+  else if (satterthwaite > 0)
+    b.effective_degrees_of_freedom = std::floor(total * total / satterthwaite);
   if (b.effective_degrees_of_freedom >= 1 && b.effective_degrees_of_freedom < 1e6)
     b.coverage_factor = quantile(boost::math::students_t(b.effective_degrees_of_freedom), tail);
   else {
@@ -167,8 +171,10 @@ Budget budget(const propagation::Experiment& e, std::size_t output, double cover
     b.coverage_factor = quantile(boost::math::normal(), tail);
   }
   b.expanded_uncertainty = b.coverage_factor * b.combined_standard_uncertainty;
-  if (correlated) b.second_order_uncertainty = b.second_order_bias = nan;
-  else second_order(b, e, reading, measurand, point, u_of_quantity);
+  if (correlated)
+    b.second_order_uncertainty = b.second_order_bias = nan;
+  else
+    second_order(b, e, reading, measurand, point, u_of_quantity);
   return b;
 }
 
@@ -199,7 +205,10 @@ Validation validate(const Budget& b, const Summary& s, int digits) {
   v.d_high = std::fabs(b.estimate + b.expanded_uncertainty - s.symmetric.high);
   v.monte_carlo_tolerance = 2 * std::max(s.symmetric.low_se, s.symmetric.high_se);
   const double worst = std::max(v.d_low, v.d_high);
-if (v.monte_carlo_tolerance > v.delta / 5) {
+  if (std::isnan(v.monte_carlo_tolerance)) {
+    v.verdict = "undecided";
+    v.reason = "the Monte Carlo tolerance is unknown: the design's points are not independent";
+  } else if (v.monte_carlo_tolerance > v.delta / 5) {
     v.verdict = "undecided";
     v.reason = "the Monte Carlo tolerance exceeds a fifth of delta: take more samples";
   } else {

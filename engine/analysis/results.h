@@ -11,7 +11,7 @@ namespace gumshoe::analysis {
 
 struct Interval {
   double low = 0, high = 0;
-  double low_se = 0, high_se = 0; ///< Monte Carlo standard errors of the ends
+  double low_se = 0, high_se = 0;     ///< Monte Carlo standard errors of the ends
   double low_rank = 0, high_rank = 0; ///< ends that hold whatever values the failed samples had
 };
 
@@ -21,8 +21,8 @@ struct Summary {
   double estimate = 0, estimate_se = 0;
   double standard_uncertainty = 0, standard_uncertainty_se = 0; ///< NaN if none exists; see `warning`
   double skewness = 0, kurtosis = 0;
-  Interval symmetric; ///< probabilistically symmetric coverage interval, JCGM 101 5.3.3
-  Interval shortest;  ///< shortest coverage interval, JCGM 101 5.3.4
+  Interval symmetric;            ///< probabilistically symmetric coverage interval, JCGM 101 5.3.3
+  Interval shortest;             ///< shortest coverage interval, JCGM 101 5.3.4
   std::vector<double> bin_edges; ///< histogram: n + 1 edges,
   std::vector<double> density;   ///< n densities, 1/unit
   std::string warning;           ///< "no standard uncertainty: ..." or empty
@@ -30,20 +30,20 @@ struct Summary {
 
 /// One row of an uncertainty budget: one component of one input quantity that reaches the output.
 struct Contribution {
-  std::string name;         ///< "beam_pitch[setup 1]", with ": component" where there are several
-  std::string quantity;     ///< "beam_pitch"
+  std::string name;     ///< "beam_pitch[setup 1]", with ": component" where there are several
+  std::string quantity; ///< "beam_pitch"
   std::string unit, si_unit;
   double estimate = 0;
   double standard_uncertainty = 0; ///< NaN: infinite variance
   char evaluation = 'B';
   std::string distribution;
-  double degrees_of_freedom = 0;   ///< 0: infinite
+  double degrees_of_freedom = 0; ///< 0: infinite
   bool differentiable = true;
-  double sensitivity = 0;          ///< c_i, SI; NaN if not differentiable here
-  double contribution = 0;         ///< |c_i| u_i, SI
-  double share = 0;                ///< (c_i u_i)^2 / u_c^2
-  double monte_carlo_share = 0;    ///< first-order Sobol' index; NaN if not computed
-  std::string scope;               ///< "per setup", "" for the whole run
+  double sensitivity = 0;       ///< c_i, SI; NaN if not differentiable here
+  double contribution = 0;      ///< |c_i| u_i, SI
+  double share = 0;             ///< (c_i u_i)^2 / u_c^2
+  double monte_carlo_share = 0; ///< first-order Sobol' index; NaN if not computed
+  std::string scope;            ///< "per setup", "" for the whole run
   std::string source;
 };
 
@@ -51,11 +51,11 @@ struct Contribution {
 struct Budget {
   propagation::Output output;
   bool applicable = true;
-  std::string reason;              ///< why the framework does not apply
-  double estimate = 0;             ///< model at the estimates
+  std::string reason;  ///< why the framework does not apply
+  double estimate = 0; ///< model at the estimates
   std::vector<Contribution> contributions;
-  double correlation_share = 0;    ///< the one correlation row, adding up to 1 with the shares
-  double monte_carlo_interactions = 0; ///< 1 - sum of first-order indices; NaN if not computed
+  double correlation_share = 0;             ///< the one correlation row, adding up to 1 with the shares
+  double monte_carlo_interactions = 0;      ///< 1 - sum of first-order indices; NaN if not computed
   double combined_standard_uncertainty = 0; ///< u_c, first order
   double second_order_uncertainty = 0;      ///< u_c with the terms of 5.1.2 note
   double second_order_bias = 0;             ///< half the sum of H_ii u_i^2: mean minus estimate
@@ -70,7 +70,7 @@ struct Validation {
   double delta = 0, d_low = 0, d_high = 0;
   double monte_carlo_tolerance = 0; ///< must be below delta / 5
   int digits = 2;
-  std::string verdict;              ///< "validated", "not validated", "undecided", "not applicable"
+  std::string verdict; ///< "validated", "not validated", "undecided", "not applicable"
   std::string reason;
 };
 
@@ -88,10 +88,10 @@ struct Sensitivity {
 
 /// d = a - b from joint samples; E_n = d / U(d), U(d) half the shortest coverage interval.
 struct ComparisonResult {
-  std::string name, a, b;      ///< "laser_z: rod 1 - rod 2, setup 1"
+  std::string name, a, b; ///< "laser_z: rod 1 - rod 2, setup 1"
   std::string unit, si_unit;
   double difference = 0, standard_uncertainty = 0;
-  double root_sum_square = 0;  ///< what ignoring the common inputs would give
+  double root_sum_square = 0; ///< what ignoring the common inputs would give
   double expanded_uncertainty = 0, normalised_error = 0;
 };
 

@@ -128,8 +128,10 @@ std::vector<Sensitivity> sobol_indices(const propagation::Experiment& e, std::ui
   const std::uint64_t key = hash64("sobol bootstrap", run.seed);
   for (std::size_t k = 0; k < resamples; ++k) {
     std::vector<double> u((groups + 63) / 64 * 64);
-    random::uniforms({key, 0, static_cast<std::uint16_t>(quantities::Purpose::bootstrap)}, k * u.size(), u.size(), u.data());
-    for (std::size_t g = 0; g < groups; ++g) picks[k][g] = std::min(groups - 1, static_cast<std::size_t>(u[g] * static_cast<double>(groups)));
+    random::uniforms({key, 0, static_cast<std::uint16_t>(quantities::Purpose::bootstrap)}, k * u.size(), u.size(),
+                     u.data());
+    for (std::size_t g = 0; g < groups; ++g)
+      picks[k][g] = std::min(groups - 1, static_cast<std::size_t>(u[g] * static_cast<double>(groups)));
   }
 
   std::vector<Sensitivity> results;

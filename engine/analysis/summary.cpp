@@ -78,7 +78,8 @@ Ends shortest_errors(std::span<const double> in_order, double p) {
   if (n < 200) return {nan, nan};
   std::vector<double> low, high;
   for (std::size_t k = 0; k < parts; ++k) {
-    std::vector<double> x(in_order.begin() + static_cast<long>(k * n), in_order.begin() + static_cast<long>((k + 1) * n));
+    std::vector<double> x(in_order.begin() + static_cast<long>(k * n),
+                          in_order.begin() + static_cast<long>((k + 1) * n));
     std::sort(x.begin(), x.end());
     const Ends e = shortest_ends(x, p);
     low.push_back(e.low);
@@ -91,13 +92,15 @@ Ends shortest_errors(std::span<const double> in_order, double p) {
 void histogram(Summary& s, std::span<const double> values) {
   const double span = s.symmetric.high - s.symmetric.low;
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
-  const double low = std::max(*least, s.symmetric.low - 0.5 * span), high = std::min(*most, s.symmetric.high + 0.5 * span);
+  const double low = std::max(*least, s.symmetric.low - 0.5 * span),
+               high = std::min(*most, s.symmetric.high + 0.5 * span);
   if (!(high > low)) return;
   constexpr std::size_t bins = 100;
   s.density.assign(bins, 0);
   for (std::size_t b = 0; b <= bins; ++b) s.bin_edges.push_back(low + (high - low) * static_cast<double>(b) / bins);
   for (const double v : values)
-    if (v >= low && v <= high) s.density[std::min(bins - 1, static_cast<std::size_t>((v - low) / (high - low) * bins))] += 1;
+    if (v >= low && v <= high)
+      s.density[std::min(bins - 1, static_cast<std::size_t>((v - low) / (high - low) * bins))] += 1;
   for (double& d : s.density) d /= static_cast<double>(values.size()) * (high - low) / bins;
 }
 
@@ -111,7 +114,12 @@ Moments moments(std::span<const double> x) {
   m.mean = x[0] + ordered_sum(x, [&](double v) { return v - x[0]; }) / n;
   const double m2 = ordered_sum(x, [&](double v) { return (v - m.mean) * (v - m.mean); }) / n;
   const double m3 = ordered_sum(x, [&](double v) { return (v - m.mean) * (v - m.mean) * (v - m.mean); }) / n;
-  const double m4 = ordered_sum(x, [&](double v) { const double d = (v - m.mean) * (v - m.mean); return d * d; }) / n;
+  const double m4 = ordered_sum(x,
+                                [&](double v) {
+                                  const double d = (v - m.mean) * (v - m.mean);
+                                  return d * d;
+                                }) /
+                    n;
   m.variance = n > 1 ? m2 * n / (n - 1) : nan;
   m.skewness = m2 > 0 ? m3 / std::pow(m2, 1.5) : 0;
   m.kurtosis = m2 > 0 ? m4 / (m2 * m2) : 0;
@@ -148,7 +156,8 @@ Summary summarise(const propagation::Output& output, std::span<const double> val
   order_tails(ordered, std::min(ordered.size(), static_cast<std::size_t>((1 - p) * n + margin)));
   const Ends symmetric = symmetric_ends(ordered, p), shortest = shortest_ends(ordered, p);
   const Ends shortest_se = shortest_errors(valid, p);
-  s.symmetric = {symmetric.low, symmetric.high, rank_error(ordered, alpha), rank_error(ordered, 1 - alpha), symmetric.low, symmetric.high};
+  s.symmetric = {symmetric.low, symmetric.high, rank_error(ordered, alpha), rank_error(ordered, 1 - alpha),
+                 symmetric.low, symmetric.high};
   s.shortest = {shortest.low, shortest.high, shortest_se.low, shortest_se.high, shortest.low, shortest.high};
   if (s.failed > 0) {
     // Failed values could all lie below, or all above: the ends move by that many ranks at the most.

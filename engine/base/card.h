@@ -1,8 +1,8 @@
 #pragma once
 /// Cards: what models and effects say of themselves. Everything shown by `gumshoe models` and
 /// `gumshoe effects`, checked by the scenario parser, and written into result files comes from here.
-#include <string_view>
 #include <span>
+#include <string_view>
 
 namespace gumshoe {
 
@@ -68,8 +68,8 @@ struct ModelCard {
 struct EffectCard {
   std::string_view name;
   std::string_view title;
-  std::string_view stage; ///< motion, pose, contact, trigger or reading
-  int rank;               ///< order within the stage (scale before rounding does not commute)
+  std::string_view stage;  ///< motion, pose, contact, trigger or reading
+  int rank;                ///< order within the stage (scale before rounding does not commute)
   std::string_view iso230; ///< ISO 230-1/-7 symbol where there is one
   std::string_view meaning;
   std::string_view confused_with;

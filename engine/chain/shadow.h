@@ -43,11 +43,11 @@ template <class T> struct Beam {
 /// The rod's lower edge on the photodiode plane (y across, z up), relative to the beam's centre but
 /// for the height `k` at which the shrunk body's axis meets its bottom.
 template <class T> struct ShadowEdge {
-  T rho;    ///< rod radius - fillet radius
-  T depth;  ///< semi-axis of the half-ellipse along z, >= 0
+  T rho;   ///< rod radius - fillet radius
+  T depth; ///< semi-axis of the half-ellipse along z, >= 0
   T shear;
   T fillet;
-  T side;   ///< y of the rod's axis
+  T side; ///< y of the rod's axis
 };
 
 template <class T> ShadowEdge<T> shadow_edge(const Rod<T>& rod, const Beam<T>& beam) {
@@ -66,8 +66,7 @@ template <class T> ShadowEdge<T> shadow_edge(const Rod<T>& rod, const Beam<T>& b
 /// From the edge's height k on the photodiode plane to the height of the bottom's centre, Z'_d.
 template <class T> T bottom_height_of(const T& k, const Rod<T>& rod, const Beam<T>& beam) {
   const T along = rod.axis_x * num::cos(beam.yaw) + rod.axis_y * num::sin(beam.yaw);
-  return (k + num::sin(beam.pitch) * along) / num::cos(beam.pitch) -
-         rod.fillet_radius / num::sin(rod.bottom_elevation);
+  return (k + num::sin(beam.pitch) * along) / num::cos(beam.pitch) - rod.fillet_radius / num::sin(rod.bottom_elevation);
 }
 
 /// One point of the edge, at sin w and cos w >= 0.

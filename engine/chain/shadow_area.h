@@ -12,10 +12,10 @@ inline constexpr double pi = 3.14159265358979323846;
 
 /// A boundary point with what the path integral needs. On a wall only y and z hold.
 template <class T> struct BoundaryPoint {
-  T y, z;       ///< at height k
-  T w, nu;      ///< position on the half-ellipse, and angle of the edge's direction
-  T moment;     ///< P x N
-  T dy, dz;     ///< derivative by the piece's parameter
+  T y, z;   ///< at height k
+  T w, nu;  ///< position on the half-ellipse, and angle of the edge's direction
+  T moment; ///< P x N
+  T dy, dz; ///< derivative by the piece's parameter
 };
 
 inline bool is_wall(Piece p) { return p == Piece::left_wall || p == Piece::right_wall; }
@@ -70,7 +70,7 @@ public:
     // n^2 = a cos^2 w + 2 b sin w cos w + c sin^2 w
     const double a = ry * ry + sz * sz, b = sz * d, c = d * d;
     const double mean = 0.5 * (a + c), swing = std::hypot(0.5 * (a - c), b);
-    pinch_ = 0.5 * std::atan2(b, 0.5 * (a - c)) + 0.5 * pi; // where n is least
+    pinch_ = 0.5 * std::atan2(b, 0.5 * (a - c)) + 0.5 * pi;    // where n is least
     const double least = (ry * d) * (ry * d) / (mean + swing); // product of the eigenvalues is (rho depth)^2
     width_ = mean + swing > 0 ? std::sqrt(least / (mean + swing)) : 1.0;
   }

@@ -84,8 +84,10 @@ public:
       const double d_to = d(to);
       if ((d_to < 0) == inside) return;
       double d_from = d(from);
-      if ((d_from < 0) != inside) d_from = inside ? -std::numeric_limits<double>::min() : std::numeric_limits<double>::min();
-      found.push_back({piece, from < to ? bracketed_root(d, from, to, d_from, d_to) : bracketed_root(d, to, from, d_to, d_from)});
+      if ((d_from < 0) != inside)
+        d_from = inside ? -std::numeric_limits<double>::min() : std::numeric_limits<double>::min();
+      found.push_back(
+          {piece, from < to ? bracketed_root(d, from, to, d_from, d_to) : bracketed_root(d, to, from, d_to, d_from)});
       inside = d_to < 0;
     };
     const auto travel = [&](Piece piece, double from, double to, std::vector<double> stationary) {
@@ -129,11 +131,16 @@ public:
     Piece piece;
     const double nu = std::atan(e_.shear);
     const auto y = [&](Piece p, double t) { return boundary_point(e_, k, p, t).y; };
-    if (ball_) piece = Piece::left_fan, lo = -0.5 * pi, hi = 0.5 * pi;
-    else if (flat_ && y(Piece::left_fan, nu) > 0) piece = Piece::left_fan, lo = -0.5 * pi, hi = nu;
-    else if (flat_ && y(Piece::right_fan, nu) < 0) piece = Piece::right_fan, lo = nu, hi = 0.5 * pi;
-    else if (y(Piece::left_quarter, 0.5 * pi) > 0) piece = Piece::left_quarter, lo = flat_ ? 1e-9 : 0.0, hi = 0.5 * pi;
-    else piece = Piece::right_quarter, lo = 0.5 * pi, hi = flat_ ? 1e-9 : 0.0;
+    if (ball_)
+      piece = Piece::left_fan, lo = -0.5 * pi, hi = 0.5 * pi;
+    else if (flat_ && y(Piece::left_fan, nu) > 0)
+      piece = Piece::left_fan, lo = -0.5 * pi, hi = nu;
+    else if (flat_ && y(Piece::right_fan, nu) < 0)
+      piece = Piece::right_fan, lo = nu, hi = 0.5 * pi;
+    else if (y(Piece::left_quarter, 0.5 * pi) > 0)
+      piece = Piece::left_quarter, lo = flat_ ? 1e-9 : 0.0, hi = 0.5 * pi;
+    else
+      piece = Piece::right_quarter, lo = 0.5 * pi, hi = flat_ ? 1e-9 : 0.0;
     for (int i = 0; i < 100; ++i) {
       const double mid = 0.5 * (lo + hi);
       (y(piece, mid) < 0 ? lo : hi) = mid;

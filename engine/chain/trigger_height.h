@@ -21,8 +21,8 @@ inline Solved<double> general_height(const Rod<double>& rod, const Beam<double>&
 }
 
 template <class T> Rod<double> value(const Rod<T>& r) {
-  return {num::value(r.radius), num::value(r.fillet_radius), num::value(r.bottom_elevation),
-          num::value(r.bottom_azimuth), num::value(r.axis_x), num::value(r.axis_y)};
+  return {num::value(r.radius),         num::value(r.fillet_radius), num::value(r.bottom_elevation),
+          num::value(r.bottom_azimuth), num::value(r.axis_x),        num::value(r.axis_y)};
 }
 template <class T> Beam<double> value(const Beam<T>& b) {
   return {num::value(b.yaw), num::value(b.pitch), num::value(b.radius), num::value(b.fraction)};

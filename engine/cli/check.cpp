@@ -8,7 +8,8 @@
 namespace gumshoe::cli {
 
 void add_check(CLI::App& app, Action& action) {
-  auto* command = app.add_subcommand("check", "reads a scenario and says what is wrong with it, or how it was understood");
+  auto* command =
+      app.add_subcommand("check", "reads a scenario and says what is wrong with it, or how it was understood");
   struct Options {
     std::string file;
     bool explain = false;
@@ -23,8 +24,8 @@ void add_check(CLI::App& app, Action& action) {
       const propagation::Experiment experiment(s); // labels, correlations and values fit together
       if (o->explain) std::cout << scenario::explain(s, known);
       for (const std::string& note : s.notes) std::cout << "note: " << note << '\n';
-      std::cout << fmt::format("{}: good: model {}, {} readings, {} variates, {} outputs\n", o->file, s.model, s.readings.size(),
-                               experiment.plan().variates.size(), experiment.outputs().size());
+      std::cout << fmt::format("{}: good: model {}, {} readings, {} variates, {} outputs\n", o->file, s.model,
+                               s.readings.size(), experiment.plan().variates.size(), experiment.outputs().size());
       return ExitCode::done;
     };
   });

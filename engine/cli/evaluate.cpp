@@ -28,7 +28,8 @@ std::string to_csv(const Csv& in, const propagation::PointTable& added) {
   text += "status\n";
   for (std::size_t r = 0; r < in.rows.size(); ++r) {
     for (const CsvCell& cell : in.rows[r]) text += quoted(cell.text) + ',';
-    for (const auto& column : added.columns) text += added.status[r] == "ok" ? fmt::format("{:.15g},", column[r]) : "nan,";
+    for (const auto& column : added.columns)
+      text += added.status[r] == "ok" ? fmt::format("{:.15g},", column[r]) : "nan,";
     text += added.status[r] + '\n';
   }
   return text;
@@ -65,8 +66,10 @@ void add_evaluate(CLI::App& app, Action& action) {
       const Csv table = read_csv(o->table);
       const auto points = propagation::evaluate_points(*model, table, o->evaluation);
       const std::string text = to_csv(table, points);
-      if (o->out.empty()) std::cout << text;
-      else write_file(o->out, text);
+      if (o->out.empty())
+        std::cout << text;
+      else
+        write_file(o->out, text);
       for (const Problem& p : points.impossible) std::cerr << format(p) << '\n';
       return points.impossible.empty() ? ExitCode::done : ExitCode::bad_input;
     };

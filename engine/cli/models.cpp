@@ -15,28 +15,43 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-double shown(double value, const QuantityCard& q) { return units::from_si(value, std::string(q.unit), std::string(q.si_unit)); }
+double shown(double value, const QuantityCard& q) {
+  return units::from_si(value, std::string(q.unit), std::string(q.si_unit));
+}
 
 Json number_or_null(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 
 std::string role_name(Role role) {
   switch (role) {
-  case Role::amplitude: return "amplitude";
-  case Role::shape: return "shape";
-  case Role::pair: return "pair";
-  default: return "plain";
+  case Role::amplitude:
+    return "amplitude";
+  case Role::shape:
+    return "shape";
+  case Role::pair:
+    return "pair";
+  default:
+    return "plain";
   }
 }
 
 Json to_json(const QuantityCard& q, const char* default_name) {
-  return {{"name", q.name}, {"unit", q.unit}, {"si_unit", q.si_unit}, {default_name, shown(q.default_value, q)},
-          {"low", number_or_null(shown(q.limits.low, q))}, {"low_open", q.limits.low_open},
-          {"high", number_or_null(shown(q.limits.high, q))}, {"high_open", q.limits.high_open},
-          {"symbol", q.symbol}, {"meaning", q.meaning}, {"role", role_name(q.role)}, {"typical", q.typical}};
+  return {{"name", q.name},
+          {"unit", q.unit},
+          {"si_unit", q.si_unit},
+          {default_name, shown(q.default_value, q)},
+          {"low", number_or_null(shown(q.limits.low, q))},
+          {"low_open", q.limits.low_open},
+          {"high", number_or_null(shown(q.limits.high, q))},
+          {"high_open", q.limits.high_open},
+          {"symbol", q.symbol},
+          {"meaning", q.meaning},
+          {"role", role_name(q.role)},
+          {"typical", q.typical}};
 }
 template <class Cards> Json variables(const Cards& cards) {
   Json list = Json::array();
-  for (const VariableCard& v : cards) list.push_back({{"name", v.name}, {"unit", v.unit}, {"si_unit", v.si_unit}, {"meaning", v.meaning}});
+  for (const VariableCard& v : cards)
+    list.push_back({{"name", v.name}, {"unit", v.unit}, {"si_unit", v.si_unit}, {"meaning", v.meaning}});
   return list;
 }
 Json to_json(const ModelCard& card) {
@@ -45,21 +60,29 @@ Json to_json(const ModelCard& card) {
   j["conditions"] = variables(card.conditions);
   j["indications"] = variables(card.indications);
   j["measurands"] = variables(card.measurands);
-  for (const EvaluationCard& e : card.evaluations) j["evaluations"].push_back({{"name", e.name}, {"meaning", e.meaning}});
+  for (const EvaluationCard& e : card.evaluations)
+    j["evaluations"].push_back({{"name", e.name}, {"meaning", e.meaning}});
   for (const EffectCard* e : effects::cards())
     if (effects::applies(card, *e)) j["effects"].push_back(e->name);
   return j;
 }
 Json to_json(const EffectCard& card) {
-  Json j{{"name", card.name}, {"title", card.title}, {"stage", card.stage}, {"rank", card.rank}, {"iso_230", card.iso230},
-         {"meaning", card.meaning}, {"confused_with", card.confused_with}, {"source", card.source}};
+  Json j{{"name", card.name},
+         {"title", card.title},
+         {"stage", card.stage},
+         {"rank", card.rank},
+         {"iso_230", card.iso230},
+         {"meaning", card.meaning},
+         {"confused_with", card.confused_with},
+         {"source", card.source}};
   for (const QuantityCard& q : card.quantities) j["quantities"].push_back(to_json(q, "null_value"));
   return j;
 }
 
 void print(const QuantityCard& q, const char* default_word) {
-  std::cout << fmt::format("  {:<24} {:<8} {} {:g}; limits {}{:g}, {:g}{}{}\n", q.name, q.unit, default_word, shown(q.default_value, q),
-                           q.limits.low_open ? "(" : "[", shown(q.limits.low, q), shown(q.limits.high, q), q.limits.high_open ? ")" : "]",
+  std::cout << fmt::format("  {:<24} {:<8} {} {:g}; limits {}{:g}, {:g}{}{}\n", q.name, q.unit, default_word,
+                           shown(q.default_value, q), q.limits.low_open ? "(" : "[", shown(q.limits.low, q),
+                           shown(q.limits.high, q), q.limits.high_open ? ")" : "]",
                            q.typical.empty() ? "" : fmt::format("; typical {}", q.typical));
   std::cout << fmt::format("  {:<24} {}{}\n", "", q.symbol.empty() ? "" : fmt::format("{}: ", q.symbol), q.meaning);
 }
@@ -81,24 +104,30 @@ void print(const ModelCard& card) {
   std::cout << fmt::format("\n\nsource: {}\n", card.source);
 }
 void print(const EffectCard& card) {
-  std::cout << fmt::format("{}: {} (stage {}{})\n\n{}\nConfused with: {}.\n\nquantities\n", card.name, card.title, card.stage,
-                           card.iso230.empty() ? "" : fmt::format(", {}", card.iso230), card.meaning, card.confused_with);
+  std::cout << fmt::format("{}: {} (stage {}{})\n\n{}\nConfused with: {}.\n\nquantities\n", card.name, card.title,
+                           card.stage, card.iso230.empty() ? "" : fmt::format(", {}", card.iso230), card.meaning,
+                           card.confused_with);
   for (const QuantityCard& q : card.quantities) print(q, "null");
   std::cout << fmt::format("\nsource: {}\n", card.source);
 }
 
 /// Both commands: all cards a line each, or one in full.
-template <class Cards> ExitCode show(const Cards& cards, const std::string& word, const std::string& name, const std::string& format) {
+template <class Cards>
+ExitCode show(const Cards& cards, const std::string& word, const std::string& name, const std::string& format) {
   std::vector<std::string> names;
   Json all = Json::array();
   for (const auto* card : cards) {
     names.emplace_back(card->name);
     if (name.empty()) {
-      if (format == "json") all.push_back(to_json(*card));
-      else std::cout << fmt::format("{:<20} {}\n", card->name, card->title);
+      if (format == "json")
+        all.push_back(to_json(*card));
+      else
+        std::cout << fmt::format("{:<20} {}\n", card->name, card->title);
     } else if (card->name == name) {
-      if (format == "json") std::cout << to_json(*card).dump(2) << '\n';
-      else print(*card);
+      if (format == "json")
+        std::cout << to_json(*card).dump(2) << '\n';
+      else
+        print(*card);
       return ExitCode::done;
     }
   }
@@ -125,8 +154,8 @@ template <class Body> void add(CLI::App& app, const char* name, const char* help
 } // namespace
 
 void add_models(CLI::App& app, Action& action) {
-  add(app, "models", "lists the models, or one model's card: quantities, units, defaults, limits, meaning, source", action,
-      [](const Options& o) { return show(catalogue().models, "model", o.name, o.format); });
+  add(app, "models", "lists the models, or one model's card: quantities, units, defaults, limits, meaning, source",
+      action, [](const Options& o) { return show(catalogue().models, "model", o.name, o.format); });
 }
 void add_effects(CLI::App& app, Action& action) {
   add(app, "effects", "lists the effects, or one effect's card", action,

@@ -17,7 +17,8 @@ scenario::Scenario scenario_of(const store::Identity& identity, const std::strin
   scenario::Scenario s = scenario::read(identity.scenario_file, catalogue());
   if (s.hash != identity.scenario_hash)
     throw InputError(result + ": " + identity.scenario_file + " is no longer the scenario of this result",
-                     "hash " + s.hash + ", the result says " + identity.scenario_hash, "bring back the scenario and its data, or run again?");
+                     "hash " + s.hash + ", the result says " + identity.scenario_hash,
+                     "bring back the scenario and its data, or run again?");
   s.run.samples = identity.samples;
   s.run.seed = identity.seed;
   return s;
@@ -29,7 +30,8 @@ void print_reading(const propagation::Experiment& e, std::size_t r, const std::v
   std::cout << "\nreading" << (name.empty() ? "" : " [" + name + "]") << '\n';
   const auto point = e.point(r, variates.data());
   for (std::size_t q = 0; q < point.size(); ++q)
-    std::cout << fmt::format("  {:<44} {:.17g} {}\n", s.quantities[q].name, units::from_si(point[q], s.quantities[q].unit, s.quantities[q].si_unit),
+    std::cout << fmt::format("  {:<44} {:.17g} {}\n", s.quantities[q].name,
+                             units::from_si(point[q], s.quantities[q].unit, s.quantities[q].si_unit),
                              s.quantities[q].unit);
   models::PointCall<double> call;
   call.quantities = point.data();
@@ -40,7 +42,8 @@ void print_reading(const propagation::Experiment& e, std::size_t r, const std::v
   call.evaluation = static_cast<int>(e.evaluation());
   if (s.method == scenario::Method::virtual_experiment) return; // its readout is simulated: see the outputs
   std::cout << "  intermediate values\n";
-  for (const auto& i : e.model().explain(call)) std::cout << fmt::format("    {:<42} {:.17g} {}\n", i.name, i.value, i.unit);
+  for (const auto& i : e.model().explain(call))
+    std::cout << fmt::format("    {:<42} {:.17g} {}\n", i.name, i.value, i.unit);
 }
 
 } // namespace
@@ -58,11 +61,13 @@ void add_replay(CLI::App& app, Action& action) {
       const store::Stored stored = store::read_identity(o->file);
       const std::uint64_t sample = o->sample == "0" ? 0 : whole_number(o->sample, "--sample");
       if (sample >= stored.identity.samples)
-        throw InputError(fmt::format("--sample: {} is beyond the run", sample), fmt::format("{} samples, counted from 0", stored.identity.samples));
+        throw InputError(fmt::format("--sample: {} is beyond the run", sample),
+                         fmt::format("{} samples, counted from 0", stored.identity.samples));
       const scenario::Scenario s = scenario_of(stored.identity, o->file);
       const propagation::Experiment e(s);
       const auto variates = propagation::variates_of(e, sample);
-      std::cout << fmt::format("sample {} of {} (seed {}, {})\n\nvariates: deviations drawn\n", sample, stored.identity.samples, s.run.seed, s.file);
+      std::cout << fmt::format("sample {} of {} (seed {}, {})\n\nvariates: deviations drawn\n", sample,
+                               stored.identity.samples, s.run.seed, s.file);
       for (std::size_t v = 0; v < variates.size(); ++v) {
         const auto& q = s.quantities[e.plan().variates[v].quantity];
         std::cout << fmt::format("  {:<44} {:.17g} {}\n", e.plan().variates[v].name,
@@ -81,7 +86,8 @@ void add_replay(CLI::App& app, Action& action) {
       std::cout << "\noutputs\n";
       for (std::size_t i = 0; i < e.outputs().size(); ++i) {
         const auto& out = e.outputs()[i];
-        std::cout << fmt::format("  {:<44} {:.17g} {}\n", out.name, units::from_si(outputs[i * 8], out.unit, out.si_unit), out.unit);
+        std::cout << fmt::format("  {:<44} {:.17g} {}\n", out.name,
+                                 units::from_si(outputs[i * 8], out.unit, out.si_unit), out.unit);
       }
       std::cout << "status " << propagation::status_name(static_cast<propagation::Status>(status[0])) << '\n';
       return ExitCode::done;

@@ -23,7 +23,8 @@ void add_report(CLI::App& app, Action& action) {
   command->callback([=, &action] {
     action = [=] {
       if (!store::read_identity(o->file).complete)
-        throw InputError(o->file + ": the run is not finished", "it was interrupted", "run the same command again to resume it?");
+        throw InputError(o->file + ": the run is not finished", "it was interrupted",
+                         "run the same command again to resume it?");
       const char* folder = std::getenv("GUMSHOE_REPORTS");
       const std::string script = (std::filesystem::path(folder ? folder : GUMSHOE_REPORTS_DIR) / "report.py").string();
       std::vector<std::string> words{"python3", script, o->file};

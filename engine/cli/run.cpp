@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <csignal>
 #include <cmath>
+#include <csignal>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -43,8 +43,9 @@ public:
     shown_ = now;
     const double seconds = std::chrono::duration<double>(now - started_).count();
     const double rate = seconds > 0 ? static_cast<double>(p.done - first_) / seconds : 0;
-    std::cerr << fmt::format("\r{:5.1f} %  {:.3g} samples/s  {:.0f} s left   ", 100.0 * static_cast<double>(p.done) / static_cast<double>(p.total),
-                             rate, rate > 0 ? static_cast<double>(p.total - p.done) / rate : 0)
+    std::cerr << fmt::format("\r{:5.1f} %  {:.3g} samples/s  {:.0f} s left   ",
+                             100.0 * static_cast<double>(p.done) / static_cast<double>(p.total), rate,
+                             rate > 0 ? static_cast<double>(p.total - p.done) / rate : 0)
               << (p.done == p.total ? "\n" : "") << std::flush;
   }
 
@@ -60,8 +61,10 @@ void print_validations(const analysis::Results& r) {
   for (const auto& v : r.validations) {
     const std::string text = v.verdict + " (" + v.reason + ")";
     const auto line = std::ranges::find(lines, text, &std::pair<std::string, std::string>::first);
-    if (line == lines.end()) lines.emplace_back(text, v.output.name);
-    else line->second += ", " + v.output.name;
+    if (line == lines.end())
+      lines.emplace_back(text, v.output.name);
+    else
+      line->second += ", " + v.output.name;
   }
   for (const auto& [text, outputs] : lines)
     std::cout << fmt::format("GUM framework against Monte Carlo (JCGM 101 clause 8): {}: {}\n", text, outputs);
@@ -73,12 +76,13 @@ void print_text(const analysis::Results& r, const std::string& out) {
   print_validations(r);
   for (const auto& c : r.comparisons) {
     const auto shown = [&](double x) { return units::from_si(x, c.unit, c.si_unit, units::Kind::difference); };
-    std::cout << fmt::format("{} = {:.4f} {}, U = {:.4f} {}, E_n = {:.2f}\n", c.name, shown(c.difference), c.unit, shown(c.expanded_uncertainty),
-                             c.unit, c.normalised_error);
+    std::cout << fmt::format("{} = {:.4f} {}, U = {:.4f} {}, E_n = {:.2f}\n", c.name, shown(c.difference), c.unit,
+                             shown(c.expanded_uncertainty), c.unit, c.normalised_error);
   }
   for (const auto& p : r.printed) {
     const auto shown = [&](double x) { return units::from_si(x, p.unit, p.si_unit); };
-    std::cout << fmt::format("{}: ours {:.4f} {}, printed {:.4f} {} ({})\n", p.output, shown(p.ours), p.unit, shown(p.printed), p.unit, p.source);
+    std::cout << fmt::format("{}: ours {:.4f} {}, printed {:.4f} {} ({})\n", p.output, shown(p.ours), p.unit,
+                             shown(p.printed), p.unit, p.source);
   }
   for (const std::string& note : r.notes) std::cout << "note: " << note << '\n';
   for (const std::string& f : r.failures) std::cout << "failed: " << f << '\n';
@@ -87,18 +91,28 @@ void print_text(const analysis::Results& r, const std::string& out) {
 
 void print_table(const analysis::Results& r, bool json) {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
-  if (!json) std::cout << "output,unit,estimate,standard_uncertainty,symmetric_low,symmetric_high,shortest_low,shortest_high,valid,failed\n";
+  if (!json)
+    std::cout << "output,unit,estimate,standard_uncertainty,symmetric_low,symmetric_high,shortest_low,shortest_high,"
+                 "valid,failed\n";
   for (const auto& s : r.summaries) {
     const auto shown = [&](double x) { return units::from_si(x, s.output.unit, s.output.si_unit); };
     const double u = units::from_si(s.standard_uncertainty, s.output.unit, s.output.si_unit, units::Kind::difference);
-    const auto number = [](double x) { return std::isfinite(x) ? nlohmann::ordered_json(x) : nlohmann::ordered_json(nullptr); };
+    const auto number = [](double x) {
+      return std::isfinite(x) ? nlohmann::ordered_json(x) : nlohmann::ordered_json(nullptr);
+    };
     if (json)
-      all.push_back({{"output", s.output.name}, {"unit", s.output.unit}, {"estimate", number(shown(s.estimate))}, {"standard_uncertainty", number(u)},
+      all.push_back({{"output", s.output.name},
+                     {"unit", s.output.unit},
+                     {"estimate", number(shown(s.estimate))},
+                     {"standard_uncertainty", number(u)},
                      {"symmetric", {number(shown(s.symmetric.low)), number(shown(s.symmetric.high))}},
-                     {"shortest", {number(shown(s.shortest.low)), number(shown(s.shortest.high))}}, {"valid", s.valid}, {"failed", s.failed}});
+                     {"shortest", {number(shown(s.shortest.low)), number(shown(s.shortest.high))}},
+                     {"valid", s.valid},
+                     {"failed", s.failed}});
     else
-      std::cout << fmt::format("\"{}\",{},{:.15g},{:.6g},{:.15g},{:.15g},{:.15g},{:.15g},{},{}\n", s.output.name, s.output.unit, shown(s.estimate), u,
-                               shown(s.symmetric.low), shown(s.symmetric.high), shown(s.shortest.low), shown(s.shortest.high), s.valid, s.failed);
+      std::cout << fmt::format("\"{}\",{},{:.15g},{:.6g},{:.15g},{:.15g},{:.15g},{:.15g},{},{}\n", s.output.name,
+                               s.output.unit, shown(s.estimate), u, shown(s.symmetric.low), shown(s.symmetric.high),
+                               shown(s.shortest.low), shown(s.shortest.high), s.valid, s.failed);
   }
   if (json) std::cout << all.dump(2) << '\n';
 }
@@ -111,9 +125,18 @@ ExitCode run(const Options& o) {
   const std::string out = !o.out.empty() ? o.out : "results/" + std::filesystem::path(o.file).stem().string() + ".h5";
   if (o.out.empty()) std::filesystem::create_directories("results");
 
-  const store::Identity identity{s.hash,        s.text,     s.file,         s.model,
-                                 scenario::name(s.method), s.evaluation, scenario::name(s.run.design), version,
-                                 name(best_instruction_set()), s.run.seed, s.run.samples, s.run.store_samples};
+  const store::Identity identity{s.hash,
+                                 s.text,
+                                 s.file,
+                                 s.model,
+                                 scenario::name(s.method),
+                                 s.evaluation,
+                                 scenario::name(s.run.design),
+                                 version,
+                                 name(best_instruction_set()),
+                                 s.run.seed,
+                                 s.run.samples,
+                                 s.run.store_samples};
   store::ResultFile file(out, identity, experiment.outputs(), experiment.reading_names());
 
   std::signal(SIGINT, on_signal);
@@ -133,11 +156,13 @@ ExitCode run(const Options& o) {
                                   [&] { return file.read_status(0, s.run.samples); }};
   const analysis::Results results = analysis::analyse(experiment, samples, o.threads);
   file.finish(results);
-  if (o.format == "text") print_text(results, out);
-  else print_table(results, o.format == "json");
+  if (o.format == "text")
+    print_text(results, out);
+  else
+    print_table(results, o.format == "json");
   if (static_cast<double>(results.failed) > s.run.max_failed_share * static_cast<double>(results.samples)) {
-    std::cerr << fmt::format("error: {} of {} samples failed (more than max_failed_share = {})\n", results.failed, results.samples,
-                             s.run.max_failed_share);
+    std::cerr << fmt::format("error: {} of {} samples failed (more than max_failed_share = {})\n", results.failed,
+                             results.samples, s.run.max_failed_share);
     return ExitCode::too_many_failures;
   }
   return ExitCode::done;

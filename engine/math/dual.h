@@ -16,7 +16,9 @@ template <class R, int N> struct Dual {
   Dual() = default;
   Dual(double value) : v(value) { d.fill(R(0.0)); } // NOLINT: constants enter formulas unmarked
   template <class Q, class = std::enable_if_t<std::is_same_v<Q, R> && !std::is_same_v<R, double>>>
-  Dual(const Q& value) : v(value) { d.fill(R(0.0)); }
+  Dual(const Q& value) : v(value) {
+    d.fill(R(0.0));
+  }
   /// The independent variable number i.
   static Dual variable(const R& value, int i) {
     Dual x;

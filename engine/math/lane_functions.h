@@ -74,17 +74,15 @@ template <class L> L small_sine(const L& x) {
 
 /// cos(x), |x| <= pi/4; fdlibm's k_cos.c.
 template <class L> L small_cosine(const L& x) {
-  constexpr double c[] = {4.16666666666666019037e-02, -1.38888888888741095749e-03, 2.48015872894767294178e-05,
-                          -2.75573143513906633035e-07, 2.08757232129817482790e-09, -1.13596475577881948265e-11};
+  constexpr double c[] = {4.16666666666666019037e-02,  -1.38888888888741095749e-03, 2.48015872894767294178e-05,
+                          -2.75573143513906633035e-07, 2.08757232129817482790e-09,  -1.13596475577881948265e-11};
   const L z = x * x, half = L(0.5) * z, w = L(1.0) - half;
   return w + (((L(1.0) - w) - half) + z * z * polynomial(z, c));
 }
 
 /// sin and cos; error below 1 ulp or so for |x| < 1e6. The argument is reduced by multiples of pi/2 in
 /// three parts, always the same way.
-template <class L> struct SineCosine {
-  L sine, cosine;
-};
+template <class L> struct SineCosine { L sine, cosine; };
 template <class L> SineCosine<L> sine_cosine_lane(const L& x) {
   const L magic = x * L(6.36619772367581382433e-01) + L(0x1.8p52);
   const L k = magic - L(0x1.8p52);
@@ -96,7 +94,8 @@ template <class L> SineCosine<L> sine_cosine_lane(const L& x) {
   const auto swap = to_double<L>(quadrant & Bits<L>(std::uint64_t{1})) > L(0.5);
   const Bits<L> sine_sign = (quadrant & Bits<L>(std::uint64_t{2})) << 62;
   const Bits<L> cosine_sign = ((quadrant + Bits<L>(std::uint64_t{1})) & Bits<L>(std::uint64_t{2})) << 62;
-  return {lanes_of<L>(bits_of(xsimd::select(swap, c, s)) ^ sine_sign), lanes_of<L>(bits_of(xsimd::select(swap, s, c)) ^ cosine_sign)};
+  return {lanes_of<L>(bits_of(xsimd::select(swap, c, s)) ^ sine_sign),
+          lanes_of<L>(bits_of(xsimd::select(swap, s, c)) ^ cosine_sign)};
 }
 
 /// Quantile of the standard normal distribution for 0 < p < 1, given p and q = 1 - p (only the

@@ -20,7 +20,7 @@ struct Column {
 
 /// A block of samples for all readings. Rows of pointers are [reading][variable].
 struct BlockCall {
-  std::size_t samples = 0;  ///< multiple of 8; the last block is padded by the caller
+  std::size_t samples = 0; ///< multiple of 8; the last block is padded by the caller
   std::size_t readings = 0;
   const Column* quantities = nullptr;
   const Column* effects = nullptr; ///< quantities of the active effects

@@ -45,14 +45,17 @@ Experiment::Experiment(const scenario::Scenario& s) : scenario_(s), model_(model
     for (std::size_t c = 0; c < card.conditions.size(); ++c) conditions_.push_back(s.readings[r].conditions.at(c));
     const std::string problem = model_->check(point(r).data());
     if (!problem.empty())
-      throw InputError({{{s.file}, "quantities: " + problem + (at.empty() ? "" : " at reading [" + at + "]"),
-                         "physically impossible", ""}});
+      throw InputError({{{s.file},
+                         "quantities: " + problem + (at.empty() ? "" : " at reading [" + at + "]"),
+                         "physically impossible",
+                         ""}});
   }
 
   // Readings that agree in everything the solve reads share one solve.
   const auto same = [&](std::size_t a, std::size_t b) {
     for (std::size_t q = 0; q < card.quantities.size() + effect_quantities_; ++q)
-      if ((q >= card.quantities.size() || model_->solve_reads(q)) && plan_.gather[a][q] != plan_.gather[b][q]) return false;
+      if ((q >= card.quantities.size() || model_->solve_reads(q)) && plan_.gather[a][q] != plan_.gather[b][q])
+        return false;
     const std::size_t c = card.conditions.size();
     return active_.empty() || std::equal(&conditions_[a * c], &conditions_[a * c] + c, &conditions_[b * c]);
   };
@@ -175,7 +178,8 @@ void Experiment::run(std::span<const double* const> variates, std::size_t n, Wor
     for (std::size_t i = 0; i < rows * n; ++i) outputs[i] -= w.truth[i];
   for (std::size_t row = 0; row < rows; ++row)
     for (std::size_t i = 0; i < n; ++i)
-      if (status[i] == 0 && std::isnan(outputs[row * n + i])) status[i] = static_cast<std::uint8_t>(Status::no_solution);
+      if (status[i] == 0 && std::isnan(outputs[row * n + i]))
+        status[i] = static_cast<std::uint8_t>(Status::no_solution);
   for (std::size_t i = 0; i < n; ++i)
     if (status[i] != 0)
       for (std::size_t row = 0; row < rows; ++row) outputs[row * n + i] = std::numeric_limits<double>::quiet_NaN();

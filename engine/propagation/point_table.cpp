@@ -27,7 +27,14 @@ constexpr Limits any{-std::numeric_limits<double>::infinity(), std::numeric_limi
 std::vector<Slot> slots_of(const models::Model& model) {
   std::vector<Slot> slots;
   const auto add = [&](const std::string& prefix, const auto& q, const Limits& limits) {
-    slots.push_back({prefix + std::string(q.name), std::string(q.unit), std::string(q.si_unit), q.default_value, limits, {}, {}, -1});
+    slots.push_back({prefix + std::string(q.name),
+                     std::string(q.unit),
+                     std::string(q.si_unit),
+                     q.default_value,
+                     limits,
+                     {},
+                     {},
+                     -1});
   };
   for (const auto& q : model.card->quantities) add("", q, q.limits);
   for (const EffectCard* e : effects::cards())
@@ -47,8 +54,8 @@ std::pair<std::string, std::string> split_header(const std::string& text) {
   return {name, unit};
 }
 
-void read_columns(std::vector<Slot>& slots, const Csv& table, std::vector<Problem>& problems, std::vector<Problem>& impossible,
-                  std::vector<bool>& bad_row) {
+void read_columns(std::vector<Slot>& slots, const Csv& table, std::vector<Problem>& problems,
+                  std::vector<Problem>& impossible, std::vector<bool>& bad_row) {
   std::vector<std::string> names;
   for (const Slot& s : slots) names.push_back(s.name);
   for (std::size_t c = 0; c < table.header.size(); ++c) {
@@ -58,7 +65,8 @@ void read_columns(std::vector<Slot>& slots, const Csv& table, std::vector<Proble
       if (s.name == name) slot = &s;
     if (!slot) {
       const std::string meant = nearest(name, names);
-      problems.push_back({table.at(table.header[c]), "unknown column '" + name + "'", "", meant.empty() ? "" : "did you mean '" + meant + "'?"});
+      problems.push_back({table.at(table.header[c]), "unknown column '" + name + "'", "",
+                          meant.empty() ? "" : "did you mean '" + meant + "'?"});
       continue;
     }
     if (slot->given_column >= 0) {
@@ -84,9 +92,11 @@ void read_columns(std::vector<Slot>& slots, const Csv& table, std::vector<Proble
         if (!slot->limits.contain(x)) {
           bad_row[r] = true;
           const auto shown = [&](double v) { return units::from_si(v, slot->unit, slot->si_unit); };
-          impossible.push_back({table.at(cell), fmt::format("{}: {} {} is impossible", name, cell.text, unit),
-                                fmt::format("limits {}{:g}, {:g}{} {}", slot->limits.low_open ? "above " : "", shown(slot->limits.low),
-                                            shown(slot->limits.high), slot->limits.high_open ? " excluded" : "", slot->unit), ""});
+          impossible.push_back(
+              {table.at(cell), fmt::format("{}: {} {} is impossible", name, cell.text, unit),
+               fmt::format("limits {}{:g}, {:g}{} {}", slot->limits.low_open ? "above " : "", shown(slot->limits.low),
+                           shown(slot->limits.high), slot->limits.high_open ? " excluded" : "", slot->unit),
+               ""});
         }
       } catch (const InputError& error) {
         Problem p = error.problems().front();
@@ -161,8 +171,9 @@ PointTable evaluate_points(const models::Model& model, const Csv& table, const s
     result.header.push_back(fmt::format("{} ({})", v.name, v.unit));
     result.columns.emplace_back();
     for (std::size_t i = 0; i < rows; ++i)
-      result.columns.back().push_back(status[i] == 0 ? units::from_si(values[row * n + i], std::string(v.unit), std::string(v.si_unit))
-                                                     : std::numeric_limits<double>::quiet_NaN());
+      result.columns.back().push_back(
+          status[i] == 0 ? units::from_si(values[row * n + i], std::string(v.unit), std::string(v.si_unit))
+                         : std::numeric_limits<double>::quiet_NaN());
   };
   for (std::size_t r = 0; r < rows; ++r) {
     const std::string problem = [&] {
@@ -171,7 +182,9 @@ PointTable evaluate_points(const models::Model& model, const Csv& table, const s
       return model.check(point.data());
     }();
     if (!problem.empty() && !bad_row[r])
-      result.impossible.push_back({table.rows[r].empty() ? Location{table.file} : Location{table.file, table.rows[r][0].line, 1}, problem, "physically impossible", ""});
+      result.impossible.push_back(
+          {table.rows[r].empty() ? Location{table.file} : Location{table.file, table.rows[r][0].line, 1}, problem,
+           "physically impossible", ""});
     if (!problem.empty() || bad_row[r]) status[r] = static_cast<std::uint8_t>(Status::out_of_domain);
   }
   for (std::size_t i = 0; i < m; ++i) {

@@ -9,10 +9,10 @@
 namespace gumshoe::propagation {
 
 struct PointTable {
-  std::vector<std::string> header;             ///< of the columns that are added: "bottom_height (mm)"
-  std::vector<std::vector<double>> columns;    ///< in those units; NaN where the status is not ok
-  std::vector<std::string> status;             ///< "ok" or why there is no value
-  std::vector<Problem> impossible;             ///< cells outside the model's limits, by row; their rows have no value
+  std::vector<std::string> header;          ///< of the columns that are added: "bottom_height (mm)"
+  std::vector<std::vector<double>> columns; ///< in those units; NaN where the status is not ok
+  std::vector<std::string> status;          ///< "ok" or why there is no value
+  std::vector<Problem> impossible;          ///< cells outside the model's limits, by row; their rows have no value
 };
 
 /// Header cells are `name (unit)`: quantities, conditions, effects' quantities (effect.quantity) and

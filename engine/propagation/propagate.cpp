@@ -14,9 +14,12 @@ namespace tbb = oneapi::tbb;
 
 quantities::PointSet point_set(scenario::Design design) {
   switch (design) {
-  case scenario::Design::latin_hypercube: return quantities::PointSet::latin_hypercube;
-  case scenario::Design::sobol: return quantities::PointSet::sobol;
-  default: return quantities::PointSet::monte_carlo;
+  case scenario::Design::latin_hypercube:
+    return quantities::PointSet::latin_hypercube;
+  case scenario::Design::sobol:
+    return quantities::PointSet::sobol;
+  default:
+    return quantities::PointSet::monte_carlo;
   }
 }
 
@@ -44,7 +47,8 @@ ResultBlock run_block(const Experiment& e, const quantities::Sampler& sampler, s
   std::vector<const double*> pointers(variates);
   for (std::size_t v = 0; v < variates; ++v) pointers[v] = &b.variates[v * n];
   e.run(pointers, n, b.workspace, b.outputs.data(), b.status.data());
-  ResultBlock block{first, count, std::vector<double>(rows * count), {b.status.begin(), b.status.begin() + static_cast<long>(count)}};
+  ResultBlock block{
+      first, count, std::vector<double>(rows * count), {b.status.begin(), b.status.begin() + static_cast<long>(count)}};
   for (std::size_t r = 0; r < rows; ++r) std::copy_n(&b.outputs[r * n], count, &block.outputs[r * count]);
   return block;
 }
@@ -62,27 +66,23 @@ std::uint64_t propagate(const Experiment& e, Sink& sink, const RunSettings& sett
   arena.execute([&] {
     tbb::parallel_pipeline(
         static_cast<std::size_t>(4 * threads),
-        tbb::make_filter<void, std::uint64_t>(tbb::filter_mode::serial_in_order,
-                                              [&](tbb::flow_control& control) -> std::uint64_t {
-                                                if (next >= total || (settings.stop && *settings.stop)) {
-                                                  control.stop();
-                                                  return 0;
-                                                }
-                                                const std::uint64_t first = next;
-                                                next = std::min<std::uint64_t>(total, (first / block_samples + 1) * block_samples);
-                                                return first;
-                                              }) &
-            tbb::make_filter<std::uint64_t, ResultBlock>(
-                tbb::filter_mode::parallel,
-                [&](std::uint64_t first) {
-                  const std::uint64_t end = std::min<std::uint64_t>(total, (first / block_samples + 1) * block_samples);
-                  return run_block(e, sampler, first, static_cast<std::size_t>(end - first), buffers.local());
-                }) &
-            tbb::make_filter<ResultBlock, void>(tbb::filter_mode::serial_in_order, [&](const ResultBlock& block) {
-              sink.write(block);
-              done = block.first_sample + block.samples;
-              if (settings.progress) settings.progress({done, total});
-            }));
+        tbb::make_filter<
+            void, std::uint64_t>(tbb::filter_mode::serial_in_order, [&](tbb::flow_control& control) -> std::uint64_t {
+          if (next >= total || (settings.stop && *settings.stop)) {
+            control.stop();
+            return 0;
+          }
+          const std::uint64_t first = next;
+          next = std::min<std::uint64_t>(total, (first / block_samples + 1) * block_samples);
+          return first;
+        }) & tbb::make_filter<std::uint64_t, ResultBlock>(tbb::filter_mode::parallel, [&](std::uint64_t first) {
+          const std::uint64_t end = std::min<std::uint64_t>(total, (first / block_samples + 1) * block_samples);
+          return run_block(e, sampler, first, static_cast<std::size_t>(end - first), buffers.local());
+        }) & tbb::make_filter<ResultBlock, void>(tbb::filter_mode::serial_in_order, [&](const ResultBlock& block) {
+          sink.write(block);
+          done = block.first_sample + block.samples;
+          if (settings.progress) settings.progress({done, total});
+        }));
   });
   return done;
 }

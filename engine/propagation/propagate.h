@@ -12,9 +12,9 @@ struct Progress {
 };
 
 struct RunSettings {
-  int threads = 0;            ///< 0: all processors
-  std::uint64_t first = 0;    ///< resume here; a multiple of the block size or 0
-  const std::atomic<bool>* stop = nullptr;      ///< set from a signal handler: finish the blocks under way, then return
+  int threads = 0;                         ///< 0: all processors
+  std::uint64_t first = 0;                 ///< resume here; a multiple of the block size or 0
+  const std::atomic<bool>* stop = nullptr; ///< set from a signal handler: finish the blocks under way, then return
   std::function<void(const Progress&)> progress; ///< called in order, from one thread at a time
 };
 

@@ -4,11 +4,16 @@ namespace gumshoe::propagation {
 
 const char* status_name(Status status) {
   switch (status) {
-  case Status::ok: return "ok";
-  case Status::never_covered: return "never_covered";
-  case Status::not_converged: return "not_converged";
-  case Status::out_of_domain: return "out_of_domain";
-  default: return "no_solution";
+  case Status::ok:
+    return "ok";
+  case Status::never_covered:
+    return "never_covered";
+  case Status::not_converged:
+    return "not_converged";
+  case Status::out_of_domain:
+    return "out_of_domain";
+  default:
+    return "no_solution";
   }
 }
 

@@ -39,7 +39,7 @@ struct Output {
   std::string name;      ///< "laser_z" or "laser_z[rod 1, 2]": the labels of its reading
   std::string measurand; ///< by the model's card
   std::size_t reading = 0;
-  std::string unit;      ///< shown to people
+  std::string unit; ///< shown to people
   std::string si_unit;
 };
 

@@ -10,22 +10,39 @@
 namespace gumshoe::quantities {
 
 enum class Family {
-  constant, rectangular, curvilinear_trapezoid, trapezoid, triangular, arcsine, normal, t,
-  exponential, gamma, lognormal, truncated_normal, discrete, empirical,
+  constant,
+  rectangular,
+  curvilinear_trapezoid,
+  trapezoid,
+  triangular,
+  arcsine,
+  normal,
+  t,
+  exponential,
+  gamma,
+  lognormal,
+  truncated_normal,
+  discrete,
+  empirical,
 };
 
 /// A parameter of a family: its key in a scenario and how its unit goes.
 struct ParameterCard {
-  enum class Dimension { point, difference, number, log }; ///< like the quantity (affine), its differences, plain, of ln x
-  std::string_view key;     ///< "low", "high", "half_width", "u", "degrees_of_freedom", ...
+  enum class Dimension {
+    point,
+    difference,
+    number,
+    log
+  };                    ///< like the quantity (affine), its differences, plain, of ln x
+  std::string_view key; ///< "low", "high", "half_width", "u", "degrees_of_freedom", ...
   Dimension dimension;
   std::string_view meaning;
 };
 
 struct FamilyCard {
   Family family;
-  std::string_view name;      ///< as in a scenario: "rectangular"
-  std::string_view reference; ///< JCGM 101:2008 clause
+  std::string_view name;                     ///< as in a scenario: "rectangular"
+  std::string_view reference;                ///< JCGM 101:2008 clause
   std::span<const ParameterCard> parameters; ///< in the order of Distribution::parameters
 };
 

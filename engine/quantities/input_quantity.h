@@ -15,9 +15,9 @@ using Labels = std::vector<std::pair<std::string, std::string>>;
 
 /// One source of uncertainty: a deviation added to the quantity's value.
 struct Component {
-  std::string name;          ///< unique within the quantity; part of the random stream's key
-  Distribution distribution; ///< of the deviation, SI
-  char evaluation = 'B';     ///< Type A or Type B evaluation (GUM 2.3.2, 2.3.3)
+  std::string name;              ///< unique within the quantity; part of the random stream's key
+  Distribution distribution;     ///< of the deviation, SI
+  char evaluation = 'B';         ///< Type A or Type B evaluation (GUM 2.3.2, 2.3.3)
   double degrees_of_freedom = 0; ///< 0 means infinite; for the effective degrees of freedom
   std::vector<std::string> per;  ///< scope: one draw per combination of these labels ("reading": per reading)
   std::string source;
@@ -32,10 +32,10 @@ struct Entry {
 };
 
 struct InputQuantity {
-  std::string name;     ///< "fillet_radius", "trigger_latency.delay", indication noise: "spindle_z"
-  std::string unit;     ///< shown to people
+  std::string name; ///< "fillet_radius", "trigger_latency.delay", indication noise: "spindle_z"
+  std::string unit; ///< shown to people
   std::string si_unit;
-  std::vector<Entry> entries;  ///< at least one; several only with different labels (`by`)
+  std::vector<Entry> entries; ///< at least one; several only with different labels (`by`)
 };
 
 /// Correlation between single-component quantities, through a Gaussian copula.

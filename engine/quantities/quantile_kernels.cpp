@@ -5,8 +5,8 @@
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #include "quantities/quantile_kernels.h"
 
-#include "math/lanes.h"
 #include "math/lane_functions.h"
+#include "math/lanes.h"
 #include "random/philox.h"
 
 namespace gumshoe::quantities {

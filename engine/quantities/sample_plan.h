@@ -16,12 +16,12 @@
 namespace gumshoe::quantities {
 
 struct Variate {
-  std::string name;           ///< "beam_pitch[setup 1]", with ": component" where a quantity has several
-  std::size_t quantity = 0;   ///< index into the quantities given
+  std::string name;         ///< "beam_pitch[setup 1]", with ": component" where a quantity has several
+  std::size_t quantity = 0; ///< index into the quantities given
   std::size_t entry = 0, component = 0;
-  Labels cell;                ///< labels that this draw is for (entry labels and scope)
-  std::uint64_t key = 0;      ///< hash of (seed, quantity name, component name, cell): the Philox key
-  Distribution distribution;  ///< of the deviation
+  Labels cell;               ///< labels that this draw is for (entry labels and scope)
+  std::uint64_t key = 0;     ///< hash of (seed, quantity name, component name, cell): the Philox key
+  Distribution distribution; ///< of the deviation
 };
 
 struct Column {

@@ -137,8 +137,7 @@ std::string explain(const Scenario& s, const Catalogue& catalogue) {
   const Lines out = std::back_inserter(text);
   fmt::format_to(out, "{} (hash {})\n", s.file, s.hash);
   if (!s.title.empty()) fmt::format_to(out, "title: {}\n", s.title);
-  fmt::format_to(out, "model {}, method {}, evaluation {}\n", s.model,
-                 name(s.method), s.evaluation);
+  fmt::format_to(out, "model {}, method {}, evaluation {}\n", s.model, name(s.method), s.evaluation);
   const auto model =
       std::find_if(catalogue.models.begin(), catalogue.models.end(), [&](const auto* m) { return m->name == s.model; });
   if (model == catalogue.models.end()) return text;

@@ -45,16 +45,16 @@ struct Printed {
 
 struct AnalysisOptions {
   double coverage_probability = 0.95;
-  int validation_digits = 2;         ///< n_dig of JCGM 101 8.1
-  std::uint64_t sobol_samples = 0;   ///< base size N of the pick-freeze design; 0: no Sobol' indices
+  int validation_digits = 2;       ///< n_dig of JCGM 101 8.1
+  std::uint64_t sobol_samples = 0; ///< base size N of the pick-freeze design; 0: no Sobol' indices
   std::vector<Comparison> comparisons;
   std::vector<Printed> printed;
 };
 
 struct Scenario {
   std::string file;
-  std::string text;      ///< as read, kept in the result
-  std::string hash;      ///< 16 hex digits over everything that fixes the numbers: the text and the data files
+  std::string text; ///< as read, kept in the result
+  std::string hash; ///< 16 hex digits over everything that fixes the numbers: the text and the data files
   std::string title;
   std::string model;
   Method method = Method::propagation;
@@ -67,7 +67,8 @@ struct Scenario {
   std::vector<quantities::Reading> readings; ///< at least one
   RunOptions run;
   AnalysisOptions analysis;
-  std::vector<std::string> notes; ///< decisions and warnings a reader must see ("resolution used, not repeatability: ...")
+  std::vector<std::string>
+      notes; ///< decisions and warnings a reader must see ("resolution used, not repeatability: ...")
 };
 
 /// What a parser must know of models and effects; handed in, since this layer lies beside them.

@@ -180,7 +180,7 @@ def small_multiples(outputs, name, columns=4):
             axes.axvline(end, color=BLUE, linewidth=0.8)
         for end in to_axis([o.shortest_low, o.shortest_high]):
             axes.axvline(end, color=ORANGE, linewidth=0.8)
-        axes.set_title(o.name, fontsize=7.5, color=INK, loc="left")
+        axes.set_title(o.name.replace("[", "\n[", 1), fontsize=7, color=INK, loc="left")
         axes.tick_params(axis="x", labelsize=7)
         axes.xaxis.set_major_locator(MaxNLocator(4))
         unit = label.rpartition(", in ")[2]

@@ -18,7 +18,7 @@ METHODS = {"propagation": "propagation of distributions (JCGM 101)",
 def question(text):
     """The comment in which a scenario opens: '# Question: ...', may run over several lines."""
     lines = itertools.takewhile(lambda line: line.startswith("#"), text.splitlines())
-    words = " ".join(line.lstrip("# ").strip() for line in lines)
+    words = " ".join(line.lstrip("# ").strip() for line in lines if not line.startswith("#:")) # "#:schema" is for editors
     return words.removeprefix("Question:").strip()
 
 

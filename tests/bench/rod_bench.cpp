@@ -27,7 +27,8 @@ struct Block {
 
   Block() {
     const double degree = chain::pi / 180;
-    const double mean[] = {5e-3, 3e-5, 88.041 * degree, 144.086 * degree, 0.179822, 0, 0.6241 * degree, 0.2836 * degree, 2e-4, 0.5, -0.51};
+    const double mean[] = {
+        5e-3, 3e-5, 88.041 * degree, 144.086 * degree, 0.179822, 0, 0.6241 * degree, 0.2836 * degree, 2e-4, 0.5, -0.51};
     const double u[] = {1e-6, 3e-6, 4e-5, 1e-3, 1e-6, 2e-3, 1e-4, 1e-4, 3e-6, 0.01, 1e-3};
     std::mt19937_64 engine(1);
     std::normal_distribution<double> normal;
@@ -82,8 +83,10 @@ BENCHMARK(scalar_general);
 void gradient(benchmark::State& state) {
   scalar(state, [](const chain::Rod<double>& r, const chain::Beam<double>& b) {
     using D = models::Gradient;
-    return chain::differentiable_height<D>({D::variable(r.radius, 0), D::variable(r.fillet_radius, 1), D::variable(r.bottom_elevation, 2), D::variable(r.bottom_azimuth, 3)},
-                                           {D::variable(b.yaw, 4), D::variable(b.pitch, 5), D::variable(b.radius, 6), D::variable(b.fraction, 7)});
+    return chain::differentiable_height<D>(
+        {D::variable(r.radius, 0), D::variable(r.fillet_radius, 1), D::variable(r.bottom_elevation, 2),
+         D::variable(r.bottom_azimuth, 3)},
+        {D::variable(b.yaw, 4), D::variable(b.pitch, 5), D::variable(b.radius, 6), D::variable(b.fraction, 7)});
   });
 }
 BENCHMARK(gradient);

@@ -17,13 +17,16 @@ constexpr double deg = chain::pi / 180;
 /// Random rods and beams, thin pins and tilts included, and all effects at random sizes.
 struct Draw {
   std::mt19937_64 engine{20240214};
-  double operator()(double low, double high) { return low + (high - low) * static_cast<double>(engine() >> 11) * 0x1p-53; }
+  double operator()(double low, double high) {
+    return low + (high - low) * static_cast<double>(engine() >> 11) * 0x1p-53;
+  }
 };
 
 std::vector<double> random_quantities(Draw& draw) {
   const double radius = std::pow(10.0, draw(-3.6, -2.0));
-  return {radius, radius * draw(0, 1), draw(60, 100) * deg, draw(-180, 180) * deg, draw(0.1, 0.2), draw(-3, 3),
-          draw(-180, 180) * deg, draw(-5, 5) * deg, draw(1e-4, 4e-4), draw(0.2, 0.6), draw(-0.6, 0.1)};
+  return {radius,           radius * draw(0, 1), draw(60, 100) * deg,   draw(-180, 180) * deg,
+          draw(0.1, 0.2),   draw(-3, 3),         draw(-180, 180) * deg, draw(-5, 5) * deg,
+          draw(1e-4, 4e-4), draw(0.2, 0.6),      draw(-0.6, 0.1)};
 }
 
 std::vector<effects::Active> all_effects() {
@@ -45,8 +48,9 @@ std::vector<double> null_values() {
 struct Run {
   std::vector<double> simulated, bottom, laser;
   std::vector<std::uint8_t> status;
-  Run(const std::vector<std::vector<double>>& q, const std::vector<double>& e, const std::vector<effects::Active>& active,
-      const std::vector<double>* readings, std::vector<double> condition = {0.01, 600, -1}) {
+  Run(const std::vector<std::vector<double>>& q, const std::vector<double>& e,
+      const std::vector<effects::Active>& active, const std::vector<double>* readings,
+      std::vector<double> condition = {0.01, 600, -1}) {
     const std::size_t n = q[0].size();
     simulated.resize(n), bottom.resize(n), laser.resize(n), status.assign(n, 0);
     std::vector<models::Column> quantities, effect_columns, conditions;
@@ -93,8 +97,7 @@ TEST_CASE("evaluate undoes simulate, with every effect active", "[laws][rod_gaug
   std::vector<double> e;
   for (const EffectCard* card : effects::cards())
     for (const QuantityCard& quantity : card->quantities)
-      e.push_back(quantity.role == Role::shape ? quantity.default_value
-                                               : draw(0.01, 0.05) * quantity.limits.high);
+      e.push_back(quantity.role == Role::shape ? quantity.default_value : draw(0.01, 0.05) * quantity.limits.high);
   const auto active = all_effects();
   const Run there(q, e, active, nullptr);
   const Run back(q, e, active, &there.simulated);
@@ -125,8 +128,9 @@ TEST_CASE("lanes give the bits of the scalar solve", "[laws][rod_gauging]") {
   const Run run(q, {}, {}, nullptr);
   for (std::size_t i = 0; i < 4096; ++i) {
     const auto v = [&](int j) { return q[static_cast<std::size_t>(j)][i]; };
-    const auto one = chain::trigger_height({v(rod::radius), v(rod::fillet), v(rod::elevation), v(rod::azimuth) + v(rod::holder_angle)},
-                                           {v(rod::yaw), v(rod::pitch), v(rod::beam_radius), v(rod::fraction)});
+    const auto one = chain::trigger_height(
+        {v(rod::radius), v(rod::fillet), v(rod::elevation), v(rod::azimuth) + v(rod::holder_angle)},
+        {v(rod::yaw), v(rod::pitch), v(rod::beam_radius), v(rod::fraction)});
     REQUIRE(static_cast<std::uint8_t>(one.status) == run.status[i]);
     if (run.status[i] == 0) REQUIRE(one.value == run.bottom[i]);
   }
@@ -183,7 +187,8 @@ TEST_CASE("a larger share needs a lower rod", "[laws][shadow]") {
   for (int i = 0; i < 200; ++i) {
     auto q = random_quantities(draw);
     const chain::Rod<double> r{q[0], q[1], q[2], q[3]};
-    const auto low = chain::trigger_height(r, {q[6], q[7], q[8], 0.2}), high = chain::trigger_height(r, {q[6], q[7], q[8], 0.25});
+    const auto low = chain::trigger_height(r, {q[6], q[7], q[8], 0.2}),
+               high = chain::trigger_height(r, {q[6], q[7], q[8], 0.25});
     if (low.status == chain::SolveStatus::ok && high.status == chain::SolveStatus::ok) REQUIRE(high.value < low.value);
   }
 }
@@ -204,7 +209,8 @@ TEST_CASE("wide pins and ball ends in closed form", "[references][shadow]") {
   // The strip holds 0.609 of the disc: less is reached, more never.
   const double most = 2 * area / (chain::pi * R * R);
   REQUIRE(chain::trigger_height({a, 0, chain::pi / 2, 0}, {0, 0, R, most - 1e-6}).status == chain::SolveStatus::ok);
-  REQUIRE(chain::trigger_height({a, 0, chain::pi / 2, 0}, {0, 0, R, most + 1e-6}).status == chain::SolveStatus::never_covered);
+  REQUIRE(chain::trigger_height({a, 0, chain::pi / 2, 0}, {0, 0, R, most + 1e-6}).status ==
+          chain::SolveStatus::never_covered);
 }
 
 TEST_CASE("derivatives agree with differences, second ones with differences of first", "[laws][rod_gauging]") {
@@ -216,7 +222,8 @@ TEST_CASE("derivatives agree with differences, second ones with differences of f
     auto q = random_quantities(draw);
     const auto gradient_at = [&](const std::vector<double>& at, int first) {
       std::vector<models::Gradient> x(at.begin(), at.end());
-      for (int j = first; j < std::min<int>(first + 8, rod::count); ++j) x[static_cast<std::size_t>(j)] = models::Gradient::variable(at[static_cast<std::size_t>(j)], j - first);
+      for (int j = first; j < std::min<int>(first + 8, rod::count); ++j)
+        x[static_cast<std::size_t>(j)] = models::Gradient::variable(at[static_cast<std::size_t>(j)], j - first);
       models::Gradient reading(0.0), y[2];
       models::PointCall<models::Gradient> call;
       call.quantities = x.data();
@@ -249,9 +256,11 @@ TEST_CASE("derivatives agree with differences, second ones with differences of f
 }
 
 TEST_CASE("the aligned square rod has a kink in pitch", "[rod_gauging]") {
-  const auto at = chain::differentiable_height<models::Gradient>({5e-3, 0.0, chain::pi / 2, 0.0}, {0.0, models::Gradient::variable(0.0, 0), 2e-4, 0.5});
+  const auto at = chain::differentiable_height<models::Gradient>({5e-3, 0.0, chain::pi / 2, 0.0},
+                                                                 {0.0, models::Gradient::variable(0.0, 0), 2e-4, 0.5});
   REQUIRE(at.kink);
-  const auto beside = chain::differentiable_height<models::Gradient>({5e-3, 0.0, chain::pi / 2, 0.0}, {0.0, models::Gradient::variable(1e-3, 0), 2e-4, 0.5});
+  const auto beside = chain::differentiable_height<models::Gradient>(
+      {5e-3, 0.0, chain::pi / 2, 0.0}, {0.0, models::Gradient::variable(1e-3, 0), 2e-4, 0.5});
   REQUIRE_FALSE(beside.kink);
   REQUIRE(beside.value.d[0] == Approx(5e-3).epsilon(1e-3)); // 5 mm times |pitch|
 }

@@ -25,8 +25,12 @@ scenario::Scenario rod2(const std::map<std::string, std::vector<quantities::Comp
   scenario::Scenario s;
   s.model = "rod_gauging";
   s.evaluation = "full";
-  const std::map<std::string, double> rod{{"rod_radius", 5e-3}, {"fillet_radius", 3e-5}, {"bottom_elevation", 88.041 * deg},
-                                          {"bottom_azimuth", 144.086 * deg}, {"rod_length", 0.179822}, {"beam_yaw", 0.6241 * deg},
+  const std::map<std::string, double> rod{{"rod_radius", 5e-3},
+                                          {"fillet_radius", 3e-5},
+                                          {"bottom_elevation", 88.041 * deg},
+                                          {"bottom_azimuth", 144.086 * deg},
+                                          {"rod_length", 0.179822},
+                                          {"beam_yaw", 0.6241 * deg},
                                           {"beam_pitch", 0.2836 * deg}};
   for (const auto& q : models::find("rod_gauging")->card->quantities) {
     const std::string name(q.name);
@@ -56,7 +60,8 @@ struct Memory : propagation::Sink {
   std::vector<std::uint8_t> status;
   explicit Memory(std::size_t n) : rows(n) {}
   void write(const propagation::ResultBlock& b) override {
-    for (std::size_t r = 0; r < rows.size(); ++r) rows[r].insert(rows[r].end(), &b.outputs[r * b.samples], &b.outputs[r * b.samples] + b.samples);
+    for (std::size_t r = 0; r < rows.size(); ++r)
+      rows[r].insert(rows[r].end(), &b.outputs[r * b.samples], &b.outputs[r * b.samples] + b.samples);
     status.insert(status.end(), b.status.begin(), b.status.end());
   }
 };
@@ -98,7 +103,8 @@ TEST_CASE("effective degrees of freedom are truncated, and k is from t", "[gum]"
 }
 
 TEST_CASE("correlated inputs: one correlation row, and no Welch-Satterthwaite", "[gum]") {
-  auto s = rod2({{"rod_length", {component(Family::normal, {0, 3 * um})}}, {"spindle_z", {component(Family::normal, {0, 4 * um}, 9)}}});
+  auto s = rod2({{"rod_length", {component(Family::normal, {0, 3 * um})}},
+                 {"spindle_z", {component(Family::normal, {0, 4 * um}, 9)}}});
   s.correlations.push_back({quantities::Correlation::Kind::pearson, {"rod_length", "spindle_z"}, {1, 0.5, 0.5, 1}});
   const propagation::Experiment e(s);
   const auto b = analysis::budget(e, 1, 0.95);
@@ -114,7 +120,8 @@ TEST_CASE("correlated inputs: one correlation row, and no Welch-Satterthwaite", 
 }
 
 TEST_CASE("an aligned square rod: the framework does not apply, and says by what", "[gum]") {
-  const auto s = rod2({{"beam_pitch", {component(Family::normal, {0, 0.01 * deg})}}, {"rod_length", {component(Family::normal, {0, 1 * um})}}},
+  const auto s = rod2({{"beam_pitch", {component(Family::normal, {0, 0.01 * deg})}},
+                       {"rod_length", {component(Family::normal, {0, 1 * um})}}},
                       {{"bottom_elevation", 90 * deg}, {"beam_pitch", 0}, {"beam_yaw", 0}});
   const propagation::Experiment e(s);
   const auto b = analysis::budget(e, 1, 0.95);
@@ -167,7 +174,8 @@ TEST_CASE("Sobol' indices of a nearly linear budget are its GUM shares", "[sobol
 }
 
 TEST_CASE("bits do not depend on threads; the first samples of a long run are the short run", "[propagation]") {
-  auto s = rod2({{"beam_pitch", {component(Family::normal, {0, 0.02 * deg})}}, {"fillet_radius", {component(Family::t, {0, 1 * um, 4}, 4)}}});
+  auto s = rod2({{"beam_pitch", {component(Family::normal, {0, 0.02 * deg})}},
+                 {"fillet_radius", {component(Family::t, {0, 1 * um, 4}, 4)}}});
   s.run.samples = 10'007;
   const propagation::Experiment e(s);
   Memory one(2), two(2), seven(2);

@@ -48,7 +48,8 @@ TEST_CASE("JCGM 101 example 9.2: additive models", "[references][coverage]") {
     CHECK(std::fabs(s.symmetric.low + 3.9199) < 4 * s.symmetric.low_se + 1e-4);
   }
   SECTION("9.2.3, four rectangular quantities: not the normal approximation's 3.92") {
-    const Summary s = analysis::summarise(output, sum_of({rectangular, rectangular, rectangular, rectangular}, n, 7), 0.95);
+    const Summary s =
+        analysis::summarise(output, sum_of({rectangular, rectangular, rectangular, rectangular}, n, 7), 0.95);
     const double exact = 2 * root3 * (2 - std::pow(0.6, 0.25));
     // Density of the sum at that point, from its cubic end: f = (4 a - y)^3 / (6 (2a)^4), a = sqrt 3.
     const double density = std::pow(4 * root3 - exact, 3) / (6 * std::pow(2 * root3, 4));

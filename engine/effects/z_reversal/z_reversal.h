@@ -9,11 +9,15 @@ struct ZReversal {
   static constexpr QuantityCard quantities[] = {
       {"backlash", "um", "m", 0.0, {-1e-3, 1e-3}, "B", "reversal value", Role::amplitude, "1-10 um"},
   };
-  static constexpr EffectCard card{
-      "z_reversal", "Reversal error of Z", "motion", 20, "E_ZZ",
-      "The axis lags half the backlash behind its command on either approach.",
-      "any constant while all approaches come from one side",
-      "engineering knowledge; Fang 2022, section 2.5 for the kinematic chain; ISO 230-2", quantities};
+  static constexpr EffectCard card{"z_reversal",
+                                   "Reversal error of Z",
+                                   "motion",
+                                   20,
+                                   "E_ZZ",
+                                   "The axis lags half the backlash behind its command on either approach.",
+                                   "any constant while all approaches come from one side",
+                                   "engineering knowledge; Fang 2022, section 2.5 for the kinematic chain; ISO 230-2",
+                                   quantities};
   template <class T> static void apply(const T* q, chain::ProbingEvent<T>& event) {
     event.axis_error = event.axis_error - event.direction * (0.5 * q[0]);
   }

@@ -12,16 +12,58 @@ constexpr double mm = 1e-3, deg = chain::pi / 180, huge = 1e3;
 
 constexpr QuantityCard quantities[] = {
     {"rod_radius", "mm", "m", 5 * mm, {0, huge, true}, "R_r", "radius of the rod's cylinder"},
-    {"fillet_radius", "mm", "m", 0.03 * mm, {0, huge}, "R_f", "radius of the rounding between cylinder and bottom; at most rod_radius (ball end)"},
-    {"bottom_elevation", "deg", "rad", 90 * deg, {0, chain::pi, true, true}, "phi", "elevation of the bottom plane's normal; 90 deg is a square end"},
-    {"bottom_azimuth", "deg", "rad", 0, {-huge, huge}, "tau", "azimuth of the bottom plane's normal in the tool-holder frame"},
-    {"rod_length", "mm", "m", 150 * mm, {0, huge, true}, "L_r", "from the spindle reference point to the bottom's centre, at 20 degC"},
+    {"fillet_radius",
+     "mm",
+     "m",
+     0.03 * mm,
+     {0, huge},
+     "R_f",
+     "radius of the rounding between cylinder and bottom; at most rod_radius (ball end)"},
+    {"bottom_elevation",
+     "deg",
+     "rad",
+     90 * deg,
+     {0, chain::pi, true, true},
+     "phi",
+     "elevation of the bottom plane's normal; 90 deg is a square end"},
+    {"bottom_azimuth",
+     "deg",
+     "rad",
+     0,
+     {-huge, huge},
+     "tau",
+     "azimuth of the bottom plane's normal in the tool-holder frame"},
+    {"rod_length",
+     "mm",
+     "m",
+     150 * mm,
+     {0, huge, true},
+     "L_r",
+     "from the spindle reference point to the bottom's centre, at 20 degC"},
     {"holder_angle", "deg", "rad", 0, {-huge, huge}, "theta_th", "from machine X to the tool holder's X"},
     {"beam_yaw", "deg", "rad", 0, {-huge, huge}, "alpha", "of the beam about Z, from machine X"},
-    {"beam_pitch", "deg", "rad", 0, {-90 * deg, 90 * deg, true, true}, "beta", "of the beam out of the horizontal, positive upwards along the beam"},
+    {"beam_pitch",
+     "deg",
+     "rad",
+     0,
+     {-90 * deg, 90 * deg, true, true},
+     "beta",
+     "of the beam out of the horizontal, positive upwards along the beam"},
     {"beam_radius", "mm", "m", 0.2 * mm, {0, huge, true}, "R_l", "radius of the beam's disc on the receiver"},
-    {"trigger_fraction", "1", "1", 0.5, {0, 1, true, true}, "eta", "share of the disc that is covered when the trigger fires"},
-    {"laser_z", "mm", "m", 0, {-huge, huge}, "Z_ts", "true height of the beam's axis where it passes the spindle axis; only simulation reads it"},
+    {"trigger_fraction",
+     "1",
+     "1",
+     0.5,
+     {0, 1, true, true},
+     "eta",
+     "share of the disc that is covered when the trigger fires"},
+    {"laser_z",
+     "mm",
+     "m",
+     0,
+     {-huge, huge},
+     "Z_ts",
+     "true height of the beam's axis where it passes the spindle axis; only simulation reads it"},
 };
 constexpr VariableCard conditions[] = {
     {"feed", "mm/min", "m/s", 4 * mm / 60, "feed of the spindle towards the beam"},
@@ -31,7 +73,8 @@ constexpr VariableCard conditions[] = {
 constexpr VariableCard indications[] = {{"spindle_z", "mm", "m", 0, "spindle height latched at the trigger, Z'_s"}};
 constexpr VariableCard measurands[] = {
     {"bottom_height", "mm", "m", 0, "height of the bottom's centre above the beam's axis at the trigger, Z'_d"},
-    {"laser_z", "mm", "m", 0, "height of the beam's axis where it passes the spindle axis: spindle_z - rod_length - bottom_height"},
+    {"laser_z", "mm", "m", 0,
+     "height of the beam's axis where it passes the spindle axis: spindle_z - rod_length - bottom_height"},
 };
 constexpr EvaluationCard evaluations[] = {
     {"full", "the geometry of rod and beam solved: Fang 2022, section 2.4"},
@@ -45,7 +88,12 @@ constexpr ModelCard card{
     "A rod in the spindle is lowered into a laser beam; the trigger fires when its shadow covers a share of the beam's "
     "disc; from the spindle height at that moment follows the height of the beam's axis.",
     "Fang 2022, chapter 2 (eqs 2.3 to 2.38), derived anew; see reports/errata.md",
-    quantities, conditions, indications, measurands, evaluations, stages};
+    quantities,
+    conditions,
+    indications,
+    measurands,
+    evaluations,
+    stages};
 
 template <class T> PointOutcome evaluate_point(const PointCall<T>& call) {
   T condition[rod::conditions];
@@ -83,7 +131,8 @@ std::vector<Intermediate> explain(const PointCall<double>& call) {
                            {"shadow edge: sideways", "mm", edge.side / mm},
                            {"solved by the fast chord iteration", "1", chord.failed == 0 ? 1.0 : 0.0}});
     if (chord.failed == 0)
-      out.insert(out.end(), {{"covered chord: left end, sin w", "1", chord.left}, {"covered chord: right end, sin w", "1", chord.right}});
+      out.insert(out.end(), {{"covered chord: left end, sin w", "1", chord.left},
+                             {"covered chord: right end, sin w", "1", chord.right}});
   }
   const auto solved = chain::trigger_height(body, beam);
   const double height = call.evaluation == rod::full ? solved.value : 0.0;
@@ -106,6 +155,7 @@ const Kernels* kernels() { return GUMSHOE_BEST_KERNELS(rod_gauging); }
 } // namespace
 
 extern const Model rod_gauging;
-const Model rod_gauging{&card, &kernels, &evaluate_point<Gradient>, &evaluate_point<Curvature>, &explain, &check, &solve_reads};
+const Model rod_gauging{&card,  &kernels,    &evaluate_point<Gradient>, &evaluate_point<Curvature>, &explain,
+                        &check, &solve_reads};
 
 } // namespace gumshoe::models

@@ -11,7 +11,20 @@
 
 namespace gumshoe::models::rod {
 
-enum Quantity { radius, fillet, elevation, azimuth, length, holder_angle, yaw, pitch, beam_radius, fraction, laser_z, count };
+enum Quantity {
+  radius,
+  fillet,
+  elevation,
+  azimuth,
+  length,
+  holder_angle,
+  yaw,
+  pitch,
+  beam_radius,
+  fraction,
+  laser_z,
+  count
+};
 enum Condition { feed, time, direction, conditions };
 enum Measurand { bottom_height_row, laser_z_row, measurands };
 enum Evaluation { full, conventional };

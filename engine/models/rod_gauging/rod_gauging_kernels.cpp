@@ -30,10 +30,10 @@ void solve_group(const Lanes* q, const chain::ProbingEvent<Lanes>& event, double
   if (!num::any(general)) return;
   for (std::size_t l = 0; l < width; ++l) {
     if (!general.get(l)) continue;
-    const auto solved = chain::general_height(
-        {rod.radius.get(l), rod.fillet_radius.get(l), rod.bottom_elevation.get(l), rod.bottom_azimuth.get(l),
-         rod.axis_x.get(l), rod.axis_y.get(l)},
-        {beam.yaw.get(l), beam.pitch.get(l), beam.radius.get(l), beam.fraction.get(l)});
+    const auto solved =
+        chain::general_height({rod.radius.get(l), rod.fillet_radius.get(l), rod.bottom_elevation.get(l),
+                               rod.bottom_azimuth.get(l), rod.axis_x.get(l), rod.axis_y.get(l)},
+                              {beam.yaw.get(l), beam.pitch.get(l), beam.radius.get(l), beam.fraction.get(l)});
     height[l] = solved.value;
     if (solved.status != chain::SolveStatus::ok) status[l] = static_cast<std::uint8_t>(solved.status);
   }
@@ -50,11 +50,15 @@ template <class Finish> void for_each_group(const BlockCall& call, bool with_sol
     for (std::size_t i = 0; i < call.samples; i += width) {
       for (std::size_t j = 0; j < rod::count; ++j) q[j] = load(columns[j], i);
       for (std::size_t j = 0; j < call.effect_quantities; ++j) e[j] = load(effect_columns[j], i);
-      for (std::size_t j = 0; j < rod::conditions; ++j) condition[j] = load(call.conditions[r * rod::conditions + j], i);
+      for (std::size_t j = 0; j < rod::conditions; ++j)
+        condition[j] = load(call.conditions[r * rod::conditions + j], i);
       const auto event = rod::probing_event<Lanes>(q, condition, e.data(), call.active);
-      if (!with_solve) Lanes(0.0).store_unaligned(height_row + i);
-      else if (twin == r) solve_group(q, event, height_row + i, call.status + i);
-      else Lanes::load_unaligned(call.measurands[twin * rod::measurands] + i).store_unaligned(height_row + i);
+      if (!with_solve)
+        Lanes(0.0).store_unaligned(height_row + i);
+      else if (twin == r)
+        solve_group(q, event, height_row + i, call.status + i);
+      else
+        Lanes::load_unaligned(call.measurands[twin * rod::measurands] + i).store_unaligned(height_row + i);
       finish(r, i, q, event, Lanes::load_unaligned(height_row + i));
     }
   }
@@ -80,5 +84,6 @@ void evaluate(const BlockCall& call) {
 
 extern "C" {
 extern const gumshoe::models::Kernels GUMSHOE_KERNEL(gumshoe_rod_gauging_);
-const gumshoe::models::Kernels GUMSHOE_KERNEL(gumshoe_rod_gauging_){&gumshoe::models::simulate, &gumshoe::models::evaluate};
+const gumshoe::models::Kernels GUMSHOE_KERNEL(gumshoe_rod_gauging_){&gumshoe::models::simulate,
+                                                                    &gumshoe::models::evaluate};
 }
