@@ -31,8 +31,12 @@ def main():
     except OSError as problem:
         print(f"error: '{problem.filename or out}' cannot be written ({problem.strerror})", file=sys.stderr)
         return 2
-    for path in written:
-        print(path)
+    try:
+        print(*written, sep="\n", flush=True)
+    except OSError as problem:
+        print(f"error: standard output cannot be written ({problem.strerror})", file=sys.stderr)
+        sys.stdout = None  # nothing is left to flush at exit
+        return 2
     return 0
 
 

@@ -24,7 +24,7 @@ std::string statement(const Summary& s, const Budget& b, double p, bool virtual_
   };
   const std::string unit = s.output.unit == "1" ? "" : " " + s.output.unit;
   const int d = decimals_for(
-      width(std::isfinite(s.standard_uncertainty) ? s.standard_uncertainty : s.symmetric.high - s.symmetric.low));
+      width(std::isfinite(s.standard_uncertainty) ? s.standard_uncertainty : 0.25 * (s.symmetric.high - s.symmetric.low)));
   std::string text = virtual_experiment ? fmt::format("{}: the stated value errs by {}{} in the mean", s.output.name,
                                                       fixed(width(s.estimate), d), unit)
                                         : fmt::format("{} = {}{}", s.output.name, fixed(shown(s.estimate), d), unit);

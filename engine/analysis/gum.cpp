@@ -9,6 +9,7 @@
 
 #include "analysis/derivatives.h"
 #include "base/units.h"
+#include "quantities/copula.h"
 
 namespace gumshoe::analysis {
 
@@ -39,12 +40,15 @@ std::vector<Reaching> reaching(const quantities::SamplePlan& plan, std::size_t r
   return found;
 }
 
+/// Pearson's coefficient of two variates, 0 if no copula ties them.
 double correlation_of(const quantities::SamplePlan& plan, std::size_t a, std::size_t b) {
   for (const auto& group : plan.copulas) {
     const auto i = std::ranges::find(group.variates, a), j = std::ranges::find(group.variates, b);
     if (i != group.variates.end() && j != group.variates.end())
-      return group.matrix[static_cast<std::size_t>(i - group.variates.begin()) * group.variates.size() +
-                          static_cast<std::size_t>(j - group.variates.begin())];
+      return quantities::pearson_coefficient(
+          group.matrix[static_cast<std::size_t>(i - group.variates.begin()) * group.variates.size() +
+                       static_cast<std::size_t>(j - group.variates.begin())],
+          plan.variates[a].distribution, plan.variates[b].distribution);
   }
   return 0;
 }
@@ -55,6 +59,10 @@ void second_order(Budget& b, const propagation::Experiment& e, std::size_t readi
                   const std::vector<double>& point, const std::vector<double>& u) {
   const Derivatives at = differentiate(e, reading, measurand, point, true);
   const std::size_t n = point.size();
+  if (at.second.empty()) { // a kink by some quantity that is exact here: first order holds, second does not
+    b.second_order_uncertainty = b.second_order_bias = nan;
+    return;
+  }
   double extra = 0;
   for (std::size_t j = 0; j < n; ++j) {
     if (u[j] == 0) continue;
@@ -163,7 +171,8 @@ Budget budget(const propagation::Experiment& e, std::size_t output, double cover
   if (correlated)
     b.effective_degrees_of_freedom = nan; // G.4.1 holds for independent inputs only
   else if (satterthwaite > 0)
-    b.effective_degrees_of_freedom = std::floor(total * total / satterthwaite);
+    b.effective_degrees_of_freedom =
+        std::floor(total * total / satterthwaite * (1 + 1e-12)) /* G.4.1, not one less by rounding */;
   if (b.effective_degrees_of_freedom >= 1 && b.effective_degrees_of_freedom < 1e6)
     b.coverage_factor = quantile(boost::math::students_t(b.effective_degrees_of_freedom), tail);
   else {

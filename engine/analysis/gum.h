@@ -6,7 +6,8 @@
 namespace gumshoe::analysis {
 
 /// The budget of one output by the law of propagation of uncertainty. One row per variate that reaches
-/// the output; c_i by dual numbers through the solver; second-order terms of 5.1.2 note, with the
+/// the output; c_i by dual numbers through the solver (beside a kink by
+/// differences); second-order terms of 5.1.2 note, with the
 /// third derivatives as differences of exact first ones. Where the model has no derivative at the
 /// estimate the row says so and the framework does not apply. A virtual experiment has no measurement
 /// model of its inputs, so its budget is "not applicable".

@@ -49,8 +49,8 @@ std::size_t covered_ranks(std::size_t m, double p) {
 }
 
 Ends symmetric_ends(const std::vector<double>& x, double p) {
-  const std::size_t m = x.size(), q = covered_ranks(m, p), r = (m - q) / 2;
-  return {x[r > 0 ? r - 1 : 0], x[std::min(m - 1, (r > 0 ? r - 1 : 0) + q)]};
+  const std::size_t m = x.size(), q = covered_ranks(m, p), r = std::max<std::size_t>(1, (m - q + 1) / 2);
+  return {x[r - 1], x[std::min(m, r + q) - 1]};
 }
 
 Ends shortest_ends(const std::vector<double>& x, double p) {

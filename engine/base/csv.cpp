@@ -30,7 +30,7 @@ public:
     while (at_ < text_.size()) {
       bool more = true;
       while (more) more = cell(row);
-      if (row.size() == 1 && row[0].text.empty()) { // a blank line
+      if (row.size() == 1 && row[0].text.empty() && !row[0].quoted) { // a blank line
         row.clear();
         continue;
       }
@@ -46,6 +46,7 @@ private:
     while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t')) ++at_, ++cell.column;
     if (at_ < text_.size() && text_[at_] == '"') {
       quoted(cell);
+      cell.quoted = true;
       const std::size_t after = at_;
       while (at_ < text_.size() && !ends_cell(text_[at_])) ++at_;
       if (!trimmed(std::string(text_.substr(after, at_ - after))).empty())

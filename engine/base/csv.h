@@ -12,6 +12,7 @@ struct CsvCell {
   std::string text; ///< trimmed, unquoted
   int line = 0;
   int column = 0; ///< in bytes, from 1
+  bool quoted = false;
 };
 
 struct Csv {

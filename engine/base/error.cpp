@@ -45,6 +45,7 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 } // namespace
 
 std::string nearest(const std::string& word, const std::vector<std::string>& candidates) {
+  if (word.size() > 100) return {}; // no misspelling
   std::string best;
   std::size_t best_distance = std::max<std::size_t>(2, word.size() / 2) + 1;
   for (const std::string& candidate : candidates) {

@@ -1,6 +1,7 @@
 #include "cli/command.h"
 
 #include <cmath>
+#include <filesystem>
 
 #include "effects/catalogue.h"
 
@@ -14,17 +15,24 @@ scenario::Catalogue catalogue() {
   return c;
 }
 
-std::uint64_t whole_number(const std::string& text, const std::string& option) {
+std::uint64_t whole_number(const std::string& text, const std::string& option, std::uint64_t least) {
   std::size_t used = 0;
-  double x = 0;
+  double x = -1;
   try {
     x = std::stod(text, &used);
   } catch (const std::exception&) {
     used = 0;
   }
-  if (used == 0 || used != text.size() || !(x >= 1) || x > 1e15 || x != std::floor(x))
-    throw InputError(option + ": '" + text + "' is not a positive whole number", "", "1e6, say?");
+  if (used == 0 || used != text.size() || !(x >= static_cast<double>(least)) || x > 1e15 || x != std::floor(x))
+    throw InputError(option + ": '" + text + "' is not a whole number of at least " + std::to_string(least), "",
+                     "1e6, say?");
   return static_cast<std::uint64_t>(x);
+}
+
+void require_different(const std::string& out, const std::string& in) {
+  std::error_code ignored;
+  if (std::filesystem::equivalent(out, in, ignored))
+    throw OutputError(out + ": is the file that is read", "it would be lost", "another name for the output?");
 }
 
 } // namespace gumshoe::cli

@@ -25,7 +25,10 @@ void add_effects(CLI::App& app, Action& action);
 /// Models and effects as the scenario parser wants them.
 scenario::Catalogue catalogue();
 
-/// "1e6" or "1000000" as a positive whole number; throws InputError naming the option.
-std::uint64_t whole_number(const std::string& text, const std::string& option);
+/// "1e6" or "1000000" as a whole number of at least `least`; throws InputError naming the option.
+std::uint64_t whole_number(const std::string& text, const std::string& option, std::uint64_t least);
+
+/// Refuses to write over what was read.
+void require_different(const std::string& out, const std::string& in);
 
 } // namespace gumshoe::cli

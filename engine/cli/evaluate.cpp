@@ -63,6 +63,7 @@ void add_evaluate(CLI::App& app, Action& action) {
         const std::string meant = nearest(o->model, names);
         throw InputError("unknown model '" + o->model + "'", "", meant.empty() ? "" : "did you mean '" + meant + "'?");
       }
+      require_different(o->out, o->table);
       const Csv table = read_csv(o->table);
       const auto points = propagation::evaluate_points(*model, table, o->evaluation);
       const std::string text = to_csv(table, points);

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <iostream>
@@ -8,6 +10,7 @@
 
 int main(int argc, char** argv) {
   using namespace gumshoe;
+  std::signal(SIGXFSZ, SIG_IGN); // a file-size limit becomes a write error with a message
   CLI::App app{"Gumshoe: uncertainty and sensitivity analysis of on-machine measurement", "gumshoe"};
   app.set_version_flag("--version", std::string("gumshoe ") + version + " (" + git_hash + ")");
   app.require_subcommand(1);
@@ -29,8 +32,19 @@ int main(int argc, char** argv) {
       return static_cast<int>(ExitCode::bad_input);
     }
     return static_cast<int>(code);
+  } catch (const CLI::Success& wanted) { // --help, --version
+    return app.exit(wanted);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::bad_input);
+    std::vector<std::string> names;
+    for (const auto* command : app.get_subcommands({})) names.push_back(command->get_name());
+    if (argc > 1 && argv[1][0] != '-' && std::ranges::find(names, argv[1]) == names.end()) {
+      const std::string meant = nearest(argv[1], names);
+      std::cerr << "error: unknown command '" << argv[1] << "'"
+                << (meant.empty() ? " (gumshoe --help lists them)" : " did you mean '" + meant + "'?") << '\n';
+    } else {
+      std::cerr << "error: " << error.what() << " (--help lists the options)\n";
+    }
+    return static_cast<int>(ExitCode::bad_input);
   } catch (const std::bad_alloc&) {
     std::cerr << "error: out of memory (the run needs more than there is) fewer samples?\n";
   } catch (const InputError& error) {

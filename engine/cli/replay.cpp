@@ -24,23 +24,34 @@ scenario::Scenario scenario_of(const store::Identity& identity, const std::strin
   return s;
 }
 
-void print_reading(const propagation::Experiment& e, std::size_t r, const std::vector<double>& variates) {
+/// In a virtual experiment the drawn values are the truth: the indications are simulated from them, and
+/// the evaluation uses the estimates. `simulated`: the reading's indications, noise included.
+void print_reading(const propagation::Experiment& e, std::size_t r, const std::vector<double>& variates,
+                   const std::vector<double>& simulated) {
   const auto& s = e.scenario();
   const std::string name = propagation::reading_name(s.readings[r]);
   std::cout << "\nreading" << (name.empty() ? "" : " [" + name + "]") << '\n';
-  const auto point = e.point(r, variates.data());
+  const bool virtual_experiment = s.method == scenario::Method::virtual_experiment;
+  const std::size_t first_indication = e.model_quantities() + e.effect_quantities();
+  auto point = e.point(r, variates.data());
+  if (virtual_experiment)
+    std::copy(simulated.begin(), simulated.end(), point.begin() + static_cast<long>(first_indication));
   for (std::size_t q = 0; q < point.size(); ++q)
     std::cout << fmt::format("  {:<44} {:.17g} {}\n", s.quantities[q].name,
                              units::from_si(point[q], s.quantities[q].unit, s.quantities[q].si_unit),
                              s.quantities[q].unit);
+  if (virtual_experiment) {
+    std::cout << "  evaluated at the estimates\n";
+    point = e.point(r);
+    std::copy(simulated.begin(), simulated.end(), point.begin() + static_cast<long>(first_indication));
+  }
   models::PointCall<double> call;
   call.quantities = point.data();
   call.effects = point.data() + e.model_quantities();
   call.active = e.active();
   call.conditions = s.readings[r].conditions.data();
-  call.indications = point.data() + e.model_quantities() + e.effect_quantities();
+  call.indications = point.data() + first_indication;
   call.evaluation = static_cast<int>(e.evaluation());
-  if (s.method == scenario::Method::virtual_experiment) return; // its readout is simulated: see the outputs
   std::cout << "  intermediate values\n";
   for (const auto& i : e.model().explain(call))
     std::cout << fmt::format("    {:<42} {:.17g} {}\n", i.name, i.value, i.unit);
@@ -59,7 +70,7 @@ void add_replay(CLI::App& app, Action& action) {
   command->callback([=, &action] {
     action = [=] {
       const store::Stored stored = store::read_identity(o->file);
-      const std::uint64_t sample = o->sample == "0" ? 0 : whole_number(o->sample, "--sample");
+      const std::uint64_t sample = whole_number(o->sample, "--sample", 0);
       if (sample >= stored.identity.samples)
         throw InputError(fmt::format("--sample: {} is beyond the run", sample),
                          fmt::format("{} samples, counted from 0", stored.identity.samples));
@@ -73,8 +84,6 @@ void add_replay(CLI::App& app, Action& action) {
         std::cout << fmt::format("  {:<44} {:.17g} {}\n", e.plan().variates[v].name,
                                  units::from_si(variates[v], q.unit, q.si_unit, units::Kind::difference), q.unit);
       }
-      for (std::size_t r = 0; r < s.readings.size(); ++r) print_reading(e, r, variates);
-
       // Through the block kernels, as in the run: the same bits.
       propagation::Workspace w;
       std::vector<double> drawn, outputs(e.outputs().size() * 8);
@@ -83,6 +92,12 @@ void add_replay(CLI::App& app, Action& action) {
       for (std::size_t v = 0; v < variates.size(); ++v) pointers.push_back(&drawn[v * 8]);
       std::vector<std::uint8_t> status(8);
       e.run(pointers, 8, w, outputs.data(), status.data());
+      const std::size_t k = e.model().card->indications.size();
+      for (std::size_t r = 0; r < s.readings.size(); ++r) {
+        std::vector<double> indications;
+        for (std::size_t i = 0; i < k; ++i) indications.push_back(w.indications[(r * k + i) * 8]);
+        print_reading(e, r, variates, indications);
+      }
       std::cout << "\noutputs\n";
       for (std::size_t i = 0; i < e.outputs().size(); ++i) {
         const auto& out = e.outputs()[i];

@@ -22,6 +22,7 @@ void add_report(CLI::App& app, Action& action) {
   command->add_option("--csv", o->csv, "folder for the CSV tables (default: beside the page)");
   command->callback([=, &action] {
     action = [=] {
+      require_different(o->out, o->file);
       if (!store::read_identity(o->file).complete)
         throw InputError(o->file + ": the run is not finished", "it was interrupted",
                          "run the same command again to resume it?");

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -25,7 +26,8 @@ namespace gumshoe::cli {
 namespace {
 
 struct Options {
-  std::string file, out, samples, seed, format = "text";
+  std::string file, out, format = "text";
+  std::optional<std::string> samples, seed;
   int threads = 0;
 };
 
@@ -119,8 +121,8 @@ void print_table(const analysis::Results& r, bool json) {
 
 ExitCode run(const Options& o) {
   scenario::Scenario s = scenario::read(o.file, catalogue());
-  if (!o.samples.empty()) s.run.samples = whole_number(o.samples, "--samples");
-  if (!o.seed.empty()) s.run.seed = whole_number(o.seed, "--seed");
+  if (o.samples) s.run.samples = whole_number(*o.samples, "--samples", 2);
+  if (o.seed) s.run.seed = whole_number(*o.seed, "--seed", 0);
   const propagation::Experiment experiment(s);
   const std::string out = !o.out.empty() ? o.out : "results/" + std::filesystem::path(o.file).stem().string() + ".h5";
   if (o.out.empty()) std::filesystem::create_directories("results");

@@ -18,9 +18,36 @@ std::string reading_name(const quantities::Reading& reading) {
   return name;
 }
 
+namespace {
+
+/// The first line of the scenario's text that begins with `start`, for messages on what was read.
+Location find_line(const scenario::Scenario& s, const std::string& start) {
+  int line = 1;
+  for (std::size_t at = 0; at < s.text.size(); ++line) {
+    if (s.text.compare(at, start.size(), start) == 0) return {s.file, line, 1};
+    const std::size_t end = s.text.find('\n', at);
+    at = end == std::string::npos ? s.text.size() : end + 1;
+  }
+  return {s.file};
+}
+
+quantities::SamplePlan located_plan(const scenario::Scenario& s) {
+  try {
+    return quantities::make_plan(s.quantities, s.correlations, s.readings, s.run.seed);
+  } catch (const InputError& error) {
+    auto problems = error.problems();
+    for (Problem& p : problems)
+      if (p.where.file.empty())
+        p.where = p.what.starts_with("correlation") ? find_line(s, "[[correlations]]") : Location{s.file};
+    throw InputError(problems);
+  }
+}
+
+} // namespace
+
 Experiment::Experiment(const scenario::Scenario& s) : scenario_(s), model_(models::find(s.model)) {
   if (!model_) throw InputError(fmt::format("model: unknown model '{}'", s.model));
-  plan_ = quantities::make_plan(s.quantities, s.correlations, s.readings, s.run.seed);
+  plan_ = located_plan(s);
   const ModelCard& card = *model_->card;
   indications_ = card.indications.size();
   measurands_ = card.measurands.size();
@@ -45,10 +72,9 @@ Experiment::Experiment(const scenario::Scenario& s) : scenario_(s), model_(model
     for (std::size_t c = 0; c < card.conditions.size(); ++c) conditions_.push_back(s.readings[r].conditions.at(c));
     const std::string problem = model_->check(point(r).data());
     if (!problem.empty())
-      throw InputError({{{s.file},
-                         "quantities: " + problem + (at.empty() ? "" : " at reading [" + at + "]"),
-                         "physically impossible",
-                         ""}});
+      throw InputError(
+          {{find_line(s, "[quantities." + problem.substr(0, problem.find(' '))),
+            "quantities: " + problem + (at.empty() ? "" : " at reading [" + at + "]"), "physically impossible", ""}});
   }
 
   // Readings that agree in everything the solve reads share one solve.

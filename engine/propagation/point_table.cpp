@@ -65,7 +65,7 @@ void read_columns(std::vector<Slot>& slots, const Csv& table, std::vector<Proble
       if (s.name == name) slot = &s;
     if (!slot) {
       const std::string meant = nearest(name, names);
-      problems.push_back({table.at(table.header[c]), "unknown column '" + name + "'", "",
+      problems.push_back({table.at(table.header[c]), "unknown column '" + name.substr(0, 60) + "'", "",
                           meant.empty() ? "" : "did you mean '" + meant + "'?"});
       continue;
     }
@@ -118,6 +118,18 @@ PointTable evaluate_points(const models::Model& model, const Csv& table, const s
   PointTable result;
   std::vector<bool> bad_row(rows, false);
   read_columns(slots, table, problems, result.impossible, bad_row);
+  const auto given = [&](std::string_view name) -> const Slot* {
+    for (const Slot& s : slots)
+      if (s.name == name && s.given_column >= 0) return &s;
+    return nullptr;
+  };
+  bool indicated = false;
+  for (const auto& i : card.indications) indicated |= given(i.name) != nullptr;
+  for (const auto& m : card.measurands)
+    if (const Slot* s = given(m.name); s && indicated)
+      problems.push_back({table.at(table.header[static_cast<std::size_t>(s->given_column)]),
+                          "column '" + s->name + "' is what the indications are evaluated for", "it is an output here",
+                          "take one of them out?"});
   std::size_t chosen = card.evaluations.size();
   for (std::size_t i = 0; i < card.evaluations.size(); ++i)
     if (evaluation.empty() ? i == 0 : card.evaluations[i].name == evaluation) chosen = i;
@@ -142,8 +154,6 @@ PointTable evaluate_points(const models::Model& model, const Csv& table, const s
     if (named) active.push_back({e, at - q});
     at += size;
   }
-  bool indicated = false;
-  for (std::size_t i = 0; i < k; ++i) indicated |= slots[slots.size() - k + i].given_column >= 0;
 
   std::vector<double> measured(m * n), simulated(k * n);
   std::vector<double*> measurand_rows, simulated_rows;

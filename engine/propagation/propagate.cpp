@@ -25,6 +25,15 @@ quantities::PointSet point_set(scenario::Design design) {
 
 namespace {
 
+int thread_count(int asked) { return asked > 0 ? asked : tbb::this_task_arena::max_concurrency(); }
+
+/// Runs `body` with as many workers as asked for, more than there are processors too.
+template <class Body> void on_threads(int threads, const Body& body) {
+  const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+  tbb::task_arena arena(threads);
+  arena.execute(body);
+}
+
 quantities::Sampler make_sampler(const Experiment& e) {
   const auto& run = e.scenario().run;
   return quantities::Sampler(e.plan(), run.seed, point_set(run.design), run.samples);
@@ -58,12 +67,10 @@ ResultBlock run_block(const Experiment& e, const quantities::Sampler& sampler, s
 std::uint64_t propagate(const Experiment& e, Sink& sink, const RunSettings& settings) {
   const quantities::Sampler sampler = make_sampler(e);
   const std::uint64_t total = e.scenario().run.samples;
-  const int threads = settings.threads > 0 ? settings.threads : tbb::this_task_arena::max_concurrency();
-  const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
-  tbb::task_arena arena(threads);
+  const int threads = thread_count(settings.threads);
   tbb::enumerable_thread_specific<ThreadBuffers> buffers;
   std::uint64_t next = settings.first, done = settings.first;
-  arena.execute([&] {
+  on_threads(threads, [&] {
     tbb::parallel_pipeline(
         static_cast<std::size_t>(4 * threads),
         tbb::make_filter<
@@ -97,8 +104,7 @@ std::vector<double> variates_of(const Experiment& e, std::uint64_t sample) {
 }
 
 void parallel_for(std::size_t n, int threads, const std::function<void(std::size_t)>& body) {
-  tbb::task_arena arena(threads > 0 ? threads : tbb::this_task_arena::max_concurrency());
-  arena.execute([&] { tbb::parallel_for(std::size_t{0}, n, body); });
+  on_threads(thread_count(threads), [&] { tbb::parallel_for(std::size_t{0}, n, body); });
 }
 
 } // namespace gumshoe::propagation

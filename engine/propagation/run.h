@@ -11,7 +11,7 @@ enum class Status : std::uint8_t {
   ok = 0,
   never_covered = 1, ///< the beam can never be covered that much
   not_converged = 2,
-  out_of_domain = 3, ///< a drawn value lies outside the model's limits
+  out_of_domain = 3, ///< a drawn value that the solve reads is impossible: a fillet larger than the rod
   no_solution = 4,   ///< the geometry or the data admit no answer
 };
 

@@ -68,11 +68,13 @@ double pearson_of(double rho, const std::vector<double>& a, const std::vector<do
   return sum;
 }
 
+bool finite_variance(const Distribution& d) { return std::isfinite(d.variance()) && d.variance() > 0; }
+
 double from_pearson(double r, const Distribution& a, const Distribution& b, const std::string& pair) {
   if (a.family == Family::normal && b.family == Family::normal) return r;
   if (a.family == Family::rectangular && b.family == Family::rectangular) return 2 * std::sin(std::numbers::pi * r / 6);
   for (const Distribution* d : {&a, &b})
-    if (!std::isfinite(d->variance()) || !(d->variance() > 0))
+    if (!finite_variance(*d))
       throw InputError(fmt::format("correlation of {}: no Pearson coefficient exists", pair),
                        "one of them has no finite, positive variance", "state a copula or spearman coefficient?");
   const auto ca = hermite_coefficients(a), cb = hermite_coefficients(b);
@@ -90,6 +92,14 @@ double from_pearson(double r, const Distribution& a, const Distribution& b, cons
 }
 
 } // namespace
+
+double pearson_coefficient(double copula, const Distribution& a, const Distribution& b) {
+  if (a.family == Family::normal && b.family == Family::normal) return copula;
+  if (a.family == Family::rectangular && b.family == Family::rectangular)
+    return 6 / std::numbers::pi * std::asin(copula / 2);
+  if (!finite_variance(a) || !finite_variance(b)) return std::numeric_limits<double>::quiet_NaN();
+  return pearson_of(copula, hermite_coefficients(a), hermite_coefficients(b));
+}
 
 double copula_coefficient(Correlation::Kind kind, double r, const Distribution& a, const Distribution& b,
                           const std::string& pair) {

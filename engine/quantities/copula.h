@@ -17,6 +17,10 @@ namespace gumshoe::quantities {
 double copula_coefficient(Correlation::Kind kind, double r, const Distribution& a, const Distribution& b,
                           const std::string& pair);
 
+/// The reverse: Pearson's coefficient of two variates tied by a Gaussian copula, as the law of propagation of
+/// uncertainty takes it (JCGM 100, 5.2.2). NaN where a variance is infinite.
+double pearson_coefficient(double copula, const Distribution& a, const Distribution& b);
+
 /// Lower Cholesky factor, row-major n x n. Throws InputError naming the smallest eigenvalue if the
 /// matrix is not positive definite; `group` names it in the message.
 std::vector<double> cholesky_factor(const std::vector<double>& matrix, std::size_t n, const std::string& group);

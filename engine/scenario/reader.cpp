@@ -33,7 +33,8 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
   const std::string near = nearest(word, candidates);
   if (!near.empty()) return fmt::format("did you mean '{}'?", near);
   if (candidates.empty() || candidates.size() > 12) return {};
-  return fmt::format("one of {}?", fmt::join(candidates, ", "));
+  const std::string all = fmt::format("one of {}?", fmt::join(candidates, ", "));
+  return all.size() <= 500 ? all : std::string{}; // a list that nobody would read
 }
 
 std::optional<double> read_measure(const Node& node, const std::string& path, const Dimension& dimension,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <limits>
 #include <stdexcept>
 #include <tuple>
@@ -323,7 +324,7 @@ void ResultFile::write(const propagation::ResultBlock& block) {
     f.transfer(true, f.status, H5T_NATIVE_UINT8, 1, 0, block.first_sample, block.samples,
                const_cast<std::uint8_t*>(block.status.data()));
     f.done += block.samples;
-    if (std::chrono::steady_clock::now() - f.marked_at > std::chrono::seconds(1)) f.mark();
+    if (std::chrono::steady_clock::now() - f.marked_at > std::chrono::milliseconds(250)) f.mark();
   });
 }
 
@@ -376,6 +377,8 @@ void ResultFile::finish(const analysis::Results& results) {
 Stored read_identity(const std::string& path) {
   const Lock lock(hdf5::library());
   try {
+    if (std::filesystem::is_directory(path)) throw OutputError("a directory");
+    if (!std::filesystem::exists(path)) throw OutputError("no such file");
     if (!is_hdf5(path)) throw OutputError("no HDF5 file");
     return read_stored(open_file(path, H5F_ACC_RDONLY));
   } catch (const OutputError& error) {

@@ -49,7 +49,7 @@ MISTAKES = {
     "negative radius": (of_radius('value = "-5 mm"'), 5, ["rod_radius", "-5 mm", "above 0"]),
     "radius of zero": (of_radius('value = "0 mm"'), 5, ["rod_radius", "above 0"]),
     "radius that can become negative": (of_radius('value = "5 mm"\ndistribution = "rectangular"\nhalf_width = "6 mm"'), 5, ["rod_radius"]),
-    "fillet larger than the rod": (SCENARIO + '[quantities.fillet_radius]\nvalue = "6 mm"\n', 15, ["fillet_radius", "rod_radius"]),
+    "fillet larger than the rod": (SCENARIO + '[quantities.fillet_radius]\nvalue = "6 mm"\n', 14, ["fillet_radius", "rod_radius"]),
     "fraction of 0": (SCENARIO + "[quantities.trigger_fraction]\nvalue = 0\n", 15, ["trigger_fraction", "above 0"]),
     "fraction of 1": (SCENARIO + "[quantities.trigger_fraction]\nvalue = 1\n", 15, ["trigger_fraction", "below 1"]),
     "pitch of 90 deg": (of_pitch('[quantities.beam_pitch]\nvalue = "90 deg"'), 8, ["beam_pitch", "90"]),

@@ -149,7 +149,7 @@ class Run(unittest.TestCase):
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         until = time.monotonic() + 20
         while time.monotonic() < until and process.poll() is None:
-            time.sleep(0.1)
+            time.sleep(0.02)
             try:
                 with h5py.File(path) as file:
                     if file["samples_done"][0] > 0:

@@ -24,7 +24,7 @@ struct ThermalGrowth {
                                    "Thermal growth of spindle and Z axis",
                                    "motion",
                                    10,
-                                   "E_ZT",
+                                   "",
                                    "The spindle nose moves towards -Z with time: rate times time, plus a first-order "
                                    "rise amplitude (1 - exp(-time / time_constant)).",
                                    "order of the rods, rod_expansion, slow changes of the beam",

@@ -13,7 +13,7 @@ struct ZReversal {
                                    "Reversal error of Z",
                                    "motion",
                                    20,
-                                   "E_ZZ",
+                                   "",
                                    "The axis lags half the backlash behind its command on either approach.",
                                    "any constant while all approaches come from one side",
                                    "engineering knowledge; Fang 2022, section 2.5 for the kinematic chain; ISO 230-2",
