@@ -6,20 +6,15 @@
 #include <filesystem>
 #include <limits>
 #include <stdexcept>
-#include <tuple>
 
 #include "base/error.h"
-#include "base/version.h"
+#include "store/identity.h"
 #include "store/place.h"
 #include "store/results_writer.h"
 #include "store/table.h"
 
 namespace gumshoe::store {
 namespace {
-
-constexpr int format_version = 1;
-
-using Lock = std::lock_guard<std::recursive_mutex>;
 
 /// Runs `action` and puts the path into whatever OutputError it throws.
 template <class Action> auto naming(const std::string& path, Action action) {
@@ -31,71 +26,6 @@ template <class Action> auto naming(const std::string& path, Action action) {
     throw OutputError("'" + path + "': " + p.what, p.why, p.remedy);
   }
 }
-
-auto fields(const Identity& i) {
-  return std::tie(i.scenario_hash, i.scenario_text, i.model, i.method, i.evaluation, i.design, i.version,
-                  i.instruction_set, i.seed, i.samples, i.store_samples);
-}
-
-void write_identity(hid_t file, const Identity& i) {
-  const std::pair<const char*, std::string> texts[] = {{"program", "gumshoe"},
-                                                       {"version", i.version},
-                                                       {"git_hash", git_hash},
-                                                       {"instruction_set", i.instruction_set},
-                                                       {"model", i.model},
-                                                       {"method", i.method},
-                                                       {"evaluation", i.evaluation},
-                                                       {"design", i.design},
-                                                       {"scenario_file", i.scenario_file},
-                                                       {"scenario_text", i.scenario_text},
-                                                       {"scenario_hash", i.scenario_hash}};
-  for (const auto& [name, text] : texts) hdf5::write_attribute(file, name, text);
-  hdf5::write_attribute(file, "format_version", format_version);
-  hdf5::write_attribute(file, "seed", i.seed);
-  hdf5::write_attribute(file, "samples", i.samples);
-  hdf5::write_attribute(file, "store_samples", i.store_samples ? 1 : 0);
-  hdf5::write_attribute(file, "complete", 0);
-}
-
-Stored read_stored(hid_t file) {
-  Stored s;
-  Identity& i = s.identity;
-  if (hdf5::read_text(file, "program") != "gumshoe") throw OutputError("another program made it");
-  if (hdf5::read_integer(file, "format_version") != format_version) throw OutputError("another format version");
-  const std::pair<const char*, std::string*> texts[] = {{"version", &i.version},
-                                                        {"instruction_set", &i.instruction_set},
-                                                        {"model", &i.model},
-                                                        {"method", &i.method},
-                                                        {"evaluation", &i.evaluation},
-                                                        {"design", &i.design},
-                                                        {"scenario_file", &i.scenario_file},
-                                                        {"scenario_text", &i.scenario_text},
-                                                        {"scenario_hash", &i.scenario_hash}};
-  for (const auto& [name, text] : texts) *text = hdf5::read_text(file, name);
-  i.seed = hdf5::read_integer(file, "seed");
-  i.samples = hdf5::read_integer(file, "samples");
-  i.store_samples = hdf5::read_integer(file, "store_samples") != 0;
-  s.complete = hdf5::read_integer(file, "complete") != 0;
-  const hdf5::Handle marker =
-      hdf5::own(H5Dopen2(file, "samples_done", H5P_DEFAULT), H5Dclose, "read the progress marker");
-  const hdf5::Handle space = hdf5::own(H5Dget_space(marker), H5Sclose, "read the progress marker");
-  if (H5Sget_simple_extent_npoints(space) != 1) throw OutputError("cannot read the progress marker");
-  hdf5::require(H5Dread(marker, H5T_NATIVE_UINT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, &s.samples_done),
-                "read the progress marker");
-  if (s.samples_done > i.samples) throw OutputError("the progress marker is damaged");
-  return s;
-}
-
-hdf5::Handle open_file(const std::string& path, unsigned flags) {
-  const hdf5::Handle access = hdf5::own(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "open");
-  H5Pset_sieve_buf_size(access, 0);               // blocks are large: no second copy
-  H5Pset_fclose_degree(access, H5F_CLOSE_STRONG); // after an error nothing stays open
-  if (flags & H5F_ACC_TRUNC)
-    return hdf5::own(H5Fcreate(path.c_str(), flags, H5P_DEFAULT, access), H5Fclose, "create the file");
-  return hdf5::own(H5Fopen(path.c_str(), flags, access), H5Fclose, "open the file");
-}
-
-bool is_hdf5(const std::string& path) { return H5Fis_hdf5(path.c_str()) > 0; }
 
 bool empty_or_absent(const std::string& path) {
   std::FILE* file = std::fopen(path.c_str(), "rb");
@@ -202,7 +132,7 @@ void ResultFile::Impl::create(const std::vector<propagation::Output>& outputs, c
 bool ResultFile::Impl::resume(std::size_t readings) {
   hdf5::Handle old = open_file(path, H5F_ACC_RDWR);
   const Stored stored = read_stored(old);
-  if (stored.complete || !identity.store_samples || fields(stored.identity) != fields(identity)) return false;
+  if (stored.complete || !identity.store_samples || !same_numbers(stored.identity, identity)) return false;
   try {
     const hdf5::Handle group = hdf5::open_group(old, "outputs");
     for (std::size_t d = 0; d <= measurands.size(); ++d) {
@@ -372,19 +302,6 @@ void ResultFile::finish(const analysis::Results& results) {
     hdf5::require(H5Fflush(f.file, H5F_SCOPE_GLOBAL), "complete the file");
     f.finished = true;
   });
-}
-
-Stored read_identity(const std::string& path) {
-  const Lock lock(hdf5::library());
-  try {
-    if (std::filesystem::is_directory(path)) throw OutputError("a directory");
-    if (!std::filesystem::exists(path)) throw OutputError("no such file");
-    if (!is_hdf5(path)) throw OutputError("no HDF5 file");
-    return read_stored(open_file(path, H5F_ACC_RDONLY));
-  } catch (const OutputError& error) {
-    const Problem& p = error.problems().front();
-    throw InputError("'" + path + "' is no result of ours", p.what + (p.why.empty() ? "" : ": " + p.why));
-  }
 }
 
 } // namespace gumshoe::store

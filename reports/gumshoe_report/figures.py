@@ -100,6 +100,8 @@ def distribution(output, budget, p, name):
                  linewidth=1.1, linestyle=(0, (4, 2)), label="GUM framework: normal, u_c")
         ends = budget.estimate + np.array([-1, 1]) * budget.expanded_uncertainty
         rows.append(("GUM  y ± U", to_axis(ends), INK, (0, (4, 2))))
+        peak = 1 / (spread * math.sqrt(2 * math.pi))
+        top.set_ylim(0, 1.18 * max(peak, top.get_ylim()[1] / 1.05))  # room for the curve and the legend
         top.legend(loc="upper right", frameon=False, fontsize=8)
     if math.isfinite(output.estimate):
         top.axvline(float(to_axis(output.estimate)), color=BLUE, linewidth=0.8, ymax=0.94)

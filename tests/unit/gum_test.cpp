@@ -119,6 +119,32 @@ TEST_CASE("correlated inputs: one correlation row, and no Welch-Satterthwaite", 
   CHECK(summary.standard_uncertainty == Approx(std::sqrt(13.0) * um).epsilon(4 * std::sqrt(0.5 / 2e5)));
 }
 
+TEST_CASE("the law of propagation takes Pearson's coefficient, not the copula's", "[gum]") {
+  // Two equal rectangular lengths, r = 0.5, in a difference: u_c^2 = u^2 (1 + 1 - 2 * 0.5) = u^2. With the copula's
+  // coefficient, 2 sin(pi / 12) = 0.5176, u_c would be 1.8 % smaller.
+  const double u = 2 * um / std::sqrt(3.0);
+  const quantities::Distribution d{Family::rectangular, {-2 * um, 2 * um}, nullptr, nullptr};
+  auto s =
+      rod2({{"rod_length", {component(d.family, d.parameters)}}, {"spindle_z", {component(d.family, d.parameters)}}});
+  s.correlations.push_back({quantities::Correlation::Kind::pearson, {"rod_length", "spindle_z"}, {1, 0.5, 0.5, 1}});
+  const propagation::Experiment e(s);
+  CHECK(analysis::budget(e, 1, 0.95).combined_standard_uncertainty == Approx(u).epsilon(1e-9));
+  Memory memory(2);
+  propagation::propagate(e, memory, {});
+  CHECK(analysis::summarise(e.outputs()[1], memory.rows[1], 0.95).standard_uncertainty ==
+        Approx(u).epsilon(4 * std::sqrt(0.5 / 2e5)));
+}
+
+TEST_CASE("a kink by an exact quantity leaves the first-order budget, not the second", "[gum]") {
+  const auto s = rod2({{"rod_length", {component(Family::normal, {0, 1 * um})}}},
+                      {{"bottom_elevation", 90 * deg}, {"beam_pitch", 0}, {"beam_yaw", 0}});
+  const propagation::Experiment e(s);
+  const auto b = analysis::budget(e, 1, 0.95);
+  CHECK(b.applicable);
+  CHECK(b.combined_standard_uncertainty == Approx(1 * um).epsilon(1e-6));
+  CHECK(std::isnan(b.second_order_uncertainty));
+}
+
 TEST_CASE("an aligned square rod: the framework does not apply, and says by what", "[gum]") {
   const auto s = rod2({{"beam_pitch", {component(Family::normal, {0, 0.01 * deg})}},
                        {"rod_length", {component(Family::normal, {0, 1 * um})}}},

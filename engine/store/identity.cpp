@@ -1,0 +1,97 @@
+#include "store/identity.h"
+
+#include <filesystem>
+#include <tuple>
+
+#include "base/error.h"
+#include "base/version.h"
+
+namespace gumshoe::store {
+
+namespace {
+
+constexpr int format_version = 1;
+
+auto fields(const Identity& i) {
+  return std::tie(i.scenario_hash, i.scenario_text, i.model, i.method, i.evaluation, i.design, i.version,
+                  i.instruction_set, i.seed, i.samples, i.store_samples);
+}
+
+} // namespace
+
+bool same_numbers(const Identity& a, const Identity& b) { return fields(a) == fields(b); }
+
+void write_identity(hid_t file, const Identity& i) {
+  const std::pair<const char*, std::string> texts[] = {{"program", "gumshoe"},
+                                                       {"version", i.version},
+                                                       {"git_hash", git_hash},
+                                                       {"instruction_set", i.instruction_set},
+                                                       {"model", i.model},
+                                                       {"method", i.method},
+                                                       {"evaluation", i.evaluation},
+                                                       {"design", i.design},
+                                                       {"scenario_file", i.scenario_file},
+                                                       {"scenario_text", i.scenario_text},
+                                                       {"scenario_hash", i.scenario_hash}};
+  for (const auto& [name, text] : texts) hdf5::write_attribute(file, name, text);
+  hdf5::write_attribute(file, "format_version", format_version);
+  hdf5::write_attribute(file, "seed", i.seed);
+  hdf5::write_attribute(file, "samples", i.samples);
+  hdf5::write_attribute(file, "store_samples", i.store_samples ? 1 : 0);
+  hdf5::write_attribute(file, "complete", 0);
+}
+
+Stored read_stored(hid_t file) {
+  Stored s;
+  Identity& i = s.identity;
+  if (hdf5::read_text(file, "program") != "gumshoe") throw OutputError("another program made it");
+  if (hdf5::read_integer(file, "format_version") != format_version) throw OutputError("another format version");
+  const std::pair<const char*, std::string*> texts[] = {{"version", &i.version},
+                                                        {"instruction_set", &i.instruction_set},
+                                                        {"model", &i.model},
+                                                        {"method", &i.method},
+                                                        {"evaluation", &i.evaluation},
+                                                        {"design", &i.design},
+                                                        {"scenario_file", &i.scenario_file},
+                                                        {"scenario_text", &i.scenario_text},
+                                                        {"scenario_hash", &i.scenario_hash}};
+  for (const auto& [name, text] : texts) *text = hdf5::read_text(file, name);
+  i.seed = hdf5::read_integer(file, "seed");
+  i.samples = hdf5::read_integer(file, "samples");
+  i.store_samples = hdf5::read_integer(file, "store_samples") != 0;
+  s.complete = hdf5::read_integer(file, "complete") != 0;
+  const hdf5::Handle marker =
+      hdf5::own(H5Dopen2(file, "samples_done", H5P_DEFAULT), H5Dclose, "read the progress marker");
+  const hdf5::Handle space = hdf5::own(H5Dget_space(marker), H5Sclose, "read the progress marker");
+  if (H5Sget_simple_extent_npoints(space) != 1) throw OutputError("cannot read the progress marker");
+  hdf5::require(H5Dread(marker, H5T_NATIVE_UINT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, &s.samples_done),
+                "read the progress marker");
+  if (s.samples_done > i.samples) throw OutputError("the progress marker is damaged");
+  return s;
+}
+
+hdf5::Handle open_file(const std::string& path, unsigned flags) {
+  const hdf5::Handle access = hdf5::own(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "open");
+  H5Pset_sieve_buf_size(access, 0);               // blocks are large: no second copy
+  H5Pset_fclose_degree(access, H5F_CLOSE_STRONG); // after an error nothing stays open
+  if (flags & H5F_ACC_TRUNC)
+    return hdf5::own(H5Fcreate(path.c_str(), flags, H5P_DEFAULT, access), H5Fclose, "create the file");
+  return hdf5::own(H5Fopen(path.c_str(), flags, access), H5Fclose, "open the file");
+}
+
+bool is_hdf5(const std::string& path) { return H5Fis_hdf5(path.c_str()) > 0; }
+
+Stored read_identity(const std::string& path) {
+  const Lock lock(hdf5::library());
+  try {
+    if (std::filesystem::is_directory(path)) throw OutputError("a directory");
+    if (!std::filesystem::exists(path)) throw OutputError("no such file");
+    if (!is_hdf5(path)) throw OutputError("no HDF5 file");
+    return read_stored(open_file(path, H5F_ACC_RDONLY));
+  } catch (const OutputError& error) {
+    const Problem& p = error.problems().front();
+    throw InputError("'" + path + "' is no result of ours", p.what + (p.why.empty() ? "" : ": " + p.why));
+  }
+}
+
+} // namespace gumshoe::store
