@@ -14,6 +14,7 @@
 #include "base/instruction_set.h"
 #include "base/units.h"
 #include "base/version.h"
+#include "propagation/propagate.h"
 
 namespace gumshoe::analysis {
 
@@ -147,24 +148,29 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, int th
   describe(r, e);
   count_failures(r, samples.status());
   const bool virtual_experiment = s.method == scenario::Method::virtual_experiment;
-  std::vector<std::vector<double>> kept(e.outputs().size());
-  for (std::size_t o = 0; o < e.outputs().size(); ++o) {
+  const std::size_t outputs = e.outputs().size();
+  std::vector<std::vector<double>> kept(outputs);
+  r.summaries.resize(outputs);
+  r.budgets.resize(outputs);
+  r.validations.resize(outputs);
+  r.statements.resize(outputs);
+  propagation::parallel_for(outputs, threads, [&](std::size_t o) {
     auto values = samples.values(o);
     const auto& output = e.outputs()[o];
-    r.summaries.push_back(summarise(output, values, s.analysis.coverage_probability));
-    Summary& summary = r.summaries.back();
-    r.budgets.push_back(budget(e, o, s.analysis.coverage_probability));
+    const double p = s.analysis.coverage_probability;
+    Summary& summary = r.summaries[o] = summarise(output, values, p);
+    const Budget& b = r.budgets[o] = budget(e, o, p);
     if (s.run.design != scenario::Design::monte_carlo) drop_standard_errors(summary);
-    if (const std::string reason = infinite_variance(e, r.budgets.back()); !reason.empty()) {
+    if (const std::string reason = infinite_variance(e, b); !reason.empty()) {
       summary.standard_uncertainty = summary.standard_uncertainty_se = summary.estimate_se = std::nan("");
       summary.warning = reason + "; the interval's ends are quantiles and hold";
     }
-    r.validations.push_back(validate(r.budgets.back(), summary, s.analysis.validation_digits));
-    r.statements.push_back(statement(summary, r.budgets.back(), s.analysis.coverage_probability, virtual_experiment));
+    r.validations[o] = validate(b, summary, s.analysis.validation_digits);
+    r.statements[o] = statement(summary, b, p, virtual_experiment);
     const bool compared =
         std::ranges::any_of(s.analysis.comparisons, [&](const auto& c) { return c.measurand == output.measurand; });
     if (compared) kept[o] = std::move(values);
-  }
+  });
   if (s.analysis.sobol_samples > 0) {
     r.sensitivities = sobol_indices(e, s.analysis.sobol_samples, threads);
     add_monte_carlo_column(r);

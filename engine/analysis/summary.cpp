@@ -70,22 +70,22 @@ double rank_error(const std::vector<double>& x, double probability) {
   return 0.5 * (value(at + step) - value(at - step));
 }
 
-/// The shortest interval's ends have no such simple law: their spread over 16 parts of the run, scaled
-/// by the cube-root rate at which they converge.
+/// The shortest interval's ends have no such simple law: their spread over 16 parts of the run, scaled by
+/// the cube-root rate at which they converge. Parts need not be longer than the law needs to show.
 Ends shortest_errors(std::span<const double> in_order, double p) {
-  constexpr std::size_t parts = 16;
-  const std::size_t n = in_order.size() / parts;
+  constexpr std::size_t parts = 16, longest = 20'000;
+  const std::size_t n = std::min(longest, in_order.size() / parts);
   if (n < 200) return {nan, nan};
   std::vector<double> low, high;
   for (std::size_t k = 0; k < parts; ++k) {
-    std::vector<double> x(in_order.begin() + static_cast<long>(k * n),
-                          in_order.begin() + static_cast<long>((k + 1) * n));
+    const auto part = in_order.subspan(k * n, n);
+    std::vector<double> x(part.begin(), part.end());
     std::sort(x.begin(), x.end());
     const Ends e = shortest_ends(x, p);
     low.push_back(e.low);
     high.push_back(e.high);
   }
-  const double scale = std::cbrt(1.0 / parts);
+  const double scale = std::cbrt(static_cast<double>(n) / static_cast<double>(in_order.size()));
   return {scale * std::sqrt(moments(low).variance), scale * std::sqrt(moments(high).variance)};
 }
 

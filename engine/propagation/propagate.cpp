@@ -72,7 +72,7 @@ std::uint64_t propagate(const Experiment& e, Sink& sink, const RunSettings& sett
   std::uint64_t next = settings.first, done = settings.first;
   on_threads(threads, [&] {
     tbb::parallel_pipeline(
-        static_cast<std::size_t>(4 * threads),
+        4 * static_cast<std::size_t>(threads),
         tbb::make_filter<
             void, std::uint64_t>(tbb::filter_mode::serial_in_order, [&](tbb::flow_control& control) -> std::uint64_t {
           if (next >= total || (settings.stop && *settings.stop)) {

@@ -14,7 +14,6 @@ namespace {
 using quantities::Component;
 using quantities::Distribution;
 using quantities::Entry;
-using quantities::Family;
 using quantities::InputQuantity;
 using quantities::Reading;
 

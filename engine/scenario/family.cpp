@@ -9,7 +9,6 @@
 namespace gumshoe::scenario {
 namespace {
 
-using quantities::Distribution;
 using quantities::Family;
 using quantities::FamilyCard;
 using quantities::ParameterCard;

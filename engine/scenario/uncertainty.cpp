@@ -11,7 +11,6 @@ namespace gumshoe::scenario {
 namespace {
 
 using quantities::Component;
-using quantities::Distribution;
 using quantities::Family;
 
 /// Type A: the mean of n observations is a t with n - 1 degrees of freedom and scale s/sqrt(n),
