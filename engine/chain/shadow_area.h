@@ -10,6 +10,10 @@ namespace gumshoe::chain {
 
 inline constexpr double pi = 3.14159265358979323846;
 
+/// pi/2 to the digits of T, so that angles measured from either end of the half-ellipse fit together.
+template <class T> T half_pi() { return T(0.5 * pi); }
+template <> inline long double half_pi<long double>() { return 1.57079632679489661923132169163975L; }
+
 /// A boundary point with what the path integral needs. On a wall only y and z hold.
 template <class T> struct BoundaryPoint {
   T y, z;   ///< at height k
@@ -38,7 +42,7 @@ template <class T> BoundaryPoint<T> boundary_point(const ShadowEdge<T>& e, const
     pz = e.shear * py;
     normal_y = num::sin(t);
     normal_z = -num::cos(t);
-    p.w = T(sign * 0.5 * pi);
+    p.w = sign * half_pi<T>();
     p.nu = t;
     p.dy = -(e.fillet * normal_z);
     p.dz = e.fillet * normal_y;
@@ -49,7 +53,7 @@ template <class T> BoundaryPoint<T> boundary_point(const ShadowEdge<T>& e, const
     pz = e.shear * py - e.depth * cos_w;
     normal_y = q.tz / q.n;
     normal_z = -(q.ty / q.n);
-    p.w = sign * (0.5 * pi - t);
+    p.w = sign * (half_pi<T>() - t);
     p.nu = num::atan2(q.tz, q.ty);
     p.dy = -sign * (q.growth * q.ty);
     p.dz = -sign * (q.growth * q.tz);

@@ -202,11 +202,19 @@ BoundarySolve solve_boundary(const ShadowEdge<double>& edge, double beam_radius,
     if (!newton) next = 0.5 * (lo + hi);
     const double step = std::fabs(next - k);
     k = next;
-    if ((newton && step < 1e-9 * beam_radius) || hi - lo < 1e-16 * beam_radius) {
-      // The step just made squared the error; where the chord is short it is still limited by rounding.
+    const bool bracketed = hi - lo <= 4e-16 * std::max(std::fabs(lo), std::fabs(hi));
+    if ((newton && step < 1e-9 * beam_radius) || bracketed) {
       result.k = k;
       result.crossings = boundary.crossings(k);
       if (result.crossings.empty() || result.crossings.size() % 2) break;
+      // The step just made squared the error; what is left is rounding, of products as large as depth rho and
+      // k (rho + fillet), over the chord that turns area into height. Flat bottoms seen edge-on need more digits.
+      const double products = edge.depth * edge.rho + std::fabs(k) * (edge.rho + edge.fillet);
+      if (2e-16 * products > 1e-14 * c.chord) {
+        const ShadowEdge<long double> fine{edge.rho, edge.depth, edge.shear, edge.fillet, edge.side};
+        result.k = static_cast<double>(refine_height<long double>(fine, beam_radius, fraction, result));
+        if (!(1e-19 * products < 1e-13 * c.chord)) break;
+      }
       return result;
     }
   }

@@ -17,6 +17,12 @@ inline double exp(double x) { return exp_lane(Lanes(x)).get(0); }
 inline double atan2(double y, double x) { return xsimd::atan2(Lanes(y), Lanes(x)).get(0); }
 inline double abs(double x) { return std::fabs(x); }
 
+// Extended precision serves to polish a solution where large products cancel; the C library's functions do.
+inline long double sqrt(long double x) { return std::sqrt(x); }
+inline long double sin(long double x) { return std::sin(x); }
+inline long double cos(long double x) { return std::cos(x); }
+inline long double atan2(long double y, long double x) { return std::atan2(y, x); }
+
 inline Lanes sqrt(const Lanes& x) { return xsimd::sqrt(x); }
 inline Lanes sin(const Lanes& x) { return sine_cosine_lane(x).sine; }
 inline Lanes cos(const Lanes& x) { return sine_cosine_lane(x).cosine; }
@@ -48,12 +54,14 @@ template <class R, int N> Dual<R, N> atan2(const Dual<R, N>& y, const Dual<R, N>
 
 /// The plain number inside, through every level of duals.
 inline double value(double x) { return x; }
+inline double value(long double x) { return static_cast<double>(x); }
 template <class R, int N> double value(const Dual<R, N>& x) { return value(x.v); }
 
 template <class R, int N> Dual<R, N> abs(const Dual<R, N>& x) { return value(x) < 0 ? -x : x; }
 
 /// How many times a Newton step must be repeated at the root to carry all derivatives along.
 template <class T> inline constexpr int derivative_levels = 0;
+template <> inline constexpr int derivative_levels<long double> = 2; // no derivatives, but digits to gain
 template <class R, int N> inline constexpr int derivative_levels<Dual<R, N>> = 1 + derivative_levels<R>;
 
 /// mask ? a : b, lane by lane.

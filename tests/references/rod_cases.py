@@ -15,6 +15,7 @@ def cases():
     yield from thesis()
     yield from corners()
     yield from mixtures()
+    yield from extremes()
 
 
 def thesis():
@@ -100,3 +101,18 @@ def mixtures():
             round(draw.uniform(-180, 180), 2), round(draw.uniform(-180, 180), 4),
             round(draw.choice([0.5, 5, 60]) * draw.uniform(-1, 1), 4), beam,
             round(draw.choice([0.5, draw.uniform(0.001, 0.999)]), 4), round(draw.uniform(50, 250), 3)))
+
+
+def extremes():
+    """Sizes and angles over many decades: near-flat and near-vertical bottoms, hair-thin beams, shares near 0 and 1."""
+    draw = random.Random(20261121)
+    for _ in range(50):
+        rod = float(f"{10 ** draw.uniform(-2, 1.3):.5g}")
+        fillet = rod * draw.choice([0, 1, 10 ** draw.uniform(-9, -1), 1 - 10 ** draw.uniform(-9, -1), draw.random()])
+        elevation = draw.choice([90, 90 + draw.choice([-1, 1]) * 10 ** draw.uniform(-9, 0), draw.uniform(1, 179)])
+        pitch = draw.choice([0, 10 ** draw.uniform(-9, 1), draw.uniform(-85, 85)])
+        fraction = draw.choice([0.5, 10 ** draw.uniform(-6, -1), 1 - 10 ** draw.uniform(-6, -1), draw.uniform(0.01, 0.99)])
+        yield tuple(str(x) for x in (
+            rod, f"{min(fillet, rod):.12g}", f"{elevation:.12g}", round(draw.uniform(-180, 180), 3), 0,
+            round(draw.uniform(-180, 180), 3), f"{pitch:.12g}", float(f"{10 ** draw.uniform(-2, 1):.5g}"),
+            f"{fraction:.9g}", 150))
