@@ -24,15 +24,15 @@ std::string statement(const Summary& s, const Budget& b, double p, bool virtual_
     return units::from_si(x, s.output.unit, s.output.si_unit, units::Kind::difference);
   };
   const std::string unit = s.output.unit == "1" ? "" : " " + s.output.unit;
-  const int d = decimals_for(
-      width(std::isfinite(s.standard_uncertainty) ? s.standard_uncertainty : 0.25 * (s.symmetric.high - s.symmetric.low)));
-  std::string text = virtual_experiment ? fmt::format("{}: the stated value errs by {}{} in the mean", s.output.name,
-                                                      fixed(width(s.estimate), d), unit)
-                                        : fmt::format("{} = {}{}", s.output.name, fixed(shown(s.estimate), d), unit);
+  const int d = decimals_for(width(
+      std::isfinite(s.standard_uncertainty) ? s.standard_uncertainty : 0.25 * (s.symmetric.high - s.symmetric.low)));
+  // An error is a difference of two heights: it converts by scale.
+  std::string text = fmt::format("{} = {}{}", s.output.name,
+                                 fixed(virtual_experiment ? width(s.estimate) : shown(s.estimate), d), unit);
   if (std::isfinite(s.standard_uncertainty))
-    text +=
-        fmt::format("{} u = {}{}", virtual_experiment ? " with a standard deviation" : " with a standard uncertainty",
-                    fixed(width(s.standard_uncertainty), d), unit);
+    text += fmt::format("{} u = {}{}",
+                        virtual_experiment ? " in the mean, with a standard deviation" : " with a standard uncertainty",
+                        fixed(width(s.standard_uncertainty), d), unit);
   else
     text += " without a standard uncertainty (" + s.warning + ")";
   text += fmt::format("; the shortest {:.4g} % coverage interval is [{}, {}]{}", 100 * p,

@@ -66,7 +66,8 @@ Experiment::Experiment(const scenario::Scenario& s) : scenario_(s), model_(model
   for (std::size_t r = 0; r < s.readings.size(); ++r) {
     const std::string at = reading_name(s.readings[r]);
     for (std::size_t m = 0; m < measurands_; ++m)
-      outputs_.push_back({std::string(card.measurands[m].name) + (at.empty() ? "" : "[" + at + "]"),
+      outputs_.push_back({(s.method == scenario::Method::virtual_experiment ? "error of " : "") +
+                              std::string(card.measurands[m].name) + (at.empty() ? "" : "[" + at + "]"),
                           std::string(card.measurands[m].name), r, std::string(card.measurands[m].unit),
                           std::string(card.measurands[m].si_unit)});
     for (std::size_t c = 0; c < card.conditions.size(); ++c) conditions_.push_back(s.readings[r].conditions.at(c));

@@ -36,7 +36,7 @@ public:
 
 /// One row of outputs: a measurand at a reading.
 struct Output {
-  std::string name;      ///< "laser_z" or "laser_z[rod 1, 2]": the labels of its reading
+  std::string name;      ///< "laser_z" or "laser_z[rod 1, setup 2]"; in a virtual experiment "error of laser_z"
   std::string measurand; ///< by the model's card
   std::size_t reading = 0;
   std::string unit; ///< shown to people

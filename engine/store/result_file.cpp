@@ -100,9 +100,9 @@ void ResultFile::Impl::create(const std::vector<propagation::Output>& outputs, c
         std::string long_name = measurands[d];
         std::replace(long_name.begin(), long_name.end(), '_', ' ');
         const bool holes = static_cast<std::size_t>(covered) < labels.size();
-        const hdf5::Handle dataset =
-            hdf5::create_dataset(group, measurands[d], H5T_IEEE_F64LE, {labels.size(), identity.samples},
-                                 output.si_unit, long_name + ", samples", holes);
+        const hdf5::Handle dataset = hdf5::create_dataset(
+            group, measurands[d], H5T_IEEE_F64LE, {labels.size(), identity.samples}, output.si_unit,
+            (identity.method == "virtual_experiment" ? "error of " : "") + long_name + ", samples", holes);
         const Display shown = display(output.unit, output.si_unit);
         hdf5::write_attribute(dataset, "display_units", shown.units);
         hdf5::write_attribute(dataset, "display_factor", shown.factor);

@@ -279,7 +279,7 @@ class Run(unittest.TestCase):
                 self.assertLess(abs(np.std(found) / u - 1), 0.1)
                 # five standard errors, the last digit of the height, and second order below 1e-6 mm
                 self.assertLess(abs(np.mean(found) - error), 5 * u / math.sqrt(samples) + 1.5e-6)
-                self.assertIn("errs by", self.text)
+                self.assertIn("error of laser_z = ", self.text)
                 self.assertNotIn("e-", self.text)
 
     def test_three_readouts_alone_have_no_standard_uncertainty(self):
