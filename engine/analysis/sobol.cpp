@@ -71,7 +71,7 @@ std::vector<Sensitivity> sobol_indices(const propagation::Experiment& e, std::ui
   std::vector<BaseSums> base(groups * outputs);
   std::vector<FrozenSums> frozen(groups * outputs * d);
   const auto& run = e.scenario().run;
-  const quantities::Sampler sampler(plan, run.seed, quantities::PointSet::monte_carlo, n);
+  const quantities::Sampler sampler(plan, quantities::PointSet::monte_carlo, n);
   // The origin of y: the first row's outputs.
   std::vector<double> origin(outputs);
   {

@@ -143,15 +143,7 @@ void Experiment::run(std::span<const double* const> variates, std::size_t n, Wor
   for (std::size_t i = 0; i < rows; ++i) w.measurands[i] = outputs + i * n;
   std::fill_n(status, n, std::uint8_t{0});
 
-  // Constant columns are read with stride 0 and need no buffer.
-  for (std::size_t c = 0; c < plan_.columns.size(); ++c) {
-    const auto& plan = plan_.columns[c];
-    for (std::size_t v = 0; v < plan.variates.size(); ++v) {
-      double* out = &w.columns[c * n];
-      const double* drawn = variates[plan.variates[v]];
-      for (std::size_t i = 0; i < n; ++i) out[i] = (v == 0 ? plan.value : out[i]) + drawn[i];
-    }
-  }
+  plan_.assemble(variates, n, w.columns.data(), n); // constant columns are read with stride 0
   wire(w, n, false);
 
   models::BlockCall call;

@@ -36,7 +36,7 @@ template <class Body> void on_threads(int threads, const Body& body) {
 
 quantities::Sampler make_sampler(const Experiment& e) {
   const auto& run = e.scenario().run;
-  return quantities::Sampler(e.plan(), run.seed, point_set(run.design), run.samples);
+  return quantities::Sampler(e.plan(), point_set(run.design), run.samples);
 }
 
 struct ThreadBuffers {

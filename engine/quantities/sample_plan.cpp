@@ -1,5 +1,6 @@
 #include "quantities/sample_plan.h"
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <tuple>
@@ -150,6 +151,18 @@ SamplePlan make_plan(std::span<const InputQuantity> quantities, std::span<const 
   }
   if (!problems.empty()) throw InputError(problems);
   return plan;
+}
+
+void SamplePlan::assemble(std::span<const double* const> variates, std::size_t n, double* out,
+                          std::size_t stride) const {
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    double* row = out + c * stride;
+    if (!columns[c].variates.empty()) std::fill(row, row + n, columns[c].value);
+    for (const std::size_t v : columns[c].variates) {
+      const double* deviation = variates[v];
+      for (std::size_t i = 0; i < n; ++i) row[i] += deviation[i];
+    }
+  }
 }
 
 } // namespace gumshoe::quantities

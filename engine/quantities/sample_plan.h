@@ -43,6 +43,9 @@ struct SamplePlan {
   std::vector<CopulaGroup> copulas;
   /// Expectation of a column: value plus the means of its variates' distributions (the estimate).
   double estimate(std::size_t column) const;
+  /// Columns from variates: out[column * stride + i] = value + sum of variates; `variates[v]` points to n values.
+  /// Columns without variates are left alone: they are one number, `value`.
+  void assemble(std::span<const double* const> variates, std::size_t n, double* out, std::size_t stride) const;
 };
 
 /// Throws InputError: a label value of a reading that no entry of a `by` quantity has; a scope that
@@ -60,14 +63,13 @@ enum class PointSet { monte_carlo, latin_hypercube, sobol };
 /// Thread-safe after construction; no allocation per call beyond the first on a thread.
 class Sampler {
 public:
-  /// `total` is the run's number of samples (Latin hypercube needs it; the other designs do not depend on it).
-  Sampler(const SamplePlan& plan, std::uint64_t seed, PointSet design, std::uint64_t total);
+  /// The seed is in the variates' keys. `total` is the run's number of samples (Latin hypercube needs it; the other
+  /// designs do not depend on it).
+  Sampler(const SamplePlan& plan, PointSet design, std::uint64_t total);
   ~Sampler();
   /// Variates of samples [first, first + n): out[variate * stride + i]. first is a multiple of 64,
   /// n a multiple of 8, stride >= n.
   void draw(std::uint64_t first, std::size_t n, Purpose purpose, double* out, std::size_t stride) const;
-  /// Columns from variates: out[column * stride + i] = value + sum of variates; `variates[v]` points to n values.
-  void assemble(std::span<const double* const> variates, std::size_t n, double* out, std::size_t stride) const;
 
 private:
   struct Impl;

@@ -41,13 +41,11 @@ struct Sampler::Impl {
   PointSet design;
   std::uint64_t total;
   std::vector<Source> sources;
-  std::vector<Column> columns;
   std::vector<CopulaGroup> copulas;
   std::vector<bool> tied;
 
   Impl(const SamplePlan& plan, PointSet point_set, std::uint64_t samples)
-      : design(point_set), total(samples), columns(plan.columns), copulas(plan.copulas),
-        tied(plan.variates.size(), false) {
+      : design(point_set), total(samples), copulas(plan.copulas), tied(plan.variates.size(), false) {
     std::set<std::uint32_t> taken;
     for (const Variate& variate : plan.variates) {
       const Distribution& d = variate.distribution;
@@ -115,8 +113,7 @@ struct Sampler::Impl {
   }
 };
 
-Sampler::Sampler(const SamplePlan& plan, std::uint64_t /*seed: in the variates' keys*/, PointSet design,
-                 std::uint64_t total)
+Sampler::Sampler(const SamplePlan& plan, PointSet design, std::uint64_t total)
     : impl_(std::make_unique<const Impl>(plan, design, total)) {}
 
 Sampler::~Sampler() = default;
@@ -133,18 +130,6 @@ void Sampler::draw(std::uint64_t first, std::size_t n, Purpose purpose, double* 
     }
     for (const CopulaGroup& group : impl_->copulas)
       impl_->draw_group(group, first + start, count, purpose, out + start, stride);
-  }
-}
-
-void Sampler::assemble(std::span<const double* const> variates, std::size_t n, double* out, std::size_t stride) const {
-  for (std::size_t c = 0; c < impl_->columns.size(); ++c) {
-    const Column& column = impl_->columns[c];
-    double* row = out + c * stride;
-    std::fill(row, row + n, column.value);
-    for (const std::size_t v : column.variates) {
-      const double* deviation = variates[v];
-      for (std::size_t i = 0; i < n; ++i) row[i] += deviation[i];
-    }
   }
 }
 

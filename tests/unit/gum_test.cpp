@@ -221,11 +221,19 @@ TEST_CASE("bits do not depend on threads; the first samples of a long run are th
   Memory head(2);
   propagation::propagate(f, head, settings);
   CHECK(std::equal(head.rows[1].begin(), head.rows[1].end(), one.rows[1].begin()));
-  // One sample alone, as replay does it.
+  // One sample alone, as replay does it: the same bits.
   const auto variates = propagation::variates_of(e, 9'999);
-  const auto point = e.point(0, variates.data());
-  std::vector<models::Gradient> x(point.begin(), point.end()), y(2);
-  CHECK(point[7] != 0.2836 * deg);
+  std::vector<std::vector<double>> drawn;
+  std::vector<const double*> pointers;
+  for (const double v : variates) drawn.emplace_back(8, v);
+  for (const auto& row : drawn) pointers.push_back(row.data());
+  propagation::Workspace workspace;
+  std::vector<double> outputs(2 * 8);
+  std::vector<std::uint8_t> status(8);
+  e.run(pointers, 8, workspace, outputs.data(), status.data());
+  CHECK(outputs[0] == one.rows[0][9'999]);
+  CHECK(outputs[8] == one.rows[1][9'999]);
+  CHECK(outputs[0] != one.rows[0][9'998]);
 }
 
 TEST_CASE("a virtual experiment of a perfect evaluation shows only what was drawn", "[propagation]") {

@@ -35,7 +35,7 @@ const Distribution rectangular = make(Family::rectangular, {0, 1});
 /// All variates of samples [0, n), drawn in blocks.
 std::vector<std::vector<double>> draw(const SamplePlan& plan, std::size_t n, PointSet design = PointSet::monte_carlo,
                                       std::size_t block = 4096, Purpose purpose = Purpose::sampling) {
-  const Sampler sampler(plan, 1, design, n);
+  const Sampler sampler(plan, design, n);
   std::vector<std::vector<double>> rows(plan.variates.size(), std::vector<double>(n));
   std::vector<double> buffer(plan.variates.size() * block);
   for (std::size_t first = 0; first < n; first += block) {
@@ -132,7 +132,7 @@ TEST_CASE("sample i is the same for every block, instruction set, and run length
       CHECK(std::equal(shorter[v].begin(), shorter[v].end(), whole[v].begin()));
   }
   // a block that starts anywhere on a multiple of 64, with a length that is no multiple of 64
-  const Sampler sampler(plan, 7, PointSet::monte_carlo, n);
+  const Sampler sampler(plan, PointSet::monte_carlo, n);
   const auto whole = draw(plan, n);
   std::vector<double> part(plan.variates.size() * 1000);
   sampler.draw(64 * 17, 1000, Purpose::sampling, part.data(), 1000);
@@ -271,11 +271,10 @@ TEST_CASE("labels: values by label, draws per label, shared columns", "[sampler]
   for (std::size_t i = 0; i < rows.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) CHECK(std::abs(pearson(rows[i], rows[j])) < 5 / std::sqrt(double(n)));
 
-  const Sampler sampler(plan, 1, PointSet::monte_carlo, n);
   std::vector<const double*> pointers;
   for (const auto& row : rows) pointers.push_back(row.data());
   std::vector<double> columns(plan.columns.size() * n);
-  sampler.assemble(pointers, n, columns.data(), n);
+  plan.assemble(pointers, n, columns.data(), n);
   const Column& pitch = plan.columns[g[0][1]];
   REQUIRE(pitch.variates.size() == 2);
   for (std::size_t i = 0; i < n; i += 97)

@@ -21,7 +21,7 @@ std::vector<double> sum_of(const std::vector<quantities::Distribution>& d, std::
   }
   const std::vector<quantities::Reading> readings(1);
   const auto plan = quantities::make_plan(q, {}, readings, seed);
-  const quantities::Sampler sampler(plan, seed, quantities::PointSet::monte_carlo, n);
+  const quantities::Sampler sampler(plan, quantities::PointSet::monte_carlo, n);
   std::vector<double> x(d.size() * n), y(n, 0.0);
   sampler.draw(0, n, quantities::Purpose::sampling, x.data(), n);
   for (std::size_t v = 0; v < d.size(); ++v)
