@@ -18,7 +18,7 @@
 
 namespace gumshoe::analysis {
 
-std::string statement(const Summary& s, const Budget& b, double p, bool virtual_experiment) {
+std::string statement(const Summary& s, const Budget& b, const Validation& v, double p, bool virtual_experiment) {
   const auto shown = [&](double x) { return units::from_si(x, s.output.unit, s.output.si_unit); };
   const auto width = [&](double x) {
     return units::from_si(x, s.output.unit, s.output.si_unit, units::Kind::difference);
@@ -37,12 +37,14 @@ std::string statement(const Summary& s, const Budget& b, double p, bool virtual_
     text += " without a standard uncertainty (" + s.warning + ")";
   text += fmt::format("; the shortest {:.4g} % coverage interval is [{}, {}]{}", 100 * p,
                       fixed(shown(s.shortest.low), d), fixed(shown(s.shortest.high), d), unit);
-  if (b.applicable && b.expanded_uncertainty > 0)
+  if (b.applicable && b.expanded_uncertainty > 0) {
     text += fmt::format(". GUM framework: U = {}{} with k = {:.2f}{}", fixed(width(b.expanded_uncertainty), d), unit,
                         b.coverage_factor,
                         b.effective_degrees_of_freedom > 0
                             ? fmt::format(" ({:.0f} effective degrees of freedom)", b.effective_degrees_of_freedom)
                             : "");
+    if (v.verdict != "validated") text += fmt::format(" ({} by Monte Carlo)", v.verdict);
+  }
   return text + ".";
 }
 
@@ -166,7 +168,7 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, int th
       summary.warning = reason + "; the interval's ends are quantiles and hold";
     }
     r.validations[o] = validate(b, summary, s.analysis.validation_digits);
-    r.statements[o] = statement(summary, b, p, virtual_experiment);
+    r.statements[o] = statement(summary, b, r.validations[o], p, virtual_experiment);
     const bool compared =
         std::ranges::any_of(s.analysis.comparisons, [&](const auto& c) { return c.measurand == output.measurand; });
     if (compared) kept[o] = std::move(values);

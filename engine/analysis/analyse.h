@@ -17,7 +17,8 @@ struct Samples {
 Results analyse(const propagation::Experiment& experiment, const Samples& samples, int threads);
 
 /// The result in GUM words (7.2), one sentence or two, rounded by 7.2.6, in the unit shown to people.
-std::string statement(const Summary& summary, const Budget& budget, double coverage_probability,
-                      bool virtual_experiment);
+/// A GUM interval that the Monte Carlo method does not validate says so.
+std::string statement(const Summary& summary, const Budget& budget, const Validation& validation,
+                      double coverage_probability, bool virtual_experiment);
 
 } // namespace gumshoe::analysis
