@@ -7,10 +7,17 @@
 #include <fmt/format.h>
 
 #include "analysis/comparison.h"
+#include "analysis/conformity.h"
+#include "analysis/given_data.h"
 #include "analysis/gum.h"
+#include "analysis/joint.h"
 #include "analysis/rounding.h"
+#include "analysis/screening.h"
+#include "analysis/shapley.h"
 #include "analysis/sobol.h"
 #include "analysis/summary.h"
+#include "analysis/tails.h"
+#include "analysis/target.h"
 #include "base/instruction_set.h"
 #include "base/units.h"
 #include "base/version.h"
@@ -166,6 +173,8 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, int th
     if (const std::string reason = infinite_variance(e, b); !reason.empty()) {
       summary.standard_uncertainty = summary.standard_uncertainty_se = summary.estimate_se = std::nan("");
       summary.warning = reason + "; the interval's ends are quantiles and hold";
+    } else {
+      check_tails(values, summary);
     }
     r.validations[o] = validate(b, summary, s.analysis.validation_digits);
     r.statements[o] = statement(summary, b, r.validations[o], p, virtual_experiment);
@@ -173,13 +182,23 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, int th
         std::ranges::any_of(s.analysis.comparisons, [&](const auto& c) { return c.measurand == output.measurand; });
     if (compared) kept[o] = std::move(values);
   });
-  if (s.analysis.sobol_samples > 0) {
-    r.sensitivities = sobol_indices(e, s.analysis.sobol_samples, threads);
+  if (s.analysis.sensitivity.sobol > 0) {
+    r.sensitivities = sobol_indices(e, s.analysis.sensitivity.sobol, threads);
     add_monte_carlo_column(r);
   }
   if (s.run.design != scenario::Design::monte_carlo)
     r.notes.push_back(fmt::format(
         "design {}: its points are not independent, so no Monte Carlo standard errors are stated", r.design));
+  const auto& wanted = s.analysis.sensitivity;
+  if (wanted.shapley > 0) r.shapley = shapley_effects(e, wanted.shapley, threads);
+  if (wanted.given_data > 0) r.given_data = given_data_indices(e, samples.values, wanted.given_data, threads);
+  if (wanted.morris > 0) r.morris = morris_screening(e, wanted.morris, threads);
+  if (wanted.dgsm > 0) r.dgsm = derivative_measures(e, wanted.dgsm, r.summaries, threads);
+  r.one_at_a_time = one_at_a_time(e);
+  r.joint = joint_regions(e, samples.values);
+  r.circular = circular_summaries(e, samples.values);
+  r.conformity = conformity(e, samples.values, r.summaries);
+  r.targets = target_uncertainties(e, r.budgets, threads);
   r.comparisons = compare(e, kept, r.summaries);
   r.printed = beside_printed(e, r.summaries);
   return r;

@@ -22,6 +22,7 @@ models::PointOutcome call(const propagation::Experiment& e, std::size_t reading,
   measurands.resize(e.model().card->measurands.size());
   c.measurands = measurands.data();
   c.evaluation = static_cast<int>(e.evaluation());
+  c.context = e.model().context;
   return evaluate(c);
 }
 

@@ -161,8 +161,8 @@ std::vector<Sensitivity> sobol_indices(const propagation::Experiment& e, std::ui
       std::ranges::sort(first);
       std::ranges::sort(total);
       constexpr std::size_t low = resamples * 25 / 1000, high = resamples - 1 - low;
-      SobolIndex index{plan.variates[v].name, at.first, first[low], first[high], at.total, total[low], total[high], ""};
-      index.verdict = verdict(index);
+      SobolIndex index{plan.variates[v].name, at.first, first[low], first[high], at.total, total[low], total[high], "", ""};
+      index.first_verdict = index.total_verdict = verdict(index);
       s.indices.push_back(index);
     }
     results.push_back(s);

@@ -272,6 +272,15 @@ bool convertible(const std::string& unit, const std::string& si_unit) {
   return from && to && same_kind(*from, *to);
 }
 
+std::string si_unit_of(const std::string& unit) {
+  const Unit* const known = find(unit);
+  if (!known) throw InputError(fmt::format("'{}' is not a unit", unit));
+  for (const Row& r : kinds)
+    if (const Unit* const si = find(std::string(r.si_unit)); si && si->base == known->base && si->radians == known->radians)
+      return std::string(r.si_unit);
+  return known->base;
+}
+
 std::string kind_name(const std::string& si_unit) {
   const Row* const r = row(si_unit);
   return r ? std::string(r->name) : "convertible to " + si_unit;

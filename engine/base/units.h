@@ -29,6 +29,10 @@ double from_si(double value, const std::string& unit, const std::string& si_unit
 /// True if `unit` is known and converts to `si_unit`.
 bool convertible(const std::string& unit, const std::string& si_unit);
 
+/// The unit in which values of `unit` stand inside: "mm" -> "m", "degC" -> "K", "mm/min" -> "m.s-1". Throws
+/// InputError if it is not a unit.
+std::string si_unit_of(const std::string& unit);
+
 /// What a quantity of this SI unit is called in a message: m -> "a length", rad -> "an angle".
 std::string kind_name(const std::string& si_unit);
 

@@ -52,6 +52,7 @@ void print_reading(const propagation::Experiment& e, std::size_t r, const std::v
   call.conditions = s.readings[r].conditions.data();
   call.indications = point.data() + first_indication;
   call.evaluation = static_cast<int>(e.evaluation());
+  call.context = e.model().context;
   std::cout << "  intermediate values\n";
   for (const auto& i : e.model().explain(call))
     std::cout << fmt::format("    {:<42} {:.17g} {}\n", i.name, i.value, i.unit);

@@ -1,7 +1,8 @@
 #pragma once
-/// What every model of the catalogue offers: a card and functions over a closed list of scalars
-/// (templates cannot be virtual). Physics lives in the model's own header, once.
+/// What every model offers: a card and functions over a closed list of scalars (templates cannot be
+/// virtual). Physics lives in the model's own header, once.
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -33,9 +34,10 @@ struct BlockCall {
   const std::size_t* solved_as = nullptr; ///< [reading]: earlier reading with the same columns for the solve, or itself
   std::uint8_t* status = nullptr;         ///< [sample], propagation::Status; 0 on entry
   int evaluation = 0;
+  const void* context = nullptr; ///< Model::context
 };
 
-/// One block of one instruction set.
+/// One block of one instruction set. `simulate` is null if the model only evaluates.
 struct Kernels {
   void (*simulate)(const BlockCall&);
   void (*evaluate)(const BlockCall&);
@@ -49,7 +51,9 @@ template <class T> struct PointCall {
   const double* conditions = nullptr;
   const T* indications = nullptr;
   T* measurands = nullptr;
+  T* simulated = nullptr; ///< simulate only: indications, for the true values among the quantities
   int evaluation = 0;
+  const void* context = nullptr; ///< Model::context
 };
 struct PointOutcome {
   std::uint8_t status = 0;
@@ -67,15 +71,24 @@ struct Intermediate {
 struct Model {
   const ModelCard* card;
   const Kernels* (*kernels)(); ///< of the best instruction set here
+  /// Exact derivatives; null for a model that has none (a plugin, a command): the engine takes differences.
   PointOutcome (*evaluate_gradient)(const PointCall<Gradient>&);
   PointOutcome (*evaluate_curvature)(const PointCall<Curvature>&);
+  /// Indications of one reading and their exact derivatives; null if the model only evaluates.
+  PointOutcome (*simulate_gradient)(const PointCall<Gradient>&);
   /// Every intermediate value of one evaluation, in the order of computation.
   std::vector<Intermediate> (*explain)(const PointCall<double>&);
-  /// What is impossible about a set of values, beyond each quantity's own limits; empty if nothing.
-  std::string (*check)(const double* quantities);
+  /// What is impossible about the estimates, beyond each quantity's own limits; empty if nothing. May throw an
+  /// InputError that names the place (a formula's character).
+  std::string (*check)(const PointCall<double>&);
   /// True if the solve reads this quantity; readings that agree in these share one solve.
   bool (*solve_reads)(std::size_t quantity);
+  /// What a model made at run time needs; handed back in every call. Null for models of the catalogue.
+  const void* context = nullptr;
 };
+
+/// A model made from a scenario (an expression, a plugin, a command): the pointer owns card and context.
+using MadeModel = std::shared_ptr<const Model>;
 
 std::span<const Model* const> catalogue();
 const Model* find(std::string_view name);

@@ -45,7 +45,7 @@ quantities::SamplePlan located_plan(const scenario::Scenario& s) {
 
 } // namespace
 
-Experiment::Experiment(const scenario::Scenario& s) : scenario_(s), model_(models::find(s.model)) {
+Experiment::Experiment(const scenario::Scenario& s) : scenario_(s), model_(s.made ? s.made.get() : models::find(s.model)), made_(s.made) {
   if (!model_) throw InputError(fmt::format("model: unknown model '{}'", s.model));
   plan_ = located_plan(s);
   const ModelCard& card = *model_->card;
@@ -71,7 +71,16 @@ Experiment::Experiment(const scenario::Scenario& s) : scenario_(s), model_(model
                           std::string(card.measurands[m].name), r, std::string(card.measurands[m].unit),
                           std::string(card.measurands[m].si_unit)});
     for (std::size_t c = 0; c < card.conditions.size(); ++c) conditions_.push_back(s.readings[r].conditions.at(c));
-    const std::string problem = model_->check(point(r).data());
+    const auto values = point(r);
+    models::PointCall<double> call;
+    call.quantities = values.data();
+    call.effects = values.data() + card.quantities.size();
+    call.active = active_;
+    call.conditions = s.readings[r].conditions.data();
+    call.indications = call.effects + effect_quantities_;
+    call.evaluation = static_cast<int>(evaluation_);
+    call.context = model_->context;
+    const std::string problem = model_->check(call);
     if (!problem.empty())
       throw InputError(
           {{find_line(s, "[quantities." + problem.substr(0, problem.find(' '))),
@@ -158,6 +167,7 @@ void Experiment::run(std::span<const double* const> variates, std::size_t n, Wor
   call.solved_as = solved_as_.data();
   call.status = status;
   call.evaluation = static_cast<int>(evaluation_);
+  call.context = model_->context;
 
   if (virtual_experiment) {
     w.truth.resize(rows * n);

@@ -44,6 +44,7 @@ private:
   void wire(Workspace& w, std::size_t n, bool estimates) const;
   const scenario::Scenario& scenario_;
   const models::Model* model_;
+  models::MadeModel made_; ///< keeps a model alive that was made from the scenario
   quantities::SamplePlan plan_;
   std::vector<Output> outputs_;
   std::vector<effects::Active> active_;

@@ -175,6 +175,7 @@ PointTable evaluate_points(const models::Model& model, const Csv& table, const s
   call.solved_as = &itself;
   call.status = status.data();
   call.evaluation = static_cast<int>(chosen);
+  call.context = model.context;
   if (n > 0) (indicated ? model.kernels()->evaluate : model.kernels()->simulate)(call);
 
   const auto add = [&](const VariableCard& v, const std::vector<double>& values, std::size_t row) {
@@ -188,8 +189,16 @@ PointTable evaluate_points(const models::Model& model, const Csv& table, const s
   for (std::size_t r = 0; r < rows; ++r) {
     const std::string problem = [&] {
       std::vector<double> point;
-      for (std::size_t i = 0; i < q; ++i) point.push_back(columns[i].data[columns[i].stride * r]);
-      return model.check(point.data());
+      for (const models::Column& c : columns) point.push_back(c.data[c.stride * r]);
+      models::PointCall<double> at;
+      at.quantities = point.data();
+      at.effects = at.quantities + q;
+      at.active = active;
+      at.conditions = at.quantities + conditions;
+      at.indications = at.quantities + slots.size() - k;
+      at.evaluation = static_cast<int>(chosen);
+      at.context = model.context;
+      return model.check(at);
     }();
     if (!problem.empty() && !bad_row[r])
       result.impossible.push_back(

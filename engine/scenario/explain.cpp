@@ -97,13 +97,31 @@ void explain(const quantities::Correlation& c, Lines out) {
   fmt::format_to(out, "\n");
 }
 
+std::string studies(const SensitivityOptions& o) {
+  std::string text;
+  const std::pair<const char*, std::uint64_t> counts[] = {
+      {"sobol", o.sobol}, {"shapley", o.shapley}, {"given_data", o.given_data}, {"morris", o.morris}, {"dgsm", o.dgsm}};
+  for (const auto& [study, n] : counts)
+    if (n > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", study, n);
+  if (o.second_order) text += ", second order";
+  return text.empty() ? "none" : text;
+}
+
 void explain_options(const Scenario& s, const ModelCard& model, Lines out) {
-  constexpr std::string_view designs[] = {"monte_carlo", "latin_hypercube", "sobol"};
   fmt::format_to(out, "run\n  samples {}, seed {}, design {}, max_failed_share {}, store_samples {}\n", s.run.samples,
-                 s.run.seed, designs[static_cast<int>(s.run.design)], s.run.max_failed_share, s.run.store_samples);
+                 s.run.seed, name(s.run.design), s.run.max_failed_share, s.run.store_samples);
+  if (s.run.adaptive.rule != StoppingRule::fixed)
+    fmt::format_to(out, "  adaptive: rule {}, digits {}, max_samples {}\n", name(s.run.adaptive.rule),
+                   s.run.adaptive.digits, s.run.adaptive.most);
   fmt::format_to(out, "analysis\n  coverage_probability {}, validation_digits {}, sensitivity {}\n",
-                 s.analysis.coverage_probability, s.analysis.validation_digits,
-                 s.analysis.sobol_samples ? fmt::format("sobol {}", s.analysis.sobol_samples) : "none");
+                 s.analysis.coverage_probability, s.analysis.validation_digits, studies(s.analysis.sensitivity));
+  for (const OneAtATime& study : s.analysis.one_at_a_time)
+    fmt::format_to(out, "  one at a time: {} ({} quantities)\n", study.title, study.steps.size());
+  for (const ConformityTest& c : s.analysis.conformity)
+    fmt::format_to(out, "  conformity of {}, SI limits [{}, {}]\n", c.measurand,
+                   c.lower ? fmt::format("{:.12g}", *c.lower) : "none", c.upper ? fmt::format("{:.12g}", *c.upper) : "none");
+  for (const Target& t : s.analysis.targets)
+    fmt::format_to(out, "  target: U of {} at most {:.12g} SI\n", t.measurand, t.expanded_uncertainty);
   for (const Comparison& c : s.analysis.comparisons)
     fmt::format_to(out, "  compare {} between values of {}{}\n", c.measurand, c.between,
                    c.within.empty() ? "" : ", within " + c.within);
@@ -137,18 +155,19 @@ std::string explain(const Scenario& s, const Catalogue& catalogue) {
   fmt::format_to(out, "{} (hash {})\n", s.file, s.hash);
   if (!s.title.empty()) fmt::format_to(out, "title: {}\n", s.title);
   fmt::format_to(out, "model {}, method {}, evaluation {}\n", s.model, name(s.method), s.evaluation);
-  const auto model =
+  const auto known =
       std::find_if(catalogue.models.begin(), catalogue.models.end(), [&](const auto* m) { return m->name == s.model; });
-  if (model == catalogue.models.end()) return text;
+  const ModelCard* const model = s.made ? s.made->card : known == catalogue.models.end() ? nullptr : *known;
+  if (!model) return text;
   fmt::format_to(out, "readings\n");
-  for (std::size_t i = 0; i < s.readings.size(); ++i) explain(s.readings[i], i + 1, **model, out);
+  for (std::size_t i = 0; i < s.readings.size(); ++i) explain(s.readings[i], i + 1, *model, out);
   fmt::format_to(out, "quantities (SI; a component is a deviation from the value)\n");
-  for (const InputQuantity& q : s.quantities) explain(q, **model, out);
+  for (const InputQuantity& q : s.quantities) explain(q, *model, out);
   if (!s.correlations.empty()) fmt::format_to(out, "correlations\n");
   for (const auto& c : s.correlations) explain(c, out);
-  if (const std::string left = null_effects(s, **model, catalogue); !left.empty())
+  if (const std::string left = null_effects(s, *model, catalogue); !left.empty())
     fmt::format_to(out, "effects at their null value\n  {}\n", left);
-  explain_options(s, **model, out);
+  explain_options(s, *model, out);
   if (!s.notes.empty()) fmt::format_to(out, "notes\n");
   for (const std::string& note : s.notes) fmt::format_to(out, "  {}\n", note);
   return text;

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "scenario/studies.h"
+
 namespace gumshoe::scenario {
 namespace {
 
@@ -18,14 +20,6 @@ void read_share(Table& table, const char* key, double& value, bool ends_allowed)
     value = *share;
   else
     table.problems().add(*table.find(key), fmt::format("{}: {} must lie between 0 and 1", table.path(key), *share));
-}
-
-const VariableCard* read_measurand(Table& table, const ModelCard& model) {
-  std::vector<std::string> names;
-  for (const VariableCard& m : model.measurands) names.emplace_back(m.name);
-  if (!table.require("measurand")) return nullptr;
-  const auto index = table.choice("measurand", names);
-  return index ? &model.measurands[*index] : nullptr;
 }
 
 void check_label(Table& table, const char* key, const std::string& name, Context& context) {
@@ -54,14 +48,7 @@ Printed read_printed(Table table, const ModelCard& model, Context& context) {
   if (measurand) out.measurand = measurand->name;
   const Node* value = table.require("value");
   if (value && measurand) out.value = table.measure("value", {std::string(measurand->si_unit)}).value_or(0);
-  if (auto labels = table.table("labels")) {
-    for (const Member& m : labels->members())
-      if (const auto text = read_text(m.value, labels->path(m.key), context.problems))
-        out.labels.emplace_back(m.key, *text);
-  }
-  const auto fits = [&](const quantities::Labels& reading) { return matches(reading, out.labels); };
-  if (context.readings_known && std::none_of(context.readings.begin(), context.readings.end(), fits))
-    table.add(fmt::format("{}: no reading has {}", table.path(), text_of(out.labels)));
+  out.labels = read_labels(table, context);
   out.source = table.rendered("source");
   table.refuse_unknown();
   return out;
@@ -76,19 +63,28 @@ RunOptions read_run(Table table) {
   if (const auto d = table.choice("design", {"monte_carlo", "latin_hypercube", "sobol"}))
     out.design = static_cast<Design>(*d);
   read_share(table, "max_failed_share", out.max_failed_share, true);
+  if (auto adaptive = table.table("adaptive")) out.adaptive = read_adaptive(*adaptive);
+  if (out.adaptive.rule != StoppingRule::fixed) {
+    if (table.has("samples"))
+      table.problems().add(*table.find("samples"), table.path("samples") + ": samples beside adaptive",
+                           "an adaptive run finds their number", "leave one out?");
+    if (out.design != Design::monte_carlo)
+      table.problems().add(*table.find("design"), table.path("design") + ": adaptive runs need independent samples",
+                           "", "design = \"monte_carlo\"?");
+  }
   out.store_samples = table.boolean("store_samples").value_or(out.store_samples);
   table.refuse_unknown();
   return out;
 }
 
-AnalysisOptions read_analysis(Table table, const ModelCard& model, Context& context) {
+AnalysisOptions read_analysis(Table table, const ModelCard& model,
+                              const std::vector<quantities::InputQuantity>& quantities, Context& context) {
+  const StudyScope scope{model, quantities};
   AnalysisOptions out;
   read_share(table, "coverage_probability", out.coverage_probability, false);
   if (const auto n = table.integer("validation_digits", 1, 6)) out.validation_digits = static_cast<int>(*n);
-  if (auto sensitivity = table.table("sensitivity")) {
-    if (const auto n = sensitivity->integer("sobol", 0, most)) out.sobol_samples = static_cast<std::uint64_t>(*n);
-    sensitivity->refuse_unknown();
-  }
+  if (auto sensitivity = table.table("sensitivity")) out.sensitivity = read_sensitivity(*sensitivity);
+  out.joint = read_joint(table, scope, context.problems);
   const auto rows = [&](const char* key, const auto& read) {
     const auto* items = table.array(key);
     for (std::size_t i = 0; items && i < items->size(); ++i)
@@ -96,6 +92,10 @@ AnalysisOptions read_analysis(Table table, const ModelCard& model, Context& cont
   };
   rows("comparisons", [&](const Table& row) { out.comparisons.push_back(read_comparison(row, model, context)); });
   rows("printed", [&](const Table& row) { out.printed.push_back(read_printed(row, model, context)); });
+  rows("one_at_a_time",
+       [&](const Table& row) { out.one_at_a_time.push_back(read_one_at_a_time(row, scope, context)); });
+  rows("conformity", [&](const Table& row) { out.conformity.push_back(read_conformity(row, scope, context)); });
+  rows("targets", [&](const Table& row) { out.targets.push_back(read_target(row, scope, context)); });
   table.refuse_unknown();
   return out;
 }

@@ -7,7 +7,8 @@
 namespace gumshoe::scenario {
 
 RunOptions read_run(Table table);
-AnalysisOptions read_analysis(Table table, const ModelCard& model, Context& context);
+AnalysisOptions read_analysis(Table table, const ModelCard& model,
+                              const std::vector<quantities::InputQuantity>& quantities, Context& context);
 /// Names must be among `quantities`, or "quantity.component".
 std::vector<quantities::Correlation> read_correlations(const std::vector<Node>& items, Problems& problems,
                                                        const std::vector<quantities::InputQuantity>& quantities);

@@ -1,11 +1,13 @@
 #include "scenario/scenario.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include <fmt/format.h>
 
 #include "base/hash.h"
 #include "base/text_file.h"
+#include "scenario/made_model.h"
 #include "scenario/noise.h"
 #include "scenario/options.h"
 #include "scenario/quantity.h"
@@ -45,7 +47,7 @@ public:
     if (const auto* items = top.array("correlations"))
       out_.correlations = read_correlations(*items, problems_, out_.quantities);
     if (auto run = top.table("run")) out_.run = read_run(*run);
-    if (auto analysis = top.table("analysis")) out_.analysis = read_analysis(*analysis, *model, context_);
+    if (auto analysis = top.table("analysis")) out_.analysis = read_analysis(*analysis, *model, out_.quantities, context_);
     top.refuse_unknown();
     problems_.raise();
     out_.hash = fmt::format("{:016x}", files_.hash(hash64(out_.text)));
@@ -59,10 +61,21 @@ private:
     if (!table) return nullptr;
     std::vector<std::string> names;
     for (const ModelCard* m : catalogue_.models) names.emplace_back(m->name);
+    names.insert(names.end(), std::begin(made_models), std::end(made_models));
     const auto index = table->require("name") ? table->choice("name", names) : std::nullopt;
     if (const auto method = table->choice("method", {"propagation", "virtual_experiment"}))
       out_.method = static_cast<Method>(*method);
-    const ModelCard* model = index ? catalogue_.models[*index] : nullptr;
+    const ModelCard* model = nullptr;
+    if (index && *index < catalogue_.models.size()) {
+      model = catalogue_.models[*index];
+    } else if (index) {
+      out_.made = make(names[*index], *table, top);
+      if (!out_.made) { // nothing below has a meaning without its model
+        table->refuse_unknown();
+        problems_.raise();
+      }
+      model = out_.made->card;
+    }
     std::vector<std::string> evaluations;
     if (model)
       for (const EvaluationCard& e : model->evaluations) evaluations.emplace_back(e.name);
@@ -74,6 +87,13 @@ private:
       out_.evaluation = evaluations[*e];
     table->refuse_unknown();
     return model;
+  }
+
+  models::MadeModel make(const std::string& name, Table& table, Table& top) {
+    const std::string folder = std::filesystem::path(out_.file).parent_path().string();
+    if (name == "expression") return make_expression(table, top, context_);
+    if (name == "plugin") return make_plugin(table, folder, context_);
+    return make_command(table, top, folder, context_);
   }
 
   void read_readings(Table& top, const ModelCard& model) {

@@ -1,10 +1,12 @@
 #pragma once
 /// A scenario: what is measured and what is known of each input quantity. A plain value, validated.
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/card.h"
+#include "models/model.h"
 #include "quantities/input_quantity.h"
 
 namespace gumshoe::scenario {
@@ -14,11 +16,26 @@ enum class Method {
   virtual_experiment, ///< draw the truth, simulate, evaluate: distribution of the error
 };
 enum class Design { monte_carlo, latin_hypercube, sobol };
+/// How many samples: as many as asked for, or until the results are known to a number of digits.
+enum class StoppingRule {
+  fixed,
+  jcgm_101, ///< JCGM 101 7.9, as printed
+  stein,    ///< two stages: Wuebbeler, Harris, Cox, Elster 2010
+};
 /// As written in a scenario.
 constexpr const char* name(Method m) { return m == Method::propagation ? "propagation" : "virtual_experiment"; }
+constexpr const char* name(StoppingRule r) {
+  return r == StoppingRule::fixed ? "fixed" : r == StoppingRule::jcgm_101 ? "jcgm_101" : "stein";
+}
 constexpr const char* name(Design d) {
   return d == Design::monte_carlo ? "monte_carlo" : d == Design::latin_hypercube ? "latin_hypercube" : "sobol";
 }
+
+struct Adaptive {
+  StoppingRule rule = StoppingRule::fixed;
+  int digits = 2;                   ///< n_dig, significant digits of u regarded as meaningful
+  std::uint64_t most = 100'000'000; ///< samples; the rule gives up there and says so
+};
 
 struct RunOptions {
   std::uint64_t samples = 1'000'000;
@@ -26,6 +43,7 @@ struct RunOptions {
   Design design = Design::monte_carlo;
   double max_failed_share = 0.01;
   bool store_samples = true;
+  Adaptive adaptive;
 };
 
 /// d = a - b between the readings of two label values, E_n = d / U(d) from joint samples.
@@ -43,10 +61,54 @@ struct Printed {
   std::string source;
 };
 
+struct SensitivityOptions {
+  std::uint64_t sobol = 0;      ///< base size N of the pick-freeze design; 0: none
+  bool second_order = false;    ///< second-order Sobol' indices too
+  std::uint64_t shapley = 0;    ///< rows of the Shapley design; 0: none
+  std::uint64_t given_data = 0; ///< stored samples to compute given-data indices from; 0: none
+  std::uint64_t morris = 0;     ///< trajectories; 0: no screening
+  std::uint64_t dgsm = 0;       ///< points of the derivative-based measures; 0: none
+};
+
+/// Every named quantity in turn is moved by its step, up and down, the others at their estimates.
+struct OneAtATime {
+  struct Step {
+    std::string quantity;
+    double step = 0; ///< SI
+  };
+  std::string title;
+  std::vector<Step> steps;
+};
+
+/// Does a measurand conform to its limits? JCGM 106.
+struct ConformityTest {
+  std::string measurand;
+  quantities::Labels labels;
+  std::optional<double> lower, upper; ///< tolerance limits, SI; at least one
+  double guard_band = 0;              ///< w, SI; the acceptance limits lie this far inside
+  double guard_factor = 0;            ///< r of w = r U, added to guard_band
+  /// What is known of the measurand before measuring, e.g. of the process that makes the parts: value + deviation.
+  std::optional<quantities::Distribution> process;
+  double process_value = 0;
+};
+
+/// Which standard uncertainties would give this expanded uncertainty?
+struct Target {
+  std::string measurand;
+  quantities::Labels labels;
+  double expanded_uncertainty = 0;                   ///< SI
+  std::vector<std::pair<std::string, double>> costs; ///< of a quantity at its present u; at u / 2 twice that
+};
+
 struct AnalysisOptions {
   double coverage_probability = 0.95;
   int validation_digits = 2;       ///< n_dig of JCGM 101 8.1
-  std::uint64_t sobol_samples = 0; ///< base size N of the pick-freeze design; 0: no Sobol' indices
+  SensitivityOptions sensitivity;
+  std::vector<OneAtATime> one_at_a_time;
+  std::vector<ConformityTest> conformity;
+  std::vector<Target> targets;
+  /// Measurands whose joint coverage regions are wanted; empty: those of each reading, if there are two to eight.
+  std::vector<std::vector<std::string>> joint;
   std::vector<Comparison> comparisons;
   std::vector<Printed> printed;
 };
@@ -57,6 +119,7 @@ struct Scenario {
   std::string hash; ///< 16 hex digits over everything that fixes the numbers: the text and the data files
   std::string title;
   std::string model;
+  models::MadeModel made; ///< the model itself, if the scenario describes it; null: one of the catalogue
   Method method = Method::propagation;
   std::string evaluation; ///< one of the model's evaluations
   /// Every quantity of the model in card order (defaults filled in), then the freed quantities of

@@ -118,6 +118,7 @@ void write_summary(hid_t file, const Results& r) {
   table.numbers("failed", column(rows, &Summary::failed), "1", "samples without a value");
   table.numbers("skewness", column(rows, &Summary::skewness), "1", "skewness");
   table.numbers("kurtosis", column(rows, &Summary::kurtosis), "1", "kurtosis");
+  table.numbers("hill_index", column(rows, &Summary::hill_index), "1", "tail index by Hill's estimator, NaN if not estimated");
   table.texts("warning", column(rows, &Summary::warning), "what the reader must know of this output");
   auto statements = r.statements;
   statements.resize(rows.size());
@@ -200,23 +201,6 @@ void write_validation(hid_t file, const std::vector<Validation>& rows) {
   table.texts("reason", column(rows, &Validation::reason), "reason of the verdict");
 }
 
-void write_sensitivity(hid_t parent, const std::string& name, const Sensitivity& sensitivity) {
-  const hdf5::Handle group = hdf5::create_group(parent, name);
-  hdf5::write_attribute(group, "output", sensitivity.output.name);
-  hdf5::write_attribute(group, "base_samples", sensitivity.base_samples);
-  hdf5::write_attribute(group, "dropped_rows", sensitivity.dropped_rows);
-  const auto& rows = sensitivity.indices;
-  Table table(group, "input_quantity", rows.size());
-  table.texts("input", column(rows, &SobolIndex::input), "input quantity");
-  table.numbers("first", column(rows, &SobolIndex::first), "1", "first-order Sobol' index");
-  table.numbers("first_low", column(rows, &SobolIndex::first_low), "1", "first-order index, lower confidence limit");
-  table.numbers("first_high", column(rows, &SobolIndex::first_high), "1", "first-order index, upper confidence limit");
-  table.numbers("total", column(rows, &SobolIndex::total), "1", "total Sobol' index");
-  table.numbers("total_low", column(rows, &SobolIndex::total_low), "1", "total index, lower confidence limit");
-  table.numbers("total_high", column(rows, &SobolIndex::total_high), "1", "total index, upper confidence limit");
-  table.texts("verdict", column(rows, &SobolIndex::verdict), "how well the index is known");
-}
-
 void write_comparison(hid_t file, const std::vector<ComparisonResult>& rows) {
   const hdf5::Handle group = hdf5::create_group(file, "comparison");
   Table table(group, "comparison", rows.size());
@@ -260,9 +244,9 @@ void write_results(hid_t file, const Results& r) {
   const hdf5::Handle budgets = hdf5::create_group(file, "budget");
   for (std::size_t k = 0; k < r.budgets.size(); ++k) write_budget(budgets, fmt::format("{:03d}", k), r.budgets[k]);
   write_validation(file, r.validations);
-  const hdf5::Handle indices = hdf5::create_group(file, "sensitivity");
-  for (std::size_t k = 0; k < r.sensitivities.size(); ++k)
-    write_sensitivity(indices, fmt::format("{:03d}", k), r.sensitivities[k]);
+  write_sensitivity(file, r);
+  write_joint(file, r);
+  write_planning(file, r);
   write_comparison(file, r.comparisons);
   write_printed(file, r.printed);
   write_list(file, "failures", r.failures, "samples that have no value, by reason");

@@ -8,6 +8,11 @@ namespace gumshoe::store {
 /// Replaces whatever of it an interrupted run left in `file`.
 void write_results(hid_t file, const analysis::Results& results);
 
+/// The parts of it that have a file of their own; groups without rows are not made.
+void write_sensitivity(hid_t file, const analysis::Results& results); ///< sensitivity_writer.cpp
+void write_joint(hid_t file, const analysis::Results& results);       ///< joint_writer.cpp: joint, circular, conformity
+void write_planning(hid_t file, const analysis::Results& results);    ///< planning_writer.cpp: targets, stopping
+
 /// Label values of a reading in one line: "rod 2, 1".
 std::string label_text(const quantities::Labels& labels);
 

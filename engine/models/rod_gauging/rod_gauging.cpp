@@ -107,6 +107,15 @@ template <class T> PointOutcome evaluate_point(const PointCall<T>& call) {
   return {static_cast<std::uint8_t>(height.status), height.kink};
 }
 
+template <class T> PointOutcome simulate_point(const PointCall<T>& call) {
+  T condition[rod::conditions];
+  for (int i = 0; i < rod::conditions; ++i) condition[i] = T(call.conditions[i]);
+  const auto event = rod::probing_event<T>(call.quantities, condition, call.effects, call.active);
+  const auto height = chain::differentiable_height(rod::rod(call.quantities, event), rod::beam(call.quantities));
+  call.simulated[0] = rod::simulate(call.quantities, height.value, event);
+  return {static_cast<std::uint8_t>(height.status), height.kink};
+}
+
 std::vector<Intermediate> explain(const PointCall<double>& call) {
   const double* q = call.quantities;
   double condition[rod::conditions];
@@ -143,7 +152,8 @@ std::vector<Intermediate> explain(const PointCall<double>& call) {
   return out;
 }
 
-std::string check(const double* q) {
+std::string check(const PointCall<double>& call) {
+  const double* q = call.quantities;
   if (q[rod::fillet] > q[rod::radius]) return "fillet_radius exceeds rod_radius";
   return {};
 }
@@ -155,7 +165,13 @@ const Kernels* kernels() { return GUMSHOE_BEST_KERNELS(rod_gauging); }
 } // namespace
 
 extern const Model rod_gauging;
-const Model rod_gauging{&card,  &kernels,    &evaluate_point<Gradient>, &evaluate_point<Curvature>, &explain,
-                        &check, &solve_reads};
+const Model rod_gauging{&card,
+                        &kernels,
+                        &evaluate_point<Gradient>,
+                        &evaluate_point<Curvature>,
+                        &simulate_point<Gradient>,
+                        &explain,
+                        &check,
+                        &solve_reads};
 
 } // namespace gumshoe::models

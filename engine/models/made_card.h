@@ -1,0 +1,43 @@
+#pragma once
+/// Cards of models that are made at run time: as ModelCard, but they own their texts.
+#include <deque>
+#include <string>
+#include <vector>
+
+#include "base/card.h"
+
+namespace gumshoe::models {
+
+/// A name with its unit, as a scenario or a plugin declares it.
+struct Symbol {
+  std::string name;
+  std::string unit;    ///< shown to people
+  std::string si_unit; ///< used inside
+  std::string meaning;
+  double default_value = 0; ///< SI
+  Limits limits{-1e300, 1e300};
+};
+
+struct CardTexts {
+  std::string name, title, summary, source;
+  std::vector<Symbol> quantities, conditions, indications, measurands;
+};
+
+class MadeCard {
+public:
+  explicit MadeCard(const CardTexts& texts);
+  MadeCard(const MadeCard&) = delete;
+  MadeCard& operator=(const MadeCard&) = delete;
+  const ModelCard& card() const { return card_; }
+
+private:
+  std::string_view keep(const std::string& text) { return texts_.emplace_back(text); }
+  std::vector<VariableCard> variables(const std::vector<Symbol>& symbols);
+  std::deque<std::string> texts_;
+  std::vector<QuantityCard> quantities_;
+  std::vector<VariableCard> conditions_, indications_, measurands_;
+  std::vector<EvaluationCard> evaluations_;
+  ModelCard card_{};
+};
+
+} // namespace gumshoe::models

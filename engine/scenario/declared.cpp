@@ -1,0 +1,65 @@
+#include "scenario/declared.h"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+namespace gumshoe::scenario {
+namespace {
+
+constexpr std::array worded{"distribution", "evaluation", "source", "per", "name", "kind", "labels", "where", "file", "column"};
+
+/// Depth first, in file order; empty if no number here carries a unit.
+std::string first_unit(const Node& node) {
+  if (node.kind == Node::Kind::text) {
+    try {
+      const std::string unit = units::parse(node.text).unit;
+      return unit == "1" ? "" : unit;
+    } catch (const InputError&) {
+      return "";
+    }
+  }
+  for (const Member& m : node.members) {
+    if (std::ranges::find(worded, m.key) != worded.end()) continue;
+    if (m.key == "unit" && m.value.kind == Node::Kind::text) return m.value.text;
+  }
+  for (const Member& m : node.members) {
+    if (std::ranges::find(worded, m.key) != worded.end()) continue;
+    if (auto unit = first_unit(m.value); !unit.empty()) return unit;
+  }
+  for (const Node& item : node.items)
+    if (auto unit = first_unit(item); !unit.empty()) return unit;
+  return "";
+}
+
+std::vector<models::Symbol> symbols(Table& top, const char* key, Problems& problems) {
+  std::vector<models::Symbol> out;
+  auto table = top.table(key);
+  if (!table) return out;
+  for (const Member& m : table->members()) {
+    const std::string unit = declared_unit(m.value);
+    try {
+      out.push_back({m.key, unit, units::si_unit_of(unit), ""});
+    } catch (const InputError& error) {
+      const Problem& p = error.problems().front();
+      problems.add(m.value, fmt::format("{}.{}: {}", key, m.key, p.what), p.why, p.remedy);
+      out.push_back({m.key, "1", "1", ""});
+    }
+  }
+  return out;
+}
+
+} // namespace
+
+std::string declared_unit(const Node& node) {
+  const std::string unit = first_unit(node);
+  return unit.empty() ? "1" : unit;
+}
+
+Declared declared_symbols(Table& top, Problems& problems) {
+  return {symbols(top, "quantities", problems), symbols(top, "conditions", problems),
+          symbols(top, "indications", problems)};
+}
+
+} // namespace gumshoe::scenario
