@@ -2,6 +2,7 @@
 // rod_reference.py), the brute-force twin (rod_brute_force.h), and the recomputed tables of Fang 2022.
 #include "chain/shadow.h"
 #include "references/rod_brute_force.h"
+#include "places.h"
 
 #include <catch2/catch.hpp>
 

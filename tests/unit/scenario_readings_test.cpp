@@ -2,6 +2,7 @@
 
 #include "scenario/noise.h"
 #include "unit/scenario_fixture.h"
+#include "places.h"
 
 using namespace scenario_fixture;
 using quantities::Family;
