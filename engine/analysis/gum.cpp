@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "analysis/derivatives.h"
-#include "base/units.h"
+#include "analysis/tolerance.h"
 #include "quantities/copula.h"
 
 namespace gumshoe::analysis {
@@ -197,7 +197,6 @@ Validation validate(const Budget& b, const Summary& s, int digits) {
     v.delta = v.d_low = v.d_high = v.monte_carlo_tolerance = nan;
     return v;
   }
-  // 7.9.2: u = c x 10^l with c of `digits` digits; delta = 10^l / 2.
   const double u = b.combined_standard_uncertainty;
   if (!(u > 0) || s.valid < 2) {
     v.verdict = u > 0 ? "undecided" : "not validated";
@@ -205,11 +204,7 @@ Validation validate(const Budget& b, const Summary& s, int digits) {
     if (u == 0 && s.standard_uncertainty == 0) v.verdict = "validated", v.reason = "nothing is uncertain";
     return v;
   }
-  // The power of ten is of the unit that people read.
-  const double factor = units::from_si(1, b.output.unit, b.output.si_unit, units::Kind::difference);
-  int exponent = static_cast<int>(std::floor(std::log10(u * factor))) - (digits - 1);
-  if (std::round(u * factor / std::pow(10.0, exponent)) >= std::pow(10.0, digits)) ++exponent;
-  v.delta = 0.5 * std::pow(10.0, exponent) / factor;
+  v.delta = numerical_tolerance(u, digits, b.output);
   v.d_low = std::fabs(b.estimate - b.expanded_uncertainty - s.symmetric.low);
   v.d_high = std::fabs(b.estimate + b.expanded_uncertainty - s.symmetric.high);
   v.monte_carlo_tolerance = 2 * std::max(s.symmetric.low_se, s.symmetric.high_se);

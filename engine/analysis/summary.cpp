@@ -39,9 +39,7 @@ void order_tails(std::vector<double>& x, std::size_t tail) {
   std::sort(high, x.end());
 }
 
-struct Ends {
-  double low, high;
-};
+using Ends = CoverageEnds;
 
 /// JCGM 101 7.7.2: q = pM rounded to an integer, the interval runs from rank r to rank r + q.
 std::size_t covered_ranks(std::size_t m, double p) {
@@ -124,6 +122,17 @@ Moments moments(std::span<const double> x) {
   m.skewness = m2 > 0 ? m3 / std::pow(m2, 1.5) : 0;
   m.kurtosis = m2 > 0 ? m4 / (m2 * m2) : 0;
   return m;
+}
+
+CoverageEnds symmetric_interval(std::span<const double> values, double p) {
+  std::vector<double> valid;
+  valid.reserve(values.size());
+  for (const double v : values)
+    if (!std::isnan(v)) valid.push_back(v);
+  if (valid.size() < 2) return {nan, nan};
+  const double n = static_cast<double>(valid.size());
+  order_tails(valid, std::min(valid.size(), static_cast<std::size_t>((1 - p) * n) + 10));
+  return symmetric_ends(valid, p);
 }
 
 Summary summarise(const propagation::Output& output, std::span<const double> values, double p) {

@@ -15,6 +15,12 @@ struct Moments {
 };
 Moments moments(std::span<const double> values);
 
+struct CoverageEnds {
+  double low = 0, high = 0;
+};
+/// Probabilistically symmetric coverage interval (JCGM 101 5.3.3, 7.7); NaN values do not count.
+CoverageEnds symmetric_interval(std::span<const double> values, double coverage_probability);
+
 /// Estimate, u, both coverage intervals and their Monte Carlo standard errors. NaN counts as failed;
 /// the rank bounds hold whatever values the failed samples had. `values` is in sample order, SI.
 Summary summarise(const propagation::Output& output, std::span<const double> values, double coverage_probability);

@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "analysis/analyse.h"
+#include "analysis/stopping.h"
 #include "base/instruction_set.h"
 #include "base/units.h"
 #include "base/version.h"
@@ -119,9 +120,20 @@ void print_table(const analysis::Results& r, bool json) {
   if (json) std::cout << all.dump(2) << '\n';
 }
 
+/// What of an adaptive run fixes its numbers, beside the scenario.
+std::string adaptive_text(const scenario::Adaptive& a) {
+  if (a.rule == scenario::StoppingRule::fixed) return {};
+  return fmt::format("{} {} {}", name(a.rule), a.digits, a.most);
+}
+
 ExitCode run(const Options& o) {
   scenario::Scenario s = scenario::read(o.file, catalogue());
-  if (o.samples) s.run.samples = whole_number(*o.samples, "--samples", 2);
+  if (o.samples) {
+    s.run.samples = whole_number(*o.samples, "--samples", 2);
+    s.run.adaptive = {}; // the number is given
+  }
+  if (s.run.adaptive.rule != scenario::StoppingRule::fixed)
+    s.run.samples = propagation::block_samples; // room is made as the run goes
   if (o.seed) s.run.seed = whole_number(*o.seed, "--seed", 0);
   const propagation::Experiment experiment(s);
   const std::string out = !o.out.empty() ? o.out : "results/" + std::filesystem::path(o.file).stem().string() + ".h5";
@@ -136,6 +148,7 @@ ExitCode run(const Options& o) {
                                  scenario::name(s.run.design),
                                  version,
                                  name(best_instruction_set()),
+                                 adaptive_text(s.run.adaptive),
                                  s.run.seed,
                                  s.run.samples,
                                  s.run.store_samples};
@@ -149,14 +162,23 @@ ExitCode run(const Options& o) {
   settings.stop = &stop;
   settings.progress = [line = ProgressLine()](const propagation::Progress& p) mutable { line(p); };
   if (settings.first > 0) std::cerr << fmt::format("resuming after {} samples\n", settings.first);
-  const std::uint64_t done = propagation::propagate(experiment, file, settings);
-  if (done < s.run.samples) {
+  analysis::StoppingRecord stopping;
+  bool stopped = false;
+  if (s.run.adaptive.rule == scenario::StoppingRule::fixed) {
+    stopped = propagation::propagate(experiment, file, settings) < s.run.samples;
+  } else {
+    stopping = analysis::run_adaptively(experiment, file, settings, stopped);
+    s.run.samples = file.samples();
+  }
+  if (stopped) {
+    const std::uint64_t done = file.samples_done();
     std::cerr << fmt::format("\ninterrupted after {} of {} samples; the same command resumes\n", done, s.run.samples);
     return ExitCode::interrupted;
   }
   const analysis::Samples samples{[&](std::size_t output) { return file.read(output, 0, s.run.samples); },
                                   [&] { return file.read_status(0, s.run.samples); }};
-  const analysis::Results results = analysis::analyse(experiment, samples, o.threads);
+  analysis::Results results = analysis::analyse(experiment, samples, o.threads);
+  results.stopping = stopping;
   file.finish(results);
   if (o.format == "text")
     print_text(results, out);
@@ -165,6 +187,10 @@ ExitCode run(const Options& o) {
   if (static_cast<double>(results.failed) > s.run.max_failed_share * static_cast<double>(results.samples)) {
     std::cerr << fmt::format("error: {} of {} samples failed (more than max_failed_share = {})\n", results.failed,
                              results.samples, s.run.max_failed_share);
+    return ExitCode::too_many_failures;
+  }
+  if (!stopping.reached) {
+    std::cerr << "error: " << stopping.statement << '\n';
     return ExitCode::too_many_failures;
   }
   return ExitCode::done;

@@ -11,7 +11,8 @@ std::vector<VariableCard> MadeCard::variables(const std::vector<Symbol>& symbols
 
 MadeCard::MadeCard(const CardTexts& texts) {
   for (const Symbol& s : texts.quantities)
-    quantities_.push_back({keep(s.name), keep(s.unit), keep(s.si_unit), s.default_value, s.limits, "", keep(s.meaning)});
+    quantities_.push_back(
+        {keep(s.name), keep(s.unit), keep(s.si_unit), s.default_value, s.limits, "", keep(s.meaning)});
   conditions_ = variables(texts.conditions);
   indications_ = variables(texts.indications);
   measurands_ = variables(texts.measurands);

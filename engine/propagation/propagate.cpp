@@ -66,7 +66,7 @@ ResultBlock run_block(const Experiment& e, const quantities::Sampler& sampler, s
 
 std::uint64_t propagate(const Experiment& e, Sink& sink, const RunSettings& settings) {
   const quantities::Sampler sampler = make_sampler(e);
-  const std::uint64_t total = e.scenario().run.samples;
+  const std::uint64_t total = settings.last > 0 ? settings.last : e.scenario().run.samples;
   const int threads = thread_count(settings.threads);
   tbb::enumerable_thread_specific<ThreadBuffers> buffers;
   std::uint64_t next = settings.first, done = settings.first;

@@ -14,6 +14,7 @@ struct Progress {
 struct RunSettings {
   int threads = 0;                         ///< 0: all processors
   std::uint64_t first = 0;                 ///< resume here; a multiple of the block size or 0
+  std::uint64_t last = 0;                  ///< end here; 0: the scenario's number of samples
   const std::atomic<bool>* stop = nullptr; ///< set from a signal handler: finish the blocks under way, then return
   std::function<void(const Progress&)> progress; ///< called in order, from one thread at a time
 };
@@ -21,7 +22,7 @@ struct RunSettings {
 /// Samples per block: blocks start at multiples of this. Numbers do not depend on it.
 inline constexpr std::size_t block_samples = 2048;
 
-/// Draws and evaluates samples [first, scenario.run.samples) and hands them to the sink in order.
+/// Draws and evaluates samples [first, last) and hands them to the sink in order.
 /// Returns the number of samples done (fewer than asked for if stopped).
 std::uint64_t propagate(const Experiment& experiment, Sink& sink, const RunSettings& settings);
 

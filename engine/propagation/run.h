@@ -15,6 +15,9 @@ enum class Status : std::uint8_t {
   no_solution = 4,   ///< the geometry or the data admit no answer
 };
 
+/// Every status there is, from 0.
+inline constexpr int statuses = 5;
+
 /// "never_covered" and so on, as in files and tables.
 const char* status_name(Status status);
 
@@ -32,6 +35,18 @@ class Sink {
 public:
   virtual ~Sink() = default;
   virtual void write(const ResultBlock& block) = 0;
+};
+
+/// A sink that gives back what it took and changes its size: what an adaptive run needs.
+class SampleStore : public Sink {
+public:
+  virtual std::uint64_t samples_done() const = 0;
+  virtual std::uint64_t samples() const = 0; ///< room for so many
+  /// Room for `samples`; values beyond are given up.
+  virtual void resize(std::uint64_t samples) = 0;
+  /// Values of one output row (SI, NaN where failed), samples [first, first + count).
+  virtual std::vector<double> read(std::size_t output, std::uint64_t first, std::uint64_t count) const = 0;
+  virtual std::vector<std::uint8_t> read_status(std::uint64_t first, std::uint64_t count) const = 0;
 };
 
 /// One row of outputs: a measurand at a reading.

@@ -119,7 +119,8 @@ void explain_options(const Scenario& s, const ModelCard& model, Lines out) {
     fmt::format_to(out, "  one at a time: {} ({} quantities)\n", study.title, study.steps.size());
   for (const ConformityTest& c : s.analysis.conformity)
     fmt::format_to(out, "  conformity of {}, SI limits [{}, {}]\n", c.measurand,
-                   c.lower ? fmt::format("{:.12g}", *c.lower) : "none", c.upper ? fmt::format("{:.12g}", *c.upper) : "none");
+                   c.lower ? fmt::format("{:.12g}", *c.lower) : "none",
+                   c.upper ? fmt::format("{:.12g}", *c.upper) : "none");
   for (const Target& t : s.analysis.targets)
     fmt::format_to(out, "  target: U of {} at most {:.12g} SI\n", t.measurand, t.expanded_uncertainty);
   for (const Comparison& c : s.analysis.comparisons)

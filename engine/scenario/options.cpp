@@ -69,8 +69,8 @@ RunOptions read_run(Table table) {
       table.problems().add(*table.find("samples"), table.path("samples") + ": samples beside adaptive",
                            "an adaptive run finds their number", "leave one out?");
     if (out.design != Design::monte_carlo)
-      table.problems().add(*table.find("design"), table.path("design") + ": adaptive runs need independent samples",
-                           "", "design = \"monte_carlo\"?");
+      table.problems().add(*table.find("design"), table.path("design") + ": adaptive runs need independent samples", "",
+                           "design = \"monte_carlo\"?");
   }
   out.store_samples = table.boolean("store_samples").value_or(out.store_samples);
   table.refuse_unknown();

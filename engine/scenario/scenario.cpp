@@ -47,7 +47,8 @@ public:
     if (const auto* items = top.array("correlations"))
       out_.correlations = read_correlations(*items, problems_, out_.quantities);
     if (auto run = top.table("run")) out_.run = read_run(*run);
-    if (auto analysis = top.table("analysis")) out_.analysis = read_analysis(*analysis, *model, out_.quantities, context_);
+    if (auto analysis = top.table("analysis"))
+      out_.analysis = read_analysis(*analysis, *model, out_.quantities, context_);
     top.refuse_unknown();
     problems_.raise();
     out_.hash = fmt::format("{:016x}", files_.hash(hash64(out_.text)));

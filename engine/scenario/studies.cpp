@@ -109,7 +109,8 @@ OneAtATime read_one_at_a_time(Table table, const StudyScope& scope, Context& con
                 {q.name, units::to_si(measure.number, measure.unit, q.si_unit, units::Kind::difference)});
         }
         if (out.steps.size() == before)
-          context.problems.add(item, fmt::format("{}: no quantity has the dimension of '{}'", table.path("steps"), *text));
+          context.problems.add(item,
+                               fmt::format("{}: no quantity has the dimension of '{}'", table.path("steps"), *text));
       } catch (const InputError& error) {
         const Problem& p = error.problems().front();
         context.problems.add(item, table.path("steps") + ": " + p.what, p.why, p.remedy);

@@ -13,13 +13,15 @@ namespace {
 constexpr int format_version = 1;
 
 auto fields(const Identity& i) {
-  return std::tie(i.scenario_hash, i.scenario_text, i.model, i.method, i.evaluation, i.design, i.version,
-                  i.instruction_set, i.seed, i.samples, i.store_samples);
+  return std::tie(i.adaptive, i.scenario_hash, i.scenario_text, i.model, i.method, i.evaluation, i.design, i.version,
+                  i.instruction_set, i.seed, i.store_samples);
 }
 
 } // namespace
 
-bool same_numbers(const Identity& a, const Identity& b) { return fields(a) == fields(b); }
+bool same_numbers(const Identity& a, const Identity& b) {
+  return fields(a) == fields(b) && (!a.adaptive.empty() || a.samples == b.samples);
+}
 
 void write_identity(hid_t file, const Identity& i) {
   const std::pair<const char*, std::string> texts[] = {{"program", "gumshoe"},
@@ -30,6 +32,7 @@ void write_identity(hid_t file, const Identity& i) {
                                                        {"method", i.method},
                                                        {"evaluation", i.evaluation},
                                                        {"design", i.design},
+                                                       {"adaptive", i.adaptive},
                                                        {"scenario_file", i.scenario_file},
                                                        {"scenario_text", i.scenario_text},
                                                        {"scenario_hash", i.scenario_hash}};
@@ -52,6 +55,7 @@ Stored read_stored(hid_t file) {
                                                         {"method", &i.method},
                                                         {"evaluation", &i.evaluation},
                                                         {"design", &i.design},
+                                                        {"adaptive", &i.adaptive},
                                                         {"scenario_file", &i.scenario_file},
                                                         {"scenario_text", &i.scenario_text},
                                                         {"scenario_hash", &i.scenario_hash}};

@@ -11,7 +11,8 @@ namespace gumshoe::store {
 /// HDF5 is one library for all threads; every door into it holds this.
 using Lock = std::lock_guard<std::recursive_mutex>;
 
-/// Whether two runs give the same samples: everything but the scenario's file name is equal.
+/// Whether two runs give the same samples: everything but the scenario's file name is equal, and the room
+/// that an adaptive run has.
 bool same_numbers(const Identity& a, const Identity& b);
 
 void write_identity(hid_t file, const Identity& identity);

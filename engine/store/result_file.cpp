@@ -46,6 +46,8 @@ struct ResultFile::Impl {
   };
   std::vector<std::string> measurands;
   std::vector<Row> rows;
+  std::vector<propagation::Output> outputs;
+  std::vector<std::string> labels;
   hdf5::Handle file, marker, status;
   std::vector<hdf5::Handle> datasets;
   std::vector<double> values;              ///< without a file's samples: row * samples + i
@@ -54,25 +56,27 @@ struct ResultFile::Impl {
   std::chrono::steady_clock::time_point marked_at = std::chrono::steady_clock::now();
   bool finished = false;
 
-  void plan(const std::vector<propagation::Output>& outputs, std::size_t readings);
-  void create(const std::vector<propagation::Output>& outputs, const std::vector<std::string>& labels);
-  bool resume(std::size_t readings);
+  void plan();
+  /// A new file; `before`: the samples so far, which it takes over.
+  void create(Impl* before = nullptr);
+  bool resume();
+  void take_over(Impl& before);
   void open_datasets(hid_t from);
   void mark();
   void transfer(bool write, hid_t dataset, hid_t type, int rank, hsize_t reading, hsize_t first, hsize_t count,
                 void* data) const;
 };
 
-void ResultFile::Impl::plan(const std::vector<propagation::Output>& outputs, std::size_t readings) {
+void ResultFile::Impl::plan() {
   for (const auto& output : outputs) {
-    if (output.reading >= readings) throw std::logic_error("output of an unknown reading");
+    if (output.reading >= labels.size()) throw std::logic_error("output of an unknown reading");
     const auto at = std::find(measurands.begin(), measurands.end(), output.measurand);
     rows.push_back({static_cast<std::size_t>(at - measurands.begin()), output.reading});
     if (at == measurands.end()) measurands.push_back(output.measurand);
   }
 }
 
-void ResultFile::Impl::create(const std::vector<propagation::Output>& outputs, const std::vector<std::string>& labels) {
+void ResultFile::Impl::create(Impl* before) {
   const std::string temporary = temporary_name(path);
   const std::uint64_t reserve = (1u << 20) + 65536 * rows.size(); // for what comes last
   if (identity.store_samples)
@@ -112,27 +116,63 @@ void ResultFile::Impl::create(const std::vector<propagation::Output>& outputs, c
       }
       const hdf5::Handle flags =
           hdf5::create_dataset(group, "status", H5T_STD_U8LE, {identity.samples}, "1", "why a sample has no value");
-      hdf5::write_attribute(flags, "flag_values", std::vector<std::uint8_t>{0, 1, 2, 3, 4});
-      hdf5::write_attribute(flags, "flag_meanings", "ok never_covered not_converged out_of_domain no_solution");
+      std::vector<std::uint8_t> flag_values;
+      std::string flag_meanings;
+      for (int k = 0; k < propagation::statuses; ++k) {
+        flag_values.push_back(static_cast<std::uint8_t>(k));
+        flag_meanings += (k ? " " : "") + std::string(status_name(static_cast<propagation::Status>(k)));
+      }
+      hdf5::write_attribute(flags, "flag_values", flag_values);
+      hdf5::write_attribute(flags, "flag_meanings", flag_meanings);
       hdf5::attach(flags, 0, sample, "sample");
     }
     hdf5::require(H5Fflush(file, H5F_SCOPE_GLOBAL), "write the file");
     claim_space(temporary, reserve);
+    open_datasets(file);
+    if (before) take_over(*before);
     // Only now does it take the place of an older result.
     if (std::rename(temporary.c_str(), path.c_str()) != 0) throw OutputError("cannot take its place");
   } catch (...) {
+    datasets.clear();
+    status.close();
     marker.close();
     file.close();
     std::remove(temporary.c_str());
     throw;
   }
-  open_datasets(file);
 }
 
-bool ResultFile::Impl::resume(std::size_t readings) {
+void ResultFile::Impl::take_over(Impl& before) {
+  constexpr std::uint64_t chunk = 1u << 18;
+  done = std::min(before.done, identity.samples);
+  if (!identity.store_samples) {
+    for (std::size_t row = 0; row < rows.size(); ++row)
+      std::copy_n(before.values.begin() + static_cast<std::ptrdiff_t>(row * before.identity.samples), done,
+                  values.begin() + static_cast<std::ptrdiff_t>(row * identity.samples));
+    std::copy_n(before.status_values.begin(), done, status_values.begin());
+    return;
+  }
+  std::vector<double> some(chunk);
+  std::vector<std::uint8_t> flags(chunk);
+  for (std::uint64_t first = 0; first < done; first += chunk) {
+    const std::uint64_t count = std::min(chunk, done - first);
+    for (const Row& row : rows)
+      for (const bool write : {false, true})
+        (write ? this : &before)
+            ->transfer(write, (write ? this : &before)->datasets[row.dataset], H5T_NATIVE_DOUBLE, 2, row.reading, first,
+                       count, some.data());
+    before.transfer(false, before.status, H5T_NATIVE_UINT8, 1, 0, first, count, flags.data());
+    transfer(true, status, H5T_NATIVE_UINT8, 1, 0, first, count, flags.data());
+  }
+  mark();
+}
+
+bool ResultFile::Impl::resume() {
   hdf5::Handle old = open_file(path, H5F_ACC_RDWR);
   const Stored stored = read_stored(old);
   if (stored.complete || !identity.store_samples || !same_numbers(stored.identity, identity)) return false;
+  const std::size_t readings = labels.size();
+  const std::uint64_t room = stored.identity.samples;
   try {
     const hdf5::Handle group = hdf5::open_group(old, "outputs");
     for (std::size_t d = 0; d <= measurands.size(); ++d) {
@@ -143,12 +183,13 @@ bool ResultFile::Impl::resume(std::size_t readings) {
       hsize_t shape[2] = {0, 0};
       if (H5Sget_simple_extent_ndims(space) != (status ? 1 : 2)) return false;
       H5Sget_simple_extent_dims(space, shape, nullptr);
-      if (status ? shape[0] != identity.samples : shape[0] != readings || shape[1] != identity.samples) return false;
+      if (status ? shape[0] != room : shape[0] != readings || shape[1] != room) return false;
     }
   } catch (const OutputError&) {
     return false;
   }
   file = std::move(old);
+  identity.samples = room;
   done = marked = stored.samples_done;
   open_datasets(file);
   return true;
@@ -200,13 +241,15 @@ ResultFile::ResultFile(const std::string& path, const Identity& identity,
   naming(path, [&] {
     impl_->path = destination(path);
     impl_->identity = identity;
-    impl_->plan(outputs, reading_labels.size());
+    impl_->outputs = outputs;
+    impl_->labels = reading_labels;
+    impl_->plan();
     bool resumed = false;
     if (!empty_or_absent(impl_->path)) {
       const std::string remedy = "choose another name?";
       if (!is_hdf5(impl_->path)) throw OutputError("not overwritten", "it is no result of ours", remedy);
       try {
-        resumed = impl_->resume(reading_labels.size());
+        resumed = impl_->resume();
       } catch (const OutputError& error) {
         throw OutputError("not overwritten",
                           "it is no result of ours: " + error.problems().front().what +
@@ -214,7 +257,7 @@ ResultFile::ResultFile(const std::string& path, const Identity& identity,
                           remedy);
       }
     }
-    if (!resumed) impl_->create(outputs, reading_labels);
+    if (!resumed) impl_->create();
   });
 }
 
@@ -231,6 +274,24 @@ ResultFile::~ResultFile() {
 }
 
 std::uint64_t ResultFile::samples_done() const { return impl_->done; }
+
+std::uint64_t ResultFile::samples() const { return impl_->identity.samples; }
+
+void ResultFile::resize(std::uint64_t samples) {
+  if (samples == impl_->identity.samples) return;
+  const Lock lock(hdf5::library());
+  naming(impl_->path, [&] {
+    auto next = std::make_unique<Impl>();
+    next->path = impl_->path;
+    next->identity = impl_->identity;
+    next->identity.samples = samples;
+    next->outputs = impl_->outputs;
+    next->labels = impl_->labels;
+    next->plan();
+    next->create(impl_.get());
+    std::swap(impl_, next);
+  });
+}
 
 void ResultFile::write(const propagation::ResultBlock& block) {
   Impl& f = *impl_;

@@ -13,24 +13,27 @@ namespace gumshoe::store {
 /// What fixes a run's numbers; a file is resumed only if all of it matches.
 struct Identity {
   std::string scenario_hash, scenario_text, scenario_file, model, method, evaluation, design, version, instruction_set;
+  std::string adaptive; ///< the stopping rule; then `samples` is only how many there is room for
   std::uint64_t seed = 0, samples = 0;
   bool store_samples = true;
 };
 
 /// The samples of a run, written block by block in order. Throws OutputError naming path and reason
 /// (unwritable, disk full, not one of our files: never overwritten).
-class ResultFile : public propagation::Sink {
+class ResultFile : public propagation::SampleStore {
 public:
   /// Creates the file, or opens it to resume if it holds an unfinished run of the same identity.
   ResultFile(const std::string& path, const Identity& identity, const std::vector<propagation::Output>& outputs,
              const std::vector<std::string>& reading_labels);
   ~ResultFile() override;
   /// Samples already there, 0 for a new file.
-  std::uint64_t samples_done() const;
+  std::uint64_t samples_done() const override;
+  std::uint64_t samples() const override;
+  /// A new file with the samples so far takes the place of the old one.
+  void resize(std::uint64_t samples) override;
   void write(const propagation::ResultBlock& block) override;
-  /// Values of one output row (SI, NaN where failed), samples [first, first + count).
-  std::vector<double> read(std::size_t output, std::uint64_t first, std::uint64_t count) const;
-  std::vector<std::uint8_t> read_status(std::uint64_t first, std::uint64_t count) const;
+  std::vector<double> read(std::size_t output, std::uint64_t first, std::uint64_t count) const override;
+  std::vector<std::uint8_t> read_status(std::uint64_t first, std::uint64_t count) const override;
   /// Writes everything but the samples and marks the file complete.
   void finish(const analysis::Results& results);
 

@@ -118,7 +118,8 @@ void write_summary(hid_t file, const Results& r) {
   table.numbers("failed", column(rows, &Summary::failed), "1", "samples without a value");
   table.numbers("skewness", column(rows, &Summary::skewness), "1", "skewness");
   table.numbers("kurtosis", column(rows, &Summary::kurtosis), "1", "kurtosis");
-  table.numbers("hill_index", column(rows, &Summary::hill_index), "1", "tail index by Hill's estimator, NaN if not estimated");
+  table.numbers("hill_index", column(rows, &Summary::hill_index), "1",
+                "tail index by Hill's estimator, NaN if not estimated");
   table.texts("warning", column(rows, &Summary::warning), "what the reader must know of this output");
   auto statements = r.statements;
   statements.resize(rows.size());

@@ -45,7 +45,7 @@ Identity identity() {
           "exact",
           "monte_carlo",
           "0.1.0",
-          "avx2",
+          "avx2", "",
           7,
           samples,
           true};

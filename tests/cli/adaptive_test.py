@@ -1,0 +1,103 @@
+"""Adaptive runs from outside: the same stop for any thread count, killed or not; what is refused."""
+import pathlib
+import re
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+import h5py
+import numpy as np
+
+from program import GUMSHOE, ROOT
+
+SCENARIOS = ROOT / "scenarios"
+TEXT = (SCENARIOS / "rod_gauging.toml").read_text()
+
+
+def adaptive(folder, table, name="adaptive.toml"):
+    text = re.sub(r"(?m)^samples.*$", f"adaptive = {table}", TEXT, count=1)
+    text = text.replace('"data/', f'"{SCENARIOS}/data/')
+    path = pathlib.Path(folder) / name
+    path.write_text(text)
+    return path
+
+
+def run(scenario, out, *options):
+    return subprocess.run([GUMSHOE, "run", str(scenario), "--out", str(out), *options], capture_output=True, text=True)
+
+
+class Adaptive(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = pathlib.Path(temporary.name)
+
+    def samples(self, file):
+        with h5py.File(file) as f:
+            return int(f.attrs["samples"]), f["outputs/laser_z"][...], int(f["samples_done"][0])
+
+    def test_same_stop_for_any_thread_count(self):
+        for rule in ("stein", "jcgm_101"):
+            scenario = adaptive(self.folder, f'{{ rule = "{rule}", digits = 2 }}')
+            found = []
+            for threads in ("1", "2", "5"):
+                done = run(scenario, self.folder / "a.h5", "--threads", threads)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                found.append(self.samples(self.folder / "a.h5"))
+            n, values, marker = found[0]
+            self.assertEqual(n % 10000, 0)
+            self.assertEqual(values.shape, (1, n))
+            self.assertEqual(marker, n)
+            for other in found[1:]:
+                self.assertEqual(other[0], n)
+                np.testing.assert_array_equal(other[1], values)
+
+    def test_trials_are_those_of_a_run_of_that_length(self):
+        scenario = adaptive(self.folder, '{ rule = "stein" }')
+        run(scenario, self.folder / "a.h5")
+        n, values, _ = self.samples(self.folder / "a.h5")
+        done = run(scenario, self.folder / "b.h5", "--samples", str(n))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        np.testing.assert_array_equal(self.samples(self.folder / "b.h5")[1], values)
+
+    def test_killed_runs_resume_to_the_same_bits(self):
+        scenario = adaptive(self.folder, '{ rule = "stein", digits = 3, max_samples = 4e6 }')
+        whole = run(scenario, self.folder / "whole.h5")
+        self.assertIn(whole.returncode, (0, 3), whole.stderr)
+        part = self.folder / "part.h5"
+        for k in range(40):  # kill it ever later, until it is through
+            process = subprocess.Popen([GUMSHOE, "run", str(scenario), "--out", str(part)], stdout=subprocess.DEVNULL,
+                                       stderr=subprocess.DEVNULL)
+            time.sleep(0.15 + 0.1 * k)
+            if process.poll() is None:
+                process.send_signal(signal.SIGKILL)
+            process.wait()
+            if process.returncode in (0, 3):
+                break
+        self.assertIn(process.returncode, (0, 3))
+        self.assertEqual(self.samples(part)[0], self.samples(self.folder / "whole.h5")[0])
+        np.testing.assert_array_equal(self.samples(part)[1], self.samples(self.folder / "whole.h5")[1])
+
+    def test_giving_up_is_said(self):
+        scenario = adaptive(self.folder, '{ rule = "stein", digits = 4, max_samples = 2e5 }')
+        done = run(scenario, self.folder / "a.h5")
+        self.assertEqual(done.returncode, 3)
+        self.assertIn("not satisfied at max_samples = 200000", done.stderr)
+        self.assertEqual(self.samples(self.folder / "a.h5")[0], 200000)
+
+    def test_what_is_refused(self):
+        for table, message in (('{ rule = "steyn" }', "stein"), ('{ digits = 9 }', "digits"),
+                               ('{ max_samples = 10 }', "max_samples"), ('{ rul = "stein" }', "did you mean 'rule'?")):
+            done = run(adaptive(self.folder, table), self.folder / "x.h5")
+            self.assertEqual(done.returncode, 2, table)
+            self.assertIn(message, done.stderr)
+        scenario = self.folder / "both.toml"
+        scenario.write_text(re.sub(r"(?m)^(samples.*)$", r"\1" + '\nadaptive = { rule = "stein" }', TEXT, count=1))
+        done = run(scenario, self.folder / "x.h5")
+        self.assertIn("samples beside adaptive", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
