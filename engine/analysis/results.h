@@ -23,6 +23,7 @@ struct Summary {
   double skewness = 0, kurtosis = 0;
   Interval symmetric;            ///< probabilistically symmetric coverage interval, JCGM 101 5.3.3
   Interval shortest;             ///< shortest coverage interval, JCGM 101 5.3.4
+  double shortest_length_se = 0; ///< of its length, which is known better than its ends
   std::vector<double> bin_edges; ///< histogram: n + 1 edges,
   std::vector<double> density;   ///< n densities, 1/unit
   double hill_index = 0; ///< tail index by Hill's estimator; small: heavy tails, below 2 no variance; NaN: not estimated

@@ -168,6 +168,10 @@ Summary summarise(const propagation::Output& output, std::span<const double> val
   s.symmetric = {symmetric.low, symmetric.high, rank_error(ordered, alpha), rank_error(ordered, 1 - alpha),
                  symmetric.low, symmetric.high};
   s.shortest = {shortest.low, shortest.high, shortest_se.low, shortest_se.high, shortest.low, shortest.high};
+  // The share that a fixed interval covers scatters by that much; so much longer or shorter is the shortest one.
+  const double share = std::sqrt(p * (1 - p) / n);
+  const Ends wider = shortest_ends(ordered, std::min(p + share, 1.0)), narrower = shortest_ends(ordered, p - share);
+  s.shortest_length_se = 0.5 * ((wider.high - wider.low) - (narrower.high - narrower.low));
   if (s.failed > 0) {
     // Failed values could all lie below, or all above: the ends move by that many ranks at the most.
     const double all = n + static_cast<double>(s.failed), failed = static_cast<double>(s.failed);

@@ -48,6 +48,7 @@ public:
 
 enum class ExitCode : int {
   done = 0,
+  different = 1, ///< `gauge`: ours is not the published figure
   bad_input = 2,
   too_many_failures = 3,
   interrupted = 130,

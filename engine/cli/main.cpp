@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
   CLI::App app{"Gumshoe: uncertainty and sensitivity analysis of on-machine measurement", "gumshoe"};
   app.set_version_flag("--version", std::string("gumshoe ") + version + " (" + git_hash + ")");
   app.require_subcommand(1);
-  app.footer("Exit codes: 0 done, 2 bad input, 3 too many failed samples, 130 interrupted (the same command resumes).");
+  app.footer("Exit codes: 0 done, 1 gauge found a difference, 2 bad input, 3 too many failed samples, 130 interrupted (the same command resumes).");
   cli::Action action;
   cli::add_check(app, action);
   cli::add_run(app, action);
@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
   cli::add_replay(app, action);
   cli::add_models(app, action);
   cli::add_effects(app, action);
+  cli::add_gauge(app, action);
   try {
     app.parse(argc, argv);
     const ExitCode code = action ? action() : ExitCode::done;

@@ -7,6 +7,7 @@
 
 #include "base/hash.h"
 #include "base/text_file.h"
+#include "scenario/expected.h"
 #include "scenario/made_model.h"
 #include "scenario/noise.h"
 #include "scenario/options.h"
@@ -49,6 +50,7 @@ public:
     if (auto run = top.table("run")) out_.run = read_run(*run);
     if (auto analysis = top.table("analysis"))
       out_.analysis = read_analysis(*analysis, *model, out_.quantities, context_);
+    out_.expected = read_expected(top, *model, context_);
     top.refuse_unknown();
     problems_.raise();
     out_.hash = fmt::format("{:016x}", files_.hash(hash64(out_.text)));

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/card.h"
+#include "base/error.h"
 #include "models/model.h"
 #include "quantities/input_quantity.h"
 
@@ -113,6 +114,18 @@ struct AnalysisOptions {
   std::vector<Printed> printed;
 };
 
+/// A published or exact figure to compare ours with: `gumshoe gauge`.
+struct Expected {
+  std::string figure; ///< as in analysis/figures.h: "standard_uncertainty", "gum.expanded_uncertainty", "first[x1]"
+  std::string of;     ///< measurand; empty: the only one
+  quantities::Labels labels;
+  std::string value; ///< as given, with its unit: the last digit sets the tolerance
+  std::string source;
+  std::string tolerance, why; ///< instead of half a unit of the last digit; and the reason
+  std::string note;           ///< why ours is known to differ: then a difference is a NOTE
+  Location where;
+};
+
 struct Scenario {
   std::string file;
   std::string text; ///< as read, kept in the result
@@ -130,6 +143,7 @@ struct Scenario {
   std::vector<quantities::Reading> readings; ///< at least one
   RunOptions run;
   AnalysisOptions analysis;
+  std::vector<Expected> expected;
   std::vector<std::string>
       notes; ///< decisions and warnings a reader must see ("resolution used, not repeatability: ...")
 };

@@ -1,0 +1,209 @@
+/// `gumshoe gauge`: published examples again, and how ours compare.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "analysis/analyse.h"
+#include "analysis/figures.h"
+#include "analysis/stopping.h"
+#include "base/units.h"
+#include "cli/command.h"
+#include "propagation/memory_store.h"
+#include "propagation/propagate.h"
+
+namespace gumshoe::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// One figure compared.
+struct Line {
+  std::string verdict; ///< PASS, DIFF or NOTE
+  std::string example, figure, published, ours, tolerance, why, source, note;
+};
+
+/// Half a unit of the last digit that stands in a number: 0.05 for "1.2", 0.5e-8 for "2.38942129E+02".
+double half_digit(const std::string& number) {
+  int decimals = 0, exponent = 0;
+  bool after = false;
+  for (std::size_t i = 0; i < number.size(); ++i) {
+    const char c = number[i];
+    if (c == 'e' || c == 'E') {
+      exponent = std::atoi(number.c_str() + i + 1);
+      break;
+    }
+    if (c == '.')
+      after = true;
+    else if (c == ' ')
+      break;
+    else if (after)
+      ++decimals;
+  }
+  return 0.5 * std::pow(10.0, exponent - decimals);
+}
+
+/// The tolerance in the published figure's unit, and why it is that.
+std::pair<double, std::string> tolerance_of(const scenario::Expected& e, double published, double standard_error) {
+  double given = half_digit(e.value);
+  std::string why = "half a unit of the last digit";
+  if (!e.tolerance.empty()) {
+    const std::string relative = " relative";
+    const bool scaled = e.tolerance.ends_with(relative);
+    given = units::parse(scaled ? e.tolerance.substr(0, e.tolerance.size() - relative.size()) : e.tolerance).number;
+    if (scaled) given *= std::fabs(published);
+    why = e.why;
+  }
+  if (standard_error > 0) why += " and 4 Monte Carlo standard errors";
+  return {given + 4 * standard_error, why};
+}
+
+Line compare(const scenario::Expected& e, const analysis::Figure& f, const std::string& example) {
+  Line line{"", example, e.figure + (e.of.empty() ? "" : " of " + e.of), e.value, "", "", "", e.source, e.note};
+  bool equal = false;
+  if (!f.word.empty()) {
+    line.ours = f.word;
+    line.why = "a word";
+    equal = f.word == e.value;
+  } else {
+    const auto published = units::parse(e.value);
+    const auto kind = f.difference ? units::Kind::difference : units::Kind::point;
+    const double ours = units::from_si(f.value, published.unit, f.si_unit, kind);
+    const double se = std::fabs(units::from_si(f.standard_error, published.unit, f.si_unit, units::Kind::difference));
+    const auto [tolerance, why] = tolerance_of(e, published.number, std::isfinite(se) ? se : 0);
+    const std::string unit = published.unit == "1" ? "" : " " + published.unit;
+    line.ours = fmt::format("{:.10g}{}", ours, unit);
+    line.tolerance = fmt::format("{:.2g}{}", tolerance, unit);
+    line.why = why;
+    equal = std::fabs(ours - published.number) <= tolerance;
+  }
+  line.verdict = equal ? "PASS" : e.note.empty() ? "DIFF" : "NOTE";
+  return line;
+}
+
+std::size_t output_of(const scenario::Expected& e, const analysis::Results& r) {
+  for (std::size_t o = 0; o < r.summaries.size(); ++o) {
+    const auto& output = r.summaries[o].output;
+    const auto& labels = r.readings[output.reading].labels;
+    const bool fits =
+        std::ranges::all_of(e.labels, [&](const auto& l) { return std::ranges::find(labels, l) != labels.end(); });
+    if (fits && (e.of.empty() || output.measurand == e.of)) return o;
+  }
+  throw InputError("no output fits");
+}
+
+std::vector<Line> run_example(const std::string& file, int threads) {
+  scenario::Scenario s = scenario::read(file, catalogue());
+  const std::string example = fs::path(file).stem().string();
+  if (s.expected.empty())
+    throw InputError({{{file}, "nothing to compare with", "no [[expected]]", "gumshoe run " + file + "?"}});
+  const bool adaptive = s.run.adaptive.rule != scenario::StoppingRule::fixed;
+  const propagation::Experiment experiment(s);
+  propagation::MemoryStore store(experiment.outputs().size(), adaptive ? 0 : s.run.samples);
+  propagation::RunSettings settings;
+  settings.threads = threads;
+  bool stopped = false;
+  analysis::StoppingRecord stopping;
+  if (adaptive) {
+    stopping = analysis::run_adaptively(experiment, store, settings, stopped);
+    s.run.samples = store.samples();
+  } else {
+    propagation::propagate(experiment, store, settings);
+  }
+  analysis::Results results =
+      analysis::analyse(experiment,
+                        {[&](std::size_t output) { return store.read(output, 0, s.run.samples); },
+                         [&] { return store.read_status(0, s.run.samples); }},
+                        threads);
+  results.stopping = stopping;
+  std::vector<Line> lines;
+  for (const auto& e : s.expected) {
+    try {
+      lines.push_back(compare(e, analysis::figure(results, output_of(e, results), e.figure), example));
+    } catch (const InputError& error) {
+      auto problems = error.problems();
+      for (Problem& p : problems) p.where = e.where;
+      throw InputError(problems);
+    }
+  }
+  return lines;
+}
+
+void print(const Line& l) {
+  std::cout << fmt::format("{} {}: {}: published {}{}, ours {}{}{}\n", l.verdict, l.example, l.figure, l.published,
+                           l.source.empty() ? "" : " (" + l.source + ")", l.ours,
+                           l.tolerance.empty() ? "" : fmt::format(", tolerance {} ({})", l.tolerance, l.why),
+                           l.note.empty() ? "" : "; " + l.note);
+}
+
+std::vector<std::string> examples(const std::vector<std::string>& asked) {
+  std::vector<std::string> files;
+  const char* folder = std::getenv("GUMSHOE_SCENARIOS");
+  std::vector<std::string> from = asked;
+  if (from.empty()) from = {(fs::path(folder ? folder : GUMSHOE_SCENARIOS_DIR) / "gauge").string()};
+  for (const std::string& name : from) {
+    if (!fs::is_directory(name)) {
+      files.push_back(name);
+      continue;
+    }
+    const std::size_t before = files.size();
+    for (const auto& entry : fs::directory_iterator(name))
+      if (entry.path().extension() == ".toml") files.push_back(entry.path().string());
+    std::sort(files.begin() + static_cast<std::ptrdiff_t>(before), files.end());
+    if (files.size() == before) throw InputError("'" + name + "' holds no scenario files");
+  }
+  return files;
+}
+
+ExitCode gauge(const std::vector<std::string>& asked, int threads, bool json) {
+  const auto started = std::chrono::steady_clock::now();
+  std::size_t passed = 0, different = 0, noted = 0;
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const std::string& file : examples(asked))
+    for (const Line& l : run_example(file, threads)) {
+      ++(l.verdict == "PASS" ? passed : l.verdict == "NOTE" ? noted : different);
+      if (!json) print(l);
+      all.push_back({{"verdict", l.verdict},
+                     {"example", l.example},
+                     {"figure", l.figure},
+                     {"published", l.published},
+                     {"ours", l.ours},
+                     {"tolerance", l.tolerance},
+                     {"why", l.why},
+                     {"source", l.source},
+                     {"note", l.note}});
+    }
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  if (json)
+    std::cout << all.dump(2) << '\n';
+  else
+    std::cout << fmt::format("{} figures: {} PASS, {} DIFF, {} NOTE, in {:.1f} s\n", passed + different + noted, passed,
+                             different, noted, seconds);
+  return different > 0 ? ExitCode::different : ExitCode::done;
+}
+
+} // namespace
+
+void add_gauge(CLI::App& app, Action& action) {
+  auto* command =
+      app.add_subcommand("gauge", "runs published examples again and compares: PASS, DIFF or NOTE, a line each");
+  struct Options {
+    std::vector<std::string> files;
+    std::string format = "text";
+    int threads = 0;
+  };
+  const auto o = std::make_shared<Options>();
+  command->add_option("examples", o->files, "scenario files or folders (default: those that come with the program)");
+  command->add_option("--threads", o->threads, "0: all processors")->check(CLI::Range(0, 1024));
+  command->add_option("--format", o->format, "text or json")->check(CLI::IsMember({"text", "json"}));
+  command->callback([=, &action] { action = [=] { return gauge(o->files, o->threads, o->format == "json"); }; });
+}
+
+} // namespace gumshoe::cli
