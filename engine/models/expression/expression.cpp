@@ -1,13 +1,14 @@
 #include "models/expression/expression.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
 #include <fmt/format.h>
 
 #include "base/units.h"
+#include "models/expression/dimensions.h"
 #include "models/expression/interpreter.h"
-#include "models/expression/resolve.h"
 #include "models/kernel_choice.h"
 
 GUMSHOE_DECLARE_KERNELS(expression)
@@ -140,6 +141,12 @@ public:
     raise();
     names.order(range(0, e_->formulas.size()), false, problems_);
     raise();
+    // An indication without readouts has the unit that its formula gives.
+    const bool unread = std::ranges::any_of(e_->statement.indications, [](const Symbol& s) { return s.unit.empty(); });
+    const auto all = names.order(range(0, e_->formulas.size()), unread, problems_);
+    raise();
+    settle_units(kinds_of(e_->formulas, all, names, unread, problems_));
+    raise();
     note_unused(names);
     compile(names);
     raise();
@@ -170,6 +177,68 @@ private:
       if (!used.contains(&q)) notes_.push_back(fmt::format("quantities.{}: no formula uses it", q.name));
     for (std::size_t i = 0; i < first_measurand_; ++i)
       if (!formulas.contains(i)) notes_.push_back(fmt::format("{}: no formula uses it", e_->formulas[i].name));
+  }
+
+  /// Units in which results are shown; stated ones must fit.
+  void settle_units(const std::vector<Kind>& kinds) {
+    if (!problems_.empty()) return;
+    for (std::size_t i = 0; i < e_->formulas.size(); ++i) {
+      const Formula& f = e_->formulas[i];
+      const std::string name = f.name.substr(f.name.rfind('.') + 1);
+      const Dimension& is = kinds[i].dimension;
+      if (i >= first_simulated_) {
+        simulated_fits(f, name, is, kinds[i].unit);
+        continue;
+      }
+      Symbol s{name, kinds[i].unit, "", f.text};
+      if (i >= first_measurand_) {
+        const Stated& stated = e_->statement.measurands[i - first_measurand_];
+        if (!stated.unit.empty()) {
+          s.unit = stated.unit;
+          if (!fits(stated, is)) continue;
+        } else if (!is.has_unit()) {
+          problems_.push_back(f.problem(0, fmt::format("the measurand is {}", is.words()), "no unit has broken exponents"));
+          continue;
+        }
+      }
+      if (s.unit.empty()) s.unit = is.has_unit() ? is.si_unit() : "1"; // of an intermediate: its SI value
+      s.si_unit = units::si_unit_of(s.unit);
+      e_->explained.push_back(s);
+    }
+  }
+
+  bool fits(const Stated& stated, const Dimension& is) {
+    try {
+      const Dimension wanted = Dimension::of(stated.unit);
+      // rad/s is no frequency: a turn is 2 pi.
+      if (wanted.like(is) && (wanted.has_angle() || !is.has_angle() || is.is_angle())) return true;
+      problems_.push_back({stated.unit_place,
+                           fmt::format("{}.unit: '{}' is not {}", stated.formula.name, stated.unit, is.words()),
+                           "what the formula gives", is.has_unit() ? fmt::format("{}?", is.si_unit()) : ""});
+    } catch (const InputError& error) {
+      for (Problem p : error.problems()) {
+        p.where = stated.unit_place;
+        p.what = fmt::format("{}.unit: {}", stated.formula.name, p.what);
+        problems_.push_back(std::move(p));
+      }
+    }
+    return false;
+  }
+
+  /// An indication's formula must give what its readouts are.
+  void simulated_fits(const Formula& f, const std::string& name, const Dimension& is, const std::string& unit) {
+    for (Symbol& s : e_->statement.indications) {
+      if (s.name != name) continue;
+      if (s.unit.empty()) { // no readouts that would tell
+        s.unit = !unit.empty() ? unit : is.has_unit() ? is.si_unit() : "1";
+        s.si_unit = units::si_unit_of(s.unit);
+        continue;
+      }
+      const Dimension wanted = Dimension::of(s.unit);
+      if (!wanted.like(is))
+        problems_.push_back(f.problem(0, fmt::format("the formula gives {}", is.words()),
+                                      fmt::format("the readouts are {}", wanted.words())));
+    }
   }
 
   /// Steps of the formulas `roots`, in a program of their own.
@@ -219,13 +288,9 @@ private:
     texts.quantities = e_->statement.quantities;
     texts.conditions = e_->statement.conditions;
     texts.indications = e_->statement.indications;
-    for (std::size_t i = 0; i < first_simulated_; ++i) {
-      const std::string& name = e_->formulas[i].name;
-      Symbol s{name.substr(name.rfind('.') + 1), "1", "1", e_->formulas[i].text};
-      e_->explained.push_back(s);
-      if (i >= first_measurand_) texts.measurands.push_back(s);
-      texts.summary += fmt::format("{}{} = {}", i ? "; " : "", s.name, e_->formulas[i].text);
-    }
+    for (std::size_t i = first_measurand_; i < first_simulated_; ++i) texts.measurands.push_back(e_->explained[i]);
+    for (const Formula& f : e_->formulas)
+      texts.summary += fmt::format("{}{} = {}", texts.summary.empty() ? "" : "\n  ", f.name.substr(f.name.rfind('.') + 1), f.text);
     e_->card = std::make_unique<MadeCard>(texts);
     Model& model = e_->model;
     model.card = &e_->card->card();
