@@ -8,7 +8,7 @@
 namespace gumshoe::scenario {
 namespace {
 
-constexpr std::array worded{"distribution", "evaluation", "source", "per", "name", "kind", "labels", "where", "file", "column"};
+constexpr std::array worded{"distribution", "evaluation", "source", "per", "name", "kind", "labels", "where", "file", "column", "conditions"};
 
 /// Depth first, in file order; empty if no number here carries a unit.
 std::string first_unit(const Node& node) {

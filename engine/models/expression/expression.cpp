@@ -70,7 +70,9 @@ std::string why_not_finite(Operation operation, double a, double b) {
   case Operation::acos:
     return fmt::format("{} of {:.6g}, which is outside [-1, 1]", word(operation), a);
   case Operation::power:
-    return a == 0 ? "a negative power of zero" : a < 0 ? "a broken power of a negative number" : "the power is too large for a number";
+    return a == 0  ? "a negative power of zero"
+           : a < 0 ? "a broken power of a negative number"
+                   : "the power is too large for a number";
   default:
     return fmt::format("the result of '{}' is too large for a number", word(operation));
   }
@@ -94,8 +96,9 @@ void require_finite(const Expression& e, const Program& program, const Inputs<do
       if (n.operation == Operation::name && seen.insert(n.name).second)
         for (std::size_t c = 0; c < e.statement.quantities.size(); ++c)
           if (const Symbol& q = e.statement.quantities[c]; q.name == n.name)
-            named += fmt::format("{}{} = {:.6g}{}", named.empty() ? "" : ", ", q.name,
-                                 units::from_si(in.quantities[c], q.unit, q.si_unit), q.unit == "1" ? "" : " " + q.unit);
+            named +=
+                fmt::format("{}{} = {:.6g}{}", named.empty() ? "" : ", ", q.name,
+                            units::from_si(in.quantities[c], q.unit, q.si_unit), q.unit == "1" ? "" : " " + q.unit);
       if (is_leaf(n.operation)) continue;
       if (is_binary(n.operation)) open.push_back(n.b);
       open.push_back(n.a);
@@ -170,8 +173,10 @@ private:
     for (const Formula& f : e_->formulas)
       for (const Node& n : f.nodes)
         if (const Meaning* m = n.operation == Operation::name ? names.find(n.name, false) : nullptr) {
-          if (m->symbol) used.insert(m->symbol);
-          else formulas.insert(m->index);
+          if (m->symbol)
+            used.insert(m->symbol);
+          else
+            formulas.insert(m->index);
         }
     for (const Symbol& q : e_->statement.quantities)
       if (!used.contains(&q)) notes_.push_back(fmt::format("quantities.{}: no formula uses it", q.name));
@@ -197,7 +202,8 @@ private:
           s.unit = stated.unit;
           if (!fits(stated, is)) continue;
         } else if (!is.has_unit()) {
-          problems_.push_back(f.problem(0, fmt::format("the measurand is {}", is.words()), "no unit has broken exponents"));
+          problems_.push_back(
+              f.problem(0, fmt::format("the measurand is {}", is.words()), "no unit has broken exponents"));
           continue;
         }
       }
@@ -254,7 +260,7 @@ private:
           values.push_back(builder.constant(n.value));
         } else if (n.operation == Operation::name) {
           const Meaning* m = names.find(n.name, simulating);
-          values.push_back(!m ? builder.constant(*find_constant(n.name))
+          values.push_back(!m                          ? builder.constant(*find_constant(n.name))
                            : m->source == Source::step ? results.at(m->index)
                                                        : builder.input(m->source, m->index));
         } else {
@@ -290,7 +296,8 @@ private:
     texts.indications = e_->statement.indications;
     for (std::size_t i = first_measurand_; i < first_simulated_; ++i) texts.measurands.push_back(e_->explained[i]);
     for (const Formula& f : e_->formulas)
-      texts.summary += fmt::format("{}{} = {}", texts.summary.empty() ? "" : "\n  ", f.name.substr(f.name.rfind('.') + 1), f.text);
+      texts.summary +=
+          fmt::format("{}{} = {}", texts.summary.empty() ? "" : "\n  ", f.name.substr(f.name.rfind('.') + 1), f.text);
     e_->card = std::make_unique<MadeCard>(texts);
     Model& model = e_->model;
     model.card = &e_->card->card();

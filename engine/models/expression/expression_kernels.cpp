@@ -145,7 +145,8 @@ void simulate(const BlockCall& call) {
 } // namespace gumshoe::models::expression
 
 extern "C" {
-extern const gumshoe::models::Kernels GUMSHOE_KERNEL(gumshoe_expression_), GUMSHOE_KERNEL(gumshoe_expression_evaluating_);
+extern const gumshoe::models::Kernels GUMSHOE_KERNEL(gumshoe_expression_),
+    GUMSHOE_KERNEL(gumshoe_expression_evaluating_);
 const gumshoe::models::Kernels GUMSHOE_KERNEL(gumshoe_expression_){&gumshoe::models::expression::simulate,
                                                                    &gumshoe::models::expression::evaluate};
 /// Of a statement that does not say what its readouts would be.

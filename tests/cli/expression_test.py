@@ -1,0 +1,129 @@
+"""Models stated as formulas, from outside: run, published numbers, and what is said of bad formulas.
+
+usage: expression_test.py path of gumshoe [unittest options]
+"""
+import json
+import pathlib
+import tempfile
+import unittest
+
+from program import complaint, gumshoe, places
+
+# GUM H.2 as JCGM 102 evaluates it: resistance, reactance and impedance from V, I and phi.
+H2 = """schema = 1
+[model]
+name = "expression"
+[model.intermediates]
+ratio = "V / I"
+[model.measurands]
+R = "ratio * cos(phi)"
+X = { formula = "ratio * sin(phi)", unit = "ohm" }
+Z = "ratio"
+[quantities.V]
+value = "4.9990 V"
+u = "3.20936 mV"
+[quantities.I]
+value = "19.6610 mA"
+u = "0.00947101 mA"
+[quantities.phi]
+value = "1.04446 rad"
+u = "0.000752064 rad"
+[[correlations]]
+quantities = ["V", "I", "phi"]
+kind = "pearson"
+matrix = [[1, -0.355311, 0.857624], [-0.355311, 1, -0.645111], [0.857624, -0.645111, 1]]
+[run]
+samples = 200_000
+seed = 1
+"""
+
+
+class Expression(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def scenario(self, text, name="s.toml"):
+        file = self.folder / name
+        file.write_text(text)
+        return file
+
+    def refused(self, text, line, column, *words):
+        file = self.scenario(text)
+        run = gumshoe("check", file)
+        self.assertIsNone(complaint(run), run.stderr)
+        self.assertIn((line, column), places(run, file), run.stderr)
+        for word in words:
+            self.assertIn(word, run.stderr)
+
+    def test_resistance_of_the_gum(self):
+        file = self.scenario(H2)
+        run = gumshoe("run", file, "--out", self.folder / "r.h5", "--format", "json")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        # GUM table H.4: 127.732(71), 219.847(295), 254.260(236); the estimate's standard error is u/sqrt(M).
+        summary = {s["output"]: s for s in json.loads(run.stdout)}
+        for name, y, u in (("R", 127.732170, 0.0710714), ("X", 219.846512, 0.295582), ("Z", 254.259702, 0.236336)):
+            self.assertEqual(summary[name]["unit"], "ohm")
+            self.assertAlmostEqual(summary[name]["estimate"], y, delta=5 * u / 200_000**0.5 + 1e-3)
+            self.assertAlmostEqual(summary[name]["standard_uncertainty"] / u, 1, delta=5 / (2 * 200_000) ** 0.5)
+
+    def test_threads_and_instruction_sets_give_the_same_bits(self):
+        file = self.scenario(H2)
+        outputs = set()
+        for threads in (1, 2):
+            run = gumshoe("run", file, "--out", self.folder / f"{threads}.h5", "--threads", threads, "--format", "csv")
+            self.assertEqual(run.returncode, 0, run.stderr)
+            outputs.add("\n".join(line for line in run.stdout.splitlines() if ".h5" not in line))
+        self.assertEqual(len(outputs), 1)
+
+    def test_explain_prints_the_formulas(self):
+        run = gumshoe("check", "--explain", self.scenario(H2))
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn("R = ratio * cos(phi)", run.stdout)
+        self.assertIn("ratio = V / I", run.stdout)
+
+    def test_unknown_name(self):
+        self.refused(H2.replace("ratio * cos(phi)", "ratio * cos(phy)"), 7, 18, "'phy'", "did you mean 'phi'?")
+
+    def test_division_by_zero_at_the_estimates(self):
+        self.refused(H2.replace("19.6610 mA", "0 mA"), 5, 12, "division by zero at the estimates", "I = 0 mA")
+
+    def test_logarithm_of_a_negative_number(self):
+        self.refused(H2.replace('"V / I"', '"V / I * log(-I / I)"'), 5, 18,
+                     "the logarithm of a negative number")
+
+    def test_length_plus_angle(self):
+        self.refused(H2.replace('Z = "ratio"', 'Z = "V + phi"'), 9, 8, "a voltage plus an angle")
+
+    def test_circle(self):
+        self.refused(H2.replace('"V / I"', '"V / I * R / R"'), 7, 6, "'ratio' needs itself", "R -> ratio")
+
+    def test_failed_samples_are_counted(self):
+        text = """schema = 1
+[model]
+name = "expression"
+[model.measurands]
+y = "sqrt(a)"
+[quantities]
+a = { value = 1, u = 0.6 }
+[run]
+samples = 20000
+max_failed_share = 0.2
+"""
+        run = gumshoe("run", self.scenario(text), "--out", self.folder / "f.h5")
+        self.assertIn("not_finite", run.stdout + run.stderr)
+
+    def test_unused_quantity_is_a_note(self):
+        run = gumshoe("check", self.scenario(H2.replace("[quantities.V]", "[quantities.idle]\nvalue = 1\n[quantities.V]")))
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn("note: quantities.idle: no formula uses it", run.stdout)
+
+    def test_virtual_experiment_needs_formulas_of_indications(self):
+        text = H2.replace('name = "expression"', 'name = "expression"\nmethod = "virtual_experiment"')
+        run = gumshoe("check", self.scenario(text))
+        self.assertIsNone(complaint(run), run.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
