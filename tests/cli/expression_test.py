@@ -119,6 +119,45 @@ max_failed_share = 0.2
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertIn("note: quantities.idle: no formula uses it", run.stdout)
 
+    def test_virtual_experiment_sees_what_the_evaluation_leaves_out(self):
+        text = """schema = 1
+[model]
+name = "expression"
+method = "virtual_experiment"
+[model.indications]
+spindle_z = "laser_z + L + scale * L"
+[model.measurands]
+laser_z = "spindle_z - L"
+[quantities]
+laser_z = { value = "-500 mm", u = "1 mm" }
+L = { value = "180 mm", u = "1 um" }
+scale = { value = "0 um/m", u = "10 um/m" }
+[run]
+samples = 100_000
+"""
+        run = gumshoe("run", self.scenario(text), "--out", self.folder / "v.h5", "--format", "json")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        # Error = (L - L_est) + scale L, the height itself cancels: u = sqrt(1 + 1.8^2) um; sampling error u/sqrt(2 M).
+        u = json.loads(run.stdout)[0]["standard_uncertainty"]
+        self.assertAlmostEqual(u / (1 + 1.8**2) ** 0.5 * 1e3, 1, delta=5 / (2 * 100_000) ** 0.5)
+
+    def test_nothing_measured_is_no_run(self):
+        text = """schema = 1
+[model]
+name = "expression"
+[model.indications]
+y = "a * x"
+[quantities]
+a = 2
+[conditions]
+x = 1
+[indications.y]
+readings = [2.1]
+"""
+        file = self.scenario(text)
+        self.assertEqual(gumshoe("check", file).returncode, 0)
+        self.assertIsNone(complaint(gumshoe("run", file, "--out", self.folder / "n.h5")))
+
     def test_virtual_experiment_needs_formulas_of_indications(self):
         text = H2.replace('name = "expression"', 'name = "expression"\nmethod = "virtual_experiment"')
         run = gumshoe("check", self.scenario(text))

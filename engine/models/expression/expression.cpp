@@ -198,6 +198,11 @@ private:
       Symbol s{name, kinds[i].unit, "", f.text};
       if (i >= first_measurand_) {
         const Stated& stated = e_->statement.measurands[i - first_measurand_];
+        for (const Symbol& q : e_->statement.quantities)
+          if (q.name == name && !Dimension::of(q.unit).like(is))
+            problems_.push_back(f.problem(
+                0, fmt::format("the formula gives {}", is.words()),
+                fmt::format("the quantity of this name, the true value, is {}", Dimension::of(q.unit).words())));
         if (!stated.unit.empty()) {
           s.unit = stated.unit;
           if (!fits(stated, is)) continue;
@@ -247,11 +252,28 @@ private:
     }
   }
 
+  bool is_measurand(std::size_t formula) const { return formula >= first_measurand_ && formula < first_simulated_; }
+
+  /// The quantity of a measurand's name: its true value, from which readouts are simulated.
+  const Meaning* truth(const Names& names, std::size_t formula) const {
+    const std::string& name = e_->formulas[formula].name;
+    const Meaning* m = names.find(name.substr(name.rfind('.') + 1), false);
+    return m && m->source == Source::quantity ? m : nullptr;
+  }
+
   /// Steps of the formulas `roots`, in a program of their own.
   Program compiled(const Names& names, const std::vector<std::size_t>& roots, bool simulating) {
     Builder builder;
     std::map<std::size_t, Builder::Value> results;
-    for (const std::size_t formula : names.order(roots, simulating, problems_)) {
+    std::vector<std::size_t> wanted;
+    for (const std::size_t r : roots) {
+      const Meaning* true_value = simulating && is_measurand(r) ? truth(names, r) : nullptr;
+      if (true_value)
+        results[r] = builder.input(true_value->source, true_value->index);
+      else
+        wanted.push_back(r);
+    }
+    for (const std::size_t formula : names.order(wanted, simulating, problems_)) {
       const Formula& f = e_->formulas[formula];
       std::vector<Builder::Value> values;
       for (std::size_t i = 0; i < f.nodes.size(); ++i) {

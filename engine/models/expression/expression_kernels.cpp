@@ -23,6 +23,7 @@ struct Buffers {
   std::vector<Place> places;
   std::vector<double> registers, uniform;
   std::vector<std::uint32_t> varying; ///< steps to compute for every sample
+  std::vector<double*> rows;          ///< of a simulation's outputs
 };
 Buffers& buffers() {
   thread_local Buffers b;
@@ -133,7 +134,8 @@ void simulate(const BlockCall& call) {
   const auto& expression = *static_cast<const Expression*>(call.context);
   const ModelCard& card = *expression.model.card;
   const std::size_t k = card.indications.size(), m = card.measurands.size();
-  std::vector<double*> rows(k + m);
+  std::vector<double*>& rows = buffers().rows;
+  rows.resize(k + m);
   for (std::size_t r = 0; r < call.readings; ++r) {
     std::copy_n(call.simulated + r * k, k, rows.begin());
     std::copy_n(call.measurands + r * m, m, rows.begin() + static_cast<std::ptrdiff_t>(k));
