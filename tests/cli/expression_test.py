@@ -3,6 +3,7 @@
 usage: expression_test.py path of gumshoe [unittest options]
 """
 import json
+import os
 import pathlib
 import tempfile
 import unittest
@@ -68,11 +69,44 @@ class Expression(unittest.TestCase):
             self.assertAlmostEqual(summary[name]["estimate"], y, delta=5 * u / 200_000**0.5 + 1e-3)
             self.assertAlmostEqual(summary[name]["standard_uncertainty"] / u, 1, delta=5 / (2 * 200_000) ** 0.5)
 
+    def test_gauge_block_of_jcgm_101(self):
+        text = """schema = 1
+[model]
+name = "expression"
+[model.measurands]
+dL = { formula = "LS + D + d1 + d2 - LS * (da * (th0 + Delta) + aS * dt) - nominal", unit = "nm" }
+[quantities]
+nominal = "50 mm"
+LS = { value = "50.000623 mm", distribution = "t", u = "25 nm", degrees_of_freedom = 18 }
+D = { value = "215 nm", distribution = "t", u = "6 nm", degrees_of_freedom = 24 }
+d1 = { value = "0 nm", distribution = "t", u = "4 nm", degrees_of_freedom = 5 }
+d2 = { value = "0 nm", distribution = "t", u = "7 nm", degrees_of_freedom = 8 }
+aS = { distribution = "rectangular", low = "9.5 um/m/K", high = "13.5 um/m/K" }
+th0 = { value = "-0.1 K", u = "0.2 K" }
+Delta = { distribution = "arcsine", low = "-0.5 K", high = "0.5 K" }
+da = { distribution = "curvilinear_trapezoid", low = "-1 um/m/K", high = "1 um/m/K", inexactness = "0.1 um/m/K" }
+dt = { distribution = "curvilinear_trapezoid", low = "-0.05 K", high = "0.05 K", inexactness = "0.025 K" }
+[run]
+samples = 1_000_000
+[analysis]
+coverage_probability = 0.99
+"""
+        run = gumshoe("run", self.scenario(text), "--out", self.folder / "g.h5", "--format", "json")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        # JCGM 101 9.5, to digits that it does not print: 838.00, 35.806, [744.39, 931.70]. Standard errors at 1e6:
+        # u/1000 of the mean, 0.03 of u, 0.3 of the ends (sqrt(0.005 * 0.995 / M) over the density there, 2.6e-4 / nm).
+        d = json.loads(run.stdout)[0]
+        self.assertAlmostEqual(d["estimate"], 838.00, delta=5 * 0.036)
+        self.assertAlmostEqual(d["standard_uncertainty"], 35.806, delta=5 * 0.03)
+        self.assertAlmostEqual(d["symmetric"][0], 744.39, delta=5 * 0.3)
+        self.assertAlmostEqual(d["symmetric"][1], 931.70, delta=5 * 0.3)
+
     def test_threads_and_instruction_sets_give_the_same_bits(self):
         file = self.scenario(H2)
         outputs = set()
-        for threads in (1, 2):
-            run = gumshoe("run", file, "--out", self.folder / f"{threads}.h5", "--threads", threads, "--format", "csv")
+        for threads, isa in ((1, "sse2"), (2, "sse2"), (2, "avx2"), (1, "avx512")):  # a wish: what is there is taken
+            run = gumshoe("run", file, "--out", self.folder / f"{threads}{isa}.h5", "--threads", threads, "--format", "csv",
+                          env={**os.environ, "GUMSHOE_ISA": isa})
             self.assertEqual(run.returncode, 0, run.stderr)
             outputs.add("\n".join(line for line in run.stdout.splitlines() if ".h5" not in line))
         self.assertEqual(len(outputs), 1)
