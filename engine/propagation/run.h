@@ -13,10 +13,11 @@ enum class Status : std::uint8_t {
   not_converged = 2,
   out_of_domain = 3, ///< a drawn value that the solve reads is impossible: a fillet larger than the rod
   no_solution = 4,   ///< the geometry or the data admit no answer
+  not_finite = 5,    ///< the formula has no finite value: a division by zero, the logarithm of a negative number
 };
 
 /// Every status there is, from 0.
-inline constexpr int statuses = 5;
+inline constexpr int statuses = 7;
 
 /// "never_covered" and so on, as in files and tables.
 const char* status_name(Status status);
