@@ -36,6 +36,7 @@ struct InputQuantity {
   std::string unit; ///< shown to people
   std::string si_unit;
   std::vector<Entry> entries; ///< at least one; several only with different labels (`by`)
+  bool estimated = false;     ///< to be fitted to the readings: values are starts, components priors
 };
 
 /// Correlation between single-component quantities, through a Gaussian copula.

@@ -48,6 +48,7 @@ public:
       out_.correlations = read_correlations(*items, problems_, out_.quantities);
     if (auto run = top.table("run")) out_.run = read_run(*run);
     if (auto analysis = top.table("analysis")) out_.analysis = read_analysis(*analysis, *model, out_.quantities, context_);
+    if (auto estimate = top.table("estimate")) out_.estimate = read_estimate(*estimate);
     top.refuse_unknown();
     problems_.raise();
     out_.hash = fmt::format("{:016x}", files_.hash(hash64(out_.text)));

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/card.h"
+#include "math/least_squares.h"
 #include "models/model.h"
 #include "quantities/input_quantity.h"
 
@@ -113,6 +114,14 @@ struct AnalysisOptions {
   std::vector<Printed> printed;
 };
 
+/// How `gumshoe estimate` fits the quantities marked `estimated`.
+struct EstimateOptions {
+  least_squares::Loss loss = least_squares::Loss::squared;
+  double width = 0;      ///< of the loss, in standard deviations of a residual; 0: the usual one
+  int iterations = 2000; ///< of each attempt of the solver
+  bool t = false;        ///< posterior as t where the noise is estimated: as normal otherwise
+};
+
 struct Scenario {
   std::string file;
   std::string text; ///< as read, kept in the result
@@ -130,6 +139,7 @@ struct Scenario {
   std::vector<quantities::Reading> readings; ///< at least one
   RunOptions run;
   AnalysisOptions analysis;
+  EstimateOptions estimate;
   std::vector<std::string>
       notes; ///< decisions and warnings a reader must see ("resolution used, not repeatability: ...")
 };
