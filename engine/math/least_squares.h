@@ -62,7 +62,8 @@ struct Solution {
   Report report;
 };
 
-/// Several attempts from the same start (Levenberg-Marquardt, dogleg, cautious first steps); the lowest minimum wins.
+/// Attempts from the same start (Levenberg-Marquardt, dogleg, both with cautious first steps) until two find the same
+/// minimum; the lowest wins.
 /// One thread, same bits every time. Never throws for numerical reasons: see Report::converged.
 Solution solve(const Problem& problem, const Options& options = {});
 

@@ -142,9 +142,6 @@ TEST_CASE("NIST StRD nonlinear sets reach their certified digits from both start
         least = std::min(least, digits(solution.x[j], set.certified[j]));
         least_sd = std::min(least_sd, digits(std::sqrt(s2 * covariance.matrix[j * p + j]), set.deviations[j]));
       }
-      if (getenv("STRD_SHOW"))
-        printf("%s start %d: %.1f %.1f digits, rss %.1f; %s; %s\n", set.name, start + 1, least, least_sd,
-               digits(squares, set.sum_of_squares), solution.report.reason.c_str(), solution.report.solver.c_str());
       CHECK(least >= set.digits);
       CHECK(least_sd >= set.digits);
     }
