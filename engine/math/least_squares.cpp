@@ -48,6 +48,7 @@ struct Attempt {
   std::string said;
   int iterations = 0;
   std::vector<std::size_t> vanished;
+  bool rank_lost = false; ///< fewer directions act on the residuals than at the start
   Tangent tangent;
   bool converged = false;
   double cost() const { return 0.5 * r.squaredNorm(); }
@@ -67,14 +68,19 @@ std::vector<bool> acting(const Matrix& jacobian, const Vector& z) {
 constexpr double exact = 1e-18;
 
 bool stationary(const Tangent& t, const Options& options) {
-  return t.relative_step <= options.step_tolerance || t.relative_offset <= options.offset_tolerance;
+  // A minimum at infinity has an offset that dwindles and steps that do not.
+  constexpr double longest_step = 1e-4;
+  return t.relative_step <= options.step_tolerance ||
+         (t.relative_offset <= options.offset_tolerance && t.relative_step <= longest_step);
 }
 
-std::optional<Attempt> attempt(const Rows& rows, const Strategy& strategy, const Options& options) {
+std::optional<Attempt> attempt(const Rows& rows, const Vector& start, const Strategy& strategy,
+                               const Options& options) {
   Attempt out;
-  out.z = rows.start();
+  out.z = start;
   if (!rows.evaluate(out.z, out.r, &out.jacobian)) return std::nullopt;
   const auto acted = acting(out.jacobian, out.z);
+  const Eigen::Index rank = tangent(rows, out.z, out.r, out.jacobian).rank;
 
   ceres::Problem problem;
   problem.AddResidualBlock(new Cost(rows), nullptr, out.z.data());
@@ -107,7 +113,8 @@ std::optional<Attempt> attempt(const Rows& rows, const Strategy& strategy, const
   const auto acts = acting(out.jacobian, out.z);
   for (std::size_t j = 0; j < acts.size(); ++j)
     if (acted[j] && !acts[j]) out.vanished.push_back(j);
-  out.converged = out.vanished.empty() && stationary(out.tangent, options);
+  out.rank_lost = out.tangent.rank + static_cast<Eigen::Index>(out.tangent.held.size()) < rank;
+  out.converged = out.vanished.empty() && !out.rank_lost && stationary(out.tangent, options);
   return out;
 }
 
@@ -119,12 +126,56 @@ bool better(const Attempt& a, const Attempt& b) {
 
 std::string why(const Attempt& a, const Options& options, const Report& r) {
   if (!a.vanished.empty()) return "a parameter has run to where the residuals no longer depend on it";
+  if (a.rank_lost) return "the parameters have run to where the residuals tell fewer of them apart than at the start";
   if (a.converged && r.relative_offset <= options.offset_tolerance)
     return fmt::format("relative offset {:.1e}: no step is left beside the residuals", r.relative_offset);
   if (a.converged) return fmt::format("the next step is {:.1e} of the parameters", r.step);
   if (a.iterations >= options.iterations) return fmt::format("no minimum after {} iterations", a.iterations);
   return fmt::format("no minimum: relative offset {:.1e}, next step {:.1e}, and no step lowers the cost",
                      r.relative_offset, r.step);
+}
+
+std::optional<Attempt> best_attempt(const Rows& rows, const Vector& start, const Options& options, Report& report) {
+  std::optional<Attempt> best;
+  for (const Strategy& strategy : strategies) {
+    auto one = attempt(rows, start, strategy, options);
+    if (!one) continue;
+    report.iterations += one->iterations;
+    // Two attempts that agree are enough.
+    const bool agree = best && best->converged && one->converged &&
+                       std::fabs(one->cost() - best->cost()) <= 1e-6 * best->cost() + exact * report.cost_before;
+    if (!best || better(*one, *best)) best = std::move(one);
+    if (agree) break;
+  }
+  return best;
+}
+
+/// Where to start again when parameters have no slope, if that is lower. Such a parameter may lie on a ridge between
+/// two valleys (b in y = b^2 x at b = 0), or have run away before the others were near: then its start serves anew.
+std::optional<Vector> lower_start(const Rows& rows, const Attempt& at) {
+  const auto acts = acting(at.jacobian, at.z);
+  std::vector<Vector> candidates;
+  Vector returned = at.z;
+  for (const std::size_t j : at.vanished)
+    returned[static_cast<Eigen::Index>(j)] = rows.start()[static_cast<Eigen::Index>(j)];
+  candidates.push_back(returned);
+  for (std::size_t i = 0; i < acts.size(); ++i)
+    for (const double step : {0.1, -0.1, 1e-3, -1e-3}) {
+      if (acts[i]) break;
+      const auto j = static_cast<Eigen::Index>(i);
+      candidates.push_back(at.z);
+      candidates.back()[j] += step * std::max(std::fabs(at.z[j]), 1.0);
+    }
+  std::optional<Vector> lowest;
+  double cost = at.r.squaredNorm() * (1 - 1e-9);
+  for (const Vector& candidate : candidates) {
+    const Vector z = rows.clamp(candidate);
+    Vector r;
+    if (!rows.evaluate(z, r, nullptr) || !(r.squaredNorm() < cost)) continue;
+    cost = r.squaredNorm();
+    lowest = z;
+  }
+  return lowest;
 }
 
 /// Ceres says on stderr what its summary says too.
@@ -154,16 +205,13 @@ Solution solve(const Problem& problem, const Options& options) {
     return out;
   }
   report.cost_before = 0.5 * r.squaredNorm();
-  std::optional<Attempt> best;
-  for (const Strategy& strategy : strategies) {
-    auto one = attempt(rows, strategy, options);
-    if (!one) continue;
-    report.iterations += one->iterations;
-    // Two attempts that agree are enough.
-    const bool agree = best && best->converged && one->converged &&
-                       std::fabs(one->cost() - best->cost()) <= 1e-6 * best->cost() + exact * report.cost_before;
-    if (!best || better(*one, *best)) best = std::move(one);
-    if (agree) break;
+  std::optional<Attempt> best = best_attempt(rows, start, options, report);
+  for (int again = 0; best && again < 3; ++again) {
+    const auto lower = lower_start(rows, *best);
+    if (!lower) break;
+    auto next = best_attempt(rows, *lower, options, report);
+    if (!next || !better(*next, *best)) break;
+    best = std::move(next);
   }
   report.evaluations = rows.evaluations();
   if (!best) {

@@ -347,6 +347,48 @@ TEST_CASE("a model without derivatives is fitted by differences", "[calibration]
   }
 }
 
+TEST_CASE("a start without slope is no minimum", "[calibration]") {
+  // y = b^2 x has no slope at b = 0, and y = a b none at a = b = 0.
+  std::string square = line({1, 2, 3, 4}, {4, 8, 12, 16.1}, "[quantities.b]\nestimated = true\nvalue = 0\n");
+  square.replace(square.find("a + b * x"), 9, "b^2 * x");
+  square.replace(square.find("a + 2 * b"), 9, "2 * b");
+  const Case c(square);
+  const auto e = calibration::estimate(c.experiment);
+  REQUIRE(e.solver.converged);
+  CHECK(std::fabs(e.parameters[0].value) == Approx(std::sqrt(120.4 / 30)).epsilon(1e-9));
+}
+
+TEST_CASE("pulls of a rod's fit have mean 0 and standard deviation 1", "[calibration]") {
+  // Five rods read to 0.5 um: curvature over u(pitch) is small, so the pulls are normal to first order.
+  constexpr int sets = 200;
+  const double z = -350, pitch = 0.5;
+  const auto exact = simulated(z, pitch);
+  std::mt19937_64 generator(7);
+  std::normal_distribution<double> normal;
+  double sum[2] = {}, squares[2] = {};
+  for (int k = 0; k < sets; ++k) {
+    auto readings = exact;
+    for (auto& r : readings) r = fmt::format("{:.17g}", std::stod(r) + 0.5e-3 * normal(generator));
+    const Case c(rod_scenario("[quantities.laser_z]\nestimated = true\n"
+                              "[quantities.beam_pitch]\nestimated = true\nvalue = \"0.4 deg\"\n",
+                              readings, "repeatability = { s = \"0.5 um\" }\n"));
+    const auto e = calibration::estimate(c.experiment);
+    REQUIRE(e.solver.converged);
+    const auto &a = parameter(e, "laser_z"), &b = parameter(e, "beam_pitch");
+    const double pulls[] = {(a.value - z * 1e-3) / a.standard_uncertainty,
+                            (b.value - pitch * scenario_fixture::degree) / b.standard_uncertainty};
+    for (int j = 0; j < 2; ++j) {
+      sum[j] += pulls[j];
+      squares[j] += pulls[j] * pulls[j];
+    }
+  }
+  for (int j = 0; j < 2; ++j) {
+    const double mean = sum[j] / sets, sd = std::sqrt(squares[j] / sets - mean * mean);
+    CHECK(std::fabs(mean) < 4 / std::sqrt(sets));
+    CHECK(std::fabs(sd - 1) < 4 / std::sqrt(2.0 * sets));
+  }
+}
+
 TEST_CASE("any number of threads gives the same bits", "[calibration]") {
   std::vector<double> x, y;
   for (int i = 0; i < 700; ++i) {
