@@ -109,6 +109,10 @@ Data data_of(const Experiment& e) {
       const std::size_t row = out.measured.size();
       out.measured.push_back(point[first + k]);
       out.weight.push_back(s.readings[r].repeats);
+      if (k < s.readings[r].scatter.size()) {
+        out.pure_error += s.readings[r].scatter[k];
+        out.pure_freedom += s.readings[r].repeats - 1;
+      }
       double squares = 0;
       for (const std::size_t v : plan.columns[plan.gather[r][first + k]].variates) {
         bool has = true;

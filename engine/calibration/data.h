@@ -29,7 +29,9 @@ struct Data {
   std::vector<double> measured; ///< SI, expectation of the noise included
   std::vector<double> weight;   ///< share of a row's variance where no noise is declared: repeats of the mean
   bool noise_declared = false;
-  std::vector<double> u; ///< standard uncertainty of each row's noise, SI
+  double pure_error = 0;   ///< sum of squares of repeats about their means, and its degrees of freedom: part of s
+  double pure_freedom = 0; ///< where no noise is declared
+  std::vector<double> u;   ///< standard uncertainty of each row's noise, SI
   /// Lower Cholesky factor of the noise's covariance matrix, row-major, where rows share draws; else empty.
   std::vector<double> cholesky;
   std::vector<std::string> notes;

@@ -125,7 +125,7 @@ private:
       if (i.si_unit != indications[0].si_unit)
         refuse(s.file, fmt::format("indications {} and {} have no declared noise", indications[0].name, i.name),
                "what is measured in different units cannot be weighed without it", "repeatability = { s = \"...\" }?");
-    if (m > 0 && n_ <= p_)
+    if (m > 0 && n_ <= p_ && !(data_.pure_freedom > 0))
       refuse(s.file, fmt::format("{} readings cannot tell their own noise beside {} unknowns", n_, p_),
              "priors are weighed against it", "repeatability = { s = \"...\" }?");
   }
@@ -191,7 +191,7 @@ private:
     double floor = 0;
     for (const double y : data_.measured) floor = std::max(floor, std::fabs(y) * 1e-14);
     if (loss_ != Loss::squared) return std::max(median_of(sizes) / 0.6744897501960817, floor);
-    return std::max(std::sqrt(squares / freedom()), floor);
+    return std::max(std::sqrt((squares + data_.pure_error) / freedom()), floor);
   }
 
   /// n minus the trace of the data's share in the fit: n - p without priors.
@@ -199,7 +199,7 @@ private:
     const auto c = least_squares::parameter_covariance(stacked(), n_ + priors_.target.size(), p_, magnitudes());
     const auto n = static_cast<Eigen::Index>(n_), p = static_cast<Eigen::Index>(p_);
     const Eigen::Map<const Matrix> jacobian(solution_.jacobian.data(), n, p), matrix(c.matrix.data(), p, p);
-    return static_cast<double>(n_) - (jacobian * matrix).cwiseProduct(jacobian).sum();
+    return static_cast<double>(n_) + data_.pure_freedom - (jacobian * matrix).cwiseProduct(jacobian).sum();
   }
 
   /// Noise unknown, beside priors or a robust loss: its scale and the fit in turns until both stand still.
@@ -294,9 +294,13 @@ private:
     }
     const double left = static_cast<double>(n_) - static_cast<double>(rank);
     out.residual_sum_of_squares = squares * sigma_ * sigma_;
+    // Repeats of a reading know the noise too: with them the fit of the means is the fit of all readouts.
+    const bool repeats = !data_.noise_declared && loss_ == Loss::squared;
+    if (repeats) out.residual_sum_of_squares += data_.pure_error;
     out.degrees_of_freedom = data_.noise_declared ? left + static_cast<double>(priors_.target.size())
-                             : priors_.target.empty() || loss_ != Loss::squared ? left
-                                                                                : freedom();
+                             : priors_.target.empty() || loss_ != Loss::squared
+                                 ? left + (repeats ? data_.pure_freedom : 0)
+                                 : freedom();
     out.s = out.degrees_of_freedom > 0 ? std::sqrt(out.residual_sum_of_squares / out.degrees_of_freedom) : nan;
     if (loss_ != Loss::squared) {
       if (!data_.noise_declared) out.s = sigma_;

@@ -53,6 +53,7 @@ struct Reading {
   std::vector<double> conditions;  ///< by position in the model's card, SI
   std::vector<double> indications; ///< means, by position in the model's card, SI; empty if nothing was read
   int repeats = 1;
+  std::vector<double> scatter = {}; ///< sums of squares of the readouts about their mean, by indication, SI
 };
 
 } // namespace gumshoe::quantities

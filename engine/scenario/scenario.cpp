@@ -158,6 +158,9 @@ private:
         double mean = 0;
         for (const double v : r.values) mean += (v - r.values.front()) / static_cast<double>(r.values.size());
         it->indications.push_back(r.values.front() + mean);
+        double squares = 0;
+        for (const double v : r.values) squares += (v - it->indications.back()) * (v - it->indications.back());
+        it->scatter.push_back(squares);
       }
     }
     for (const Reading& r : out_.readings) {

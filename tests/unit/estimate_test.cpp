@@ -418,6 +418,27 @@ TEST_CASE("a prior beside noise that nobody declared is weighed by the noise fou
   CHECK(held.degrees_of_freedom == Approx(5).epsilon(1e-6)); // one unknown is left to the data
 }
 
+TEST_CASE("repeats under the same conditions count like readouts of their own", "[calibration]") {
+  // Labels keep the readouts apart in one scenario, equal conditions merge them in the other: the same fit.
+  const std::vector<double> x{0, 0, 0, 1, 1, 2, 3, 3}, y{1.1, 0.9, 1.3, 2.9, 3.2, 5.2, 6.8, 7.1};
+  const Case merged(line(x, y, free_line));
+  std::string text = line(x, y, free_line);
+  for (std::size_t i = 0, at = 0; i < x.size(); ++i) {
+    at = text.find("{ x =", at) + 2;
+    text.insert(at, fmt::format("n = \"{}\", ", i));
+  }
+  const Case apart(text);
+  REQUIRE(merged.scenario.readings.size() == 4);
+  REQUIRE(apart.scenario.readings.size() == 8);
+  const auto a = calibration::estimate(merged.experiment), b = calibration::estimate(apart.experiment);
+  CHECK(a.degrees_of_freedom == b.degrees_of_freedom);
+  CHECK(a.s == Approx(b.s).epsilon(1e-12));
+  for (std::size_t j = 0; j < 2; ++j) {
+    CHECK(a.parameters[j].value == Approx(b.parameters[j].value).epsilon(1e-12));
+    CHECK(a.parameters[j].standard_uncertainty == Approx(b.parameters[j].standard_uncertainty).epsilon(1e-12));
+  }
+}
+
 TEST_CASE("what cannot be estimated is said", "[calibration]") {
   CHECK_THAT(first_problem(line({1, 2, 3}, {1, 2, 3}, "[quantities.a]\nvalue = 1\n[quantities.b]\nvalue = 1\n")),
              Catch::Contains("no quantity is marked estimated"));
