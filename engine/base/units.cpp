@@ -187,6 +187,17 @@ constexpr Row kinds[] = {
     {"1/s", "a frequency", "use Hz?"},
     {"kg", "a mass", "use kg?"},
     {"N", "a force", "use N?"},
+    {"m2", "an area", "use mm2?"},
+    {"m3", "a volume", "use mm3?"},
+    {"m-1", "a curvature", "use 1/mm?"},
+    {"kg/m3", "a density", "use kg/m3?"},
+    {"Pa", "a pressure", "use Pa or bar?"},
+    {"J", "an energy", "use J?"},
+    {"W", "a power", "use W?"},
+    {"A", "an electric current", "use A or mA?"},
+    {"V", "a voltage", "use V or mV?"},
+    {"ohm", "an electric resistance", "use ohm?"},
+    {"mol", "an amount of substance", "use mol?"},
 };
 
 const Row* row(const std::string& si_unit) {
@@ -278,6 +289,12 @@ std::string si_unit_of(const std::string& unit) {
   for (const Row& r : kinds)
     if (const Unit* const si = find(std::string(r.si_unit)); si && si->base == known->base && si->radians == known->radians)
       return std::string(r.si_unit);
+  return known->base;
+}
+
+std::string base_units_of(const std::string& unit) {
+  const Unit* const known = find(unit);
+  if (!known) throw InputError(fmt::format("'{}' is not a unit", unit));
   return known->base;
 }
 

@@ -33,6 +33,10 @@ bool convertible(const std::string& unit, const std::string& si_unit);
 /// InputError if it is not a unit.
 std::string si_unit_of(const std::string& unit);
 
+/// `unit` in the base units of the SI and rad, without factor: "mN" -> "m.kg.s-2", "deg" -> "rad", "%" -> "1". Throws
+/// InputError if it is not a unit.
+std::string base_units_of(const std::string& unit);
+
 /// What a quantity of this SI unit is called in a message: m -> "a length", rad -> "an angle".
 std::string kind_name(const std::string& si_unit);
 

@@ -155,7 +155,13 @@ template <class Body> void add(CLI::App& app, const char* name, const char* help
 
 void add_models(CLI::App& app, Action& action) {
   add(app, "models", "lists the models, or one model's card: quantities, units, defaults, limits, meaning, source",
-      action, [](const Options& o) { return show(catalogue().models, "model", o.name, o.format); });
+      action, [](const Options& o) {
+        const ExitCode code = show(catalogue().models, "model", o.name, o.format);
+        if (o.name.empty() && o.format == "text")
+          std::cout << "A scenario can also state its model: name = \"expression\" (formulas), \"plugin\" (a shared "
+                       "library) or \"command\" (a program); see scenarios/README.md.\n";
+        return code;
+      });
 }
 void add_effects(CLI::App& app, Action& action) {
   add(app, "effects", "lists the effects, or one effect's card", action,

@@ -125,6 +125,8 @@ ExitCode run(const Options& o) {
   if (o.seed) s.run.seed = whole_number(*o.seed, "--seed", 0);
   const propagation::Experiment experiment(s);
   const std::string out = !o.out.empty() ? o.out : "results/" + std::filesystem::path(o.file).stem().string() + ".h5";
+  if (experiment.outputs().empty())
+    throw InputError({{{s.file}, "model: nothing is measured", "a run evaluates measurands", "[model.measurands]?"}});
   if (o.out.empty()) std::filesystem::create_directories("results");
 
   const store::Identity identity{s.hash,

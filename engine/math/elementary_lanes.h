@@ -50,9 +50,7 @@ template <class L> L outside_of_log(const L& x, const L& inside) {
 template <class L> L log_whole_lane(const L& x) { return outside_of_log(x, log_lane(x)); }
 
 /// head + rest, exactly or nearly so; |rest| below half a unit in the last place of head.
-template <class L> struct Pair {
-  L head, rest;
-};
+template <class L> struct Pair { L head, rest; };
 template <class L> Pair<L> exact_sum(const L& a, const L& b) {
   const L s = a + b, part = s - a;
   return {s, (a - (s - part)) + (b - part)};
@@ -87,7 +85,8 @@ template <class L> Pair<L> log_pair_lane(L x) {
   auto second = exact_product(cube.head, L(third));
   second.rest = second.rest + cube.rest * L(third) + cube.head * L(third_rest);
   // 2 s^5 (1/5 + s^2/7 + ...); s < 0.1716
-  constexpr double c[] = {2.0 / 5, 2.0 / 7, 2.0 / 9, 2.0 / 11, 2.0 / 13, 2.0 / 15, 2.0 / 17, 2.0 / 19, 2.0 / 21, 2.0 / 23, 2.0 / 25};
+  constexpr double c[] = {2.0 / 5,  2.0 / 7,  2.0 / 9,  2.0 / 11, 2.0 / 13, 2.0 / 15,
+                          2.0 / 17, 2.0 / 19, 2.0 / 21, 2.0 / 23, 2.0 / 25};
   const L third_term = cube.head * square.head * polynomial(square.head, c);
   const auto a = exact_sum(L(2.0) * s, second.head);
   const auto b = exact_sum(k * L(6.93147180369123816490e-01), a.head);
@@ -153,9 +152,7 @@ template <class L> L signed_as(const L& size, const L& sign) {
 }
 template <class L> L atan_lane(const L& x) { return signed_as(positive_atan(xsimd::abs(x)), x); }
 template <class L> L asin_lane(const L& x) { return atan_lane(x / xsimd::sqrt((L(1.0) - x) * (L(1.0) + x))); }
-template <class L> L acos_lane(const L& x) {
-  return L(2.0) * positive_atan(xsimd::sqrt((L(1.0) - x) / (L(1.0) + x)));
-}
+template <class L> L acos_lane(const L& x) { return L(2.0) * positive_atan(xsimd::sqrt((L(1.0) - x) / (L(1.0) + x))); }
 /// Angle of the point (x, y) in (-pi, pi]; 0 at the origin.
 template <class L> L atan2_lane(const L& y, const L& x) {
   const L ratio = xsimd::select((x == L(0.0)) && (y == L(0.0)), L(0.0), xsimd::abs(y) / xsimd::abs(x));
@@ -167,8 +164,15 @@ template <class L> L atan2_lane(const L& y, const L& x) {
 /// By its series below 1; by exponentials above.
 template <class L> L sinh_lane(const L& x) {
   const L size = xsimd::abs(x), e = exp_whole_lane(size), z = x * x;
-  constexpr double c[] = {1.0 / 6, 1.0 / 120, 1.0 / 5040, 1.0 / 362880, 1.0 / 39916800, 1.0 / 6227020800.0,
-                          1.0 / 1307674368000.0, 1.0 / 355687428096000.0, 1.0 / 121645100408832000.0};
+  constexpr double c[] = {1.0 / 6,
+                          1.0 / 120,
+                          1.0 / 5040,
+                          1.0 / 362880,
+                          1.0 / 39916800,
+                          1.0 / 6227020800.0,
+                          1.0 / 1307674368000.0,
+                          1.0 / 355687428096000.0,
+                          1.0 / 121645100408832000.0};
   return xsimd::select(size < L(1.0), x + x * z * polynomial(z, c), signed_as(L(0.5) * e - L(0.5) / e, x));
 }
 template <class L> L cosh_lane(const L& x) {
@@ -188,7 +192,11 @@ template <class L> L hypot_lane(const L& x, const L& y) {
   return xsimd::select(most == L(0.0), L(0.0), most * xsimd::sqrt(L(1.0) + r * r));
 }
 /// A NaN among the two stays one.
-template <class L> L min_lane(const L& x, const L& y) { return xsimd::select(x <= y, x, xsimd::select(y == y, xsimd::select(x == x, y, x), y)); }
-template <class L> L max_lane(const L& x, const L& y) { return xsimd::select(x >= y, x, xsimd::select(y == y, xsimd::select(x == x, y, x), y)); }
+template <class L> L min_lane(const L& x, const L& y) {
+  return xsimd::select(x <= y, x, xsimd::select(y == y, xsimd::select(x == x, y, x), y));
+}
+template <class L> L max_lane(const L& x, const L& y) {
+  return xsimd::select(x >= y, x, xsimd::select(y == y, xsimd::select(x == x, y, x), y));
+}
 
 } // namespace gumshoe::elementary

@@ -8,7 +8,7 @@
 namespace gumshoe::scenario {
 namespace {
 
-constexpr std::array worded{"distribution", "evaluation", "source", "per", "name", "kind", "labels", "where", "file", "column"};
+constexpr std::array worded{"distribution", "evaluation", "source", "per", "name", "kind", "labels", "where", "file", "column", "conditions"};
 
 /// Depth first, in file order; empty if no number here carries a unit.
 std::string first_unit(const Node& node) {
@@ -50,6 +50,32 @@ std::vector<models::Symbol> symbols(Table& top, const char* key, Problems& probl
   return out;
 }
 
+/// Conditions that only readouts name: readings = { file, ..., conditions.x = { column, unit } }.
+void add_conditions_of_files(Table& top, std::vector<models::Symbol>& conditions, Problems& problems) {
+  const auto member = [](const Node& node, std::string_view key) -> const Node* {
+    for (const Member& m : node.members)
+      if (m.key == key) return &m.value;
+    return nullptr;
+  };
+  const Node* indications = member(top.node(), "indications");
+  if (!indications) return;
+  for (const Member& indication : indications->members) {
+    const Node* readings = member(indication.value, "readings");
+    const Node* named = readings ? member(*readings, "conditions") : nullptr;
+    if (!named) continue;
+    for (const Member& m : named->members) {
+      if (std::ranges::find(conditions, m.key, &models::Symbol::name) != conditions.end()) continue;
+      const std::string unit = declared_unit(m.value);
+      try {
+        conditions.push_back({m.key, unit, units::si_unit_of(unit), ""});
+      } catch (const InputError& error) {
+        problems.add(m.value, fmt::format("indications.{}.readings.conditions.{}: {}", indication.key, m.key,
+                                          error.problems().front().what));
+      }
+    }
+  }
+}
+
 } // namespace
 
 std::string declared_unit(const Node& node) {
@@ -58,8 +84,10 @@ std::string declared_unit(const Node& node) {
 }
 
 Declared declared_symbols(Table& top, Problems& problems) {
-  return {symbols(top, "quantities", problems), symbols(top, "conditions", problems),
-          symbols(top, "indications", problems)};
+  Declared out{symbols(top, "quantities", problems), symbols(top, "conditions", problems),
+               symbols(top, "indications", problems)};
+  add_conditions_of_files(top, out.conditions, problems);
+  return out;
 }
 
 } // namespace gumshoe::scenario

@@ -160,6 +160,7 @@ std::string explain(const Scenario& s, const Catalogue& catalogue) {
       std::find_if(catalogue.models.begin(), catalogue.models.end(), [&](const auto* m) { return m->name == s.model; });
   const ModelCard* const model = s.made ? s.made->card : known == catalogue.models.end() ? nullptr : *known;
   if (!model) return text;
+  if (s.made && !model->summary.empty()) fmt::format_to(out, "stated here\n  {}\n", model->summary);
   fmt::format_to(out, "readings\n");
   for (std::size_t i = 0; i < s.readings.size(); ++i) explain(s.readings[i], i + 1, *model, out);
   fmt::format_to(out, "quantities (SI; a component is a deviation from the value)\n");

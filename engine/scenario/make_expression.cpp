@@ -1,4 +1,6 @@
 /// [model] name = "expression": tables of formulas.
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "models/expression/expression.h"
@@ -58,6 +60,11 @@ models::MadeModel make_expression(Table& model, Table& top, Context& context) {
   s.quantities = std::move(declared.quantities);
   s.conditions = std::move(declared.conditions);
   s.indications = std::move(declared.indications);
+  for (const auto& f : s.simulated) { // readouts may be missing, in a virtual experiment
+    const std::string name = f.formula.name.substr(f.formula.name.rfind('.') + 1);
+    if (std::ranges::find(s.indications, name, &models::Symbol::name) == s.indications.end())
+      s.indications.push_back({name, "", "", ""});
+  }
   const Node* method = model.find("method");
   s.virtual_experiment = method && method->text == "virtual_experiment";
   if (s.measurands.empty() && s.simulated.empty())
@@ -66,7 +73,10 @@ models::MadeModel make_expression(Table& model, Table& top, Context& context) {
   try {
     return expression::make(std::move(s), context.notes);
   } catch (const InputError& error) {
-    context.problems.add(error);
+    for (Problem p : error.problems()) {
+      if (p.where.file.empty()) p.where = {context.problems.file(), model.node().line, model.node().column};
+      context.problems.add(InputError(std::vector<Problem>{std::move(p)}));
+    }
     return nullptr;
   }
 }

@@ -1,13 +1,14 @@
 #include "models/expression/expression.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
 #include <fmt/format.h>
 
 #include "base/units.h"
+#include "models/expression/dimensions.h"
 #include "models/expression/interpreter.h"
-#include "models/expression/resolve.h"
 #include "models/kernel_choice.h"
 
 GUMSHOE_DECLARE_KERNELS(expression)
@@ -69,7 +70,9 @@ std::string why_not_finite(Operation operation, double a, double b) {
   case Operation::acos:
     return fmt::format("{} of {:.6g}, which is outside [-1, 1]", word(operation), a);
   case Operation::power:
-    return a == 0 ? "a negative power of zero" : a < 0 ? "a broken power of a negative number" : "the power is too large for a number";
+    return a == 0  ? "a negative power of zero"
+           : a < 0 ? "a broken power of a negative number"
+                   : "the power is too large for a number";
   default:
     return fmt::format("the result of '{}' is too large for a number", word(operation));
   }
@@ -93,8 +96,9 @@ void require_finite(const Expression& e, const Program& program, const Inputs<do
       if (n.operation == Operation::name && seen.insert(n.name).second)
         for (std::size_t c = 0; c < e.statement.quantities.size(); ++c)
           if (const Symbol& q = e.statement.quantities[c]; q.name == n.name)
-            named += fmt::format("{}{} = {:.6g}{}", named.empty() ? "" : ", ", q.name,
-                                 units::from_si(in.quantities[c], q.unit, q.si_unit), q.unit == "1" ? "" : " " + q.unit);
+            named +=
+                fmt::format("{}{} = {:.6g}{}", named.empty() ? "" : ", ", q.name,
+                            units::from_si(in.quantities[c], q.unit, q.si_unit), q.unit == "1" ? "" : " " + q.unit);
       if (is_leaf(n.operation)) continue;
       if (is_binary(n.operation)) open.push_back(n.b);
       open.push_back(n.a);
@@ -140,6 +144,12 @@ public:
     raise();
     names.order(range(0, e_->formulas.size()), false, problems_);
     raise();
+    // An indication without readouts has the unit that its formula gives.
+    const bool unread = std::ranges::any_of(e_->statement.indications, [](const Symbol& s) { return s.unit.empty(); });
+    const auto all = names.order(range(0, e_->formulas.size()), unread, problems_);
+    raise();
+    settle_units(kinds_of(e_->formulas, all, names, unread, problems_));
+    raise();
     note_unused(names);
     compile(names);
     raise();
@@ -163,8 +173,10 @@ private:
     for (const Formula& f : e_->formulas)
       for (const Node& n : f.nodes)
         if (const Meaning* m = n.operation == Operation::name ? names.find(n.name, false) : nullptr) {
-          if (m->symbol) used.insert(m->symbol);
-          else formulas.insert(m->index);
+          if (m->symbol)
+            used.insert(m->symbol);
+          else
+            formulas.insert(m->index);
         }
     for (const Symbol& q : e_->statement.quantities)
       if (!used.contains(&q)) notes_.push_back(fmt::format("quantities.{}: no formula uses it", q.name));
@@ -172,11 +184,96 @@ private:
       if (!formulas.contains(i)) notes_.push_back(fmt::format("{}: no formula uses it", e_->formulas[i].name));
   }
 
+  /// Units in which results are shown; stated ones must fit.
+  void settle_units(const std::vector<Kind>& kinds) {
+    if (!problems_.empty()) return;
+    for (std::size_t i = 0; i < e_->formulas.size(); ++i) {
+      const Formula& f = e_->formulas[i];
+      const std::string name = f.name.substr(f.name.rfind('.') + 1);
+      const Dimension& is = kinds[i].dimension;
+      if (i >= first_simulated_) {
+        simulated_fits(f, name, is, kinds[i].unit);
+        continue;
+      }
+      Symbol s{name, kinds[i].unit, "", f.text};
+      if (i >= first_measurand_) {
+        const Stated& stated = e_->statement.measurands[i - first_measurand_];
+        for (const Symbol& q : e_->statement.quantities)
+          if (q.name == name && !Dimension::of(q.unit).like(is))
+            problems_.push_back(f.problem(
+                0, fmt::format("the formula gives {}", is.words()),
+                fmt::format("the quantity of this name, the true value, is {}", Dimension::of(q.unit).words())));
+        if (!stated.unit.empty()) {
+          s.unit = stated.unit;
+          if (!fits(stated, is)) continue;
+        } else if (!is.has_unit()) {
+          problems_.push_back(
+              f.problem(0, fmt::format("the measurand is {}", is.words()), "no unit has broken exponents"));
+          continue;
+        }
+      }
+      if (s.unit.empty()) s.unit = is.has_unit() ? is.si_unit() : "1"; // of an intermediate: its SI value
+      s.si_unit = units::si_unit_of(s.unit);
+      e_->explained.push_back(s);
+    }
+  }
+
+  bool fits(const Stated& stated, const Dimension& is) {
+    try {
+      const Dimension wanted = Dimension::of(stated.unit);
+      // rad/s is no frequency: a turn is 2 pi.
+      if (wanted.like(is) && (wanted.has_angle() || !is.has_angle() || is.is_angle())) return true;
+      problems_.push_back({stated.unit_place,
+                           fmt::format("{}.unit: '{}' is not {}", stated.formula.name, stated.unit, is.words()),
+                           "what the formula gives", is.has_unit() ? fmt::format("{}?", is.si_unit()) : ""});
+    } catch (const InputError& error) {
+      for (Problem p : error.problems()) {
+        p.where = stated.unit_place;
+        p.what = fmt::format("{}.unit: {}", stated.formula.name, p.what);
+        problems_.push_back(std::move(p));
+      }
+    }
+    return false;
+  }
+
+  /// An indication's formula must give what its readouts are.
+  void simulated_fits(const Formula& f, const std::string& name, const Dimension& is, const std::string& unit) {
+    for (Symbol& s : e_->statement.indications) {
+      if (s.name != name) continue;
+      if (s.unit.empty()) { // no readouts that would tell
+        s.unit = !unit.empty() ? unit : is.has_unit() ? is.si_unit() : "1";
+        s.si_unit = units::si_unit_of(s.unit);
+        continue;
+      }
+      const Dimension wanted = Dimension::of(s.unit);
+      if (!wanted.like(is))
+        problems_.push_back(f.problem(0, fmt::format("the formula gives {}", is.words()),
+                                      fmt::format("the readouts are {}", wanted.words())));
+    }
+  }
+
+  bool is_measurand(std::size_t formula) const { return formula >= first_measurand_ && formula < first_simulated_; }
+
+  /// The quantity of a measurand's name: its true value, from which readouts are simulated.
+  const Meaning* truth(const Names& names, std::size_t formula) const {
+    const std::string& name = e_->formulas[formula].name;
+    const Meaning* m = names.find(name.substr(name.rfind('.') + 1), false);
+    return m && m->source == Source::quantity ? m : nullptr;
+  }
+
   /// Steps of the formulas `roots`, in a program of their own.
   Program compiled(const Names& names, const std::vector<std::size_t>& roots, bool simulating) {
     Builder builder;
     std::map<std::size_t, Builder::Value> results;
-    for (const std::size_t formula : names.order(roots, simulating, problems_)) {
+    std::vector<std::size_t> wanted;
+    for (const std::size_t r : roots) {
+      const Meaning* true_value = simulating && is_measurand(r) ? truth(names, r) : nullptr;
+      if (true_value)
+        results[r] = builder.input(true_value->source, true_value->index);
+      else
+        wanted.push_back(r);
+    }
+    for (const std::size_t formula : names.order(wanted, simulating, problems_)) {
       const Formula& f = e_->formulas[formula];
       std::vector<Builder::Value> values;
       for (std::size_t i = 0; i < f.nodes.size(); ++i) {
@@ -185,7 +282,7 @@ private:
           values.push_back(builder.constant(n.value));
         } else if (n.operation == Operation::name) {
           const Meaning* m = names.find(n.name, simulating);
-          values.push_back(!m ? builder.constant(*find_constant(n.name))
+          values.push_back(!m                          ? builder.constant(*find_constant(n.name))
                            : m->source == Source::step ? results.at(m->index)
                                                        : builder.input(m->source, m->index));
         } else {
@@ -219,13 +316,10 @@ private:
     texts.quantities = e_->statement.quantities;
     texts.conditions = e_->statement.conditions;
     texts.indications = e_->statement.indications;
-    for (std::size_t i = 0; i < first_simulated_; ++i) {
-      const std::string& name = e_->formulas[i].name;
-      Symbol s{name.substr(name.rfind('.') + 1), "1", "1", e_->formulas[i].text};
-      e_->explained.push_back(s);
-      if (i >= first_measurand_) texts.measurands.push_back(s);
-      texts.summary += fmt::format("{}{} = {}", i ? "; " : "", s.name, e_->formulas[i].text);
-    }
+    for (std::size_t i = first_measurand_; i < first_simulated_; ++i) texts.measurands.push_back(e_->explained[i]);
+    for (const Formula& f : e_->formulas)
+      texts.summary +=
+          fmt::format("{}{} = {}", texts.summary.empty() ? "" : "\n  ", f.name.substr(f.name.rfind('.') + 1), f.text);
     e_->card = std::make_unique<MadeCard>(texts);
     Model& model = e_->model;
     model.card = &e_->card->card();

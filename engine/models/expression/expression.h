@@ -13,7 +13,7 @@ namespace gumshoe::models::expression {
 
 struct Stated {
   Formula formula;
-  std::string unit;  ///< of a measurand, as stated; empty: derived
+  std::string unit; ///< of a measurand, as stated; empty: derived
   Location unit_place;
 };
 
@@ -28,7 +28,7 @@ struct Statement {
 struct Expression {
   Statement statement;
   std::vector<Formula> formulas; ///< intermediates, measurands, simulated: what an Origin counts
-  Program evaluate; ///< outputs: measurands
+  Program evaluate;              ///< outputs: measurands
   Program simulate; ///< outputs: indications, then true measurands; empty if not every indication has a formula
   Program explain;  ///< outputs: intermediates, measurands
   std::vector<Symbol> explained;

@@ -23,6 +23,7 @@ struct Buffers {
   std::vector<Place> places;
   std::vector<double> registers, uniform;
   std::vector<std::uint32_t> varying; ///< steps to compute for every sample
+  std::vector<double*> rows;          ///< of a simulation's outputs
 };
 Buffers& buffers() {
   thread_local Buffers b;
@@ -133,7 +134,8 @@ void simulate(const BlockCall& call) {
   const auto& expression = *static_cast<const Expression*>(call.context);
   const ModelCard& card = *expression.model.card;
   const std::size_t k = card.indications.size(), m = card.measurands.size();
-  std::vector<double*> rows(k + m);
+  std::vector<double*>& rows = buffers().rows;
+  rows.resize(k + m);
   for (std::size_t r = 0; r < call.readings; ++r) {
     std::copy_n(call.simulated + r * k, k, rows.begin());
     std::copy_n(call.measurands + r * m, m, rows.begin() + static_cast<std::ptrdiff_t>(k));
@@ -145,7 +147,8 @@ void simulate(const BlockCall& call) {
 } // namespace gumshoe::models::expression
 
 extern "C" {
-extern const gumshoe::models::Kernels GUMSHOE_KERNEL(gumshoe_expression_), GUMSHOE_KERNEL(gumshoe_expression_evaluating_);
+extern const gumshoe::models::Kernels GUMSHOE_KERNEL(gumshoe_expression_),
+    GUMSHOE_KERNEL(gumshoe_expression_evaluating_);
 const gumshoe::models::Kernels GUMSHOE_KERNEL(gumshoe_expression_){&gumshoe::models::expression::simulate,
                                                                    &gumshoe::models::expression::evaluate};
 /// Of a statement that does not say what its readouts would be.

@@ -20,8 +20,8 @@ struct Node {
   Operation operation = Operation::number;
   std::size_t at = 0; ///< byte in the text: of the operator, the function's name, the number
   std::size_t a = 0, b = 0;
-  double value = 0;  ///< number
-  std::string name;  ///< name
+  double value = 0; ///< number
+  std::string name; ///< name
 };
 
 struct Formula {

@@ -17,8 +17,10 @@ struct Misread {
   std::string_view sign, meant;
 };
 /// Signs of mathematics and of other languages that people paste.
-constexpr Misread misread[] = {{"×", "*"}, {"·", "*"}, {"⋅", "*"}, {"−", "-"}, {"–", "-"}, {"÷", "/"}, {"²", "^2"},
-                               {"³", "^3"}, {"√", "sqrt()"}, {"°", "deg in the quantity's unit"}, {"**", "^"}};
+constexpr Misread misread[] = {
+    {"×", "*"}, {"·", "*"},  {"⋅", "*"},  {"−", "-"},      {"–", "-"},
+    {"÷", "/"}, {"²", "^2"}, {"³", "^3"}, {"√", "sqrt()"}, {"°", "deg in the quantity's unit"},
+    {"**", "^"}};
 
 const Misread* find_misread(std::string_view rest) {
   for (const Misread& m : misread)
@@ -62,8 +64,8 @@ void Lexer::advance() {
   } else if (std::string_view("+-*/^(),").find(rest[0]) != std::string_view::npos) {
     next_.kind = Token::Kind::sign;
   } else {
-    throw InputError({formula_.problem(at_, fmt::format("'{}' is no sign of a formula", rest[0]), "",
-                                       "+ - * / ^ and ( ) are?")});
+    throw InputError(
+        {formula_.problem(at_, fmt::format("'{}' is no sign of a formula", rest[0]), "", "+ - * / ^ and ( ) are?")});
   }
   next_.text = rest.substr(0, length);
   at_ += length;

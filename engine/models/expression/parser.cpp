@@ -14,8 +14,7 @@ public:
   explicit Parser(Formula& formula) : formula_(formula), lexer_(formula) {}
 
   void parse() {
-    if (lexer_.next().kind == Token::Kind::end)
-      fail("the formula is empty", "", "\"a + b\", say?");
+    if (lexer_.next().kind == Token::Kind::end) fail("the formula is empty", "", "\"a + b\", say?");
     sum();
     if (lexer_.next().kind == Token::Kind::end) return;
     if (is(")")) fail("')' closes nothing", "", "one '(' more or one ')' less?");
@@ -26,9 +25,7 @@ public:
   }
 
 private:
-  bool is(std::string_view sign) const {
-    return lexer_.next().kind == Token::Kind::sign && lexer_.next().text == sign;
-  }
+  bool is(std::string_view sign) const { return lexer_.next().kind == Token::Kind::sign && lexer_.next().text == sign; }
   [[noreturn]] void fail(std::string what, std::string why = {}, std::string remedy = {}) const {
     throw InputError({formula_.problem(lexer_.next().at, std::move(what), std::move(why), std::move(remedy))});
   }
@@ -92,8 +89,7 @@ private:
       lexer_.take();
       return is("(") ? call(token) : keep({Operation::name, token.at, 0, 0, 0, token.text});
     }
-    if (!is("("))
-      fail(fmt::format("a number, a name or '(' is expected, not {}", lexer_.shown()));
+    if (!is("(")) fail(fmt::format("a number, a name or '(' is expected, not {}", lexer_.shown()));
     lexer_.take();
     const std::size_t inner = sum();
     close(token.at);
@@ -104,10 +100,9 @@ private:
     const Function* function = find_function(name.text);
     if (!function) {
       const std::string meant = nearest(name.text, function_names());
-      throw InputError({formula_.problem(
-          name.at, fmt::format("'{}' is no function", name.text), "",
-          meant.empty() ? fmt::format("one of {}?", fmt::join(function_names(), ", "))
-                        : fmt::format("did you mean '{}'?", meant))});
+      throw InputError({formula_.problem(name.at, fmt::format("'{}' is no function", name.text), "",
+                                         meant.empty() ? fmt::format("one of {}?", fmt::join(function_names(), ", "))
+                                                       : fmt::format("did you mean '{}'?", meant))});
     }
     const std::size_t open = lexer_.take().at;
     std::vector<std::size_t> arguments;
@@ -120,9 +115,9 @@ private:
     }
     close(open);
     if (static_cast<int>(arguments.size()) != function->arguments)
-      throw InputError({formula_.problem(name.at, fmt::format("{} takes {} argument{}, not {}", name.text,
-                                                              function->arguments, function->arguments == 1 ? "" : "s",
-                                                              arguments.size()))});
+      throw InputError(
+          {formula_.problem(name.at, fmt::format("{} takes {} argument{}, not {}", name.text, function->arguments,
+                                                 function->arguments == 1 ? "" : "s", arguments.size()))});
     return keep({function->operation, name.at, arguments.front(), arguments.back(), 0, ""});
   }
 
@@ -152,7 +147,8 @@ Location Formula::place(std::size_t at) const {
   Location place = where;
   if (place.line == 0 || text.find('\n') != std::string::npos) return place;
   const auto bytes = std::string_view(text).substr(0, at);
-  const auto characters = std::ranges::count_if(bytes, [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; });
+  const auto characters =
+      std::ranges::count_if(bytes, [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; });
   place.column += static_cast<int>(characters);
   return place;
 }

@@ -11,8 +11,10 @@ Names::Names(const Statement& s, const std::vector<Formula>& formulas, std::vect
     for (std::size_t i = 0; i < symbols.size(); ++i) {
       const auto [it, fresh] = taken.try_emplace(symbols[i].name, what);
       if (!fresh)
-        problems.push_back({{}, fmt::format("'{}' is {} and {}", symbols[i].name, it->second, what),
-                            "a name means one thing", "rename one of them?"});
+        problems.push_back({{},
+                            fmt::format("'{}' is {} and {}", symbols[i].name, it->second, what),
+                            "a name means one thing",
+                            "rename one of them?"});
       meanings_[symbols[i].name] = {source, i, &symbols[i]};
     }
   };
@@ -55,11 +57,13 @@ void Names::check(const Formula& f, std::vector<Problem>& problems) const {
     std::vector<std::string> candidates;
     for (const auto& [name, meaning] : meanings_) candidates.push_back(name);
     const std::string meant = nearest(n.name, candidates);
-    const std::string remedy = !meant.empty()             ? fmt::format("did you mean '{}'?", meant)
-                               : find_function(n.name)    ? fmt::format("{}(...)?", n.name)
-                               : candidates.size() <= 8 && !candidates.empty() ? fmt::format("one of {}?", fmt::join(candidates, ", "))
-                                                          : fmt::format("[quantities.{}]?", n.name);
-    problems.push_back(f.problem(n.at, fmt::format("'{}' is no quantity, condition, indication or intermediate", n.name),
+    const std::string remedy = !meant.empty()          ? fmt::format("did you mean '{}'?", meant)
+                               : find_function(n.name) ? fmt::format("{}(...)?", n.name)
+                               : candidates.size() <= 8 && !candidates.empty()
+                                   ? fmt::format("one of {}?", fmt::join(candidates, ", "))
+                                   : fmt::format("[quantities.{}]?", n.name);
+    problems.push_back(f.problem(n.at,
+                                 fmt::format("'{}' is no quantity, condition, indication or intermediate", n.name),
                                  find_function(n.name) ? "it is a function" : "", remedy));
   }
 }
@@ -90,7 +94,8 @@ std::vector<std::size_t> Names::order(const std::vector<std::size_t>& roots, boo
       if (state[m->index] == State::open) {
         std::string circle;
         std::size_t from = stack.size();
-        while (stack[--from].formula != m->index) {}
+        while (stack[--from].formula != m->index) {
+        }
         for (; from < stack.size(); ++from) {
           const std::string& name = formulas_[stack[from].formula].name;
           circle += name.substr(name.rfind('.') + 1) + " -> ";

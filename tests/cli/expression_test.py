@@ -1,0 +1,202 @@
+"""Models stated as formulas, from outside: run, published numbers, and what is said of bad formulas.
+
+usage: expression_test.py path of gumshoe [unittest options]
+"""
+import json
+import os
+import pathlib
+import tempfile
+import unittest
+
+from program import complaint, gumshoe, places
+
+# GUM H.2 as JCGM 102 evaluates it: resistance, reactance and impedance from V, I and phi.
+H2 = """schema = 1
+[model]
+name = "expression"
+[model.intermediates]
+ratio = "V / I"
+[model.measurands]
+R = "ratio * cos(phi)"
+X = { formula = "ratio * sin(phi)", unit = "ohm" }
+Z = "ratio"
+[quantities.V]
+value = "4.9990 V"
+u = "3.20936 mV"
+[quantities.I]
+value = "19.6610 mA"
+u = "0.00947101 mA"
+[quantities.phi]
+value = "1.04446 rad"
+u = "0.000752064 rad"
+[[correlations]]
+quantities = ["V", "I", "phi"]
+kind = "pearson"
+matrix = [[1, -0.355311, 0.857624], [-0.355311, 1, -0.645111], [0.857624, -0.645111, 1]]
+[run]
+samples = 200_000
+seed = 1
+"""
+
+
+class Expression(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def scenario(self, text, name="s.toml"):
+        file = self.folder / name
+        file.write_text(text)
+        return file
+
+    def refused(self, text, line, column, *words):
+        file = self.scenario(text)
+        run = gumshoe("check", file)
+        self.assertIsNone(complaint(run), run.stderr)
+        self.assertIn((line, column), places(run, file), run.stderr)
+        for word in words:
+            self.assertIn(word, run.stderr)
+
+    def test_resistance_of_the_gum(self):
+        file = self.scenario(H2)
+        run = gumshoe("run", file, "--out", self.folder / "r.h5", "--format", "json")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        # GUM table H.4: 127.732(71), 219.847(295), 254.260(236); the estimate's standard error is u/sqrt(M).
+        summary = {s["output"]: s for s in json.loads(run.stdout)}
+        for name, y, u in (("R", 127.732170, 0.0710714), ("X", 219.846512, 0.295582), ("Z", 254.259702, 0.236336)):
+            self.assertEqual(summary[name]["unit"], "ohm")
+            self.assertAlmostEqual(summary[name]["estimate"], y, delta=5 * u / 200_000**0.5 + 1e-3)
+            self.assertAlmostEqual(summary[name]["standard_uncertainty"] / u, 1, delta=5 / (2 * 200_000) ** 0.5)
+
+    def test_gauge_block_of_jcgm_101(self):
+        text = """schema = 1
+[model]
+name = "expression"
+[model.measurands]
+dL = { formula = "LS + D + d1 + d2 - LS * (da * (th0 + Delta) + aS * dt) - nominal", unit = "nm" }
+[quantities]
+nominal = "50 mm"
+LS = { value = "50.000623 mm", distribution = "t", u = "25 nm", degrees_of_freedom = 18 }
+D = { value = "215 nm", distribution = "t", u = "6 nm", degrees_of_freedom = 24 }
+d1 = { value = "0 nm", distribution = "t", u = "4 nm", degrees_of_freedom = 5 }
+d2 = { value = "0 nm", distribution = "t", u = "7 nm", degrees_of_freedom = 8 }
+aS = { distribution = "rectangular", low = "9.5 um/m/K", high = "13.5 um/m/K" }
+th0 = { value = "-0.1 K", u = "0.2 K" }
+Delta = { distribution = "arcsine", low = "-0.5 K", high = "0.5 K" }
+da = { distribution = "curvilinear_trapezoid", low = "-1 um/m/K", high = "1 um/m/K", inexactness = "0.1 um/m/K" }
+dt = { distribution = "curvilinear_trapezoid", low = "-0.05 K", high = "0.05 K", inexactness = "0.025 K" }
+[run]
+samples = 1_000_000
+[analysis]
+coverage_probability = 0.99
+"""
+        run = gumshoe("run", self.scenario(text), "--out", self.folder / "g.h5", "--format", "json")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        # JCGM 101 9.5, to digits that it does not print: 838.00, 35.806, [744.39, 931.70]. Standard errors at 1e6:
+        # u/1000 of the mean, 0.03 of u, 0.2 of the ends (sqrt(0.005 * 0.995 / M) over the density there, 3.6e-4 / nm).
+        d = json.loads(run.stdout)[0]
+        self.assertAlmostEqual(d["estimate"], 838.00, delta=5 * 0.036)
+        self.assertAlmostEqual(d["standard_uncertainty"], 35.806, delta=5 * 0.03)
+        self.assertAlmostEqual(d["symmetric"][0], 744.39, delta=5 * 0.2)
+        self.assertAlmostEqual(d["symmetric"][1], 931.70, delta=5 * 0.2)
+
+    def test_threads_and_instruction_sets_give_the_same_bits(self):
+        file = self.scenario(H2)
+        outputs = set()
+        for threads, isa in ((1, "sse2"), (2, "sse2"), (2, "avx2"), (1, "avx512")):  # a wish: what is there is taken
+            run = gumshoe("run", file, "--out", self.folder / f"{threads}{isa}.h5", "--threads", threads, "--format", "csv",
+                          env={**os.environ, "GUMSHOE_ISA": isa})
+            self.assertEqual(run.returncode, 0, run.stderr)
+            outputs.add("\n".join(line for line in run.stdout.splitlines() if ".h5" not in line))
+        self.assertEqual(len(outputs), 1)
+
+    def test_explain_prints_the_formulas(self):
+        run = gumshoe("check", "--explain", self.scenario(H2))
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn("R = ratio * cos(phi)", run.stdout)
+        self.assertIn("ratio = V / I", run.stdout)
+
+    def test_unknown_name(self):
+        self.refused(H2.replace("ratio * cos(phi)", "ratio * cos(phy)"), 7, 18, "'phy'", "did you mean 'phi'?")
+
+    def test_division_by_zero_at_the_estimates(self):
+        self.refused(H2.replace("19.6610 mA", "0 mA"), 5, 12, "division by zero at the estimates", "I = 0 mA")
+
+    def test_logarithm_of_a_negative_number(self):
+        self.refused(H2.replace('"V / I"', '"V / I * log(-I / I)"'), 5, 18,
+                     "the logarithm of a negative number")
+
+    def test_length_plus_angle(self):
+        self.refused(H2.replace('Z = "ratio"', 'Z = "V + phi"'), 9, 8, "a voltage plus an angle")
+
+    def test_circle(self):
+        self.refused(H2.replace('"V / I"', '"V / I * R / R"'), 7, 6, "'ratio' needs itself", "R -> ratio")
+
+    def test_failed_samples_are_counted(self):
+        text = """schema = 1
+[model]
+name = "expression"
+[model.measurands]
+y = "sqrt(a)"
+[quantities]
+a = { value = 1, u = 0.6 }
+[run]
+samples = 20000
+max_failed_share = 0.2
+"""
+        run = gumshoe("run", self.scenario(text), "--out", self.folder / "f.h5")
+        self.assertIn("not_finite", run.stdout + run.stderr)
+
+    def test_unused_quantity_is_a_note(self):
+        run = gumshoe("check", self.scenario(H2.replace("[quantities.V]", "[quantities.idle]\nvalue = 1\n[quantities.V]")))
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn("note: quantities.idle: no formula uses it", run.stdout)
+
+    def test_virtual_experiment_sees_what_the_evaluation_leaves_out(self):
+        text = """schema = 1
+[model]
+name = "expression"
+method = "virtual_experiment"
+[model.indications]
+spindle_z = "laser_z + L + scale * L"
+[model.measurands]
+laser_z = "spindle_z - L"
+[quantities]
+laser_z = { value = "-500 mm", u = "1 mm" }
+L = { value = "180 mm", u = "1 um" }
+scale = { value = "0 um/m", u = "10 um/m" }
+[run]
+samples = 100_000
+"""
+        run = gumshoe("run", self.scenario(text), "--out", self.folder / "v.h5", "--format", "json")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        # Error = (L - L_est) + scale L, the height itself cancels: u = sqrt(1 + 1.8^2) um; sampling error u/sqrt(2 M).
+        u = json.loads(run.stdout)[0]["standard_uncertainty"]
+        self.assertAlmostEqual(u / (1 + 1.8**2) ** 0.5 * 1e3, 1, delta=5 / (2 * 100_000) ** 0.5)
+
+    def test_nothing_measured_is_no_run(self):
+        text = """schema = 1
+[model]
+name = "expression"
+[model.indications]
+y = "a * x"
+[quantities]
+a = 2
+[conditions]
+x = 1
+[indications.y]
+readings = [2.1]
+"""
+        file = self.scenario(text)
+        self.assertEqual(gumshoe("check", file).returncode, 0)
+        self.assertIsNone(complaint(gumshoe("run", file, "--out", self.folder / "n.h5")))
+
+    def test_virtual_experiment_needs_formulas_of_indications(self):
+        text = H2.replace('name = "expression"', 'name = "expression"\nmethod = "virtual_experiment"')
+        run = gumshoe("check", self.scenario(text))
+        self.assertIsNone(complaint(run), run.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
