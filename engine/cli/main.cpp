@@ -14,12 +14,13 @@ int main(int argc, char** argv) {
   CLI::App app{"Gumshoe: uncertainty and sensitivity analysis of on-machine measurement", "gumshoe"};
   app.set_version_flag("--version", std::string("gumshoe ") + version + " (" + git_hash + ")");
   app.require_subcommand(1);
-  app.footer("Exit codes: 0 done, 1 gauge found a difference, 2 bad input, 3 too many failed samples, 130 interrupted (the same command resumes).");
+  app.footer("Exit codes: 0 done, 1 gauge found a difference, 2 bad input, 3 too many failed samples or no convergence, 130 interrupted (the same command resumes).");
   cli::Action action;
   cli::add_check(app, action);
   cli::add_run(app, action);
   cli::add_report(app, action);
   cli::add_evaluate(app, action);
+  cli::add_estimate(app, action);
   cli::add_replay(app, action);
   cli::add_models(app, action);
   cli::add_effects(app, action);

@@ -36,6 +36,7 @@ struct InputQuantity {
   std::string unit; ///< shown to people
   std::string si_unit;
   std::vector<Entry> entries; ///< at least one; several only with different labels (`by`)
+  bool estimated = false;     ///< to be fitted to the readings: values are starts, components priors
 };
 
 /// Correlation between single-component quantities, through a Gaussian copula.
@@ -52,6 +53,7 @@ struct Reading {
   std::vector<double> conditions;  ///< by position in the model's card, SI
   std::vector<double> indications; ///< means, by position in the model's card, SI; empty if nothing was read
   int repeats = 1;
+  std::vector<double> scatter = {}; ///< sums of squares of the readouts about their mean, by indication, SI
 };
 
 } // namespace gumshoe::quantities

@@ -22,6 +22,9 @@ public:
 
   void tie() {
     check_matrix();
+    if (std::any_of(correlation_.quantities.begin(), correlation_.quantities.end(),
+                    [&](const std::string& name) { return celled(name) != none; }))
+      return tie_named();
     // Cell to the variates of the members; a member left out has the index none.
     std::map<Labels, std::vector<std::size_t>> cells;
     for (std::size_t i = 0; i < n_; ++i)
@@ -40,6 +43,28 @@ public:
 
 private:
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
+
+  /// The variate named with its cell, "rod_length[rod 1]"; none if the name has no cell.
+  std::size_t celled(const std::string& name) const {
+    if (!name.ends_with(']')) return none;
+    for (std::size_t v = 0; v < plan_.variates.size(); ++v)
+      if (plan_.variates[v].name == name) return v;
+    return none;
+  }
+
+  /// One of the names says its cell: then each means one draw, and these are tied across cells.
+  void tie_named() {
+    std::vector<std::size_t> variates;
+    for (const std::string& name : correlation_.quantities) {
+      const std::size_t named = celled(name);
+      const auto all = named == none ? members(name) : std::vector<std::size_t>{named};
+      if (all.size() > 1)
+        fail(fmt::format("{} has several draws", name), "beside a name with a label each must be one draw",
+             fmt::format("'{}'?", plan_.variates[all.front()].name));
+      variates.push_back(all.front());
+    }
+    tie_cell(variates);
+  }
 
   [[noreturn]] void fail(const std::string& what, const std::string& why = {}, const std::string& remedy = {}) const {
     throw InputError(fmt::format("correlation of {}: {}", group_, what), why, remedy);

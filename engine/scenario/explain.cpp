@@ -67,6 +67,7 @@ void explain(const InputQuantity& q, const ModelCard& model, Lines out) {
   for (const Entry& e : q.entries) {
     const std::string labels = e.labels.empty() ? "" : " [" + text_of(e.labels) + "]";
     fmt::format_to(out, "  {}{}{} = {}", noise ? "noise of " : "", q.name, labels, both(e.value, q.unit, q.si_unit));
+    if (q.estimated) fmt::format_to(out, ", estimated");
     if (e.source == "default")
       fmt::format_to(out, ", default");
     else if (!e.source.empty() && e.components.empty())

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "quantities/cells.h"
 #include "scenario/studies.h"
 
 namespace gumshoe::scenario {
@@ -144,6 +145,7 @@ quantities::Correlation read_correlation(Table table, const std::vector<std::str
   if (const auto kind = table.choice("kind", {"copula", "pearson", "spearman"}))
     out.kind = *kind == 0 ? Kind::copula : *kind == 1 ? Kind::pearson : Kind::spearman;
   const std::size_t n = out.quantities.size();
+  table.rendered("source");
   const auto coefficient = table.number("coefficient");
   if (n < 2 && table.has("quantities")) table.add(table.path() + ": needs two quantities or more");
   if (table.has("coefficient") == table.has("matrix")) {
@@ -163,13 +165,30 @@ quantities::Correlation read_correlation(Table table, const std::vector<std::str
 
 } // namespace
 
+EstimateOptions read_estimate(Table table) {
+  EstimateOptions out;
+  using least_squares::Loss;
+  if (const auto loss = table.choice("loss", {"squared", "huber", "cauchy", "tukey"}))
+    out.loss = static_cast<Loss>(*loss);
+  if (const auto width = table.positive("width")) out.width = *width;
+  if (table.has("width") && out.loss == Loss::squared)
+    table.problems().add(*table.find("width"), table.path("width") + ": the squared loss has no width", "",
+                         "loss = \"huber\"?");
+  if (const auto n = table.integer("iterations", 1, 1'000'000)) out.iterations = static_cast<int>(*n);
+  if (const auto posterior = table.choice("posterior", {"normal", "t"})) out.t = *posterior == 1;
+  table.refuse_unknown();
+  return out;
+}
+
 std::vector<quantities::Correlation> read_correlations(const std::vector<Node>& items, Problems& problems,
                                                        const std::vector<quantities::InputQuantity>& quantities) {
   std::vector<std::string> names;
   for (const auto& q : quantities) {
     names.push_back(q.name);
-    for (const auto& entry : q.entries)
+    for (const auto& entry : q.entries) {
+      if (!entry.labels.empty()) names.push_back(q.name + '[' + quantities::text_of(entry.labels) + ']');
       for (const auto& c : entry.components) names.push_back(q.name + '.' + c.name);
+    }
   }
   std::vector<quantities::Correlation> out;
   for (std::size_t i = 0; i < items.size(); ++i)

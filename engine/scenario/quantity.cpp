@@ -26,6 +26,7 @@ public:
     const std::string own = table.rendered("source");
     unit(table);
     const std::string& told = own.empty() ? source : own;
+    if (labels.empty()) out_.estimated = table.boolean("estimated").value_or(false);
     if (table.has("by"))
       by(table, labels, told);
     else
@@ -69,10 +70,22 @@ private:
         uncertainty->component.name = "c1";
         if (!uncertainty->exact) e.components.push_back(std::move(uncertainty->component));
       }
-    } else if (!given) {
+    } else if (!given && !out_.estimated) {
       table.add(table.path() + ": neither a value nor an uncertainty", "", "value = \"...\"?");
     }
     if (given && !value) return;
+    for (const Component& c : e.components) {
+      if (!out_.estimated || c.per.empty()) continue;
+      table.add(table.path() + ": estimated beside per", "a fit finds one value per label, not a draw per label",
+                fmt::format("a value per label: by.{}?", c.per.front()));
+      return;
+    }
+    if (out_.estimated && e.components.empty()) {
+      const std::string note = out_.name + ": estimated, without a distribution: exact at its start value until "
+                                           "gumshoe estimate has fitted it";
+      if (std::find(context_.notes.begin(), context_.notes.end(), note) == context_.notes.end())
+        context_.notes.push_back(note);
+    }
     if (context_.problems.size() == problems)
       keep(std::move(e), given ? *table.find("value") : table.node(), table.path());
   }

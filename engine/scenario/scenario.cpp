@@ -51,6 +51,7 @@ public:
     if (auto analysis = top.table("analysis"))
       out_.analysis = read_analysis(*analysis, *model, out_.quantities, context_);
     out_.expected = read_expected(top, *model, context_);
+    if (auto estimate = top.table("estimate")) out_.estimate = read_estimate(*estimate);
     top.refuse_unknown();
     problems_.raise();
     out_.hash = fmt::format("{:016x}", files_.hash(hash64(out_.text)));
@@ -160,6 +161,9 @@ private:
         double mean = 0;
         for (const double v : r.values) mean += (v - r.values.front()) / static_cast<double>(r.values.size());
         it->indications.push_back(r.values.front() + mean);
+        double squares = 0;
+        for (const double v : r.values) squares += (v - it->indications.back()) * (v - it->indications.back());
+        it->scatter.push_back(squares);
       }
     }
     for (const Reading& r : out_.readings) {

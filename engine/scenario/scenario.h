@@ -7,6 +7,7 @@
 
 #include "base/card.h"
 #include "base/error.h"
+#include "math/least_squares.h"
 #include "models/model.h"
 #include "quantities/input_quantity.h"
 
@@ -126,6 +127,14 @@ struct Expected {
   Location where;
 };
 
+/// How `gumshoe estimate` fits the quantities marked `estimated`.
+struct EstimateOptions {
+  least_squares::Loss loss = least_squares::Loss::squared;
+  double width = 0;      ///< of the loss, in standard deviations of a residual; 0: the usual one
+  int iterations = 2000; ///< of each attempt of the solver
+  bool t = false;        ///< posterior as t where the noise is estimated: as normal otherwise
+};
+
 struct Scenario {
   std::string file;
   std::string text; ///< as read, kept in the result
@@ -144,6 +153,7 @@ struct Scenario {
   RunOptions run;
   AnalysisOptions analysis;
   std::vector<Expected> expected;
+  EstimateOptions estimate;
   std::vector<std::string>
       notes; ///< decisions and warnings a reader must see ("resolution used, not repeatability: ...")
 };

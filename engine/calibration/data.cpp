@@ -1,0 +1,174 @@
+#include "calibration/data.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <Eigen/Cholesky>
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "quantities/cells.h"
+
+namespace gumshoe::calibration {
+namespace {
+
+using propagation::Experiment;
+
+/// The card of a quantity of the model or of an active effect.
+const QuantityCard& card_of(const Experiment& e, std::size_t quantity) {
+  if (quantity < e.model_quantities()) return e.model().card->quantities[quantity];
+  const std::size_t at = quantity - e.model_quantities();
+  const effects::Active* owner = nullptr;
+  for (const effects::Active& a : e.active())
+    if (a.first <= at) owner = &a;
+  return effects::cards()[owner->effect]->quantities[at - owner->first];
+}
+
+std::size_t column_of(const Experiment& e, std::size_t quantity, std::size_t entry) {
+  const auto& labels = e.scenario().quantities[quantity].entries[entry].labels;
+  const auto& readings = e.scenario().readings;
+  for (std::size_t r = 0; r < readings.size(); ++r)
+    if (quantities::holds_for(labels, readings[r].labels)) return e.plan().gather[r][quantity];
+  return e.plan().columns.size(); // no reading uses it
+}
+
+/// Of the deviation; the scale of a t that has no standard deviation.
+double variance(const quantities::Distribution& d, bool& finite) {
+  const double v = d.variance();
+  finite = std::isfinite(v);
+  return finite ? v : d.parameters[1] * d.parameters[1];
+}
+
+} // namespace
+
+void refuse(const std::string& file, std::string what, std::string why, std::string remedy) {
+  std::vector<Problem> problems(1);
+  problems[0].where.file = file;
+  problems[0].what = std::move(what);
+  problems[0].why = std::move(why);
+  problems[0].remedy = std::move(remedy);
+  throw InputError(std::move(problems));
+}
+
+std::vector<Unknown> unknowns_of(const Experiment& e) {
+  const auto& s = e.scenario();
+  std::vector<Unknown> out;
+  for (std::size_t q = 0; q < s.quantities.size(); ++q) {
+    const auto& quantity = s.quantities[q];
+    if (!quantity.estimated) continue;
+    const QuantityCard& card = card_of(e, q);
+    for (std::size_t i = 0; i < quantity.entries.size(); ++i) {
+      Unknown u;
+      u.quantity = q;
+      u.entry = i;
+      u.column = column_of(e, q, i);
+      if (u.column == e.plan().columns.size()) continue;
+      const auto& labels = quantity.entries[i].labels;
+      u.name = quantity.name + (labels.empty() ? "" : "[" + quantities::text_of(labels) + "]");
+      u.unit = quantity.unit;
+      u.si_unit = quantity.si_unit;
+      u.start = e.plan().estimate(u.column);
+      double squares = 0;
+      for (const std::size_t v : e.plan().columns[u.column].variates) {
+        bool finite = true;
+        squares += variance(e.plan().variates[v].distribution, finite);
+        if (!finite)
+          refuse(s.file, u.name + ": its distribution has no standard uncertainty", "a prior needs one",
+                 "u with more than 2 degrees of freedom?");
+      }
+      u.prior_u = std::sqrt(squares);
+      u.low = card.limits.low;
+      u.high = card.limits.high;
+      const double usual = std::fabs(card.default_value);
+      u.magnitude = u.start != 0 ? std::fabs(u.start) : u.prior_u > 0 ? u.prior_u : usual > 0 ? usual : 1;
+      out.push_back(u);
+    }
+  }
+  if (out.empty())
+    refuse(s.file, "no quantity is marked estimated", "there is nothing to fit",
+           "estimated = true in a [quantities.NAME]?");
+  return out;
+}
+
+Data data_of(const Experiment& e) {
+  const auto& s = e.scenario();
+  const auto& plan = e.plan();
+  const std::size_t indications = e.model().card->indications.size(), n = s.readings.size() * indications;
+  const std::size_t first = e.model_quantities() + e.effect_quantities();
+  Data out;
+  std::map<std::size_t, std::vector<std::size_t>> rows_of; // variate to rows
+  std::string quiet, loud;
+  bool finite = true;
+  for (std::size_t r = 0; r < s.readings.size(); ++r) {
+    if (s.readings[r].indications.size() != indications)
+      refuse(s.file, "there are no readings to fit", "nothing was read",
+             "[indications.NAME] with readings, method = \"propagation\"?");
+    const auto point = e.point(r);
+    for (std::size_t k = 0; k < indications; ++k) {
+      const std::size_t row = out.measured.size();
+      out.measured.push_back(point[first + k]);
+      out.weight.push_back(s.readings[r].repeats);
+      if (k < s.readings[r].scatter.size()) {
+        out.pure_error += s.readings[r].scatter[k];
+        out.pure_freedom += s.readings[r].repeats - 1;
+      }
+      double squares = 0;
+      for (const std::size_t v : plan.columns[plan.gather[r][first + k]].variates) {
+        bool has = true;
+        squares += variance(plan.variates[v].distribution, has);
+        finite &= has;
+        rows_of[v].push_back(row);
+      }
+      out.u.push_back(std::sqrt(squares));
+      (squares > 0 ? loud : quiet) = s.quantities[first + k].name;
+    }
+  }
+  if (!finite)
+    out.notes.push_back("the noise is a t with too few degrees of freedom for a standard uncertainty: its scale "
+                        "s / sqrt(n) weighs the readings");
+  out.noise_declared = !loud.empty();
+  if (!loud.empty() && !quiet.empty())
+    refuse(s.file, fmt::format("indications.{}: no noise is declared, but {} has some", quiet, loud),
+           "the readings cannot be weighed against each other", "repeatability = { s = \"...\" }?");
+  bool shared = false;
+  for (const auto& [v, rows] : rows_of) shared |= rows.size() > 1;
+  if (!shared) return out;
+  if (n > 5000)
+    refuse(s.file, fmt::format("{} readings share draws of their noise", n),
+           "the covariance matrix of more than 5000 is not made", "per = \"reading\"?");
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(n));
+  for (const auto& [v, rows] : rows_of) {
+    bool unused = true;
+    const double square = variance(plan.variates[v].distribution, unused);
+    for (const std::size_t a : rows)
+      for (const std::size_t b : rows) covariance(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)) += square;
+  }
+  const Eigen::LLT<Eigen::MatrixXd> llt(covariance);
+  const Eigen::MatrixXd factor = llt.matrixL();
+  const double least = factor.diagonal().minCoeff() / factor.diagonal().maxCoeff();
+  if (llt.info() != Eigen::Success || !(least > 1e-7))
+    refuse(s.file, "indications: the noise of readings is shared by them", "each needs some of its own",
+           "per = \"reading\" for resolution or repeatability?");
+  for (Eigen::Index a = 0; a < factor.rows(); ++a)
+    for (Eigen::Index b = 0; b < factor.cols(); ++b) out.cholesky.push_back(factor(a, b));
+  out.notes.push_back("readings share part of their noise: they are weighed by its full covariance matrix");
+  return out;
+}
+
+void whiten(const Data& data, double* rows, std::size_t columns) {
+  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const std::size_t n = data.measured.size();
+  if (!data.cholesky.empty()) {
+    const auto size = static_cast<Eigen::Index>(n);
+    Eigen::Map<Matrix> all(rows, size, static_cast<Eigen::Index>(columns));
+    Eigen::Map<const Matrix>(data.cholesky.data(), size, size).triangularView<Eigen::Lower>().solveInPlace(all);
+    return;
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    const double factor = data.noise_declared ? 1 / data.u[i] : std::sqrt(data.weight[i]);
+    for (std::size_t j = 0; j < columns; ++j) rows[i * columns + j] *= factor;
+  }
+}
+
+} // namespace gumshoe::calibration

@@ -1,0 +1,79 @@
+#pragma once
+/// What a fit sees of a scenario: the unknowns, the measured indications with their noise, and the simulated ones.
+#include <string>
+#include <vector>
+
+#include "propagation/experiment.h"
+
+namespace gumshoe::calibration {
+
+/// Throws an InputError about the scenario.
+[[noreturn]] void refuse(const std::string& file, std::string what, std::string why = {}, std::string remedy = {});
+
+/// One value to be found: a quantity marked `estimated`, or one of its entries where it has values per label.
+struct Unknown {
+  std::string name;                                ///< "beam_pitch", "rod_length[rod 1]"
+  std::size_t quantity = 0, entry = 0, column = 0; ///< in the scenario, and of the plan
+  std::string unit, si_unit;
+  double start = 0;         ///< SI; with a prior its mean
+  double prior_u = 0;       ///< SI; 0: free
+  double low = 0, high = 0; ///< limits of its card, SI
+  double magnitude = 1;     ///< what counts as one
+};
+
+/// Throws InputError: no quantity is marked, or a prior has no standard uncertainty.
+std::vector<Unknown> unknowns_of(const propagation::Experiment& experiment);
+
+/// Rows are [reading][indication], in the order of the scenario.
+struct Data {
+  std::vector<double> measured; ///< SI, expectation of the noise included
+  std::vector<double> weight;   ///< share of a row's variance where no noise is declared: repeats of the mean
+  bool noise_declared = false;
+  double pure_error = 0;   ///< sum of squares of repeats about their means, and its degrees of freedom: part of s
+  double pure_freedom = 0; ///< where no noise is declared
+  std::vector<double> u;   ///< standard uncertainty of each row's noise, SI
+  /// Lower Cholesky factor of the noise's covariance matrix, row-major, where rows share draws; else empty.
+  std::vector<double> cholesky;
+  std::vector<std::string> notes;
+};
+
+/// Throws InputError: nothing was read, some indications declare noise and others do not, or rows share noise and have
+/// none of their own.
+Data data_of(const propagation::Experiment& experiment);
+
+/// Residuals of a whitened row: divided by u, or solved by the Cholesky factor. `columns` values per row, in place.
+void whiten(const Data& data, double* rows, std::size_t columns);
+
+/// Simulated indications and their derivatives by the unknowns.
+class Simulation {
+public:
+  /// Throws InputError if the model has no simulation.
+  Simulation(const propagation::Experiment& experiment, std::vector<Unknown> unknowns, int threads);
+  std::size_t rows() const { return rows_; }
+  /// simulated[rows] and, unless null, jacobian[rows][unknowns] at x, SI. False where the model gives no value.
+  /// Exact derivatives in chunks of 8 unknowns; central differences where the model has none.
+  bool operator()(const double* x, double* simulated, double* jacobian) const;
+  bool exact() const;
+
+  struct Failure {
+    std::size_t reading = 0;
+    propagation::Status status = propagation::Status::ok;
+  };
+  /// Of the last call that returned false.
+  Failure failure() const { return failure_; }
+
+private:
+  bool by_dual_numbers(const double* x, double* simulated, double* jacobian) const;
+  bool by_differences(const double* x, double* simulated, double* jacobian) const;
+  std::uint8_t reading_by_duals(std::size_t reading, const double* x, double* simulated, double* jacobian) const;
+
+  const propagation::Experiment& experiment_;
+  std::vector<Unknown> unknowns_;
+  std::size_t rows_ = 0, indications_ = 0;
+  int threads_ = 1;
+  std::vector<std::vector<double>> points_;        ///< [reading]: all quantities at their estimates
+  std::vector<std::vector<std::size_t>> involved_; ///< [reading]: unknowns it reads
+  mutable Failure failure_;
+};
+
+} // namespace gumshoe::calibration

@@ -1,0 +1,53 @@
+#include "calibration/priors.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+
+namespace gumshoe::calibration {
+
+Priors priors_of(const propagation::Experiment& e, const std::vector<Unknown>& unknowns) {
+  std::vector<std::size_t> known;
+  for (std::size_t j = 0; j < unknowns.size(); ++j)
+    if (unknowns[j].prior_u > 0) known.push_back(j);
+  Priors out;
+  if (known.empty()) return out;
+  const auto m = static_cast<Eigen::Index>(known.size());
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(m, m);
+  const auto& plan = e.plan();
+  const auto draws = [&](Eigen::Index i) {
+    return plan.columns[unknowns[known[static_cast<std::size_t>(i)]].column].variates;
+  };
+  const auto correlation = [&](std::size_t a, std::size_t b) {
+    if (a == b) return 1.0;
+    for (const auto& group : plan.copulas) {
+      const auto at = [&](std::size_t v) { return std::find(group.variates.begin(), group.variates.end(), v); };
+      if (at(a) == group.variates.end() || at(b) == group.variates.end()) continue;
+      const auto i = at(a) - group.variates.begin(), j = at(b) - group.variates.begin();
+      return group.matrix[static_cast<std::size_t>(i) * group.variates.size() + static_cast<std::size_t>(j)];
+    }
+    return 0.0;
+  };
+  for (Eigen::Index i = 0; i < m; ++i)
+    for (Eigen::Index j = 0; j < m; ++j)
+      for (const std::size_t a : draws(i))
+        for (const std::size_t b : draws(j))
+          covariance(i, j) += correlation(a, b) * std::sqrt(plan.variates[a].distribution.variance() *
+                                                            plan.variates[b].distribution.variance());
+  const Eigen::MatrixXd factor = covariance.llt().matrixL();
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(m, static_cast<Eigen::Index>(unknowns.size()));
+  Eigen::VectorXd means(m);
+  for (Eigen::Index i = 0; i < m; ++i) {
+    rows(i, static_cast<Eigen::Index>(known[static_cast<std::size_t>(i)])) = 1;
+    means[i] = unknowns[known[static_cast<std::size_t>(i)]].start;
+  }
+  factor.triangularView<Eigen::Lower>().solveInPlace(rows);
+  factor.triangularView<Eigen::Lower>().solveInPlace(means);
+  out.target.assign(means.data(), means.data() + m);
+  for (Eigen::Index i = 0; i < m; ++i)
+    for (Eigen::Index j = 0; j < rows.cols(); ++j) out.matrix.push_back(rows(i, j));
+  return out;
+}
+
+} // namespace gumshoe::calibration

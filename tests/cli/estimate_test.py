@@ -1,0 +1,170 @@
+"""gumshoe estimate from outside: what it prints and writes, and how it refuses.
+
+usage: estimate_test.py path/to/gumshoe [unittest options]
+"""
+import json
+import math
+import pathlib
+import tempfile
+import tomllib
+import unittest
+
+from program import ROOT, complaint, gumshoe
+
+GAUGE = ROOT / "scenarios" / "gauge"
+
+LINE = """schema = 1
+title = "a line"
+[model]
+name = "expression"
+indications = { y = "a + b * x" }
+measurands = { at_10 = "a + 10 * b" }
+[conditions]
+x = 0
+[quantities.a]
+estimated = true
+value = 0
+[quantities.b]
+estimated = true
+value = 1
+[indications.y]
+readings = { file = "line.csv", column = "y", unit = "1", conditions = { x = { column = "x" } } }
+"""
+DATA = "x,y\n0,1.1\n1,2.9\n2,5.2\n3,6.8\n4,9.1\n"
+
+
+class Estimate(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.path = pathlib.Path(self.folder.name)
+
+    def scenario(self, text=LINE, data=DATA):
+        (self.path / "line.csv").write_text(data)
+        file = self.path / "line.toml"
+        file.write_text(text)
+        return file
+
+    def fit(self, *words, code=0, **options):
+        run = gumshoe("estimate", self.scenario(*words, **options), "--format", "json")
+        self.assertEqual(run.returncode, code, run.stderr)
+        return json.loads(run.stdout)
+
+    def refusal(self, *words, **options):
+        run = gumshoe("estimate", self.scenario(*words, **options))
+        self.assertIsNone(complaint(run), run.stderr)
+        self.assertFalse((self.path / "line.estimated.toml").exists())
+        return run.stderr
+
+    def test_a_line_by_hand(self):
+        # Normal equations: mean x 2, mean y 5.02, Sxx 10, Sxy 19.9; b = 1.99, a = 1.04; RSS = Syy - b Sxy.
+        fit = self.fit()
+        a, b = fit["parameters"]["a"], fit["parameters"]["b"]
+        y = [1.1, 2.9, 5.2, 6.8, 9.1]
+        s2 = sum((v - 1.04 - 1.99 * x) ** 2 for x, v in enumerate(y)) / 3
+        self.assertAlmostEqual(a["value"], 1.04, 12)
+        self.assertAlmostEqual(b["value"], 1.99, 12)
+        self.assertAlmostEqual(b["standard_uncertainty"], math.sqrt(s2 / 10), 12)
+        self.assertAlmostEqual(a["standard_uncertainty"], math.sqrt(s2 * (1 / 5 + 4 / 10)), 12)
+        self.assertAlmostEqual(fit["correlation"][0][1], -2 / math.sqrt(6), 12)
+        self.assertEqual((fit["rank"], fit["degrees_of_freedom"], fit["converged"]), (2, 3, True))
+
+    def test_the_written_scenario_runs(self):
+        self.fit()
+        written = self.path / "line.estimated.toml"
+        with open(written, "rb") as file:
+            document = tomllib.load(file)
+        self.assertIn("hash", document["quantities"]["a"]["source"])
+        self.assertNotIn("estimated", document["quantities"]["a"])
+        run = gumshoe("run", written, "--samples", "200000", "--out", self.path / "r.h5", "--format", "json")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        out = json.loads(run.stdout)[0]
+        # u of a + 10 b = s sqrt(1/5 + 64/10); the Monte Carlo u has a relative standard error of 1/sqrt(2 N) = 0.16 %.
+        y = [1.1, 2.9, 5.2, 6.8, 9.1]
+        s = math.sqrt(sum((v - 1.04 - 1.99 * x) ** 2 for x, v in enumerate(y)) / 3)
+        self.assertAlmostEqual(out["standard_uncertainty"] / (s * math.sqrt(6.6)), 1, delta=0.008)
+        self.assertAlmostEqual(out["estimate"], 20.94, delta=5 * s * math.sqrt(6.6 / 200000))
+
+    def test_another_folder_keeps_its_data(self):
+        other = self.path / "other" / "deep"
+        other.mkdir(parents=True)
+        run = gumshoe("estimate", self.scenario(), "--scenario-out", other / "w.toml")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual(gumshoe("check", other / "w.toml").returncode, 0)
+        self.assertFalse((self.path / "line.estimated.toml").exists())
+
+    def test_equal_bits_again(self):
+        self.assertEqual(self.fit(), self.fit())
+
+    def test_nist(self):
+        for file in sorted(GAUGE.glob("strd_*.toml")):
+            with self.subTest(file.name):
+                run = gumshoe("estimate", file, "--scenario-out", self.path / "w.toml", "--format", "json")
+                self.assertEqual(run.returncode, 0, run.stderr)
+                self.assertTrue(json.loads(run.stdout)["converged"])
+
+    def test_a_failure_is_no_answer(self):
+        # 1 - exp(-b x) nears data above 1 for ever: no minimum.
+        text = LINE.replace("a + b * x", "1 - exp(-b * (x + 1)) + 0 * a").replace("[quantities.a]\nestimated = true", "[quantities.a]")
+        file = self.scenario(text, data="x,y\n0,1\n1,1.1\n2,1.2\n")
+        run = gumshoe("estimate", file, "--format", "json")
+        self.assertEqual(run.returncode, 3, run.stderr)
+        self.assertFalse(json.loads(run.stdout)["converged"])
+        self.assertIn("did not converge", run.stderr)
+        self.assertFalse((self.path / "line.estimated.toml").exists())
+
+    def test_no_estimated_quantity(self):
+        self.assertIn("no quantity is marked estimated", self.refusal(LINE.replace("estimated = true\n", "")))
+
+    def test_fewer_readings_than_unknowns(self):
+        self.assertIn("1 readings cannot determine 2", self.refusal(data="x,y\n0,1.1\n"))
+
+    def test_no_simulation_formula(self):
+        text = LINE.replace('indications = { y = "a + b * x" }', "").replace('"a + 10 * b"', '"a + 10 * b + y"')
+        self.assertIn("cannot simulate", self.refusal(text))
+
+    def test_nan_in_the_data(self):
+        said = self.refusal(data="x,y\n0,1.1\n1,nan\n2,5.2\n")
+        self.assertIn("line.csv:3:3: error:", said)
+
+    def test_text_in_a_number(self):
+        self.assertIn("line.csv:3:3: error:", self.refusal(data="x,y\n0,1.1\n1,abc\n2,5.2\n"))
+
+    def test_missing_column(self):
+        self.assertIn("'y'", self.refusal(data="x,z\n0,1.1\n1,2\n2,5.2\n"))
+
+    def test_estimated_that_is_no_truth_value(self):
+        self.assertIn("quantities.a.estimated", self.refusal(LINE.replace("true", '"yes"', 1)))
+
+    def test_unknown_loss(self):
+        self.assertIn("did you mean 'huber'", self.refusal(LINE + '[estimate]\nloss = "hubber"\n'))
+
+    def test_one_valued_column(self):
+        data = "x,y\n" + "".join(f"{2},{v}\n" for v in (1, 2, 3, 4, 5))
+        # Equal conditions are repeats of one reading: one reading for two unknowns.
+        self.assertIn("1 readings cannot determine 2", self.refusal(data=data))
+
+    def test_one_valued_column_beside_labels(self):
+        text = LINE.replace("conditions = { x", 'labels = { n = "n" }, conditions = { x')
+        fit = self.fit(text, data="n,x,y\na,2,1\nb,2,2\nc,2,3\nd,2,4\n")
+        self.assertEqual(fit["rank"], 1)
+        self.assertIn("indistinguishable", fit["indistinguishable"][0])
+        self.assertIsNone(fit["parameters"]["a"]["standard_uncertainty"])
+        self.assertTrue(any("x is 2 in every reading" in note for note in fit["notes"]))
+        self.assertIsNone(fit["scenario_out"])
+
+    def test_wrong_unit_shows_in_the_residuals(self):
+        noisy = LINE + "repeatability = { s = 0.15 }\n"
+        self.assertEqual([n for n in self.fit(noisy)["notes"] if "declared noise" in n], [])
+        fit = self.fit(noisy, data=DATA.replace("5.2", "0.0052"))
+        self.assertTrue(any("declared noise explains" in n for n in fit["notes"]), fit["notes"])
+
+    def test_will_not_write_over_its_scenario(self):
+        file = self.scenario()
+        run = gumshoe("estimate", file, "--scenario-out", file)
+        self.assertIsNone(complaint(run), run.stderr)
+        self.assertEqual(file.read_text(), LINE)
+
+
+if __name__ == "__main__":
+    unittest.main()
