@@ -119,6 +119,23 @@ void print_table(const analysis::Results& r, bool json) {
   if (json) std::cout << all.dump(2) << '\n';
 }
 
+/// A model that stops the run (a command that dies) leaves what was done: say so.
+std::uint64_t propagate(const propagation::Experiment& e, store::ResultFile& file,
+                        const propagation::RunSettings& settings, const std::string& out) {
+  try {
+    return propagation::propagate(e, file, settings);
+  } catch (const OutputError&) {
+    throw;
+  } catch (const InputError& error) {
+    auto problems = error.problems();
+    if (e.scenario().run.store_samples)
+      problems.back().remedy +=
+          fmt::format("{}{} of {} samples are kept in {}; the same command resumes",
+                      problems.back().remedy.empty() ? "" : " ", file.samples_done(), e.scenario().run.samples, out);
+    throw InputError(problems);
+  }
+}
+
 ExitCode run(const Options& o) {
   scenario::Scenario s = scenario::read(o.file, catalogue());
   if (o.samples) s.run.samples = whole_number(*o.samples, "--samples", 2);
@@ -149,7 +166,7 @@ ExitCode run(const Options& o) {
   settings.stop = &stop;
   settings.progress = [line = ProgressLine()](const propagation::Progress& p) mutable { line(p); };
   if (settings.first > 0) std::cerr << fmt::format("resuming after {} samples\n", settings.first);
-  const std::uint64_t done = propagation::propagate(experiment, file, settings);
+  const std::uint64_t done = propagate(experiment, file, settings, out);
   if (done < s.run.samples) {
     std::cerr << fmt::format("\ninterrupted after {} of {} samples; the same command resumes\n", done, s.run.samples);
     return ExitCode::interrupted;

@@ -12,6 +12,8 @@ const char* status_name(Status status) {
     return "not_converged";
   case Status::out_of_domain:
     return "out_of_domain";
+  case Status::model_failed:
+    return "model_failed";
   default:
     return "no_solution";
   }
