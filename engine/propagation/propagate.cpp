@@ -79,7 +79,7 @@ std::uint64_t propagate(const Experiment& e, Sink& sink, const RunSettings& sett
   const int threads = thread_count(settings.threads);
   tbb::enumerable_thread_specific<ThreadBuffers> buffers;
   std::uint64_t next = settings.first, done = settings.first;
-  std::atomic<bool> failing{false};
+  std::atomic<std::uint64_t> failed_at{total}; // first sample of the earliest block known to have failed
   std::exception_ptr failure; // of the first block that failed, in order: what follows it is discarded
   const auto end_of = [&](std::uint64_t first) {
     return std::min<std::uint64_t>(total, (first / per_block + 1) * per_block);
@@ -89,7 +89,7 @@ std::uint64_t propagate(const Experiment& e, Sink& sink, const RunSettings& sett
         4 * static_cast<std::size_t>(threads),
         tbb::make_filter<
             void, std::uint64_t>(tbb::filter_mode::serial_in_order, [&](tbb::flow_control& control) -> std::uint64_t {
-          if (next >= total || failing || (settings.stop && *settings.stop)) {
+          if (next >= total || failed_at < total || (settings.stop && *settings.stop)) {
             control.stop();
             return 0;
           }
@@ -99,9 +99,11 @@ std::uint64_t propagate(const Experiment& e, Sink& sink, const RunSettings& sett
         }) & tbb::make_filter<std::uint64_t, Tried>(tbb::filter_mode::parallel, [&](std::uint64_t first) -> Tried {
           // Thrown here, an exception would cancel the pipeline with earlier blocks still in it.
           try {
+            if (first > failed_at) return {};
             return {run_block(e, sampler, first, static_cast<std::size_t>(end_of(first) - first), buffers.local()), {}};
           } catch (...) {
-            failing = true;
+            std::uint64_t known = failed_at;
+            while (first < known && !failed_at.compare_exchange_weak(known, first)) {}
             return {{}, std::current_exception()};
           }
         }) & tbb::make_filter<Tried, void>(tbb::filter_mode::serial_in_order, [&](const Tried& tried) {

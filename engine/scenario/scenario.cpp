@@ -75,9 +75,6 @@ private:
         problems_.raise();
       }
       model = out_.made->card;
-      if (out_.method == Method::virtual_experiment && !out_.made->kernels()->simulate)
-        problems_.add(*table->find("method"), fmt::format("model.method: '{}' only evaluates", model->name),
-                      "a virtual experiment simulates the readouts", "method = \"propagation\"?");
     }
     std::vector<std::string> evaluations;
     if (model)

@@ -233,7 +233,7 @@ for line in sys.stdin:
             (lambda t: t.replace('area = "mm2"\n', ""), "model.measurands: none", (7, 1)),
             (lambda t: t.replace("batch =", "bacth ="), "unknown key 'bacth'", (5, 1)),
             (lambda t: t.replace('[model.measurands]\narea = "mm2"\n', ""), "measurands", (2, 1)),
-            (lambda t: t.replace('name = "command"', 'name = "command"\nmethod = "virtual_experiment"'), "only evaluates", (4, 10)),
+            (lambda t: t.replace('name = "command"', 'name = "command"\nmethod = "virtual_experiment"'), "does not say what the readouts would be", (2, 1)),
         ]
         for change, word, place in cases:
             with self.subTest(word):
