@@ -80,7 +80,7 @@ std::uint64_t propagate(const Experiment& e, Sink& sink, const RunSettings& sett
   tbb::enumerable_thread_specific<ThreadBuffers> buffers;
   std::uint64_t next = settings.first, done = settings.first;
   std::atomic<std::uint64_t> failed_at{total}; // first sample of the earliest block known to have failed
-  std::exception_ptr failure; // of the first block that failed, in order: what follows it is discarded
+  std::exception_ptr failure;                  // of the first block that failed, in order: what follows it is discarded
   const auto end_of = [&](std::uint64_t first) {
     return std::min<std::uint64_t>(total, (first / per_block + 1) * per_block);
   };
@@ -103,7 +103,8 @@ std::uint64_t propagate(const Experiment& e, Sink& sink, const RunSettings& sett
             return {run_block(e, sampler, first, static_cast<std::size_t>(end_of(first) - first), buffers.local()), {}};
           } catch (...) {
             std::uint64_t known = failed_at;
-            while (first < known && !failed_at.compare_exchange_weak(known, first)) {}
+            while (first < known && !failed_at.compare_exchange_weak(known, first)) {
+            }
             return {{}, std::current_exception()};
           }
         }) & tbb::make_filter<Tried, void>(tbb::filter_mode::serial_in_order, [&](const Tried& tried) {

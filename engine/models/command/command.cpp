@@ -90,7 +90,8 @@ std::string why_ended(const ProcessRun& run, const CommandSpec& spec) {
 
 std::string remedy_for(const ProcessRun& run) {
   if (run.end == ProcessRun::End::timed_out) return "a longer model.time_limit, a smaller model.batch?";
-  if (run.end == ProcessRun::End::not_started) return "is the program there? it runs in the scenario's folder";
+  if (run.end == ProcessRun::End::not_started)
+    return "a program that is there and may be run, seen from the scenario's folder?";
   return "";
 }
 
