@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/differences.h"
+
 namespace gumshoe::analysis {
 
 namespace {
@@ -56,6 +58,8 @@ void one_sided(const propagation::Experiment& e, std::size_t reading, std::size_
 
 Derivatives differentiate(const propagation::Experiment& e, std::size_t reading, std::size_t m,
                           const std::vector<double>& point, bool second) {
+  if (!e.model().evaluate_gradient || (second && !e.model().evaluate_curvature))
+    return differences(e, reading, m, point, second);
   const std::size_t n = point.size();
   Derivatives d;
   d.first.assign(n, 0);

@@ -1,5 +1,5 @@
 #pragma once
-/// Exact derivatives of one reading's measurands by its quantities.
+/// Derivatives of one reading's measurands by its quantities: exact where the model has them, else by differences.
 #include <vector>
 
 #include "propagation/experiment.h"
@@ -13,6 +13,8 @@ struct Derivatives {
   std::vector<double> first;        ///< [quantity]
   std::vector<double> second;       ///< [quantity][quantity], if asked for
   std::vector<bool> differentiable; ///< [quantity]
+  bool exact = true;         ///< false: by differences; then NaN by quantities that do not vary at this reading
+  std::vector<double> third; ///< [i][j]: d^3 f / dx_i dx_j^2, beside `second` if not exact
 };
 
 /// At the given point (Experiment::point). `second` costs a pass per pair of chunks of 8 quantities.

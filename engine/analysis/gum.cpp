@@ -67,15 +67,19 @@ void second_order(Budget& b, const propagation::Experiment& e, std::size_t readi
   for (std::size_t j = 0; j < n; ++j) {
     if (u[j] == 0) continue;
     b.second_order_bias += 0.5 * at.second[j * n + j] * u[j] * u[j];
-    auto up = point, down = point;
-    up[j] += u[j];
-    down[j] -= u[j];
-    const Derivatives above = differentiate(e, reading, measurand, up, false);
-    const Derivatives below = differentiate(e, reading, measurand, down, false);
+    Derivatives above, below;
+    if (at.exact) {
+      auto up = point, down = point;
+      up[j] += u[j];
+      down[j] -= u[j];
+      above = differentiate(e, reading, measurand, up, false);
+      below = differentiate(e, reading, measurand, down, false);
+    }
     for (std::size_t i = 0; i < n; ++i) {
       if (u[i] == 0) continue;
       const double h = at.second[i * n + j];
-      const double third = (above.first[i] - 2 * at.first[i] + below.first[i]) / (u[j] * u[j]);
+      const double third = at.exact ? (above.first[i] - 2 * at.first[i] + below.first[i]) / (u[j] * u[j])
+                                    : at.third[i * n + j];
       extra += (0.5 * h * h + (std::isfinite(third) ? at.first[i] * third : 0)) * u[i] * u[i] * u[j] * u[j];
     }
   }

@@ -265,16 +265,36 @@ Measure parse(std::string_view text) {
   return measure;
 }
 
+namespace {
+
+double to_si(double number, const Pair& p, Kind kind) {
+  const double base = times(number, p.from.factor) + (kind == Kind::point ? p.from.offset - p.to.offset : 0.0);
+  return p.to.factor == 1 ? base : over(base, p.to.factor);
+}
+
+double from_si(double value, const Pair& p, Kind kind) {
+  const double base = p.to.factor == 1 ? value : times(value, p.to.factor);
+  return over(base - (kind == Kind::point ? p.from.offset - p.to.offset : 0.0), p.from.factor);
+}
+
+} // namespace
+
 double to_si(double number, const std::string& unit, const std::string& si_unit, Kind kind) {
-  const auto [from, to] = pair(unit, si_unit);
-  const double base = times(number, from.factor) + (kind == Kind::point ? from.offset - to.offset : 0.0);
-  return to.factor == 1 ? base : over(base, to.factor);
+  return to_si(number, pair(unit, si_unit), kind);
 }
 
 double from_si(double value, const std::string& unit, const std::string& si_unit, Kind kind) {
-  const auto [from, to] = pair(unit, si_unit);
-  const double base = to.factor == 1 ? value : times(value, to.factor);
-  return over(base - (kind == Kind::point ? from.offset - to.offset : 0.0), from.factor);
+  return from_si(value, pair(unit, si_unit), kind);
+}
+
+void to_si(std::span<double> values, const std::string& unit, const std::string& si_unit) {
+  const Pair p = pair(unit, si_unit);
+  for (double& x : values) x = to_si(x, p, Kind::point);
+}
+
+void from_si(std::span<double> values, const std::string& unit, const std::string& si_unit) {
+  const Pair p = pair(unit, si_unit);
+  for (double& x : values) x = from_si(x, p, Kind::point);
 }
 
 bool convertible(const std::string& unit, const std::string& si_unit) {

@@ -1,6 +1,7 @@
 #pragma once
 /// Units of measurement. The only door to udunits2. Inside the engine everything is SI
 /// (m, rad, s, m/s, K, 1, 1/K ...); conversion happens here, at the edges.
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -25,6 +26,10 @@ Measure parse(std::string_view text);
 /// An angle is no plain number: deg does not convert to 1, but um/m converts to rad.
 double to_si(double number, const std::string& unit, const std::string& si_unit, Kind kind = Kind::point);
 double from_si(double value, const std::string& unit, const std::string& si_unit, Kind kind = Kind::point);
+
+/// The same for points, in place.
+void to_si(std::span<double> values, const std::string& unit, const std::string& si_unit);
+void from_si(std::span<double> values, const std::string& unit, const std::string& si_unit);
 
 /// True if `unit` is known and converts to `si_unit`.
 bool convertible(const std::string& unit, const std::string& si_unit);

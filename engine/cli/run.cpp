@@ -126,6 +126,29 @@ std::string adaptive_text(const scenario::Adaptive& a) {
   return fmt::format("{} {} {}", name(a.rule), a.digits, a.most);
 }
 
+/// Draws the samples, as many as asked for or until the stopping rule is satisfied. False: a signal came first. A model
+/// that stops the run (a command that dies) leaves what was done: that is said.
+bool sample(scenario::Scenario& s, const propagation::Experiment& e, store::ResultFile& file,
+            const propagation::RunSettings& settings, const std::string& out, analysis::StoppingRecord& stopping) {
+  try {
+    if (s.run.adaptive.rule == scenario::StoppingRule::fixed)
+      return propagation::propagate(e, file, settings) == s.run.samples;
+    bool stopped = false;
+    stopping = analysis::run_adaptively(e, file, settings, stopped);
+    s.run.samples = file.samples();
+    return !stopped;
+  } catch (const OutputError&) {
+    throw;
+  } catch (const InputError& error) {
+    auto problems = error.problems();
+    if (s.run.store_samples)
+      problems.back().remedy +=
+          fmt::format("{}{} of {} samples are kept in {}; the same command resumes",
+                      problems.back().remedy.empty() ? "" : " ", file.samples_done(), file.samples(), out);
+    throw InputError(problems);
+  }
+}
+
 ExitCode run(const Options& o) {
   scenario::Scenario s = scenario::read(o.file, catalogue());
   if (o.samples) {
@@ -165,14 +188,7 @@ ExitCode run(const Options& o) {
   settings.progress = [line = ProgressLine()](const propagation::Progress& p) mutable { line(p); };
   if (settings.first > 0) std::cerr << fmt::format("resuming after {} samples\n", settings.first);
   analysis::StoppingRecord stopping;
-  bool stopped = false;
-  if (s.run.adaptive.rule == scenario::StoppingRule::fixed) {
-    stopped = propagation::propagate(experiment, file, settings) < s.run.samples;
-  } else {
-    stopping = analysis::run_adaptively(experiment, file, settings, stopped);
-    s.run.samples = file.samples();
-  }
-  if (stopped) {
+  if (!sample(s, experiment, file, settings, out, stopping)) {
     const std::uint64_t done = file.samples_done();
     std::cerr << fmt::format("\ninterrupted after {} of {} samples; the same command resumes\n", done, s.run.samples);
     return ExitCode::interrupted;

@@ -19,6 +19,11 @@ struct Column {
   std::size_t stride = 0;
 };
 
+/// BlockCall::first_sample of points that are not samples of the run (the estimates, an analysis).
+inline constexpr std::uint64_t unnumbered = ~std::uint64_t{0};
+/// propagation::Status of a sample that a plugin or a command gives no value for.
+inline constexpr std::uint8_t model_failed = 6;
+
 /// A block of samples for all readings. Rows of pointers are [reading][variable].
 struct BlockCall {
   std::size_t samples = 0; ///< multiple of 8; the last block is padded by the caller
@@ -34,10 +39,12 @@ struct BlockCall {
   const std::size_t* solved_as = nullptr; ///< [reading]: earlier reading with the same columns for the solve, or itself
   std::uint8_t* status = nullptr;         ///< [sample], propagation::Status; 0 on entry
   int evaluation = 0;
-  const void* context = nullptr; ///< Model::context
+  const void* context = nullptr;           ///< Model::context
+  std::uint64_t first_sample = unnumbered; ///< of the run, for messages only
 };
 
-/// One block of one instruction set. `simulate` is null if the model only evaluates.
+/// One block of one instruction set. `simulate` is null if the model only evaluates. What a user wrote (a plugin, a
+/// command) may throw an InputError: the run stops there and keeps the blocks before.
 struct Kernels {
   void (*simulate)(const BlockCall&);
   void (*evaluate)(const BlockCall&);
@@ -88,6 +95,7 @@ struct Model {
   bool (*solve_reads)(std::size_t quantity);
   /// What a model made at run time needs; handed back in every call. Null for models of the catalogue.
   const void* context = nullptr;
+  std::size_t block = 0; ///< samples it wants per call, at least; 0: no wish. Numbers do not depend on it.
 };
 
 /// A model made from a scenario (an expression, a plugin, a command): the pointer owns card and context.

@@ -171,6 +171,7 @@ void Experiment::run(std::span<const double* const> variates, std::size_t n, Wor
   call.status = status;
   call.evaluation = static_cast<int>(evaluation_);
   call.context = model_->context;
+  call.first_sample = w.first_sample;
 
   if (virtual_experiment) {
     w.truth.resize(rows * n);

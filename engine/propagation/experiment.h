@@ -14,6 +14,7 @@ struct Workspace {
   std::vector<double> columns, indications, truth;
   std::vector<models::Column> quantity_columns, effect_columns, condition_columns, indication_columns;
   std::vector<double*> simulated, measurands, true_measurands;
+  std::uint64_t first_sample = models::unnumbered; ///< of the run, for messages
 };
 
 class Experiment {

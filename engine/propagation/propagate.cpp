@@ -1,6 +1,8 @@
 #include "propagation/propagate.h"
 
 #include <algorithm>
+#include <atomic>
+#include <exception>
 
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/global_control.h>
@@ -45,6 +47,11 @@ struct ThreadBuffers {
   std::vector<std::uint8_t> status;
 };
 
+struct Tried {
+  ResultBlock block;
+  std::exception_ptr failure;
+};
+
 /// Samples [first, first + count) into a block; drawn in multiples of 8, the surplus is cut off.
 ResultBlock run_block(const Experiment& e, const quantities::Sampler& sampler, std::uint64_t first, std::size_t count,
                       ThreadBuffers& b) {
@@ -55,6 +62,7 @@ ResultBlock run_block(const Experiment& e, const quantities::Sampler& sampler, s
   sampler.draw(first, n, quantities::Purpose::sampling, b.variates.data(), n);
   std::vector<const double*> pointers(variates);
   for (std::size_t v = 0; v < variates; ++v) pointers[v] = &b.variates[v * n];
+  b.workspace.first_sample = first;
   e.run(pointers, n, b.workspace, b.outputs.data(), b.status.data());
   ResultBlock block{
       first, count, std::vector<double>(rows * count), {b.status.begin(), b.status.begin() + static_cast<long>(count)}};
@@ -67,30 +75,47 @@ ResultBlock run_block(const Experiment& e, const quantities::Sampler& sampler, s
 std::uint64_t propagate(const Experiment& e, Sink& sink, const RunSettings& settings) {
   const quantities::Sampler sampler = make_sampler(e);
   const std::uint64_t total = settings.last > 0 ? settings.last : e.scenario().run.samples;
+  const std::uint64_t per_block = std::max<std::uint64_t>(1, e.model().block / block_samples) * block_samples;
   const int threads = thread_count(settings.threads);
   tbb::enumerable_thread_specific<ThreadBuffers> buffers;
   std::uint64_t next = settings.first, done = settings.first;
+  std::atomic<std::uint64_t> failed_at{total}; // first sample of the earliest block known to have failed
+  std::exception_ptr failure;                  // of the first block that failed, in order: what follows it is discarded
+  const auto end_of = [&](std::uint64_t first) {
+    return std::min<std::uint64_t>(total, (first / per_block + 1) * per_block);
+  };
   on_threads(threads, [&] {
     tbb::parallel_pipeline(
         4 * static_cast<std::size_t>(threads),
         tbb::make_filter<
             void, std::uint64_t>(tbb::filter_mode::serial_in_order, [&](tbb::flow_control& control) -> std::uint64_t {
-          if (next >= total || (settings.stop && *settings.stop)) {
+          if (next >= total || failed_at < total || (settings.stop && *settings.stop)) {
             control.stop();
             return 0;
           }
           const std::uint64_t first = next;
-          next = std::min<std::uint64_t>(total, (first / block_samples + 1) * block_samples);
+          next = end_of(first);
           return first;
-        }) & tbb::make_filter<std::uint64_t, ResultBlock>(tbb::filter_mode::parallel, [&](std::uint64_t first) {
-          const std::uint64_t end = std::min<std::uint64_t>(total, (first / block_samples + 1) * block_samples);
-          return run_block(e, sampler, first, static_cast<std::size_t>(end - first), buffers.local());
-        }) & tbb::make_filter<ResultBlock, void>(tbb::filter_mode::serial_in_order, [&](const ResultBlock& block) {
-          sink.write(block);
-          done = block.first_sample + block.samples;
+        }) & tbb::make_filter<std::uint64_t, Tried>(tbb::filter_mode::parallel, [&](std::uint64_t first) -> Tried {
+          // Thrown here, an exception would cancel the pipeline with earlier blocks still in it.
+          try {
+            if (first > failed_at) return {};
+            return {run_block(e, sampler, first, static_cast<std::size_t>(end_of(first) - first), buffers.local()), {}};
+          } catch (...) {
+            std::uint64_t known = failed_at;
+            while (first < known && !failed_at.compare_exchange_weak(known, first)) {
+            }
+            return {{}, std::current_exception()};
+          }
+        }) & tbb::make_filter<Tried, void>(tbb::filter_mode::serial_in_order, [&](const Tried& tried) {
+          if (!failure) failure = tried.failure;
+          if (failure) return;
+          sink.write(tried.block);
+          done = tried.block.first_sample + tried.block.samples;
           if (settings.progress) settings.progress({done, total});
         }));
   });
+  if (failure) std::rethrow_exception(failure);
   return done;
 }
 

@@ -19,11 +19,13 @@ struct RunSettings {
   std::function<void(const Progress&)> progress; ///< called in order, from one thread at a time
 };
 
-/// Samples per block: blocks start at multiples of this. Numbers do not depend on it.
+/// Samples per block: blocks start at multiples of this, or of Model::block rounded down to a multiple of it. Numbers
+/// do not depend on it.
 inline constexpr std::size_t block_samples = 2048;
 
 /// Draws and evaluates samples [first, last) and hands them to the sink in order.
-/// Returns the number of samples done (fewer than asked for if stopped).
+/// Returns the number of samples done (fewer than asked for if stopped). Where the model throws, every block before
+/// the one that failed has been handed to the sink; then the exception goes on.
 std::uint64_t propagate(const Experiment& experiment, Sink& sink, const RunSettings& settings);
 
 /// The variates of one sample, as in the run. For replay.

@@ -18,6 +18,8 @@ const char* status_name(Status status) {
     return "out_of_domain";
   case Status::not_finite:
     return "not_finite";
+  case Status::model_failed:
+    return "model_failed";
   default:
     return "no_solution";
   }

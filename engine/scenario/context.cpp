@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 
 #include <fmt/format.h>
 
@@ -35,6 +36,15 @@ const Csv* DataFiles::open(const Node& node, const std::string& path, Problems& 
     }
   }
   return files_.back().csv.get();
+}
+
+void DataFiles::include(const std::string& name) {
+  const std::filesystem::path path = std::filesystem::path(folder_) / name;
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return;
+  std::ifstream in(path, std::ios::binary);
+  // Not under its own name: it was not read as a table.
+  files_.push_back({"model: " + path.string(), {std::istreambuf_iterator<char>(in), {}}, nullptr});
 }
 
 std::uint64_t DataFiles::hash(std::uint64_t hash) const {

@@ -19,6 +19,9 @@ public:
   explicit DataFiles(const std::string& scenario_file);
   /// The file named by the text node; null and a problem if it cannot be read or is no CSV.
   const Csv* open(const Node& name, const std::string& path, Problems& problems);
+  /// A file that fixes the numbers in another way (a model's library or script): its bytes enter the hash. No such
+  /// file: nothing.
+  void include(const std::string& name);
   /// Continues `hash` over the bytes of every file opened, in order.
   std::uint64_t hash(std::uint64_t hash) const;
 

@@ -1,7 +1,23 @@
+#include <filesystem>
+
+#include "models/plugin/plugin.h"
 #include "scenario/made_model.h"
+
 namespace gumshoe::scenario {
-models::MadeModel make_plugin(Table& model, const std::string&, Context&) {
-  model.add("model: plugins are not there yet");
-  return nullptr;
+
+models::MadeModel make_plugin(Table& model, const std::string& folder, Context& context) {
+  const Node* node = model.require("library", "library = \"libmine.so\"?");
+  const auto library = model.text("library");
+  if (!library) return nullptr;
+  try {
+    auto plugin = models::load_plugin((std::filesystem::path(folder) / *library).string(), *library,
+                                      {context.problems.file(), node->line, node->column});
+    context.files.include(*library);
+    return plugin;
+  } catch (const InputError& error) {
+    context.problems.add(error);
+    return nullptr;
+  }
 }
+
 } // namespace gumshoe::scenario

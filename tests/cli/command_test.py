@@ -1,0 +1,297 @@
+"""A program as a model: what it is given and gives back, every way it can fail, and that nothing is lost then.
+
+usage: command_test.py path/to/gumshoe [unittest options]
+"""
+import os
+import pathlib
+import re
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+os.environ["HDF5_USE_FILE_LOCKING"] = "FALSE"  # to look at a file while it is written
+import h5py
+import numpy as np
+
+from program import GUMSHOE, ROOT, complaint, gumshoe, places
+
+SCENARIO = """schema = 1
+[model]
+name = "command"
+command = ["python3", "model.py"]
+batch = {batch}
+time_limit = "{limit}"
+[model.measurands]
+area = "mm2"
+[quantities.width]
+value = "20 mm"
+u = "0.01 mm"
+[quantities.height]
+value = "3 cm"
+u = "0.02 mm"
+[quantities.angle]
+distribution = "rectangular"
+low = "89 deg"
+high = "91 deg"
+[run]
+samples = {samples}
+seed = 7
+"""
+COMMAND_PLACE = (4, 11)
+
+# What every model here begins with; `rows` are the points, `answer` writes.
+BEGIN = """import csv, math, os, sys, time
+rows = list(csv.DictReader(sys.stdin))
+def area(row):
+    return float(row["width (mm)"]) * float(row["height (cm)"]) * 10 * math.sin(math.radians(float(row["angle (deg)"])))
+def answer(values, header="area (mm2)"):
+    print(header)
+    for v in values: print(v)
+"""
+GOOD = "answer(repr(area(r)) for r in rows)\n"
+
+
+class Command(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = pathlib.Path(temporary.name)
+
+    def scenario(self, body=GOOD, batch=10000, limit="30 s", samples=5000, change=lambda text: text):
+        (self.folder / "model.py").write_text(BEGIN + body)
+        path = self.folder / "s.toml"
+        path.write_text(change(SCENARIO.format(batch=batch, limit=limit, samples=samples)))
+        return path
+
+    def run_it(self, scenario, name="r.h5", *more):
+        return gumshoe("run", scenario, "--out", self.folder / name, *more)
+
+    def values(self, name="r.h5"):
+        with h5py.File(self.folder / name) as file:
+            return file["outputs/area"][0], file["outputs/status"][()]
+
+    # what it computes
+
+    def test_numbers(self):
+        run = self.run_it(self.scenario(samples=100_000))
+        self.assertEqual(run.returncode, 0, run.stderr)
+        values, status = self.values()
+        self.assertFalse(status.any())
+        # width, height independent; sin is 1 - x^2 / 2 here: E = 1 - (1 deg)^2 / 6
+        expected = 600e-6 * (1 - np.radians(1) ** 2 / 6)
+        u = np.hypot(30 * 0.01, 20 * 0.02) * 1e-6
+        self.assertLess(abs(values.mean() - expected), 4 * u / np.sqrt(1e5))
+        self.assertLess(abs(values.std() / u - 1), 4 / np.sqrt(2e5))
+        with h5py.File(self.folder / "r.h5") as file:
+            self.assertEqual(file.attrs["model"], "command")
+        self.assertIn("by differences", run.stdout)
+        # U = k u_c: the law of propagation by differences; dA/dangle is 0 at 90 deg
+        self.assertRegex(run.stdout, r"GUM framework: U = 0\.98 mm2 with k = 1\.96")
+
+    def test_batches_and_threads(self):
+        bits = []
+        for i, (batch, threads) in enumerate([(10000, 1), (10000, 2), (700, 2), (2048, 3), (5000, 1)]):
+            run = self.run_it(self.scenario(batch=batch, samples=12_345), f"{i}.h5", "--threads", threads)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            bits.append(self.values(f"{i}.h5")[0].tobytes())
+        self.assertEqual(len(set(bits)), 1)
+
+    def test_batch_is_a_limit(self):
+        body = "with open('sizes.txt', 'a') as f: f.write(f'{len(rows)}\\n')\n" + GOOD
+        for batch, samples in ((10000, 20000), (100, 2000)):
+            (self.folder / "sizes.txt").unlink(missing_ok=True)
+            self.assertEqual(self.run_it(self.scenario(body, batch=batch, samples=samples)).returncode, 0)
+            sizes = [int(n) for n in (self.folder / "sizes.txt").read_text().split()]
+            self.assertLessEqual(max(sizes), batch)
+            # one for the check, two for the budget, and the run in as few calls as blocks of 2048 allow
+            per_call = batch // 2048 * 2048 or batch
+            self.assertLessEqual(len(sizes), 3 + samples / per_call + samples / 2048 + 2)
+
+    def test_units_order_and_other_columns(self):
+        body = """print("comment,area (cm2),width")
+for r in rows: print(f'"x",{area(r) / 100!r},"1"')
+"""
+        self.assertEqual(self.run_it(self.scenario(), "a.h5").returncode, 0)
+        self.assertEqual(self.run_it(self.scenario(body), "b.h5").returncode, 0)
+        np.testing.assert_allclose(self.values("b.h5")[0], self.values("a.h5")[0], rtol=4e-16)
+
+    def test_more_than_a_pipe_holds_both_ways(self):
+        # Writes before it has read everything, and much on stderr: neither side may wait for the other.
+        body = GOOD
+        streaming = """import sys, math
+head = sys.stdin.readline()
+print("area (mm2)", flush=True)
+for line in sys.stdin:
+    w, h, a = map(float, line.split(","))
+    sys.stderr.write("e" * 100 + "\\n")
+    print(repr(w * h * 10 * math.sin(math.radians(a))), flush=True)
+"""
+        self.assertEqual(self.run_it(self.scenario(body, samples=30000, batch=30000), "a.h5").returncode, 0)
+        scenario = self.scenario(body, samples=30000, batch=30000)
+        (self.folder / "model.py").write_text(streaming)
+        run = self.run_it(scenario, "b.h5")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual(self.values("a.h5")[0].tobytes(), self.values("b.h5")[0].tobytes())
+
+    def test_replay_check_report(self):
+        scenario = self.scenario()
+        check = gumshoe("check", scenario, "--explain")
+        self.assertEqual(check.returncode, 0, check.stderr)
+        self.assertIn("model command", check.stdout)
+        self.assertEqual(self.run_it(scenario).returncode, 0)
+        replay = gumshoe("replay", self.folder / "r.h5", "--sample", 4321)
+        self.assertEqual(replay.returncode, 0, replay.stderr)
+        shown = re.search(r"outputs\n  area +(\S+) mm2", replay.stdout)
+        self.assertAlmostEqual(float(shown[1]) * 1e-6, self.values()[0][4321], delta=1e-19)
+        report = gumshoe("report", self.folder / "r.h5", "--out", self.folder / "report.html")
+        self.assertEqual(report.returncode, 0, report.stderr)
+
+    def test_the_script_is_part_of_the_identity(self):
+        scenario = self.scenario()
+        self.assertEqual(self.run_it(scenario).returncode, 0)
+        (self.folder / "model.py").write_text(BEGIN + GOOD + "# changed\n")
+        replay = gumshoe("replay", self.folder / "r.h5", "--sample", 1)
+        self.assertIsNone(complaint(replay), replay.stderr)
+        self.assertIn("no longer the scenario", replay.stderr)
+
+    # failed samples
+
+    def test_cells_without_a_number(self):
+        for cell in ("", "nan", "abc", "inf", '""', "1e999"):
+            with self.subTest(cell):
+                body = f"answer({cell!r} if float(r['angle (deg)']) > 90.9 else repr(area(r)) for r in rows)\n"
+                run = self.run_it(self.scenario(body), "r.h5")
+                self.assertEqual(run.returncode, 3, run.stderr)  # more than 1 % failed
+                values, status = self.values()
+                self.assertEqual(set(status), {0, 6})
+                self.assertTrue(np.isnan(values[status == 6]).all())
+                self.assertFalse(np.isnan(values[status == 0]).any())
+                share = (status == 6).mean()
+                self.assertLess(abs(share - 0.05), 4 * np.sqrt(0.05 * 0.95 / 5000))
+                self.assertIn("model_failed", run.stdout)
+
+    # what goes wrong
+
+    def refused(self, run, *words, place=COMMAND_PLACE):
+        self.assertIsNone(complaint(run), run.stderr)
+        self.assertEqual(places(run, self.folder / "s.toml"), [place], run.stderr)
+        for word in words:
+            self.assertIn(word, run.stderr)
+
+    def test_check_finds_a_broken_command(self):
+        cases = {
+            "sys.exit(3)\n": ["exit status 3"],
+            "sys.stderr.write('no licence\\n'); sys.exit(1)\n": ["exit status 1", "stderr: no licence"],
+            "1 / 0\n": ["exit status 1", "ZeroDivisionError"],
+            "import signal\nos.kill(os.getpid(), signal.SIGKILL)\n": ["signal 9"],
+            "os.abort()\n": ["signal 6"],
+            "": ["wrote nothing"],
+            "print('hello')\n": ["no column 'area'", "'hello'"],
+            "answer([])\n": ["0 rows for 1 points"],
+            "answer([1, 2])\n": ["2 rows for 1 points"],
+            "answer([1], 'volume (mm3)')\n": ["no column 'area'"],
+            "answer([1], 'area (mm3)')\n": ["its column area", "mm3"],
+            "answer([1], 'area (foo)')\n": ["'foo' is not a unit"],
+            "answer(['1,2'])\n": ["line 2 of its output has 2 cells, the header 1"],
+            "sys.stdout.buffer.write(bytes(range(256)) * 10)\n": ["no column 'area'"],
+            "while True: print('area' * 10000)\n": ["writes without end"],
+        }
+        for body, words in cases.items():
+            with self.subTest(body):
+                self.refused(gumshoe("check", self.scenario(body)), "'python3 model.py'", *words)
+
+    def test_hangs(self):
+        for body in ("time.sleep(100)\n", "sys.stdout.close(); os.close(1); os.close(2); time.sleep(100)\n",
+                     "import subprocess; subprocess.Popen(['sleep', '100'])\n" + GOOD):
+            with self.subTest(body):
+                start = time.monotonic()
+                run = gumshoe("check", self.scenario(body, limit="1 s"))
+                self.assertLess(time.monotonic() - start, 10)
+                self.refused(run, "longer than 1 s", "model.time_limit")
+
+    def test_no_such_program(self):
+        run = gumshoe("check", self.scenario(change=lambda t: t.replace('"python3"', '"no-such-program"')))
+        self.refused(run, "cannot be started", "No such file")
+
+    def test_a_program_that_reads_nothing(self):
+        body = "answer(repr(area(r)) for r in rows)\n"
+        scenario = self.scenario(body, samples=20000, batch=20000)
+        (self.folder / "model.py").write_text("print('area (mm2)')\n")  # its input is far more than a pipe holds
+        self.refused(gumshoe("run", scenario, "--out", self.folder / "r.h5"), "0 rows for 1 points")
+
+    def test_mistakes_in_the_scenario(self):
+        cases = [
+            (lambda t: t.replace('command = ["python3", "model.py"]\n', ""), "command", (2, 1)),
+            (lambda t: t.replace('["python3", "model.py"]', "[]"), "no program", COMMAND_PLACE),
+            (lambda t: t.replace('["python3", "model.py"]', '"python3 model.py"'), "model.command", COMMAND_PLACE),
+            (lambda t: t.replace("batch = 10000", "batch = 0"), "model.batch", (5, 9)),
+            (lambda t: t.replace('"30 s"', '"-1 s"'), "model.time_limit", (6, 14)),
+            (lambda t: t.replace('"30 s"', '"30 mm"'), "model.time_limit", (6, 14)),
+            (lambda t: t.replace('area = "mm2"', 'area = "foo"'), "'foo' is not a unit", (8, 8)),
+            (lambda t: t.replace('area = "mm2"\n', ""), "model.measurands: none", (7, 1)),
+            (lambda t: t.replace("batch =", "bacth ="), "unknown key 'bacth'", (5, 1)),
+            (lambda t: t.replace('[model.measurands]\narea = "mm2"\n', ""), "measurands", (2, 1)),
+            (lambda t: t.replace('name = "command"', 'name = "command"\nmethod = "virtual_experiment"'), "does not say what the readouts would be", (2, 1)),
+        ]
+        for change, word, place in cases:
+            with self.subTest(word):
+                self.refused(gumshoe("check", self.scenario(change=change)), word, place=place)
+
+    # nothing lost
+
+    def test_fails_late_and_resumes(self):
+        # Fails from the third full batch on while the file `broken` is there: not part of the model's identity.
+        body = """if os.path.exists("broken") and len(rows) > 100:
+    with open("calls.txt", "a") as f: f.write("x")
+    if len(open("calls.txt").read()) > 3: sys.exit("the licence server is away")
+""" + GOOD
+        scenario = self.scenario(body, batch=2048, samples=20_000)
+        self.assertEqual(self.run_it(scenario, "whole.h5", "--threads", 1).returncode, 0)
+        for threads in (1, 2):
+            with self.subTest(threads=threads):
+                name = f"broken{threads}.h5"
+                (self.folder / "broken").touch()
+                (self.folder / "calls.txt").unlink(missing_ok=True)
+                run = self.run_it(scenario, name, "--threads", threads)
+                self.refused(run, "the licence server is away", "samples are kept", "the same command resumes")
+                with h5py.File(self.folder / name) as file:
+                    done = int(np.ravel(file["samples_done"][()])[0])
+                    self.assertFalse(file.attrs["complete"])
+                self.assertEqual(done % 2048, 0)
+                if threads == 1:
+                    self.assertEqual(done, 3 * 2048)
+                    self.assertIn(f"at samples {done} to {done + 2047}", run.stderr)
+                self.assertIn(f" {done} of 20000 samples are kept", run.stderr)
+                whole = self.values("whole.h5")[0]
+                self.assertEqual(self.values(name)[0][:done].tobytes(), whole[:done].tobytes())
+                (self.folder / "broken").unlink()
+                again = self.run_it(scenario, name, "--threads", threads)
+                self.assertEqual(again.returncode, 0, again.stderr)
+                if done: self.assertIn(f"resuming after {done} samples", again.stderr)
+                self.assertEqual(self.values(name)[0].tobytes(), whole.tobytes())
+
+    def test_killed_and_resumed(self):
+        body = "if os.path.exists('slow') and len(rows) > 100: time.sleep(0.15)\n" + GOOD
+        scenario = self.scenario(body, batch=2048, samples=60_000)
+        self.assertEqual(self.run_it(scenario, "whole.h5").returncode, 0)
+        for how, code in ((signal.SIGKILL, -9), (signal.SIGINT, 130)):
+            with self.subTest(how):
+                (self.folder / "slow").touch()
+                name = f"{how.name}.h5"
+                process = subprocess.Popen([GUMSHOE, "run", str(scenario), "--out", str(self.folder / name), "--threads", "2"],
+                                           stderr=subprocess.PIPE)
+                time.sleep(1.5)
+                process.send_signal(how)
+                process.communicate(timeout=30)
+                self.assertEqual(process.returncode, code)
+                (self.folder / "slow").unlink()
+                again = self.run_it(scenario, name)
+                self.assertEqual(again.returncode, 0, again.stderr)
+                self.assertIn("resuming after", again.stderr)
+                self.assertEqual(self.values(name)[0].tobytes(), self.values("whole.h5")[0].tobytes())
+
+
+if __name__ == "__main__":
+    unittest.main()
