@@ -47,7 +47,10 @@ public:
     if (const auto* items = top.array("correlations"))
       out_.correlations = read_correlations(*items, problems_, out_.quantities);
     if (auto run = top.table("run")) out_.run = read_run(*run);
-    if (auto analysis = top.table("analysis")) out_.analysis = read_analysis(*analysis, *model, out_.quantities, context_);
+    if (auto analysis = top.table("analysis")) {
+      out_.analysis = read_analysis(*analysis, *model, out_.quantities, context_);
+      if (out_.analysis.sensitivity.sobol > 0 && !out_.correlations.empty()) refuse_sobol(*analysis);
+    }
     top.refuse_unknown();
     problems_.raise();
     out_.hash = fmt::format("{:016x}", files_.hash(hash64(out_.text)));
@@ -55,6 +58,13 @@ public:
   }
 
 private:
+  void refuse_sobol(Table& analysis) {
+    Table sensitivity(*analysis.find("sensitivity"), analysis.path("sensitivity"), problems_);
+    problems_.add(*sensitivity.find("sobol"), sensitivity.path("sobol") + ": the inputs are correlated",
+                  "Sobol' indices are defined for independent inputs, Shapley effects for all",
+                  "sensitivity = { shapley = 4096 }?");
+  }
+
   const ModelCard* read_model(Table& top) {
     if (!top.require("model", "[model] with a name?")) return nullptr;
     auto table = top.table("model");
