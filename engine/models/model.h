@@ -43,6 +43,9 @@ struct Kernels {
   void (*evaluate)(const BlockCall&);
 };
 
+/// Status of a sample whose formula has no finite value: a division by zero, the logarithm of a negative number.
+inline constexpr std::uint8_t not_finite = 5;
+
 /// One reading at one point, for derivatives and replay.
 template <class T> struct PointCall {
   const T* quantities = nullptr;

@@ -47,6 +47,9 @@ quantities::SamplePlan located_plan(const scenario::Scenario& s) {
 
 Experiment::Experiment(const scenario::Scenario& s) : scenario_(s), model_(s.made ? s.made.get() : models::find(s.model)), made_(s.made) {
   if (!model_) throw InputError(fmt::format("model: unknown model '{}'", s.model));
+  if (s.method == scenario::Method::virtual_experiment && !model_->kernels()->simulate)
+    throw InputError({{find_line(s, "[model]"), "model: it does not say what the readouts would be",
+                       "a virtual experiment simulates every indication", "method = \"propagation\"?"}});
   plan_ = located_plan(s);
   const ModelCard& card = *model_->card;
   indications_ = card.indications.size();

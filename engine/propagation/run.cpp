@@ -1,6 +1,10 @@
 #include "propagation/run.h"
 
+#include "models/model.h"
+
 namespace gumshoe::propagation {
+
+static_assert(static_cast<std::uint8_t>(Status::not_finite) == models::not_finite);
 
 const char* status_name(Status status) {
   switch (status) {
@@ -12,6 +16,8 @@ const char* status_name(Status status) {
     return "not_converged";
   case Status::out_of_domain:
     return "out_of_domain";
+  case Status::not_finite:
+    return "not_finite";
   default:
     return "no_solution";
   }

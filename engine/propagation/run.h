@@ -13,6 +13,7 @@ enum class Status : std::uint8_t {
   not_converged = 2,
   out_of_domain = 3, ///< a drawn value that the solve reads is impossible: a fillet larger than the rod
   no_solution = 4,   ///< the geometry or the data admit no answer
+  not_finite = 5,    ///< the formula has no finite value: a division by zero, the logarithm of a negative number
 };
 
 /// "never_covered" and so on, as in files and tables.

@@ -24,6 +24,7 @@ public:
     if (node.kind != Node::Kind::table) return exact(node, path, labels, source);
     Table table(node, path, context_.problems);
     const std::string own = table.rendered("source");
+    unit(table);
     const std::string& told = own.empty() ? source : own;
     if (table.has("by"))
       by(table, labels, told);
@@ -34,6 +35,15 @@ public:
 
 private:
   Dimension point() const { return {std::string(card_.si_unit)}; }
+
+  /// Where a quantity has a card the key only repeats its kind; else it is where the card's unit comes from.
+  void unit(Table& table) {
+    const auto unit = table.text("unit");
+    if (!unit || units::convertible(*unit, std::string(card_.si_unit))) return;
+    context_.problems.add(*table.find("unit"),
+                          fmt::format("{}: '{}' is not {}", table.path("unit"), *unit, units::kind_name(std::string(card_.si_unit))),
+                          "must convert to " + std::string(card_.si_unit));
+  }
 
   void exact(const Node& node, const std::string& path, const Labels& labels, const std::string& source) {
     const auto value = read_measure(node, path, point(), context_.problems);

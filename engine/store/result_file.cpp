@@ -112,8 +112,8 @@ void ResultFile::Impl::create(const std::vector<propagation::Output>& outputs, c
       }
       const hdf5::Handle flags =
           hdf5::create_dataset(group, "status", H5T_STD_U8LE, {identity.samples}, "1", "why a sample has no value");
-      hdf5::write_attribute(flags, "flag_values", std::vector<std::uint8_t>{0, 1, 2, 3, 4});
-      hdf5::write_attribute(flags, "flag_meanings", "ok never_covered not_converged out_of_domain no_solution");
+      hdf5::write_attribute(flags, "flag_values", std::vector<std::uint8_t>{0, 1, 2, 3, 4, 5});
+      hdf5::write_attribute(flags, "flag_meanings", "ok never_covered not_converged out_of_domain no_solution not_finite");
       hdf5::attach(flags, 0, sample, "sample");
     }
     hdf5::require(H5Fflush(file, H5F_SCOPE_GLOBAL), "write the file");

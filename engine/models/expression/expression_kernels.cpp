@@ -1,0 +1,154 @@
+/// Programs over blocks, compiled once per instruction set: chunk by chunk, so that registers stay in the first cache.
+#include <algorithm>
+#include <limits>
+
+#include "models/expression/expression.h"
+#include "models/expression/interpreter.h"
+
+namespace gumshoe::models::expression {
+namespace {
+
+constexpr std::size_t width = Lanes::size, widest = 8;
+constexpr std::size_t first_cache = 24 * 1024; ///< bytes for registers, leaving room for columns
+
+/// Where a step's values lie: stride 1 over the samples, or stride 0 and one value repeated for a group of lanes.
+struct Place {
+  const double* data = nullptr;
+  double* own = nullptr; ///< the same, if the step writes there
+  std::size_t stride = 0;
+  bool follows_block = false; ///< data is a column of the whole block, not of a chunk
+};
+
+struct Buffers {
+  std::vector<Place> places;
+  std::vector<double> registers, uniform;
+  std::vector<std::uint32_t> varying; ///< steps to compute for every sample
+};
+Buffers& buffers() {
+  thread_local Buffers b;
+  return b;
+}
+
+template <class F>
+void loop(const F& f, double* out, const double* a, std::size_t sa, const double* b, std::size_t sb, std::size_t n) {
+  for (std::size_t i = 0; i < n; i += width)
+    f(Lanes::load_unaligned(a + i * sa), Lanes::load_unaligned(b + i * sb)).store_unaligned(out + i);
+}
+
+void compute(const Step& s, double* out, const Place& a, const Place& b, std::size_t at, std::size_t n) {
+  const double* pa = a.data + (a.follows_block ? at : 0);
+  const double* pb = b.data + (b.follows_block ? at : 0);
+  with_function<Lanes>(s.operation, [&](const auto& f) { loop(f, out, pa, a.stride, pb, b.stride, n); });
+}
+
+Column column_of(const BlockCall& call, const ModelCard& card, std::size_t reading, const Step& s) {
+  switch (s.source) {
+  case Source::quantity:
+    return call.quantities[reading * card.quantities.size() + s.a];
+  case Source::condition:
+    return call.conditions[reading * card.conditions.size() + s.a];
+  default:
+    return call.indications[reading * card.indications.size() + s.a];
+  }
+}
+
+/// Places of all steps; what is the same for all samples is computed here, once.
+void prepare(const Program& program, const BlockCall& call, const ModelCard& card, std::size_t reading,
+             double* const* rows, std::size_t chunk, Buffers& b) {
+  const std::size_t steps = program.steps.size();
+  b.places.assign(steps, {});
+  b.uniform.resize(steps * widest);
+  b.registers.resize(program.registers * chunk);
+  b.varying.clear();
+  for (std::size_t i = 0; i < steps; ++i) {
+    const Step& s = program.steps[i];
+    Place& place = b.places[i];
+    double* const repeated = &b.uniform[i * widest];
+    if (s.source == Source::step) {
+      const Place &x = b.places[s.a], &y = b.places[s.b];
+      if (x.stride == 0 && y.stride == 0) {
+        compute(s, repeated, x, y, 0, width);
+        place.data = repeated;
+      } else {
+        place = {&b.registers[s.home * chunk], &b.registers[s.home * chunk], 1, false};
+        b.varying.push_back(static_cast<std::uint32_t>(i));
+      }
+      continue;
+    }
+    const Column c = s.source == Source::constant ? Column{&s.value, 0} : column_of(call, card, reading, s);
+    if (c.stride != 0) {
+      place = {c.data, nullptr, 1, true};
+    } else {
+      std::fill_n(repeated, widest, c.data[0]);
+      place.data = repeated;
+    }
+  }
+  // An output's values go straight to its row, where later steps read them.
+  for (std::size_t o = 0; o < program.outputs.size(); ++o) {
+    Place& place = b.places[program.outputs[o]];
+    if (place.own && !place.follows_block) place = {rows[o], rows[o], 1, true};
+  }
+}
+
+void finish_output(const Place& place, double* row, std::size_t at, std::size_t n, std::uint8_t* status) {
+  if (place.own != row) {
+    const double* from = place.data + (place.follows_block ? at : 0);
+    for (std::size_t i = 0; i < n; ++i) row[at + i] = from[place.stride ? i : 0];
+  }
+  const Lanes largest(std::numeric_limits<double>::max());
+  Lanes bad(0.0);
+  for (std::size_t i = 0; i < n; i += width)
+    bad = xsimd::select(xsimd::abs(Lanes::load_unaligned(row + at + i)) <= largest, bad, Lanes(1.0));
+  if (!xsimd::any(bad > Lanes(0.5))) return;
+  for (std::size_t i = 0; i < n; ++i)
+    if (!(std::fabs(row[at + i]) <= std::numeric_limits<double>::max())) status[at + i] = not_finite;
+}
+
+void run(const Program& program, const BlockCall& call, const ModelCard& card, std::size_t reading,
+         double* const* rows) {
+  Buffers& b = buffers();
+  std::size_t chunk = 256;
+  while (chunk > 32 && chunk * sizeof(double) * program.registers > first_cache) chunk /= 2;
+  prepare(program, call, card, reading, rows, chunk, b);
+  for (std::size_t at = 0; at < call.samples; at += chunk) {
+    const std::size_t n = std::min(chunk, call.samples - at);
+    for (const std::uint32_t i : b.varying) {
+      const Step& s = program.steps[i];
+      const Place& place = b.places[i];
+      compute(s, place.own + (place.follows_block ? at : 0), b.places[s.a], b.places[s.b], at, n);
+    }
+    for (std::size_t o = 0; o < program.outputs.size(); ++o)
+      finish_output(b.places[program.outputs[o]], rows[o], at, n, call.status);
+  }
+}
+
+void evaluate(const BlockCall& call) {
+  const auto& expression = *static_cast<const Expression*>(call.context);
+  const ModelCard& card = *expression.model.card;
+  for (std::size_t r = 0; r < call.readings; ++r)
+    run(expression.evaluate, call, card, r, call.measurands + r * card.measurands.size());
+}
+
+void simulate(const BlockCall& call) {
+  const auto& expression = *static_cast<const Expression*>(call.context);
+  const ModelCard& card = *expression.model.card;
+  const std::size_t k = card.indications.size(), m = card.measurands.size();
+  std::vector<double*> rows(k + m);
+  for (std::size_t r = 0; r < call.readings; ++r) {
+    std::copy_n(call.simulated + r * k, k, rows.begin());
+    std::copy_n(call.measurands + r * m, m, rows.begin() + static_cast<std::ptrdiff_t>(k));
+    run(expression.simulate, call, card, r, rows.data());
+  }
+}
+
+} // namespace
+} // namespace gumshoe::models::expression
+
+extern "C" {
+extern const gumshoe::models::Kernels GUMSHOE_KERNEL(gumshoe_expression_), GUMSHOE_KERNEL(gumshoe_expression_evaluating_);
+const gumshoe::models::Kernels GUMSHOE_KERNEL(gumshoe_expression_){&gumshoe::models::expression::simulate,
+                                                                   &gumshoe::models::expression::evaluate};
+/// Of a statement that does not say what its readouts would be.
+const gumshoe::models::Kernels GUMSHOE_KERNEL(gumshoe_expression_evaluating_){nullptr,
+                                                                              &gumshoe::models::expression::evaluate};
+}
