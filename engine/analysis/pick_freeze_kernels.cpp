@@ -36,9 +36,11 @@ inline void each_group(std::size_t rows, std::size_t per_group, double* out, std
 
 inline Lanes at(const double* x, std::size_t i) { return Lanes::load_unaligned(x + i); }
 
-void base(const double* a, const double* b, std::size_t rows, std::size_t per_group, double* out, std::size_t stride) {
+void base(const double* a, const double* b, double origin, std::size_t rows, std::size_t per_group, double* out,
+          std::size_t stride) {
+  const Lanes from(origin);
   each_group<5>(rows, per_group, out + base_a * stride, stride, [=](Sum* sum, std::size_t p, std::size_t i) {
-    const Lanes ya = at(a, i), yb = at(b, i);
+    const Lanes ya = at(a, i) - from, yb = at(b, i) - from;
     sum[0].part[p] += ya;
     sum[1].part[p] += ya * ya;
     sum[2].part[p] += yb;
@@ -47,25 +49,27 @@ void base(const double* a, const double* b, std::size_t rows, std::size_t per_gr
   });
 }
 
-void frozen(const double* a, const double* b, const double* c, std::size_t rows, std::size_t per_group, double* out,
-            std::size_t stride) {
+void frozen(const double* a, const double* b, const double* c, double origin, std::size_t rows, std::size_t per_group,
+            double* out, std::size_t stride) {
+  const Lanes from(origin);
   each_group<4>(rows, per_group, out, stride, [=](Sum* sum, std::size_t p, std::size_t i) {
-    const Lanes yc = at(c, i), change = at(a, i) - yc;
+    const Lanes yc = at(c, i) - from, change = at(a, i) - from - yc;
     sum[0].part[p] += yc;
     sum[1].part[p] += yc * yc;
-    sum[2].part[p] += at(b, i) * yc;
+    sum[2].part[p] += (at(b, i) - from) * yc;
     sum[3].part[p] += change * change;
   });
 }
 
-void mirrored(const double* a, const double* b, const double* c, const double* d, std::size_t rows,
+void mirrored(const double* a, const double* b, const double* c, const double* d, double origin, std::size_t rows,
               std::size_t per_group, double* out, std::size_t stride) {
+  const Lanes from(origin);
   each_group<5>(rows, per_group, out + frozen_d * stride, stride, [=](Sum* sum, std::size_t p, std::size_t i) {
-    const Lanes yd = at(d, i), change = at(b, i) - yd;
+    const Lanes yd = at(d, i) - from, change = at(b, i) - from - yd;
     sum[0].part[p] += yd;
     sum[1].part[p] += yd * yd;
-    sum[2].part[p] += at(a, i) * yd;
-    sum[3].part[p] += at(c, i) * yd;
+    sum[2].part[p] += (at(a, i) - from) * yd;
+    sum[3].part[p] += (at(c, i) - from) * yd;
     sum[4].part[p] += change * change;
   });
 }

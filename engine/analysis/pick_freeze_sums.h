@@ -20,14 +20,14 @@ enum FrozenSum {
   frozen_sums
 };
 
-/// `rows` in groups of `per_group` (both multiples of 8, the last group may be short); sum s of group g goes to
-/// out[s * stride + g].
+/// Outputs are taken from `origin`. `rows` in groups of `per_group` (both multiples of 8, the last group may be short);
+/// sum s of group g goes to out[s * stride + g].
 struct PickFreezeKernels {
-  void (*base)(const double* a, const double* b, std::size_t rows, std::size_t per_group, double* out,
+  void (*base)(const double* a, const double* b, double origin, std::size_t rows, std::size_t per_group, double* out,
                std::size_t stride); ///< all but base_n
-  void (*frozen)(const double* a, const double* b, const double* c, std::size_t rows, std::size_t per_group,
-                 double* out, std::size_t stride);
-  void (*mirrored)(const double* a, const double* b, const double* c, const double* d, std::size_t rows,
+  void (*frozen)(const double* a, const double* b, const double* c, double origin, std::size_t rows,
+                 std::size_t per_group, double* out, std::size_t stride);
+  void (*mirrored)(const double* a, const double* b, const double* c, const double* d, double origin, std::size_t rows,
                    std::size_t per_group, double* out, std::size_t stride); ///< frozen_d and on
   /// (c_i - a) (d_j - b) + (c_j - a) (d_i - b)
   void (*pair)(const double* a, const double* b, const double* ci, const double* di, const double* cj, const double* dj,

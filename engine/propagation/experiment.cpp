@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include <fmt/format.h>
@@ -147,11 +148,24 @@ void Experiment::wire(Workspace& w, std::size_t n, bool estimates) const {
 
 namespace {
 
-/// One pass without a branch: most blocks have none.
-bool any_nan(const double* x, std::size_t n) {
+// One pass without a branch each: most blocks have none.
+bool none_failed(const std::uint8_t* status, std::size_t n) {
   std::uint64_t found = 0;
-  for (std::size_t i = 0; i < n; ++i) found |= static_cast<std::uint64_t>(x[i] != x[i]);
-  return found != 0;
+  for (std::size_t i = 0; i < n; i += 8) {
+    std::uint64_t eight;
+    std::memcpy(&eight, status + i, 8);
+    found |= eight;
+  }
+  return found == 0;
+}
+
+bool perhaps_nan(const double* x, std::size_t n) {
+  double sums[8] = {}; // of zeros, unless there is a NaN (or an infinity: looked at again then)
+  for (std::size_t i = 0; i < n; i += 8)
+    for (std::size_t k = 0; k < 8; ++k) sums[k] += x[i + k] * 0.0;
+  double sum = 0;
+  for (const double s : sums) sum += s;
+  return std::isnan(sum);
 }
 
 } // namespace
@@ -223,12 +237,12 @@ void Experiment::run(std::span<const double* const> variates, std::size_t n, Wor
   if (virtual_experiment)
     for (std::size_t i = 0; i < rows * n; ++i) outputs[i] -= w.truth[i];
   for (std::size_t row = 0; row < rows; ++row) {
-    if (!any_nan(outputs + row * n, n)) continue;
+    if (!perhaps_nan(outputs + row * n, n)) continue;
     for (std::size_t i = 0; i < n; ++i)
       if (status[i] == 0 && std::isnan(outputs[row * n + i]))
         status[i] = static_cast<std::uint8_t>(Status::no_solution);
   }
-  if (std::count(status, status + n, std::uint8_t{0}) == static_cast<std::ptrdiff_t>(n)) return;
+  if (none_failed(status, n)) return;
   for (std::size_t i = 0; i < n; ++i)
     if (status[i] != 0)
       for (std::size_t row = 0; row < rows; ++row) outputs[row * n + i] = std::numeric_limits<double>::quiet_NaN();
