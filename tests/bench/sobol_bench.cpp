@@ -17,7 +17,7 @@ using namespace gumshoe;
 scenario::Scenario g_function() {
   std::string formula, quantities;
   for (int i = 0; i < 10; ++i) {
-    formula += fmt::format("{}(abs(4*x{} - 2) + {})/{}", i == 0 ? "" : "*", i, i, 1 + i);
+    formula += fmt::format("{}((abs(4*x{} - 2) + {})/(1 + {}))", i == 0 ? "" : "*", i, i, i);
     quantities += fmt::format("[quantities.x{}]\ndistribution = \"rectangular\"\nlow = 0\nhigh = 1\n", i);
   }
   const auto path = std::filesystem::temp_directory_path() / "gumshoe_sobol_bench.toml";

@@ -133,6 +133,30 @@ TEST_CASE("conditional draws have the joint distribution of the plan, whatever i
   }
 }
 
+TEST_CASE("each output shares among the variates that reach it", "[shapley][sobol]") {
+  // x2 has a draw of its own at each of two readings.
+  const auto toy = experiment<Sum>(Sum::distributions(), 1);
+  auto& s = toy->scenario;
+  s.quantities[1].entries[0].components[0].per = {"reading"};
+  s.readings.push_back(s.readings[0]);
+  const propagation::Experiment e(s);
+  const auto results = analysis::shapley_effects(e, 16384, 2);
+  const auto indices = analysis::sobol_indices(e, 16384, 2);
+  REQUIRE(results.size() == 4);
+  for (const std::size_t o : {0, 2}) { // y1 of either reading
+    // In the plan's order: x1, x2 of reading 1, x3, x2 of reading 2.
+    const std::size_t at = o == 0 ? 1 : 2;
+    const std::string own = o == 0 ? "x2[reading 1]" : "x2[reading 2]";
+    std::vector<double> truth(3, 4 / 6.);
+    truth[0] = truth[at] = 1 / 6.;
+    check_against(results[o], truth, 0.012);
+    CHECK(results[o].effects[at].input == own);
+    REQUIRE(indices[o].indices.size() == 3);
+    CHECK(indices[o].indices[at].input == own);
+    CHECK(indices[o].indices[at].total == Approx(1 / 6.).margin(4 * 0.0022)); // SE^2 = (3 T^2 - 2 T^3) / n
+  }
+}
+
 TEST_CASE("intervals of Shapley effects cover at their nominal 95 %", "[shapley][coverage]") {
   const Seeds seeds(400, 4000);
   const std::vector<double> truth{0.125, 0.296875, 0.578125};

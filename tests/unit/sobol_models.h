@@ -23,12 +23,15 @@ inline Distribution normal(double u) { return {Family::normal, {0, u}, {}, {}}; 
 
 /// F{}(x, y): measurands y from inputs x; a NaN is a failed sample.
 template <class F> void evaluate(const models::BlockCall& c) {
-  for (std::size_t i = 0; i < c.samples; ++i) {
-    std::array<double, F::inputs> x;
-    std::array<double, F::outputs> y;
-    for (std::size_t q = 0; q < F::inputs; ++q) x[q] = c.quantities[q].data[i * c.quantities[q].stride];
-    F{}(x, y);
-    for (std::size_t m = 0; m < F::outputs; ++m) c.measurands[m][i] = y[m];
+  for (std::size_t r = 0; r < c.readings; ++r) {
+    const models::Column* quantities = c.quantities + r * F::inputs;
+    for (std::size_t i = 0; i < c.samples; ++i) {
+      std::array<double, F::inputs> x;
+      std::array<double, F::outputs> y;
+      for (std::size_t q = 0; q < F::inputs; ++q) x[q] = quantities[q].data[i * quantities[q].stride];
+      F{}(x, y);
+      for (std::size_t m = 0; m < F::outputs; ++m) c.measurands[r * F::outputs + m][i] = y[m];
+    }
   }
 }
 
