@@ -1,4 +1,194 @@
 #include "analysis/shapley.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "analysis/conditional_draws.h"
+#include "analysis/influence.h"
+#include "analysis/pick_freeze.h"
+#include "base/hash.h"
+#include "propagation/propagate.h"
+#include "random/streams.h"
+
 namespace gumshoe::analysis {
-std::vector<Shapley> shapley_effects(const propagation::Experiment&, std::uint64_t, int) { return {}; }
+
+namespace {
+
+constexpr std::size_t rows_per_block = 1024, rows_per_order = 8;
+
+/// Outputs that the same variates reach.
+struct Game {
+  std::vector<std::size_t> players, outputs;
+};
+
+std::vector<Game> games(const propagation::Experiment& e) {
+  const auto reaches = reaching_variates(e);
+  std::map<std::vector<bool>, std::size_t> known;
+  std::vector<Game> all;
+  for (std::size_t o = 0; o < reaches.size(); ++o) {
+    const auto [at, is_new] = known.try_emplace(reaches[o], all.size());
+    if (is_new) {
+      all.emplace_back();
+      for (std::size_t v = 0; v < reaches[o].size(); ++v)
+        if (reaches[o][v]) all.back().players.push_back(v);
+    }
+    all[at->second].outputs.push_back(o);
+  }
+  return all;
+}
+
+/// Of every row of a block: w of the empty set and what each player adds, [output][player][row].
+class BlockOfRows {
+public:
+  BlockOfRows(const propagation::Experiment& e, const ConditionalDraws& draws, const Game& game, std::uint64_t first,
+              std::size_t rows)
+      : whole(game.outputs.size() * rows), added(game.outputs.size() * game.players.size() * rows), failed(rows, 0),
+        e_(e), draws_(draws), game_(game), first_(first), rows_(rows), block_(draws.draw(first, rows)),
+        y_(e.outputs().size() * rows), other_(y_.size()), status_(rows) {
+    for (std::size_t v = 0; v < e.plan().variates.size(); ++v) pointers_.push_back(&block_.mixed[v * rows]);
+    run(y_); // mixed is A as drawn
+  }
+
+  void all_subsets() {
+    const std::size_t d = game_.players.size();
+    std::vector<double> weight(d, 1.0 / static_cast<double>(d)); // of a set of s others: s! (d - s - 1)! / d!
+    for (std::size_t s = 1; s < d; ++s) weight[s] = weight[s - 1] * static_cast<double>(s) / static_cast<double>(d - s);
+    for (std::size_t set = 0; set + 1 < std::size_t{1} << d; ++set) {
+      std::vector<bool> frozen(pointers_.size(), false);
+      std::size_t size = 0;
+      for (std::size_t i = 0; i < d; ++i)
+        if (set >> i & 1) frozen[game_.players[i]] = true, ++size;
+      draws_.mix(block_, frozen, 0, rows_);
+      run(other_);
+      for (std::size_t k = 0; k < game_.outputs.size(); ++k) {
+        const std::vector<double> w = unexplained(k);
+        if (set == 0) std::copy(w.begin(), w.end(), &whole[k * rows_]);
+        for (std::size_t i = 0; i < d; ++i) {
+          const double factor = set >> i & 1 ? -weight[size - 1] : weight[size];
+          double* sum = &added[(k * d + i) * rows_];
+          for (std::size_t r = 0; r < rows_; ++r) sum[r] += factor * w[r];
+        }
+      }
+    }
+  }
+
+  void random_orders() {
+    const std::size_t d = game_.players.size(), strips = rows_ / rows_per_order;
+    std::vector<std::vector<std::size_t>> order(strips);
+    for (std::size_t s = 0; s < strips; ++s) order[s] = random_order(first_ / rows_per_order + s);
+    for (const bool backwards : {false, true}) {
+      std::vector<std::vector<bool>> frozen(strips, std::vector<bool>(pointers_.size(), false));
+      std::vector<std::vector<double>> before(game_.outputs.size());
+      for (std::size_t step = 0; step <= d; ++step) {
+        const auto player = [&](std::size_t s) { return order[s][backwards ? d - step : step - 1]; };
+        for (std::size_t s = 0; s < strips; ++s) {
+          if (step > 0) frozen[s][game_.players[player(s)]] = true;
+          draws_.mix(block_, frozen[s], s * rows_per_order, rows_per_order);
+        }
+        if (step < d) run(other_);
+        for (std::size_t k = 0; k < game_.outputs.size(); ++k) {
+          std::vector<double> w = step < d ? unexplained(k) : std::vector<double>(rows_, 0.0);
+          if (step == 0) std::copy(w.begin(), w.end(), &whole[k * rows_]);
+          for (std::size_t r = 0; step > 0 && r < rows_; ++r)
+            added[(k * d + player(r / rows_per_order)) * rows_ + r] += 0.5 * (before[k][r] - w[r]);
+          before[k] = std::move(w);
+        }
+      }
+    }
+  }
+
+  std::vector<double> whole, added;
+  std::vector<std::uint8_t> failed;
+
+private:
+  void run(std::vector<double>& y) {
+    e_.run(pointers_, rows_, workspace_, y.data(), status_.data());
+    for (std::size_t r = 0; r < rows_; ++r) failed[r] |= status_[r];
+  }
+
+  std::vector<double> unexplained(std::size_t k) const {
+    const double *y = &y_[game_.outputs[k] * rows_], *other = &other_[game_.outputs[k] * rows_];
+    std::vector<double> w(rows_);
+    for (std::size_t r = 0; r < rows_; ++r) w[r] = 0.5 * (y[r] - other[r]) * (y[r] - other[r]);
+    return w;
+  }
+
+  std::vector<std::size_t> random_order(std::uint64_t strip) const {
+    const std::size_t d = game_.players.size(), stride = (d + 1) / 2 * 2;
+    std::vector<double> u(stride);
+    random::uniforms({hash64("shapley order", e_.scenario().run.seed), 0,
+                      static_cast<std::uint16_t>(quantities::Purpose::pick_freeze)},
+                     strip * stride, stride, u.data());
+    std::vector<std::size_t> order(d);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    for (std::size_t i = d; i-- > 1;) // Fisher and Yates
+      std::swap(order[i], order[std::min(i, static_cast<std::size_t>(u[i] * static_cast<double>(i + 1)))]);
+    return order;
+  }
+
+  const propagation::Experiment& e_;
+  const ConditionalDraws& draws_;
+  const Game& game_;
+  std::uint64_t first_;
+  std::size_t rows_;
+  ConditionalDraws::Block block_;
+  std::vector<double> y_, other_;
+  std::vector<std::uint8_t> status_;
+  std::vector<const double*> pointers_;
+  propagation::Workspace workspace_;
+};
+
+void play(const propagation::Experiment& e, const ConditionalDraws& draws, const Game& game, std::uint64_t n,
+          int threads, std::vector<Shapley>& results) {
+  const std::size_t d = game.players.size(), outputs = game.outputs.size(), per_group = rows_per_group(n);
+  const std::size_t groups = (n + per_group - 1) / per_group, blocks = (n + rows_per_block - 1) / rows_per_block;
+  using Series = std::vector<double>;
+  Series count(groups, 0.0);
+  std::vector<Series> whole(outputs, count), added(outputs * d, count);
+  propagation::parallel_for(blocks, threads, [&](std::size_t at) {
+    const std::uint64_t first = at * rows_per_block;
+    const std::size_t rows = std::min<std::uint64_t>(rows_per_block, n - first);
+    BlockOfRows block(e, draws, game, first, rows);
+    if (d <= most_for_all_subsets)
+      block.all_subsets();
+    else
+      block.random_orders();
+    for (std::size_t r = 0; r < rows; ++r) {
+      if (block.failed[r] != 0) continue;
+      const std::size_t g = (first + r) / per_group;
+      count[g] += 1;
+      for (std::size_t k = 0; k < outputs; ++k) whole[k][g] += block.whole[k * rows + r];
+      for (std::size_t k = 0; k < outputs * d; ++k) added[k][g] += block.added[k * rows + r];
+    }
+  });
+  const auto sum = [](const Series& x) { return std::accumulate(x.begin(), x.end(), 0.0); };
+  for (std::size_t k = 0; k < outputs; ++k) {
+    Shapley& s = results[game.outputs[k]];
+    s.dropped_rows = n - static_cast<std::uint64_t>(sum(count));
+    const double variance = sum(whole[k]);
+    for (std::size_t i = 0; i < d; ++i) {
+      const Series& of_player = added[k * d + i];
+      const double value = variance > 0 ? sum(of_player) / variance : std::nan("");
+      Series influence(groups);
+      for (std::size_t g = 0; g < groups; ++g) influence[g] = (of_player[g] - value * whole[k][g]) / variance;
+      const Estimate at = with_interval(value, influence, count.data());
+      s.effects.push_back({e.plan().variates[game.players[i]].name, at.value, at.low, at.high, at.verdict});
+    }
+  }
+}
+
+} // namespace
+
+std::vector<Shapley> shapley_effects(const propagation::Experiment& e, std::uint64_t n, int threads) {
+  n = (n + 63) / 64 * 64;
+  std::vector<Shapley> results;
+  for (const auto& output : e.outputs()) results.push_back({output, n, 0, {}});
+  const ConditionalDraws draws(e.plan());
+  for (const Game& game : games(e))
+    if (!game.players.empty()) play(e, draws, game, n, threads, results);
+  return results;
+}
+
 } // namespace gumshoe::analysis

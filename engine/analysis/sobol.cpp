@@ -3,169 +3,155 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
+#include "analysis/index_verdict.h"
+#include "analysis/influence.h"
+#include "analysis/pick_freeze.h"
 #include "base/error.h"
-#include "base/hash.h"
-#include "propagation/propagate.h"
-#include "random/streams.h"
 
 namespace gumshoe::analysis {
 
 namespace {
 
-constexpr std::size_t rows_per_block = 1024, rows_per_group = 64, resamples = 400;
+/// A series over the groups: sums of centred products, in units of their standard deviations.
+using Series = std::vector<double>;
 
-/// Sums over a group of rows for one output: what both estimators need. y is taken from an origin near
-/// its mean, so that the squares do not drown it.
-struct BaseSums {
-  double n = 0, a = 0, aa = 0, b = 0, bb = 0, ab = 0;
-  void operator+=(const BaseSums& o) { n += o.n, a += o.a, aa += o.aa, b += o.b, bb += o.bb, ab += o.ab; }
-};
-struct FrozenSums {
-  double c = 0, cc = 0, bc = 0, jansen = 0;
-  void operator+=(const FrozenSums& o) { c += o.c, cc += o.cc, bc += o.bc, jansen += o.jansen; }
-};
-struct Indices {
-  double first, total;
+/// One kind of run: its sums and, from them, mean and standard deviation over the valid rows.
+struct Margin {
+  const double *sum, *squares;
+  double mean, deviation;
 };
 
-Indices estimate(const BaseSums& s, const FrozenSums& f) {
-  const double n = s.n, mean_b = s.b / n, mean_c = f.c / n;
-  const double var_b = s.bb / n - mean_b * mean_b, var_c = f.cc / n - mean_c * mean_c;
-  const double mean = 0.5 * (s.a + s.b) / n, variance = 0.5 * (s.aa + s.bb) / n - mean * mean;
-  if (!(variance > 0) || !(var_b > 0) || !(var_c > 0)) return {0, 0};
-  const double mean_a = s.a / n, var_a = s.aa / n - mean_a * mean_a;
-  if (!(var_a > 0)) return {0, 0};
-  const double total = 0.5 * f.jansen / n / variance;
-  // corr(y_B, y_A) is zero but for chance, and chance moves it as it moves corr(y_B, y_AB_i) by the
-  // correlation 1 - T_i of y_A with y_AB_i: taken off, small indices lose their noise of n^(-1/2).
-  const double frozen = (f.bc / n - mean_b * mean_c) / std::sqrt(var_b * var_c);
-  const double chance = (s.ab / n - mean_a * mean_b) / std::sqrt(var_a * var_b);
-  return {frozen - std::max(0.0, 1 - total) * chance, total};
-}
+class Estimator {
+public:
+  Estimator(PickFreezeSums& sums, std::size_t output) : s_(sums), o_(output), n_(sums.base(output, base_n)) {
+    rows_ = total(n_);
+    a_ = margin(s_.base(o_, base_a), s_.base(o_, base_aa));
+    b_ = margin(s_.base(o_, base_b), s_.base(o_, base_bb));
+    const double mean = 0.5 * (a_.mean + b_.mean);
+    variance_.resize(s_.groups);
+    for (std::size_t g = 0; g < s_.groups; ++g)
+      variance_[g] = 0.5 * (a_.squares[g] + b_.squares[g]) - mean * (a_.sum[g] + b_.sum[g]) + n_[g] * mean * mean;
+    v_ = total(variance_.data()) / rows_;
+    // In this order: if x_i does not matter, AB_i is A, and shared and chance cancel to the last bit.
+    chance_ = correlation(b_, a_, s_.base(o_, base_ab));
+  }
 
-const char* verdict(const SobolIndex& i) {
-  const double width = std::max(i.first_high - i.first_low, i.total_high - i.total_low);
-  if (width > 0.1) return "not converged";
-  return i.first_low <= 0 ? "zero within its interval" : "resolved";
-}
+  double rows() const { return rows_; }
+
+  SobolIndex index(std::size_t v, const std::string& name) {
+    const double *change = s_.frozen(o_, v, frozen_change), *mirrored = nullptr;
+    const double images = s_.mirrored ? 2 : 1;
+    if (s_.mirrored) mirrored = s_.frozen(o_, v, frozen_mirrored_change);
+    Series jansen(change, change + s_.groups);
+    for (std::size_t g = 0; mirrored && g < s_.groups; ++g) jansen[g] += mirrored[g];
+    const Estimate whole = share(jansen, 2 * images);
+
+    const Margin c = margin(s_.frozen(o_, v, frozen_c), s_.frozen(o_, v, frozen_cc));
+    Correlation shared = correlation(b_, c, s_.frozen(o_, v, frozen_bc)), chance = chance_;
+    // The weight of the control variate that is best for a linear model of normal inputs.
+    const double rest = std::max(0.0, 1 - whole.value);
+    double weight = rest;
+    if (s_.mirrored) {
+      const Margin d = margin(s_.frozen(o_, v, frozen_d), s_.frozen(o_, v, frozen_dd));
+      shared = mean(shared, correlation(a_, d, s_.frozen(o_, v, frozen_ad)));
+      chance = mean(chance, correlation(c, d, s_.frozen(o_, v, frozen_cd)));
+      weight = rest / (rest + whole.value * whole.value);
+    }
+    Series influence(s_.groups);
+    for (std::size_t g = 0; g < s_.groups; ++g) influence[g] = shared.influence[g] - weight * chance.influence[g];
+    const Estimate first = with_interval(v_ > 0 ? shared.value - weight * chance.value : std::nan(""), influence, n_);
+    return {name, first.value, first.low, first.high, whole.value, whole.low, whole.high, first.verdict, whole.verdict};
+  }
+
+  SobolPair pair(std::size_t i, std::size_t j, const std::string& a, const std::string& b) {
+    const double* products = s_.pair(o_, i, j);
+    const Estimate e = share({products, products + s_.groups}, 2);
+    return {a, b, e.value, e.low, e.high, e.verdict};
+  }
+
+private:
+  struct Correlation {
+    double value = 0;
+    Series influence;
+  };
+
+  double total(const double* series) const {
+    double sum = 0;
+    for (std::size_t g = 0; g < s_.groups; ++g) sum += series[g];
+    return sum;
+  }
+
+  Margin margin(const double* sum, const double* squares) const {
+    const double mean = total(sum) / rows_;
+    return {sum, squares, mean, std::sqrt(std::max(0.0, total(squares) / rows_ - mean * mean))};
+  }
+
+  /// sum / (parts n V), with its influence (sum_g / parts - value V_g) / n V.
+  Estimate share(const Series& sums, double parts) const {
+    const double value = total(sums.data()) / parts / (rows_ * v_);
+    Series influence(s_.groups);
+    for (std::size_t g = 0; g < s_.groups; ++g) influence[g] = (sums[g] / parts - value * variance_[g]) / (rows_ * v_);
+    return with_interval(v_ > 0 ? value : std::nan(""), influence, n_);
+  }
+
+  /// Pearson's r, with its influence (z_x z_y - r (z_x^2 + z_y^2) / 2) / n.
+  Correlation correlation(const Margin& x, const Margin& y, const double* products) const {
+    Correlation r{0, Series(s_.groups)};
+    const double scale = 1 / (x.deviation * y.deviation), xx = 1 / (x.deviation * x.deviation),
+                 yy = 1 / (y.deviation * y.deviation);
+    if (!std::isfinite(scale)) return r; // one of the two does not vary: nothing is shared
+    for (std::size_t g = 0; g < s_.groups; ++g)
+      r.influence[g] = (products[g] - x.mean * y.sum[g] - y.mean * x.sum[g] + n_[g] * x.mean * y.mean) * scale / rows_;
+    r.value = total(r.influence.data());
+    for (std::size_t g = 0; g < s_.groups; ++g) {
+      const double zx = (x.squares[g] - 2 * x.mean * x.sum[g] + n_[g] * x.mean * x.mean) * xx;
+      const double zy = (y.squares[g] - 2 * y.mean * y.sum[g] + n_[g] * y.mean * y.mean) * yy;
+      r.influence[g] -= 0.5 * r.value * (zx + zy) / rows_;
+    }
+    return r;
+  }
+
+  Correlation mean(Correlation x, const Correlation& y) const {
+    x.value = 0.5 * (x.value + y.value);
+    for (std::size_t g = 0; g < s_.groups; ++g) x.influence[g] = 0.5 * (x.influence[g] + y.influence[g]);
+    return x;
+  }
+
+  PickFreezeSums& s_;
+  std::size_t o_;
+  const double* n_;
+  double rows_ = 0, v_ = 0;
+  Margin a_{}, b_{};
+  Series variance_;
+  Correlation chance_;
+};
 
 } // namespace
 
 std::vector<Sensitivity> sobol_indices(const propagation::Experiment& e, std::uint64_t n, int threads) {
   const auto& plan = e.plan();
-  const std::size_t d = plan.variates.size(), outputs = e.outputs().size();
   if (!plan.copulas.empty())
     throw InputError("analysis.sensitivity: the inputs are correlated",
-                     "Sobol' indices are defined for independent inputs",
-                     "take the correlation out or leave the indices out?");
-  n = (n + rows_per_group - 1) / rows_per_group * rows_per_group;
-  const std::size_t groups = n / rows_per_group, blocks = (n + rows_per_block - 1) / rows_per_block;
-
-  std::vector<std::vector<bool>> reaches(outputs, std::vector<bool>(d, false));
-  for (std::size_t o = 0; o < outputs; ++o)
-    for (const std::size_t c : plan.gather[e.outputs()[o].reading])
-      for (const std::size_t v : plan.columns[c].variates) reaches[o][v] = true;
-
-  std::vector<BaseSums> base(groups * outputs);
-  std::vector<FrozenSums> frozen(groups * outputs * d);
-  const auto& run = e.scenario().run;
-  const quantities::Sampler sampler(plan, quantities::PointSet::monte_carlo, n);
-  // The origin of y: the first row's outputs.
-  std::vector<double> origin(outputs);
-  {
-    propagation::Workspace w;
-    std::vector<double> x(d * 64), y(outputs * 64);
-    std::vector<std::uint8_t> status(64);
-    std::vector<const double*> pointers(d);
-    sampler.draw(0, 64, quantities::Purpose::sampling, x.data(), 64);
-    for (std::size_t v = 0; v < d; ++v) pointers[v] = &x[v * 64];
-    e.run(pointers, 64, w, y.data(), status.data());
-    for (std::size_t o = 0; o < outputs; ++o)
-      for (std::size_t i = 64; i-- > 0;)
-        if (status[i] == 0) origin[o] = y[o * 64 + i];
-  }
-
-  propagation::parallel_for(blocks, threads, [&](std::size_t block) {
-    const std::uint64_t first = block * rows_per_block;
-    const std::size_t rows = std::min<std::uint64_t>(rows_per_block, n - first);
-    propagation::Workspace w;
-    std::vector<double> a(d * rows), b(d * rows), ya(outputs * rows), yb(outputs * rows), yc(d * outputs * rows);
-    std::vector<std::uint8_t> status(rows), failed(rows, 0);
-    sampler.draw(first, rows, quantities::Purpose::sampling, a.data(), rows);
-    sampler.draw(first, rows, quantities::Purpose::pick_freeze, b.data(), rows);
-    std::vector<const double*> pointers(d);
-    const auto model = [&](double* y) {
-      e.run(pointers, rows, w, y, status.data());
-      for (std::size_t i = 0; i < rows; ++i) failed[i] |= status[i];
-    };
-    for (std::size_t v = 0; v < d; ++v) pointers[v] = &b[v * rows];
-    model(yb.data());
-    for (std::size_t v = 0; v < d; ++v) pointers[v] = &a[v * rows];
-    model(ya.data());
-    for (std::size_t v = 0; v < d; ++v) {
-      pointers[v] = &b[v * rows];
-      model(&yc[v * outputs * rows]);
-      pointers[v] = &a[v * rows];
-    }
-    for (std::size_t o = 0; o < outputs; ++o)
-      for (std::size_t i = 0; i < rows; ++i) {
-        if (failed[i]) continue;
-        const std::size_t group = (first + i) / rows_per_group;
-        const double va = ya[o * rows + i] - origin[o], vb = yb[o * rows + i] - origin[o];
-        base[group * outputs + o] += {1, va, va * va, vb, vb * vb, va * vb};
-        for (std::size_t v = 0; v < d; ++v) {
-          if (!reaches[o][v]) continue;
-          const double vc = yc[(v * outputs + o) * rows + i] - origin[o];
-          frozen[(group * outputs + o) * d + v] += {vc, vc * vc, vb * vc, (va - vc) * (va - vc)};
-        }
-      }
-  });
-
-  std::vector<double> uniform(groups);
-  std::vector<std::vector<std::size_t>> picks(resamples, std::vector<std::size_t>(groups));
-  const std::uint64_t key = hash64("sobol bootstrap", run.seed);
-  for (std::size_t k = 0; k < resamples; ++k) {
-    std::vector<double> u((groups + 63) / 64 * 64);
-    random::uniforms({key, 0, static_cast<std::uint16_t>(quantities::Purpose::bootstrap)}, k * u.size(), u.size(),
-                     u.data());
-    for (std::size_t g = 0; g < groups; ++g)
-      picks[k][g] = std::min(groups - 1, static_cast<std::size_t>(u[g] * static_cast<double>(groups)));
-  }
-
+                     "Sobol' indices are defined for independent inputs, Shapley effects for all",
+                     "sensitivity = { shapley = 4096 }?");
+  const bool second_order = e.scenario().analysis.sensitivity.second_order;
+  PickFreezeSums sums = run_pick_freeze(e, n, second_order, threads);
+  const auto reaches = reaching_variates(e);
   std::vector<Sensitivity> results;
-  for (std::size_t o = 0; o < outputs; ++o) {
+  for (std::size_t o = 0; o < sums.outputs; ++o) {
+    Estimator estimator(sums, o);
     Sensitivity s;
     s.output = e.outputs()[o];
-    s.base_samples = n;
-    BaseSums all;
-    for (std::size_t g = 0; g < groups; ++g) all += base[g * outputs + o];
-    s.dropped_rows = n - static_cast<std::uint64_t>(all.n);
-    std::vector<BaseSums> resampled(resamples);
-    for (std::size_t k = 0; k < resamples; ++k)
-      for (const std::size_t g : picks[k]) resampled[k] += base[g * outputs + o];
-    for (std::size_t v = 0; v < d; ++v) {
-      if (!reaches[o][v] || all.n < 2) continue;
-      FrozenSums sum;
-      for (std::size_t g = 0; g < groups; ++g) sum += frozen[(g * outputs + o) * d + v];
-      const Indices at = estimate(all, sum);
-      std::vector<double> first, total;
-      for (std::size_t k = 0; k < resamples; ++k) {
-        FrozenSums f;
-        for (const std::size_t g : picks[k]) f += frozen[(g * outputs + o) * d + v];
-        const Indices i = estimate(resampled[k], f);
-        first.push_back(i.first);
-        total.push_back(i.total);
-      }
-      std::ranges::sort(first);
-      std::ranges::sort(total);
-      constexpr std::size_t low = resamples * 25 / 1000, high = resamples - 1 - low;
-      SobolIndex index{plan.variates[v].name, at.first, first[low], first[high], at.total, total[low], total[high], "", ""};
-      index.first_verdict = index.total_verdict = verdict(index);
-      s.indices.push_back(index);
-    }
-    results.push_back(s);
+    s.base_samples = sums.rows;
+    s.dropped_rows = sums.rows - static_cast<std::uint64_t>(estimator.rows());
+    s.confidence = index_confidence;
+    for (std::size_t v = 0; v < sums.variates; ++v)
+      if (reaches[o][v]) s.indices.push_back(estimator.index(v, plan.variates[v].name));
+    for (std::size_t i = 0; second_order && i < sums.variates; ++i)
+      for (std::size_t j = i + 1; j < sums.variates; ++j)
+        if (reaches[o][i] && reaches[o][j])
+          s.pairs.push_back(estimator.pair(i, j, plan.variates[i].name, plan.variates[j].name));
+    results.push_back(std::move(s));
   }
   return results;
 }

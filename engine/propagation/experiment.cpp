@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include <fmt/format.h>
@@ -145,8 +146,32 @@ void Experiment::wire(Workspace& w, std::size_t n, bool estimates) const {
   for (const double& c : conditions_) w.condition_columns.push_back({&c, 0});
 }
 
+namespace {
+
+// One pass without a branch each: most blocks have none.
+bool none_failed(const std::uint8_t* status, std::size_t n) {
+  std::uint64_t found = 0;
+  for (std::size_t i = 0; i < n; i += 8) {
+    std::uint64_t eight;
+    std::memcpy(&eight, status + i, 8);
+    found |= eight;
+  }
+  return found == 0;
+}
+
+bool perhaps_nan(const double* x, std::size_t n) {
+  double sums[8] = {}; // of zeros, unless there is a NaN (or an infinity: looked at again then)
+  for (std::size_t i = 0; i < n; i += 8)
+    for (std::size_t k = 0; k < 8; ++k) sums[k] += x[i + k] * 0.0;
+  double sum = 0;
+  for (const double s : sums) sum += s;
+  return std::isnan(sum);
+}
+
+} // namespace
+
 void Experiment::run(std::span<const double* const> variates, std::size_t n, Workspace& w, double* outputs,
-                     std::uint8_t* status) const {
+                     std::uint8_t* status, const std::vector<std::size_t>* changed) const {
   const std::size_t readings = scenario_.readings.size(), rows = readings * measurands_;
   const bool virtual_experiment = scenario_.method == scenario::Method::virtual_experiment;
   w.columns.resize(plan_.columns.size() * n);
@@ -155,7 +180,10 @@ void Experiment::run(std::span<const double* const> variates, std::size_t n, Wor
   for (std::size_t i = 0; i < rows; ++i) w.measurands[i] = outputs + i * n;
   std::fill_n(status, n, std::uint8_t{0});
 
-  plan_.assemble(variates, n, w.columns.data(), n); // constant columns are read with stride 0
+  if (changed)
+    for (const std::size_t c : *changed) plan_.assemble_column(c, variates, n, &w.columns[c * n]);
+  else
+    plan_.assemble(variates, n, w.columns.data(), n); // constant columns are read with stride 0
   wire(w, n, false);
 
   models::BlockCall call;
@@ -209,10 +237,13 @@ void Experiment::run(std::span<const double* const> variates, std::size_t n, Wor
 
   if (virtual_experiment)
     for (std::size_t i = 0; i < rows * n; ++i) outputs[i] -= w.truth[i];
-  for (std::size_t row = 0; row < rows; ++row)
+  for (std::size_t row = 0; row < rows; ++row) {
+    if (!perhaps_nan(outputs + row * n, n)) continue;
     for (std::size_t i = 0; i < n; ++i)
       if (status[i] == 0 && std::isnan(outputs[row * n + i]))
         status[i] = static_cast<std::uint8_t>(Status::no_solution);
+  }
+  if (none_failed(status, n)) return;
   for (std::size_t i = 0; i < n; ++i)
     if (status[i] != 0)
       for (std::size_t row = 0; row < rows; ++row) outputs[row * n + i] = std::numeric_limits<double>::quiet_NaN();

@@ -34,8 +34,9 @@ public:
 
   /// Outputs for given variates (variates[v] points to n values, n a multiple of 8):
   /// outputs[row * n + i], SI, NaN where status[i] is not ok. Virtual experiment: errors, evaluated minus true.
-  void run(std::span<const double* const> variates, std::size_t n, Workspace& w, double* outputs,
-           std::uint8_t* status) const;
+  /// `changed`: the only columns that differ from the last call with this workspace and this n; null: all.
+  void run(std::span<const double* const> variates, std::size_t n, Workspace& w, double* outputs, std::uint8_t* status,
+           const std::vector<std::size_t>* changed = nullptr) const;
 
   /// Values of all quantities at a reading (model, effects, indications in this order): the estimates,
   /// or one sample's when `variates` holds one value per variate.

@@ -7,7 +7,7 @@
 
 #include "math/lane_functions.h"
 #include "math/lanes.h"
-#include "random/philox.h"
+#include "quantities/philox_lanes.h"
 
 namespace gumshoe::quantities {
 namespace {
@@ -112,7 +112,7 @@ void quantile(const QuantileSpec* spec, const double* u, double* out, std::size_
 }
 
 void uniforms(const random::Stream* stream, std::uint64_t first, std::size_t n, double* out) {
-  random::fill_uniforms(*stream, first, n, out);
+  fill_uniforms_in_lanes(*stream, first, n, out);
 }
 
 void normal_probability(const double* z, double* out, std::size_t n) {

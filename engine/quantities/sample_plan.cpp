@@ -153,16 +153,23 @@ SamplePlan make_plan(std::span<const InputQuantity> quantities, std::span<const 
   return plan;
 }
 
+void SamplePlan::assemble_column(std::size_t c, std::span<const double* const> variates, std::size_t n,
+                                 double* out) const {
+  const double value = columns[c].value;
+  bool first = true;
+  for (const std::size_t v : columns[c].variates) {
+    const double* deviation = variates[v];
+    if (first)
+      for (std::size_t i = 0; i < n; ++i) out[i] = value + deviation[i];
+    else
+      for (std::size_t i = 0; i < n; ++i) out[i] += deviation[i];
+    first = false;
+  }
+}
+
 void SamplePlan::assemble(std::span<const double* const> variates, std::size_t n, double* out,
                           std::size_t stride) const {
-  for (std::size_t c = 0; c < columns.size(); ++c) {
-    double* row = out + c * stride;
-    if (!columns[c].variates.empty()) std::fill(row, row + n, columns[c].value);
-    for (const std::size_t v : columns[c].variates) {
-      const double* deviation = variates[v];
-      for (std::size_t i = 0; i < n; ++i) row[i] += deviation[i];
-    }
-  }
+  for (std::size_t c = 0; c < columns.size(); ++c) assemble_column(c, variates, n, out + c * stride);
 }
 
 } // namespace gumshoe::quantities

@@ -46,6 +46,8 @@ struct SamplePlan {
   /// Columns from variates: out[column * stride + i] = value + sum of variates; `variates[v]` points to n values.
   /// Columns without variates are left alone: they are one number, `value`.
   void assemble(std::span<const double* const> variates, std::size_t n, double* out, std::size_t stride) const;
+  /// One column of these, at `out`.
+  void assemble_column(std::size_t column, std::span<const double* const> variates, std::size_t n, double* out) const;
 };
 
 /// Throws InputError: a label value of a reading that no entry of a `by` quantity has; a scope that

@@ -48,8 +48,10 @@ public:
     if (const auto* items = top.array("correlations"))
       out_.correlations = read_correlations(*items, problems_, out_.quantities);
     if (auto run = top.table("run")) out_.run = read_run(*run);
-    if (auto analysis = top.table("analysis"))
+    if (auto analysis = top.table("analysis")) {
       out_.analysis = read_analysis(*analysis, *model, out_.quantities, context_);
+      if (out_.analysis.sensitivity.sobol > 0 && !out_.correlations.empty()) refuse_sobol(*analysis);
+    }
     out_.expected = read_expected(top, *model, context_);
     if (auto estimate = top.table("estimate")) out_.estimate = read_estimate(*estimate);
     top.refuse_unknown();
@@ -59,6 +61,13 @@ public:
   }
 
 private:
+  void refuse_sobol(Table& analysis) {
+    Table sensitivity(*analysis.find("sensitivity"), analysis.path("sensitivity"), problems_);
+    problems_.add(*sensitivity.find("sobol"), sensitivity.path("sobol") + ": the inputs are correlated",
+                  "Sobol' indices are defined for independent inputs, Shapley effects for all",
+                  "sensitivity = { shapley = 4096 }?");
+  }
+
   const ModelCard* read_model(Table& top) {
     if (!top.require("model", "[model] with a name?")) return nullptr;
     auto table = top.table("model");

@@ -179,3 +179,12 @@ TEST_CASE("files that are no scenario", "[scenario][errors]") {
 }
 
 TEST_CASE("a scenario without fault has no complaint", "[scenario][errors]") { CHECK(with("").empty()); }
+
+TEST_CASE("Sobol' indices of correlated inputs are refused when the scenario is read", "[scenario][errors]") {
+  const std::string tied = "[[correlations]]\nquantities = [\"rod_radius\", \"rod_length\"]\nkind = \"copula\"\n"
+                           "matrix = [[1, 0.5], [0.5, 1]]\n[analysis]\n";
+  CHECK_THAT(with(tied + "sensitivity = { sobol = 1024 }\n"),
+             Contains("s.toml:10:25: error: analysis.sensitivity.sobol: the inputs are correlated") &&
+                 Contains("{ shapley = 4096 }?"));
+  CHECK_THAT(with(tied + "sensitivity = { shapley = 1024 }\n"), !Contains("correlated"));
+}

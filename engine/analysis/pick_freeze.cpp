@@ -1,0 +1,205 @@
+#include "analysis/pick_freeze.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "base/instruction_set.h"
+#include "propagation/propagate.h"
+
+extern "C" {
+extern const gumshoe::analysis::PickFreezeKernels gumshoe_pick_freeze_sse2, gumshoe_pick_freeze_avx2,
+    gumshoe_pick_freeze_avx512;
+}
+
+namespace gumshoe::analysis {
+
+using quantities::Purpose;
+
+const PickFreezeKernels& pick_freeze_kernels() {
+#ifdef GUMSHOE_HAS_AVX2
+  switch (best_instruction_set()) {
+  case InstructionSet::avx512:
+    return gumshoe_pick_freeze_avx512;
+  case InstructionSet::avx2:
+    return gumshoe_pick_freeze_avx2;
+  default:
+    break;
+  }
+#endif
+  return gumshoe_pick_freeze_sse2;
+}
+
+std::size_t rows_per_group(std::uint64_t rows) {
+  return std::clamp<std::size_t>(std::bit_ceil((rows + 1023) / 1024), 8, 1024);
+}
+
+std::vector<std::vector<bool>> reaching_variates(const propagation::Experiment& e) {
+  const auto& plan = e.plan();
+  std::vector<std::vector<bool>> reaches(e.outputs().size(), std::vector<bool>(plan.variates.size(), false));
+  for (std::size_t o = 0; o < reaches.size(); ++o)
+    for (const std::size_t c : plan.gather[e.outputs()[o].reading])
+      for (const std::size_t v : plan.columns[c].variates) reaches[o][v] = true;
+  return reaches;
+}
+
+namespace {
+
+constexpr std::size_t rows_per_block = 1024; // a multiple of every group's rows
+
+/// One block of rows: its draws, its outputs, and which rows failed. Its buffers serve one block after the other.
+class Block {
+public:
+  Block(const propagation::Experiment& e, const quantities::Sampler& sampler)
+      : e_(e), sampler_(sampler), d_(e.plan().variates.size()), outputs_(e.outputs().size()), pointers_(d_),
+        columns_of_(d_) {
+    for (std::size_t c = 0; c < e.plan().columns.size(); ++c)
+      for (const std::size_t v : e.plan().columns[c].variates) columns_of_[v].push_back(c);
+  }
+
+  void draw(std::uint64_t first, std::size_t rows) {
+    rows_ = rows;
+    a_.resize(d_ * rows);
+    b_.resize(d_ * rows);
+    status_.resize(rows);
+    failed_.assign(rows, 0);
+    sampler_.draw(first, rows, Purpose::sampling, a_.data(), rows);
+    sampler_.draw(first, rows, Purpose::pick_freeze, b_.data(), rows);
+  }
+
+  /// Outputs [output * rows + i] of the unchanged row.
+  void run(bool from_a, std::vector<double>& y) {
+    y.resize(outputs_ * rows_);
+    for (std::size_t v = 0; v < d_; ++v) pointers_[v] = &(from_a ? a_ : b_)[v * rows_];
+    model(y.data(), nullptr);
+  }
+
+  /// After run(): outputs [(v * outputs + output) * rows + i] of the rows with variate v from the other draw.
+  void run_frozen(bool from_a, std::vector<double>& y) {
+    y.resize(d_ * outputs_ * rows_);
+    const std::vector<double>&x = from_a ? a_ : b_, &other = from_a ? b_ : a_;
+    std::vector<std::size_t> changed;
+    for (std::size_t v = 0; v < d_; ++v) {
+      pointers_[v] = &other[v * rows_];
+      changed = columns_of_[v];
+      if (v > 0) changed.insert(changed.end(), columns_of_[v - 1].begin(), columns_of_[v - 1].end());
+      model(&y[v * outputs_ * rows_], &changed);
+      pointers_[v] = &x[v * rows_];
+    }
+  }
+
+  bool any_failed() const {
+    return std::ranges::any_of(failed_, [](std::uint8_t f) { return f != 0; });
+  }
+
+  /// A failed row lies at the origin, so that it adds nothing to any sum.
+  void silence_failed(std::vector<double>& y, const std::vector<double>& origin) const {
+    for (std::size_t row = 0; row < y.size() / rows_; ++row)
+      for (std::size_t i = 0; i < rows_; ++i)
+        if (failed_[i] != 0) y[row * rows_ + i] = origin[row % outputs_];
+  }
+
+  const std::vector<std::uint8_t>& failed() const { return failed_; }
+
+private:
+  void model(double* y, const std::vector<std::size_t>* changed) {
+    e_.run(pointers_, rows_, workspace_, y, status_.data(), changed);
+    const std::uint8_t* __restrict status = status_.data();
+    std::uint8_t* __restrict failed = failed_.data();
+    const std::size_t n = rows_; // a byte may alias a member
+    for (std::size_t i = 0; i < n; ++i) failed[i] = static_cast<std::uint8_t>(failed[i] | status[i]);
+  }
+
+  const propagation::Experiment& e_;
+  const quantities::Sampler& sampler_;
+  std::size_t d_, outputs_, rows_ = 0;
+  std::vector<double> a_, b_;
+  std::vector<const double*> pointers_;
+  std::vector<std::vector<std::size_t>> columns_of_;
+  std::vector<std::uint8_t> status_, failed_;
+  propagation::Workspace workspace_;
+};
+
+/// Of rows A, B, AB_i and BA_i.
+struct Outputs {
+  std::vector<double> a, b, c, d;
+};
+
+/// Means of the outputs over the first 64 rows: from there, squares do not drown the variance.
+std::vector<double> origins(const propagation::Experiment& e, const quantities::Sampler& sampler) {
+  constexpr std::size_t n = 64;
+  const std::size_t outputs = e.outputs().size();
+  std::vector<double> y, origin(outputs);
+  Block block(e, sampler);
+  block.draw(0, n);
+  block.run(true, y);
+  for (std::size_t o = 0; o < outputs; ++o) {
+    double sum = 0, valid = 0;
+    for (std::size_t i = 0; i < n; ++i)
+      if (block.failed()[i] == 0) sum += y[o * n + i], ++valid;
+    if (valid > 0) origin[o] = sum / valid;
+  }
+  return origin;
+}
+
+} // namespace
+
+PickFreezeSums run_pick_freeze(const propagation::Experiment& e, std::uint64_t n, bool mirrored, int threads) {
+  const auto& plan = e.plan();
+  n = (n + 63) / 64 * 64;
+  const std::size_t d = plan.variates.size(), outputs = e.outputs().size(), per_group = rows_per_group(n);
+  PickFreezeSums s{n, outputs, d, (n + per_group - 1) / per_group, mirrored, {}, {}, {}};
+  s.base_values.resize(outputs * base_sums * s.groups);
+  s.frozen_values.resize(outputs * d * s.kept() * s.groups);
+  if (mirrored) s.pair_values.resize(outputs * s.pairs() * s.groups);
+
+  const auto reaches = reaching_variates(e);
+  const quantities::Sampler sampler(plan, quantities::PointSet::monte_carlo, n);
+  const std::vector<double> origin = origins(e, sampler);
+  const PickFreezeKernels& kernels = pick_freeze_kernels();
+
+  const auto run_block = [&](Block& block, Outputs& y, std::uint64_t first, std::size_t rows) {
+    const std::size_t group = first / per_group, groups = (rows + per_group - 1) / per_group;
+    block.draw(first, rows);
+    block.run(false, y.b);
+    if (mirrored) block.run_frozen(false, y.d);
+    block.run(true, y.a);
+    block.run_frozen(true, y.c);
+    if (block.any_failed())
+      for (auto* values : {&y.a, &y.b, &y.c, &y.d}) block.silence_failed(*values, origin);
+    for (std::size_t o = 0; o < outputs; ++o) {
+      const double *a = &y.a[o * rows], *b = &y.b[o * rows], from = origin[o];
+      const auto c = [&](std::size_t v) { return &y.c[(v * outputs + o) * rows]; };
+      const auto mirror = [&](std::size_t v) { return &y.d[(v * outputs + o) * rows]; };
+      kernels.base(a, b, from, rows, per_group, s.base(o, 0) + group, s.groups);
+      for (std::size_t g = 0; g < groups; ++g) {
+        const auto begin = block.failed().begin() + static_cast<std::ptrdiff_t>(g * per_group);
+        const auto end = block.failed().begin() + static_cast<std::ptrdiff_t>(std::min(rows, (g + 1) * per_group));
+        s.base(o, base_n)[group + g] = static_cast<double>(std::count(begin, end, std::uint8_t{0}));
+      }
+      for (std::size_t v = 0; v < d; ++v) {
+        if (!reaches[o][v]) continue;
+        kernels.frozen(a, b, c(v), from, rows, per_group, s.frozen(o, v, 0) + group, s.groups);
+        if (!mirrored) continue;
+        kernels.mirrored(a, b, c(v), mirror(v), from, rows, per_group, s.frozen(o, v, 0) + group, s.groups);
+        for (std::size_t i = 0; i < v; ++i)
+          if (reaches[o][i])
+            kernels.pair(a, b, c(i), mirror(i), c(v), mirror(v), rows, per_group, s.pair(o, i, v) + group);
+      }
+    }
+  };
+
+  // A task is a run of blocks, so that buffers are used again; fixed blocks, so that tasks change no bits.
+  const std::size_t blocks = (n + rows_per_block - 1) / rows_per_block;
+  const std::size_t tasks = std::max(std::min<std::size_t>(blocks, 16), blocks / 8);
+  propagation::parallel_for(tasks, threads, [&](std::size_t task) {
+    Block block(e, sampler);
+    Outputs y;
+    for (std::size_t at = task * blocks / tasks; at < (task + 1) * blocks / tasks; ++at) {
+      const std::uint64_t first = at * rows_per_block;
+      run_block(block, y, first, std::min<std::uint64_t>(rows_per_block, n - first));
+    }
+  });
+  return s;
+}
+
+} // namespace gumshoe::analysis
