@@ -135,18 +135,11 @@ void write_summary(hid_t file, const Results& r) {
   }
 }
 
-void write_budget(hid_t parent, const std::string& name, const Budget& budget) {
-  const hdf5::Handle group = hdf5::create_group(parent, name);
-  const Display shown = display(budget.output.unit, budget.output.si_unit);
-  const std::pair<const char*, std::string> texts[] = {{"output", budget.output.name},
-                                                       {"reason", budget.reason},
-                                                       {"units", budget.output.si_unit},
-                                                       {"display_units", shown.units}};
-  for (const auto& [key, text] : texts) hdf5::write_attribute(group, key, text);
+void write_budget(hid_t group, const Budget& budget) {
+  write_output(group, budget.output);
+  hdf5::write_attribute(group, "reason", budget.reason);
   hdf5::write_attribute(group, "applicable", budget.applicable ? 1 : 0);
   const std::pair<const char*, double> figures[] = {
-      {"display_factor", shown.factor},
-      {"display_offset", shown.offset},
       {"estimate", budget.estimate},
       {"correlation_share", budget.correlation_share},
       {"monte_carlo_interactions", budget.monte_carlo_interactions},
@@ -242,8 +235,7 @@ void write_results(hid_t file, const Results& r) {
   write_readings(file, r);
   write_inputs(file, r.inputs);
   write_summary(file, r);
-  const hdf5::Handle budgets = hdf5::create_group(file, "budget");
-  for (std::size_t k = 0; k < r.budgets.size(); ++k) write_budget(budgets, fmt::format("{:03d}", k), r.budgets[k]);
+  write_numbered(file, "budget", r.budgets, write_budget);
   write_validation(file, r.validations);
   write_sensitivity(file, r);
   write_joint(file, r);
