@@ -72,9 +72,10 @@ void write_conformity(hid_t file, const std::vector<ConformityResult>& rows) {
   lengths("upper", &C::upper, "upper tolerance limit" + none);
   lengths("acceptance_lower", &C::acceptance_lower, "lower acceptance limit" + none);
   lengths("acceptance_upper", &C::acceptance_upper, "upper acceptance limit" + none);
-  lengths("guard_band", &C::guard_band, "guard band: from a tolerance limit inwards to its acceptance limit");
+  lengths("guard_band", &C::guard_band,
+          "guard band: how far an acceptance limit lies inside its tolerance limit, negative outside");
   lengths("estimate", &C::estimate, "estimate");
-  shares("conformance_probability", &C::conformance_probability, "conformance probability p_c, JCGM 106 7.1");
+  shares("conformance_probability", &C::conformance_probability, "conformance probability p_c, JCGM 106 clause 7");
   shares("conformance_probability_se", &C::conformance_probability_se, "Monte Carlo standard error of p_c");
   table.numbers("accepted", column(rows, [](const C& c) { return c.accepted ? 1 : 0; }), "1",
                 "1 if the estimate lies within the acceptance limits");
@@ -83,8 +84,13 @@ void write_conformity(hid_t file, const std::vector<ConformityResult>& rows) {
   lengths("process_mean", &C::process_mean, "mean of what is known before measuring" + undone);
   lengths("process_u", &C::process_u, "standard deviation of what is known before measuring" + undone);
   shares("process_conformance", &C::process_conformance, "share of the process that conforms" + undone);
+  shares("posterior_conformance", &C::posterior_conformance,
+         "conformance probability from process and measurement together, JCGM 106 clause 7, NaN if not known");
+  shares("posterior_conformance_se", &C::posterior_conformance_se, "Monte Carlo standard error of it");
   shares("global_consumer_risk", &C::global_consumer_risk, "share accepted that does not conform" + undone);
+  shares("global_consumer_risk_se", &C::global_consumer_risk_se, "Monte Carlo standard error of it");
   shares("global_producer_risk", &C::global_producer_risk, "share rejected that conforms" + undone);
+  shares("global_producer_risk_se", &C::global_producer_risk_se, "Monte Carlo standard error of it");
   table.texts("statement", column(rows, &C::statement), "the decision in words");
 }
 

@@ -21,9 +21,10 @@ void write_target(hid_t group, const TargetResult& target) {
   table.units(si, column(rows, &TargetRow::unit));
   table.numbers("present", column(rows, &TargetRow::present), units, "standard uncertainty as it is");
   table.numbers("allowed", column(rows, &TargetRow::allowed), units,
-                "largest standard uncertainty that reaches the target, the others as they are; Monte Carlo; NaN: none");
+                "largest standard uncertainty that reaches the target, the others as they are; Monte Carlo; "
+                "NaN: none reaches it, infinite: it does not matter");
   table.numbers("allowed_gum", column(rows, &TargetRow::allowed_gum), units,
-                "the same by the law of propagation, NaN: none");
+                "the same by the law of propagation, NaN: none, infinite: it does not matter");
   table.numbers("cost", column(rows, &TargetRow::cost), "1", "relative cost, NaN if not given");
   table.numbers("cheapest", column(rows, &TargetRow::cheapest), units,
                 "standard uncertainty in the cheapest combination, NaN if there is none");

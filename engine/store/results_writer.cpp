@@ -121,6 +121,7 @@ void write_summary(hid_t file, const Results& r) {
   table.numbers("hill_index", column(rows, &Summary::hill_index), "1",
                 "tail index by Hill's estimator, NaN if not estimated");
   table.texts("warning", column(rows, &Summary::warning), "what the reader must know of this output");
+  table.texts("tail_remark", column(rows, &Summary::tail_remark), "what heavy tails do to the standard uncertainty");
   auto statements = r.statements;
   statements.resize(rows.size());
   table.texts("statement", statements, "the result in the words of the GUM");
@@ -138,6 +139,7 @@ void write_summary(hid_t file, const Results& r) {
 void write_budget(hid_t group, const Budget& budget) {
   write_output(group, budget.output);
   hdf5::write_attribute(group, "reason", budget.reason);
+  hdf5::write_attribute(group, "remark", budget.remark);
   hdf5::write_attribute(group, "applicable", budget.applicable ? 1 : 0);
   const std::pair<const char*, double> figures[] = {
       {"estimate", budget.estimate},

@@ -48,7 +48,7 @@ void write_indices(Table& table, const std::string& name, const std::vector<Inde
 
 void write_shapley(hid_t group, const Shapley& study) {
   write_output(group, study.output);
-  hdf5::write_attribute(group, "rows", study.rows);
+  hdf5::write_attribute(group, "base_rows", study.rows);
   hdf5::write_attribute(group, "dropped_rows", study.dropped_rows);
   Table table(group, "input_quantity", study.effects.size());
   table.texts("input", column(study.effects, &Index::input), "input quantity");
