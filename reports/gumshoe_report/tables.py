@@ -28,7 +28,8 @@ def summary_row(o):
         failed=f"{o.failed} of {total}" if o.failed else "",
         rank=(show(o.symmetric_low_rank), show(o.symmetric_high_rank)) if o.failed else None,
         estimate_se=significant(spread(o, o.estimate_se)), u_se=significant(spread(o, o.standard_uncertainty_se)),
-        skewness=fixed(o.skewness, 2), kurtosis=fixed(o.kurtosis, 2), warning=o.warning, statement=o.statement)
+        skewness=fixed(o.skewness, 2), kurtosis=fixed(o.kurtosis, 2), warning=o.warning,
+        tail_remark=getattr(o, "tail_remark", ""), statement=o.statement)
 
 
 def coefficient_unit(output_unit, unit):
@@ -74,7 +75,8 @@ def budget(b, u_monte_carlo=math.nan):
         u_fine=significant(factor * spread(b, u)), u_monte_carlo=significant(factor * spread(b, u_monte_carlo)),
         dof="∞" if dof == 0 else fixed(dof, 0) if math.isfinite(dof) else "not defined, inputs correlated",
         k=fixed(b.coverage_factor, 2), U=significant(spread(b, b.expanded_uncertainty)),
-        estimate=fixed(point(b, b.estimate), decimals(spread(b, u))), remarks=moved)
+        estimate=fixed(point(b, b.estimate), decimals(spread(b, u))),
+        remarks=moved + [text for text in (getattr(b, "remark", ""),) if text])
 
 
 def validation_row(v):

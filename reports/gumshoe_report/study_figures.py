@@ -1,0 +1,233 @@
+"""Figures of the studies: tornado and indices side by side, Shapley effects, Morris, joint regions, conformity."""
+import itertools
+import math
+import textwrap
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.patches import Ellipse, Rectangle
+from matplotlib.ticker import MaxNLocator
+
+from . import rounding
+from .figures import BLUE, GREY, INK, ORANGE, PALE, histogram, scaler, svg, view
+
+MOST = 12  # bars; the rest is one bar
+GRID = {"color": "#e5e7eb", "linewidth": 0.7}
+
+
+def short(name, width=30):
+    return "\n".join(textwrap.wrap(name, width, break_long_words=True)[:2]) or name
+
+
+def bare(axes):
+    axes.tick_params(axis="y", length=0)
+    axes.grid(axis="x", **GRID)
+    axes.xaxis.set_major_locator(MaxNLocator(5))
+
+
+def tornado(axes, contributions, order, rest, unit, factor):
+    """Signed bars c_i u_i; what is left out as one root sum of squares."""
+    for y, name in enumerate(order):
+        c = contributions.get(name)
+        if c is None:
+            continue
+        if not c.differentiable:
+            axes.text(0, y, " no derivative", va="center", fontsize=7.5, color=ORANGE)
+        elif c.contribution == 0:
+            axes.text(0, y, " 0", va="center", fontsize=8, color=GREY)
+        else:
+            value = math.copysign(c.contribution, c.sensitivity) * factor
+            axes.barh(y, value, height=0.55, color=BLUE if value > 0 else ORANGE, alpha=0.9)
+    if rest:
+        value = factor * math.sqrt(sum(c.contribution ** 2 for c in rest if math.isfinite(c.contribution)))
+        axes.barh(len(order), value, height=0.55, color=GREY, alpha=0.6)
+    axes.axvline(0, color=INK, linewidth=0.8)
+    axes.spines["left"].set_visible(False)
+    axes.margins(x=0.12)
+    bare(axes)
+    unit = rounding.unit_text(unit)
+    axes.set_xlabel("c_i u_i" + (f", in {unit}" if unit else ""))
+    axes.set_title("Budget (GUM): contributions", loc="left", fontsize=9, color=INK)
+
+
+def index_bars(axes, rows, order, bars):
+    """Bars with intervals; an index that is not resolved is pale and says why."""
+    for key, shift, height, colour, label in bars:
+        axes.barh([0], [0], color=colour, label=label)
+        for y, name in enumerate(order):
+            row = rows.get(name)
+            if row is None or not math.isfinite(getattr(row, key)):
+                continue
+            word = getattr(row, key + "_verdict", getattr(row, "verdict", "resolved"))
+            ends = [getattr(row, key + "_low"), getattr(row, key + "_high")]
+            axes.barh(y + shift, max(getattr(row, key), 0), height=height, color=colour,
+                      alpha=0.9 if word in ("resolved", "") else 0.35)
+            axes.hlines(y + shift, *ends, color=INK, linewidth=1)
+            if word not in ("resolved", ""):
+                axes.text(max(ends[1], 0), y + shift, " " + ("≈ 0" if word.startswith("zero") else word), va="center",
+                          fontsize=6.5, color=GREY)
+    lows = [getattr(r, bars[0][0] + "_low") for r in rows.values()]
+    axes.set_xlim(left=min([0] + [low for low in lows if math.isfinite(low)]))
+    axes.margins(x=0.1)
+    bare(axes)
+
+
+def side_by_side(budget, sobol, shapley, name):
+    """Tornado plot of the budget and, if there are any, the indices of the same quantities beside it."""
+    contributions = {c.name: c for c in budget.rows} if budget else {}
+    indices = sobol or shapley
+    rows = {i.input: i for i in indices.rows} if indices else {}
+    bars = ([("first", -0.19, 0.32, BLUE, "first order"), ("total", 0.19, 0.32, ORANGE, "total")] if sobol else
+            [("effect", 0, 0.5, BLUE, "Shapley effect")])
+
+    def weight(n):
+        share = contributions[n].share if n in contributions else math.nan
+        values = [share, getattr(rows.get(n), bars[-1][0], math.nan)]
+        return -max([v for v in values if math.isfinite(v)] + [0])
+    names = sorted(dict.fromkeys([*contributions, *rows]), key=weight)
+    order = names if len(names) <= MOST + 1 else names[:MOST]
+    left_out = [n for n in names if n not in order]
+    rest = [contributions[n] for n in left_out if n in contributions]
+    has_budget = any(c.differentiable and c.contribution > 0 for c in contributions.values())
+    panels = has_budget + bool(rows)
+    if panels == 0:
+        return ""
+    figure, grid = plt.subplots(1, panels, sharey=True, layout="constrained", squeeze=False,
+                                figsize=(7.2, 0.95 + 0.34 * (len(order) + bool(left_out))))
+    if has_budget:
+        largest = max(c.contribution for c in contributions.values() if math.isfinite(c.contribution))
+        unit, factor = rounding.finer(budget.display_units, largest * budget.display_factor)
+        tornado(grid[0][0], contributions, order, rest, unit, factor * budget.display_factor)
+    if rows:
+        axes = grid[0][-1]
+        index_bars(axes, rows, order, bars)
+        if left_out:
+            axes.barh(len(order), sum(max(getattr(rows[n], bars[0][0]), 0) for n in left_out if n in rows), height=0.5,
+                      color=GREY, alpha=0.6)
+        axes.set_title("Monte Carlo: " + ("Sobol’ indices" if sobol else "Shapley effects"), loc="left", fontsize=9,
+                       color=INK)
+        axes.set_xlabel("share of the variance; lines: 95 % confidence")
+        if sobol:
+            axes.legend(loc="lower right", frameon=False, fontsize=8)
+    labels = [short(n) for n in order] + ([f"{len(left_out)} others"] if left_out else [])
+    grid[0][0].set_yticks(range(len(labels)), labels)
+    grid[0][0].set_ylim(len(labels) - 0.4, -0.6)
+    output = budget.output if budget else indices.output
+    what = " and ".join((["tornado plot of the budget"] if has_budget else []) +
+                        ([("Sobol' indices" if sobol else "Shapley effects")] if rows else []))
+    return svg(figure, name, f"{what[0].upper()}{what[1:]} of {output}; the numbers are in the tables")
+
+
+def morris(study, name):
+    """mu* against sigma, with names: along the bottom linear and additive, high up non-linear or interacting."""
+    star = np.array([r.mean_absolute for r in study.rows]) * study.display_factor
+    sigma = np.array([r.standard_deviation for r in study.rows]) * study.display_factor
+    unit, factor = rounding.finer(study.display_units, max([*star, *sigma], default=0))
+    star, sigma = star * factor, sigma * factor
+    top = 1.15 * max([*star, *sigma], default=1) or 1
+    figure, axes = plt.subplots(figsize=(5.4, 3.4), layout="constrained")
+    axes.plot([0, top], [0, top], color=GREY, linewidth=0.7, linestyle=(0, (4, 2)))
+    axes.text(top * 0.97, top * 0.93, "σ = µ*", fontsize=7.5, color=GREY, ha="right")
+    axes.errorbar(star, sigma, xerr=[r.mean_absolute_se * study.display_factor * factor for r in study.rows], fmt="o",
+                  color=BLUE, ecolor=GREY, markersize=5, elinewidth=0.8)
+    taken = []
+    for k in np.argsort(-star)[:MOST]:
+        low = any(abs(star[k] - x) < 0.25 * top and abs(sigma[k] - y) < 0.06 * top for x, y in taken)
+        axes.annotate(short(study.rows[k].input, 24), (star[k], sigma[k]), xytext=(5, -10 if low else 5),
+                      textcoords="offset points", fontsize=7.5, color=INK)
+        taken.append((star[k], sigma[k]))
+    axes.set_xlim(0, 1.12 * top)
+    axes.set_ylim(-0.04 * top, 1.05 * top)
+    axes.grid(**GRID)
+    unit = rounding.unit_text(unit)
+    axes.set_xlabel("µ*: mean absolute elementary effect" + (f", {unit}" if unit else ""))
+    axes.set_ylabel("σ of the effects" + (f", {unit}" if unit else ""))
+    return svg(figure, name, f"Morris screening of {study.output}: mu* against sigma; the numbers are in the table")
+
+
+def drawn_pairs(region):
+    """Pairs of outputs that both vary, at most six."""
+    varying = [k for k, row in enumerate(region.rows) if row.covariance[k] > 0]
+    return list(itertools.combinations(varying, 2))[:6]
+
+
+def joint(region, name):
+    """For each pair: the ellipse (of several measurands: the ellipsoid's shadow) and the rectangle."""
+    couples = drawn_pairs(region)
+    if not couples or not math.isfinite(region.k_q):
+        return ""
+    columns = min(3, len(couples))
+    lines = math.ceil(len(couples) / columns)
+    figure, grid = plt.subplots(lines, columns, figsize=(2.6 * columns if columns > 1 else 4.2, 2.6 * lines if columns > 1 else 3.4),
+                                layout="constrained", squeeze=False)
+    for axes in grid.flat[len(couples):]:
+        axes.set_visible(False)
+    for axes, (a, b) in zip(grid.flat, couples):
+        scaled = []
+        for k in (a, b):
+            row = region.rows[k]
+            u = math.sqrt(row.covariance[k]) * row.display_factor
+            unit, factor = rounding.finer(row.display_units, u)
+            scaled.append((u * factor, rounding.unit_text(unit), factor * row.display_factor))
+        (ua, unit_a, fa), (ub, unit_b, fb) = scaled
+        axes.add_patch(Rectangle((-region.k_q * ua, -region.k_q * ub), 2 * region.k_q * ua, 2 * region.k_q * ub,
+                                 fill=False, edgecolor=ORANGE, linewidth=1.4, linestyle=(0, (5, 2))))
+        if math.isfinite(region.k_p):
+            matrix = np.array([[ua ** 2, region.rows[a].covariance[b] * fa * fb],
+                               [region.rows[a].covariance[b] * fa * fb, ub ** 2]])
+            values, vectors = np.linalg.eigh(matrix)
+            axis = region.k_p * np.sqrt(np.clip(values, 0, None))
+            axes.add_patch(Ellipse((0, 0), 2 * axis[1], 2 * axis[0], facecolor=PALE, edgecolor=BLUE, linewidth=1.4,
+                                   angle=math.degrees(math.atan2(vectors[1, 1], vectors[0, 1])), zorder=0))
+        axes.plot(0, 0, "+", color=INK, markersize=7)
+        reach = 1.18 * max(region.k_q, region.k_p if math.isfinite(region.k_p) else 0)
+        axes.set_xlim(-reach * ua, reach * ua)
+        axes.set_ylim(-reach * ub, reach * ub)
+        axes.grid(**GRID)
+        axes.xaxis.set_major_locator(MaxNLocator(5))
+        axes.yaxis.set_major_locator(MaxNLocator(5))
+        axes.set_xlabel(region.rows[a].name + (f", {unit_a}" if unit_a else ""), fontsize=8)
+        axes.set_ylabel(region.rows[b].name + (f", {unit_b}" if unit_b else ""), fontsize=8)
+    names = ", ".join(row.name for row in region.rows)
+    return svg(figure, name, f"Joint coverage regions of {names}: ellipse and rectangle as deviations from the estimates")
+
+
+def conformity(c, output, name):
+    """The distribution with what lies beyond the tolerance shaded, and the acceptance limits."""
+    if output is None or not len(output.histogram):
+        return ""
+    to_axis, label = scaler(output)
+    figure, axes = plt.subplots(figsize=(7.2, 2.1), layout="constrained")
+    histogram(axes, output, to_axis)
+    edges = to_axis(output.histogram_edges)
+    density = output.histogram * (output.histogram_edges[-1] - output.histogram_edges[0]) / (edges[-1] - edges[0])
+    tolerance = [float(to_axis(v)) if math.isfinite(v) else v for v in (c.lower, c.upper)]
+    acceptance = [float(to_axis(v)) if math.isfinite(v) else v for v in (c.acceptance_lower, c.acceptance_upper)]
+    fill_x, fill_y = np.repeat(edges, 2)[1:-1], np.repeat(density, 2)
+    for limit, side in zip(tolerance, (-1, 1)):
+        if not math.isfinite(limit):
+            continue
+        inner = np.sort(np.append(fill_x, limit))
+        heights = np.interp(inner, fill_x, fill_y)
+        axes.fill_between(inner, heights, where=(inner - limit) * side >= 0, color=ORANGE, alpha=0.55, linewidth=0)
+    low, high = view(output, to_axis, None)
+    known = [v for v in tolerance + acceptance if math.isfinite(v)]
+    low, high = min([low] + known), max([high] + known)
+    room = 0.05 * (high - low)
+    axes.set_xlim(low - room, high + room)
+    top = axes.get_ylim()[1] * 1.22
+    axes.set_ylim(0, top)
+    if c.guard_band != 0:
+        for t, a in zip(tolerance, acceptance):
+            if math.isfinite(t):
+                axes.axvspan(min(t, a), max(t, a), color=GREY, alpha=0.13, linewidth=0)
+    for limits, colour, style, text in ((tolerance, INK, "-", "tolerance limit"),
+                                        (acceptance if c.guard_band != 0 else [], BLUE, (0, (4, 2)), "acceptance limit")):
+        drawn = [v for v in limits if math.isfinite(v)]
+        for k, v in enumerate(drawn):
+            axes.axvline(v, color=colour, linewidth=1.2, linestyle=style, label=text if k == 0 else None)
+    axes.plot(float(to_axis(c.estimate)), 0.02 * top, "^", color=BLUE if c.accepted else ORANGE, markersize=8,
+              label="estimate", clip_on=False, zorder=5)
+    axes.legend(loc="upper center", ncols=3, frameon=False, fontsize=8, bbox_to_anchor=(0.5, 1.08))
+    axes.set_xlabel(label)
+    return svg(figure, name, f"Distribution of {c.name} with tolerance and acceptance limits; beyond the tolerance shaded")
