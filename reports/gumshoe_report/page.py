@@ -1,6 +1,7 @@
 """The page: gathers tables and figures and fills the template."""
 import itertools
 import pathlib
+import re
 import types
 
 import jinja2
@@ -83,10 +84,16 @@ def overviews(r):
     return [markupsafe.Markup(f) for f in found + [figures.small_multiples(r.outputs[:MULTIPLES], "m")]]
 
 
+def subscripts(text):
+    """The few symbols of our own sentences, as one writes them: c_i, u_c, p_c, R_C, R_P."""
+    return markupsafe.Markup(re.sub(r"\b([cupR])_([icCP])\b", r"\1<sub>\2</sub>", str(markupsafe.escape(text))))
+
+
 def render(r):
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=True, trim_blocks=True,
                                      lstrip_blocks=True, undefined=jinja2.StrictUndefined)
-    environment.filters.update(percent=rounding.percent, fixed=rounding.fixed)
+    environment.filters.update(percent=rounding.percent, fixed=rounding.fixed, subscripts=subscripts,
+                               verdicts=studies.sobol_verdict)
     return environment.get_template("template.html.j2").render(
         r=r, title=r.title or r.model_title or r.model, question=question(r.scenario_text),
         method=METHODS.get(r.method, r.method), p=rounding.probability(r.coverage_probability),

@@ -16,6 +16,18 @@ def index(row, key, places=3):
     return fixed(value, places), f"[{fixed(getattr(row, key + '_low'), places)}, {fixed(getattr(row, key + '_high'), places)}]"
 
 
+def in_words(*verdicts):
+    """One word if all are equal, else each after its name."""
+    said = [(name, word) for name, word in verdicts if word]
+    return said[0][1] if said and len({word for _, word in said}) == 1 else "; ".join(f"{n}: {w}" for n, w in said)
+
+
+def sobol_verdict(i):
+    """Older files have one verdict for both."""
+    return in_words(("first order", getattr(i, "first_verdict", getattr(i, "verdict", ""))),
+                    ("total", getattr(i, "total_verdict", "")))
+
+
 def pairs(sobol, most=10):
     ordered = sorted(sobol.pairs, key=lambda p: -(p.second if math.isfinite(p.second) else -1))
     return types.SimpleNamespace(rows=[types.SimpleNamespace(
@@ -32,7 +44,8 @@ def given_data(study, sobol):
         has_delta=any(hasattr(r, "delta") for r in lines),
         rows=[types.SimpleNamespace(input=r.input, first=index(r, "first"), delta=index(r, "delta"),
                                     frozen=index(frozen[r.input], "first") if r.input in frozen else (NONE, ""),
-                                    verdicts=[getattr(r, k + "_verdict", "") for k in ("first", "delta")])
+                                    verdict=in_words(("first order", getattr(r, "first_verdict", "")),
+                                                     ("δ", getattr(r, "delta_verdict", ""))))
               for r in lines])
 
 
@@ -85,13 +98,18 @@ def one_at_a_time(table):
                                              for k, (_, f) in enumerate(shown)]) for r in table.rows])
 
 
+def with_error(value, error):
+    """A value and its Monte Carlo standard error, two digits of it, as a pair of texts."""
+    places = decimals(error)
+    return fixed(value, 3 if places is None else min(places, 5)), "" if places is None else fixed(error, min(places, 5))
+
+
 def joint(region):
     names = [row.name for row in region.rows]
     u = [math.sqrt(row.covariance[k]) for k, row in enumerate(region.rows)]
     return types.SimpleNamespace(
         names=names, p=probability(region.coverage_probability), remark=region.remark,
-        k_p=fixed(region.k_p, 3), k_p_se=significant(region.k_p_se), k_q=fixed(region.k_q, 3),
-        k_q_se=significant(region.k_q_se), ellipsoid=math.isfinite(region.k_p), rectangle=math.isfinite(region.k_q),
+        k_p=with_error(region.k_p, region.k_p_se), k_q=with_error(region.k_q, region.k_q_se), ellipsoid=math.isfinite(region.k_p), rectangle=math.isfinite(region.k_q),
         two=len(names) == 2,
         rows=[types.SimpleNamespace(name=row.name, unit=unit_text(row.display_units),
                                     estimate=fixed(point(row, row.estimate), decimals(spread(row, u[k]))),
@@ -119,9 +137,10 @@ def chance(p, se=math.nan):
         return NONE
     if p < 5e-7:
         return "0\u202f%"
-    text = (fixed(100 * p, max(0, min(4, decimals(100 * se, 1) or 0))) if math.isfinite(se) and se > 0
-            else significant(100 * p, 3)) + "\u202f%"
-    return text if not (math.isfinite(se) and se > 0) else f"{text} ± {significant(100 * se, 1)}\u202f%"
+    if not (math.isfinite(se) and se > 0):
+        return significant(100 * p, 3) + "\u202f%"
+    places = max(0, min(4, decimals(100 * se)))
+    return f"({fixed(100 * p, places)} ± {fixed(100 * se, places)})\u202f%"
 
 
 def conformity(c, output):
@@ -138,7 +157,7 @@ def conformity(c, output):
         risks.append(("specific producer’s risk", chance(c.specific_producer_risk, c.conformance_probability_se),
                       "this item was rejected; the probability that it conforms, p_c"))
     if math.isfinite(get("posterior_conformance")):
-        risks.append(("p_c with the process", chance(c.posterior_conformance, get("posterior_conformance_se")),
+        risks.append(("p_c, with the process", chance(c.posterior_conformance, get("posterior_conformance_se")),
                       "conformance probability from this measurement and the process together"))
     if math.isfinite(c.process_conformance):
         risks.append(("process conformance", chance(c.process_conformance),

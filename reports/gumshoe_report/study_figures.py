@@ -32,9 +32,10 @@ def tornado(axes, contributions, order, rest, unit, factor):
         if c is None:
             continue
         if not c.differentiable:
-            axes.text(0, y, " no derivative", va="center", fontsize=7.5, color=ORANGE)
+            axes.annotate("no derivative", (0, y), xytext=(4, 0), textcoords="offset points", va="center", fontsize=7.5,
+                          color=ORANGE)
         elif c.contribution == 0:
-            axes.text(0, y, " 0", va="center", fontsize=8, color=GREY)
+            axes.annotate("0", (0, y), xytext=(4, 0), textcoords="offset points", va="center", fontsize=8, color=GREY)
         else:
             value = math.copysign(c.contribution, c.sensitivity) * factor
             axes.barh(y, value, height=0.55, color=BLUE if value > 0 else ORANGE, alpha=0.9)
@@ -118,6 +119,24 @@ def side_by_side(budget, sobol, shapley, name):
     return svg(figure, name, f"{what[0].upper()}{what[1:]} of {output}; the numbers are in the tables")
 
 
+def name_points(axes, points, width, height):
+    """Names beside their points, in the first place where they cover no other name and no point."""
+    taken = [(x - 0.01 * width, y - 0.02 * height, x + 0.01 * width, y + 0.02 * height) for x, y, _ in points]
+    for x, y, name in points:
+        name = name if len(name) <= 26 else name[:25] + "…"
+        w, h = 0.0165 * width * len(name), 0.05 * height
+        for dx, dy in ((0.015, 0.01), (0.015, -0.06), (-0.015, 0.01), (-0.015, -0.06), (0.015, 0.07), (0.015, -0.12)):
+            left = x + dx * width - (w if dx < 0 else 0)
+            box = (left, y + dy * height, left + w, y + dy * height + h)
+            if left >= 0 and not any(box[0] < t[2] and t[0] < box[2] and box[1] < t[3] and t[1] < box[3] for t in taken):
+                break
+        else:
+            continue  # its number stands in the table
+        taken.append(box)
+        axes.text(x + dx * width, y + dy * height + h / 2, name, fontsize=7.5, color=INK, va="center",
+                  ha="right" if dx < 0 else "left")
+
+
 def morris(study, name):
     """mu* against sigma, with names: along the bottom linear and additive, high up non-linear or interacting."""
     star = np.array([r.mean_absolute for r in study.rows]) * study.display_factor
@@ -127,17 +146,12 @@ def morris(study, name):
     top = 1.15 * max([*star, *sigma], default=1) or 1
     figure, axes = plt.subplots(figsize=(5.4, 3.4), layout="constrained")
     axes.plot([0, top], [0, top], color=GREY, linewidth=0.7, linestyle=(0, (4, 2)))
-    axes.text(top * 0.97, top * 0.93, "σ = µ*", fontsize=7.5, color=GREY, ha="right")
+    axes.text(top * 1.01, top, "σ = µ*", fontsize=7.5, color=GREY, va="center")
     axes.errorbar(star, sigma, xerr=[r.mean_absolute_se * study.display_factor * factor for r in study.rows], fmt="o",
                   color=BLUE, ecolor=GREY, markersize=5, elinewidth=0.8)
-    taken = []
-    for k in np.argsort(-star)[:MOST]:
-        low = any(abs(star[k] - x) < 0.25 * top and abs(sigma[k] - y) < 0.06 * top for x, y in taken)
-        axes.annotate(short(study.rows[k].input, 24), (star[k], sigma[k]), xytext=(5, -10 if low else 5),
-                      textcoords="offset points", fontsize=7.5, color=INK)
-        taken.append((star[k], sigma[k]))
-    axes.set_xlim(0, 1.12 * top)
-    axes.set_ylim(-0.04 * top, 1.05 * top)
+    name_points(axes, [(star[k], sigma[k], study.rows[k].input) for k in np.argsort(-star)[:MOST]], 1.25 * top, 1.2 * top)
+    axes.set_xlim(0, 1.25 * top)
+    axes.set_ylim(-0.12 * top, 1.08 * top)
     axes.grid(**GRID)
     unit = rounding.unit_text(unit)
     axes.set_xlabel("µ*: mean absolute elementary effect" + (f", {unit}" if unit else ""))
@@ -197,25 +211,23 @@ def conformity(c, output, name):
     if output is None or not len(output.histogram):
         return ""
     to_axis, label = scaler(output)
-    figure, axes = plt.subplots(figsize=(7.2, 2.1), layout="constrained")
+    figure, axes = plt.subplots(figsize=(7.2, 2.3), layout="constrained")
     histogram(axes, output, to_axis)
     edges = to_axis(output.histogram_edges)
     density = output.histogram * (output.histogram_edges[-1] - output.histogram_edges[0]) / (edges[-1] - edges[0])
     tolerance = [float(to_axis(v)) if math.isfinite(v) else v for v in (c.lower, c.upper)]
     acceptance = [float(to_axis(v)) if math.isfinite(v) else v for v in (c.acceptance_lower, c.acceptance_upper)]
-    fill_x, fill_y = np.repeat(edges, 2)[1:-1], np.repeat(density, 2)
     for limit, side in zip(tolerance, (-1, 1)):
-        if not math.isfinite(limit):
-            continue
-        inner = np.sort(np.append(fill_x, limit))
-        heights = np.interp(inner, fill_x, fill_y)
-        axes.fill_between(inner, heights, where=(inner - limit) * side >= 0, color=ORANGE, alpha=0.55, linewidth=0)
+        if math.isfinite(limit):
+            beyond = np.minimum(edges, limit) if side < 0 else np.maximum(edges, limit)
+            wide = np.diff(beyond) > 0
+            axes.bar(beyond[:-1][wide], density[wide], np.diff(beyond)[wide], align="edge", color=ORANGE, alpha=0.75)
     low, high = view(output, to_axis, None)
     known = [v for v in tolerance + acceptance if math.isfinite(v)]
     low, high = min([low] + known), max([high] + known)
     room = 0.05 * (high - low)
     axes.set_xlim(low - room, high + room)
-    top = axes.get_ylim()[1] * 1.22
+    top = 1.08 * density.max()
     axes.set_ylim(0, top)
     if c.guard_band != 0:
         for t, a in zip(tolerance, acceptance):
@@ -227,7 +239,7 @@ def conformity(c, output, name):
         for k, v in enumerate(drawn):
             axes.axvline(v, color=colour, linewidth=1.2, linestyle=style, label=text if k == 0 else None)
     axes.plot(float(to_axis(c.estimate)), 0.02 * top, "^", color=BLUE if c.accepted else ORANGE, markersize=8,
-              label="estimate", clip_on=False, zorder=5)
-    axes.legend(loc="upper center", ncols=3, frameon=False, fontsize=8, bbox_to_anchor=(0.5, 1.08))
+              linestyle="none", label="estimate", clip_on=False, zorder=5)
+    axes.legend(loc="upper center", ncols=3, frameon=False, fontsize=8, bbox_to_anchor=(0.5, 1.24))
     axes.set_xlabel(label)
     return svg(figure, name, f"Distribution of {c.name} with tolerance and acceptance limits; beyond the tolerance shaded")
