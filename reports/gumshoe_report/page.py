@@ -46,6 +46,8 @@ def sections(r):
             side_by_side=picture(full, study_figures.side_by_side, of.budget, of.sobol, of.shapley, f"s{k}"),
             why=explain.why(of.budget, of.sobol, of.shapley, u),
             pairs=studies.pairs(of.sobol) if of.sobol and of.sobol.pairs else None,
+            shapley_figure=picture(full and of.shapley and of.sobol, study_figures.side_by_side, None, None, of.shapley,
+                                   f"h{k}"),
             shapley=studies.shapley(of.shapley) if of.shapley else None,
             given_data=studies.given_data(of.given, of.sobol) if of.given else None,
             morris=studies.morris(of.morris) if of.morris else None,

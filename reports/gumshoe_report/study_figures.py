@@ -219,9 +219,8 @@ def conformity(c, output, name):
     acceptance = [float(to_axis(v)) if math.isfinite(v) else v for v in (c.acceptance_lower, c.acceptance_upper)]
     for limit, side in zip(tolerance, (-1, 1)):
         if math.isfinite(limit):
-            beyond = np.minimum(edges, limit) if side < 0 else np.maximum(edges, limit)
-            wide = np.diff(beyond) > 0
-            axes.bar(beyond[:-1][wide], density[wide], np.diff(beyond)[wide], align="edge", color=ORANGE, alpha=0.75)
+            beyond = np.minimum(edges, limit) if side < 0 else np.maximum(edges, limit)  # bins within: no width
+            axes.stairs(density, beyond, fill=True, color=ORANGE, alpha=0.75)
     low, high = view(output, to_axis, None)
     known = [v for v in tolerance + acceptance if math.isfinite(v)]
     low, high = min([low] + known), max([high] + known)
