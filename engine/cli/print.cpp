@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/units.h"
+#include "cli/print_studies.h"
 
 namespace gumshoe::cli {
 
@@ -34,6 +35,7 @@ void print_text(const analysis::Results& r, const std::string& out) {
   std::cout << r.title << '\n';
   for (const std::string& s : r.statements) std::cout << s << '\n';
   print_validations(r);
+  print_studies(r, std::cout);
   for (const auto& c : r.comparisons) {
     const auto shown = [&](double x) { return units::from_si(x, c.unit, c.si_unit, units::Kind::difference); };
     std::cout << fmt::format("{} = {:.4f} {}, U = {:.4f} {}, E_n = {:.2f}\n", c.name, shown(c.difference), c.unit,
@@ -60,7 +62,7 @@ void print_table(const analysis::Results& r, bool json) {
     const auto number = [](double x) {
       return std::isfinite(x) ? nlohmann::ordered_json(x) : nlohmann::ordered_json(nullptr);
     };
-    if (json)
+    if (json) {
       all.push_back({{"output", s.output.name},
                      {"unit", s.output.unit},
                      {"estimate", number(shown(s.estimate))},
@@ -69,10 +71,12 @@ void print_table(const analysis::Results& r, bool json) {
                      {"shortest", {number(shown(s.shortest.low)), number(shown(s.shortest.high))}},
                      {"valid", s.valid},
                      {"failed", s.failed}});
-    else
+      add_studies(r, s.output, all.back());
+    } else {
       std::cout << fmt::format("\"{}\",{},{:.15g},{:.6g},{:.15g},{:.15g},{:.15g},{:.15g},{},{}\n", s.output.name,
                                s.output.unit, shown(s.estimate), u, shown(s.symmetric.low), shown(s.symmetric.high),
                                shown(s.shortest.low), shown(s.shortest.high), s.valid, s.failed);
+    }
   }
   if (json) std::cout << all.dump(2) << '\n';
 }
