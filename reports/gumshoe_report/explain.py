@@ -11,9 +11,8 @@ def first_orders(indices):
     """What a budget's share is compared with, by input: (share, total)."""
     if indices is None:
         return {}
-    if hasattr(indices.rows[0] if indices.rows else None, "effect"):
-        return {i.input: (i.effect, i.effect) for i in indices.rows}
-    return {i.input: (i.first, i.total) for i in indices.rows}
+    pairs = {i.input: (i.effect, i.effect) if hasattr(i, "effect") else (i.first, i.total) for i in indices.rows}
+    return {name: pair for name, pair in pairs.items() if all(map(math.isfinite, pair))}
 
 
 def listed(names, most=4):

@@ -38,7 +38,7 @@ def pairs(sobol, most=10):
 def given_data(study, sobol):
     """Rank-based first order and delta, with the pick-freeze first order beside them where there is one."""
     frozen = {i.input: i for i in sobol.rows} if sobol else {}
-    lines = sorted(study.rows, key=lambda r: -max(v for v in (getattr(r, "first", -1), getattr(r, "delta", -1)) if v == v))
+    lines = sorted(study.rows, key=lambda r: -max(v for v in (getattr(r, "first", -1), getattr(r, "delta", -1), -1) if v == v))
     return types.SimpleNamespace(
         samples=study.samples, has_first=any(hasattr(r, "first") for r in lines), has_frozen=bool(frozen),
         has_delta=any(hasattr(r, "delta") for r in lines),
@@ -135,7 +135,7 @@ def chance(p, se=math.nan):
     """A probability with as many digits as its standard error allows."""
     if not math.isfinite(p):
         return NONE
-    if p < 5e-7:
+    if p < 5e-9:
         return "0\u202f%"
     if not (math.isfinite(se) and se > 0):
         return significant(100 * p, 3) + "\u202f%"
@@ -189,7 +189,9 @@ def target(t):
         allowed=allowed(r, r.allowed), gum=allowed(r, r.allowed_gum), cost=significant(r.cost, 3),
         cheapest=significant(spread(r, r.cheapest))) for r in t.rows]
     alone = [r.quantity for r in t.rows if r.allowed == r.allowed and r.allowed < r.present]
-    if not t.present > t.wanted:
+    if not math.isfinite(t.present):
+        text = f"Wanted: U = {size(t.wanted)}."
+    elif t.present <= t.wanted:
         text = f"The target is met already: U = {size(t.present)} is not above {size(t.wanted)}; the allowed values say how far each quantity may grow."
     elif alone:
         text = f"U = {size(t.present)} has to come down to {size(t.wanted)}; improving one quantity alone can do it: {', '.join(alone)}."

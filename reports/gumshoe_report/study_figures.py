@@ -11,7 +11,8 @@ from matplotlib.ticker import MaxNLocator
 from . import rounding
 from .figures import BLUE, GREY, INK, ORANGE, PALE, histogram, scaler, svg, view
 
-MOST = 12  # bars; the rest is one bar
+MOST, FEWEST = 12, 4  # bars; the rest is one bar
+VISIBLE = 5e-4        # of the variance: less is no bar of its own
 GRID = {"color": "#e5e7eb", "linewidth": 0.7}
 
 
@@ -34,6 +35,9 @@ def tornado(axes, contributions, order, rest, unit, factor):
         if not c.differentiable:
             axes.annotate("no derivative", (0, y), xytext=(4, 0), textcoords="offset points", va="center", fontsize=7.5,
                           color=ORANGE)
+        elif not math.isfinite(c.contribution):
+            axes.annotate("no standard uncertainty", (0, y), xytext=(4, 0), textcoords="offset points", va="center",
+                          fontsize=7.5, color=ORANGE)
         elif c.contribution == 0:
             axes.annotate("0", (0, y), xytext=(4, 0), textcoords="offset points", va="center", fontsize=8, color=GREY)
         else:
@@ -65,7 +69,7 @@ def index_bars(axes, rows, order, bars):
                       alpha=0.9 if word in ("resolved", "") else 0.35)
             axes.hlines(y + shift, *ends, color=INK, linewidth=1)
             if word not in ("resolved", ""):
-                axes.text(max(ends[1], 0), y + shift, " " + ("≈ 0" if word.startswith("zero") else word), va="center",
+                axes.text(max([0] + [end for end in ends if math.isfinite(end)]), y + shift, " " + ("≈ 0" if word.startswith("zero") else word), va="center",
                           fontsize=6.5, color=GREY)
     lows = [getattr(r, bars[0][0] + "_low") for r in rows.values()]
     axes.set_xlim(left=min([0] + [low for low in lows if math.isfinite(low)]))
@@ -86,7 +90,10 @@ def side_by_side(budget, sobol, shapley, name):
         values = [share, getattr(rows.get(n), bars[-1][0], math.nan)]
         return -max([v for v in values if math.isfinite(v)] + [0])
     names = sorted(dict.fromkeys([*contributions, *rows]), key=weight)
-    order = names if len(names) <= MOST + 1 else names[:MOST]
+    order = [n for k, n in enumerate(names) if k < FEWEST or weight(n) <= -VISIBLE]
+    order = order if len(order) <= MOST + 1 else order[:MOST]
+    if len(order) + 1 >= len(names):
+        order = names  # one bar for one quantity would hide its name and save nothing
     left_out = [n for n in names if n not in order]
     rest = [contributions[n] for n in left_out if n in contributions]
     has_budget = any(c.differentiable and c.contribution > 0 for c in contributions.values())
@@ -107,7 +114,7 @@ def side_by_side(budget, sobol, shapley, name):
                       color=GREY, alpha=0.6)
         axes.set_title("Monte Carlo: " + ("Sobol’ indices" if sobol else "Shapley effects"), loc="left", fontsize=9,
                        color=INK)
-        axes.set_xlabel("share of the variance; lines: 95 % confidence")
+        axes.set_xlabel(f"share of variance, {rounding.probability(getattr(indices, 'confidence', 0.95))} intervals")
         if sobol:
             axes.legend(loc="lower right", frameon=False, fontsize=8)
     labels = [short(n) for n in order] + ([f"{len(left_out)} others"] if left_out else [])
@@ -139,17 +146,20 @@ def name_points(axes, points, width, height):
 
 def morris(study, name):
     """mu* against sigma, with names: along the bottom linear and additive, high up non-linear or interacting."""
-    star = np.array([r.mean_absolute for r in study.rows]) * study.display_factor
-    sigma = np.array([r.standard_deviation for r in study.rows]) * study.display_factor
-    unit, factor = rounding.finer(study.display_units, max([*star, *sigma], default=0))
+    known = [r for r in study.rows if math.isfinite(r.mean_absolute + r.standard_deviation)]
+    if not known:
+        return ""
+    star = np.array([r.mean_absolute for r in known]) * study.display_factor
+    sigma = np.array([r.standard_deviation for r in known]) * study.display_factor
+    unit, factor = rounding.finer(study.display_units, max([*star, *sigma]))
     star, sigma = star * factor, sigma * factor
-    top = 1.15 * max([*star, *sigma], default=1) or 1
+    top = 1.15 * max([*star, *sigma]) or 1
     figure, axes = plt.subplots(figsize=(5.4, 3.4), layout="constrained")
     axes.plot([0, top], [0, top], color=GREY, linewidth=0.7, linestyle=(0, (4, 2)))
     axes.text(top * 1.01, top, "σ = µ*", fontsize=7.5, color=GREY, va="center")
-    axes.errorbar(star, sigma, xerr=[r.mean_absolute_se * study.display_factor * factor for r in study.rows], fmt="o",
+    axes.errorbar(star, sigma, xerr=[r.mean_absolute_se * study.display_factor * factor for r in known], fmt="o",
                   color=BLUE, ecolor=GREY, markersize=5, elinewidth=0.8)
-    name_points(axes, [(star[k], sigma[k], study.rows[k].input) for k in np.argsort(-star)[:MOST]], 1.25 * top, 1.2 * top)
+    name_points(axes, [(star[k], sigma[k], known[k].input) for k in np.argsort(-star)[:MOST]], 1.25 * top, 1.2 * top)
     axes.set_xlim(0, 1.25 * top)
     axes.set_ylim(-0.12 * top, 1.08 * top)
     axes.grid(**GRID)
