@@ -42,8 +42,8 @@ def reasons(budget, indices, shapley):
     if flat:
         totals = listed(f"{n} (total {fixed(known[n][1], 2)})" for n in flat)
         zero = all(rows[n].sensitivity == 0 for n in flat)
-        found.append(f"the slope c_i is {'zero' if zero else 'next to zero'} at the estimate, so the budget does not see {totals}, "
-                     "but the output is not linear in " + ("it" if len(flat) == 1 else "them"))
+        found.append(f"the slope c_i is {'zero' if zero else 'next to zero'} at the estimate, so the budget does not "
+                     f"see {totals}, but the output is not linear in " + ("it" if len(flat) == 1 else "them"))
         told.update(flat)
     if indices is not None:
         acting = [i.input for i in indices.rows if i.total - i.first > APART]

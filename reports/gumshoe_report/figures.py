@@ -13,6 +13,7 @@ from matplotlib.ticker import MaxNLocator
 from . import rounding
 
 BLUE, ORANGE, GREY, PALE, INK = "#0b5fa5", "#c8500a", "#6b7280", "#d5e3f0", "#1f2933"  # apart for every eye
+GRID = {"color": "#e5e7eb", "linewidth": 0.7}
 
 matplotlib.rcParams.update({
     "svg.fonttype": "none", "svg.hashsalt": "gumshoe", "font.size": 9, "axes.spines.top": False,
@@ -141,7 +142,7 @@ def overview(outputs, name):
     axes.set_yticks(range(len(outputs)), [o.name for o in outputs])
     axes.tick_params(axis="y", length=0)
     axes.invert_yaxis()
-    axes.grid(axis="x", color="#e5e7eb", linewidth=0.7)
+    axes.grid(axis="x", **GRID)
     axes.spines["left"].set_visible(False)
     shown = f"{rounding.fixed(middle, places)} {rounding.unit_text(reference.display_units)}".strip()
     axes.set_xlabel(f"deviation from {shown}" + (f", in {rounding.unit_text(unit)}" if unit != "1" else ""))

@@ -7,7 +7,7 @@ import types
 import jinja2
 import markupsafe
 
-from . import explain, figures, rounding, studies, study_figures, tables
+from . import explain, figures, region_figures, rounding, sensitivity_figures, studies, tables
 
 HERE = pathlib.Path(__file__).parent
 OPEN = 2      # outputs shown in full; the others are folded
@@ -43,15 +43,15 @@ def sections(r):
             distribution=picture(full, figures.distribution, output, of.budget, r.coverage_probability, f"d{k}"),
             budget=tables.budget(of.budget, u) if of.budget else None, sobol=of.sobol,
             confidence=rounding.probability(of.sobol.confidence) if of.sobol else "",
-            side_by_side=picture(full, study_figures.side_by_side, of.budget, of.sobol, of.shapley, f"s{k}"),
+            side_by_side=picture(full, sensitivity_figures.side_by_side, of.budget, of.sobol, of.shapley, f"s{k}"),
             why=explain.why(of.budget, of.sobol, of.shapley, u),
             pairs=studies.pairs(of.sobol) if of.sobol and of.sobol.pairs else None,
-            shapley_figure=picture(full and of.shapley and of.sobol, study_figures.side_by_side, None, None, of.shapley,
-                                   f"h{k}"),
+            shapley_figure=picture(full and of.shapley and of.sobol, sensitivity_figures.side_by_side, None, None,
+                                   of.shapley, f"h{k}"),
             shapley=studies.shapley(of.shapley) if of.shapley else None,
             given_data=studies.given_data(of.given, of.sobol) if of.given else None,
             morris=studies.morris(of.morris) if of.morris else None,
-            morris_figure=picture(full and of.morris, study_figures.morris, of.morris, f"e{k}"),
+            morris_figure=picture(full and of.morris, sensitivity_figures.morris, of.morris, f"e{k}"),
             dgsm=studies.dgsm(of.dgsm, of.sobol) if of.dgsm else None,
             validation=tables.validation_row(verdicts[output.name]) if output.name in verdicts else None)
 
@@ -65,10 +65,10 @@ def whole_run(r):
     """The studies that belong to no single output, by the names the templates use."""
     outputs = by_output(r.outputs, "name")
     return {
-        "joints": [with_figure(studies.joint(j), study_figures.joint(j, f"j{k}") if k < DRAWN else "")
+        "joints": [with_figure(studies.joint(j), region_figures.joint(j, f"j{k}") if k < DRAWN else "")
                    for k, j in enumerate(r.joint)],
         "circulars": [studies.circular(c, outputs.get(c.name)) for c in r.circular],
-        "conformities": [with_figure(studies.conformity(c, outputs.get(c.name)), study_figures.conformity(
+        "conformities": [with_figure(studies.conformity(c, outputs.get(c.name)), region_figures.conformity(
             c, outputs.get(c.name), f"c{k}") if k < DRAWN else "") for k, c in enumerate(r.conformity)],
         "targets": [studies.target(t) for t in r.targets],
         "one_at_a_time": [studies.one_at_a_time(t) for t in r.one_at_a_time],

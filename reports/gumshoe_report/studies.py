@@ -13,7 +13,8 @@ def index(row, key, places=3):
     value = getattr(row, key, math.nan)
     if not math.isfinite(value):
         return NONE, ""
-    return fixed(value, places), f"[{fixed(getattr(row, key + '_low'), places)}, {fixed(getattr(row, key + '_high'), places)}]"
+    low, high = (fixed(getattr(row, key + end), places) for end in ("_low", "_high"))
+    return fixed(value, places), f"[{low}, {high}]"
 
 
 def in_words(*verdicts):
@@ -38,7 +39,8 @@ def pairs(sobol, most=10):
 def given_data(study, sobol):
     """Rank-based first order and delta, with the pick-freeze first order beside them where there is one."""
     frozen = {i.input: i for i in sobol.rows} if sobol else {}
-    lines = sorted(study.rows, key=lambda r: -max(v for v in (getattr(r, "first", -1), getattr(r, "delta", -1), -1) if v == v))
+    known = lambda r: [v for v in (getattr(r, "first", -1), getattr(r, "delta", -1), -1) if math.isfinite(v)]
+    lines = sorted(study.rows, key=lambda r: -max(known(r)))
     return types.SimpleNamespace(
         samples=study.samples, has_first=any(hasattr(r, "first") for r in lines), has_frozen=bool(frozen),
         has_delta=any(hasattr(r, "delta") for r in lines),
@@ -93,7 +95,8 @@ def one_at_a_time(table):
     return types.SimpleNamespace(
         title=table.title,
         outputs=[types.SimpleNamespace(name=o.name, unit=unit_text(u)) for o, (u, _) in zip(table.outputs, shown)],
-        rows=[types.SimpleNamespace(quantity=r.quantity, step=significant(spread(r, r.step), 3), unit=unit_text(r.display_units),
+        rows=[types.SimpleNamespace(quantity=r.quantity, step=significant(spread(r, r.step), 3),
+                                    unit=unit_text(r.display_units),
                                     changes=[(significant(f * r.up[k], 3), significant(f * r.down[k], 3))
                                              for k, (_, f) in enumerate(shown)]) for r in table.rows])
 
@@ -109,7 +112,8 @@ def joint(region):
     u = [math.sqrt(row.covariance[k]) for k, row in enumerate(region.rows)]
     return types.SimpleNamespace(
         names=names, p=probability(region.coverage_probability), remark=region.remark,
-        k_p=with_error(region.k_p, region.k_p_se), k_q=with_error(region.k_q, region.k_q_se), ellipsoid=math.isfinite(region.k_p), rectangle=math.isfinite(region.k_q),
+        k_p=with_error(region.k_p, region.k_p_se), k_q=with_error(region.k_q, region.k_q_se),
+        ellipsoid=math.isfinite(region.k_p), rectangle=math.isfinite(region.k_q),
         two=len(names) == 2,
         rows=[types.SimpleNamespace(name=row.name, unit=unit_text(row.display_units),
                                     estimate=fixed(point(row, row.estimate), decimals(spread(row, u[k]))),
@@ -127,7 +131,8 @@ def circular(row, output):
         name=row.name, unit=unit_text(row.display_units), mean=show(row.mean_direction),
         deviation=fixed(spread(row, row.standard_deviation), places), length=fixed(row.resultant_length, 3),
         arc=(show(row.low), show(row.high)), remark=row.remark, linear=None if output is None else
-        types.SimpleNamespace(mean=show(output.estimate), deviation=fixed(spread(output, output.standard_uncertainty), places),
+        types.SimpleNamespace(mean=show(output.estimate),
+                              deviation=fixed(spread(output, output.standard_uncertainty), places),
                               shortest=(show(output.shortest_low), show(output.shortest_high))))
 
 
@@ -192,9 +197,11 @@ def target(t):
     if not math.isfinite(t.present):
         text = f"Wanted: U = {size(t.wanted)}."
     elif t.present <= t.wanted:
-        text = f"The target is met already: U = {size(t.present)} is not above {size(t.wanted)}; the allowed values say how far each quantity may grow."
+        text = (f"The target is met already: U = {size(t.present)} is not above {size(t.wanted)}; the allowed values say "
+                "how far each quantity may grow.")
     elif alone:
-        text = f"U = {size(t.present)} has to come down to {size(t.wanted)}; improving one quantity alone can do it: {', '.join(alone)}."
+        text = (f"U = {size(t.present)} has to come down to {size(t.wanted)}; improving one quantity alone can do it: "
+                f"{', '.join(alone)}.")
     else:
         text = f"U = {size(t.present)} has to come down to {size(t.wanted)}; no single quantity can do it alone."
     if math.isfinite(t.reached):
