@@ -8,7 +8,7 @@ import pathlib
 import sys
 
 sys.dont_write_bytecode = True
-from gumshoe_report import page, read, tables
+from gumshoe_report import csv_tables, page, read
 
 
 def main():
@@ -24,7 +24,7 @@ def main():
         html = page.render(result)
         folder.mkdir(parents=True, exist_ok=True)
         out.write_text(html, encoding="utf-8")
-        written = [out] + tables.write_csv(result, folder, out.stem)
+        written = [out] + csv_tables.write(result, folder, out.stem)
     except read.NotAResult as problem:
         print(f"error: {problem}", file=sys.stderr)
         return 2

@@ -121,6 +121,7 @@ void write_summary(hid_t file, const Results& r) {
   table.numbers("hill_index", column(rows, &Summary::hill_index), "1",
                 "tail index by Hill's estimator, NaN if not estimated");
   table.texts("warning", column(rows, &Summary::warning), "what the reader must know of this output");
+  table.texts("tail_remark", column(rows, &Summary::tail_remark), "what heavy tails do to the standard uncertainty");
   auto statements = r.statements;
   statements.resize(rows.size());
   table.texts("statement", statements, "the result in the words of the GUM");
@@ -135,18 +136,12 @@ void write_summary(hid_t file, const Results& r) {
   }
 }
 
-void write_budget(hid_t parent, const std::string& name, const Budget& budget) {
-  const hdf5::Handle group = hdf5::create_group(parent, name);
-  const Display shown = display(budget.output.unit, budget.output.si_unit);
-  const std::pair<const char*, std::string> texts[] = {{"output", budget.output.name},
-                                                       {"reason", budget.reason},
-                                                       {"units", budget.output.si_unit},
-                                                       {"display_units", shown.units}};
-  for (const auto& [key, text] : texts) hdf5::write_attribute(group, key, text);
+void write_budget(hid_t group, const Budget& budget) {
+  write_output(group, budget.output);
+  hdf5::write_attribute(group, "reason", budget.reason);
+  hdf5::write_attribute(group, "remark", budget.remark);
   hdf5::write_attribute(group, "applicable", budget.applicable ? 1 : 0);
   const std::pair<const char*, double> figures[] = {
-      {"display_factor", shown.factor},
-      {"display_offset", shown.offset},
       {"estimate", budget.estimate},
       {"correlation_share", budget.correlation_share},
       {"monte_carlo_interactions", budget.monte_carlo_interactions},
@@ -242,8 +237,7 @@ void write_results(hid_t file, const Results& r) {
   write_readings(file, r);
   write_inputs(file, r.inputs);
   write_summary(file, r);
-  const hdf5::Handle budgets = hdf5::create_group(file, "budget");
-  for (std::size_t k = 0; k < r.budgets.size(); ++k) write_budget(budgets, fmt::format("{:03d}", k), r.budgets[k]);
+  write_numbered(file, "budget", r.budgets, write_budget);
   write_validation(file, r.validations);
   write_sensitivity(file, r);
   write_joint(file, r);

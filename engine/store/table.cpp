@@ -53,7 +53,8 @@ void Table::texts(const std::string& name, const std::vector<std::string>& value
   hdf5::attach(dataset, 0, scale_, dimension_);
 }
 
-void Table::units(const std::vector<std::string>& si_units, const std::vector<std::string>& display_units) {
+void Table::units(const std::vector<std::string>& si_units, const std::vector<std::string>& display_units,
+                  const std::string& prefix) {
   std::vector<std::string> shown;
   std::vector<double> factors, offsets;
   for (std::size_t i = 0; i < si_units.size(); ++i) {
@@ -62,10 +63,33 @@ void Table::units(const std::vector<std::string>& si_units, const std::vector<st
     factors.push_back(d.factor);
     offsets.push_back(d.offset);
   }
-  texts("units", si_units, "SI unit of the row");
-  texts("display_units", shown, "unit shown to people");
-  numbers("display_factor", factors, "1", "display unit over SI unit: shown = SI * factor");
-  numbers("display_offset", offsets, "1", "added to a point on a scale, not to a difference or an uncertainty");
+  texts(prefix + "units", si_units, "SI unit of the row");
+  texts(prefix + "display_units", shown, "unit shown to people");
+  numbers(prefix + "display_factor", factors, "1", "display unit over SI unit: shown = SI * factor");
+  numbers(prefix + "display_offset", offsets, "1",
+          "added to a point on a scale, not to a difference or an uncertainty");
+}
+
+void Table::matrix(const std::string& name, const Table& columns, const std::vector<double>& values,
+                   const std::string& units, const std::string& long_name) {
+  if (rows_ == 0 || columns.rows_ == 0) return;
+  if (values.size() != rows_ * columns.rows_)
+    throw OutputError("cannot write matrix '" + name + "'", "it has another shape");
+  const hdf5::Handle dataset =
+      hdf5::create_dataset(group_, name, hdf5::file_type<double>(), {rows_, columns.rows_}, units, long_name);
+  hdf5::require(H5Dwrite(dataset, hdf5::memory_type<double>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
+                "write a matrix");
+  hdf5::attach(dataset, 0, scale_, dimension_);
+  hdf5::attach(dataset, 1, columns.scale_, columns.dimension_);
+}
+
+void write_output(hid_t group, const propagation::Output& output) {
+  const Display shown = display(output.unit, output.si_unit);
+  hdf5::write_attribute(group, "output", output.name);
+  hdf5::write_attribute(group, "units", output.si_unit);
+  hdf5::write_attribute(group, "display_units", shown.units);
+  hdf5::write_attribute(group, "display_factor", shown.factor);
+  hdf5::write_attribute(group, "display_offset", shown.offset);
 }
 
 } // namespace gumshoe::store

@@ -5,6 +5,9 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
+
+#include "propagation/run.h"
 #include "store/hdf5.h"
 
 namespace gumshoe::store {
@@ -39,8 +42,12 @@ public:
   void numbers(const std::string& name, const std::vector<T>& values, const std::string& units,
                const std::string& long_name);
   void texts(const std::string& name, const std::vector<std::string>& values, const std::string& long_name);
-  /// The columns `units`, `display_units`, `display_factor` and `display_offset`.
-  void units(const std::vector<std::string>& si_units, const std::vector<std::string>& display_units);
+  /// The columns `units`, `display_units`, `display_factor` and `display_offset`, their names after `prefix`.
+  void units(const std::vector<std::string>& si_units, const std::vector<std::string>& display_units,
+             const std::string& prefix = "");
+  /// A dataset of this table's rows and the rows of another table of the same group, row-major.
+  void matrix(const std::string& name, const Table& columns, const std::vector<double>& values,
+              const std::string& units, const std::string& long_name);
 
 private:
   hid_t group_;
@@ -48,5 +55,21 @@ private:
   hsize_t rows_;
   hdf5::Handle scale_;
 };
+
+/// The attributes `output`, `units`, `display_units`, `display_factor` and `display_offset` of a group that tells of
+/// one output.
+void write_output(hid_t group, const propagation::Output& output);
+
+/// A group `name` of sub-groups 000, 001, ..., one per item; none if there are no items.
+template <class Item, class Write>
+void write_numbered(hid_t file, const std::string& name, const std::vector<Item>& items, Write write) {
+  hdf5::drop(file, name);
+  if (items.empty()) return;
+  const hdf5::Handle group = hdf5::create_group(file, name);
+  for (std::size_t k = 0; k < items.size(); ++k) {
+    const hdf5::Handle one = hdf5::create_group(group, fmt::format("{:03d}", k));
+    write(one, items[k]);
+  }
+}
 
 } // namespace gumshoe::store

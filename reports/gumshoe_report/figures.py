@@ -13,6 +13,7 @@ from matplotlib.ticker import MaxNLocator
 from . import rounding
 
 BLUE, ORANGE, GREY, PALE, INK = "#0b5fa5", "#c8500a", "#6b7280", "#d5e3f0", "#1f2933"  # apart for every eye
+GRID = {"color": "#e5e7eb", "linewidth": 0.7}
 
 matplotlib.rcParams.update({
     "svg.fonttype": "none", "svg.hashsalt": "gumshoe", "font.size": 9, "axes.spines.top": False,
@@ -122,27 +123,6 @@ def distribution(output, budget, p, name):
     return svg(figure, name, f"Distribution of {output.name} with its coverage intervals")
 
 
-def sobol(sensitivity, name, most=12):
-    rows = sorted(sensitivity.rows, key=lambda r: -(r.total if math.isfinite(r.total) else 0))[:most]
-    figure, axes = plt.subplots(figsize=(7.2, 0.75 + 0.36 * len(rows)), layout="constrained")
-    bars = [("first", -0.18, BLUE, "first order"), ("total", 0.18, ORANGE, "total")]
-    for key, shift, colour, label in bars:
-        values = np.array([getattr(r, key) for r in rows])
-        ends = np.array([[getattr(r, key + "_low"), getattr(r, key + "_high")] for r in rows])
-        y = np.arange(len(rows)) + shift
-        axes.barh(y, np.clip(np.nan_to_num(values), 0, None), height=0.3, color=colour, alpha=0.85, label=label)
-        axes.hlines(y, ends[:, 0], ends[:, 1], color=INK, linewidth=1)
-    axes.set_yticks(range(len(rows)), [r.input for r in rows])
-    axes.tick_params(axis="y", length=0)
-    axes.invert_yaxis()
-    axes.set_xlim(left=min(0, min((r.first_low for r in rows), default=0)))
-    axes.xaxis.set_major_locator(MaxNLocator(6))
-    axes.grid(axis="x", color="#e5e7eb", linewidth=0.7)
-    axes.set_xlabel("share of the variance; lines: 95 % confidence intervals of the index")
-    axes.legend(loc="lower right", frameon=False, fontsize=8)
-    return svg(figure, name, f"Sobol' indices of {sensitivity.output}")
-
-
 def overview(outputs, name):
     """Estimate and symmetric interval of every output of one measurand, as deviations from their mean."""
     reference = outputs[0]
@@ -162,7 +142,7 @@ def overview(outputs, name):
     axes.set_yticks(range(len(outputs)), [o.name for o in outputs])
     axes.tick_params(axis="y", length=0)
     axes.invert_yaxis()
-    axes.grid(axis="x", color="#e5e7eb", linewidth=0.7)
+    axes.grid(axis="x", **GRID)
     axes.spines["left"].set_visible(False)
     shown = f"{rounding.fixed(middle, places)} {rounding.unit_text(reference.display_units)}".strip()
     axes.set_xlabel(f"deviation from {shown}" + (f", in {rounding.unit_text(unit)}" if unit != "1" else ""))

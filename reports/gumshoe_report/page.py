@@ -1,15 +1,17 @@
 """The page: gathers tables and figures and fills the template."""
 import itertools
 import pathlib
+import re
 import types
 
 import jinja2
 import markupsafe
 
-from . import figures, rounding, tables
+from . import explain, figures, region_figures, rounding, sensitivity_figures, studies, tables
 
 HERE = pathlib.Path(__file__).parent
 OPEN = 2      # outputs shown in full; the others are folded
+DRAWN = 8     # joint regions and conformity tests with a figure
 MULTIPLES = 24  # most panels in the figure of all distributions
 METHODS = {"propagation": "propagation of distributions (JCGM 101)",
            "virtual_experiment": "virtual experiment: distribution of the error"}
@@ -27,17 +29,50 @@ def by_output(items, key):
 
 
 def sections(r):
-    budgets, sobols = by_output(r.budgets, "output"), by_output(r.sensitivities, "output")
+    found = {key: by_output(items, "output") for key, items in
+             {"budget": r.budgets, "sobol": r.sensitivities, "shapley": r.shapley, "given": r.given_data,
+              "morris": r.morris, "dgsm": r.dgsm}.items()}
     verdicts = by_output(r.validations, "name")
+    picture = lambda full, draw, *arguments: markupsafe.Markup(draw(*arguments)) if full else ""
     for k, output in enumerate(r.outputs):
-        budget, sobol, full = budgets.get(output.name), sobols.get(output.name), k < OPEN
+        of = types.SimpleNamespace(**{key: items.get(output.name) for key, items in found.items()})
+        full = k < OPEN
+        u = output.standard_uncertainty
         yield types.SimpleNamespace(
             summary=tables.summary_row(output), open=full,
-            distribution=markupsafe.Markup(figures.distribution(output, budget, r.coverage_probability, f"d{k}"))
-            if full else "",
-            budget=tables.budget(budget, output.standard_uncertainty) if budget else None,
-            sobol=sobol, sobol_figure=markupsafe.Markup(figures.sobol(sobol, f"s{k}")) if sobol and sobol.rows and full
-            else "", validation=tables.validation_row(verdicts[output.name]) if output.name in verdicts else None)
+            distribution=picture(full, figures.distribution, output, of.budget, r.coverage_probability, f"d{k}"),
+            budget=tables.budget(of.budget, u) if of.budget else None, sobol=of.sobol,
+            confidence=rounding.probability(of.sobol.confidence) if of.sobol else "",
+            side_by_side=picture(full, sensitivity_figures.side_by_side, of.budget, of.sobol, of.shapley, f"s{k}"),
+            why=explain.why(of.budget, of.sobol, of.shapley, u),
+            pairs=studies.pairs(of.sobol) if of.sobol and of.sobol.pairs else None,
+            shapley_figure=picture(full and of.shapley and of.sobol, sensitivity_figures.side_by_side, None, None,
+                                   of.shapley, f"h{k}"),
+            shapley=studies.shapley(of.shapley) if of.shapley else None,
+            given_data=studies.given_data(of.given, of.sobol) if of.given else None,
+            morris=studies.morris(of.morris) if of.morris else None,
+            morris_figure=picture(full and of.morris, sensitivity_figures.morris, of.morris, f"e{k}"),
+            dgsm=studies.dgsm(of.dgsm, of.sobol) if of.dgsm else None,
+            validation=tables.validation_row(verdicts[output.name]) if output.name in verdicts else None)
+
+
+def with_figure(row, drawing):
+    row.figure = markupsafe.Markup(drawing)
+    return row
+
+
+def whole_run(r):
+    """The studies that belong to no single output, by the names the templates use."""
+    outputs = by_output(r.outputs, "name")
+    return {
+        "joints": [with_figure(studies.joint(j), region_figures.joint(j, f"j{k}") if k < DRAWN else "")
+                   for k, j in enumerate(r.joint)],
+        "circulars": [studies.circular(c, outputs.get(c.name)) for c in r.circular],
+        "conformities": [with_figure(studies.conformity(c, outputs.get(c.name)), region_figures.conformity(
+            c, outputs.get(c.name), f"c{k}") if k < DRAWN else "") for k, c in enumerate(r.conformity)],
+        "targets": [studies.target(t) for t in r.targets],
+        "one_at_a_time": [studies.one_at_a_time(t) for t in r.one_at_a_time],
+        "stopping": studies.stopping(r.stopping) if r.stopping else None}
 
 
 def overviews(r):
@@ -51,14 +86,20 @@ def overviews(r):
     return [markupsafe.Markup(f) for f in found + [figures.small_multiples(r.outputs[:MULTIPLES], "m")]]
 
 
+def subscripts(text):
+    """The few symbols of our own sentences, as one writes them: c_i, u_c, p_c, R_C, R_P."""
+    return markupsafe.Markup(re.sub(r"\b([cupR])_([icCP])\b", r"\1<sub>\2</sub>", str(markupsafe.escape(text))))
+
+
 def render(r):
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=True, trim_blocks=True,
                                      lstrip_blocks=True, undefined=jinja2.StrictUndefined)
-    environment.filters.update(percent=rounding.percent, fixed=rounding.fixed)
+    environment.filters.update(percent=rounding.percent, fixed=rounding.fixed, subscripts=subscripts,
+                               verdicts=studies.sobol_verdict)
     return environment.get_template("template.html.j2").render(
         r=r, title=r.title or r.model_title or r.model, question=question(r.scenario_text),
         method=METHODS.get(r.method, r.method), p=rounding.probability(r.coverage_probability),
-        samples=f"{r.samples:,}".replace(",", "\u202f"), sections=list(sections(r)), overviews=overviews(r),
+        samples=f"{r.samples:,}".replace(",", "\u202f"), sections=list(sections(r)), **whole_run(r), overviews=overviews(r),
         comparisons=[tables.comparison_row(c) for c in r.comparisons],
         printed=[tables.printed_row(p) for p in r.printed], inputs=[tables.input_row(i) for i in r.inputs],
         readings=tables.readings(r), css=markupsafe.Markup((HERE / "style.css").read_text(encoding="utf-8")))

@@ -19,27 +19,48 @@ def is_dimension(dataset):
     return bytes(dataset.attrs.get("NAME", b"")).startswith(b"This is a netCDF dimension but not")
 
 
-def rows(group):
-    """The columns of a table, turned into rows; `columns` of other lengths (histograms) are left out."""
+def rows(group, dimension=None):
+    """The columns along one dimension, turned into rows (of a matrix: row by row); without `dimension` that of the
+    column `name`. Columns along others (histograms) are left out."""
     if group is None:
         return []
     columns = {name: d for name, d in group.items() if isinstance(d, h5py.Dataset) and not is_dimension(d)}
     if not columns:
         return []
-    first = "name" if "name" in columns else next(iter(columns))
-    dimension = columns[first].dims[0].label
+    if dimension is None:
+        dimension = columns["name" if "name" in columns else next(iter(columns))].dims[0].label
     values = {n: d[()] for n, d in columns.items() if d.dims[0].label == dimension}
     return [types.SimpleNamespace(**{n: plain(v[i]) for n, v in values.items()})
-            for i in range(len(values[first]))]
+            for i in range(min(map(len, values.values()), default=0))]
 
 
-def numbered(group):
+def attributes(group):
+    return {k: plain(v) for k, v in group.attrs.items()}
+
+
+def numbered(group, dimension=None):
     """Sub-groups 000, 001, ...: their attributes and their rows."""
-    found = []
-    for name in sorted(group or ()):
-        attributes = {k: plain(v) for k, v in group[name].attrs.items()}
-        found.append(types.SimpleNamespace(**attributes, rows=rows(group[name])))
-    return found
+    return [types.SimpleNamespace(**attributes(group[name]), rows=rows(group[name], dimension))
+            for name in sorted(group or ())]
+
+
+def studies(file, r):
+    """What a run holds beyond the plain summary and budget; empty where it was not asked for."""
+    r.sensitivities = numbered(file.get("sensitivity"))
+    for k, study in enumerate(r.sensitivities):
+        study.pairs = rows(file.get(f"sensitivity/{k:03d}/pairs"))
+        study.confidence = getattr(study, "confidence", 0.95)
+    for name in ("shapley", "given_data", "morris", "dgsm", "joint"):
+        setattr(r, name, numbered(file.get(name)))
+    r.targets = numbered(file.get("target"))
+    r.one_at_a_time = numbered(file.get("one_at_a_time"), "row")
+    for k, table in enumerate(r.one_at_a_time):
+        table.outputs = [types.SimpleNamespace(**{n.removeprefix("output_"): v for n, v in vars(o).items()})
+                         for o in rows(file[f"one_at_a_time/{k:03d}"], "output")]
+    r.circular = rows(file.get("circular"))
+    r.conformity = rows(file.get("conformity"))
+    r.stopping = types.SimpleNamespace(**attributes(file["stopping"]), rows=rows(file["stopping"])) \
+        if "stopping" in file else None
 
 
 def texts(file, name):
@@ -68,7 +89,7 @@ def result(path):
                 name = f"summary/{key}_{k:03d}"
                 setattr(output, key, file[name][()] if name in file else np.zeros(0))
         r.budgets = numbered(file.get("budget"))
-        r.sensitivities = numbered(file.get("sensitivity"))
+        studies(file, r)
         r.validations = rows(file.get("validation"))
         r.comparisons = rows(file.get("comparison"))
         r.printed = rows(file.get("printed"))

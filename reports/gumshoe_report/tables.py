@@ -1,5 +1,4 @@
-"""The tables of a report: rows of text for people, and CSV in display units with all digits."""
-import csv
+"""The tables of a report: rows of text for people."""
 import math
 import types
 
@@ -28,7 +27,8 @@ def summary_row(o):
         failed=f"{o.failed} of {total}" if o.failed else "",
         rank=(show(o.symmetric_low_rank), show(o.symmetric_high_rank)) if o.failed else None,
         estimate_se=significant(spread(o, o.estimate_se)), u_se=significant(spread(o, o.standard_uncertainty_se)),
-        skewness=fixed(o.skewness, 2), kurtosis=fixed(o.kurtosis, 2), warning=o.warning, statement=o.statement)
+        skewness=fixed(o.skewness, 2), kurtosis=fixed(o.kurtosis, 2), warning=o.warning,
+        tail_remark=getattr(o, "tail_remark", ""), statement=o.statement)
 
 
 def coefficient_unit(output_unit, unit):
@@ -74,7 +74,8 @@ def budget(b, u_monte_carlo=math.nan):
         u_fine=significant(factor * spread(b, u)), u_monte_carlo=significant(factor * spread(b, u_monte_carlo)),
         dof="∞" if dof == 0 else fixed(dof, 0) if math.isfinite(dof) else "not defined, inputs correlated",
         k=fixed(b.coverage_factor, 2), U=significant(spread(b, b.expanded_uncertainty)),
-        estimate=fixed(point(b, b.estimate), decimals(spread(b, u))), remarks=moved)
+        estimate=fixed(point(b, b.estimate), decimals(spread(b, u))),
+        remarks=moved + [text for text in (getattr(b, "remark", ""),) if text])
 
 
 def validation_row(v):
@@ -121,40 +122,3 @@ def readings(r):
     lines = [[f"{getattr(row, n) * shown[n][1]:.10g}".replace("-", "−") for n in names] for row in r.readings]
     return types.SimpleNamespace(heads=heads, lines=[(row.label, row.repeats, line)
                                                      for row, line in zip(r.readings, lines)])
-
-
-def write_csv(r, folder, stem):
-    """Five tables; a table without rows is not written. Returns the paths."""
-    def of(row, points="", spreads=""):
-        return {**{n: point(row, getattr(row, n)) for n in points.split()},
-                **{n: spread(row, getattr(row, n)) for n in spreads.split()}}
-    ends = "symmetric_low symmetric_high shortest_low shortest_high"
-    tables = {
-        "summary": [{"output": o.name, "unit": o.display_units, **of(o, "estimate"),
-                     **of(o, "", "standard_uncertainty"), **of(o, ends), "coverage_probability": r.coverage_probability,
-                     **of(o, "", "estimate_se standard_uncertainty_se"), "valid": o.valid, "failed": o.failed,
-                     "warning": o.warning, "statement": o.statement} for o in r.outputs],
-        "budget": [{"output": b.output, "quantity": c.name, "unit": c.display_units, **of(c, "estimate"),
-                    **of(c, "", "standard_uncertainty"), "type": c.evaluation, "distribution": c.distribution,
-                    "degrees_of_freedom": c.degrees_of_freedom or math.inf, "differentiable": c.differentiable,
-                    "sensitivity": c.sensitivity * b.display_factor / c.display_factor,
-                    "contribution": spread(b, c.contribution), "contribution_unit": b.display_units,
-                    "share_gum": c.share, "share_monte_carlo": c.monte_carlo_share, "scope": c.scope,
-                    "source": c.source} for b in r.budgets for c in b.rows],
-        "sensitivity": [{"output": s.output, **vars(i)} for s in r.sensitivities for i in s.rows],
-        "validation": [{"output": v.name, "unit": v.display_units, **of(v, "", "delta d_low d_high monte_carlo_tolerance"),
-                        "digits": v.digits, "verdict": v.verdict, "reason": v.reason} for v in r.validations],
-        "comparison": [{"comparison": c.name, "a": c.a, "b": c.b, "unit": c.display_units,
-                        **of(c, "", "difference standard_uncertainty root_sum_square expanded_uncertainty"),
-                        "normalised_error": c.normalised_error} for c in r.comparisons],
-    }
-    written = []
-    for name, lines in tables.items():
-        if lines:
-            path = folder / f"{stem}_{name}.csv"
-            with open(path, "w", newline="", encoding="utf-8") as file:
-                writer = csv.DictWriter(file, list(lines[0]))
-                writer.writeheader()
-                writer.writerows(lines)
-            written.append(path)
-    return written

@@ -5,14 +5,30 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import warnings
 
 import h5py
+import netCDF4
 import numpy as np
 import xarray
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 GUMSHOE = sys.argv.pop(1)
 SAMPLES = 20000
+
+
+def check_dataset(test, name, item):
+    """Units, a name, and one scale on each dimension. Whether it is a dataset at all."""
+    if not isinstance(item, h5py.Dataset):
+        return False
+    test.assertTrue(item.attrs["units"], name)
+    test.assertTrue(item.attrs["long_name"], name)
+    if item.attrs.get("CLASS") != b"DIMENSION_SCALE":
+        for dimension in item.dims:
+            test.assertTrue(dimension.label, name)
+            test.assertEqual(len(dimension), 1, name)  # one scale attached
+            test.assertTrue(dimension[0].name.endswith("/" + dimension.label), name)
+    return True
 
 
 class ResultFile(unittest.TestCase):
@@ -44,17 +60,8 @@ class ResultFile(unittest.TestCase):
         seen = []
 
         def check(name, item):
-            if not isinstance(item, h5py.Dataset):
-                return
-            seen.append(name)
-            self.assertTrue(item.attrs["units"], name)
-            self.assertTrue(item.attrs["long_name"], name)
-            if item.attrs.get("CLASS") == b"DIMENSION_SCALE":
-                return
-            for dimension in item.dims:
-                self.assertTrue(dimension.label, name)
-                self.assertEqual(len(dimension), 1, name)  # one scale attached
-                self.assertTrue(dimension[0].name.endswith("/" + dimension.label), name)
+            if check_dataset(self, name, item):
+                seen.append(name)
 
         with h5py.File(self.path) as file:
             file.visititems(check)
@@ -119,6 +126,71 @@ class ResultFile(unittest.TestCase):
         with h5py.File(self.path) as a, h5py.File(again) as b:
             np.testing.assert_array_equal(a["outputs/laser_z"][()], b["outputs/laser_z"][()])
             np.testing.assert_array_equal(a["summary/estimate"][()], b["summary/estimate"][()])
+
+
+class EveryStudy(unittest.TestCase):
+    """A made-up result with all groups, as the store writes it."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.path = os.path.join(cls.folder.name, "full.h5")
+        subprocess.run([pathlib.Path(GUMSHOE).resolve().parent / "tests/gumshoe_made_result", cls.path], check=True)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def groups(self):
+        found = []
+        with h5py.File(self.path) as file:
+            file.visititems(lambda name, item: found.append(name) if isinstance(item, h5py.Group) else None)
+        return found
+
+    def test_every_dataset_has_units_name_and_named_dimensions(self):
+        with h5py.File(self.path) as file:
+            file.visititems(lambda name, item: check_dataset(self, name, item))
+
+    def test_every_group_opens_in_xarray_without_complaint(self):
+        groups = self.groups()
+        for name in ("sensitivity/000", "sensitivity/000/pairs", "shapley/000", "given_data/000", "morris/000",
+                     "dgsm/000", "one_at_a_time/000", "joint/001", "circular", "conformity", "target/000", "stopping"):
+            self.assertIn(name, groups)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            for name in groups:
+                with xarray.open_dataset(self.path, group=name, engine="netcdf4") as group:
+                    for variable in group.variables.values():
+                        self.assertTrue(variable.attrs["long_name"], name)
+
+    def test_netcdf4_finds_every_dimension(self):
+        with netCDF4.Dataset(self.path) as file:
+            matrix = file["joint/001/covariance"]
+            self.assertEqual(matrix.dimensions, ("output", "other_output"))
+            self.assertEqual(file["one_at_a_time/000/up"].dimensions, ("row", "output"))
+            self.assertEqual(file["sensitivity/000/pairs/second"].dimensions, ("pair",))
+
+    def test_matrices_stand_the_right_way(self):
+        with h5py.File(self.path) as file:
+            joint = file["joint/001"]
+            r, cov, names = joint["correlation"][()], joint["covariance"][()], joint["name"][()]
+            self.assertEqual([n.decode() for n in names], ["height", "runout", "runout_angle"])
+            np.testing.assert_allclose(cov, cov.T, rtol=1e-14)
+            u = np.sqrt(np.diag(cov))
+            np.testing.assert_allclose(r, cov / np.outer(u, u), rtol=1e-12)
+            self.assertEqual(joint["covariance"].attrs["units"], "see units")  # two lengths and an angle
+            self.assertEqual(file["joint/000/covariance"].attrs["units"], "(m)2")
+            self.assertNotIn("gum_covariance", joint)
+            table = file["one_at_a_time/000"]  # row runout_x moves the second output only
+            self.assertEqual(table["quantity"][2].decode(), "runout_x")
+            self.assertEqual(table["up"].shape, (3, 2))
+            self.assertAlmostEqual(table["up"][2, 1], 92e-6)
+
+    def test_what_has_no_value_is_nan_and_said(self):
+        with h5py.File(self.path) as file:
+            for name in ("conformity/process_mean", "target/000/allowed", "dgsm/000/bound", "conformity/lower"):
+                self.assertTrue(np.isnan(file[name][()]).any(), name)
+                self.assertIn("NaN", file[name].attrs["long_name"])
 
 
 if __name__ == "__main__":

@@ -7,10 +7,12 @@
 #include <limits>
 
 #include <catch2/catch.hpp>
+#include <hdf5.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include "base/error.h"
+#include "made/full_results.h"
 #include "store/result_file.h"
 
 using namespace gumshoe;
@@ -45,7 +47,8 @@ Identity identity() {
           "exact",
           "monte_carlo",
           "0.1.0",
-          "avx2", "",
+          "avx2",
+          "",
           7,
           samples,
           true};
@@ -265,4 +268,26 @@ TEST_CASE("a limit on file sizes is an error, not a signal", "[store][errors]") 
   const std::string text = message(folder / "run.h5", id);
   setrlimit(RLIMIT_FSIZE, &before);
   CHECK(text.find(std::strerror(EFBIG)) != std::string::npos);
+}
+
+TEST_CASE("groups stand only where a study was made, also after another was", "[store]") {
+  const Folder folder;
+  const std::string path = folder / "run.h5";
+  made::write_full_result(path);
+  const auto holds = [&](const std::string& group) {
+    const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+    const bool there = H5Lexists(file, group.c_str(), H5P_DEFAULT) > 0;
+    H5Fclose(file);
+    return there;
+  };
+  const char* studies[] = {"sensitivity", "shapley",  "given_data", "morris", "dgsm",    "one_at_a_time",
+                           "joint",       "circular", "conformity", "target", "stopping"};
+  for (const char* study : studies) CHECK(holds(study));
+  {
+    ResultFile file(path, identity(), outputs, labels);
+    for (std::uint64_t k = 0; k < blocks; ++k) file.write(block(k));
+    file.finish(results());
+  }
+  for (const char* study : studies) CHECK_FALSE(holds(study));
+  CHECK(holds("budget"));
 }

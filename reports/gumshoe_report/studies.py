@@ -1,0 +1,222 @@
+"""The tables of the studies as text for people: sensitivity, joint regions, conformity, targets, adaptive runs."""
+import math
+import types
+
+from .rounding import decimals, finer, fixed, percent, probability, significant, unit_text
+from .tables import point, spread
+
+NONE = "–"
+
+
+def index(row, key, places=3):
+    """(value, interval) of one index as text."""
+    value = getattr(row, key, math.nan)
+    if not math.isfinite(value):
+        return NONE, ""
+    low, high = (fixed(getattr(row, key + end), places) for end in ("_low", "_high"))
+    return fixed(value, places), f"[{low}, {high}]"
+
+
+def in_words(*verdicts):
+    """One word if all are equal, else each after its name."""
+    said = [(name, word) for name, word in verdicts if word]
+    return said[0][1] if said and len({word for _, word in said}) == 1 else "; ".join(f"{n}: {w}" for n, w in said)
+
+
+def sobol_verdict(i):
+    """Older files have one verdict for both."""
+    return in_words(("first order", getattr(i, "first_verdict", getattr(i, "verdict", ""))),
+                    ("total", getattr(i, "total_verdict", "")))
+
+
+def pairs(sobol, most=10):
+    ordered = sorted(sobol.pairs, key=lambda p: -(p.second if math.isfinite(p.second) else -1))
+    return types.SimpleNamespace(rows=[types.SimpleNamespace(
+        names=f"{p.a} × {p.b}", second=fixed(p.second, 3), interval=f"[{fixed(p.low, 3)}, {fixed(p.high, 3)}]",
+        verdict=p.verdict) for p in ordered[:most]], left=max(0, len(ordered) - most))
+
+
+def given_data(study, sobol):
+    """Rank-based first order and delta, with the pick-freeze first order beside them where there is one."""
+    frozen = {i.input: i for i in sobol.rows} if sobol else {}
+    known = lambda r: [v for v in (getattr(r, "first", -1), getattr(r, "delta", -1), -1) if math.isfinite(v)]
+    lines = sorted(study.rows, key=lambda r: -max(known(r)))
+    return types.SimpleNamespace(
+        samples=study.samples, has_first=any(hasattr(r, "first") for r in lines), has_frozen=bool(frozen),
+        has_delta=any(hasattr(r, "delta") for r in lines),
+        rows=[types.SimpleNamespace(input=r.input, first=index(r, "first"), delta=index(r, "delta"),
+                                    frozen=index(frozen[r.input], "first") if r.input in frozen else (NONE, ""),
+                                    verdict=in_words(("first order", getattr(r, "first_verdict", "")),
+                                                     ("δ", getattr(r, "delta_verdict", ""))))
+              for r in lines])
+
+
+def shapley(study):
+    lines = sorted(study.rows, key=lambda r: -r.effect)
+    return types.SimpleNamespace(
+        base_rows=study.base_rows, dropped=study.dropped_rows, total=percent(sum(r.effect for r in lines)),
+        rows=[types.SimpleNamespace(input=r.input, effect=percent(r.effect), verdict=r.effect_verdict,
+                                    interval=f"[{percent(r.effect_low)}, {percent(r.effect_high)}]") for r in lines])
+
+
+def in_finer_unit(row, size):
+    """Unit and a function from SI differences to text, for numbers of this size."""
+    unit, factor = finer(row.display_units, abs(spread(row, size)) or math.inf)
+    return unit_text(unit), lambda value: significant(factor * spread(row, value))
+
+
+def morris(study):
+    lines = sorted(study.rows, key=lambda r: -r.mean_absolute)
+    unit, show = in_finer_unit(study, max((r.mean_absolute for r in lines), default=0))
+    return types.SimpleNamespace(
+        trajectories=study.trajectories, dropped=study.dropped, unit=unit,
+        rows=[types.SimpleNamespace(input=r.input, star=show(r.mean_absolute), se=show(r.mean_absolute_se),
+                                    mean=show(r.mean), sigma=show(r.standard_deviation)) for r in lines])
+
+
+def dgsm(study, sobol):
+    totals = {i.input: i.total for i in sobol.rows} if sobol else {}
+    lines = sorted(study.rows, key=lambda r: -(r.bound if math.isfinite(r.bound) else -1))
+    return types.SimpleNamespace(
+        points=study.points, dropped=study.dropped, exact=bool(study.exact), has_total=bool(totals),
+        rows=[types.SimpleNamespace(input=r.input, nu=significant(r.nu, 3), nu_se=significant(r.nu_se),
+                                    bound=index(r, "bound"), total=fixed(totals.get(r.input, math.nan), 3),
+                                    empty=r.bound >= 1) for r in lines])
+
+
+def one_at_a_time(table):
+    def change(o, value):
+        return significant(spread(o, value), 3)
+    shown = []
+    for k, o in enumerate(table.outputs):
+        largest = max((abs(v) for r in table.rows for v in (r.up[k], r.down[k]) if math.isfinite(v)), default=0)
+        unit, factor = finer(o.display_units, abs(spread(o, largest)) or math.inf)
+        shown.append((unit, factor * o.display_factor))
+    return types.SimpleNamespace(
+        title=table.title,
+        outputs=[types.SimpleNamespace(name=o.name, unit=unit_text(u)) for o, (u, _) in zip(table.outputs, shown)],
+        rows=[types.SimpleNamespace(quantity=r.quantity, step=significant(spread(r, r.step), 3),
+                                    unit=unit_text(r.display_units),
+                                    changes=[(significant(f * r.up[k], 3), significant(f * r.down[k], 3))
+                                             for k, (_, f) in enumerate(shown)]) for r in table.rows])
+
+
+def with_error(value, error):
+    """A value and its Monte Carlo standard error, two digits of it, as a pair of texts."""
+    places = decimals(error)
+    return fixed(value, 3 if places is None else min(places, 5)), "" if places is None else fixed(error, min(places, 5))
+
+
+def joint(region):
+    names = [row.name for row in region.rows]
+    u = [math.sqrt(row.covariance[k]) for k, row in enumerate(region.rows)]
+    return types.SimpleNamespace(
+        names=names, p=probability(region.coverage_probability), remark=region.remark,
+        k_p=with_error(region.k_p, region.k_p_se), k_q=with_error(region.k_q, region.k_q_se),
+        ellipsoid=math.isfinite(region.k_p), rectangle=math.isfinite(region.k_q),
+        two=len(names) == 2,
+        rows=[types.SimpleNamespace(name=row.name, unit=unit_text(row.display_units),
+                                    estimate=fixed(point(row, row.estimate), decimals(spread(row, u[k]))),
+                                    u=significant(spread(row, u[k])),
+                                    side=significant(spread(row, region.k_q * u[k])),
+                                    correlation=[fixed(c, 3) for c in row.correlation])
+              for k, row in enumerate(region.rows)])
+
+
+def circular(row, output):
+    """Circular statistics beside the linear ones of the same output."""
+    places = decimals(spread(row, row.standard_deviation))
+    show = lambda value: fixed(point(row, value), places)
+    return types.SimpleNamespace(
+        name=row.name, unit=unit_text(row.display_units), mean=show(row.mean_direction),
+        deviation=fixed(spread(row, row.standard_deviation), places), length=fixed(row.resultant_length, 3),
+        arc=(show(row.low), show(row.high)), remark=row.remark, linear=None if output is None else
+        types.SimpleNamespace(mean=show(output.estimate),
+                              deviation=fixed(spread(output, output.standard_uncertainty), places),
+                              shortest=(show(output.shortest_low), show(output.shortest_high))))
+
+
+def chance(p, se=math.nan):
+    """A probability with as many digits as its standard error allows."""
+    if not math.isfinite(p):
+        return NONE
+    if p < 5e-9:
+        return "0\u202f%"
+    if not (math.isfinite(se) and se > 0):
+        return significant(100 * p, 3) + "\u202f%"
+    places = max(0, min(4, decimals(100 * se)))
+    return f"({fixed(100 * p, places)} ± {fixed(100 * se, places)})\u202f%"
+
+
+def conformity(c, output):
+    places = decimals(spread(c, output.standard_uncertainty if output and math.isfinite(output.standard_uncertainty)
+                            else math.nan))
+    show = lambda value: fixed(point(c, value), places)
+    at = lambda *keys: [show(getattr(c, k)) for k in keys]
+    get = lambda key: getattr(c, key, math.nan)
+    risks = []
+    if math.isfinite(c.specific_consumer_risk):
+        risks.append(("specific consumer’s risk", chance(c.specific_consumer_risk, c.conformance_probability_se),
+                      "this item was accepted; the probability that it does not conform, 1 − p_c"))
+    if math.isfinite(c.specific_producer_risk):
+        risks.append(("specific producer’s risk", chance(c.specific_producer_risk, c.conformance_probability_se),
+                      "this item was rejected; the probability that it conforms, p_c"))
+    if math.isfinite(get("posterior_conformance")):
+        risks.append(("p_c, with the process", chance(c.posterior_conformance, get("posterior_conformance_se")),
+                      "conformance probability from this measurement and the process together"))
+    if math.isfinite(c.process_conformance):
+        risks.append(("process conformance", chance(c.process_conformance),
+                      f"share of the process that conforms, before measuring; mean {show(c.process_mean)}, "
+                      f"standard deviation {fixed(spread(c, c.process_u), places)}{unit_after(c)}"))
+    if math.isfinite(c.global_consumer_risk):
+        risks.append(("global consumer’s risk R_C", chance(c.global_consumer_risk, get("global_consumer_risk_se")),
+                      "the probability that an item of the process does not conform and is accepted by such a measurement"))
+        risks.append(("global producer’s risk R_P", chance(c.global_producer_risk, get("global_producer_risk_se")),
+                      "the probability that an item of the process conforms and is rejected by such a measurement"))
+    return types.SimpleNamespace(
+        name=c.name, unit=unit_text(c.display_units), estimate=show(c.estimate), accepted=bool(c.accepted),
+        tolerance=at("lower", "upper"), acceptance=at("acceptance_lower", "acceptance_upper"),
+        guard=fixed(spread(c, c.guard_band), places), guarded=c.guard_band != 0, statement=c.statement,
+        p_c=chance(c.conformance_probability, c.conformance_probability_se), risks=risks)
+
+
+def unit_after(row):
+    text = unit_text(row.display_units)
+    return f"\u202f{text}" if text else ""
+
+
+def target(t):
+    size = lambda value: significant(spread(t, value)) + unit_after(t) if math.isfinite(value) else NONE
+    def allowed(r, value):
+        return "any" if value == math.inf else significant(spread(r, value)) if math.isfinite(value) else "none"
+    lines = [types.SimpleNamespace(
+        quantity=r.quantity, unit=unit_text(r.display_units) or "1", present=significant(spread(r, r.present)),
+        allowed=allowed(r, r.allowed), gum=allowed(r, r.allowed_gum), cost=significant(r.cost, 3),
+        cheapest=significant(spread(r, r.cheapest))) for r in t.rows]
+    alone = [r.quantity for r in t.rows if r.allowed == r.allowed and r.allowed < r.present]
+    if not math.isfinite(t.present):
+        text = f"Wanted: U = {size(t.wanted)}."
+    elif t.present <= t.wanted:
+        text = (f"The target is met already: U = {size(t.present)} is not above {size(t.wanted)}; the allowed values say "
+                "how far each quantity may grow.")
+    elif alone:
+        text = (f"U = {size(t.present)} has to come down to {size(t.wanted)}; improving one quantity alone can do it: "
+                f"{', '.join(alone)}.")
+    else:
+        text = f"U = {size(t.present)} has to come down to {size(t.wanted)}; no single quantity can do it alone."
+    if math.isfinite(t.reached):
+        text += f" The cheapest combination reaches {size(t.reached)} at {significant(t.cost_ratio, 3)} times the present cost."
+    return types.SimpleNamespace(output=t.output, text=text, statement=t.statement, rows=lines,
+                                 has_cost=any(math.isfinite(r.cost) for r in t.rows))
+
+
+def stopping(s):
+    rules = {"jcgm_101": "JCGM 101, clause 7.9", "stein": "two-stage rule (Stein)"}
+    count = lambda n: f"{n:,}".replace(",", "\u202f") if n else "not reached"
+    lines = []
+    for r in s.rows:
+        unit, show = in_finer_unit(r, r.tolerance)
+        lines.append((r.name, show(r.tolerance) + (f"\u202f{unit}" if unit else "")))
+    return types.SimpleNamespace(rule=rules.get(s.rule, s.rule), digits=s.digits, block=count(s.block),
+                                 jcgm=count(s.jcgm_trials), stein=count(s.stein_trials), trials=count(s.trials),
+                                 reached=bool(s.reached), statement=s.statement, tolerances=lines)
