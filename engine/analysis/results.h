@@ -27,6 +27,7 @@ struct Summary {
   std::vector<double> density;   ///< n densities, 1/unit
   double hill_index = 0; ///< tail index by Hill's estimator; small: heavy tails, below 2 no variance; NaN: not estimated
   std::string warning;           ///< "no standard uncertainty: ..." or empty
+  std::string tail_remark; ///< heavy tails though a standard uncertainty exists: what its standard error is worth; or empty
 };
 
 /// One row of an uncertainty budget: one component of one input quantity that reaches the output.
@@ -63,6 +64,7 @@ struct Budget {
   double effective_degrees_of_freedom = 0;  ///< truncated (G.4.1); 0: infinite; NaN: inputs correlated
   double coverage_factor = 0;
   double expanded_uncertainty = 0;
+  std::string remark; ///< why no effective degrees of freedom are stated; empty if they are, or all are infinite
 };
 
 /// JCGM 101 clause 8.
@@ -167,25 +169,29 @@ struct CircularSummary {
   std::string remark;       ///< when the linear statistics mislead
 };
 
-/// JCGM 106. Risks are probabilities; NaN where they need what is not given.
+/// JCGM 106:2012. Risks are probabilities; NaN where they need what is not given.
 struct ConformityResult {
   propagation::Output output;
   double lower = 0, upper = 0;                       ///< tolerance limits, SI; NaN: none
   double acceptance_lower = 0, acceptance_upper = 0; ///< with guard bands; NaN: none
-  double guard_band = 0;
-  double estimate = 0, conformance_probability = 0, conformance_probability_se = 0;
+  double guard_band = 0;                             ///< w, SI; above 0: guarded acceptance, below: guarded rejection
+  double estimate = 0;
+  double conformance_probability = 0, conformance_probability_se = 0; ///< from this measurement alone
   bool accepted = false;
   double specific_consumer_risk = 0, specific_producer_risk = 0; ///< NaN for the one that the decision excludes
   double process_mean = 0, process_u = 0, process_conformance = 0; ///< NaN without a process
-  double global_consumer_risk = 0, global_producer_risk = 0;       ///< NaN without a process
-  std::string statement;
+  /// Process and measurement together (clause 7.2.2); NaN without a process, or if they hardly overlap.
+  double posterior_conformance = 0, posterior_conformance_se = 0;
+  double global_consumer_risk = 0, global_consumer_risk_se = 0; ///< NaN without a process
+  double global_producer_risk = 0, global_producer_risk_se = 0; ///< NaN without a process
+  std::string statement;                                        ///< the numbers with their definitions
 };
 
 /// Which standard uncertainties would give the wanted expanded uncertainty?
 struct TargetRow {
   std::string quantity, unit, si_unit;
   double present = 0;   ///< standard uncertainty now, SI
-  double allowed = 0;   ///< largest, the others as they are; NaN: no value of it reaches the target
+  double allowed = 0;   ///< largest, the others as they are; NaN: none reaches the target; infinite: it does not matter
   double allowed_gum = 0; ///< the same by the law of propagation
   double cost = 0;      ///< relative; NaN: not given
   double cheapest = 0;  ///< in the cheapest combination; NaN: no cost given, or none exists
