@@ -101,7 +101,8 @@ std::size_t covered_ranks(std::size_t m, double p) {
 Ends symmetric_ends(std::vector<double>& x, double p) {
   const auto [low, high] = symmetric_ranks(x.size(), p);
   std::nth_element(x.begin(), x.begin() + static_cast<long>(low), x.end());
-  std::nth_element(x.begin() + static_cast<long>(low), x.begin() + static_cast<long>(high), x.end());
+  if (high > low)
+    std::nth_element(x.begin() + static_cast<long>(low) + 1, x.begin() + static_cast<long>(high), x.end());
   return {x[low], x[high]};
 }
 

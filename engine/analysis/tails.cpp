@@ -45,7 +45,7 @@ std::vector<double> largest(std::span<const double> x, double origin, double sid
 }
 
 /// Hill 1975: the reciprocal mean of ln(x_i / x_(k+1)) over the k largest. NaN if the tail does not leave the centre.
-double hill(const std::vector<double>& falling) {
+double hill(std::span<const double> falling) {
   if (falling.size() < 2 || !(falling.back() > 0)) return nan;
   double sum = 0;
   for (std::size_t i = 0; i + 1 < falling.size(); ++i) sum += std::log(falling[i] / falling.back());
@@ -63,22 +63,30 @@ void check_tails(std::span<const double> values, Summary& s) {
   const double median = some[m / 2];
   const double share = 3 * static_cast<double>(k) / static_cast<double>(s.valid);
   const auto out = std::min(m / 2, static_cast<std::size_t>(share * static_cast<double>(m)) + 4);
+  bool heavy = false;
+  const auto below = [](double index, std::size_t values, double errors, double limit) {
+    return index * (1 + errors / std::sqrt(static_cast<double>(values))) < limit;
+  };
   for (const double side : {1.0, -1.0}) {
     const double guess = side > 0 ? some[m - 1 - out] - median : median - some[out];
-    const double index = hill(largest(values, median, side, guess, k));
+    const auto tail = largest(values, median, side, guess, k);
+    const double index = hill(tail);
+    // A power law is one further out, too; outliers in a bounded cluster, or a few discrete values, are not.
+    const std::size_t out_there = k / 10;
+    heavy |= below(index, k, 2.5, 2.25) && below(hill(std::span(tail).first(out_there + 1)), out_there, -2, 2.25);
     if (!std::isnan(index) && !(index >= s.hill_index)) s.hill_index = index;
   }
 
-  const double error = s.hill_index / std::sqrt(static_cast<double>(k)), n = static_cast<double>(s.valid);
+  const double n = static_cast<double>(s.valid);
   // Sum d^4 / (sum d^2)^2: how much the largest contribute; it vanishes as 1 / n if there is a fourth moment.
   const double unsettled = s.kurtosis / n;
   const bool infinite = !std::isfinite(s.standard_uncertainty) || !std::isfinite(s.kurtosis);
-  if (infinite || (s.hill_index + 2.5 * error < 2.25 && unsettled > 1e-3)) {
+  if (infinite || (heavy && unsettled > 1e-3)) {
     s.warning = fmt::format("no standard uncertainty: the tails are so heavy that the variance does not settle, Hill's "
                             "tail index {:.2g}, below 2 there is none; the interval's ends are quantiles and hold",
                             s.hill_index);
     s.standard_uncertainty = s.standard_uncertainty_se = s.estimate_se = nan;
-  } else if (s.hill_index + 2 * error < 4 && unsettled > 1e-2) {
+  } else if (below(s.hill_index, k, 2, 4) && unsettled > 1e-2) {
     s.tail_remark = fmt::format("heavy tails, Hill's tail index {:.2g}: below 4 the standard uncertainty has no Monte "
                                 "Carlo standard error; the one stated is too small",
                                 s.hill_index);

@@ -111,8 +111,7 @@ inline analysis::Results analysed(const scenario::Scenario& s) {
   const propagation::Experiment e(s);
   Memory memory(e.outputs().size());
   propagation::propagate(e, memory, {});
-  return analysis::analyse(
-      e, {[&](std::size_t o) { return memory.rows[o]; }, [&] { return memory.status; }}, 2);
+  return analysis::analyse(e, {[&](std::size_t o) { return memory.rows[o]; }, [&] { return memory.status; }}, 2);
 }
 
 /// 4 standard errors of u from M samples of that kurtosis, relative.
