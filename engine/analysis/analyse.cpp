@@ -54,7 +54,9 @@ std::string statement(const Summary& s, const Budget& b, const Validation& v, do
     if (!b.remark.empty()) text += "; " + b.remark;
     if (v.verdict != "validated") text += fmt::format(" ({} by Monte Carlo)", v.verdict);
   }
-  return text + ".";
+  text += ".";
+  if (!s.tail_remark.empty()) text += " (" + s.tail_remark + ".)";
+  return text;
 }
 
 namespace {
