@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/circular.h"
 #include "analysis/comparison.h"
 #include "analysis/conformity.h"
 #include "analysis/given_data.h"
@@ -50,9 +51,12 @@ std::string statement(const Summary& s, const Budget& b, const Validation& v, do
                         b.effective_degrees_of_freedom > 0
                             ? fmt::format(" ({:.0f} effective degrees of freedom)", b.effective_degrees_of_freedom)
                             : "");
+    if (!b.remark.empty()) text += "; " + b.remark;
     if (v.verdict != "validated") text += fmt::format(" ({} by Monte Carlo)", v.verdict);
   }
-  return text + ".";
+  text += ".";
+  if (!s.tail_remark.empty()) text += " (" + s.tail_remark + ".)";
+  return text;
 }
 
 namespace {
@@ -197,8 +201,8 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, int th
   if (wanted.morris > 0) r.morris = morris_screening(e, wanted.morris, threads);
   if (wanted.dgsm > 0) r.dgsm = derivative_measures(e, wanted.dgsm, r.summaries, threads);
   r.one_at_a_time = one_at_a_time(e);
-  r.joint = joint_regions(e, samples.values);
-  r.circular = circular_summaries(e, samples.values);
+  r.joint = joint_regions(e, samples.values, r.summaries, r.budgets, threads);
+  r.circular = circular_summaries(e, samples.values, threads);
   r.conformity = conformity(e, samples.values, r.summaries);
   r.targets = target_uncertainties(e, r.budgets, threads);
   r.comparisons = compare(e, kept, r.summaries);

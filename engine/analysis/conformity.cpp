@@ -1,4 +1,211 @@
 #include "analysis/conformity.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "analysis/ordered_sum.h"
+#include "analysis/outputs.h"
+#include "analysis/rounding.h"
+#include "base/units.h"
+
 namespace gumshoe::analysis {
-std::vector<ConformityResult> conformity(const propagation::Experiment&, const ValuesOf&, const std::vector<Summary>&) { return {}; }
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double inf = std::numeric_limits<double>::infinity();
+
+/// Closed; an absent limit is infinite.
+struct Range {
+  double low, high;
+  bool contains(double x) const { return x >= low && x <= high; }
+};
+
+/// What is known before measuring.
+class Prior {
+public:
+  explicit Prior(const scenario::ConformityTest& t) : distribution_(*t.process), value_(t.process_value) {}
+  double mean() const { return value_ + distribution_.mean(); }
+  double u() const { return std::sqrt(distribution_.variance()); }
+  double density(double x) const { return distribution_.density(x - value_); }
+  double below_or_at(double x) const { return x == inf ? 1 : x == -inf ? 0 : distribution_.probability(x - value_); }
+  double below(double x) const {
+    return x == inf ? 1 : x == -inf ? 0 : distribution_.probability(std::nextafter(x - value_, -inf));
+  }
+  double within(Range r) const { return r.high >= r.low ? std::max(0.0, below_or_at(r.high) - below(r.low)) : 0; }
+
+private:
+  quantities::Distribution distribution_;
+  double value_;
+};
+
+struct Mean {
+  double value, se;
+};
+
+Mean mean_of(const std::vector<double>& x) {
+  const double n = static_cast<double>(x.size());
+  const double mean = ordered_sum(x.size(), [&](std::size_t i) { return x[i]; }) / n;
+  const double square = ordered_sum(x.size(), [&](std::size_t i) { return (x[i] - mean) * (x[i] - mean); });
+  return {mean, std::sqrt(square / (n - 1) / n)};
+}
+
+/// Samples weighted by the prior's density: self-normalised, standard error by the delta method.
+void posterior(ConformityResult& r, const std::vector<double>& y, const Prior& prior, Range tolerance) {
+  std::vector<double> weight(y.size());
+  for (std::size_t i = 0; i < y.size(); ++i) weight[i] = prior.density(y[i]);
+  const auto sum = [&](const auto& f) { return ordered_sum(y.size(), f); };
+  const double total = sum([&](std::size_t i) { return weight[i]; });
+  const double squares = sum([&](std::size_t i) { return weight[i] * weight[i]; });
+  constexpr double least = 100; // effective samples
+  if (!(total > 0) || !std::isfinite(total) || total * total < least * squares) {
+    r.posterior_conformance = r.posterior_conformance_se = nan;
+    return;
+  }
+  const double p = sum([&](std::size_t i) { return tolerance.contains(y[i]) ? weight[i] : 0; }) / total;
+  r.posterior_conformance = p;
+  r.posterior_conformance_se = std::sqrt(sum([&](std::size_t i) {
+                                 const double d = weight[i] * ((tolerance.contains(y[i]) ? 1.0 : 0.0) - p);
+                                 return d * d;
+                               })) /
+                               total;
+}
+
+/// Over the deviations d: the prior's share that is (not) within tolerance while eta - d is (not) accepted.
+void global_risks(ConformityResult& r, const std::vector<double>& y, double estimate, const Prior& prior,
+                  Range tolerance, Range acceptance) {
+  constexpr std::size_t most = 200'000;
+  const std::size_t n = std::min(most, y.size());
+  const double conforming = prior.within(tolerance);
+  std::vector<double> consumer(n), producer(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double d = y[i] - estimate;
+    const Range accepted{acceptance.low + d, acceptance.high + d};
+    const double both = prior.within({std::max(accepted.low, tolerance.low), std::min(accepted.high, tolerance.high)});
+    consumer[i] = std::max(0.0, prior.within(accepted) - both);
+    producer[i] = std::max(0.0, conforming - both);
+  }
+  const Mean c = mean_of(consumer), p = mean_of(producer);
+  r.process_mean = prior.mean();
+  r.process_u = prior.u();
+  r.process_conformance = conforming;
+  r.global_consumer_risk = c.value;
+  r.global_consumer_risk_se = c.se;
+  r.global_producer_risk = p.value;
+  r.global_producer_risk_se = p.se;
+}
+
+std::string percent(double p) {
+  return p > 0 && p < 1e-4 ? fmt::format("{:.1e} %", 100 * p) : fmt::format("{:.3g} %", 100 * p);
+}
+
+std::string words(const ConformityResult& r, double expanded_uncertainty, std::size_t samples, std::uint64_t failed) {
+  const auto& o = r.output;
+  const auto decimals = [&](double x) {
+    return x != 0 ? decimals_for(units::from_si(std::fabs(x), o.unit, o.si_unit, units::Kind::difference)) : 0;
+  };
+  const int digits = std::max({0, decimals(0.5 * expanded_uncertainty), decimals(r.guard_band)});
+  const std::string unit = o.unit == "1" ? "" : " " + o.unit;
+  const auto shown = [&](double x) { return fixed(units::from_si(x, o.unit, o.si_unit), digits) + unit; };
+  const auto range = [&](double low, double high) {
+    return std::isnan(low)    ? "at most " + shown(high)
+           : std::isnan(high) ? "at least " + shown(low)
+                              : "from " + shown(low) + " to " + shown(high);
+  };
+  std::string text = fmt::format("{}: tolerance {}. ", o.name, range(r.lower, r.upper));
+  if (r.guard_band != 0)
+    text += fmt::format("Acceptance (the estimate must lie there) {}: guard band w = {}, {}. ",
+                        range(r.acceptance_lower, r.acceptance_upper),
+                        fixed(units::from_si(r.guard_band, o.unit, o.si_unit, units::Kind::difference), digits) + unit,
+                        r.guard_band > 0 ? "inside the tolerance (guarded acceptance)"
+                                         : "outside the tolerance (guarded rejection)");
+  if (r.acceptance_lower > r.acceptance_upper) text += "The guard bands leave no room for acceptance. ";
+  text += fmt::format("The estimate {} is {}. Conformance probability (that the true value lies within the tolerance, "
+                      "given this measurement alone): {}{}.",
+                      shown(r.estimate), r.accepted ? "accepted" : "rejected", percent(r.conformance_probability),
+                      r.conformance_probability == 1 || r.conformance_probability == 0
+                          ? fmt::format(" (all of {} samples agree)", samples)
+                          : "");
+  text += r.accepted ? fmt::format(" Specific consumer's risk (that this accepted item does not conform): {}.",
+                                   percent(r.specific_consumer_risk))
+                     : fmt::format(" Specific producer's risk (that this rejected item conforms): {}.",
+                                   percent(r.specific_producer_risk));
+  if (!std::isnan(r.global_consumer_risk)) {
+    text += std::isnan(r.posterior_conformance)
+                ? " With the process as prior knowledge no conformance probability is stated: measurement and process "
+                  "hardly overlap, or the process has no density."
+                : fmt::format(" With the process as prior knowledge the conformance probability is {}.",
+                              percent(r.posterior_conformance));
+    text +=
+        fmt::format(" Of items that the process makes, {} conform; global consumer's risk (that an item does not "
+                    "conform and is accepted): {}; global producer's risk (that an item conforms and is "
+                    "rejected): {}.",
+                    percent(r.process_conformance), percent(r.global_consumer_risk), percent(r.global_producer_risk));
+  }
+  if (failed > 0)
+    text += fmt::format(" {} failed samples are left out; they could move the conformance probability by {} at most.",
+                        failed, percent(static_cast<double>(failed) / static_cast<double>(failed + samples)));
+  return text;
+}
+
+} // namespace
+
+ConformityResult assess(std::span<const double> samples, double estimate, double expanded_uncertainty,
+                        const scenario::ConformityTest& test) {
+  ConformityResult r;
+  std::vector<double> y;
+  for (const double v : samples)
+    if (!std::isnan(v)) y.push_back(v);
+  r.estimate = estimate;
+  r.lower = test.lower.value_or(nan);
+  r.upper = test.upper.value_or(nan);
+  r.guard_band = test.guard_band + (test.guard_factor != 0 ? test.guard_factor * expanded_uncertainty : 0);
+  r.acceptance_lower = r.lower + r.guard_band;
+  r.acceptance_upper = r.upper - r.guard_band;
+  const Range tolerance{test.lower.value_or(-inf), test.upper.value_or(inf)};
+  const Range acceptance{tolerance.low + r.guard_band, tolerance.high - r.guard_band};
+  r.specific_consumer_risk = r.specific_producer_risk = r.process_mean = r.process_u = r.process_conformance =
+      r.posterior_conformance = r.posterior_conformance_se = r.global_consumer_risk = r.global_consumer_risk_se =
+          r.global_producer_risk = r.global_producer_risk_se = nan;
+  if (y.empty()) {
+    r.conformance_probability = r.conformance_probability_se = nan;
+    return r;
+  }
+  const double n = static_cast<double>(y.size());
+  const double inside = static_cast<double>(std::ranges::count_if(y, [&](double v) { return tolerance.contains(v); }));
+  r.conformance_probability = inside / n;
+  // One sample more on either side: none is not a proof that there is none.
+  const double p = (inside + 1) / (n + 2);
+  r.conformance_probability_se = std::sqrt(p * (1 - p) / n);
+  r.accepted = acceptance.contains(estimate);
+  (r.accepted ? r.specific_consumer_risk : r.specific_producer_risk) =
+      r.accepted ? 1 - r.conformance_probability : r.conformance_probability;
+  if (test.process && y.size() > 1) {
+    const Prior prior(test);
+    posterior(r, y, prior, tolerance);
+    global_risks(r, y, estimate, prior, tolerance, acceptance);
+  }
+  return r;
+}
+
+std::vector<ConformityResult> conformity(const propagation::Experiment& e, const ValuesOf& values,
+                                         const std::vector<Summary>& summaries) {
+  std::vector<ConformityResult> results;
+  for (const auto& test : e.scenario().analysis.conformity)
+    for (const std::size_t o : outputs_named(e, test.measurand, test.labels)) {
+      const Summary& s = summaries[o];
+      const double expanded = 0.5 * (s.symmetric.high - s.symmetric.low);
+      ConformityResult r = assess(values(o), s.estimate, expanded, test);
+      r.output = e.outputs()[o];
+      if (e.scenario().run.design != scenario::Design::monte_carlo)
+        r.conformance_probability_se = r.posterior_conformance_se = r.global_consumer_risk_se =
+            r.global_producer_risk_se = nan;
+      r.statement = words(r, expanded, s.valid, s.failed);
+      results.push_back(std::move(r));
+    }
+  return results;
+}
+
 } // namespace gumshoe::analysis

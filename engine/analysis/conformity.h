@@ -1,8 +1,25 @@
 #pragma once
-/// Conformity assessment: JCGM 106.
+/// Conformity assessment: JCGM 106:2012.
+#include <optional>
+#include <span>
+
 #include "analysis/joint.h"
 
 namespace gumshoe::analysis {
+
+/// One decision: samples of the measurand (SI, NaN where failed), its estimate, the test, and U for the guard factor.
+///
+/// Conformance probability (7.1): the share of the samples within the tolerance limits. Acceptance limits (8.3): the
+/// tolerance limits moved inwards by w = guard_band + guard_factor U (w < 0: outwards, guarded rejection), U half the
+/// symmetric coverage interval. The decision is the estimate's place. Specific risks (9.3.2): of this item.
+///
+/// With a process, the prior g0: the posterior conformance probability by weighting the samples with g0 (7.2.2), and
+/// the global risks (9.5.2): R_C = P(nonconforming and accepted), R_P = P(conforming and rejected) of an item that the
+/// process makes. A measured value is eta - d, where d is distributed as the samples about the estimate, so that
+/// without prior knowledge the samples are the state of knowledge; the integral over g0 is exact for each d, so the
+/// standard errors are those of a mean over the deviations, of which the first 200,000 serve.
+ConformityResult assess(std::span<const double> samples, double estimate, double expanded_uncertainty,
+                        const scenario::ConformityTest& test);
 
 /// One for each of the scenario's tests and each output it names.
 std::vector<ConformityResult> conformity(const propagation::Experiment& experiment, const ValuesOf& values,

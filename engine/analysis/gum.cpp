@@ -19,20 +19,6 @@ std::string scope_text(const quantities::Component& component) {
   return text;
 }
 
-namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-std::string family_name(quantities::Family family) {
-  for (const auto& card : quantities::families())
-    if (card.family == family) return std::string(card.name);
-  return "";
-}
-
-/// Variates that reach the reading, with the scenario quantity whose column they enter.
-struct Reaching {
-  std::size_t variate, quantity;
-};
 std::vector<Reaching> reaching(const quantities::SamplePlan& plan, std::size_t reading) {
   std::vector<Reaching> found;
   for (std::size_t q = 0; q < plan.gather[reading].size(); ++q)
@@ -40,7 +26,6 @@ std::vector<Reaching> reaching(const quantities::SamplePlan& plan, std::size_t r
   return found;
 }
 
-/// Pearson's coefficient of two variates, 0 if no copula ties them.
 double correlation_of(const quantities::SamplePlan& plan, std::size_t a, std::size_t b) {
   for (const auto& group : plan.copulas) {
     const auto i = std::ranges::find(group.variates, a), j = std::ranges::find(group.variates, b);
@@ -51,6 +36,34 @@ double correlation_of(const quantities::SamplePlan& plan, std::size_t a, std::si
           plan.variates[a].distribution, plan.variates[b].distribution);
   }
   return 0;
+}
+
+Expansion expand(double variance, double satterthwaite, bool correlated, double coverage_probability) {
+  Expansion x;
+  if (correlated)
+    x.effective_degrees_of_freedom = std::nan(""); // G.4.1 holds for independent inputs only
+  else if (satterthwaite > 0)
+    x.effective_degrees_of_freedom =
+        std::floor(variance * variance / satterthwaite * (1 + 1e-12)) /* G.4.1, not one less by rounding */;
+  const double tail = 0.5 * (1 + coverage_probability);
+  if (x.effective_degrees_of_freedom >= 1 && x.effective_degrees_of_freedom < 1e6) {
+    x.coverage_factor = quantile(boost::math::students_t(x.effective_degrees_of_freedom), tail);
+  } else {
+    if (!correlated) x.effective_degrees_of_freedom = 0;
+    x.coverage_factor = quantile(boost::math::normal(), tail);
+  }
+  x.expanded_uncertainty = x.coverage_factor * std::sqrt(std::max(0.0, variance));
+  return x;
+}
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+std::string family_name(quantities::Family family) {
+  for (const auto& card : quantities::families())
+    if (card.family == family) return std::string(card.name);
+  return "";
 }
 
 /// The terms of 5.1.2 note: sum over i, j of [H_ij^2 / 2 + c_i d^3f/dx_i dx_j^2] u_i^2 u_j^2 (inputs
@@ -171,19 +184,14 @@ Budget budget(const propagation::Experiment& e, std::size_t output, double cover
   for (Contribution& c : b.contributions) c.share = total > 0 ? c.contribution * c.contribution / total : 0;
   b.correlation_share = total > 0 ? cross / total : 0;
 
-  const double tail = 0.5 * (1 + coverage_probability);
-  if (correlated)
-    b.effective_degrees_of_freedom = nan; // G.4.1 holds for independent inputs only
-  else if (satterthwaite > 0)
-    b.effective_degrees_of_freedom =
-        std::floor(total * total / satterthwaite * (1 + 1e-12)) /* G.4.1, not one less by rounding */;
-  if (b.effective_degrees_of_freedom >= 1 && b.effective_degrees_of_freedom < 1e6)
-    b.coverage_factor = quantile(boost::math::students_t(b.effective_degrees_of_freedom), tail);
-  else {
-    if (!correlated) b.effective_degrees_of_freedom = 0;
-    b.coverage_factor = quantile(boost::math::normal(), tail);
-  }
-  b.expanded_uncertainty = b.coverage_factor * b.combined_standard_uncertainty;
+  const Expansion expansion = expand(total, satterthwaite, correlated, coverage_probability);
+  b.effective_degrees_of_freedom = expansion.effective_degrees_of_freedom;
+  b.coverage_factor = expansion.coverage_factor;
+  b.expanded_uncertainty = expansion.expanded_uncertainty;
+  if (correlated && satterthwaite > 0)
+    b.remark =
+        "no effective degrees of freedom: the inputs are correlated, and the Welch-Satterthwaite formula (G.4.1) "
+        "holds for independent ones; k is the normal quantile";
   if (correlated)
     b.second_order_uncertainty = b.second_order_bias = nan;
   else

@@ -16,6 +16,23 @@ Budget budget(const propagation::Experiment& experiment, std::size_t output, dou
 /// JCGM 101 clause 8: d_low, d_high against the numerical tolerance of u at `digits`.
 Validation validate(const Budget& budget, const Summary& summary, int digits);
 
+/// Variates that reach a reading, with the scenario quantity whose column they enter: the rows of its budgets, in
+/// order.
+struct Reaching {
+  std::size_t variate, quantity;
+};
+std::vector<Reaching> reaching(const quantities::SamplePlan& plan, std::size_t reading);
+
+/// Pearson's coefficient of two variates, 0 if no copula ties them.
+double correlation_of(const quantities::SamplePlan& plan, std::size_t a, std::size_t b);
+
+/// From the variance u_c^2 to U (Annex G). `satterthwaite`: sum (c_i u_i)^4 / nu_i, 0 if all are infinite.
+struct Expansion {
+  double effective_degrees_of_freedom = 0; ///< truncated; 0: infinite; NaN: inputs correlated
+  double coverage_factor = 0, expanded_uncertainty = 0;
+};
+Expansion expand(double variance, double satterthwaite, bool correlated, double coverage_probability);
+
 /// "per setup", "per rod, setup", "" for a draw that all readings share.
 std::string scope_text(const quantities::Component& component);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Several measurands at once: JCGM 102 clause 7; and statistics of angles on the circle.
+/// Several measurands at once: JCGM 102:2011, clause 7.
 #include <functional>
 #include <vector>
 
@@ -10,10 +10,16 @@ namespace gumshoe::analysis {
 
 using ValuesOf = std::function<std::vector<double>(std::size_t output)>;
 
-/// Covariance and joint coverage regions of the scenario's groups (AnalysisOptions::joint), at each reading.
-std::vector<JointRegion> joint_regions(const propagation::Experiment& experiment, const ValuesOf& values);
+/// Covariance and joint coverage regions of samples of several measurands, values[measurand][sample] in SI, NaN where
+/// failed. The ellipsoid's k_p is the p-quantile of the Mahalanobis distance (7.7.2), the rectangle's k_q that of the
+/// largest |y_i - estimate_i| / u_i (7.7.3); their standard errors are those of an order statistic, for the covariance
+/// as it stands. k_p is NaN, with a remark, if the correlation matrix is singular to within the samples' rounding.
+JointRegion joint_region(const std::vector<std::vector<double>>& values, double coverage_probability);
 
-/// One for every output that is an angle.
-std::vector<CircularSummary> circular_summaries(const propagation::Experiment& experiment, const ValuesOf& values);
+/// Of the scenario's groups (AnalysisOptions::joint), at each reading. Where a measurand has no standard uncertainty
+/// there is no region, and the remark says so.
+std::vector<JointRegion> joint_regions(const propagation::Experiment& experiment, const ValuesOf& values,
+                                       const std::vector<Summary>& summaries, const std::vector<Budget>& budgets,
+                                       int threads);
 
 } // namespace gumshoe::analysis

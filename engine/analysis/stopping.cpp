@@ -34,11 +34,11 @@ StoppingRules::StoppingRules(std::vector<propagation::Output> outputs, double co
       figures_(outputs_.size()) {}
 
 void StoppingRules::add(std::size_t output, std::span<const double> values) {
-  const CoverageEnds ends = symmetric_interval(values, p_);
   std::vector<double> valid;
   for (const double v : values)
     if (!std::isnan(v)) valid.push_back(v);
   const Moments m = moments(valid);
+  const Ends ends = valid.size() < 2 ? Ends{nan, nan} : symmetric_ends(valid, p_);
   Figures& f = figures_[output];
   f.mean.push_back(m.mean);
   f.u.push_back(std::sqrt(m.variance));

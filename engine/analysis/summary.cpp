@@ -4,26 +4,23 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/ordered_sum.h"
+
 namespace gumshoe::analysis {
 
 namespace {
 
-constexpr std::size_t leaf = 1024;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double inf = std::numeric_limits<double>::infinity();
 
-/// Sum of f(x) over leaves, then pairwise over the leaves' sums.
 template <class F> double ordered_sum(std::span<const double> x, const F& f) {
-  std::vector<double> sums;
-  for (std::size_t at = 0; at < x.size(); at += leaf) {
-    double sum = 0;
-    for (std::size_t i = at; i < std::min(at + leaf, x.size()); ++i) sum += f(x[i]);
-    sums.push_back(sum);
-  }
-  if (sums.empty()) return 0;
-  for (std::size_t width = 1; width < sums.size(); width *= 2)
-    for (std::size_t i = 0; i + width < sums.size(); i += 2 * width) sums[i] += sums[i + width];
-  return sums[0];
+  return analysis::ordered_sum(x.size(), [&](std::size_t i) { return f(x[i]); });
+}
+
+/// Places, from 0, of the symmetric interval's ends among m ordered values.
+std::pair<std::size_t, std::size_t> symmetric_ranks(std::size_t m, double p) {
+  const std::size_t q = covered_ranks(m, p), r = std::max<std::size_t>(1, (m - q + 1) / 2);
+  return {r - 1, std::min(m, r + q) - 1};
 }
 
 /// Values with both tails in order: ranks below `tail` and from size - tail on are exact order statistics.
@@ -39,16 +36,9 @@ void order_tails(std::vector<double>& x, std::size_t tail) {
   std::sort(high, x.end());
 }
 
-using Ends = CoverageEnds;
-
-/// JCGM 101 7.7.2: q = pM rounded to an integer, the interval runs from rank r to rank r + q.
-std::size_t covered_ranks(std::size_t m, double p) {
-  return std::min(m - 1, static_cast<std::size_t>(std::floor(p * static_cast<double>(m) + 0.5)));
-}
-
-Ends symmetric_ends(const std::vector<double>& x, double p) {
-  const std::size_t m = x.size(), q = covered_ranks(m, p), r = std::max<std::size_t>(1, (m - q + 1) / 2);
-  return {x[r - 1], x[std::min(m, r + q) - 1]};
+Ends ordered_symmetric_ends(const std::vector<double>& x, double p) {
+  const auto [low, high] = symmetric_ranks(x.size(), p);
+  return {x[low], x[high]};
 }
 
 Ends shortest_ends(const std::vector<double>& x, double p) {
@@ -104,6 +94,18 @@ void histogram(Summary& s, std::span<const double> values) {
 
 } // namespace
 
+std::size_t covered_ranks(std::size_t m, double p) {
+  return std::min(m - 1, static_cast<std::size_t>(std::floor(p * static_cast<double>(m) + 0.5)));
+}
+
+Ends symmetric_ends(std::vector<double>& x, double p) {
+  const auto [low, high] = symmetric_ranks(x.size(), p);
+  std::nth_element(x.begin(), x.begin() + static_cast<long>(low), x.end());
+  if (high > low)
+    std::nth_element(x.begin() + static_cast<long>(low) + 1, x.begin() + static_cast<long>(high), x.end());
+  return {x[low], x[high]};
+}
+
 Moments moments(std::span<const double> x) {
   const double n = static_cast<double>(x.size());
   Moments m;
@@ -122,17 +124,6 @@ Moments moments(std::span<const double> x) {
   m.skewness = m2 > 0 ? m3 / std::pow(m2, 1.5) : 0;
   m.kurtosis = m2 > 0 ? m4 / (m2 * m2) : 0;
   return m;
-}
-
-CoverageEnds symmetric_interval(std::span<const double> values, double p) {
-  std::vector<double> valid;
-  valid.reserve(values.size());
-  for (const double v : values)
-    if (!std::isnan(v)) valid.push_back(v);
-  if (valid.size() < 2) return {nan, nan};
-  const double n = static_cast<double>(valid.size());
-  order_tails(valid, std::min(valid.size(), static_cast<std::size_t>((1 - p) * n) + 10));
-  return symmetric_ends(valid, p);
 }
 
 Summary summarise(const propagation::Output& output, std::span<const double> values, double p) {
@@ -163,7 +154,7 @@ Summary summarise(const propagation::Output& output, std::span<const double> val
   const double alpha = 0.5 * (1 - p);
   const double margin = 5 * std::sqrt(n) + 2 * static_cast<double>(s.failed) + 10;
   order_tails(ordered, std::min(ordered.size(), static_cast<std::size_t>((1 - p) * n + margin)));
-  const Ends symmetric = symmetric_ends(ordered, p), shortest = shortest_ends(ordered, p);
+  const Ends symmetric = ordered_symmetric_ends(ordered, p), shortest = shortest_ends(ordered, p);
   const Ends shortest_se = shortest_errors(valid, p);
   s.symmetric = {symmetric.low, symmetric.high, rank_error(ordered, alpha), rank_error(ordered, 1 - alpha),
                  symmetric.low, symmetric.high};

@@ -15,11 +15,14 @@ struct Moments {
 };
 Moments moments(std::span<const double> values);
 
-struct CoverageEnds {
-  double low = 0, high = 0;
+/// JCGM 101 7.7.2: q = pM rounded to an integer; an interval runs from rank r to rank r + q of the M ordered values.
+std::size_t covered_ranks(std::size_t values, double coverage_probability);
+
+/// Ends of the probabilistically symmetric coverage interval (7.7.2). Reorders the values; none may be NaN.
+struct Ends {
+  double low, high;
 };
-/// Probabilistically symmetric coverage interval (JCGM 101 5.3.3, 7.7); NaN values do not count.
-CoverageEnds symmetric_interval(std::span<const double> values, double coverage_probability);
+Ends symmetric_ends(std::vector<double>& values, double coverage_probability);
 
 /// Estimate, u, both coverage intervals and their Monte Carlo standard errors. NaN counts as failed;
 /// the rank bounds hold whatever values the failed samples had. `values` is in sample order, SI.

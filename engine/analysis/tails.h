@@ -6,8 +6,15 @@
 
 namespace gumshoe::analysis {
 
-/// Sets hill_index; if the variance does not settle over the blocks of the run, or the tail index says that there is
-/// none, takes the standard uncertainty back and says so in `warning`. `values` is in sample order.
+/// Sets `hill_index`: the smaller of both tails' index by Hill's estimator (Hill 1975), of the deviations from the
+/// median, over the k = n^0.6 largest; its standard error is index / sqrt(k). NaN below 1,000 valid samples, or where a
+/// tail does not leave the median.
+///
+/// Takes the standard uncertainty back and says so in `warning` if all hold: the index lies below 2.25 by 2.5 standard
+/// errors; over the k / 10 largest alone it is not above 2.25 by 2 (outliers in a cluster are no power law); and the
+/// variance has not settled, its relative standard error sqrt(kurtosis / n) being above 3 %. An index below 4 and one
+/// above 10 %: `tail_remark`. A mixture with a much wider law in less than a per cent of the samples may look alike.
+/// Call after summarise(); `values` is in sample order, NaN where failed. Linear in their number.
 void check_tails(std::span<const double> values, Summary& summary);
 
 } // namespace gumshoe::analysis

@@ -27,9 +27,11 @@ std::vector<double> draw(std::uint64_t seed, std::uint64_t first, std::size_t n)
   return x;
 }
 
+Ends ends(std::vector<double> values) { return symmetric_ends(values, 0.95); }
+
 struct Trial {
   std::uint64_t stein = 0, jcgm = 0;
-  CoverageEnds stein_ends, jcgm_ends;
+  Ends stein_ends{}, jcgm_ends{};
 };
 Trial run(std::uint64_t seed) {
   StoppingRules rules({output}, 0.95, 2);
@@ -41,12 +43,12 @@ Trial run(std::uint64_t seed) {
     rules.add(0, block);
     if (t.jcgm == 0 && rules.jcgm_blocks() > 0) {
       t.jcgm = all.size();
-      t.jcgm_ends = symmetric_interval(all, 0.95);
+      t.jcgm_ends = ends(all);
     }
   };
   while (rules.blocks() < StoppingRules::first_stage || rules.blocks() < rules.stein_blocks()) more();
   t.stein = all.size();
-  t.stein_ends = symmetric_interval(all, 0.95);
+  t.stein_ends = ends(all);
   while (t.jcgm == 0) more();
   return t;
 }

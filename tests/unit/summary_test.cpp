@@ -122,5 +122,7 @@ TEST_CASE("rounding by GUM 7.2.6", "[rounding]") {
   CHECK(analysis::decimals_for(0.0996) == 2); // 0.10
   CHECK(analysis::decimals_for(0.0994) == 3);
   CHECK(analysis::decimals_for(12.3) == 0);
+  CHECK(analysis::fixed(51234.4, analysis::decimals_for(1234)) == "51200");
+  CHECK(analysis::fixed(1234, analysis::decimals_for(1234)) == "1200");
   CHECK(analysis::fixed(-509.86594, 4) == "-509.8659");
 }
