@@ -1,8 +1,6 @@
 /// `gumshoe run`: samples, analysis, result file.
-#include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <cmath>
 #include <csignal>
 #include <filesystem>
 #include <iostream>
@@ -10,14 +8,13 @@
 #include <optional>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 #include "analysis/analyse.h"
 #include "base/instruction_set.h"
-#include "base/units.h"
 #include "base/version.h"
 #include "cli/command.h"
+#include "cli/print.h"
 #include "propagation/propagate.h"
 #include "store/result_file.h"
 
@@ -57,68 +54,6 @@ private:
   std::chrono::steady_clock::time_point started_, shown_;
 };
 
-/// One line per verdict, with the outputs it holds for.
-void print_validations(const analysis::Results& r) {
-  std::vector<std::pair<std::string, std::string>> lines;
-  for (const auto& v : r.validations) {
-    const std::string text = v.verdict + " (" + v.reason + ")";
-    const auto line = std::ranges::find(lines, text, &std::pair<std::string, std::string>::first);
-    if (line == lines.end())
-      lines.emplace_back(text, v.output.name);
-    else
-      line->second += ", " + v.output.name;
-  }
-  for (const auto& [text, outputs] : lines)
-    std::cout << fmt::format("GUM framework against Monte Carlo (JCGM 101 clause 8): {}: {}\n", text, outputs);
-}
-
-void print_text(const analysis::Results& r, const std::string& out) {
-  std::cout << r.title << '\n';
-  for (const std::string& s : r.statements) std::cout << s << '\n';
-  print_validations(r);
-  for (const auto& c : r.comparisons) {
-    const auto shown = [&](double x) { return units::from_si(x, c.unit, c.si_unit, units::Kind::difference); };
-    std::cout << fmt::format("{} = {:.4f} {}, U = {:.4f} {}, E_n = {:.2f}\n", c.name, shown(c.difference), c.unit,
-                             shown(c.expanded_uncertainty), c.unit, c.normalised_error);
-  }
-  for (const auto& p : r.printed) {
-    const auto shown = [&](double x) { return units::from_si(x, p.unit, p.si_unit); };
-    std::cout << fmt::format("{}: ours {:.4f} {}, printed {:.4f} {} ({})\n", p.output, shown(p.ours), p.unit,
-                             shown(p.printed), p.unit, p.source);
-  }
-  for (const std::string& note : r.notes) std::cout << "note: " << note << '\n';
-  for (const std::string& f : r.failures) std::cout << "failed: " << f << '\n';
-  std::cout << fmt::format("{} samples, seed {}, {}, {}: {}\n", r.samples, r.seed, r.method, r.evaluation, out);
-}
-
-void print_table(const analysis::Results& r, bool json) {
-  nlohmann::ordered_json all = nlohmann::ordered_json::array();
-  if (!json)
-    std::cout << "output,unit,estimate,standard_uncertainty,symmetric_low,symmetric_high,shortest_low,shortest_high,"
-                 "valid,failed\n";
-  for (const auto& s : r.summaries) {
-    const auto shown = [&](double x) { return units::from_si(x, s.output.unit, s.output.si_unit); };
-    const double u = units::from_si(s.standard_uncertainty, s.output.unit, s.output.si_unit, units::Kind::difference);
-    const auto number = [](double x) {
-      return std::isfinite(x) ? nlohmann::ordered_json(x) : nlohmann::ordered_json(nullptr);
-    };
-    if (json)
-      all.push_back({{"output", s.output.name},
-                     {"unit", s.output.unit},
-                     {"estimate", number(shown(s.estimate))},
-                     {"standard_uncertainty", number(u)},
-                     {"symmetric", {number(shown(s.symmetric.low)), number(shown(s.symmetric.high))}},
-                     {"shortest", {number(shown(s.shortest.low)), number(shown(s.shortest.high))}},
-                     {"valid", s.valid},
-                     {"failed", s.failed}});
-    else
-      std::cout << fmt::format("\"{}\",{},{:.15g},{:.6g},{:.15g},{:.15g},{:.15g},{:.15g},{},{}\n", s.output.name,
-                               s.output.unit, shown(s.estimate), u, shown(s.symmetric.low), shown(s.symmetric.high),
-                               shown(s.shortest.low), shown(s.shortest.high), s.valid, s.failed);
-  }
-  if (json) std::cout << all.dump(2) << '\n';
-}
-
 ExitCode run(const Options& o) {
   scenario::Scenario s = scenario::read(o.file, catalogue());
   if (o.samples) s.run.samples = whole_number(*o.samples, "--samples", 2);
@@ -138,7 +73,8 @@ ExitCode run(const Options& o) {
                                  name(best_instruction_set()),
                                  s.run.seed,
                                  s.run.samples,
-                                 s.run.store_samples};
+                                 s.run.store_samples,
+                                 propagation::design_hash(experiment)};
   store::ResultFile file(out, identity, experiment.outputs(), experiment.reading_names());
 
   std::signal(SIGINT, on_signal);
@@ -158,16 +94,7 @@ ExitCode run(const Options& o) {
                                   [&] { return file.read_status(0, s.run.samples); }};
   const analysis::Results results = analysis::analyse(experiment, samples, o.threads);
   file.finish(results);
-  if (o.format == "text")
-    print_text(results, out);
-  else
-    print_table(results, o.format == "json");
-  if (static_cast<double>(results.failed) > s.run.max_failed_share * static_cast<double>(results.samples)) {
-    std::cerr << fmt::format("error: {} of {} samples failed (more than max_failed_share = {})\n", results.failed,
-                             results.samples, s.run.max_failed_share);
-    return ExitCode::too_many_failures;
-  }
-  return ExitCode::done;
+  return print_results(results, out, o.format, s.run.max_failed_share);
 }
 
 } // namespace

@@ -15,6 +15,7 @@ struct Identity {
   std::string scenario_hash, scenario_text, scenario_file, model, method, evaluation, design, version, instruction_set;
   std::uint64_t seed = 0, samples = 0;
   bool store_samples = true;
+  std::string design_hash; ///< propagation::design_hash; empty in files older than it
 };
 
 /// The samples of a run, written block by block in order. Throws OutputError naming path and reason

@@ -48,7 +48,8 @@ Identity identity() {
           "avx2",
           7,
           samples,
-          true};
+          true,
+          "fedcba9876543210"};
 }
 
 const std::vector<Output> outputs = {{"laser_z[1]", "laser_z", 0, "mm", "m"}, {"laser_z[2]", "laser_z", 1, "mm", "m"}};
