@@ -115,10 +115,11 @@ struct Shapley {
 /// From stored samples alone: rank-based first-order index (Chatterjee 2021; Gamboa et al. 2022) and Borgonovo's delta.
 struct GivenData {
   propagation::Output output;
-  std::uint64_t samples = 0;
+  std::uint64_t samples = 0, dropped = 0; ///< used; failed among the first ones
   std::vector<Index> first, delta; ///< the same inputs in the same order
 };
-/// Screening by elementary effects (Morris 1991; Campolongo 2007), in the output's unit per standard uncertainty.
+/// Screening by elementary effects (Morris 1991; Campolongo 2007): change of the output per standard uncertainty of
+/// the input, so in the output's unit (scaling: screening.h).
 struct MorrisRow {
   std::string input;
   double mean = 0, mean_absolute = 0, mean_absolute_se = 0, standard_deviation = 0;

@@ -16,6 +16,7 @@ using Action = std::function<ExitCode()>;
 
 void add_check(CLI::App& app, Action& action);
 void add_run(CLI::App& app, Action& action);
+void add_analyse(CLI::App& app, Action& action);
 void add_report(CLI::App& app, Action& action);
 void add_evaluate(CLI::App& app, Action& action);
 void add_estimate(CLI::App& app, Action& action);

@@ -18,6 +18,7 @@ int main(int argc, char** argv) {
   cli::Action action;
   cli::add_check(app, action);
   cli::add_run(app, action);
+  cli::add_analyse(app, action);
   cli::add_report(app, action);
   cli::add_evaluate(app, action);
   cli::add_estimate(app, action);

@@ -81,4 +81,22 @@ void print_table(const analysis::Results& r, bool json) {
   if (json) std::cout << all.dump(2) << '\n';
 }
 
+ExitCode print_results(const analysis::Results& r, const std::string& file, const std::string& format,
+                       double max_failed_share) {
+  if (format == "text")
+    print_text(r, file);
+  else
+    print_table(r, format == "json");
+  if (static_cast<double>(r.failed) > max_failed_share * static_cast<double>(r.samples)) {
+    std::cerr << fmt::format("error: {} of {} samples failed (more than max_failed_share = {})\n", r.failed, r.samples,
+                             max_failed_share);
+    return ExitCode::too_many_failures;
+  }
+  if (!r.stopping.reached) {
+    std::cerr << "error: " << r.stopping.statement << '\n';
+    return ExitCode::too_many_failures;
+  }
+  return ExitCode::done;
+}
+
 } // namespace gumshoe::cli

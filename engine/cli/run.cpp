@@ -111,7 +111,8 @@ ExitCode run(const Options& o) {
                                  adaptive_text(s.run.adaptive),
                                  s.run.seed,
                                  s.run.samples,
-                                 s.run.store_samples};
+                                 s.run.store_samples,
+                                 propagation::design_hash(experiment)};
   store::ResultFile file(out, identity, experiment.outputs(), experiment.reading_names());
 
   std::signal(SIGINT, on_signal);
@@ -133,20 +134,7 @@ ExitCode run(const Options& o) {
   analysis::Results results = analysis::analyse(experiment, samples, o.threads);
   results.stopping = stopping;
   file.finish(results);
-  if (o.format == "text")
-    print_text(results, out);
-  else
-    print_table(results, o.format == "json");
-  if (static_cast<double>(results.failed) > s.run.max_failed_share * static_cast<double>(results.samples)) {
-    std::cerr << fmt::format("error: {} of {} samples failed (more than max_failed_share = {})\n", results.failed,
-                             results.samples, s.run.max_failed_share);
-    return ExitCode::too_many_failures;
-  }
-  if (!stopping.reached) {
-    std::cerr << "error: " << stopping.statement << '\n';
-    return ExitCode::too_many_failures;
-  }
-  return ExitCode::done;
+  return print_results(results, out, o.format, s.run.max_failed_share);
 }
 
 } // namespace

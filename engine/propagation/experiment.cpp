@@ -46,7 +46,8 @@ quantities::SamplePlan located_plan(const scenario::Scenario& s) {
 
 } // namespace
 
-Experiment::Experiment(const scenario::Scenario& s) : scenario_(s), model_(s.made ? s.made.get() : models::find(s.model)), made_(s.made) {
+Experiment::Experiment(const scenario::Scenario& s)
+    : scenario_(s), model_(s.made ? s.made.get() : models::find(s.model)), made_(s.made) {
   if (!model_) throw InputError(fmt::format("model: unknown model '{}'", s.model));
   if (s.method == scenario::Method::virtual_experiment && !model_->kernels()->simulate)
     throw InputError({{find_line(s, "[model]"), "model: it does not say what the readouts would be",
@@ -130,12 +131,9 @@ std::vector<double> Experiment::point(std::size_t reading, const double* variate
 }
 
 /// Points the call's columns at the block's buffers: drawn columns, or the estimates.
-void Experiment::wire(Workspace& w, std::size_t n, bool estimates) const {
+void Experiment::wire(Workspace& w, bool estimates) const {
   const std::size_t readings = scenario_.readings.size(), nq = model_quantities();
-  const auto column = [&](std::size_t c) -> models::Column {
-    if (estimates || plan_.columns[c].variates.empty()) return {&column_estimates_[c], 0};
-    return {&w.columns[c * n], 1};
-  };
+  const auto column = [&](std::size_t c) { return estimates ? models::Column{&column_estimates_[c], 0} : w.drawn[c]; };
   w.quantity_columns.clear();
   w.effect_columns.clear();
   w.condition_columns.clear();
@@ -172,19 +170,34 @@ bool perhaps_nan(const double* x, std::size_t n) {
 
 void Experiment::run(std::span<const double* const> variates, std::size_t n, Workspace& w, double* outputs,
                      std::uint8_t* status, const std::vector<std::size_t>* changed) const {
-  const std::size_t readings = scenario_.readings.size(), rows = readings * measurands_;
-  const bool virtual_experiment = scenario_.method == scenario::Method::virtual_experiment;
   w.columns.resize(plan_.columns.size() * n);
-  w.indications.resize(readings * indications_ * n);
-  w.measurands.resize(rows);
-  for (std::size_t i = 0; i < rows; ++i) w.measurands[i] = outputs + i * n;
-  std::fill_n(status, n, std::uint8_t{0});
-
   if (changed)
     for (const std::size_t c : *changed) plan_.assemble_column(c, variates, n, &w.columns[c * n]);
   else
     plan_.assemble(variates, n, w.columns.data(), n); // constant columns are read with stride 0
-  wire(w, n, false);
+  w.drawn.clear();
+  for (std::size_t c = 0; c < plan_.columns.size(); ++c)
+    w.drawn.push_back(plan_.columns[c].variates.empty() ? models::Column{&column_estimates_[c], 0}
+                                                        : models::Column{&w.columns[c * n], 1});
+  run_drawn(n, w, outputs, status);
+}
+
+void Experiment::run_columns(std::span<const double* const> columns, std::size_t n, Workspace& w, double* outputs,
+                             std::uint8_t* status) const {
+  w.drawn.clear();
+  for (std::size_t c = 0; c < plan_.columns.size(); ++c)
+    w.drawn.push_back(columns[c] ? models::Column{columns[c], 1} : models::Column{&column_estimates_[c], 0});
+  run_drawn(n, w, outputs, status);
+}
+
+void Experiment::run_drawn(std::size_t n, Workspace& w, double* outputs, std::uint8_t* status) const {
+  const std::size_t readings = scenario_.readings.size(), rows = readings * measurands_;
+  const bool virtual_experiment = scenario_.method == scenario::Method::virtual_experiment;
+  w.indications.resize(readings * indications_ * n);
+  w.measurands.resize(rows);
+  for (std::size_t i = 0; i < rows; ++i) w.measurands[i] = outputs + i * n;
+  std::fill_n(status, n, std::uint8_t{0});
+  wire(w, false);
 
   models::BlockCall call;
   call.samples = n;
@@ -218,21 +231,14 @@ void Experiment::run(std::span<const double* const> variates, std::size_t n, Wor
   for (std::size_t r = 0; r < readings; ++r)
     for (std::size_t k = 0; k < indications_; ++k) {
       double* x = &w.indications[(r * indications_ + k) * n];
-      const std::size_t c = plan_.gather[r][first_noise + k];
-      const bool noisy = !plan_.columns[c].variates.empty();
-      const double* noise = noisy ? &w.columns[c * n] : nullptr;
-      if (virtual_experiment) {
-        if (noisy)
-          for (std::size_t i = 0; i < n; ++i) x[i] += noise[i];
-      } else {
-        const double read = scenario_.readings[r].indications[k];
-        for (std::size_t i = 0; i < n; ++i) x[i] = noisy ? read + noise[i] : read;
-      }
+      const models::Column noise = w.drawn[plan_.gather[r][first_noise + k]];
+      const double read = virtual_experiment ? 0 : scenario_.readings[r].indications[k];
+      for (std::size_t i = 0; i < n; ++i) x[i] = (virtual_experiment ? x[i] : read) + noise.data[i * noise.stride];
       w.indication_columns.push_back({x, 1});
     }
   call.indications = w.indication_columns.data();
   call.measurands = w.measurands.data();
-  if (virtual_experiment) wire(w, n, true);
+  if (virtual_experiment) wire(w, true);
   model_->kernels()->evaluate(call);
 
   if (virtual_experiment)

@@ -12,6 +12,7 @@ namespace gumshoe::propagation {
 /// Buffers of one thread, reused from block to block.
 struct Workspace {
   std::vector<double> columns, indications, truth;
+  std::vector<models::Column> drawn; ///< by the plan's columns
   std::vector<models::Column> quantity_columns, effect_columns, condition_columns, indication_columns;
   std::vector<double*> simulated, measurands, true_measurands;
   std::uint64_t first_sample = models::unnumbered; ///< of the run, for messages
@@ -38,12 +39,21 @@ public:
   void run(std::span<const double* const> variates, std::size_t n, Workspace& w, double* outputs, std::uint8_t* status,
            const std::vector<std::size_t>* changed = nullptr) const;
 
+  /// The same for given values of the plan's columns: columns[c] points to n values, null for the estimate. What
+  /// differs from the estimates is the truth of a virtual experiment and the input of a propagation.
+  void run_columns(std::span<const double* const> columns, std::size_t n, Workspace& w, double* outputs,
+                   std::uint8_t* status) const;
+
+  /// Estimates of the plan's columns.
+  const std::vector<double>& column_estimates() const { return column_estimates_; }
+
   /// Values of all quantities at a reading (model, effects, indications in this order): the estimates,
   /// or one sample's when `variates` holds one value per variate.
   std::vector<double> point(std::size_t reading, const double* variates = nullptr) const;
 
 private:
-  void wire(Workspace& w, std::size_t n, bool estimates) const;
+  void wire(Workspace& w, bool estimates) const;
+  void run_drawn(std::size_t n, Workspace& w, double* outputs, std::uint8_t* status) const;
   const scenario::Scenario& scenario_;
   const models::Model* model_;
   models::MadeModel made_; ///< keeps a model alive that was made from the scenario
@@ -54,6 +64,11 @@ private:
   std::vector<std::size_t> solved_as_;
   std::vector<double> column_estimates_, conditions_;
 };
+
+/// 16 hex digits over everything that fixes the samples and their meaning: variates, copulas, columns, design, seed
+/// (and total, where points depend on it), readings, model, method and evaluation. Equal: the same samples. A model
+/// described by the scenario counts by its name only.
+std::string design_hash(const Experiment& experiment);
 
 /// "rod 2, 1": the label values of a reading, or "" where it has none.
 std::string reading_name(const quantities::Reading& reading);

@@ -14,7 +14,7 @@ constexpr int format_version = 1;
 
 auto fields(const Identity& i) {
   return std::tie(i.adaptive, i.scenario_hash, i.scenario_text, i.model, i.method, i.evaluation, i.design, i.version,
-                  i.instruction_set, i.seed, i.store_samples);
+                  i.instruction_set, i.seed, i.store_samples, i.design_hash);
 }
 
 } // namespace
@@ -35,7 +35,8 @@ void write_identity(hid_t file, const Identity& i) {
                                                        {"adaptive", i.adaptive},
                                                        {"scenario_file", i.scenario_file},
                                                        {"scenario_text", i.scenario_text},
-                                                       {"scenario_hash", i.scenario_hash}};
+                                                       {"scenario_hash", i.scenario_hash},
+                                                       {"design_hash", i.design_hash}};
   for (const auto& [name, text] : texts) hdf5::write_attribute(file, name, text);
   hdf5::write_attribute(file, "format_version", format_version);
   hdf5::write_attribute(file, "seed", i.seed);
@@ -60,6 +61,7 @@ Stored read_stored(hid_t file) {
                                                         {"scenario_text", &i.scenario_text},
                                                         {"scenario_hash", &i.scenario_hash}};
   for (const auto& [name, text] : texts) *text = hdf5::read_text(file, name);
+  if (H5Aexists(file, "design_hash") > 0) i.design_hash = hdf5::read_text(file, "design_hash");
   i.seed = hdf5::read_integer(file, "seed");
   i.samples = hdf5::read_integer(file, "samples");
   i.store_samples = hdf5::read_integer(file, "store_samples") != 0;

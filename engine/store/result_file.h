@@ -16,6 +16,7 @@ struct Identity {
   std::string adaptive; ///< the stopping rule; then `samples` is only how many there is room for
   std::uint64_t seed = 0, samples = 0;
   bool store_samples = true;
+  std::string design_hash; ///< propagation::design_hash; empty in files older than it
 };
 
 /// The samples of a run, written block by block in order. Throws OutputError naming path and reason

@@ -51,7 +51,8 @@ Identity identity() {
           "",
           7,
           samples,
-          true};
+          true,
+          "fedcba9876543210"};
 }
 
 const std::vector<Output> outputs = {{"laser_z[1]", "laser_z", 0, "mm", "m"}, {"laser_z[2]", "laser_z", 1, "mm", "m"}};

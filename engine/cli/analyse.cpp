@@ -1,0 +1,122 @@
+/// `gumshoe analyse`: the stored samples of a result analysed anew, into a new file.
+#include <cmath>
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "analysis/analyse.h"
+#include "base/instruction_set.h"
+#include "base/version.h"
+#include "cli/command.h"
+#include "cli/print.h"
+#include "propagation/propagate.h"
+#include "store/result_file.h"
+#include "store/stored_samples.h"
+
+namespace gumshoe::cli {
+
+namespace {
+
+struct Options {
+  std::string file, scenario, out, format = "text";
+  int threads = 0;
+};
+
+void refuse_unusable(const store::Stored& stored, const std::string& file) {
+  if (!stored.identity.store_samples)
+    throw InputError(file + ": holds no samples", "its scenario says store_samples = false", "run again with them?");
+  if (!stored.complete)
+    throw InputError(file + ": the run is not finished", "it was interrupted",
+                     "run the same command again to resume it?");
+  if (stored.identity.design_hash.empty())
+    throw InputError(file + ": does not say which design its samples are of", "an older version made it", "run again?");
+}
+
+/// The design hash knows a model by name only: the first samples, run again, must come out as they are stored, but
+/// for the rounding of another instruction set.
+void refuse_other_model(const propagation::Experiment& e, const store::StoredSamples& stored, const std::string& file) {
+  const std::size_t n = 64, d = e.plan().variates.size();
+  const std::size_t there = static_cast<std::size_t>(std::min<std::uint64_t>(n, e.scenario().run.samples));
+  const quantities::Sampler sampler(e.plan(), propagation::point_set(e.scenario().run.design),
+                                    e.scenario().run.samples);
+  std::vector<double> x(d * n), y(e.outputs().size() * n);
+  std::vector<std::uint8_t> status(n);
+  std::vector<const double*> pointers;
+  sampler.draw(0, n, quantities::Purpose::sampling, x.data(), n);
+  for (std::size_t v = 0; v < d; ++v) pointers.push_back(&x[v * n]);
+  propagation::Workspace w;
+  e.run(pointers, n, w, y.data(), status.data());
+  for (std::size_t o = 0; o < e.outputs().size(); ++o) {
+    const auto before = stored.read(o, 0, there);
+    double low = INFINITY, high = -INFINITY;
+    for (const double b : before) low = std::fmin(low, b), high = std::fmax(high, b);
+    for (std::size_t i = 0; i < there; ++i) {
+      const double now = y[o * n + i];
+      const bool same = std::isnan(now) ? std::isnan(before[i])
+                                        : std::fabs(now - before[i]) <= 1e-12 * std::fabs(now) + 1e-6 * (high - low);
+      if (!same)
+        throw InputError(file + ": samples of another model",
+                         fmt::format("{} of sample {} is {:.17g} in the file and {:.17g} now", e.outputs()[o].name, i,
+                                     before[i], now),
+                         "run the scenario again?");
+    }
+  }
+}
+
+ExitCode analyse(const Options& o) {
+  const store::Stored stored = store::read_identity(o.file);
+  refuse_unusable(stored, o.file);
+  scenario::Scenario s = scenario::read(o.scenario.empty() ? stored.identity.scenario_file : o.scenario, catalogue());
+  s.run.samples = stored.identity.samples;
+  s.run.seed = stored.identity.seed;
+  const propagation::Experiment experiment(s);
+  const std::string hash = propagation::design_hash(experiment);
+  if (hash != stored.identity.design_hash)
+    throw InputError(o.file + ": samples of another design than " + s.file,
+                     "design hash " + stored.identity.design_hash + ", the scenario has " + hash,
+                     "only [analysis] may differ; run the scenario again?");
+  const std::string out =
+      !o.out.empty() ? o.out : std::filesystem::path(o.file).replace_extension(".analysed.h5").string();
+  require_different(out, o.file);
+  const std::uint64_t samples = s.run.samples;
+  const store::StoredSamples source(o.file, experiment.outputs(), samples);
+  refuse_other_model(experiment, source, o.file);
+
+  store::Identity identity = stored.identity;
+  identity.scenario_hash = s.hash;
+  identity.scenario_text = s.text;
+  identity.scenario_file = s.file;
+  store::ResultFile file(out, identity, experiment.outputs(), experiment.reading_names());
+  constexpr std::uint64_t part = std::uint64_t{1} << 20;
+  for (std::uint64_t first = file.samples_done(); first < samples; first += part) {
+    const std::uint64_t count = std::min(part, samples - first);
+    propagation::ResultBlock block{first, count, {}, source.read_status(first, count)};
+    for (std::size_t output = 0; output < experiment.outputs().size(); ++output) {
+      const auto values = source.read(output, first, count);
+      block.outputs.insert(block.outputs.end(), values.begin(), values.end());
+    }
+    file.write(block);
+  }
+  s.notes.push_back("analysed anew from the samples of " + o.file);
+  const analysis::Samples kept{[&](std::size_t output) { return file.read(output, 0, samples); },
+                               [&] { return file.read_status(0, samples); }};
+  const analysis::Results results = analysis::analyse(experiment, kept, o.threads);
+  file.finish(results);
+  return print_results(results, out, o.format, s.run.max_failed_share);
+}
+
+} // namespace
+
+void add_analyse(CLI::App& app, Action& action) {
+  auto* command = app.add_subcommand("analyse", "analyses the stored samples of a result anew, into a new file");
+  const auto o = std::make_shared<Options>();
+  command->add_option("result", o->file, "result file (HDF5)")->required();
+  command->add_option("--scenario", o->scenario, "instead of the one it was made from; only [analysis] may differ");
+  command->add_option("--out", o->out, "new result file (default: RESULT.analysed.h5)");
+  command->add_option("--threads", o->threads, "0: all processors")->check(CLI::Range(0, 1024));
+  command->add_option("--format", o->format, "text, csv or json")->check(CLI::IsMember({"text", "csv", "json"}));
+  command->callback([=, &action] { action = [=] { return analyse(*o); }; });
+}
+
+} // namespace gumshoe::cli

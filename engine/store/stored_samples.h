@@ -1,0 +1,26 @@
+#pragma once
+/// The samples of a finished result, read only.
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "propagation/run.h"
+
+namespace gumshoe::store {
+
+class StoredSamples {
+public:
+  /// Throws InputError if the file has no samples of these outputs.
+  StoredSamples(const std::string& path, const std::vector<propagation::Output>& outputs, std::uint64_t samples);
+  ~StoredSamples();
+  /// Values of one output row (SI, NaN where failed), samples [first, first + count).
+  std::vector<double> read(std::size_t output, std::uint64_t first, std::uint64_t count) const;
+  std::vector<std::uint8_t> read_status(std::uint64_t first, std::uint64_t count) const;
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+} // namespace gumshoe::store

@@ -1,0 +1,83 @@
+"""`gumshoe analyse`: the same samples, other questions; refusals of samples that are not the scenario's.
+
+usage: analyse_test.py path/to/gumshoe [unittest options]
+"""
+import pathlib
+import tempfile
+import unittest
+
+import h5py
+import numpy as np
+
+from program import SCENARIO, complaint, gumshoe
+
+RUN = "[run]\nsamples = 20_000\n"
+STUDIES = "[analysis]\nsensitivity = { given_data = 20_000, morris = 16, dgsm = 64 }\n"
+
+
+class Analyse(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        temporary = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(temporary.cleanup)
+        cls.folder = pathlib.Path(temporary.name)
+        cls.plain = cls.folder / "plain.toml"
+        cls.plain.write_text(SCENARIO + RUN)
+        cls.result = cls.folder / "plain.h5"
+        run = gumshoe("run", cls.plain, "--out", cls.result)
+        assert run.returncode == 0, run.stderr
+
+    def scenario(self, text):
+        path = self.folder / "other.toml"
+        path.write_text(text)
+        return path
+
+    def refused(self, words, run):
+        self.assertIsNone(complaint(run))
+        self.assertIn(words, run.stderr)
+
+    def test_the_same_scenario_gives_the_same_numbers_in_a_new_file(self):
+        before = self.result.read_bytes()
+        run = gumshoe("analyse", self.result)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual(self.result.read_bytes(), before)
+        with h5py.File(self.result) as a, h5py.File(self.folder / "plain.analysed.h5") as b:
+            self.assertEqual(a.attrs["design_hash"], b.attrs["design_hash"])
+            self.assertEqual(len(a.attrs["design_hash"]), 16)
+            self.assertEqual(b.attrs["complete"], 1)
+            for name in ("laser_z", "bottom_height", "status"):
+                self.assertTrue(np.array_equal(a["outputs"][name], b["outputs"][name], equal_nan=name != "status"))
+            for name in ("estimate", "standard_uncertainty"):
+                self.assertTrue(np.array_equal(a["summary"][name], b["summary"][name]))
+
+    def test_other_questions_and_a_report(self):
+        out = self.folder / "studies.h5"
+        file = self.scenario(SCENARIO + RUN + STUDIES)
+        run = gumshoe("analyse", self.result, "--scenario", file, "--out", out, "--threads", 1)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual(gumshoe("report", out).returncode, 0)
+
+    def test_refusals(self):
+        wider = self.scenario((SCENARIO + RUN).replace('u = "1 um"', 'u = "2 um"'))
+        self.refused("samples of another design", gumshoe("analyse", self.result, "--scenario", wider))
+        self.refused("file that is read", gumshoe("analyse", self.result, "--out", self.result))
+        empty = self.folder / "empty.h5"
+        file = self.scenario(SCENARIO + RUN + "store_samples = false\n")
+        self.assertEqual(gumshoe("run", file, "--out", empty).returncode, 0)
+        self.refused("holds no samples", gumshoe("analyse", empty))
+        with h5py.File(self.result) as source, h5py.File(self.folder / "half.h5", "w") as half:
+            for name in source:
+                source.copy(name, half)
+            half.attrs.update(source.attrs)
+            half.attrs["complete"] = 0
+        self.refused("not finished", gumshoe("analyse", self.folder / "half.h5"))
+        with h5py.File(self.result) as source, h5py.File(self.folder / "moved.h5", "w") as moved:
+            for name in source:
+                source.copy(name, moved)
+            moved.attrs.update(source.attrs)
+            moved["outputs/laser_z"][0, 5] += 1e-6
+        self.refused("another model", gumshoe("analyse", self.folder / "moved.h5"))
+
+
+if __name__ == "__main__":
+    unittest.main()
