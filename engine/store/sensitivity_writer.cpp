@@ -58,6 +58,7 @@ void write_shapley(hid_t group, const Shapley& study) {
 void write_given_data(hid_t group, const GivenData& study) {
   write_output(group, study.output);
   hdf5::write_attribute(group, "samples", study.samples);
+  hdf5::write_attribute(group, "dropped", study.dropped);
   const bool first = !study.first.empty();
   const auto& names = first ? study.first : study.delta;
   Table table(group, "input_quantity", names.size());

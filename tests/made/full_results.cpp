@@ -124,6 +124,7 @@ void add_sensitivity(Results& r) {
   r.shapley = {{o[1], 4096, 0, {index("runout_x", 0.41, 0.02), index("runout_y", 0.59, 0.02)}}};
   r.given_data = {{o[0],
                    samples,
+                   3,
                    {index("rod_length", 0.22, 0.05), index("beam_radius", 0.09, 0.05), index("spindle_z", 0.10, 0.05),
                     index("beam_pitch", 0.21, 0.05), index("camera_angle", 0.0, 0.05, "zero within its interval")},
                    {index("rod_length", 0.17, 0.02), index("beam_radius", 0.07, 0.02), index("spindle_z", 0.08, 0.02),
