@@ -10,17 +10,10 @@
 
 namespace gumshoe::analysis {
 
-namespace {
-
-/// "second[x1, x3]" -> second, {x1, x3}. Names may hold brackets themselves: beam_pitch[setup 1].
-struct Name {
-  std::string word;
-  std::vector<std::string> arguments;
-};
-Name parse(const std::string& text) {
+FigureName parse_figure(const std::string& text) {
   const auto open = text.find('[');
   if (open == std::string::npos || text.back() != ']') return {text, {}};
-  Name name{text.substr(0, open), {""}};
+  FigureName name{text.substr(0, open), {""}};
   int depth = 0;
   for (const char c : text.substr(open + 1, text.size() - open - 2)) {
     depth += c == '[' ? 1 : c == ']' ? -1 : 0;
@@ -32,13 +25,15 @@ Name parse(const std::string& text) {
   return name;
 }
 
+namespace {
+
 /// A confidence interval of 95 % as a standard error.
 double half_width(double low, double high) { return (high - low) / (2 * 1.959963984540054); }
 
 class Finder {
 public:
   Finder(const Results& r, std::size_t output, const std::string& name)
-      : r_(r), o_(output), text_(name), name_(parse(name)), out_(r.summaries.at(output).output) {}
+      : r_(r), o_(output), text_(name), name_(parse_figure(name)), out_(r.summaries.at(output).output) {}
 
   Figure find() {
     for (const auto part : {&Finder::summary, &Finder::gum, &Finder::validation, &Finder::sensitivity, &Finder::joint,
@@ -224,7 +219,7 @@ private:
   const Results& r_;
   std::size_t o_;
   std::string text_;
-  Name name_;
+  FigureName name_;
   const propagation::Output& out_;
 };
 

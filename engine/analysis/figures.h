@@ -1,6 +1,7 @@
 #pragma once
 /// Any single figure of a result by its name, for comparison with published ones.
 #include <string>
+#include <vector>
 
 #include "analysis/results.h"
 
@@ -13,6 +14,13 @@ struct Figure {
   bool difference = true;    ///< converts by scale alone (an uncertainty), not as a point on a scale
   std::string word;          ///< not empty: the figure is a word
 };
+
+/// "second[x1, x3]" -> second, {x1, x3}. Arguments may hold brackets themselves: beam_pitch[setup 1].
+struct FigureName {
+  std::string word;
+  std::vector<std::string> arguments;
+};
+FigureName parse_figure(const std::string& text);
 
 /// Names, `x` and `y` standing for inputs, `a` and `b` for measurands:
 ///   estimate, standard_uncertainty, symmetric_low, symmetric_high, symmetric_length, shortest_low, shortest_high,

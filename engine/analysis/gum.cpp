@@ -224,6 +224,9 @@ Validation validate(const Budget& b, const Summary& s, int digits) {
   if (std::isnan(v.monte_carlo_tolerance)) {
     v.verdict = "undecided";
     v.reason = "the Monte Carlo tolerance is unknown: the design's points are not independent";
+  } else if (worst - v.monte_carlo_tolerance > v.delta) { // plain enough, however uncertain the ends are
+    v.verdict = "not validated";
+    v.reason = "an end differs by more than delta";
   } else if (v.monte_carlo_tolerance > v.delta / 5) {
     v.verdict = "undecided";
     v.reason = "the Monte Carlo tolerance exceeds a fifth of delta: take more samples";

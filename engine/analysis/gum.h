@@ -13,7 +13,8 @@ namespace gumshoe::analysis {
 /// model of its inputs, so its budget is "not applicable".
 Budget budget(const propagation::Experiment& experiment, std::size_t output, double coverage_probability);
 
-/// JCGM 101 clause 8: d_low, d_high against the numerical tolerance of u at `digits`.
+/// JCGM 101 clause 8: d_low, d_high against the numerical tolerance of u at `digits`. Undecided if the Monte Carlo
+/// tolerance exceeds a fifth of it, unless an end differs by more than both together.
 Validation validate(const Budget& budget, const Summary& summary, int digits);
 
 /// Variates that reach a reading, with the scenario quantity whose column they enter: the rows of its budgets, in

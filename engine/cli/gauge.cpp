@@ -14,6 +14,7 @@
 #include "analysis/figures.h"
 #include "analysis/stopping.h"
 #include "base/units.h"
+#include "calibration/figures.h"
 #include "cli/command.h"
 #include "propagation/memory_store.h"
 #include "propagation/propagate.h"
@@ -99,34 +100,13 @@ std::size_t output_of(const scenario::Expected& e, const analysis::Results& r) {
   throw InputError("no output fits");
 }
 
-std::vector<Line> run_example(const std::string& file, int threads) {
-  scenario::Scenario s = scenario::read(file, catalogue());
-  const std::string example = fs::path(file).stem().string();
-  if (s.expected.empty())
-    throw InputError({{{file}, "nothing to compare with", "no [[expected]]", "gumshoe run " + file + "?"}});
-  const bool adaptive = s.run.adaptive.rule != scenario::StoppingRule::fixed;
-  const propagation::Experiment experiment(s);
-  propagation::MemoryStore store(experiment.outputs().size(), adaptive ? 0 : s.run.samples);
-  propagation::RunSettings settings;
-  settings.threads = threads;
-  bool stopped = false;
-  analysis::StoppingRecord stopping;
-  if (adaptive) {
-    stopping = analysis::run_adaptively(experiment, store, settings, stopped);
-    s.run.samples = store.samples();
-  } else {
-    propagation::propagate(experiment, store, settings);
-  }
-  analysis::Results results =
-      analysis::analyse(experiment,
-                        {[&](std::size_t output) { return store.read(output, 0, s.run.samples); },
-                         [&] { return store.read_status(0, s.run.samples); }},
-                        threads);
-  results.stopping = stopping;
+/// Compares every expected figure with the one that `find` gives; its errors are located at the figure.
+template <class Find>
+std::vector<Line> compare_all(const scenario::Scenario& s, const std::string& example, const Find& find) {
   std::vector<Line> lines;
   for (const auto& e : s.expected) {
     try {
-      lines.push_back(compare(e, analysis::figure(results, output_of(e, results), e.figure), example));
+      lines.push_back(compare(e, find(e), example));
     } catch (const InputError& error) {
       auto problems = error.problems();
       for (Problem& p : problems) p.where = e.where;
@@ -134,6 +114,36 @@ std::vector<Line> run_example(const std::string& file, int threads) {
     }
   }
   return lines;
+}
+
+std::vector<Line> run_example(const std::string& file, int threads) {
+  scenario::Scenario s = scenario::read(file, catalogue());
+  const std::string example = fs::path(file).stem().string();
+  if (s.expected.empty())
+    throw InputError({{{file}, "nothing to compare with", "no [[expected]]", "gumshoe run " + file + "?"}});
+  const propagation::Experiment experiment(s);
+  if (s.expected.front().figure.starts_with("fit.")) {
+    const auto fit = calibration::estimate(experiment, {threads});
+    return compare_all(s, example, [&](const auto& e) { return calibration::figure(fit, experiment, e.figure); });
+  }
+  const bool adaptive = s.run.adaptive.rule != scenario::StoppingRule::fixed;
+  propagation::MemoryStore store(experiment.outputs().size(), adaptive ? 0 : s.run.samples);
+  propagation::RunSettings settings;
+  settings.threads = threads;
+  bool stopped = false;
+  if (adaptive) {
+    analysis::run_adaptively(experiment, store, settings, stopped);
+    s.run.samples = store.samples();
+  } else {
+    propagation::propagate(experiment, store, settings);
+  }
+  const analysis::Results results =
+      analysis::analyse(experiment,
+                        {[&](std::size_t output) { return store.read(output, 0, s.run.samples); },
+                         [&] { return store.read_status(0, s.run.samples); }},
+                        threads);
+  return compare_all(s, example,
+                     [&](const auto& e) { return analysis::figure(results, output_of(e, results), e.figure); });
 }
 
 void print(const Line& l) {

@@ -125,15 +125,22 @@ OneAtATime read_one_at_a_time(Table table, const StudyScope& scope, Context& con
   return out;
 }
 
+/// The measurand and the labels that a study is about; null if there is no such measurand: then nothing else is judged.
+template <class Study>
+static const VariableCard* read_subject(Table& table, const StudyScope& scope, Context& context, Study& out) {
+  const VariableCard* measurand = read_measurand(table, scope.model);
+  out.labels = read_labels(table, context);
+  if (measurand)
+    out.measurand = measurand->name;
+  else
+    table.members();
+  return measurand;
+}
+
 ConformityTest read_conformity(Table table, const StudyScope& scope, Context& context) {
   ConformityTest out;
-  const auto* measurand = read_measurand(table, scope.model);
-  out.labels = read_labels(table, context);
-  if (!measurand) {
-    table.members();
-    return out;
-  }
-  out.measurand = measurand->name;
+  const auto* measurand = read_subject(table, scope, context, out);
+  if (!measurand) return out;
   const std::string si(measurand->si_unit);
   out.lower = table.measure("lower", {si});
   out.upper = table.measure("upper", {si});
@@ -163,13 +170,8 @@ ConformityTest read_conformity(Table table, const StudyScope& scope, Context& co
 
 Target read_target(Table table, const StudyScope& scope, Context& context) {
   Target out;
-  const auto* measurand = read_measurand(table, scope.model);
-  out.labels = read_labels(table, context);
-  if (!measurand) {
-    table.members();
-    return out;
-  }
-  out.measurand = measurand->name;
+  const auto* measurand = read_subject(table, scope, context, out);
+  if (!measurand) return out;
   const Node* wanted = table.require("U", "U = \"5 um\"?");
   const auto u = table.measure("U", {std::string(measurand->si_unit), units::Kind::difference});
   if (wanted && u && *u <= 0) context.problems.add(*wanted, table.path("U") + ": must be above 0");

@@ -120,5 +120,7 @@ def readings(r):
     shown = {n: COMMON.get(r.reading_units[n], (r.reading_units[n], 1.0)) for n in names}
     heads = [f"{n} ({unit_text(shown[n][0])})" if unit_text(shown[n][0]) else n for n in names]
     lines = [[f"{getattr(row, n) * shown[n][1]:.10g}".replace("-", "−") for n in names] for row in r.readings]
+    if not names and len(r.readings) < 2:  # nothing was read and nothing commanded
+        return types.SimpleNamespace(heads=[], lines=[])
     return types.SimpleNamespace(heads=heads, lines=[(row.label, row.repeats, line)
                                                      for row, line in zip(r.readings, lines)])
