@@ -11,7 +11,6 @@ namespace gumshoe::analysis {
 
 namespace {
 
-constexpr std::size_t block = 64; // points
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Derivatives of the outputs by the variates that reach them, at a block's points: at(output, k, point), NaN where
@@ -25,8 +24,8 @@ struct Slopes {
   }
 };
 
-void exact_slopes(const propagation::Experiment& e, const std::vector<double>& x, std::size_t first, std::size_t rows,
-                  Slopes& slopes) {
+void exact_slopes(const propagation::Experiment& e, const std::vector<double>& x, std::size_t block, std::size_t first,
+                  std::size_t rows, Slopes& slopes) {
   const std::size_t d = e.plan().variates.size(), measurands = e.model().card->measurands.size();
   std::vector<double> variates(d);
   for (std::size_t i = 0; i < rows; ++i) {
@@ -41,8 +40,8 @@ void exact_slopes(const propagation::Experiment& e, const std::vector<double>& x
   }
 }
 
-void differences(const propagation::Experiment& e, std::vector<double>& x, std::size_t first, std::size_t rows,
-                 Slopes& slopes) {
+void differences(const propagation::Experiment& e, std::vector<double>& x, std::size_t block, std::size_t first,
+                 std::size_t rows, Slopes& slopes) {
   const std::size_t d = e.plan().variates.size(), outputs = slopes.by.size();
   propagation::Workspace w;
   std::vector<double> up(outputs * block), down(outputs * block);
@@ -96,7 +95,9 @@ std::vector<Dgsm> derivative_measures(const propagation::Experiment& e, std::uin
                                       const std::vector<Summary>& summaries, int threads) {
   const auto& plan = e.plan();
   const std::size_t d = plan.variates.size(), outputs = e.outputs().size();
-  const bool whole = e.scenario().method == scenario::Method::virtual_experiment;
+  const bool by_differences =
+      e.scenario().method == scenario::Method::virtual_experiment || e.model().evaluate_gradient == nullptr;
+  const std::size_t block = screening_block(e, points);
   std::vector<std::vector<Reach>> reach;
   for (const auto& output : e.outputs()) reach.push_back(variates_reaching(plan, output.reading));
   std::vector<double> constants(d, nan);
@@ -109,10 +110,10 @@ std::vector<Dgsm> derivative_measures(const propagation::Experiment& e, std::uin
     std::vector<double> x(d * block);
     sampler.draw(b * block, block, quantities::Purpose::fresh, x.data(), block);
     const std::size_t rows = std::min<std::size_t>(block, points - b * block);
-    if (whole)
-      differences(e, x, b * block, rows, slopes);
+    if (by_differences)
+      differences(e, x, block, b * block, rows, slopes);
     else
-      exact_slopes(e, x, b * block, rows, slopes);
+      exact_slopes(e, x, block, b * block, rows, slopes);
   });
 
   std::vector<Dgsm> results;
@@ -120,7 +121,7 @@ std::vector<Dgsm> derivative_measures(const propagation::Experiment& e, std::uin
     Dgsm g;
     g.output = e.outputs()[o];
     g.points = points;
-    g.exact = !whole && e.model().evaluate_gradient != nullptr;
+    g.exact = !by_differences;
     std::vector<bool> dropped(points, false);
     for (std::size_t i = 0; i < points; ++i) {
       dropped[i] = std::ranges::any_of(slopes.by[o], [&](const auto& s) { return !std::isfinite(s[i]); });

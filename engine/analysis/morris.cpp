@@ -11,7 +11,6 @@ namespace gumshoe::analysis {
 
 namespace {
 
-constexpr std::size_t block = 64; // base points
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// What a step is measured in.
@@ -45,13 +44,18 @@ MorrisRow row_of(const std::string& input, const std::vector<double>& effects) {
 
 } // namespace
 
+std::size_t screening_block(const propagation::Experiment& e, std::uint64_t points) {
+  const std::uint64_t dear = std::clamp<std::uint64_t>(e.model().block / 8 * 8, 64, 8192);
+  return static_cast<std::size_t>(std::min(dear, (points + 7) / 8 * 8));
+}
+
 std::vector<Morris> morris_screening(const propagation::Experiment& e, std::uint64_t trajectories, int threads) {
   const auto& plan = e.plan();
   if (!plan.copulas.empty())
     throw InputError("analysis.sensitivity.morris: the inputs are correlated",
                      "an elementary effect moves one input alone",
                      "take the correlation out, or use given_data or shapley?");
-  const std::size_t d = plan.variates.size(), outputs = e.outputs().size();
+  const std::size_t d = plan.variates.size(), outputs = e.outputs().size(), block = screening_block(e, trajectories);
   std::vector<quantities::QuantileFunction> quantile;
   std::vector<double> scale;
   for (const auto& v : plan.variates) {

@@ -5,6 +5,10 @@
 
 namespace gumshoe::analysis {
 
+/// Points that a study gives to the model in one call: many where a call is dear (a program), never many more than the
+/// study has. The results do not depend on it.
+std::size_t screening_block(const propagation::Experiment& experiment, std::uint64_t points);
+
 /// Elementary effects (Morris 1991) of every variate on every output it reaches, in a radial design (Campolongo,
 /// Saltelli, Cariboni 2011): from each of `trajectories` random base points every variate in turn is moved by half of
 /// its distribution, from its quantile at q to the one at q + 1/2 (modulo 1); trajectories (d + 1) model runs.
@@ -16,8 +20,8 @@ namespace gumshoe::analysis {
 std::vector<Morris> morris_screening(const propagation::Experiment& experiment, std::uint64_t trajectories,
                                      int threads);
 
-/// nu_i = E[(df/dx_i)^2] at `points` independent draws of all inputs, by exact derivatives where the model has them;
-/// a virtual experiment is differentiated as a whole, by central differences over a thousandth of a standard
+/// nu_i = E[(df/dx_i)^2] at `points` independent draws of all inputs, by exact derivatives where the model has them; a
+/// model without any, or a virtual experiment as a whole, by central differences over a thousandth of a standard
 /// uncertainty. Bound on the total index: T_i <= C_i nu_i / V (Sobol' and Kucherenko 2009; Lamboni et al. 2013), C_i
 /// of poincare_constant(), V the variance of the run's summary; NaN for correlated inputs, where it does not hold.
 /// Intervals: 95 %, from the standard errors of nu and V. A point without value or derivative is dropped and counted.
