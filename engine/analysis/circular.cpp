@@ -17,6 +17,8 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double turn = 2 * std::numbers::pi;
 
+double square(double x) { return x * x; }
+
 /// Into (-pi, pi].
 double wrapped(double angle) {
   const double x = std::remainder(angle, turn);
@@ -33,6 +35,7 @@ CircularSummary circular_summary(std::span<const double> angles, double p) {
   const std::size_t m = valid.size();
   if (m < 2) {
     c.mean_direction = c.resultant_length = c.standard_deviation = c.low = c.high = nan;
+    c.mean_direction_se = c.resultant_length_se = c.standard_deviation_se = nan;
     c.remark = "too few valid samples";
     return c;
   }
@@ -49,6 +52,19 @@ CircularSummary circular_summary(std::span<const double> angles, double p) {
                                     }) /
                         n;
   c.standard_deviation = std::sqrt(std::max(0.0, -2 * std::log1p(-std::min(versed, 1.0))));
+  // To first order the direction errs by mean sin d / R, R by the error of mean cos d, d the deviations.
+  const double across =
+      ordered_sum(m, [&](std::size_t i) { return square(std::sin(valid[i] - c.mean_direction)); }) / n;
+  const double along = ordered_sum(m,
+                                   [&](std::size_t i) {
+                                     const double half = std::sin(0.5 * (valid[i] - c.mean_direction));
+                                     return square(2 * half * half - versed);
+                                   }) /
+                       n;
+  c.mean_direction_se = std::sqrt(across / n) / c.resultant_length;
+  c.resultant_length_se = std::sqrt(along / n);
+  c.standard_deviation_se =
+      c.standard_deviation > 0 ? c.resultant_length_se / (c.resultant_length * c.standard_deviation) : 0;
 
   std::vector<double> around(m);
   std::size_t crossed = 0;

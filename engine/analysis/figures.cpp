@@ -171,11 +171,9 @@ private:
   std::optional<Figure> circular() {
     const auto s = mine(r_.circular);
     if (s == r_.circular.end()) return std::nullopt;
-    const double root = std::sqrt(static_cast<double>(r_.samples));
-    if (name_.word == "circular.mean_direction") return measure(s->mean_direction, s->standard_deviation / root);
-    if (name_.word == "circular.standard_deviation")
-      return measure(s->standard_deviation, s->standard_deviation / root);
-    if (name_.word == "circular.resultant_length") return plain(s->resultant_length, 1 / root);
+    if (name_.word == "circular.mean_direction") return measure(s->mean_direction, s->mean_direction_se);
+    if (name_.word == "circular.standard_deviation") return measure(s->standard_deviation, s->standard_deviation_se);
+    if (name_.word == "circular.resultant_length") return plain(s->resultant_length, s->resultant_length_se);
     return std::nullopt;
   }
 

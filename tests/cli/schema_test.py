@@ -29,7 +29,8 @@ class Schema(unittest.TestCase):
         self.validator = jsonschema.Draft7Validator(schema)
 
     def test_shipped_scenarios_are_accepted(self):
-        files = sorted([*FOLDER.glob("*.toml"), *FOLDER.glob("plugin/*.toml"), *FOLDER.glob("command/*.toml")])
+        files = sorted([*FOLDER.glob("*.toml"), *FOLDER.glob("plugin/*.toml"), *FOLDER.glob("command/*.toml"),
+                        *FOLDER.glob("gauge/*.toml")])
         self.assertGreaterEqual(len(files), 2)
         for file in files:
             with self.subTest(file.name):

@@ -3,6 +3,8 @@
 
 #include <numbers>
 
+#include <boost/math/distributions/normal.hpp>
+
 #include "analysis/circular.h"
 #include "analysis/joint.h"
 
@@ -178,4 +180,19 @@ TEST_CASE("circular statistics do not depend on where the circle is cut", "[join
     CHECK(c.high - c.low == Approx(at_home.high - at_home.low).epsilon(1e-10));
   }
   CHECK(r.circular[0].remark.empty());
+}
+
+TEST_CASE("standard errors of circular statistics are those of the wrapped normal distribution", "[joint]") {
+  // Angles at the quantiles of a normal distribution: their moments are its moments, alpha_k = exp(-k^2 s^2 / 2).
+  const std::size_t n = 100'000;
+  for (const double s : {0.2, 1.0, 2.0}) {
+    std::vector<double> angles;
+    for (std::size_t i = 0; i < n; ++i)
+      angles.push_back(1 + s * boost::math::quantile(boost::math::normal(), (static_cast<double>(i) + 0.5) / n));
+    const auto c = analysis::circular_summary(angles, 0.95);
+    const double R = std::exp(-s * s / 2), root = std::sqrt(static_cast<double>(n));
+    CHECK(c.mean_direction_se * root == Approx(std::sqrt((1 - std::exp(-2 * s * s)) / 2) / R).epsilon(1e-3));
+    CHECK(c.resultant_length_se * root == Approx((1 - R * R) / std::sqrt(2)).epsilon(2e-3));
+    CHECK(c.standard_deviation_se * root == Approx((1 - R * R) / std::sqrt(2) / (R * s)).epsilon(2e-3));
+  }
 }

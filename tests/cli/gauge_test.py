@@ -1,0 +1,155 @@
+"""gumshoe gauge: the shipped examples agree, and a difference, a mistake or a run that fails is reported as such.
+
+usage: gauge_test.py path_of_gumshoe [unittest options]
+"""
+import json
+import pathlib
+import re
+import tempfile
+import unittest
+
+from program import ROOT, complaint, gumshoe, places
+
+EXAMPLES = ROOT / "scenarios" / "gauge"
+SUM = """schema = 1
+[model]
+name = "expression"
+[model.measurands]
+y = "x1 + x2"
+[quantities.x1]
+value = 1
+u = 3
+[quantities.x2]
+value = 2
+u = 4
+[run]
+samples = 1e5
+"""
+# b2 starts where exp(-b2 x) is 0 for every x: no fit can leave it.
+FIT = """schema = 1
+[model]
+name = "expression"
+[model.indications]
+y = "b1 * (1 - exp(-b2 * x))"
+[conditions]
+x = 0
+[quantities.b1]
+estimated = true
+value = 1
+[quantities.b2]
+estimated = true
+value = 1e6
+[indications.y]
+rows = [
+  { x = 1, values = [109] }, { x = 2, values = [149] }, { x = 3, values = [149] },
+  { x = 5, values = [191] }, { x = 7, values = [213] }, { x = 10, values = [224] },
+]
+"""
+
+
+def expected(figure, value, **more):
+    return "".join(f'{k} = "{v}"\n' for k, v in {"figure": figure, "value": value, **more}.items())
+
+
+class Gauge(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def scenario(self, text, *figures):
+        file = pathlib.Path(self.folder.name) / "s.toml"
+        file.write_text(text + "".join("[[expected]]\n" + f for f in figures))
+        return file
+
+    def test_every_shipped_example_agrees(self):
+        run = gumshoe("gauge", "--format", "json", seconds=600)
+        self.assertEqual(run.returncode, 0, run.stdout[-2000:] + run.stderr)
+        lines = json.loads(run.stdout)
+        self.assertEqual({line["example"] for line in lines}, {file.stem for file in EXAMPLES.glob("*.toml")})
+        for line in lines:
+            with self.subTest(f"{line['example']}: {line['figure']}"):
+                self.assertIn(line["verdict"], ("PASS", "NOTE"))
+                self.assertTrue(line["source"], "a figure without a source")
+                self.assertTrue(line["why"], "a tolerance without a reason")
+                if line["verdict"] == "NOTE":
+                    self.assertTrue(line["note"])
+
+    def test_every_tolerance_could_be_missed(self):
+        # A figure is worth something only if it would be missed: by a tenth of itself, or of u where it is 0.
+        for line in json.loads(gumshoe("gauge", "--format", "json", EXAMPLES / "jcgm101_9_3.toml").stdout):
+            number = re.match(r"[-+\d.eE]+", line["published"])
+            if not line["tolerance"] or not number or float(number[0]) == 0 or line["figure"].startswith("validation.delta"):
+                continue
+            with self.subTest(line["figure"]):
+                self.assertLess(float(line["tolerance"].split()[0]), 0.1 * abs(float(number[0])))
+
+    def test_a_wrong_figure_is_a_difference(self):
+        run = gumshoe("gauge", self.scenario(SUM, expected("standard_uncertainty", "5.00", source="closed form"),
+                                             expected("gum.standard_uncertainty", "5.1", source="made up")))
+        self.assertEqual(run.returncode, 1, run.stderr)
+        self.assertRegex(run.stdout, r"(?m)^PASS s: standard_uncertainty: published 5\.00 \(closed form\), ours ")
+        self.assertRegex(run.stdout, r"(?m)^DIFF s: gum\.standard_uncertainty: published 5\.1 \(made up\), ours 5, ")
+        self.assertIn("2 figures: 1 PASS, 1 DIFF, 0 NOTE", run.stdout)
+
+    def test_a_wrong_word_is_a_difference(self):
+        run = gumshoe("gauge", self.scenario(SUM, expected("gum.applicable", "no")))
+        self.assertEqual(run.returncode, 1, run.stderr)
+        self.assertRegex(run.stdout, r"DIFF s: gum\.applicable: published no, ours yes")
+
+    def test_a_known_difference_is_a_note(self):
+        run = gumshoe("gauge", self.scenario(SUM, expected("gum.standard_uncertainty", "5.1", note="a misprint")))
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertRegex(run.stdout, r"(?m)^NOTE s: gum\.standard_uncertainty: published 5\.1, ours 5, .*; a misprint$")
+
+    def test_half_a_unit_of_the_last_digit_is_the_rule(self):
+        for value, code in (("5.04", 1), ("5.0", 0), ("5", 0), ("4.6", 1), ("5.000000001", 1), ("5.000e+00", 0)):
+            with self.subTest(value):
+                run = gumshoe("gauge", self.scenario(SUM, expected("gum.standard_uncertainty", value)))
+                self.assertEqual(run.returncode, code, run.stdout + run.stderr)
+
+    def test_a_tolerance_stands_with_its_reason(self):
+        figure = expected("gum.standard_uncertainty", "5.04", tolerance="0.05", why="rounded inputs")
+        self.assertEqual(gumshoe("gauge", self.scenario(SUM, figure)).returncode, 0)
+        run = gumshoe("gauge", self.scenario(SUM, expected("gum.standard_uncertainty", "5.04", tolerance="0.05")))
+        self.assertIsNone(complaint(run))
+        self.assertIn("a tolerance without a reason", run.stderr)
+
+    def test_mistakes_are_located(self):
+        mistakes = {
+            "unknown figure": (SUM, expected("standard_uncertanty", "5")),
+            "study that was not asked for": (SUM, expected("first[x1]", "0.36")),
+            "unknown input": (SUM, expected("gum.contribution[x3]", "3")),
+            "unknown measurand": (SUM, expected("estimate", "3", of="z")),
+            "no number": (SUM, expected("estimate", "three")),
+            "unit of another dimension": (SUM, expected("estimate", "3 mm")),
+            "unknown figure of a fit": (FIT, expected("fit.converge", "no")),
+            "unknown quantity of a fit": (FIT, expected("fit.value[b3]", "1")),
+        }
+        line = {SUM: SUM.count("\n") + 1, FIT: FIT.count("\n") + 1}
+        for name, (text, figure) in mistakes.items():
+            with self.subTest(name):
+                file = self.scenario(text, figure)
+                run = gumshoe("gauge", file)
+                self.assertIsNone(complaint(run), run.stdout + run.stderr)
+                self.assertTrue(places(run, file), run.stderr)
+                self.assertGreaterEqual(places(run, file)[0][0], line[text], run.stderr)
+
+    def test_a_fit_that_fails_is_reported(self):
+        run = gumshoe("gauge", self.scenario(FIT, expected("fit.converged", "yes")))
+        if run.returncode == 1:
+            self.assertRegex(run.stdout, r"(?m)^DIFF s: fit\.converged: published yes, ours no")
+        else:
+            self.assertIsNone(complaint(run), run.stdout)
+
+    def test_a_scenario_without_figures_is_refused(self):
+        run = gumshoe("gauge", self.scenario(SUM))
+        self.assertIsNone(complaint(run))
+        self.assertIn("nothing to compare with", run.stderr)
+
+    def test_an_empty_folder_and_a_missing_file_are_refused(self):
+        self.assertIsNone(complaint(gumshoe("gauge", self.folder.name)))
+        self.assertIsNone(complaint(gumshoe("gauge", self.folder.name + "/none.toml")))
+
+
+if __name__ == "__main__":
+    unittest.main()
