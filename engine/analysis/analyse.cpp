@@ -34,6 +34,7 @@ std::string statement(const Summary& s, const Budget& b, const Validation& v, do
   const std::string unit = s.output.unit == "1" ? "" : " " + s.output.unit;
   const int d = decimals_for(width(
       std::isfinite(s.standard_uncertainty) ? s.standard_uncertainty : 0.25 * (s.symmetric.high - s.symmetric.low)));
+  constexpr std::string_view said_before = "no standard uncertainty: ";
   // An error is a difference of two heights: it converts by scale.
   std::string text = fmt::format("{} = {}{}", s.output.name,
                                  fixed(virtual_experiment ? width(s.estimate) : shown(s.estimate), d), unit);
@@ -42,7 +43,8 @@ std::string statement(const Summary& s, const Budget& b, const Validation& v, do
                         virtual_experiment ? " in the mean, with a standard deviation" : " with a standard uncertainty",
                         fixed(width(s.standard_uncertainty), d), unit);
   else
-    text += " without a standard uncertainty (" + s.warning + ")";
+    text += " without a standard uncertainty (" +
+            s.warning.substr(s.warning.starts_with(said_before) ? said_before.size() : 0) + ")";
   text += fmt::format("; the shortest {:.4g} % coverage interval is [{}, {}]{}", 100 * p,
                       fixed(shown(s.shortest.low), d), fixed(shown(s.shortest.high), d), unit);
   if (b.applicable && b.expanded_uncertainty > 0) {

@@ -101,7 +101,8 @@ ExitCode analyse(const Options& o) {
   s.notes.push_back("analysed anew from the samples of " + o.file);
   const analysis::Samples kept{[&](std::size_t output) { return file.read(output, 0, samples); },
                                [&] { return file.read_status(0, samples); }};
-  const analysis::Results results = analysis::analyse(experiment, kept, o.threads);
+  analysis::Results results = analysis::analyse(experiment, kept, o.threads);
+  results.stopping = source.read_stopping();
   file.finish(results);
   return print_results(results, out, o.format, s.run.max_failed_share);
 }

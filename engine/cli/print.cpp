@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "analysis/rounding.h"
 #include "base/units.h"
 #include "cli/print_studies.h"
 
@@ -38,13 +39,16 @@ void print_text(const analysis::Results& r, const std::string& out) {
   print_studies(r, std::cout);
   for (const auto& c : r.comparisons) {
     const auto shown = [&](double x) { return units::from_si(x, c.unit, c.si_unit, units::Kind::difference); };
-    std::cout << fmt::format("{} = {:.4f} {}, U = {:.4f} {}, E_n = {:.2f}\n", c.name, shown(c.difference), c.unit,
-                             shown(c.expanded_uncertainty), c.unit, c.normalised_error);
+    const int d = analysis::decimals_for(shown(c.expanded_uncertainty));
+    std::cout << fmt::format("{} = {} {}, U = {} {}, E_n = {:.2f}\n", c.name, analysis::fixed(shown(c.difference), d),
+                             c.unit, analysis::fixed(shown(c.expanded_uncertainty), d), c.unit, c.normalised_error);
   }
   for (const auto& p : r.printed) {
     const auto shown = [&](double x) { return units::from_si(x, p.unit, p.si_unit); };
-    std::cout << fmt::format("{}: ours {:.4f} {}, printed {:.4f} {} ({})\n", p.output, shown(p.ours), p.unit,
-                             shown(p.printed), p.unit, p.source);
+    const int d =
+        analysis::decimals_for(units::from_si(p.expanded_uncertainty, p.unit, p.si_unit, units::Kind::difference));
+    std::cout << fmt::format("{}: ours {} {}, printed {} {} ({})\n", p.output, analysis::fixed(shown(p.ours), d),
+                             p.unit, analysis::fixed(shown(p.printed), d), p.unit, p.source);
   }
   for (const std::string& note : r.notes) std::cout << "note: " << note << '\n';
   for (const std::string& f : r.failures) std::cout << "failed: " << f << '\n';

@@ -86,6 +86,47 @@ void print_indices(const Results& r, std::ostream& out) {
     for (const Index& i : s.effects) effects.emplace_back(i.value, i.input);
     out << fmt::format("Shapley effects of {}: {}\n", s.output.name, largest(std::move(effects)));
   }
+  for (const GivenData& g : r.given_data) {
+    std::vector<std::pair<double, std::string>> deltas;
+    for (const Index& i : g.delta) deltas.emplace_back(i.value, i.input);
+    if (!deltas.empty())
+      out << fmt::format("Borgonovo's delta of {}, from {} stored samples: {}\n", g.output.name, g.samples,
+                         largest(std::move(deltas)));
+  }
+  for (const Dgsm& d : r.dgsm) {
+    std::vector<std::pair<double, std::string>> bounds;
+    for (const DgsmRow& row : d.rows) bounds.emplace_back(row.bound, row.input);
+    if (const std::string text = largest(std::move(bounds)); !text.empty())
+      out << fmt::format("total indices of {} are at most, by derivatives: {}\n", d.output.name, text);
+  }
+}
+
+/// Elementary effects and steps, in the output's unit, the largest first.
+std::string largest_changes(std::vector<std::pair<double, std::string>> changes, const propagation::Output& o) {
+  std::erase_if(changes, [](const auto& change) { return std::isnan(change.first); });
+  std::ranges::stable_sort(changes, [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::string text;
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, changes.size()); ++i)
+    text += fmt::format("{}{} {}", i == 0 ? "" : ", ", changes[i].second, shown(changes[i].first, o.unit, o.si_unit));
+  if (changes.size() > 3) text += fmt::format(", {} more", changes.size() - 3);
+  return text;
+}
+
+void print_screening(const Results& r, std::ostream& out) {
+  for (const Morris& m : r.morris) {
+    std::vector<std::pair<double, std::string>> effects;
+    for (const MorrisRow& row : m.rows) effects.emplace_back(row.mean_absolute, row.input);
+    out << fmt::format("elementary effects (mu*) on {}: {}\n", m.output.name,
+                       largest_changes(std::move(effects), m.output));
+  }
+  for (const OneAtATimeTable& table : r.one_at_a_time)
+    for (std::size_t o = 0; o < table.outputs.size(); ++o) {
+      std::vector<std::pair<double, std::string>> changes;
+      for (const OneAtATimeRow& row : table.rows)
+        changes.emplace_back(std::fmax(std::fabs(row.up[o]), std::fabs(row.down[o])), row.quantity);
+      out << fmt::format("{}, largest changes of {}: {}\n", table.title.empty() ? "one at a time" : table.title,
+                         table.outputs[o].name, largest_changes(std::move(changes), table.outputs[o]));
+    }
 }
 
 void print_target(const TargetResult& t, std::ostream& out) {
@@ -151,6 +192,7 @@ void print_studies(const Results& r, std::ostream& out) {
   print_joint(r, out);
   print_conformity(r, out);
   print_indices(r, out);
+  print_screening(r, out);
   for (const TargetResult& t : r.targets) print_target(t, out);
   if (!r.stopping.rule.empty()) out << r.stopping.statement << '\n';
 }
@@ -179,6 +221,40 @@ void add_studies(const Results& r, const propagation::Output& output, nlohmann::
     for (const Index& i : g.delta) inputs[i.input]["delta"] = index(i.value, i.low, i.high, i.verdict);
     return inputs;
   });
+  keep("morris", r.morris, [](const Morris& m) {
+    const auto shown = [&](double x) { return number(difference(m.output, x)); };
+    auto inputs = nlohmann::ordered_json::object();
+    for (const MorrisRow& row : m.rows)
+      inputs[row.input] = {{"mean", shown(row.mean)},
+                           {"mean_absolute", shown(row.mean_absolute)},
+                           {"standard_deviation", shown(row.standard_deviation)}};
+    return inputs;
+  });
+  keep("dgsm", r.dgsm, [](const Dgsm& d) {
+    auto inputs = nlohmann::ordered_json::object();
+    for (const DgsmRow& row : d.rows)
+      inputs[row.input] = {
+          {"bound", number(row.bound)}, {"low", number(row.bound_low)}, {"high", number(row.bound_high)}};
+    return inputs;
+  });
+  for (const OneAtATimeTable& table : r.one_at_a_time)
+    for (std::size_t o = 0; o < table.outputs.size(); ++o) {
+      if (table.outputs[o].name != output.name) continue;
+      auto rows = nlohmann::ordered_json::object();
+      for (const OneAtATimeRow& row : table.rows)
+        rows[row.quantity] = {
+            {"unit", row.unit},
+            {"step", number(units::from_si(row.step, row.unit, row.si_unit, units::Kind::difference))},
+            {"up", number(difference(output, row.up[o]))},
+            {"down", number(difference(output, row.down[o]))}};
+      object["one_at_a_time"].push_back({{"title", table.title}, {"quantities", rows}});
+    }
+  if (!r.stopping.rule.empty())
+    object["stopping"] = {{"rule", r.stopping.rule},
+                          {"trials", r.stopping.trials},
+                          {"jcgm_trials", r.stopping.jcgm_trials},
+                          {"stein_trials", r.stopping.stein_trials},
+                          {"reached", r.stopping.reached}};
   keep("circular", r.circular, [](const CircularSummary& c) {
     return nlohmann::ordered_json{{"mean_direction", number(difference(c.output, c.mean_direction))},
                                   {"resultant_length", number(c.resultant_length)},

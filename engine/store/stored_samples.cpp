@@ -73,4 +73,27 @@ std::vector<std::uint8_t> StoredSamples::read_status(std::uint64_t first, std::u
   return values;
 }
 
+analysis::StoppingRecord StoredSamples::read_stopping() const {
+  analysis::StoppingRecord s;
+  const Lock lock(hdf5::library());
+  if (H5Lexists(impl_->file, "stopping", H5P_DEFAULT) <= 0) return s;
+  const hdf5::Handle stopping = hdf5::open_group(impl_->file, "stopping");
+  s.rule = hdf5::read_text(stopping, "rule");
+  s.digits = static_cast<int>(hdf5::read_integer(stopping, "digits"));
+  s.block = hdf5::read_integer(stopping, "block");
+  s.jcgm_trials = hdf5::read_integer(stopping, "jcgm_trials");
+  s.stein_trials = hdf5::read_integer(stopping, "stein_trials");
+  s.trials = hdf5::read_integer(stopping, "trials");
+  s.reached = hdf5::read_integer(stopping, "reached") != 0;
+  s.statement = hdf5::read_text(stopping, "statement");
+  if (H5Lexists(stopping, "tolerance", H5P_DEFAULT) > 0) {
+    const hdf5::Handle values = hdf5::own(H5Dopen2(stopping, "tolerance", H5P_DEFAULT), H5Dclose, "open a dataset");
+    const hdf5::Handle space = hdf5::own(H5Dget_space(values), H5Sclose, "open a dataset");
+    s.tolerance.resize(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+    hdf5::require(H5Dread(values, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, s.tolerance.data()),
+                  "read the tolerances");
+  }
+  return s;
+}
+
 } // namespace gumshoe::store

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/results.h"
 #include "propagation/run.h"
 
 namespace gumshoe::store {
@@ -17,6 +18,8 @@ public:
   /// Values of one output row (SI, NaN where failed), samples [first, first + count).
   std::vector<double> read(std::size_t output, std::uint64_t first, std::uint64_t count) const;
   std::vector<std::uint8_t> read_status(std::uint64_t first, std::uint64_t count) const;
+  /// How the run came to its number of samples; an empty rule if that was given.
+  analysis::StoppingRecord read_stopping() const;
 
 private:
   struct Impl;
