@@ -167,9 +167,9 @@ struct JointRegion {
 struct CircularSummary {
   propagation::Output output;
   double mean_direction = 0, resultant_length = 0, standard_deviation = 0; ///< sqrt(-2 ln R), rad
-  double mean_direction_se = 0, resultant_length_se = 0, standard_deviation_se = 0; ///< Monte Carlo standard errors
   double low = 0, high = 0; ///< shortest arc that holds the coverage probability; high >= low, may pass pi
   std::string remark;       ///< when the linear statistics mislead
+  double mean_direction_se = 0, resultant_length_se = 0, standard_deviation_se = 0; ///< Monte Carlo standard errors
 };
 
 /// JCGM 106:2012. Risks are probabilities; NaN where they need what is not given.
