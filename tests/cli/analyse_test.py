@@ -2,6 +2,7 @@
 
 usage: analyse_test.py path/to/gumshoe [unittest options]
 """
+import json
 import pathlib
 import tempfile
 import unittest
@@ -35,6 +36,20 @@ class Analyse(unittest.TestCase):
     def refused(self, words, run):
         self.assertIsNone(complaint(run))
         self.assertIn(words, run.stderr)
+
+    def test_an_adaptive_run_keeps_its_record_and_all_studies_are_in_the_json(self):
+        scenario = self.scenario(SCENARIO + "[run]\nadaptive = { rule = \"stein\", digits = 1 }\n" + STUDIES)
+        result, again = self.folder / "adaptive.h5", self.folder / "adaptive_again.h5"
+        run = gumshoe("run", scenario, "--out", result, "--format", "json")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        anew = gumshoe("analyse", result, "--out", again, "--format", "json")
+        self.assertEqual(anew.returncode, 0, anew.stderr)
+        for before, after in zip(json.loads(run.stdout), json.loads(anew.stdout)):
+            self.assertEqual(before["stopping"], after["stopping"])
+            self.assertLessEqual({"stopping", "morris", "dgsm", "given_data"}, set(after))
+        with h5py.File(result) as a, h5py.File(again) as b:
+            self.assertEqual(a["stopping"].attrs["statement"], b["stopping"].attrs["statement"])
+            np.testing.assert_array_equal(a["stopping/tolerance"], b["stopping/tolerance"])
 
     def test_the_same_scenario_gives_the_same_numbers_in_a_new_file(self):
         before = self.result.read_bytes()
