@@ -15,7 +15,7 @@
 
 namespace gumshoe::chain {
 
-enum class SolveStatus : std::uint8_t { ok = 0, never_covered = 1, not_converged = 2, out_of_domain = 3 };
+enum class SolveStatus : std::uint8_t { ok = 0, never_covered = 1, not_converged = 2, out_of_domain = 3, already_covered = 7 };
 
 template <class T> struct Solved {
   T value;

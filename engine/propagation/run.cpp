@@ -20,6 +20,8 @@ const char* status_name(Status status) {
     return "not_finite";
   case Status::model_failed:
     return "model_failed";
+  case Status::already_covered:
+    return "already_covered";
   default:
     return "no_solution";
   }

@@ -11,14 +11,15 @@ enum class Status : std::uint8_t {
   ok = 0,
   never_covered = 1, ///< the beam can never be covered that much
   not_converged = 2,
-  out_of_domain = 3, ///< a drawn value that the solve reads is impossible: a fillet larger than the rod
-  no_solution = 4,   ///< the geometry or the data admit no answer
-  not_finite = 5,    ///< the formula has no finite value: a division by zero, the logarithm of a negative number
-  model_failed = 6,  ///< a plugin or a command gives no value for it
+  out_of_domain = 3,   ///< a drawn value that the solve reads is impossible: a fillet larger than the rod
+  no_solution = 4,     ///< the geometry or the data admit no answer
+  not_finite = 5,      ///< the formula has no finite value: a division by zero, the logarithm of a negative number
+  model_failed = 6,    ///< a plugin or a command gives no value for it
+  already_covered = 7, ///< the tool stands in the beam before it moves
 };
 
 /// Every status there is, from 0.
-inline constexpr int statuses = 7;
+inline constexpr int statuses = 8;
 
 /// "never_covered" and so on, as in files and tables.
 const char* status_name(Status status);

@@ -1,0 +1,129 @@
+#include "chain/insert_trigger.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gumshoe::chain {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+/// One insert's search over its spindle angle: G = Zc + drop (angle - start) - height, first angle with G >= 0.
+class Search {
+public:
+  Search(const InsertHeight& heights, double start, double height, double drop)
+      : heights_(heights), start_(start), height_(height), drop_(drop) {}
+
+  /// Spindle angle turned until G >= 0, at most `limit`; NaN if later.
+  double first(double limit, bool& starts_inside) {
+    const double highest = heights_.highest().height;
+    const double skip = std::max(0.0, (height_ - highest) / drop_ - 1e-9);
+    if (skip > limit) return std::nan("");
+    // Angles in the turn that begins there; drop_ is per rad, so whole turns move only the level.
+    const double angle = start_ + skip, turn = 2 * pi * std::floor(angle / (2 * pi));
+    start_ -= turn;
+    const double begin = angle - turn;
+    HeightNode a = heights_.at(begin, std::nan(""));
+    if (a.covered && excess(a) >= 0) {
+      starts_inside = skip == 0;
+      return skip;
+    }
+    const double step = heights_.coarse_step();
+    // one step more than a turn, since the highest point may stand at the very end
+    int i = static_cast<int>(std::floor(begin / step)) + 1;
+    for (int n = 0; n <= heights_.coarse_size() + 1; ++n, ++i) {
+      HeightNode b = heights_.coarse(i % heights_.coarse_size());
+      b.angle = step * i;
+      if (a.angle - start_ > limit) return std::nan("");
+      // where the highest point lies between two angles without cover, it splits the interval
+      HeightNode top = heights_.highest();
+      top.angle += 2 * pi * std::ceil((a.angle - top.angle) / (2 * pi));
+      if (!a.covered && !b.covered && top.angle < b.angle) {
+        if (between(a, top)) return found_ - start_;
+        if (between(top, b)) return found_ - start_;
+      } else if (between(a, b)) {
+        return found_ - start_;
+      }
+      a = b;
+    }
+    return std::nan("");
+  }
+
+private:
+  double excess(const HeightNode& n) const { return n.height + drop_ * (n.angle - start_) - height_; }
+
+  bool between(const HeightNode& a, const HeightNode& b) {
+    if (!a.covered && !b.covered) return false;
+    const double width = b.angle - a.angle;
+    if (width <= 0) return false;
+    const double bound = std::max(a.covered ? excess(a) + width * std::fabs(a.slope + drop_) : -1e300,
+                                  b.covered ? excess(b) + width * std::fabs(b.slope + drop_) : -1e300);
+    if (bound < 0) return false;
+    if (width > heights_.resolution()) {
+      const HeightNode m = heights_.at(0.5 * (a.angle + b.angle), a.covered ? a.height : b.height);
+      return between(a, m) || between(m, b);
+    }
+    if (b.covered && excess(b) >= 0) return root(a, b);
+    if (a.covered && b.covered && a.slope + drop_ > 0 && b.slope + drop_ < 0) {
+      const HeightNode top = hump(heights_, a, b, drop_);
+      if (top.covered && excess(top) >= 0) return root(a, top);
+    }
+    return false;
+  }
+
+  /// G < 0 at a, or no cover there; G >= 0 at b.
+  bool root(HeightNode a, HeightNode b) {
+    HeightNode x = b;
+    for (int i = 0; i < 100 && b.angle - a.angle > 1e-14; ++i) {
+      double next = x.covered ? x.angle - excess(x) / (x.slope + drop_) : std::nan("");
+      if (!(next > a.angle && next < b.angle) || i % 8 == 7) next = 0.5 * (a.angle + b.angle);
+      const bool close = std::fabs(next - x.angle) < 1e-14;
+      x = heights_.at(next, b.height);
+      (x.covered && excess(x) >= 0 ? b : a) = x;
+      if (close) { // Newton's limit, from whichever side
+        b = x;
+        break;
+      }
+    }
+    found_ = b.angle;
+    return true;
+  }
+
+  const InsertHeight& heights_;
+  double start_, height_, drop_, found_ = 0;
+};
+
+} // namespace
+
+InsertTrigger insert_trigger(const InsertHeight& heights, std::span<const double> wear, const InsertMotion& motion) {
+  InsertTrigger result;
+  if (!heights.ever_covered()) {
+    result.status = SolveStatus::never_covered;
+    return result;
+  }
+  const double pitch = 2 * pi / static_cast<double>(wear.size());
+  double least = 1e300;
+  for (std::size_t k = 0; k < wear.size(); ++k) {
+    bool inside = false;
+    Search search(heights, motion.start_angle + pitch * static_cast<double>(k), motion.start_height + wear[k],
+                  motion.drop);
+    const double turned = search.first(least, inside);
+    if (!(turned < least)) continue;
+    least = turned;
+    result.insert = static_cast<int>(k);
+    if (inside) {
+      result.status = SolveStatus::already_covered;
+      return result;
+    }
+  }
+  if (least == 1e300) {
+    result.status = SolveStatus::not_converged;
+    return result;
+  }
+  result.turned = least;
+  result.height = motion.start_height - motion.drop * least;
+  return result;
+}
+
+} // namespace gumshoe::chain
