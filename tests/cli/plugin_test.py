@@ -286,7 +286,7 @@ class Plugin(unittest.TestCase):
         shutil.copytree(ROOT / "scenarios/command", self.folder / "command")
         build = self.folder / "plugin/build"
         if shutil.which("cmake"):
-            options = ["-S", str(self.folder / "plugin"), "-B", str(build), f"-DGUMSHOE_PLUGIN_HEADER={HEADER}"]
+            options = ["-G", "Ninja", "-S", str(self.folder / "plugin"), "-B", str(build), f"-DGUMSHOE_PLUGIN_HEADER={HEADER}"]
             subprocess.run(["cmake", *options], check=True, stdout=subprocess.DEVNULL)
             subprocess.run(["cmake", "--build", str(build)], check=True, stdout=subprocess.DEVNULL)
         else:
