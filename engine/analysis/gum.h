@@ -14,7 +14,7 @@ namespace gumshoe::analysis {
 Budget budget(const propagation::Experiment& experiment, std::size_t output, double coverage_probability);
 
 /// JCGM 101 clause 8: d_low, d_high against the numerical tolerance of u at `digits`. Undecided if the Monte Carlo
-/// tolerance exceeds a fifth of it, unless an end differs by more than both together.
+/// tolerance exceeds a fifth of it, unless an end differs by more than both together, or if an end differs by more than delta alone.
 Validation validate(const Budget& budget, const Summary& summary, int digits);
 
 /// Variates that reach a reading, with the scenario quantity whose column they enter: the rows of its budgets, in
