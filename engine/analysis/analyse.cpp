@@ -170,23 +170,26 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, int th
   r.validations.resize(outputs);
   r.statements.resize(outputs);
   propagation::parallel_for(outputs, threads, [&](std::size_t o) {
-    auto values = samples.values(o);
+    std::span<const double> values;
+    if (samples.in_memory) values = samples.in_memory(o);
+    std::vector<double> copy;
+    if (values.empty()) values = copy = samples.values(o);
     const auto& output = e.outputs()[o];
     const double p = s.analysis.coverage_probability;
-    Summary& summary = r.summaries[o] = summarise(output, values, p);
+    Summary& summary = r.summaries[o] = summarise(output, values, p, threads);
     const Budget& b = r.budgets[o] = budget(e, o, p);
     if (s.run.design != scenario::Design::monte_carlo) drop_standard_errors(summary);
     if (const std::string reason = infinite_variance(e, b); !reason.empty()) {
       summary.standard_uncertainty = summary.standard_uncertainty_se = summary.estimate_se = std::nan("");
       summary.warning = reason + "; the interval's ends are quantiles and hold";
     } else {
-      check_tails(values, summary);
+      check_tails(values, summary, threads);
     }
     r.validations[o] = validate(b, summary, s.analysis.validation_digits);
     r.statements[o] = statement(summary, b, r.validations[o], p, virtual_experiment);
     const bool compared =
         std::ranges::any_of(s.analysis.comparisons, [&](const auto& c) { return c.measurand == output.measurand; });
-    if (compared) kept[o] = std::move(values);
+    if (compared) kept[o].assign(values.begin(), values.end());
   });
   if (!e.model().evaluate_gradient && !virtual_experiment)
     r.notes.push_back("sensitivity coefficients by differences over a standard uncertainty: the model states none");

@@ -1,6 +1,7 @@
 #pragma once
 /// From samples to everything a run says.
 #include <functional>
+#include <span>
 
 #include "analysis/results.h"
 #include "propagation/experiment.h"
@@ -11,6 +12,8 @@ namespace gumshoe::analysis {
 struct Samples {
   std::function<std::vector<double>(std::size_t output)> values;
   std::function<std::vector<std::uint8_t>()> status;
+  /// The same where they are, if they are in memory; else empty, or unset.
+  std::function<std::span<const double>(std::size_t output)> in_memory = {};
 };
 
 /// Summaries, budgets, validation, sensitivity, comparisons, printed values and statements.

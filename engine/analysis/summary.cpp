@@ -1,10 +1,12 @@
 #include "analysis/summary.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
-#include "analysis/ordered_sum.h"
+#include "analysis/leaves.h"
+#include "analysis/ordered_tails.h"
 
 namespace gumshoe::analysis {
 
@@ -13,46 +15,36 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double inf = std::numeric_limits<double>::infinity();
 
-template <class F> double ordered_sum(std::span<const double> x, const F& f) {
-  return analysis::ordered_sum(x.size(), [&](std::size_t i) { return f(x[i]); });
-}
-
 /// Places, from 0, of the symmetric interval's ends among m ordered values.
 std::pair<std::size_t, std::size_t> symmetric_ranks(std::size_t m, double p) {
   const std::size_t q = covered_ranks(m, p), r = std::max<std::size_t>(1, (m - q + 1) / 2);
   return {r - 1, std::min(m, r + q) - 1};
 }
 
-/// Values with both tails in order: ranks below `tail` and from size - tail on are exact order statistics.
-void order_tails(std::vector<double>& x, std::size_t tail) {
-  if (2 * tail >= x.size()) {
-    std::sort(x.begin(), x.end());
-    return;
-  }
-  const auto low = x.begin() + static_cast<long>(tail), high = x.end() - static_cast<long>(tail);
-  std::nth_element(x.begin(), low, x.end());
-  std::sort(x.begin(), low);
-  std::nth_element(low, high, x.end());
-  std::sort(high, x.end());
+/// Order statistics that both intervals of n values need: (1 - p) n on either side, and a margin for their errors.
+std::size_t tail_size(std::size_t n, std::size_t failed, double p) {
+  const double m = static_cast<double>(n);
+  return std::min(n, static_cast<std::size_t>((1 - p) * m + 5 * std::sqrt(m) + 2 * static_cast<double>(failed) + 10));
 }
 
-Ends ordered_symmetric_ends(const std::vector<double>& x, double p) {
-  const auto [low, high] = symmetric_ranks(x.size(), p);
+Ends ordered_symmetric_ends(const OrderedTails& x, double p) {
+  const auto [low, high] = symmetric_ranks(x.size, p);
   return {x[low], x[high]};
 }
 
-Ends shortest_ends(const std::vector<double>& x, double p) {
-  const std::size_t m = x.size(), q = covered_ranks(m, p);
+Ends shortest_ends(const OrderedTails& x, double p) {
+  const std::size_t m = x.size, q = covered_ranks(m, p);
   std::size_t best = 0;
-  for (std::size_t r = 0; r + q < m; ++r)
-    if (x[r + q] - x[r] < x[best + q] - x[best]) best = r;
+  double least = x[q] - x[0];
+  for (std::size_t r = 1; r + q < m; ++r)
+    if (const double length = x[r + q] - x[r]; length < least) least = length, best = r;
   return {x[best], x[best + q]};
 }
 
 /// Standard error of an order statistic: half the distance between the ranks one binomial standard
 /// deviation away on either side.
-double rank_error(const std::vector<double>& x, double probability) {
-  const double m = static_cast<double>(x.size()), at = probability * m;
+double rank_error(const OrderedTails& x, double probability) {
+  const double m = static_cast<double>(x.size), at = probability * m;
   const double step = std::max(1.0, std::sqrt(m * probability * (1 - probability)));
   const auto value = [&](double rank) { return x[static_cast<std::size_t>(std::clamp(rank, 0.0, m - 1))]; };
   return 0.5 * (value(at + step) - value(at - step));
@@ -60,37 +52,70 @@ double rank_error(const std::vector<double>& x, double probability) {
 
 /// The shortest interval's ends have no such simple law: their spread over 16 parts of the run, scaled by
 /// the cube-root rate at which they converge. Parts need not be longer than the law needs to show.
-Ends shortest_errors(std::span<const double> in_order, double p) {
-  constexpr std::size_t parts = 16, longest = 20'000;
-  const std::size_t n = std::min(longest, in_order.size() / parts);
+Ends shortest_errors(std::span<const double> in_order, double p, int threads) {
+  constexpr std::size_t runs = 16, longest = 20'000;
+  const std::size_t n = std::min(longest, in_order.size() / runs);
   if (n < 200) return {nan, nan};
-  std::vector<double> low, high;
-  for (std::size_t k = 0; k < parts; ++k) {
+  std::array<double, runs> low, high;
+  const auto one = [&](std::size_t k) {
     const auto part = in_order.subspan(k * n, n);
-    std::vector<double> x(part.begin(), part.end());
-    std::sort(x.begin(), x.end());
-    const Ends e = shortest_ends(x, p);
-    low.push_back(e.low);
-    high.push_back(e.high);
-  }
+    const auto valid = static_cast<std::size_t>(std::ranges::count_if(part, [](double v) { return !std::isnan(v); }));
+    const Ends e = valid < 2 ? Ends{nan, nan} : shortest_ends(ordered_tails(part, valid, tail_size(valid, 0, p), 1), p);
+    low[k] = e.low;
+    high[k] = e.high;
+  };
+  if (threads == 1)
+    for (std::size_t k = 0; k < runs; ++k) one(k);
+  else
+    propagation::parallel_for(runs, threads, one);
   const double scale = std::cbrt(static_cast<double>(n) / static_cast<double>(in_order.size()));
   return {scale * std::sqrt(moments(low).variance), scale * std::sqrt(moments(high).variance)};
 }
 
-void histogram(Summary& s, std::span<const double> values) {
+constexpr std::size_t bins = 100;
+using Counts = std::array<std::size_t, bins + 1>; ///< the last: outside
+
+void histogram(Summary& s, std::span<const double> values, double least, double most, int threads) {
   const double span = s.symmetric.high - s.symmetric.low;
-  const auto [least, most] = std::minmax_element(values.begin(), values.end());
-  const double low = std::max(*least, s.symmetric.low - 0.5 * span),
-               high = std::min(*most, s.symmetric.high + 0.5 * span);
+  const double low = std::max(least, s.symmetric.low - 0.5 * span),
+               high = std::min(most, s.symmetric.high + 0.5 * span);
   if (!(high > low)) return;
-  constexpr std::size_t bins = 100;
   s.density.assign(bins, 0);
   for (std::size_t b = 0; b <= bins; ++b) s.bin_edges.push_back(low + (high - low) * static_cast<double>(b) / bins);
-  for (const double v : values)
-    if (v >= low && v <= high)
-      s.density[std::min(bins - 1, static_cast<std::size_t>((v - low) / (high - low) * bins))] += 1;
-  for (double& d : s.density) d /= static_cast<double>(values.size()) * (high - low) / bins;
+  const double per_width = bins / (high - low);
+  std::vector<Counts> counts(parts(values.size()));
+  for_parts(values, threads, [&](std::size_t part, std::span<const double> some) {
+    Counts& c = counts[part];
+    for (const double v : some) {
+      const bool inside = v >= low && v <= high;
+      c[inside ? std::min(bins - 1, static_cast<std::size_t>((v - low) * per_width)) : bins] += 1;
+    }
+  });
+  for (const Counts& c : counts)
+    for (std::size_t b = 0; b < bins; ++b) s.density[b] += static_cast<double>(c[b]);
+  for (double& d : s.density) d /= static_cast<double>(s.valid) * (high - low) / bins;
 }
+
+/// Sums of eight interleaved series, which do not wait for each other.
+using Lanes = std::array<double, 8>;
+double total(const Lanes& s) { return ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7])); }
+
+template <class Add> void each_lane(std::span<const double> x, const Add& add) {
+  std::size_t i = 0;
+  for (; i + 8 <= x.size(); i += 8)
+    for (std::size_t l = 0; l < 8; ++l) add(l, x[i + l]);
+  for (; i < x.size(); ++i) add(i % 8, x[i]);
+}
+
+struct First {
+  double sum = 0, valid = 0;
+  void operator+=(const First& other) { sum += other.sum, valid += other.valid; }
+};
+
+struct Central {
+  double second = 0, third = 0, fourth = 0;
+  void operator+=(const Central& o) { second += o.second, third += o.third, fourth += o.fourth; }
+};
 
 } // namespace
 
@@ -106,43 +131,52 @@ Ends symmetric_ends(std::vector<double>& x, double p) {
   return {x[low], x[high]};
 }
 
-Moments moments(std::span<const double> x) {
-  const double n = static_cast<double>(x.size());
+Moments moments(std::span<const double> x, int threads) {
+  const auto first = std::ranges::find_if(x, [](double v) { return !std::isnan(v); });
+  if (first == x.end()) return {nan, nan, nan, nan, 0};
+  const double origin = *first; // keeps the sum small against its rounding
+  const First sums = leaf_sum<First>(x, threads, [&](std::span<const double> leaf) {
+    Lanes sum{}, valid{};
+    each_lane(leaf, [&](std::size_t l, double v) {
+      sum[l] += v == v ? v - origin : 0.0;
+      valid[l] += v == v ? 1.0 : 0.0;
+    });
+    return First{total(sum), total(valid)};
+  });
   Moments m;
-  if (x.empty()) return {nan, nan, nan, nan};
-  // A first value as origin keeps the sum small against its rounding.
-  m.mean = x[0] + ordered_sum(x, [&](double v) { return v - x[0]; }) / n;
-  const double m2 = ordered_sum(x, [&](double v) { return (v - m.mean) * (v - m.mean); }) / n;
-  const double m3 = ordered_sum(x, [&](double v) { return (v - m.mean) * (v - m.mean) * (v - m.mean); }) / n;
-  const double m4 = ordered_sum(x,
-                                [&](double v) {
-                                  const double d = (v - m.mean) * (v - m.mean);
-                                  return d * d;
-                                }) /
-                    n;
+  const double n = sums.valid;
+  m.valid = static_cast<std::size_t>(n);
+  m.mean = origin + sums.sum / n;
+  const Central central = leaf_sum<Central>(x, threads, [&](std::span<const double> leaf) {
+    Lanes second{}, third{}, fourth{};
+    each_lane(leaf, [&](std::size_t l, double v) {
+      const double d = v == v ? v - m.mean : 0.0, square = d * d;
+      second[l] += square;
+      third[l] += square * d;
+      fourth[l] += square * square;
+    });
+    return Central{total(second), total(third), total(fourth)};
+  });
+  const double m2 = central.second / n, m3 = central.third / n, m4 = central.fourth / n;
   m.variance = n > 1 ? m2 * n / (n - 1) : nan;
   m.skewness = m2 > 0 ? m3 / std::pow(m2, 1.5) : 0;
   m.kurtosis = m2 > 0 ? m4 / (m2 * m2) : 0;
   return m;
 }
 
-Summary summarise(const propagation::Output& output, std::span<const double> values, double p) {
+Summary summarise(const propagation::Output& output, std::span<const double> values, double p, int threads) {
   Summary s;
   s.output = output;
-  std::vector<double> valid;
-  valid.reserve(values.size());
-  for (const double v : values)
-    if (!std::isnan(v)) valid.push_back(v);
-  s.valid = valid.size();
-  s.failed = values.size() - valid.size();
-  if (valid.size() < 2) {
+  const Moments m = moments(values, threads);
+  s.valid = m.valid;
+  s.failed = values.size() - m.valid;
+  if (s.valid < 2) {
     s.estimate = s.standard_uncertainty = s.estimate_se = s.standard_uncertainty_se = nan;
     s.symmetric = s.shortest = {nan, nan, nan, nan, nan, nan};
     s.warning = "too few valid samples";
     return s;
   }
-  const Moments m = moments(valid);
-  const double n = static_cast<double>(valid.size());
+  const double n = static_cast<double>(s.valid);
   s.estimate = m.mean;
   s.standard_uncertainty = std::sqrt(m.variance);
   s.skewness = m.skewness;
@@ -150,12 +184,10 @@ Summary summarise(const propagation::Output& output, std::span<const double> val
   s.estimate_se = s.standard_uncertainty / std::sqrt(n);
   s.standard_uncertainty_se = s.standard_uncertainty * std::sqrt(std::max(0.0, m.kurtosis - 1) / (4 * n));
 
-  std::vector<double> ordered = valid;
   const double alpha = 0.5 * (1 - p);
-  const double margin = 5 * std::sqrt(n) + 2 * static_cast<double>(s.failed) + 10;
-  order_tails(ordered, std::min(ordered.size(), static_cast<std::size_t>((1 - p) * n + margin)));
+  const OrderedTails ordered = ordered_tails(values, s.valid, tail_size(s.valid, s.failed, p), threads);
   const Ends symmetric = ordered_symmetric_ends(ordered, p), shortest = shortest_ends(ordered, p);
-  const Ends shortest_se = shortest_errors(valid, p);
+  const Ends shortest_se = shortest_errors(values, p, threads);
   s.symmetric = {symmetric.low, symmetric.high, rank_error(ordered, alpha), rank_error(ordered, 1 - alpha),
                  symmetric.low, symmetric.high};
   s.shortest = {shortest.low, shortest.high, shortest_se.low, shortest_se.high, shortest.low, shortest.high};
@@ -172,7 +204,7 @@ Summary summarise(const propagation::Output& output, std::span<const double> val
     s.shortest.low_rank = s.symmetric.low_rank;
     s.shortest.high_rank = s.symmetric.high_rank;
   }
-  histogram(s, valid);
+  histogram(s, values, ordered[0], ordered[s.valid - 1], threads);
   return s;
 }
 

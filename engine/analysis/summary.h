@@ -8,12 +8,13 @@
 namespace gumshoe::analysis {
 
 /// Central moments by pairwise sums over fixed leaves of 1,024 values in order, so the bits depend on
-/// neither threads nor block size.
+/// neither threads nor block size. NaN is left out.
 struct Moments {
   double mean = 0, variance = 0; ///< variance with divisor n - 1
   double skewness = 0, kurtosis = 0;
+  std::size_t valid = 0; ///< values that are not NaN
 };
-Moments moments(std::span<const double> values);
+Moments moments(std::span<const double> values, int threads = 1);
 
 /// JCGM 101 7.7.2: q = pM rounded to an integer; an interval runs from rank r to rank r + q of the M ordered values.
 std::size_t covered_ranks(std::size_t values, double coverage_probability);
@@ -26,6 +27,8 @@ Ends symmetric_ends(std::vector<double>& values, double coverage_probability);
 
 /// Estimate, u, both coverage intervals and their Monte Carlo standard errors. NaN counts as failed;
 /// the rank bounds hold whatever values the failed samples had. `values` is in sample order, SI.
-Summary summarise(const propagation::Output& output, std::span<const double> values, double coverage_probability);
+/// Passes over the values in parallel (threads 0: all); only the tails are copied and sorted.
+Summary summarise(const propagation::Output& output, std::span<const double> values, double coverage_probability,
+                  int threads = 1);
 
 } // namespace gumshoe::analysis

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "analysis/ordered_tails.h"
+
 namespace gumshoe::analysis {
 
 namespace {
@@ -17,30 +19,10 @@ constexpr std::size_t least = 1000;
 /// Order statistics to go by: a share of the sample that shrinks, in a number that grows.
 std::size_t tail_size(std::size_t n) { return static_cast<std::size_t>(std::pow(static_cast<double>(n), 0.6)); }
 
-/// Every so-maniest value, in order: enough to place the median and a threshold that leaves out the body.
-std::vector<double> thinned(std::span<const double> x) {
-  constexpr std::size_t most = 16384;
-  const std::size_t step = (x.size() + most - 1) / most;
-  std::vector<double> some;
-  for (std::size_t i = 0; i < x.size(); i += step)
-    if (!std::isnan(x[i])) some.push_back(x[i]);
-  std::sort(some.begin(), some.end());
-  return some;
-}
-
-/// The k + 1 largest of side * (x - origin), in falling order. `guess`: a value that a little more exceed.
-std::vector<double> largest(std::span<const double> x, double origin, double side, double guess, std::size_t k) {
+/// The k + 1 largest of side * (x - origin), in falling order.
+std::vector<double> largest(const OrderedTails& x, double origin, double side, std::size_t k) {
   std::vector<double> tail;
-  for (const double floor : {guess, -inf}) {
-    tail.clear();
-    for (const double v : x)
-      if (const double d = side * (v - origin); d > floor) tail.push_back(d); // a NaN fails the test
-    if (tail.size() > k) break;
-  }
-  if (tail.size() <= k) return {};
-  std::nth_element(tail.begin(), tail.begin() + static_cast<long>(k), tail.end(), std::greater<>());
-  tail.resize(k + 1);
-  std::sort(tail.begin(), tail.end(), std::greater<>());
+  for (std::size_t i = 0; i <= k; ++i) tail.push_back(side * (x[side > 0 ? x.size - 1 - i : i] - origin));
   return tail;
 }
 
@@ -54,22 +36,20 @@ double hill(std::span<const double> falling) {
 
 } // namespace
 
-void check_tails(std::span<const double> values, Summary& s) {
+void check_tails(std::span<const double> values, Summary& s, int threads) {
   s.hill_index = nan;
   if (s.valid < least || !(s.standard_uncertainty > 0)) return;
-  const auto some = thinned(values);
+  const auto some = pilot_sample(values);
   if (some.size() < least) return;
-  const std::size_t k = tail_size(s.valid), m = some.size();
-  const double median = some[m / 2];
-  const double share = 3 * static_cast<double>(k) / static_cast<double>(s.valid);
-  const auto out = std::min(m / 2, static_cast<std::size_t>(share * static_cast<double>(m)) + 4);
+  const std::size_t k = tail_size(s.valid);
+  const double median = some[some.size() / 2];
+  const OrderedTails ordered = ordered_tails(values, s.valid, k + 1, threads);
   bool heavy = false;
   const auto below = [](double index, std::size_t values, double errors, double limit) {
     return index * (1 + errors / std::sqrt(static_cast<double>(values))) < limit;
   };
   for (const double side : {1.0, -1.0}) {
-    const double guess = side > 0 ? some[m - 1 - out] - median : median - some[out];
-    const auto tail = largest(values, median, side, guess, k);
+    const auto tail = largest(ordered, median, side, k);
     const double index = hill(tail);
     // A power law is one further out, too; outliers in a bounded cluster, or a few discrete values, are not.
     const std::size_t out_there = k / 10;

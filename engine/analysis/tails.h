@@ -15,6 +15,6 @@ namespace gumshoe::analysis {
 /// variance has not settled, its relative standard error sqrt(kurtosis / n) being above 3 %. An index below 4 and one
 /// above 10 %: `tail_remark`. A mixture with a much wider law in less than a per cent of the samples may look alike.
 /// Call after summarise(); `values` is in sample order, NaN where failed. Linear in their number.
-void check_tails(std::span<const double> values, Summary& summary);
+void check_tails(std::span<const double> values, Summary& summary, int threads = 1);
 
 } // namespace gumshoe::analysis

@@ -1,0 +1,74 @@
+// Exact tails by a pilot bracket: against sorting, for any number of threads.
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "analysis/ordered_tails.h"
+#include "analysis/summary.h"
+#include "random/streams.h"
+
+using namespace gumshoe;
+using namespace gumshoe::analysis;
+
+namespace {
+
+std::vector<double> uniforms(std::uint64_t key, std::size_t n) {
+  std::vector<double> x(n);
+  random::uniforms({key}, 0, n, x.data());
+  return x;
+}
+
+/// Every rank that was promised is the sorted one.
+void check_tails_of(const std::vector<double>& x, std::size_t tail) {
+  std::vector<double> sorted;
+  for (const double v : x)
+    if (!std::isnan(v)) sorted.push_back(v);
+  std::sort(sorted.begin(), sorted.end());
+  for (const int threads : {1, 2, 7}) {
+    const OrderedTails t = ordered_tails(x, sorted.size(), tail, threads);
+    bool equal = t.size == sorted.size();
+    for (std::size_t r = 0; r < tail; ++r)
+      equal = equal && t[r] == sorted[r] && t[sorted.size() - 1 - r] == sorted[sorted.size() - 1 - r];
+    CHECK(equal);
+  }
+}
+
+} // namespace
+
+TEST_CASE("tails are those of the sorted values", "[summary]") {
+  const auto x = uniforms(5, 300'000);
+  check_tails_of(x, 15'000);
+  check_tails_of({x.begin(), x.begin() + 500}, 100); // too few for a pilot
+  check_tails_of(x, 150'000);                        // everything
+  auto ties = x;
+  for (double& v : ties) v = std::floor(8 * v);
+  check_tails_of(ties, 15'000);
+  auto holes = x;
+  for (std::size_t i = 0; i < holes.size(); i += 3) holes[i] = std::numeric_limits<double>::quiet_NaN();
+  check_tails_of(holes, 10'000);
+  // A bracket that must miss: the pilot takes every so-maniest value, and just those are large.
+  auto trap = x;
+  const std::size_t step = (trap.size() + 16383) / 16384;
+  for (std::size_t i = 0; i < trap.size(); i += step) trap[i] += 10;
+  check_tails_of(trap, 15'000);
+}
+
+TEST_CASE("a summary has the same bits for any number of threads", "[summary]") {
+  auto x = uniforms(6, 700'000);
+  x[12345] = std::numeric_limits<double>::quiet_NaN();
+  const propagation::Output output{"y", "y", 0, "1", "1"};
+  const Summary one = summarise(output, x, 0.95, 1);
+  for (const int threads : {2, 7}) {
+    const Summary s = summarise(output, x, 0.95, threads);
+    CHECK(s.estimate == one.estimate);
+    CHECK(s.standard_uncertainty == one.standard_uncertainty);
+    CHECK(s.kurtosis == one.kurtosis);
+    CHECK(s.symmetric.low == one.symmetric.low);
+    CHECK(s.shortest.high == one.shortest.high);
+    CHECK(s.shortest.low_se == one.shortest.low_se);
+    CHECK(s.density == one.density);
+  }
+  CHECK(one.failed == 1);
+}
