@@ -1,4 +1,5 @@
 /// `gumshoe models` and `gumshoe effects`: the cards.
+#include <algorithm>
 #include <iostream>
 #include <memory>
 
@@ -8,6 +9,7 @@
 #include "base/units.h"
 #include "cli/command.h"
 #include "effects/effect.h"
+#include "scenario/made_model.h"
 
 namespace gumshoe::cli {
 
@@ -156,6 +158,9 @@ template <class Body> void add(CLI::App& app, const char* name, const char* help
 void add_models(CLI::App& app, Action& action) {
   add(app, "models", "lists the models, or one model's card: quantities, units, defaults, limits, meaning, source",
       action, [](const Options& o) {
+        if (std::ranges::find(scenario::made_models, o.name) != std::end(scenario::made_models))
+          throw InputError("'" + o.name + "' has no card of its own", "the scenario states its quantities",
+                           "see engine/models/" + o.name + "/README.md?");
         const ExitCode code = show(catalogue().models, "model", o.name, o.format);
         if (o.name.empty() && o.format == "text")
           std::cout << "A scenario can also state its model: name = \"expression\" (formulas), \"plugin\" (a shared "
