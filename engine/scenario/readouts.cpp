@@ -62,10 +62,12 @@ public:
       Problems silent(context_.problems.file());
       csv = context_.files.open(*file, table_.path("file"), silent);
     }
-    if (csv)
+    if (csv) {
       columns(*csv);
-    else
+    } else {
+      complete_ = false;
       for (const char* key : {"labels", "conditions", "where"}) table_.find(key);
+    }
     where();
     table_.refuse_unknown();
     if (!data || !complete_) return out;
