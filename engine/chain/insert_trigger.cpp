@@ -15,10 +15,10 @@ public:
   Search(const InsertHeight& heights, double start, double height, double drop)
       : heights_(heights), start_(start), height_(height), drop_(drop) {}
 
-  /// Spindle angle turned until G >= 0, at most `limit`; NaN if later.
-  double first(double limit, bool& starts_inside) {
+  /// Spindle angle turned until G >= 0, from `not_before` to `limit`; NaN if later.
+  double first(double not_before, double limit, bool& starts_inside) {
     const double highest = heights_.highest().height;
-    const double skip = std::max(0.0, (height_ - highest) / drop_ - 1e-9);
+    const double skip = std::max(not_before, (height_ - highest) / drop_ - 1e-9);
     if (skip > limit) return std::nan("");
     // Angles in the turn that begins there; drop_ is per rad, so whole turns move only the level.
     const double angle = start_ + skip, turn = 2 * pi * std::floor(angle / (2 * pi));
@@ -96,19 +96,41 @@ private:
 
 } // namespace
 
-InsertTrigger insert_trigger(const InsertHeight& heights, std::span<const double> wear, const InsertMotion& motion) {
-  InsertTrigger result;
-  if (!heights.ever_covered()) {
-    result.status = SolveStatus::never_covered;
-    return result;
+namespace {
+bool same(const Insert<double>& a, const Insert<double>& b) {
+  return a.tool_radius == b.tool_radius && a.radius == b.radius && a.thickness == b.thickness &&
+         a.clearance == b.clearance && a.radial_angle == b.radial_angle && a.axial_angle == b.axial_angle &&
+         a.axis_x == b.axis_x && a.axis_y == b.axis_y && a.seat == b.seat;
+}
+bool same(const Beam<double>& a, const Beam<double>& b) {
+  return a.yaw == b.yaw && a.pitch == b.pitch && a.radius == b.radius && a.fraction == b.fraction;
+}
+} // namespace
+
+const InsertHeight& TriggerSolver::heights(const Insert<double>& insert, const Beam<double>& beam) {
+  const auto known = std::ranges::find_if(
+      remembered_, [&](const Remembered& r) { return same(r.insert, insert) && same(r.beam, beam); });
+  if (known == remembered_.end()) {
+    if (remembered_.size() >= most_inserts) remembered_.pop_back();
+    remembered_.push_front({insert, beam, InsertHeight(insert, beam)});
+  } else {
+    remembered_.splice(remembered_.begin(), remembered_, known);
   }
-  const double pitch = 2 * pi / static_cast<double>(wear.size());
+  return remembered_.front().heights;
+}
+
+InsertTrigger TriggerSolver::solve(std::span<const Flute<double>> flutes, const Beam<double>& beam,
+                                   const InsertMotion& motion) {
+  InsertTrigger result;
   double least = 1e300;
-  for (std::size_t k = 0; k < wear.size(); ++k) {
+  bool ever_covered = false;
+  for (std::size_t k = 0; k < flutes.size(); ++k) {
+    const InsertHeight& zc = heights(flutes[k].insert, beam);
+    if (!zc.ever_covered()) continue;
+    ever_covered = true;
     bool inside = false;
-    Search search(heights, motion.start_angle + pitch * static_cast<double>(k), motion.start_height + wear[k],
-                  motion.drop);
-    const double turned = search.first(least, inside);
+    Search search(zc, motion.start_angle + flutes[k].azimuth, motion.start_height + flutes[k].raise, motion.drop);
+    const double turned = search.first(motion.not_before, least, inside);
     if (!(turned < least)) continue;
     least = turned;
     result.insert = static_cast<int>(k);
@@ -117,8 +139,8 @@ InsertTrigger insert_trigger(const InsertHeight& heights, std::span<const double
       return result;
     }
   }
-  if (least == 1e300) {
-    result.status = SolveStatus::not_converged;
+  if (!ever_covered || least == 1e300) {
+    result.status = ever_covered ? SolveStatus::not_converged : SolveStatus::never_covered;
     return result;
   }
   result.turned = least;

@@ -1,9 +1,10 @@
 #pragma once
-/// The trigger of a turning mill that is fed into the beam: the first moment at which any insert covers the trigger's
-/// share. The tool's centre comes down from `start_height` by `drop` per radian of spindle angle, insert k stands at
-/// start_angle + turned + k pitch and W_k higher than an unworn one:
-///     first turned >= 0 with start_height + W_k - drop turned <= Zc(start_angle + turned + k pitch).
+/// The trigger of a turning mill that is fed into the beam: the first moment at which any flute covers the trigger's
+/// share. The tool's centre comes down from `start_height` by `drop` per radian of spindle angle; flute k stands at
+/// start_angle + azimuth_k + turned and raise_k higher than an unworn one:
+///     first turned >= not_before with start_height + raise_k - drop turned <= Zc_k(start_angle + azimuth_k + turned).
 /// No time steps: revolutions above the highest Zc are passed at once, then humps of Zc + drop angle are isolated.
+#include <list>
 #include <span>
 
 #include "chain/insert_height.h"
@@ -12,10 +13,31 @@ namespace gumshoe::chain {
 
 inline constexpr int most_inserts = 12;
 
+/// One insert in its seat. Flutes of one tool may differ in everything.
+template <class T> struct Flute {
+  Insert<T> insert;
+  T azimuth; ///< of the seat, from that of the first, rad
+  T raise;   ///< the flute is shorter by this: W_k, m
+};
+
+/// Derivatives dropped.
+template <class To, class T> Flute<To> converted(const Flute<T>& f) {
+  const auto number = [](const T& x) { return To(num::value(x)); };
+  const Insert<T>& i = f.insert;
+  return {{number(i.tool_radius), number(i.radius), number(i.thickness), number(i.clearance), number(i.radial_angle),
+           number(i.axial_angle), number(i.axis_x), number(i.axis_y), number(i.seat)},
+          number(f.azimuth),
+          number(f.raise)};
+}
+template <class To, class T> Beam<To> converted(const Beam<T>& b) {
+  return {To(num::value(b.yaw)), To(num::value(b.pitch)), To(num::value(b.radius)), To(num::value(b.fraction))};
+}
+
 struct InsertMotion {
-  double start_angle = 0;  ///< of the first insert, holder angle included, rad
+  double start_angle = 0;  ///< of the first seat, holder angle included, rad
   double start_height = 0; ///< of the tool's centre above the laser reference point, m
   double drop = 0;         ///< m per rad, positive
+  double not_before = 0;   ///< spindle angle turned until a trigger counts, rad
 };
 
 struct InsertTrigger {
@@ -25,30 +47,44 @@ struct InsertTrigger {
   double height = 0; ///< of the tool's centre at the trigger
 };
 
-/// `already_covered`: an insert covers the share before anything moves. Absolute error of the height below 1e-12 m.
-InsertTrigger insert_trigger(const InsertHeight& heights, std::span<const double> wear, const InsertMotion& motion);
+/// Solves triggers, and remembers what depends on the geometry alone: calls with equal inserts and beam share it. What
+/// is remembered changes no bit.
+class TriggerSolver {
+public:
+  /// `already_covered`: a flute covers the share before anything moves. Absolute error of the height below 1e-12 m.
+  InsertTrigger solve(std::span<const Flute<double>> flutes, const Beam<double>& beam, const InsertMotion& motion);
+  /// Zc of one insert; valid until the next call.
+  const InsertHeight& heights(const Insert<double>& insert, const Beam<double>& beam);
 
-/// The height with its derivatives: Newton steps in T at the trigger found, for one insert.
+private:
+  struct Remembered {
+    Insert<double> insert;
+    Beam<double> beam;
+    InsertHeight heights;
+  };
+  std::list<Remembered> remembered_; ///< the last used first
+};
+
+/// The height with its derivatives: Newton steps in T at the trigger found, for the flute that triggers.
 template <class T> struct InsertMotionOf {
-  T angle;  ///< of the insert that triggers at the start, rad
-  T height; ///< of the tool's centre at the start, m
-  T wear;
+  T angle;  ///< start_angle, rad
+  T height; ///< start_height, m
   T drop;
 };
 template <class T>
-T differentiable_trigger_height(const Insert<T>& insert, const Beam<T>& beam, const InsertMotionOf<T>& m,
+T differentiable_trigger_height(const Flute<T>& flute, const Beam<T>& beam, const InsertMotionOf<T>& m,
                                 const InsertTrigger& solved) {
   constexpr double pi = 3.14159265358979323846;
-  const InsertBody<T> body = insert_body(insert, beam);
+  const InsertBody<T> body = insert_body(flute.insert, beam);
   const T target = beam.fraction * (pi * (beam.radius * beam.radius));
   T turned(solved.turned);
   for (int level = 0; level < num::derivative_levels<T>; ++level) {
-    const T angle = m.angle + turned, k = body.cos_pitch * (m.height + m.wear - m.drop * turned);
+    const T angle = m.angle + flute.azimuth + turned, k = body.cos_pitch * (m.height + flute.raise - m.drop * turned);
     const InsertShadow<T> shadow = insert_shadow(body, angle);
     const InsertShadow<double> plain = converted<double>(shadow);
     const InsertParts parts = insert_parts(plain, joints(plain), num::value(k), num::value(beam.radius));
     const auto moving = Dual<double, 1>::variable(num::value(turned), 0);
-    const auto turning = insert_shadow(converted<Dual<double, 1>>(body), num::value(m.angle) + moving);
+    const auto turning = insert_shadow(converted<Dual<double, 1>>(body), num::value(m.angle + flute.azimuth) + moving);
     const double fall = num::value(body.cos_pitch * m.drop);
     const double slope = insert_cover(turning, joints(turning), num::value(k) - fall * (moving - num::value(turned)),
                                       Dual<double, 1>(num::value(beam.radius)), parts)

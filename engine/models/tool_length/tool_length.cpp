@@ -117,22 +117,15 @@ template <class T> Point<T> solve_point(const PointCall<T>& call, bool with_solv
     return p;
   }
   if (!with_solve) return p;
-  const chain::Insert<T> insert = mill::insert(call.quantities, p.event);
-  const chain::Beam<T> beam = mill::beam(call.quantities);
-  const auto n = [](const T& x) { return num::value(x); };
-  const chain::InsertHeight heights({n(insert.tool_radius), n(insert.radius), n(insert.thickness), n(insert.clearance),
-                                     n(insert.radial_angle), n(insert.axial_angle), n(insert.axis_x), n(insert.axis_y)},
-                                    {n(beam.yaw), n(beam.pitch), n(beam.radius), n(beam.fraction)});
-  const auto trigger = mill::trigger(heights, q, call.conditions);
+  chain::TriggerSolver solver;
+  const auto trigger = mill::trigger(solver, call.quantities, p.event, call.conditions);
   if (trigger.status != chain::SolveStatus::ok) {
     p.height = {T(std::nan("")), trigger.status};
     return p;
   }
-  const double turn = trigger.insert * (2 * pi / q[mill::inserts]);
   p.height.value = chain::differentiable_trigger_height<T>(
-      insert, beam,
-      {call.quantities[mill::holder_angle] + (call.conditions[mill::start_angle] + turn),
-       T(call.conditions[mill::start_height]), call.quantities[mill::wear + trigger.insert],
+      mill::flute(call.quantities, p.event, trigger.insert), mill::beam(call.quantities),
+      {call.quantities[mill::holder_angle] + call.conditions[mill::start_angle], T(call.conditions[mill::start_height]),
        T(mill::drop(call.conditions))},
       trigger);
   return p;
@@ -166,9 +159,11 @@ std::vector<Intermediate> explain(const PointCall<double>& call) {
       {"descent per revolution", "mm", 2 * pi * mill::drop(call.conditions) / mm},
   };
   if (call.evaluation == mill::full && p.height.status == chain::SolveStatus::ok) {
-    const chain::InsertHeight heights(mill::insert(q, p.event), mill::beam(q));
-    const auto trigger = mill::trigger(heights, q, call.conditions);
-    out.insert(out.end(), {{"highest trigger height of an unworn insert", "mm", heights.highest().height / mm},
+    chain::TriggerSolver solver;
+    const auto trigger = mill::trigger(solver, q, p.event, call.conditions);
+    const double highest =
+        solver.heights(mill::flute(q, p.event, trigger.insert).insert, mill::beam(q)).highest().height;
+    out.insert(out.end(), {{"highest trigger height of this insert, unworn", "mm", highest / mm},
                            {"insert that triggers", "1", trigger.insert + 1.0},
                            {"spindle turned until the trigger", "deg", trigger.turned / deg}});
   }

@@ -80,9 +80,20 @@ inline const char* impossible(const double* q, const double* condition) {
 /// Descent per radian of spindle angle.
 inline double drop(const double* condition) { return condition[feed] / condition[speed]; }
 
-inline chain::InsertTrigger trigger(const chain::InsertHeight& heights, const double* q, const double* condition) {
-  return chain::insert_trigger(heights, {q + wear, static_cast<std::size_t>(q[inserts])},
-                               {q[holder_angle] + condition[start_angle], condition[start_height], drop(condition)});
+/// Flute k, from 0.
+template <class T> chain::Flute<T> flute(const T* q, const chain::ProbingEvent<T>& event, int k) {
+  return {insert(q, event), T(2 * 3.14159265358979323846 * k / num::value(q[inserts])), q[wear + k]};
+}
+
+/// The first trigger, derivatives dropped.
+template <class T>
+chain::InsertTrigger trigger(chain::TriggerSolver& solver, const T* q, const chain::ProbingEvent<T>& event,
+                             const double* condition) {
+  const auto n = static_cast<std::size_t>(num::value(q[inserts]));
+  chain::Flute<double> flutes[chain::most_inserts];
+  for (std::size_t k = 0; k < n; ++k) flutes[k] = chain::converted<double>(flute(q, event, static_cast<int>(k)));
+  return solver.solve({flutes, n}, chain::converted<double>(beam(q)),
+                      {num::value(q[holder_angle]) + condition[start_angle], condition[start_height], drop(condition)});
 }
 
 /// The machine: what the control reads when the tool is q[length] long.

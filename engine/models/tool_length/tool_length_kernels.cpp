@@ -1,6 +1,4 @@
 /// Block loops of the mill model, scalar inside: the solve branches too much for lanes.
-#include <optional>
-
 #include "models/tool_length/tool_length.h"
 
 namespace gumshoe::models {
@@ -8,27 +6,10 @@ namespace {
 
 double load(const Column& c, std::size_t i) { return c.data[c.stride * i]; }
 
-/// Heights of the geometry last seen: readings and samples of equal geometry share them. What they hold depends on
-/// the geometry alone, so sharing changes no bit.
-class Heights {
-public:
-  const chain::InsertHeight& of(const chain::Insert<double>& i, const chain::Beam<double>& b) {
-    const std::array<double, 12> now{i.tool_radius, i.radius, i.thickness, i.clearance, i.radial_angle, i.axial_angle,
-                                     i.axis_x,      i.axis_y, b.yaw,       b.pitch,     b.radius,       b.fraction};
-    if (!heights_ || now != last_) heights_.emplace(i, b);
-    last_ = now;
-    return *heights_;
-  }
-
-private:
-  std::optional<chain::InsertHeight> heights_;
-  std::array<double, 12> last_{};
-};
-
 template <class Finish> void for_each_sample(const BlockCall& call, bool with_solve, const Finish& finish) {
   double q[mill::count], condition[mill::conditions];
   std::vector<double> e(call.effect_quantities + 1);
-  Heights heights;
+  chain::TriggerSolver solver;
   for (std::size_t i = 0; i < call.samples; ++i)
     for (std::size_t r = 0; r < call.readings; ++r) {
       for (std::size_t j = 0; j < mill::count; ++j) q[j] = load(call.quantities[r * mill::count + j], i);
@@ -43,7 +24,7 @@ template <class Finish> void for_each_sample(const BlockCall& call, bool with_so
         status = chain::SolveStatus::out_of_domain;
         height = std::nan("");
       } else if (with_solve) {
-        const auto trigger = mill::trigger(heights.of(mill::insert(q, event), mill::beam(q)), q, condition);
+        const auto trigger = mill::trigger<double>(solver, q, event, condition);
         status = trigger.status;
         height = status == chain::SolveStatus::ok ? trigger.height : std::nan("");
       }
