@@ -96,17 +96,6 @@ private:
 
 } // namespace
 
-namespace {
-bool same(const Insert<double>& a, const Insert<double>& b) {
-  return a.tool_radius == b.tool_radius && a.radius == b.radius && a.thickness == b.thickness &&
-         a.clearance == b.clearance && a.radial_angle == b.radial_angle && a.axial_angle == b.axial_angle &&
-         a.axis_x == b.axis_x && a.axis_y == b.axis_y && a.seat == b.seat;
-}
-bool same(const Beam<double>& a, const Beam<double>& b) {
-  return a.yaw == b.yaw && a.pitch == b.pitch && a.radius == b.radius && a.fraction == b.fraction;
-}
-} // namespace
-
 const InsertHeight& TriggerSolver::heights(const Insert<double>& insert, const Beam<double>& beam) {
   const auto known = std::ranges::find_if(
       remembered_, [&](const Remembered& r) { return same(r.insert, insert) && same(r.beam, beam); });
@@ -119,8 +108,8 @@ const InsertHeight& TriggerSolver::heights(const Insert<double>& insert, const B
   return remembered_.front().heights;
 }
 
-InsertTrigger TriggerSolver::solve(std::span<const Flute<double>> flutes, const Beam<double>& beam,
-                                   const InsertMotion& motion) {
+InsertTrigger TriggerSolver::search(std::span<const Flute<double>> flutes, const Beam<double>& beam,
+                                    const InsertMotion& motion) {
   InsertTrigger result;
   double least = 1e300;
   bool ever_covered = false;
