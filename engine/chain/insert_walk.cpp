@@ -44,18 +44,26 @@ std::optional<InsertTrigger> TriggerSolver::walk(std::span<const Flute<double>> 
   const auto level = [&](std::size_t k) { return cosine * (m.start_height + flutes[k].raise); };
   // As deep below the highest as one flute alone may wait; less serves when others come between.
   const double whole = turn * fall;
-  for (const double share : {1.0 / static_cast<double>(flutes.size()), 1.0}) {
+  for (const double share : {1.0 / static_cast<double>(flutes.size()), 1.0, 2.0}) {
     for (std::size_t k = 0; k < flutes.size(); ++k) {
-      Pass& p = passes_[geometry[k]];
       if (geometry[k] != k) continue;
-      const double below = 1.02 * share * whole + p.pass->slack();
-      if (p.asked != below) p.asked = below, p.open = p.pass->open(below);
+      Pass& p = passes_[k];
+      // the tool may start below the highest
+      double start = HUGE_VAL;
+      for (std::size_t j = k; j < flutes.size(); ++j)
+        if (geometry[j] == k) start = std::min(start, level(j) - fall * m.not_before);
+      const double below = 1.02 * share * whole + std::max(p.pass->slack(), p.pass->highest() - start);
+      if (p.asked != below) {
+        p.asked = below, p.open = p.pass->open(below);
+        // turns that no insert reaches are better passed at once
+        if (p.open && p.pass->slack() > whole) p.pass->lower(0.1 * whole);
+      }
       if (!p.open) return std::nullopt;
     }
     std::array<Opening, 2 * most_inserts> openings;
     std::size_t size = 0;
     const auto advance = [&](Opening& o, double not_before) {
-      const PassWindow& w = passes_[geometry[o.flute]].pass->window(o.window);
+      const InsertPass::Window& w = passes_[geometry[o.flute]].pass->window(o.window);
       const double seat = m.start_angle + flutes[o.flute].azimuth;
       const double earliest = std::max(not_before, (level(o.flute) - w.highest) / fall);
       o.shift = turn * std::ceil((earliest - (w.to - seat)) / turn) - seat;
