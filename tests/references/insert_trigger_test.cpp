@@ -59,7 +59,7 @@ private:
 };
 
 /// The most that two searches may differ in height: they solve for k to 1e-14 m.
-constexpr double agreed = 1e-12;
+constexpr double agreed = 1e-13;
 
 } // namespace
 

@@ -1,4 +1,5 @@
-/// Block loops of the mill model, scalar inside: the solve branches too much for lanes.
+/// Block loops of the mill model, scalar inside: the solve branches too much for lanes. Every reading is solved, since
+/// readings with equal quantities (call.solved_as) differ in their conditions.
 #include "models/tool_length/tool_length.h"
 
 namespace gumshoe::models {
