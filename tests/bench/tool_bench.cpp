@@ -88,6 +88,7 @@ BENCHMARK(tool_trigger_known);
 void characteristic_curve(benchmark::State& state) {
   Block block(2, false, false);
   block.call.samples = 360;
+  for (std::size_t i = 0; i < 360; ++i) block.angles[i] = static_cast<double>(i) * deg;
   run(state, block);
 }
 BENCHMARK(characteristic_curve);
