@@ -213,6 +213,25 @@ TEST_CASE("a tool triggers at the highest of its flutes' own heights", "[laws][t
   REQUIRE(compared > 140);
 }
 
+TEST_CASE("what a solver remembers changes no bit", "[laws][tool_length]") {
+  Draw draw;
+  TriggerSolver lasting;
+  for (int n = 0; n < 120; ++n) {
+    const Tool t = draw.tool(n / 2 * 2);
+    for (int i = 0; i < 4; ++i) { // one geometry from several angles, heights and drops
+      InsertMotion m = t.motion;
+      m.start_angle += i, m.start_height += 1e-4 * (i / 2), m.drop *= i == 3 ? 1.5 : 1;
+      const InsertTrigger again = lasting.solve(t.flutes, t.beam, m),
+                          fresh = TriggerSolver().solve(t.flutes, t.beam, m);
+      INFO("tool " << n);
+      REQUIRE(again.status == fresh.status);
+      REQUIRE(again.height == fresh.height);
+      REQUIRE(again.turned == fresh.turned);
+    }
+    lasting.alone(t.flutes.back(), t.beam, 0, t.motion.drop);
+  }
+}
+
 TEST_CASE("both ways see a characteristic curve jump at the same angle", "[references][tool_length]") {
   // Thesis tool, one tooth worn: the curve jumps where one hump gives way to the next.
   const Insert<double> insert{10 * mm, 5 * mm, 3.2 * mm, 15 * deg, -12 * deg, 6 * deg, 0, -4.9 * mm};
