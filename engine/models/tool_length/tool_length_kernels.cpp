@@ -1,5 +1,4 @@
-/// Block loops of the mill model, scalar inside: the solve branches too much for lanes. Every reading is solved, since
-/// readings with equal quantities (call.solved_as) differ in their conditions.
+/// Block loops of the mill model, scalar inside: the solve branches too much for lanes.
 #include "models/tool_length/tool_length.h"
 
 namespace gumshoe::models {
