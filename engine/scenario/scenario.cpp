@@ -41,6 +41,8 @@ public:
       top.members();
       problems_.raise();
     }
+    const ModelCard seen = evaluated_card(*model, out_.evaluation);
+    model = &seen;
     read_readings(top, *model);
     read_quantities(top, *model);
     read_effects(top, *model);
@@ -230,6 +232,13 @@ private:
 };
 
 } // namespace
+
+ModelCard evaluated_card(const ModelCard& model, const std::string& evaluation) {
+  ModelCard card = model;
+  for (const EvaluationCard& e : model.evaluations)
+    if (e.name == evaluation && e.joint()) card.measurands = e.measurands;
+  return card;
+}
 
 Scenario read(const std::string& path, const Catalogue& catalogue) { return ScenarioReader(path, catalogue).read(); }
 

@@ -166,6 +166,9 @@ struct Catalogue {
   bool (*applies)(const ModelCard& model, const EffectCard& effect) = nullptr;
 };
 
+/// The card as an evaluation sees it: with the measurands that the evaluation yields.
+ModelCard evaluated_card(const ModelCard& model, const std::string& evaluation);
+
 /// Reads and validates a file. Throws InputError with every problem found, located.
 Scenario read(const std::string& path, const Catalogue& catalogue);
 
