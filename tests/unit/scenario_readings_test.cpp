@@ -42,6 +42,32 @@ TEST_CASE("rows of equal labels are repeats of one reading", "[scenario][reading
   CHECK(one.readings[0].indications[0] == -329.932 / 1000);
 }
 
+TEST_CASE("listed conditions make one reading each", "[scenario][readings]") {
+  const std::string listed = "[conditions]\nfeed = [\"4 mm/min\", \"8 mm/min\"]\n";
+  const auto two = read_text(readings("\"-329 mm\", \"-330 mm\"", listed));
+  REQUIRE(two.readings.size() == 2);
+  CHECK(two.readings[0].conditions[0] == Approx(4e-3 / 60));
+  CHECK(two.readings[1].conditions[0] == Approx(8e-3 / 60));
+  CHECK(two.readings[1].indications[0] == -0.330);
+  CHECK(two.readings[1].labels == quantities::Labels{{"feed", "8 mm/min"}});
+  CHECK(problems_of(readings("\"-329 mm\"", listed)).find("1 readings beside 2 listed conditions") != std::string::npos);
+
+  const auto spread =
+      read_text(readings("\"-1 mm\", \"-2 mm\", \"-3 mm\"",
+                         "[conditions]\ntime = { spread = [\"0 s\", \"6 s\"], readings = 3 }\nfeed = \"8 mm/min\"\n"));
+  REQUIRE(spread.readings.size() == 3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    CHECK(spread.readings[i].conditions[1] == 2.0 * static_cast<double>(i));
+    CHECK(spread.readings[i].conditions[0] == Approx(8e-3 / 60));
+  }
+  CHECK(problems_of(readings("\"-1 mm\"", "[conditions]\ntime = { spread = [\"0 s\"], readings = 3 }\n"))
+            .find("needs a first and a last value") != std::string::npos);
+  CHECK(problems_of(readings("\"-1 mm\", \"-2 mm\"",
+                             "[conditions]\ntime = { spread = [\"0 s\", \"1 s\"], readings = 3 }\nfeed = [\"8 mm/min\", "
+                             "\"9 mm/min\"]\n"))
+            .find("lists stand side by side") != std::string::npos);
+}
+
 TEST_CASE("s pooled over all cells of the data, though one is read", "[scenario][readings]") {
   // Cells that scatter: (.513 .515 .513), (.460 .460 .461), (.271 .270 .270): squares (8 + 2 + 2)/3 um^2
   // = 4 um^2 over 12 cells x 2 degrees of freedom: s = sqrt(4/24) um = 0.408 um.
