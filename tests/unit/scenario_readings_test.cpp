@@ -1,8 +1,8 @@
 #include <catch2/catch.hpp>
 
+#include "places.h"
 #include "scenario/noise.h"
 #include "unit/scenario_fixture.h"
-#include "places.h"
 
 using namespace scenario_fixture;
 using quantities::Family;
@@ -50,7 +50,7 @@ TEST_CASE("listed conditions make one reading each", "[scenario][readings]") {
   CHECK(two.readings[1].conditions[0] == Approx(8e-3 / 60));
   CHECK(two.readings[1].indications[0] == -0.330);
   CHECK(two.readings[1].labels == quantities::Labels{{"feed", "8 mm/min"}});
-  CHECK(problems_of(readings("\"-329 mm\"", listed)).find("1 readings beside 2 listed conditions") != std::string::npos);
+  CHECK(complaint(readings("\"-329 mm\"", listed)).find("1 readings beside 2 listed conditions") != std::string::npos);
 
   const auto spread =
       read_text(readings("\"-1 mm\", \"-2 mm\", \"-3 mm\"",
@@ -60,11 +60,11 @@ TEST_CASE("listed conditions make one reading each", "[scenario][readings]") {
     CHECK(spread.readings[i].conditions[1] == 2.0 * static_cast<double>(i));
     CHECK(spread.readings[i].conditions[0] == Approx(8e-3 / 60));
   }
-  CHECK(problems_of(readings("\"-1 mm\"", "[conditions]\ntime = { spread = [\"0 s\"], readings = 3 }\n"))
+  CHECK(complaint(readings("\"-1 mm\"", "[conditions]\ntime = { spread = [\"0 s\"], readings = 3 }\n"))
             .find("needs a first and a last value") != std::string::npos);
-  CHECK(problems_of(readings("\"-1 mm\", \"-2 mm\"",
-                             "[conditions]\ntime = { spread = [\"0 s\", \"1 s\"], readings = 3 }\nfeed = [\"8 mm/min\", "
-                             "\"9 mm/min\"]\n"))
+  CHECK(complaint(readings("\"-1 mm\", \"-2 mm\"",
+                           "[conditions]\ntime = { spread = [\"0 s\", \"1 s\"], readings = 3 }\nfeed = [\"8 mm/min\", "
+                           "\"9 mm/min\"]\n"))
             .find("lists stand side by side") != std::string::npos);
 }
 
