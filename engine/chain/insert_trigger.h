@@ -4,10 +4,13 @@
 /// start_angle + azimuth_k + turned and raise_k higher than an unworn one:
 ///     first turned >= not_before with start_height + raise_k - drop turned <= Zc_k(start_angle + azimuth_k + turned).
 /// No time steps: revolutions above the highest Zc are passed at once, then humps of Zc + drop angle are isolated.
+#include <array>
 #include <list>
+#include <optional>
 #include <span>
 
 #include "chain/insert_height.h"
+#include "chain/insert_pass.h"
 
 namespace gumshoe::chain {
 
@@ -19,6 +22,16 @@ template <class T> struct Flute {
   T azimuth; ///< of the seat, from that of the first, rad
   T raise;   ///< the flute is shorter by this: W_k, m
 };
+
+/// Equal in every bit.
+inline bool same(const Insert<double>& a, const Insert<double>& b) {
+  return a.tool_radius == b.tool_radius && a.radius == b.radius && a.thickness == b.thickness &&
+         a.clearance == b.clearance && a.radial_angle == b.radial_angle && a.axial_angle == b.axial_angle &&
+         a.axis_x == b.axis_x && a.axis_y == b.axis_y && a.seat == b.seat;
+}
+inline bool same(const Beam<double>& a, const Beam<double>& b) {
+  return a.yaw == b.yaw && a.pitch == b.pitch && a.radius == b.radius && a.fraction == b.fraction;
+}
 
 /// Derivatives dropped.
 template <class To, class T> Flute<To> converted(const Flute<T>& f) {
@@ -53,6 +66,11 @@ class TriggerSolver {
 public:
   /// `already_covered`: a flute covers the share before anything moves. Absolute error of the height below 1e-12 m.
   InsertTrigger solve(std::span<const Flute<double>> flutes, const Beam<double>& beam, const InsertMotion& motion);
+  /// The same by the general search alone, for every insert and beam.
+  InsertTrigger search(std::span<const Flute<double>> flutes, const Beam<double>& beam, const InsertMotion& motion);
+  /// The same by the walk through the windows alone (insert_pass.h); nothing where it has no proof.
+  std::optional<InsertTrigger> walk(std::span<const Flute<double>> flutes, const Beam<double>& beam,
+                                    const InsertMotion& motion);
   /// Zc of one insert; valid until the next call.
   const InsertHeight& heights(const Insert<double>& insert, const Beam<double>& beam);
 
@@ -63,6 +81,15 @@ private:
     InsertHeight heights;
   };
   std::list<Remembered> remembered_; ///< the last used first
+  struct Pass {
+    Insert<double> insert;
+    Beam<double> beam;
+    std::optional<InsertPass> pass;
+    double asked = -1; ///< `below` of the last open(), and what came of it
+    bool open = false;
+  };
+  Pass& pass(std::size_t flute, const Insert<double>& insert, const Beam<double>& beam);
+  std::array<Pass, most_inserts> passes_;
 };
 
 /// The height with its derivatives: Newton steps in T at the trigger found, for the flute that triggers.
