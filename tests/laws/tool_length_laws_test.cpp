@@ -216,7 +216,7 @@ TEST_CASE("what a mill's effects make impossible is said", "[effects][tool_lengt
   for (const auto& [bad, words] : std::initializer_list<std::pair<Mill, const char*>>{
            {m.with("insert_radius_error", {0, -7e-3}), "insert_radius"},
            {m.with("insert_seat_error", {-11e-3}), "tool_radius"},
-           {m.with("insert_axial_angle_error", {1.6}), "insert_axial_angle"},
+           {m.with("insert_axial_angle_error", {1.8}), "insert_axial_angle"},
            {m.with("spindle_speed_error", {-1.5}), "spindle_speed"},
            {m.with("servo_lag", {-1e-3}), "servo_lag"},
            {m.with("sampling_rate", {-1e-3}), "sampling_rate"},
