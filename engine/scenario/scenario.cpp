@@ -7,6 +7,7 @@
 
 #include "base/hash.h"
 #include "base/text_file.h"
+#include "scenario/conditions.h"
 #include "scenario/expected.h"
 #include "scenario/made_model.h"
 #include "scenario/noise.h"
@@ -113,7 +114,8 @@ private:
 
   void read_readings(Table& top, const ModelCard& model) {
     const std::size_t before = problems_.size();
-    const auto conditions = read_conditions(top.table("conditions"), model);
+    const Conditions conditions = read_conditions(top.table("conditions"), model);
+    out_.spreads = conditions.spreads;
     auto indications = top.table("indications");
     static const Node nothing;
     std::vector<IndicationReadouts> readouts;

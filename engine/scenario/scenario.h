@@ -135,6 +135,12 @@ struct EstimateOptions {
   bool t = false;        ///< posterior as t where the noise is estimated: as normal otherwise
 };
 
+/// A condition that goes evenly from `first`, to `last` excluded, over the readings.
+struct Spread {
+  std::size_t condition; ///< by position in the model's card
+  double first, last;    ///< SI
+};
+
 struct Scenario {
   std::string file;
   std::string text; ///< as read, kept in the result
@@ -150,6 +156,7 @@ struct Scenario {
   std::vector<quantities::InputQuantity> quantities;
   std::vector<quantities::Correlation> correlations;
   std::vector<quantities::Reading> readings; ///< at least one
+  std::vector<Spread> spreads;               ///< of the readings' conditions
   RunOptions run;
   AnalysisOptions analysis;
   std::vector<Expected> expected;
