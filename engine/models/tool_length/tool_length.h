@@ -34,7 +34,7 @@ enum Quantity {
 };
 enum Condition { speed, feed, start_angle, start_height, time, direction, conditions };
 enum Measurand { trigger_height_row, length_row, effective_row, measurands };
-enum Evaluation { full, conventional };
+enum Evaluation { full, conventional, single, slow, characteristic_curve, peaks }; ///< from single on: procedures.h
 
 /// The event as commanded, with all active effects applied.
 template <class T>

@@ -1,5 +1,5 @@
 /// Block loops of the mill model, scalar inside: the solve branches too much for lanes.
-#include "models/tool_length/tool_length.h"
+#include "models/tool_length/procedures.h"
 
 namespace gumshoe::models {
 namespace {
@@ -36,6 +36,7 @@ template <class Finish> void for_each_sample(const BlockCall& call, bool with_so
 }
 
 void simulate(const BlockCall& call) {
+  if (mill::joint(call.evaluation)) return mill::simulate_together(call);
   for_each_sample(
       call, true,
       [&](std::size_t r, std::size_t i, const double* q, const auto& event, double height, double* const* rows) {
@@ -46,6 +47,7 @@ void simulate(const BlockCall& call) {
 }
 
 void evaluate(const BlockCall& call) {
+  if (mill::joint(call.evaluation)) return mill::evaluate_together(call);
   for_each_sample(
       call, call.evaluation == mill::full,
       [&](std::size_t r, std::size_t i, const double* q, const auto& event, double height, double* const* rows) {
