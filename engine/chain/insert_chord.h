@@ -120,7 +120,10 @@ inline RakeChord rake_chord(const RakeView& v, double rho, const DiscShare& disc
       const double drift = segment / (2 * c1), p1 = rho * rho * drift;
       chord.solved = true;
       chord.k = p * q + t * v.cy - v.cz + r * rho * g + 0.5 * off * step;
-      chord.slope = t * v.cy1 - v.cz1 - r * rho * along * (t * v.ny1 - v.nz1) / g + q * area1 * drift;
+      // its own change with t over the step that is left, too
+      const double along1 = t * v.ny1 - v.nz1;
+      const double mixed = v.cy1 + r * rho * (normal_y * along * along1 / g - v.ny1 * along - v.ny * along1) / g;
+      chord.slope = t * v.cy1 - v.cz1 - r * rho * along * along1 / g + q * area1 * drift + mixed * step;
       chord.t = t;
       chord.bend = q * (p1 + 4 * std::fabs(p) * p1 * p1 / c1);
       return chord;

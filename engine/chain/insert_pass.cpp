@@ -29,7 +29,10 @@ InsertPass::InsertPass(const InsertBody<double>& body, const DiscShare& disc)
   const double g_most = std::sqrt(1 - nz_least * nz_least);
   const double depth = disc_.radius * disc_.depth;
   // Phi at s = 0, t = 0: the level line through the lowest point
-  highest_ = depth - body_.cos_pitch * c.z - body_.rise + tilt_ * spread_ + body_.radius * g_most;
+  highest_ = depth - body_.rise +
+             std::max(tilt_ * spread_ - body_.cos_pitch * c.z + body_.radius * g_most,
+                      tilt_ * std::sqrt(body.back.x * body.back.x + body.back.y * body.back.y) -
+                          body_.cos_pitch * body.back.z + body.back_radius * g_most);
   blunt_ = body_.radius + std::max(depth, 0.0);
   // y of the lowest point C + radius n_z / g n, n_z / g taken as constant
   const double low = nz_low_ / std::sqrt(1 - nz_low_ * nz_low_), high = nz_high_ / std::sqrt(1 - nz_high_ * nz_high_);
