@@ -219,7 +219,7 @@ TEST_CASE("a lagging feed from a low start, against all angles one after another
       return least;
     };
     REQUIRE(std::fabs(above(t)) < 1e-13);
-    const double step = 0.1 * deg / speed, first = std::max(0.0, t - 4 * pi / speed);
+    const double step = 0.25 * deg / speed, first = std::max(0.0, t - 4 * pi / speed);
     for (double at = first; at < t - 1e-9; at += step) REQUIRE(above(at) > 0);
   }
   REQUIRE(solved > 25);

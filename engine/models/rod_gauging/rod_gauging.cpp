@@ -67,7 +67,7 @@ constexpr EvaluationCard evaluations[] = {
     {"full", "the geometry of rod and beam solved: Fang 2022, section 2.4"},
     {"conventional", "square rod, aligned beam: bottom_height = 0; what ignoring the geometry costs"},
 };
-constexpr std::string_view stages[] = {"pose", "motion", "trigger"};
+constexpr std::string_view stages[] = {"standing", "pose", "motion", "trigger"};
 
 constexpr ModelCard card{
     "rod_gauging",
