@@ -78,18 +78,21 @@ Experiment::Experiment(const scenario::Scenario& s)
     if (card.evaluations[i].name == s.evaluation) evaluation_ = i;
   joint_ = evaluation_ < card.evaluations.size() && card.evaluations[evaluation_].joint();
   measurands_ = joint_ ? card.evaluations[evaluation_].measurands : card.measurands;
+  mean_ = s.mean_of_readings && !joint_;
   for (std::size_t c = 0; c < plan_.columns.size(); ++c) column_estimates_.push_back(plan_.estimate(c));
 
   for (const auto& reading : s.readings)
     for (std::size_t c = 0; c < card.conditions.size(); ++c) conditions_.push_back(reading.conditions.at(c));
   for (std::size_t r = 0; r < s.readings.size(); ++r) check_reading(r);
-  if (joint_) {
+  if (joint_ || mean_)
     for (std::size_t c = 0; c < plan_.columns.size(); ++c) every_column_.push_back(c);
+  if (joint_) {
     if (model_->measurands_in_use)
       measurands_ =
           measurands_.first(model_->measurands_in_use(static_cast<int>(evaluation_), reading_point(0, nullptr).data()));
     check_all();
   }
+  joint_ = joint_ || mean_;
   for (std::size_t r = 0; r < (joint_ ? 1 : s.readings.size()); ++r) add_outputs(r);
 
   // Readings that agree in everything the solve reads share one solve.
@@ -249,7 +252,20 @@ void Experiment::run_columns(std::span<const double* const> columns, std::size_t
 }
 
 void Experiment::run_drawn(std::size_t n, Workspace& w, double* outputs, std::uint8_t* status) const {
+  if (!mean_) return run_model(n, w, outputs, status);
   const std::size_t readings = scenario_.readings.size(), rows = outputs_.size();
+  w.single.resize(readings * rows * n);
+  run_model(n, w, w.single.data(), status);
+  const double share = 1 / static_cast<double>(readings);
+  for (std::size_t i = 0; i < rows * n; ++i) {
+    double sum = 0;
+    for (std::size_t r = 0; r < readings; ++r) sum += w.single[r * rows * n + i];
+    outputs[i] = sum * share;
+  }
+}
+
+void Experiment::run_model(std::size_t n, Workspace& w, double* outputs, std::uint8_t* status) const {
+  const std::size_t readings = scenario_.readings.size(), rows = outputs_.size() * (mean_ ? readings : 1);
   const bool virtual_experiment = scenario_.method == scenario::Method::virtual_experiment;
   w.indications.resize(readings * indications_ * n);
   w.measurands.resize(rows);

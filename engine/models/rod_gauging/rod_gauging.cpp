@@ -63,9 +63,19 @@ constexpr VariableCard measurands[] = {
     {"laser_z", "mm", "m", 0,
      "height of the beam's axis where it passes the spindle axis: spindle_z - rod_length - bottom_height"},
 };
+constexpr std::string_view per_reading = "approach / feed + retract", once = "rod_change";
 constexpr EvaluationCard evaluations[] = {
-    {"full", "the geometry of rod and beam solved: Fang 2022, section 2.4"},
-    {"conventional", "square rod, aligned beam: bottom_height = 0; what ignoring the geometry costs"},
+    {"full", "the geometry of rod and beam solved: Fang 2022, section 2.4", {}, per_reading, once},
+    {"conventional",
+     "square rod, aligned beam: bottom_height = 0; what ignoring the geometry costs",
+     {},
+     per_reading,
+     once},
+};
+constexpr QuantityCard timing[] = {
+    {"approach", "mm", "m", 2 * mm, {0, huge}, "", "way at the feed before the trigger"},
+    {"retract", "s", "s", 2, {0, huge}, "", "back up at rapid, and settling, of every reading"},
+    {"rod_change", "s", "s", 60, {0, huge}, "", "the rod into the spindle and over the beam, once"},
 };
 constexpr std::string_view stages[] = {"standing", "pose", "motion", "trigger"};
 
@@ -80,7 +90,8 @@ constexpr ModelCard card{
     laser_setter::indications,
     measurands,
     evaluations,
-    stages};
+    stages,
+    timing};
 
 template <class T> PointOutcome evaluate_point(const PointCall<T>& call) {
   T condition[rod::conditions];
