@@ -109,9 +109,9 @@ Vector3<T> probe_from_origin(int variant, const Links<T>& l, const T& at_B, cons
 
 /// The tip's centre at the trigger, from the commanded origin of the A axis' flange in machine axes: the top of the
 /// sphere and the tip's radius. The sphere's centre stands at (-d_s, sphere_y, sphere_z), turned by A about +X
-/// (eq 4.1).
+/// (eq 4.1). @param at_A actual angle, rad
 template <class T> Vector3<T> tip_at_top(const T* q, const T& at_A) {
-  const T turned = at_A + q[E_AA], c = num::cos(turned), s = num::sin(turned);
+  const T c = num::cos(at_A), s = num::sin(at_A);
   return {-q[sphere_distance], q[sphere_y] * c - q[sphere_z] * s,
           q[sphere_y] * s + q[sphere_z] * c + (q[sphere_radius] + q[tip_radius])};
 }
@@ -126,7 +126,7 @@ template <class T> Vector3<T> linear_errors(const T* q, const T& y, const T& z) 
 template <class T> struct Contact {
   Vector3<T> tip;     ///< tip_at_top
   Vector3<T> probe;   ///< r, at the actual angles
-  Vector3<T> nominal; ///< commands without positioning and linear errors
+  Vector3<T> nominal; ///< commands without positioning errors of A, B, C and without linear errors
   Vector3<T> added;   ///< linear_errors
 };
 /// @param q          quantities, SI
@@ -137,9 +137,10 @@ template <class T, class Mask>
 Contact<T> contact(int variant, const T* q, const Links<T>& l, const T* condition, const Mask& pattern_II,
                    bool squareness = true) {
   Contact<T> at;
-  at.tip = tip_at_top(q, condition[A]);
+  at.tip = tip_at_top(q, condition[A] + q[E_AA]);
   at.probe = probe_from_origin(variant, l, condition[B] + q[E_BB], condition[C] + q[E_CC], pattern_II);
-  if (squareness) at.nominal = at.tip - probe_from_origin(variant, l, condition[B], condition[C], pattern_II);
+  if (squareness)
+    at.nominal = tip_at_top(q, condition[A]) - probe_from_origin(variant, l, condition[B], condition[C], pattern_II);
   at.added = linear_errors(q, at.nominal.y, at.nominal.z);
   return at;
 }
