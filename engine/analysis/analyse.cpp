@@ -191,7 +191,7 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, int th
         std::ranges::any_of(s.analysis.comparisons, [&](const auto& c) { return c.measurand == output.measurand; });
     if (compared) kept[o].assign(values.begin(), values.end());
   });
-  if (!e.model().evaluate_gradient && !virtual_experiment)
+  if ((!e.model().evaluate_gradient || e.joint()) && !virtual_experiment)
     r.notes.push_back("sensitivity coefficients by differences over a standard uncertainty: the model states none");
   if (s.analysis.sensitivity.sobol > 0) {
     r.sensitivities = sobol_indices(e, s.analysis.sensitivity.sobol, threads);

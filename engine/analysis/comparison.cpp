@@ -24,12 +24,11 @@ bool matches(const quantities::Labels& labels, const quantities::Labels& wanted)
 std::vector<ComparisonResult> compare(const propagation::Experiment& e, const std::vector<std::vector<double>>& values,
                                       const std::vector<Summary>& summaries) {
   std::vector<ComparisonResult> results;
-  const auto& readings = e.scenario().readings;
   for (const auto& c : e.scenario().analysis.comparisons)
     for (std::size_t i = 0; i < e.outputs().size(); ++i)
       for (std::size_t j = i + 1; j < e.outputs().size(); ++j) {
         const auto &a = e.outputs()[i], &b = e.outputs()[j];
-        const auto &la = readings[a.reading].labels, &lb = readings[b.reading].labels;
+        const auto &la = a.labels, &lb = b.labels;
         if (a.measurand != c.measurand || b.measurand != c.measurand) continue;
         if (label_value(la, c.between) == label_value(lb, c.between)) continue;
         if (!c.within.empty() && label_value(la, c.within) != label_value(lb, c.within)) continue;
@@ -59,7 +58,7 @@ std::vector<PrintedResult> beside_printed(const propagation::Experiment& e, cons
     for (std::size_t o = 0; o < e.outputs().size(); ++o) {
       const auto& output = e.outputs()[o];
       if (output.measurand != printed.measurand ||
-          !matches(e.scenario().readings[output.reading].labels, printed.labels))
+          !matches(output.labels, printed.labels))
         continue;
       results.push_back({output.name, printed.source, output.unit, output.si_unit, printed.value, summaries[o].estimate,
                          0.5 * (summaries[o].shortest.high - summaries[o].shortest.low)});

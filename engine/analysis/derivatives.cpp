@@ -58,7 +58,7 @@ void one_sided(const propagation::Experiment& e, std::size_t reading, std::size_
 
 Derivatives differentiate(const propagation::Experiment& e, std::size_t reading, std::size_t m,
                           const std::vector<double>& point, bool second) {
-  if (!e.model().evaluate_gradient || (second && !e.model().evaluate_curvature))
+  if (e.joint() || !e.model().evaluate_gradient || (second && !e.model().evaluate_curvature))
     return differences(e, reading, m, point, second);
   const std::size_t n = point.size();
   Derivatives d;

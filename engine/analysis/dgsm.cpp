@@ -26,7 +26,7 @@ struct Slopes {
 
 void exact_slopes(const propagation::Experiment& e, const std::vector<double>& x, std::size_t block, std::size_t first,
                   std::size_t rows, Slopes& slopes) {
-  const std::size_t d = e.plan().variates.size(), measurands = e.model().card->measurands.size();
+  const std::size_t d = e.plan().variates.size(), measurands = e.measurands().size();
   std::vector<double> variates(d);
   for (std::size_t i = 0; i < rows; ++i) {
     for (std::size_t v = 0; v < d; ++v) variates[v] = x[v * block + i];
@@ -96,10 +96,10 @@ std::vector<Dgsm> derivative_measures(const propagation::Experiment& e, std::uin
   const auto& plan = e.plan();
   const std::size_t d = plan.variates.size(), outputs = e.outputs().size();
   const bool by_differences =
-      e.scenario().method == scenario::Method::virtual_experiment || e.model().evaluate_gradient == nullptr;
+      e.scenario().method == scenario::Method::virtual_experiment || e.model().evaluate_gradient == nullptr || e.joint();
   const std::size_t block = screening_block(e, points);
   std::vector<std::vector<Reach>> reach;
-  for (const auto& output : e.outputs()) reach.push_back(variates_reaching(plan, output.reading));
+  for (const auto& output : e.outputs()) reach.push_back(variates_reaching(e, output.reading));
   std::vector<double> constants(d, nan);
   if (plan.copulas.empty())
     propagation::parallel_for(d, threads,

@@ -13,16 +13,17 @@ using Point = std::vector<double>;
 /// vary.
 std::vector<double> steps(const propagation::Experiment& e, std::size_t reading, const Point& point) {
   const auto& plan = e.plan();
+  const auto& columns = e.columns_at(reading);
   std::vector<double> h(point.size(), 0.0);
   for (std::size_t q = 0; q < point.size(); ++q) {
-    for (const std::size_t v : plan.columns[plan.gather[reading][q]].variates) {
+    for (const std::size_t v : plan.columns[columns[q]].variates) {
       const auto& d = plan.variates[v].distribution;
       const double u2 = d.variance();
       h[q] = std::hypot(h[q], std::isfinite(u2) ? std::sqrt(u2) : d.parameters[1]);
     }
     if (h[q] == 0) continue;
-    if (q < e.model_quantities()) {
-      const Limits& limits = e.model().card->quantities[q].limits;
+    if (const std::size_t of = plan.columns[columns[q]].quantity; of < e.model_quantities()) {
+      const Limits& limits = e.model().card->quantities[of].limits;
       const double room = std::min(point[q] - limits.low, limits.high - point[q]);
       if (room > 0) h[q] = std::min(h[q], 0.999 * room);
     }
@@ -63,7 +64,31 @@ bool is_kink(double up, double down, double half_up, double half_down, double f0
 
 } // namespace
 
+namespace {
+
+/// Of a joint evaluation: points hold values of the plan's columns.
+std::vector<double> joint_values(const propagation::Experiment& e, const std::vector<Point>& points) {
+  const std::size_t count = points.size(), n = (count + 7) / 8 * 8, width = points.front().size();
+  const std::size_t outputs = e.outputs().size();
+  std::vector<double> columns(width * n), values(outputs * n), out;
+  std::vector<const double*> pointers;
+  for (std::size_t c = 0; c < width; ++c) {
+    for (std::size_t i = 0; i < n; ++i) columns[c * n + i] = points[std::min(i, count - 1)][c];
+    pointers.push_back(&columns[c * n]);
+  }
+  std::vector<std::uint8_t> status(n);
+  propagation::Workspace w;
+  e.run_columns(pointers, n, w, values.data(), status.data());
+  for (std::size_t o = 0; o < outputs; ++o)
+    out.insert(out.end(), values.begin() + static_cast<std::ptrdiff_t>(o * n),
+               values.begin() + static_cast<std::ptrdiff_t>(o * n + count));
+  return out;
+}
+
+} // namespace
+
 std::vector<double> values_at(const propagation::Experiment& e, std::size_t reading, const std::vector<Point>& points) {
+  if (e.joint()) return joint_values(e, points);
   const ModelCard& card = *e.model().card;
   const std::size_t count = points.size(), n = (count + 7) / 8 * 8, width = points.front().size();
   std::vector<double> columns(width * n), values(card.measurands.size() * n);

@@ -169,7 +169,7 @@ std::vector<GivenData> given_data_indices(const propagation::Experiment& e, cons
 
   std::vector<std::vector<GivenDataPair>> pairs(d, std::vector<GivenDataPair>(outputs));
   std::vector<std::vector<Reach>> reach;
-  for (const auto& output : e.outputs()) reach.push_back(variates_reaching(plan, output.reading));
+  for (const auto& output : e.outputs()) reach.push_back(variates_reaching(e, output.reading));
   std::vector<bool> has_variance(outputs, true);
   for (std::size_t o = 0; o < outputs; ++o)
     for (const Reach& r : reach[o])

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "analysis/derivatives.h"
+#include "analysis/reach.h"
 #include "analysis/tolerance.h"
 #include "quantities/copula.h"
 
@@ -17,13 +18,6 @@ std::string scope_text(const quantities::Component& component) {
   std::string text;
   for (const std::string& label : component.per) text += (text.empty() ? "per " : ", ") + label;
   return text;
-}
-
-std::vector<Reaching> reaching(const quantities::SamplePlan& plan, std::size_t reading) {
-  std::vector<Reaching> found;
-  for (std::size_t q = 0; q < plan.gather[reading].size(); ++q)
-    for (const std::size_t v : plan.columns[plan.gather[reading][q]].variates) found.push_back({v, q});
-  return found;
 }
 
 double correlation_of(const quantities::SamplePlan& plan, std::size_t a, std::size_t b) {
@@ -107,7 +101,7 @@ Budget budget(const propagation::Experiment& e, std::size_t output, double cover
   b.output = e.outputs()[output];
   b.monte_carlo_interactions = nan;
   const auto& plan = e.plan();
-  const std::size_t reading = b.output.reading, measurand = output % e.model().card->measurands.size();
+  const std::size_t reading = b.output.reading, measurand = output % e.measurands().size();
   const auto point = e.point(reading);
   const bool virtual_experiment = e.scenario().method == scenario::Method::virtual_experiment;
   Derivatives d;
@@ -129,7 +123,7 @@ Budget budget(const propagation::Experiment& e, std::size_t output, double cover
   double variance = 0, cross = 0, satterthwaite = 0;
   bool correlated = false;
   std::vector<double> u_of_quantity(point.size(), 0.0), signed_contributions;
-  const auto reached = reaching(plan, reading);
+  const auto reached = variates_reaching(e, reading);
   for (const auto& [v, q] : reached) {
     const auto& variate = plan.variates[v];
     const auto& quantity = e.scenario().quantities[variate.quantity];

@@ -6,7 +6,7 @@
 namespace gumshoe::analysis {
 
 /// The budget of one output by the law of propagation of uncertainty. One row per variate that reaches
-/// the output; c_i by dual numbers through the solver (beside a kink by
+/// the output (analysis/reach.h, in order); c_i by dual numbers through the solver (beside a kink by
 /// differences); second-order terms of 5.1.2 note, with the
 /// third derivatives as differences of exact first ones. Where the model has no derivative at the
 /// estimate the row says so and the framework does not apply. A virtual experiment has no measurement
@@ -16,13 +16,6 @@ Budget budget(const propagation::Experiment& experiment, std::size_t output, dou
 /// JCGM 101 clause 8: d_low, d_high against the numerical tolerance of u at `digits`. Undecided if the Monte Carlo
 /// tolerance exceeds a fifth of it, unless an end differs by more than both together, or if an end differs by more than delta alone.
 Validation validate(const Budget& budget, const Summary& summary, int digits);
-
-/// Variates that reach a reading, with the scenario quantity whose column they enter: the rows of its budgets, in
-/// order.
-struct Reaching {
-  std::size_t variate, quantity;
-};
-std::vector<Reaching> reaching(const quantities::SamplePlan& plan, std::size_t reading);
 
 /// Pearson's coefficient of two variates, 0 if no copula ties them.
 double correlation_of(const quantities::SamplePlan& plan, std::size_t a, std::size_t b);

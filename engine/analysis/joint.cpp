@@ -8,6 +8,7 @@
 
 #include "analysis/gum.h"
 #include "analysis/ordered_sum.h"
+#include "analysis/reach.h"
 #include "analysis/summary.h"
 #include "propagation/propagate.h"
 
@@ -65,10 +66,11 @@ Scaled scale(const std::vector<std::vector<double>>& values) {
 std::vector<double> row_major(const Matrix& m) { return {m.data(), m.data() + m.size()}; }
 
 /// C V C' (6.2.1.3): the budgets of one reading have the same rows.
-std::vector<double> law_of_propagation(const std::vector<const Budget*>& budgets, const quantities::SamplePlan& plan,
+std::vector<double> law_of_propagation(const std::vector<const Budget*>& budgets, const propagation::Experiment& e,
                                        std::size_t reading) {
+  const auto& plan = e.plan();
   const auto d = static_cast<Eigen::Index>(budgets.size());
-  const auto rows = reaching(plan, reading);
+  const auto rows = variates_reaching(e, reading);
   for (const Budget* b : budgets)
     if (!b->applicable || b->contributions.size() != rows.size()) return {};
   const auto signed_contribution = [&](Eigen::Index a, std::size_t i) {
@@ -93,8 +95,8 @@ struct Group {
 
 std::vector<Group> groups(const propagation::Experiment& e) {
   std::vector<Group> found;
-  const auto& measurands = e.model().card->measurands;
-  const std::size_t readings = e.scenario().readings.size();
+  const auto measurands = e.measurands();
+  const std::size_t readings = e.outputs().size() / measurands.size();
   const auto index = [&](const std::string& name) {
     return static_cast<std::size_t>(
         std::ranges::find_if(measurands, [&](const VariableCard& m) { return m.name == name; }) - measurands.begin());
@@ -212,7 +214,7 @@ std::vector<JointRegion> joint_regions(const propagation::Experiment& e, const V
       }
     }
     if (e.scenario().run.design != scenario::Design::monte_carlo) region.k_p_se = region.k_q_se = nan;
-    region.gum_covariance = law_of_propagation(laws, e.plan(), group.reading);
+    region.gum_covariance = law_of_propagation(laws, e, group.reading);
   });
   return regions;
 }

@@ -102,7 +102,7 @@ std::vector<Morris> morris_screening(const propagation::Experiment& e, std::uint
     m.output = e.outputs()[o];
     m.trajectories = trajectories;
     for (const std::uint8_t f : failed) m.dropped += f != 0;
-    for (const Reach& reach : variates_reaching(plan, m.output.reading)) {
+    for (const Reach& reach : variates_reaching(e, m.output.reading)) {
       auto& of_one = effects[o * d + reach.variate];
       for (std::size_t i = 0; i < trajectories; ++i)
         if (failed[i]) of_one[i] = nan;

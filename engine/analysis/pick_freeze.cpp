@@ -37,7 +37,7 @@ std::vector<std::vector<bool>> reaching_variates(const propagation::Experiment& 
   const auto& plan = e.plan();
   std::vector<std::vector<bool>> reaches(e.outputs().size(), std::vector<bool>(plan.variates.size(), false));
   for (std::size_t o = 0; o < reaches.size(); ++o)
-    for (const std::size_t c : plan.gather[e.outputs()[o].reading])
+    for (const std::size_t c : e.columns_at(e.outputs()[o].reading))
       for (const std::size_t v : plan.columns[c].variates) reaches[o][v] = true;
   return reaches;
 }

@@ -2,19 +2,20 @@
 /// Which variates reach a reading, and through which quantity.
 #include <vector>
 
-#include "quantities/sample_plan.h"
+#include "propagation/experiment.h"
 
 namespace gumshoe::analysis {
 
 struct Reach {
   std::size_t variate;
-  std::size_t quantity; ///< in whose column it is added, with slope one
+  std::size_t quantity; ///< in whose column it is added, with slope one: place in Experiment::point
 };
 
-inline std::vector<Reach> variates_reaching(const quantities::SamplePlan& plan, std::size_t reading) {
+inline std::vector<Reach> variates_reaching(const propagation::Experiment& e, std::size_t reading) {
   std::vector<Reach> found;
-  for (std::size_t q = 0; q < plan.gather[reading].size(); ++q)
-    for (const std::size_t v : plan.columns[plan.gather[reading][q]].variates) found.push_back({v, q});
+  const auto& columns = e.columns_at(reading);
+  for (std::size_t q = 0; q < columns.size(); ++q)
+    for (const std::size_t v : e.plan().columns[columns[q]].variates) found.push_back({v, q});
   return found;
 }
 

@@ -7,6 +7,7 @@
 
 #include "analysis/gum.h"
 #include "analysis/outputs.h"
+#include "analysis/reach.h"
 #include "analysis/rounding.h"
 #include "analysis/trial.h"
 #include "base/units.h"
@@ -60,8 +61,8 @@ double largest_allowed(const Function& u, double at_1, double at_0, double wante
 /// The law of propagation as a function of the scale of one quantity.
 class Law {
 public:
-  Law(const Budget& b, const quantities::SamplePlan& plan, double p) : budget_(b), plan_(plan), p_(p) {
-    for (const auto& r : reaching(plan, b.output.reading)) variates_.push_back(r.variate);
+  Law(const Budget& b, const propagation::Experiment& e, double p) : budget_(b), plan_(e.plan()), p_(p) {
+    for (const auto& r : variates_reaching(e, b.output.reading)) variates_.push_back(r.variate);
   }
   bool applicable() const { return budget_.applicable && budget_.combined_standard_uncertainty > 0; }
   double signed_contribution(std::size_t i) const {
@@ -117,7 +118,7 @@ class Study {
 public:
   Study(const propagation::Experiment& e, const scenario::Target& target, std::size_t output, const Budget& budget,
         int threads)
-      : target_(target), law_(budget, e.plan(), e.scenario().analysis.coverage_probability), trial_(e, output, threads),
+      : target_(target), law_(budget, e, e.scenario().analysis.coverage_probability), trial_(e, output, threads),
         ones_(trial_.experiment().plan().variates.size(), 1.0) {
     result_.output = e.outputs()[output];
     result_.wanted = target.expanded_uncertainty;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "analysis/gum.h"
+#include "analysis/reach.h"
 #include "analysis/summary.h"
 #include "propagation/propagate.h"
 
@@ -26,14 +26,15 @@ bool alike(const std::vector<quantities::Reading>& readings) {
 
 Trial::Trial(const propagation::Experiment& e, std::size_t output, int threads)
     : scenario_(std::make_unique<scenario::Scenario>(e.scenario())), row_(output), threads_(threads) {
-  const std::size_t reading = e.outputs()[output].reading, measurands = e.model().card->measurands.size();
-  if (alike(e.scenario().readings)) {
+  const std::size_t reading = e.outputs()[output].reading, measurands = e.measurands().size();
+  if (!e.joint() && alike(e.scenario().readings)) {
     scenario_->readings = {e.scenario().readings[reading]};
     row_ = output - reading * measurands;
   }
   experiment_ = std::make_unique<propagation::Experiment>(*scenario_);
   const auto& plan = experiment_->plan();
-  for (const auto& r : analysis::reaching(plan, experiment_->outputs()[row_].reading)) reaching_.push_back(r.variate);
+  for (const auto& r : variates_reaching(*experiment_, experiment_->outputs()[row_].reading))
+    reaching_.push_back(r.variate);
 
   constexpr std::uint64_t most = 100'000, most_numbers = 20'000'000;
   const std::size_t variates = plan.variates.size();

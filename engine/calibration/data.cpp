@@ -104,7 +104,7 @@ Data data_of(const Experiment& e) {
     if (s.readings[r].indications.size() != indications)
       refuse(s.file, "there are no readings to fit", "nothing was read",
              "[indications.NAME] with readings, method = \"propagation\"?");
-    const auto point = e.point(r);
+    const auto point = e.reading_point(r);
     for (std::size_t k = 0; k < indications; ++k) {
       const std::size_t row = out.measured.size();
       out.measured.push_back(point[first + k]);

@@ -22,7 +22,7 @@ Simulation::Simulation(const propagation::Experiment& e, std::vector<Unknown> un
            e.scenario().made ? "[model.indications] with a formula for each?" : "");
   rows_ = s.readings.size() * indications_;
   for (std::size_t r = 0; r < s.readings.size(); ++r) {
-    points_.push_back(e.point(r));
+    points_.push_back(e.reading_point(r));
     involved_.emplace_back();
     for (std::size_t u = 0; u < unknowns_.size(); ++u)
       if (e.plan().gather[r][unknowns_[u].quantity] == unknowns_[u].column) involved_.back().push_back(u);

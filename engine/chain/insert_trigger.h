@@ -11,6 +11,7 @@
 
 #include "chain/insert_height.h"
 #include "chain/insert_pass.h"
+#include "chain/lag.h"
 
 namespace gumshoe::chain {
 
@@ -99,34 +100,47 @@ private:
   std::array<Pass, most_inserts> passes_;
 };
 
-/// The height with its derivatives: Newton steps in T at the trigger found, for the flute that triggers.
+/// Motion for derivatives. The axis may lag behind its command (lagging_feed.h).
 template <class T> struct InsertMotionOf {
   T angle;  ///< start_angle, rad
   T height; ///< start_height, m
   T drop;
+  T lag = T(0.0); ///< rad of spindle angle
+  T height_at(const T& turned) const { return height - drop * (turned - behind(turned, lag)); }
 };
+
+/// The spindle angle turned until the trigger with its derivatives: Newton steps in T at the trigger found, for the
+/// flute that triggers.
 template <class T>
-T differentiable_trigger_height(const Flute<T>& flute, const Beam<T>& beam, const InsertMotionOf<T>& m,
-                                const InsertTrigger& solved) {
+T differentiable_turned(const Flute<T>& flute, const Beam<T>& beam, const InsertMotionOf<T>& m,
+                        const InsertTrigger& solved) {
   constexpr double pi = 3.14159265358979323846;
   const InsertBody<T> body = insert_body(flute.insert, beam);
   const T target = beam.fraction * (pi * (beam.radius * beam.radius));
   T turned(solved.turned);
   for (int level = 0; level < num::derivative_levels<T>; ++level) {
-    const T angle = m.angle + flute.azimuth + turned, k = body.cos_pitch * (m.height + flute.raise - m.drop * turned);
+    const T angle = m.angle + flute.azimuth + turned, k = body.cos_pitch * (m.height_at(turned) + flute.raise);
     const InsertShadow<T> shadow = insert_shadow(body, angle);
     const InsertShadow<double> plain = converted<double>(shadow);
     const InsertParts parts = insert_parts(plain, joints(plain), num::value(k), num::value(beam.radius));
     const auto moving = Dual<double, 1>::variable(num::value(turned), 0);
     const auto turning = insert_shadow(converted<Dual<double, 1>>(body), num::value(m.angle + flute.azimuth) + moving);
-    const double fall = num::value(body.cos_pitch * m.drop);
+    const double s = num::value(turned), lag = num::value(m.lag);
+    const double fall = num::value(body.cos_pitch * m.drop) * (1 - falling_behind(s, lag));
     const double slope = insert_cover(turning, joints(turning), num::value(k) - fall * (moving - num::value(turned)),
                                       Dual<double, 1>(num::value(beam.radius)), parts)
                              .area.d[0];
     const auto cover = insert_cover(shadow, joints(shadow), k, beam.radius, parts);
     turned = turned - (cover.area - target) / slope;
   }
-  return m.height - m.drop * turned;
+  return turned;
+}
+
+/// The tool centre's height at the trigger, with its derivatives.
+template <class T>
+T differentiable_trigger_height(const Flute<T>& flute, const Beam<T>& beam, const InsertMotionOf<T>& m,
+                                const InsertTrigger& solved) {
+  return m.height_at(differentiable_turned(flute, beam, m, solved));
 }
 
 } // namespace gumshoe::chain

@@ -87,7 +87,7 @@ ExitCode analyse(const Options& o) {
   identity.scenario_hash = s.hash;
   identity.scenario_text = s.text;
   identity.scenario_file = s.file;
-  store::ResultFile file(out, identity, experiment.outputs(), experiment.reading_names());
+  store::ResultFile file(out, identity, experiment.outputs(), experiment.place_names());
   constexpr std::uint64_t part = std::uint64_t{1} << 20;
   for (std::uint64_t first = file.samples_done(); first < samples; first += part) {
     const std::uint64_t count = std::min(part, samples - first);

@@ -23,6 +23,13 @@ std::string quoted(const std::string& cell) {
 
 std::string to_csv(const Csv& in, const propagation::PointTable& added) {
   std::string text;
+  if (added.joint) { // one row of results for the whole table
+    for (const std::string& name : added.header) text += name + ',';
+    text += "status\n";
+    for (const auto& column : added.columns)
+      text += added.status[0] == "ok" ? fmt::format("{:.15g},", column[0]) : "nan,";
+    return text + added.status[0] + '\n';
+  }
   for (const CsvCell& cell : in.header) text += quoted(cell.text) + ',';
   for (const std::string& name : added.header) text += name + ',';
   text += "status\n";

@@ -92,7 +92,7 @@ Line compare(const scenario::Expected& e, const analysis::Figure& f, const std::
 std::size_t output_of(const scenario::Expected& e, const analysis::Results& r) {
   for (std::size_t o = 0; o < r.summaries.size(); ++o) {
     const auto& output = r.summaries[o].output;
-    const auto& labels = r.readings[output.reading].labels;
+    const auto& labels = output.labels;
     const bool fits =
         std::ranges::all_of(e.labels, [&](const auto& l) { return std::ranges::find(labels, l) != labels.end(); });
     if (fits && (e.of.empty() || output.measurand == e.of)) return o;

@@ -63,7 +63,8 @@ Json to_json(const ModelCard& card) {
   j["indications"] = variables(card.indications);
   j["measurands"] = variables(card.measurands);
   for (const EvaluationCard& e : card.evaluations)
-    j["evaluations"].push_back({{"name", e.name}, {"meaning", e.meaning}});
+    j["evaluations"].push_back(
+        {{"name", e.name}, {"meaning", e.meaning}, {"joint", e.joint()}, {"measurands", variables(e.measurands)}});
   for (const EffectCard* e : effects::cards())
     if (effects::applies(card, *e)) j["effects"].push_back(e->name);
   return j;
@@ -99,7 +100,11 @@ void print(const ModelCard& card) {
   list("indications", card.indications);
   list("measurands", card.measurands);
   std::cout << "\nevaluations\n";
-  for (const EvaluationCard& e : card.evaluations) std::cout << fmt::format("  {:<24} {}\n", e.name, e.meaning);
+  for (const EvaluationCard& e : card.evaluations) {
+    std::cout << fmt::format("  {:<24} {}{}\n", e.name, e.meaning, e.joint() ? "; from all readings together:" : "");
+    for (const VariableCard& v : e.measurands)
+      std::cout << fmt::format("    {:<22} {:<8} {}\n", v.name, v.unit, v.meaning);
+  }
   std::cout << "\neffects that act here\n ";
   for (const EffectCard* e : effects::cards())
     if (effects::applies(card, *e)) std::cout << ' ' << e->name;
@@ -124,7 +129,7 @@ ExitCode show(const Cards& cards, const std::string& word, const std::string& na
       if (format == "json")
         all.push_back(to_json(*card));
       else
-        std::cout << fmt::format("{:<20} {}\n", card->name, card->title);
+        std::cout << fmt::format("{:<26} {}\n", card->name, card->title);
     } else if (card->name == name) {
       if (format == "json")
         std::cout << to_json(*card).dump(2) << '\n';

@@ -33,7 +33,7 @@ void print_reading(const propagation::Experiment& e, std::size_t r, const std::v
   std::cout << "\nreading" << (name.empty() ? "" : " [" + name + "]") << '\n';
   const bool virtual_experiment = s.method == scenario::Method::virtual_experiment;
   const std::size_t first_indication = e.model_quantities() + e.effect_quantities();
-  auto point = e.point(r, variates.data());
+  auto point = e.reading_point(r, variates.data());
   if (virtual_experiment)
     std::copy(simulated.begin(), simulated.end(), point.begin() + static_cast<long>(first_indication));
   for (std::size_t q = 0; q < point.size(); ++q)
@@ -42,7 +42,7 @@ void print_reading(const propagation::Experiment& e, std::size_t r, const std::v
                              s.quantities[q].unit);
   if (virtual_experiment) {
     std::cout << "  evaluated at the estimates\n";
-    point = e.point(r);
+    point = e.reading_point(r);
     std::copy(simulated.begin(), simulated.end(), point.begin() + static_cast<long>(first_indication));
   }
   models::PointCall<double> call;

@@ -113,7 +113,7 @@ ExitCode run(const Options& o) {
                                  s.run.samples,
                                  s.run.store_samples,
                                  propagation::design_hash(experiment)};
-  store::ResultFile file(out, identity, experiment.outputs(), experiment.reading_names());
+  store::ResultFile file(out, identity, experiment.outputs(), experiment.place_names());
 
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);

@@ -35,7 +35,8 @@ struct BlockCall {
   const Column* conditions = nullptr;
   Column* indications = nullptr;          ///< evaluate: read
   double* const* simulated = nullptr;     ///< simulate: [reading][indication] -> samples
-  double* const* measurands = nullptr;    ///< [reading][measurand] -> samples (simulate: the true values)
+  /// [reading][measurand] -> samples, of a joint evaluation [measurand] -> samples (simulate: the true values).
+  double* const* measurands = nullptr;
   const std::size_t* solved_as = nullptr; ///< [reading]: earlier reading with the same columns for the solve, or itself
   std::uint8_t* status = nullptr;         ///< [sample], propagation::Status; 0 on entry
   int evaluation = 0;
@@ -81,7 +82,8 @@ struct Intermediate {
 struct Model {
   const ModelCard* card;
   const Kernels* (*kernels)(); ///< of the best instruction set here
-  /// Exact derivatives; null for a model that has none (a plugin, a command): the engine takes differences.
+  /// Exact derivatives of one reading's measurands; null for a model that has none (a plugin, a command). There, and
+  /// for joint evaluations, the engine takes differences.
   PointOutcome (*evaluate_gradient)(const PointCall<Gradient>&);
   PointOutcome (*evaluate_curvature)(const PointCall<Curvature>&);
   /// Indications of one reading and their exact derivatives; null if the model only evaluates.
@@ -96,6 +98,11 @@ struct Model {
   /// What a model made at run time needs; handed back in every call. Null for models of the catalogue.
   const void* context = nullptr;
   std::size_t block = 0; ///< samples it wants per call, at least; 0: no wish. Numbers do not depend on it.
+  /// Of a joint evaluation, how many of its measurands (the first ones) have a meaning at these estimates: the flutes
+  /// that there are. Null: all.
+  std::size_t (*measurands_in_use)(int evaluation, const double* quantities) = nullptr;
+  /// What is impossible about all readings together, one sample at the estimates; empty if nothing. May be null.
+  std::string (*check_readings)(const BlockCall&) = nullptr;
 };
 
 /// A model made from a scenario (an expression, a plugin, a command): the pointer owns card and context.

@@ -32,6 +32,17 @@ Location find_line(const scenario::Scenario& s, const std::string& start) {
   return {s.file};
 }
 
+/// Where the scenario states what a model complains of ("feed is not positive"), and the section that it belongs to.
+std::pair<Location, std::string> stated(const scenario::Scenario& s, const ModelCard& card,
+                                        const std::string& problem) {
+  const std::string word = problem.substr(0, problem.find_first_of(" ."));
+  const bool condition = std::ranges::find(card.conditions, word, &VariableCard::name) != card.conditions.end();
+  const std::string section = condition ? "conditions" : effects::find(word) ? "effects" : "quantities";
+  for (const std::string& start : {"[" + section + "." + word, word + " ", word + "="})
+    if (const Location at = find_line(s, start); at.line > 0) return {at, section};
+  return {{s.file}, section};
+}
+
 quantities::SamplePlan located_plan(const scenario::Scenario& s) {
   try {
     return quantities::make_plan(s.quantities, s.correlations, s.readings, s.run.seed);
@@ -55,7 +66,6 @@ Experiment::Experiment(const scenario::Scenario& s)
   plan_ = located_plan(s);
   const ModelCard& card = *model_->card;
   indications_ = card.indications.size();
-  measurands_ = card.measurands.size();
   effect_quantities_ = s.quantities.size() - card.quantities.size() - indications_;
   for (std::size_t e = 0, at = 0; e < effects::cards().size(); ++e) {
     const std::string prefix = std::string(effects::cards()[e]->name) + ".";
@@ -66,31 +76,24 @@ Experiment::Experiment(const scenario::Scenario& s)
   }
   for (std::size_t i = 0; i < card.evaluations.size(); ++i)
     if (card.evaluations[i].name == s.evaluation) evaluation_ = i;
+  joint_ = evaluation_ < card.evaluations.size() && card.evaluations[evaluation_].joint();
+  measurands_ = joint_ ? card.evaluations[evaluation_].measurands : card.measurands;
+  mean_ = s.mean_of_readings && !joint_;
   for (std::size_t c = 0; c < plan_.columns.size(); ++c) column_estimates_.push_back(plan_.estimate(c));
 
-  for (std::size_t r = 0; r < s.readings.size(); ++r) {
-    const std::string at = reading_name(s.readings[r]);
-    for (std::size_t m = 0; m < measurands_; ++m)
-      outputs_.push_back({(s.method == scenario::Method::virtual_experiment ? "error of " : "") +
-                              std::string(card.measurands[m].name) + (at.empty() ? "" : "[" + at + "]"),
-                          std::string(card.measurands[m].name), r, std::string(card.measurands[m].unit),
-                          std::string(card.measurands[m].si_unit)});
-    for (std::size_t c = 0; c < card.conditions.size(); ++c) conditions_.push_back(s.readings[r].conditions.at(c));
-    const auto values = point(r);
-    models::PointCall<double> call;
-    call.quantities = values.data();
-    call.effects = values.data() + card.quantities.size();
-    call.active = active_;
-    call.conditions = s.readings[r].conditions.data();
-    call.indications = call.effects + effect_quantities_;
-    call.evaluation = static_cast<int>(evaluation_);
-    call.context = model_->context;
-    const std::string problem = model_->check(call);
-    if (!problem.empty())
-      throw InputError(
-          {{find_line(s, "[quantities." + problem.substr(0, problem.find(' '))),
-            "quantities: " + problem + (at.empty() ? "" : " at reading [" + at + "]"), "physically impossible", ""}});
+  for (const auto& reading : s.readings)
+    for (std::size_t c = 0; c < card.conditions.size(); ++c) conditions_.push_back(reading.conditions.at(c));
+  for (std::size_t r = 0; r < s.readings.size(); ++r) check_reading(r);
+  if (joint_ || mean_)
+    for (std::size_t c = 0; c < plan_.columns.size(); ++c) every_column_.push_back(c);
+  if (joint_) {
+    if (model_->measurands_in_use)
+      measurands_ =
+          measurands_.first(model_->measurands_in_use(static_cast<int>(evaluation_), reading_point(0, nullptr).data()));
+    check_all();
   }
+  joint_ = joint_ || mean_;
+  for (std::size_t r = 0; r < (joint_ ? 1 : s.readings.size()); ++r) add_outputs(r);
 
   // Readings that agree in everything the solve reads share one solve.
   const auto same = [&](std::size_t a, std::size_t b) {
@@ -107,26 +110,84 @@ Experiment::Experiment(const scenario::Scenario& s)
   }
 }
 
-std::vector<std::string> Experiment::reading_names() const {
+void Experiment::add_outputs(std::size_t r) {
+  const auto labels = joint_ ? quantities::Labels{} : scenario_.readings[r].labels;
+  const std::string at = joint_ ? "" : reading_name(scenario_.readings[r]);
+  const bool virtual_experiment = scenario_.method == scenario::Method::virtual_experiment;
+  for (const VariableCard& m : measurands_)
+    outputs_.push_back(
+        {(virtual_experiment ? "error of " : "") + std::string(m.name) + (at.empty() ? "" : "[" + at + "]"),
+         std::string(m.name), r, std::string(m.unit), std::string(m.si_unit), labels});
+}
+
+void Experiment::check_reading(std::size_t r) const {
+  const std::string at = reading_name(scenario_.readings[r]);
+  const auto values = reading_point(r, nullptr);
+  models::PointCall<double> call;
+  call.quantities = values.data();
+  call.effects = values.data() + model_quantities();
+  call.active = active_;
+  call.conditions = scenario_.readings[r].conditions.data();
+  call.indications = call.effects + effect_quantities_;
+  call.evaluation = static_cast<int>(evaluation_);
+  call.context = model_->context;
+  const std::string problem = model_->check(call);
+  if (problem.empty()) return;
+  const auto [where, section] = stated(scenario_, *model_->card, problem);
+  throw InputError({{where, section + ": " + problem + (at.empty() ? "" : " at reading [" + at + "]"),
+                     "physically impossible", ""}});
+}
+
+void Experiment::check_all() const {
+  if (!model_->check_readings) return;
+  Workspace w;
+  wire(w, true);
+  std::vector<double> read;
+  for (std::size_t r = 0; r < scenario_.readings.size(); ++r)
+    for (std::size_t k = 0; k < indications_; ++k)
+      read.push_back(scenario_.readings[r].indications.empty() ? 0.0 : scenario_.readings[r].indications[k]);
+  for (const double& x : read) w.indication_columns.push_back({&x, 0});
+  models::BlockCall call;
+  call.samples = 1;
+  call.readings = scenario_.readings.size();
+  call.quantities = w.quantity_columns.data();
+  call.effects = w.effect_columns.data();
+  call.effect_quantities = effect_quantities_;
+  call.active = active_;
+  call.conditions = w.condition_columns.data();
+  call.indications = w.indication_columns.data();
+  call.evaluation = static_cast<int>(evaluation_);
+  call.context = model_->context;
+  const std::string problem = model_->check_readings(call);
+  if (!problem.empty())
+    throw InputError({{find_line(scenario_, "[model]"), scenario_.evaluation + ": " + problem, "", ""}});
+}
+
+std::vector<std::string> Experiment::place_names() const {
+  if (joint_) return {"all readings"};
   std::vector<std::string> names;
   for (const auto& r : scenario_.readings) names.push_back(reading_name(r));
   return names;
 }
 
-std::vector<double> Experiment::point(std::size_t reading, const double* variates) const {
+std::vector<double> Experiment::reading_point(std::size_t reading, const double* variates) const {
   std::vector<double> values;
   const std::size_t first_noise = model_quantities() + effect_quantities_;
   for (std::size_t q = 0; q < scenario_.quantities.size(); ++q) {
     const std::size_t c = plan_.gather[reading][q];
-    double x = column_estimates_[c];
-    if (variates) {
-      x = plan_.columns[c].value;
-      for (const std::size_t v : plan_.columns[c].variates) x += variates[v];
-    }
+    double x = variates ? plan_.value(c, variates) : column_estimates_[c];
     if (q >= first_noise && !scenario_.readings[reading].indications.empty())
       x += scenario_.readings[reading].indications[q - first_noise];
     values.push_back(x);
   }
+  return values;
+}
+
+std::vector<double> Experiment::point(std::size_t reading, const double* variates) const {
+  if (!joint_) return reading_point(reading, variates);
+  if (!variates) return column_estimates_;
+  std::vector<double> values;
+  for (const std::size_t c : every_column_) values.push_back(plan_.value(c, variates));
   return values;
 }
 
@@ -191,7 +252,20 @@ void Experiment::run_columns(std::span<const double* const> columns, std::size_t
 }
 
 void Experiment::run_drawn(std::size_t n, Workspace& w, double* outputs, std::uint8_t* status) const {
-  const std::size_t readings = scenario_.readings.size(), rows = readings * measurands_;
+  if (!mean_) return run_model(n, w, outputs, status);
+  const std::size_t readings = scenario_.readings.size(), rows = outputs_.size();
+  w.single.resize(readings * rows * n);
+  run_model(n, w, w.single.data(), status);
+  const double share = 1 / static_cast<double>(readings);
+  for (std::size_t i = 0; i < rows * n; ++i) {
+    double sum = 0;
+    for (std::size_t r = 0; r < readings; ++r) sum += w.single[r * rows * n + i];
+    outputs[i] = sum * share;
+  }
+}
+
+void Experiment::run_model(std::size_t n, Workspace& w, double* outputs, std::uint8_t* status) const {
+  const std::size_t readings = scenario_.readings.size(), rows = outputs_.size() * (mean_ ? readings : 1);
   const bool virtual_experiment = scenario_.method == scenario::Method::virtual_experiment;
   w.indications.resize(readings * indications_ * n);
   w.measurands.resize(rows);
@@ -222,7 +296,9 @@ void Experiment::run_drawn(std::size_t n, Workspace& w, double* outputs, std::ui
     for (std::size_t i = 0; i < w.simulated.size(); ++i) w.simulated[i] = &w.indications[i * n];
     call.measurands = w.true_measurands.data();
     call.simulated = w.simulated.data();
+    if (!joint_) call.evaluation = 0; // the machine itself, not what an approximate evaluation takes it for
     model_->kernels()->simulate(call);
+    call.evaluation = static_cast<int>(evaluation_);
   }
 
   // Indications: what was read (or simulated) plus the drawn noise.

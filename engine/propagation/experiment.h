@@ -12,6 +12,7 @@ namespace gumshoe::propagation {
 /// Buffers of one thread, reused from block to block.
 struct Workspace {
   std::vector<double> columns, indications, truth;
+  std::vector<double> single; ///< outputs of the single readings, where their mean is wanted
   std::vector<models::Column> drawn; ///< by the plan's columns
   std::vector<models::Column> quantity_columns, effect_columns, condition_columns, indication_columns;
   std::vector<double*> simulated, measurands, true_measurands;
@@ -27,7 +28,18 @@ public:
   const models::Model& model() const { return *model_; }
   const quantities::SamplePlan& plan() const { return plan_; }
   const std::vector<Output>& outputs() const { return outputs_; }
-  std::vector<std::string> reading_names() const;
+  /// All readings together give one set of outputs, which have no reading of their own: a joint evaluation, or the mean
+  /// over the readings (Scenario::mean_of_readings).
+  bool joint() const { return joint_; }
+  /// Of one reading, or of the joint evaluation; output o is measurand o % measurands().size().
+  std::span<const VariableCard> measurands() const { return measurands_; }
+  /// By Output::reading: the readings' names, or "all readings".
+  std::vector<std::string> place_names() const;
+  /// By Output::reading: the plan's columns that an output hangs on. Of a reading: by quantity of the scenario; of a
+  /// joint evaluation: every column.
+  const std::vector<std::size_t>& columns_at(std::size_t reading) const {
+    return joint_ ? every_column_ : plan_.gather[reading];
+  }
   std::span<const effects::Active> active() const { return active_; }
   std::size_t model_quantities() const { return model_->card->quantities.size(); }
   std::size_t effect_quantities() const { return effect_quantities_; }
@@ -49,19 +61,29 @@ public:
 
   /// Values of all quantities at a reading (model, effects, indications in this order): the estimates,
   /// or one sample's when `variates` holds one value per variate.
+  std::vector<double> reading_point(std::size_t reading, const double* variates = nullptr) const;
+  /// What the outputs at a reading hang on, in the order of columns_at: reading_point; of a joint evaluation the values
+  /// of the plan's columns, indications as deviations from what was read.
   std::vector<double> point(std::size_t reading, const double* variates = nullptr) const;
 
 private:
+  void add_outputs(std::size_t reading);
+  void check_reading(std::size_t reading) const;
+  void check_all() const;
   void wire(Workspace& w, bool estimates) const;
   void run_drawn(std::size_t n, Workspace& w, double* outputs, std::uint8_t* status) const;
+  void run_model(std::size_t n, Workspace& w, double* outputs, std::uint8_t* status) const;
   const scenario::Scenario& scenario_;
   const models::Model* model_;
   models::MadeModel made_; ///< keeps a model alive that was made from the scenario
   quantities::SamplePlan plan_;
   std::vector<Output> outputs_;
   std::vector<effects::Active> active_;
-  std::size_t effect_quantities_ = 0, indications_ = 0, measurands_ = 0, evaluation_ = 0;
-  std::vector<std::size_t> solved_as_;
+  std::size_t effect_quantities_ = 0, indications_ = 0, evaluation_ = 0;
+  std::span<const VariableCard> measurands_;
+  bool joint_ = false;
+  bool mean_ = false; ///< the outputs are means of the model's over the readings
+  std::vector<std::size_t> solved_as_, every_column_;
   std::vector<double> column_estimates_, conditions_;
 };
 

@@ -1,5 +1,6 @@
 #include "propagation/point_table.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -108,6 +109,83 @@ void read_columns(std::vector<Slot>& slots, const Csv& table, std::vector<Proble
   }
 }
 
+/// Only effects that the table names are active.
+std::vector<effects::Active> named_effects(const ModelCard& card, const std::vector<Slot>& slots) {
+  std::vector<effects::Active> active;
+  for (std::size_t e = 0, at = card.quantities.size(); e < effects::cards().size(); ++e) {
+    if (!effects::applies(card, *effects::cards()[e])) continue;
+    const std::size_t size = effects::cards()[e]->quantities.size();
+    bool named = false;
+    for (std::size_t i = at; i < at + size; ++i) named |= slots[i].given_column >= 0;
+    if (named) active.push_back({e, at - card.quantities.size()});
+    at += size;
+  }
+  return active;
+}
+
+/// A joint evaluation: every row of the table is a reading, and there is one result.
+void evaluate_together(const models::Model& model, int evaluation, const std::vector<Slot>& slots, const Csv& table,
+                       const std::vector<bool>& bad_row, PointTable& result) {
+  constexpr std::size_t n = 8; // one lane group; every lane the same
+  const ModelCard& card = *model.card;
+  const std::size_t rows = table.rows.size(), q = card.quantities.size(), k = card.indications.size();
+  const std::size_t effect_quantities = slots.size() - q - card.conditions.size() - k;
+  std::vector<models::Column> quantities, of_effects, conditions, indications;
+  std::vector<double> first;
+  for (std::size_t r = 0; r < rows; ++r)
+    for (std::size_t i = 0; i < slots.size(); ++i) {
+      const models::Column column{slots[i].column.empty() ? &slots[i].value : &slots[i].column[r], 0};
+      (i < q                       ? quantities
+       : i < q + effect_quantities ? of_effects
+       : i + k < slots.size()      ? conditions
+                                   : indications)
+          .push_back(column);
+      if (r == 0 && i < q) first.push_back(*column.data);
+    }
+  auto measurands = card.evaluations[static_cast<std::size_t>(evaluation)].measurands;
+  if (model.measurands_in_use && rows > 0)
+    measurands = measurands.first(model.measurands_in_use(evaluation, first.data()));
+  std::vector<double> values(measurands.size() * n);
+  std::vector<double*> value_rows;
+  for (std::size_t m = 0; m < measurands.size(); ++m) value_rows.push_back(&values[m * n]);
+  std::vector<std::size_t> itself(rows);
+  for (std::size_t r = 0; r < rows; ++r) itself[r] = r;
+  std::uint8_t status[n] = {};
+  const auto active = named_effects(card, slots);
+  models::BlockCall call;
+  call.samples = n;
+  call.readings = rows;
+  call.quantities = quantities.data();
+  call.effects = of_effects.data();
+  call.effect_quantities = effect_quantities;
+  call.active = active;
+  call.conditions = conditions.data();
+  call.indications = indications.data();
+  call.measurands = value_rows.data();
+  call.solved_as = itself.data();
+  call.status = status;
+  call.evaluation = evaluation;
+  call.context = model.context;
+  const bool possible = result.impossible.empty() && std::ranges::find(bad_row, true) == bad_row.end();
+  const std::string problem = rows == 0              ? "the table has no rows"
+                              : model.check_readings ? model.check_readings(call)
+                                                     : std::string();
+  if (!problem.empty()) result.impossible.push_back({{table.file}, problem, "", ""});
+  if (problem.empty() && possible)
+    model.kernels()->evaluate(call);
+  else
+    status[0] = static_cast<std::uint8_t>(Status::out_of_domain);
+  result.joint = true;
+  for (std::size_t m = 0; m < measurands.size(); ++m) {
+    const VariableCard& v = measurands[m];
+    result.header.push_back(fmt::format("{} ({})", v.name, v.unit));
+    result.columns.push_back({status[0] == 0
+                                  ? units::from_si(values[m * n], std::string(v.unit), std::string(v.si_unit))
+                                  : std::numeric_limits<double>::quiet_NaN()});
+  }
+  result.status = {status_name(static_cast<Status>(status[0]))};
+}
+
 } // namespace
 
 PointTable evaluate_points(const models::Model& model, const Csv& table, const std::string& evaluation) {
@@ -136,6 +214,11 @@ PointTable evaluate_points(const models::Model& model, const Csv& table, const s
   if (chosen == card.evaluations.size()) problems.push_back({{}, "unknown evaluation '" + evaluation + "'", "", ""});
   if (!problems.empty()) throw InputError(problems);
 
+  if (indicated && card.evaluations[chosen].joint()) {
+    evaluate_together(model, static_cast<int>(chosen), slots, table, bad_row, result);
+    return result;
+  }
+
   // Columns padded to whole lane groups; the padding repeats the last row.
   std::vector<models::Column> columns;
   for (Slot& s : slots) {
@@ -144,16 +227,7 @@ PointTable evaluate_points(const models::Model& model, const Csv& table, const s
   }
   const std::size_t q = card.quantities.size(), m = card.measurands.size(), k = card.indications.size();
   const std::size_t conditions = slots.size() - k - card.conditions.size();
-  // Only effects that the table names are active.
-  std::vector<effects::Active> active;
-  for (std::size_t e = 0, at = q; e < effects::cards().size(); ++e) {
-    if (!effects::applies(card, *effects::cards()[e])) continue;
-    const std::size_t size = effects::cards()[e]->quantities.size();
-    bool named = false;
-    for (std::size_t i = at; i < at + size; ++i) named |= slots[i].given_column >= 0;
-    if (named) active.push_back({e, at - q});
-    at += size;
-  }
+  const std::vector<effects::Active> active = named_effects(card, slots);
 
   std::vector<double> measured(m * n), simulated(k * n);
   std::vector<double*> measurand_rows, simulated_rows;
@@ -174,7 +248,7 @@ PointTable evaluate_points(const models::Model& model, const Csv& table, const s
   call.measurands = measurand_rows.data();
   call.solved_as = &itself;
   call.status = status.data();
-  call.evaluation = static_cast<int>(chosen);
+  call.evaluation = card.evaluations[chosen].joint() ? 0 : static_cast<int>(chosen); // joint: without indications only
   call.context = model.context;
   if (n > 0) (indicated ? model.kernels()->evaluate : model.kernels()->simulate)(call);
 

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "quantities/input_quantity.h"
+
 namespace gumshoe::propagation {
 
 /// Why a sample has no value. Kept by index, written to the file as CF flags, never dropped silently.
@@ -52,13 +54,14 @@ public:
   virtual std::vector<std::uint8_t> read_status(std::uint64_t first, std::uint64_t count) const = 0;
 };
 
-/// One row of outputs: a measurand at a reading.
+/// One row of outputs: a measurand at a reading, or of a joint evaluation.
 struct Output {
   std::string name;      ///< "laser_z" or "laser_z[rod 1, setup 2]"; in a virtual experiment "error of laser_z"
   std::string measurand; ///< by the model's card
-  std::size_t reading = 0;
+  std::size_t reading = 0; ///< 0 of a joint evaluation
   std::string unit; ///< shown to people
   std::string si_unit;
+  quantities::Labels labels{}; ///< of the reading; none of a joint evaluation
 };
 
 } // namespace gumshoe::propagation

@@ -80,7 +80,7 @@ private:
       return 0;
     }
     const Entry& entry = quantity.entries[e];
-    Column column{entry.value, {}};
+    Column column{entry.value, {}, q};
     for (std::size_t c = 0; c < entry.components.size(); ++c) {
       const Component& component = entry.components[c];
       if (component.distribution.family == Family::constant) {
@@ -135,6 +135,12 @@ private:
 double SamplePlan::estimate(std::size_t column) const {
   double sum = columns.at(column).value;
   for (const std::size_t v : columns[column].variates) sum += variates[v].distribution.mean();
+  return sum;
+}
+
+double SamplePlan::value(std::size_t column, const double* drawn) const {
+  double sum = columns.at(column).value;
+  for (const std::size_t v : columns[column].variates) sum += drawn[v];
   return sum;
 }
 

@@ -27,6 +27,7 @@ struct Variate {
 struct Column {
   double value = 0;                  ///< of the entry; deviations are added to it
   std::vector<std::size_t> variates; ///< indices into SamplePlan::variates
+  std::size_t quantity = 0;          ///< of the scenario
 };
 
 /// Variates tied by a Gaussian copula: lower Cholesky factor of the copula's matrix, row-major.
@@ -43,6 +44,8 @@ struct SamplePlan {
   std::vector<CopulaGroup> copulas;
   /// Expectation of a column: value plus the means of its variates' distributions (the estimate).
   double estimate(std::size_t column) const;
+  /// The same with variates drawn: one value each.
+  double value(std::size_t column, const double* drawn) const;
   /// Columns from variates: out[column * stride + i] = value + sum of variates; `variates[v]` points to n values.
   /// Columns without variates are left alone: they are one number, `value`.
   void assemble(std::span<const double* const> variates, std::size_t n, double* out, std::size_t stride) const;

@@ -170,7 +170,7 @@ std::string explain(const Scenario& s, const Catalogue& catalogue) {
   for (const auto& c : s.correlations) explain(c, out);
   if (const std::string left = null_effects(s, *model, catalogue); !left.empty())
     fmt::format_to(out, "effects at their null value\n  {}\n", left);
-  explain_options(s, *model, out);
+  explain_options(s, evaluated_card(*model, s.evaluation), out);
   if (!s.notes.empty()) fmt::format_to(out, "notes\n");
   for (const std::string& note : s.notes) fmt::format_to(out, "  {}\n", note);
   return text;

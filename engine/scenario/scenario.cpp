@@ -7,6 +7,8 @@
 
 #include "base/hash.h"
 #include "base/text_file.h"
+#include "scenario/choose.h"
+#include "scenario/conditions.h"
 #include "scenario/expected.h"
 #include "scenario/made_model.h"
 #include "scenario/noise.h"
@@ -41,6 +43,8 @@ public:
       top.members();
       problems_.raise();
     }
+    const ModelCard &own = *model, seen = evaluated_card(own, out_.evaluation);
+    model = &seen;
     read_readings(top, *model);
     read_quantities(top, *model);
     read_effects(top, *model);
@@ -54,6 +58,7 @@ public:
     }
     out_.expected = read_expected(top, *model, context_);
     if (auto estimate = top.table("estimate")) out_.estimate = read_estimate(*estimate);
+    if (auto choose = top.table("choose")) out_.choose = read_choose(*choose, {own, out_, catalogue_}, context_);
     top.refuse_unknown();
     problems_.raise();
     out_.hash = fmt::format("{:016x}", files_.hash(hash64(out_.text)));
@@ -111,7 +116,8 @@ private:
 
   void read_readings(Table& top, const ModelCard& model) {
     const std::size_t before = problems_.size();
-    const auto conditions = read_conditions(top.table("conditions"), model);
+    const Conditions conditions = read_conditions(top.table("conditions"), model);
+    out_.spreads = conditions.spreads;
     auto indications = top.table("indications");
     static const Node nothing;
     std::vector<IndicationReadouts> readouts;
@@ -230,6 +236,13 @@ private:
 };
 
 } // namespace
+
+ModelCard evaluated_card(const ModelCard& model, const std::string& evaluation) {
+  ModelCard card = model;
+  for (const EvaluationCard& e : model.evaluations)
+    if (e.name == evaluation && e.joint()) card.measurands = e.measurands;
+  return card;
+}
 
 Scenario read(const std::string& path, const Catalogue& catalogue) { return ScenarioReader(path, catalogue).read(); }
 
