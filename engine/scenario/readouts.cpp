@@ -245,12 +245,28 @@ void read_rows(const std::vector<Node>& rows, const std::string& path, const Var
   }
 }
 
+Labels joined(Labels labels, const Commanded& reading) {
+  labels.insert(labels.end(), reading.labels.begin(), reading.labels.end());
+  return labels;
+}
+
+void one_each(const Conditions& commanded, const Labels& labels, const std::vector<double>& values, std::size_t written,
+              Table& table, IndicationReadouts& out) {
+  const std::size_t n = commanded.readings.size();
+  if (written != n)
+    table.add(fmt::format("{}: {} readings beside {} listed conditions", table.path("readings"), written, n),
+              "one a reading");
+  for (std::size_t i = 0; i < std::min(n, values.size()); ++i)
+    out.used.push_back({joined(labels, commanded.readings[i]), commanded.readings[i].values, {values[i]}, 1});
+}
+
 } // namespace
 
 IndicationReadouts read_readouts(Table& table, const VariableCard& card, const ModelCard& model,
-                                 const std::vector<double>& conditions, Context& context) {
+                                 const Conditions& commanded, Context& context) {
   IndicationReadouts out;
   Problems& problems = context.problems;
+  const std::vector<double>& conditions = commanded.readings.front().values;
   const Node* readings = table.find("readings");
   const auto* rows = table.array("rows");
   if (readings && table.has("rows")) {
@@ -265,35 +281,30 @@ IndicationReadouts read_readouts(Table& table, const VariableCard& card, const M
       labels = read_labels(*own);
     }
   }
+  if (commanded.listed && (rows || (readings && readings->kind == Node::Kind::table)))
+    table.add(table.path() + ": conditions are listed, one a reading", "a file's columns or the rows say them here",
+              "take the list out of [conditions]?");
   if (readings && readings->kind == Node::Kind::table) {
     return FileReader(Table(*readings, table.path("readings"), problems), card, model, context).read(conditions);
   }
   if (readings) {
     if (const auto* items = table.array("readings")) {
-      auto values = read_list(*items, table.path("readings"), card, problems);
+      const auto values = read_list(*items, table.path("readings"), card, problems);
       if (items->empty()) problems.add(*readings, table.path("readings") + ": empty");
-      const int n = static_cast<int>(values.size());
-      out.used.push_back({labels, conditions, std::move(values), n});
+      if (commanded.listed)
+        one_each(commanded, labels, values, items->size(), table, out);
+      else
+        out.used.push_back({labels, conditions, values, static_cast<int>(values.size())});
     }
   } else if (rows) {
     if (rows->empty()) problems.add(*table.find("rows"), table.path("rows") + ": empty");
     read_rows(*rows, table.path("rows"), card, model, conditions, context, out);
   } else if (!table.has("rows")) {
-    out.used.push_back({labels, conditions, {}, 1});
+    for (const Commanded& reading : commanded.readings)
+      out.used.push_back({joined(labels, reading), reading.values, {}, 1});
   }
   out.all = out.used;
   return out;
-}
-
-std::vector<double> read_conditions(std::optional<Table> table, const ModelCard& model) {
-  std::vector<double> values;
-  for (const VariableCard& c : model.conditions) {
-    values.push_back(c.default_value);
-    if (!table) continue;
-    if (const auto v = table->measure(std::string(c.name), {std::string(c.si_unit)})) values.back() = *v;
-  }
-  if (table) table->refuse_unknown();
-  return values;
 }
 
 } // namespace gumshoe::scenario

@@ -2,6 +2,7 @@
 /// Reads what was read: inline, from a data file, or as rows; rows with equal labels and conditions
 /// are repeats of one reading.
 #include "base/card.h"
+#include "scenario/conditions.h"
 #include "scenario/context.h"
 
 namespace gumshoe::scenario {
@@ -19,11 +20,9 @@ struct IndicationReadouts {
   std::vector<Readouts> all; ///< also the rows that `where` leaves out: what can be pooled
 };
 
-/// Reads the keys readings, rows and labels of [indications.NAME].
+/// Reads the keys readings, rows and labels of [indications.NAME]. Conditions listed one a reading need as many
+/// readings, or none.
 IndicationReadouts read_readouts(Table& table, const VariableCard& card, const ModelCard& model,
-                                 const std::vector<double>& conditions, Context& context);
-
-/// [conditions]: SI, by position in the model's card, defaults filled in.
-std::vector<double> read_conditions(std::optional<Table> table, const ModelCard& model);
+                                 const Conditions& commanded, Context& context);
 
 } // namespace gumshoe::scenario

@@ -10,6 +10,7 @@
 #include "math/least_squares.h"
 #include "models/model.h"
 #include "quantities/input_quantity.h"
+#include "scenario/choose_options.h"
 
 namespace gumshoe::scenario {
 
@@ -135,6 +136,12 @@ struct EstimateOptions {
   bool t = false;        ///< posterior as t where the noise is estimated: as normal otherwise
 };
 
+/// A condition that goes evenly from `first`, to `last` excluded, over the readings.
+struct Spread {
+  std::size_t condition; ///< by position in the model's card
+  double first, last;    ///< SI
+};
+
 struct Scenario {
   std::string file;
   std::string text; ///< as read, kept in the result
@@ -150,10 +157,14 @@ struct Scenario {
   std::vector<quantities::InputQuantity> quantities;
   std::vector<quantities::Correlation> correlations;
   std::vector<quantities::Reading> readings; ///< at least one
+  std::vector<Spread> spreads;               ///< of the readings' conditions
   RunOptions run;
   AnalysisOptions analysis;
   std::vector<Expected> expected;
   EstimateOptions estimate;
+  std::optional<Choose> choose;
+  /// Of an evaluation at single readings: the measurand is the mean over all readings, stated once (`gumshoe choose`).
+  bool mean_of_readings = false;
   std::vector<std::string>
       notes; ///< decisions and warnings a reader must see ("resolution used, not repeatability: ...")
 };

@@ -1,8 +1,8 @@
 #include <catch2/catch.hpp>
 
+#include "places.h"
 #include "scenario/noise.h"
 #include "unit/scenario_fixture.h"
-#include "places.h"
 
 using namespace scenario_fixture;
 using quantities::Family;
@@ -40,6 +40,32 @@ TEST_CASE("rows of equal labels are repeats of one reading", "[scenario][reading
   const auto one = read_text(from_rods(", where = { rod = \"rod2\", setup = \"1\" }"));
   REQUIRE(one.readings.size() == 1);
   CHECK(one.readings[0].indications[0] == -329.932 / 1000);
+}
+
+TEST_CASE("listed conditions make one reading each", "[scenario][readings]") {
+  const std::string listed = "[conditions]\nfeed = [\"4 mm/min\", \"8 mm/min\"]\n";
+  const auto two = read_text(readings("\"-329 mm\", \"-330 mm\"", listed));
+  REQUIRE(two.readings.size() == 2);
+  CHECK(two.readings[0].conditions[0] == Approx(4e-3 / 60));
+  CHECK(two.readings[1].conditions[0] == Approx(8e-3 / 60));
+  CHECK(two.readings[1].indications[0] == -0.330);
+  CHECK(two.readings[1].labels == quantities::Labels{{"feed", "8 mm/min"}});
+  CHECK(complaint(readings("\"-329 mm\"", listed)).find("1 readings beside 2 listed conditions") != std::string::npos);
+
+  const auto spread =
+      read_text(readings("\"-1 mm\", \"-2 mm\", \"-3 mm\"",
+                         "[conditions]\ntime = { spread = [\"0 s\", \"6 s\"], readings = 3 }\nfeed = \"8 mm/min\"\n"));
+  REQUIRE(spread.readings.size() == 3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    CHECK(spread.readings[i].conditions[1] == 2.0 * static_cast<double>(i));
+    CHECK(spread.readings[i].conditions[0] == Approx(8e-3 / 60));
+  }
+  CHECK(complaint(readings("\"-1 mm\"", "[conditions]\ntime = { spread = [\"0 s\"], readings = 3 }\n"))
+            .find("needs a first and a last value") != std::string::npos);
+  CHECK(complaint(readings("\"-1 mm\", \"-2 mm\"",
+                           "[conditions]\ntime = { spread = [\"0 s\", \"1 s\"], readings = 3 }\nfeed = [\"8 mm/min\", "
+                           "\"9 mm/min\"]\n"))
+            .find("lists stand side by side") != std::string::npos);
 }
 
 TEST_CASE("s pooled over all cells of the data, though one is read", "[scenario][readings]") {

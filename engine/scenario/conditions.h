@@ -1,0 +1,28 @@
+#pragma once
+/// [conditions]: what was commanded, for all readings alike or one value a reading.
+#include "scenario/reader.h"
+#include "scenario/scenario.h"
+
+namespace gumshoe::scenario {
+
+/// What one reading was taken under. Conditions that differ between readings are labels too: "start_angle 30 deg".
+struct Commanded {
+  quantities::Labels labels;
+  std::vector<double> values; ///< SI, by position in the model's card, defaults filled in
+};
+
+struct Conditions {
+  std::vector<Commanded> readings; ///< at least one
+  std::vector<Spread> spreads;
+  bool listed = false; ///< one value a reading
+};
+
+/// A value ("30 mm/min"), a list of values, one a reading, or { spread = [first, last], readings = n }: n values evenly
+/// from first on, last excluded. Lists go side by side and are of one length.
+Conditions read_conditions(std::optional<Table> table, const ModelCard& model);
+
+/// n readings instead of those there are, their conditions spread anew; all else is as in the first reading, its other
+/// labels included. For a virtual experiment: what was read is dropped. Without a spread the readings are labelled as repeats.
+void take_readings(Scenario& scenario, const ModelCard& model, std::size_t n);
+
+} // namespace gumshoe::scenario
