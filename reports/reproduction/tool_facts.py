@@ -131,6 +131,7 @@ def hidden(lines, table, um):
         shown = z[which == 2]
         top = np.max(z)
         rows.append([um(wear, 1), f"{wear / 0.015:.3f}", f"{np.mean(which == 2):.3f}",
+                     f"{max(0.0, 1 - wear / 0.015) / 2:.3f}",
                      um(top - np.max(shown), 2) if len(shown) else "-"])
     third = {**EXAMPLE_3, "wear_2 (mm)": 0.025, "wear_3 (mm)": 0.010}
     which = mills.flutes(third, angles)[1]
@@ -138,12 +139,15 @@ def hidden(lines, table, um):
               "Example 1 (two teeth, f_z = 15 um) with tooth 2 worn by W. The share is that of the start angles at which",
               "tooth 2 triggers; the last column is how far its highest readout lies below that of tooth 1, which a reader",
               "of the curve takes for W:", ""]
-    lines += table(["W, um", "W / f_z", "share of start angles", "highest of tooth 1 - highest of tooth 2, um"], rows)
-    lines += ["Beyond f_z the tooth never shows: whenever it comes, the other has passed half a turn before, higher by f_z and",
-              "longer by W. Somewhat before, its first hump is already covered by the second hump of the other and only its own second",
-              "one shows: the difference then reads more than W. With three or more teeth the limit is f_z per pitch of lead: tooth 2",
-              f"of example 3 (f_z = 20 um), worn by 25 um behind a tooth 3 worn by 10 um, triggers at {np.mean(which == 2):.3f} of the start",
-              "angles, although it is worn by more than one feed per tooth ([errata](" + ERRATA + "fang-3-peaks)).", ""]
+    lines += table(["W, um", "W / f_z", "share of start angles", "(1 - W / f_z) / 2", "highest of tooth 1 - highest of tooth 2, um"], rows)
+    lines += ["The line that comes down passes the teeth in turn, f_z lower each time, and a worn tooth needs it W lower: pass j",
+              "catches the phases below a_j = j f_z - W_j that no earlier pass has caught. **A tooth shows at the share of start",
+              "angles by which its a_j exceeds all earlier ones**, divided by n f_z, whatever its shape; with two teeth",
+              "(1 - W / f_z) / 2, and never beyond f_z. Somewhat before, its first hump is covered already by the second hump",
+              "of the other and only its own second one shows: the difference then reads more than W. With three or more teeth",
+              "the limit is f_z per pitch of lead: tooth 2 of example 3 (f_z = 20 um), worn by 25 um behind a tooth 3 worn by",
+              f"10 um, triggers at {np.mean(which == 2):.3f} of the start angles (law: {0.25 / 3:.3f}), although it is worn by more than one feed per",
+              "tooth ([errata](" + ERRATA + "fang-3-peaks)).", ""]
 
 
 def phase(lines, table, um):
