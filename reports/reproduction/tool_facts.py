@@ -73,7 +73,7 @@ def one_readout(lines, table, um):
     lines += [f"Of all {len(usual)} cases with one to three teeth the middle 80 % have a range of {w[tenth]:.2f} to "
               f"{w[-tenth - 1]:.2f} f_z and a standard deviation of {s[tenth]:.2f} to {s[-tenth - 1]:.2f} f_z; many teeth with "
               "a coarse feed spread less.",
-              "One readout makes the tool short by 0.3 to 0.5 f_z on average, and never long. At 3 mm/min and 3000 rpm (f_z = 0.5 um with two teeth) both are negligible, and paid for in time.",
+              "One readout makes these three tools short by about a third of f_z on average, and never long. At 3 mm/min and 3000 rpm (f_z = 0.5 um with two teeth) both are negligible, and paid for in time.",
               "", "![spread of one readout](../figures/tool_spread.svg)", ""]
     tool_figures.spread(dots)
 
