@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace gumshoe::chain {
 
@@ -25,39 +26,31 @@ Extent extent_of(const InsertShadow<double>& s) {
 
 InsertHeight::InsertHeight(const Insert<double>& insert, const Beam<double>& beam)
     : body_(insert_body(insert, beam)), beam_radius_(beam.radius),
-      target_(beam.fraction * pi * beam.radius * beam.radius) {
+      target_(beam.fraction * pi * beam.radius * beam.radius), bound_(body_, DiscShare(beam.radius, beam.fraction)) {
   const auto reach = [](const auto& v, double r) { return std::hypot(v.x, v.y) + r; };
   const double outermost = std::max(reach(body_.rake, body_.rake_radius), reach(body_.back, body_.back_radius));
   // The beam smooths Zc over its own width; an insert is passed in no less than its radius.
   const double wanted = std::min(pi / 36, 0.25 * (insert.radius + beam.radius) / outermost);
-  size_ = static_cast<int>(std::clamp(std::ceil(2 * pi / wanted), 72.0, 720.0));
-  step_ = 2 * pi / size_;
-  resolution_ = std::min(step_, std::max(0.25 * beam.radius / outermost, 1e-4));
-  double hint = std::nan("");
-  for (int i = 0; i < size_; ++i) {
-    HeightNode& node = coarse_[static_cast<std::size_t>(i)];
-    node = at(step_ * i, hint);
-    hint = node.covered ? node.height : std::nan("");
-    if (node.covered && (!ever_covered_ || node.height > highest_.height)) {
-      ever_covered_ = true;
-      highest_ = node;
-    }
+  const int size = static_cast<int>(std::clamp(std::ceil(2 * pi / wanted), 72.0, 720.0));
+  const double step = 2 * pi / size;
+  resolution_ = std::min(step, std::max(0.25 * beam.radius / outermost, 1e-4));
+  // The most promising first: most others then drop out by their bound.
+  std::vector<std::pair<double, double>> parts;
+  for (int i = 0; i < size; ++i) parts.emplace_back(bound_.lines().at(step * (i + 0.5)), step * i);
+  std::sort(parts.begin(), parts.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  for (const auto& part : parts) {
+    if (ever_covered_ && bound_.below(part.second, part.second + step, 0, highest_.height * body_.cos_pitch)) continue;
+    const HeightNode a = at(part.second, std::nan("")), b = at(part.second + step, std::nan(""));
+    consider(a);
+    consider(b);
+    search(a, b);
   }
-  if (!ever_covered_) seek_narrow_cover();
-  if (!ever_covered_) return;
-  for (int i = 0; i < size_; ++i) {
-    HeightNode b = coarse((i + 1) % size_);
-    b.angle = step_ * (i + 1);
-    search(coarse(i), b);
-  }
+  if (!ever_covered_ && widest_.most > 0) seek_narrow_cover(widest_.angle, resolution_);
 }
 
-/// The insert may reach the beam only between two coarse angles: climb to where it covers most.
-void InsertHeight::seek_narrow_cover() {
-  const auto best = std::max_element(coarse_.begin(), coarse_.begin() + size_,
-                                     [](const auto& a, const auto& b) { return a.most < b.most; });
-  if (!(best->most > 0)) return;
-  double lo = best->angle - step_, hi = best->angle + step_;
+/// The insert may reach the beam only between two angles: climb to where it covers most.
+void InsertHeight::seek_narrow_cover(double angle, double step) {
+  double lo = angle - step, hi = angle + step;
   for (int i = 0; i < 60; ++i) {
     const double a = lo + 0.382 * (hi - lo), b = hi - 0.382 * (hi - lo);
     const HeightNode na = at(a, std::nan("")), nb = at(b, std::nan(""));
@@ -70,22 +63,25 @@ void InsertHeight::seek_narrow_cover() {
   }
 }
 
+void InsertHeight::consider(const HeightNode& n) {
+  if (n.most > widest_.most) widest_ = n;
+  if (!n.covered || (ever_covered_ && n.height <= highest_.height)) return;
+  ever_covered_ = true;
+  highest_ = n;
+}
+
 void InsertHeight::search(const HeightNode& a, const HeightNode& b) {
-  if (!a.covered && !b.covered) return;
-  const double width = b.angle - a.angle;
-  const double bound = std::max(a.covered ? a.height + width * std::fabs(a.slope) : -1e300,
-                                b.covered ? b.height + width * std::fabs(b.slope) : -1e300);
-  if (bound <= highest_.height) return;
-  if (width > resolution_) {
+  if (ever_covered_ && bound_.below(a.angle, b.angle, 0, highest_.height * body_.cos_pitch)) return;
+  if (b.angle - a.angle > resolution_) {
     const HeightNode middle = at(0.5 * (a.angle + b.angle), a.covered ? a.height : b.height);
-    if (middle.covered && middle.height > highest_.height) highest_ = middle;
+    consider(middle);
     search(a, middle);
     search(middle, b);
     return;
   }
   if (!(a.covered && b.covered && a.slope > 0 && b.slope < 0)) return;
   const HeightNode top = hump(*this, a, b, 0.0);
-  if (top.covered && top.height > highest_.height) highest_ = top;
+  consider(top);
 }
 
 HeightNode InsertHeight::at(double angle, double hint) const {

@@ -1,9 +1,8 @@
 #pragma once
 /// Zc(psi): the highest height of the tool's centre at which an insert at spindle angle psi covers the trigger's share
 /// of the beam. Geometry alone; the motion comes in insert_trigger.h.
-#include <array>
-
 #include "chain/insert_cover.h"
+#include "chain/insert_pass.h"
 
 namespace gumshoe::chain {
 
@@ -21,29 +20,26 @@ public:
 
   /// Absolute error below 1e-13 m. `hint`: a height nearby, or NaN.
   HeightNode at(double angle, double hint) const;
-  /// Evenly spread over one turn.
-  int coarse_size() const { return size_; }
-  const HeightNode& coarse(int i) const { return coarse_[static_cast<std::size_t>(i)]; }
-  double coarse_step() const { return step_; }
   /// Below this width in angle Zc is taken to have one hump or valley at most.
   double resolution() const { return resolution_; }
   bool ever_covered() const { return ever_covered_; }
   /// The highest height over all angles; only if ever_covered().
   const HeightNode& highest() const { return highest_; }
 
+  const InsertPass& bound() const { return bound_; }
   const InsertBody<double>& body() const { return body_; }
   double target() const { return target_; }
 
 private:
+  void consider(const HeightNode& n);
   void search(const HeightNode& a, const HeightNode& b);
-  void seek_narrow_cover();
+  void seek_narrow_cover(double angle, double step);
   InsertBody<double> body_;
   double beam_radius_, target_;
-  std::array<HeightNode, 721> coarse_;
-  int size_ = 0;
-  double step_ = 0, resolution_ = 0;
+  InsertPass bound_;
+  double resolution_ = 0;
   bool ever_covered_ = false;
-  HeightNode highest_;
+  HeightNode highest_, widest_;
 };
 
 /// Where d(height + drift angle)/d(angle) changes from + to -, between two nodes where it does.

@@ -2,9 +2,9 @@
 /// The shadow of one round insert of a mill: the convex hull of two projected circles, the cutting edge on the rake
 /// face and the far end of the conical flank.
 ///
-/// t_from_i = Trans(r, seat, 0) Rz(-theta_r) Rx(-theta_a); rake circle about (-R, 0, R) in the insert's X-Z plane, flank
-/// towards +Y with radius R - y tan(tau). Lengths m, angles rad, frames as in chain/README.md.
-/// Source: Fang 2022, section 3.3 (eqs 3.1 to 3.9), derived anew.
+/// t_from_i = Trans(r, seat, 0) Rz(-theta_r) Rx(-theta_a); rake circle about (-R, 0, R) in the insert's X-Z plane,
+/// flank towards +Y with radius R - y tan(tau). Lengths m, angles rad, frames as in chain/README.md. Source: Fang 2022,
+/// section 3.3 (eqs 3.1 to 3.9), derived anew.
 #include "chain/shadow.h"
 
 namespace gumshoe::chain {
@@ -69,7 +69,8 @@ template <class T> InsertBody<T> insert_body(const Insert<T>& i, const Beam<T>& 
   body.a = {cr, -sr, T(0.0)};
   body.b = {sr * sa, cr * sa, ca};
   const T yx = sr * ca, yy = cr * ca, yz = -sa; // the insert's Y
-  body.rake = {i.tool_radius + i.radius * (body.b.x - body.a.x), i.seat + i.radius * (body.b.y - body.a.y), i.radius * body.b.z};
+  body.rake = {i.tool_radius + i.radius * (body.b.x - body.a.x), i.seat + i.radius * (body.b.y - body.a.y),
+               i.radius * body.b.z};
   body.back = {body.rake.x + i.thickness * yx, body.rake.y + i.thickness * yy, body.rake.z + i.thickness * yz};
   body.rake_radius = i.radius;
   body.back_radius = i.radius - i.thickness * (num::sin(i.clearance) / num::cos(i.clearance));

@@ -24,27 +24,22 @@ public:
     const double angle = start_ + skip, turn = 2 * pi * std::floor(angle / (2 * pi));
     start_ -= turn;
     const double begin = angle - turn;
-    HeightNode a = heights_.at(begin, std::nan(""));
-    if (a.covered && excess(a) >= 0) {
+    last_ = heights_.at(begin, std::nan(""));
+    if (last_.covered && excess(last_) >= 0) {
       starts_inside = skip == 0;
       return skip;
     }
-    const double step = heights_.coarse_step();
-    // one step more than a turn, since the highest point may stand at the very end
-    int i = static_cast<int>(std::floor(begin / step)) + 1;
-    for (int n = 0; n <= heights_.coarse_size() + 1; ++n, ++i) {
-      HeightNode b = heights_.coarse(i % heights_.coarse_size());
-      b.angle = step * i;
-      if (a.angle - start_ > limit) return std::nan("");
-      // where the highest point lies between two angles without cover, it splits the interval
-      HeightNode top = heights_.highest();
-      top.angle += 2 * pi * std::ceil((a.angle - top.angle) / (2 * pi));
-      if (!a.covered && !b.covered && top.angle < b.angle) {
-        if (between(a, top)) return found_ - start_;
-        if (between(top, b)) return found_ - start_;
-      } else if (between(a, b)) {
-        return found_ - start_;
-      }
+    // a little more than a turn, since the highest point may stand at the very end; split where that is, since it may
+    // be the only angle with cover far and wide
+    const double end = begin + 2 * pi + 0.1, step = pi / 16;
+    double top = heights_.highest().angle;
+    top += 2 * pi * std::ceil((begin - top) / (2 * pi));
+    for (double a = begin; a < end;) {
+      double b = a + step;
+      if (top > a && top < b) b = top;
+      if (top == a) top += 2 * pi;
+      if (a - start_ > limit) return std::nan("");
+      if (between(a, b)) return found_ - start_;
       a = b;
     }
     return std::nan("");
@@ -52,18 +47,19 @@ public:
 
 private:
   double excess(const HeightNode& n) const { return n.height + drop_ * (n.angle - start_) - height_; }
+  HeightNode node(double angle) const {
+    return angle == last_.angle ? last_ : heights_.at(angle, last_.covered ? last_.height : std::nan(""));
+  }
 
-  bool between(const HeightNode& a, const HeightNode& b) {
-    if (!a.covered && !b.covered) return false;
-    const double width = b.angle - a.angle;
-    if (width <= 0) return false;
-    const double bound = std::max(a.covered ? excess(a) + width * std::fabs(a.slope + drop_) : -1e300,
-                                  b.covered ? excess(b) + width * std::fabs(b.slope + drop_) : -1e300);
-    if (bound < 0) return false;
-    if (width > heights_.resolution()) {
-      const HeightNode m = heights_.at(0.5 * (a.angle + b.angle), a.covered ? a.height : b.height);
-      return between(a, m) || between(m, b);
+  bool between(double from, double to) {
+    const double cosine = heights_.body().cos_pitch;
+    if (heights_.bound().below(from, to, cosine * drop_, cosine * (height_ - drop_ * (from - start_)))) return false;
+    if (to - from > heights_.resolution()) {
+      const double middle = 0.5 * (from + to);
+      return between(from, middle) || between(middle, to);
     }
+    const HeightNode a = node(from), b = heights_.at(to, a.covered ? a.height : std::nan(""));
+    last_ = b;
     if (b.covered && excess(b) >= 0) return root(a, b);
     if (a.covered && b.covered && a.slope + drop_ > 0 && b.slope + drop_ < 0) {
       const HeightNode top = hump(heights_, a, b, drop_);
@@ -92,19 +88,9 @@ private:
 
   const InsertHeight& heights_;
   double start_, height_, drop_, found_ = 0;
+  HeightNode last_;
 };
 
-} // namespace
-
-namespace {
-bool same(const Insert<double>& a, const Insert<double>& b) {
-  return a.tool_radius == b.tool_radius && a.radius == b.radius && a.thickness == b.thickness &&
-         a.clearance == b.clearance && a.radial_angle == b.radial_angle && a.axial_angle == b.axial_angle &&
-         a.axis_x == b.axis_x && a.axis_y == b.axis_y && a.seat == b.seat;
-}
-bool same(const Beam<double>& a, const Beam<double>& b) {
-  return a.yaw == b.yaw && a.pitch == b.pitch && a.radius == b.radius && a.fraction == b.fraction;
-}
 } // namespace
 
 const InsertHeight& TriggerSolver::heights(const Insert<double>& insert, const Beam<double>& beam) {
@@ -119,8 +105,8 @@ const InsertHeight& TriggerSolver::heights(const Insert<double>& insert, const B
   return remembered_.front().heights;
 }
 
-InsertTrigger TriggerSolver::solve(std::span<const Flute<double>> flutes, const Beam<double>& beam,
-                                   const InsertMotion& motion) {
+InsertTrigger TriggerSolver::search(std::span<const Flute<double>> flutes, const Beam<double>& beam,
+                                    const InsertMotion& motion) {
   InsertTrigger result;
   double least = 1e300;
   bool ever_covered = false;
@@ -145,6 +131,9 @@ InsertTrigger TriggerSolver::solve(std::span<const Flute<double>> flutes, const 
   }
   result.turned = least;
   result.height = motion.start_height - motion.drop * least;
+  const Flute<double>& first = flutes[static_cast<std::size_t>(result.insert)];
+  result.slope =
+      heights(first.insert, beam).at(motion.start_angle + first.azimuth + least, result.height + first.raise).slope;
   return result;
 }
 

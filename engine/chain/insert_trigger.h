@@ -4,10 +4,14 @@
 /// start_angle + azimuth_k + turned and raise_k higher than an unworn one:
 ///     first turned >= not_before with start_height + raise_k - drop turned <= Zc_k(start_angle + azimuth_k + turned).
 /// No time steps: revolutions above the highest Zc are passed at once, then humps of Zc + drop angle are isolated.
+#include <array>
 #include <list>
+#include <optional>
 #include <span>
 
 #include "chain/insert_height.h"
+#include "chain/insert_pass.h"
+#include "chain/lag.h"
 
 namespace gumshoe::chain {
 
@@ -19,6 +23,16 @@ template <class T> struct Flute {
   T azimuth; ///< of the seat, from that of the first, rad
   T raise;   ///< the flute is shorter by this: W_k, m
 };
+
+/// Equal in every bit.
+inline bool same(const Insert<double>& a, const Insert<double>& b) {
+  return a.tool_radius == b.tool_radius && a.radius == b.radius && a.thickness == b.thickness &&
+         a.clearance == b.clearance && a.radial_angle == b.radial_angle && a.axial_angle == b.axial_angle &&
+         a.axis_x == b.axis_x && a.axis_y == b.axis_y && a.seat == b.seat;
+}
+inline bool same(const Beam<double>& a, const Beam<double>& b) {
+  return a.yaw == b.yaw && a.pitch == b.pitch && a.radius == b.radius && a.fraction == b.fraction;
+}
 
 /// Derivatives dropped.
 template <class To, class T> Flute<To> converted(const Flute<T>& f) {
@@ -45,6 +59,7 @@ struct InsertTrigger {
   int insert = 0;    ///< from 0
   double turned = 0; ///< spindle angle from the start to the trigger, rad
   double height = 0; ///< of the tool's centre at the trigger
+  double slope = 0;  ///< dZc / d(angle) of that flute there: d(height) / d(start_height) = slope / (slope + drop)
 };
 
 /// Solves triggers, and remembers what depends on the geometry alone: calls with equal inserts and beam share it. What
@@ -53,6 +68,17 @@ class TriggerSolver {
 public:
   /// `already_covered`: a flute covers the share before anything moves. Absolute error of the height below 1e-12 m.
   InsertTrigger solve(std::span<const Flute<double>> flutes, const Beam<double>& beam, const InsertMotion& motion);
+  /// The same by the general search alone, for every insert and beam.
+  InsertTrigger search(std::span<const Flute<double>> flutes, const Beam<double>& beam, const InsertMotion& motion);
+  /// The same by the walk through the windows alone (insert_pass.h); nothing where it has no proof.
+  std::optional<InsertTrigger> walk(std::span<const Flute<double>> flutes, const Beam<double>& beam,
+                                    const InsertMotion& motion);
+  /// The trigger of one flute alone when the tool's centre comes down the whole line height = level - drop turned, from
+  /// far above; `turned` may be negative. It depends on the line's phase only: a level higher by 2 pi drop gives an
+  /// equal height one turn later. A tool that starts above all flutes triggers at the highest of its flutes' heights,
+  /// so this is what a fit of a characteristic curve needs. About a microsecond while insert, beam and drop stay the
+  /// same. d(height) / d(level) = slope / (slope + drop), d(height) / d(raise) = -drop / (slope + drop).
+  InsertTrigger alone(const Flute<double>& flute, const Beam<double>& beam, double level, double drop);
   /// Zc of one insert; valid until the next call.
   const InsertHeight& heights(const Insert<double>& insert, const Beam<double>& beam);
 
@@ -63,36 +89,58 @@ private:
     InsertHeight heights;
   };
   std::list<Remembered> remembered_; ///< the last used first
+  struct Pass {
+    Insert<double> insert;
+    Beam<double> beam;
+    std::optional<InsertPass> pass;
+    double below = -1, whole = 0; ///< of the last open(), and what came of it
+    bool open = false;
+  };
+  Pass& pass(std::size_t flute, const Insert<double>& insert, const Beam<double>& beam);
+  std::array<Pass, most_inserts> passes_;
 };
 
-/// The height with its derivatives: Newton steps in T at the trigger found, for the flute that triggers.
+/// Motion for derivatives. The axis may lag behind its command (lagging_feed.h).
 template <class T> struct InsertMotionOf {
   T angle;  ///< start_angle, rad
   T height; ///< start_height, m
   T drop;
+  T lag = T(0.0); ///< rad of spindle angle
+  T height_at(const T& turned) const { return height - drop * (turned - behind(turned, lag)); }
 };
+
+/// The spindle angle turned until the trigger with its derivatives: Newton steps in T at the trigger found, for the
+/// flute that triggers.
 template <class T>
-T differentiable_trigger_height(const Flute<T>& flute, const Beam<T>& beam, const InsertMotionOf<T>& m,
-                                const InsertTrigger& solved) {
+T differentiable_turned(const Flute<T>& flute, const Beam<T>& beam, const InsertMotionOf<T>& m,
+                        const InsertTrigger& solved) {
   constexpr double pi = 3.14159265358979323846;
   const InsertBody<T> body = insert_body(flute.insert, beam);
   const T target = beam.fraction * (pi * (beam.radius * beam.radius));
   T turned(solved.turned);
   for (int level = 0; level < num::derivative_levels<T>; ++level) {
-    const T angle = m.angle + flute.azimuth + turned, k = body.cos_pitch * (m.height + flute.raise - m.drop * turned);
+    const T angle = m.angle + flute.azimuth + turned, k = body.cos_pitch * (m.height_at(turned) + flute.raise);
     const InsertShadow<T> shadow = insert_shadow(body, angle);
     const InsertShadow<double> plain = converted<double>(shadow);
     const InsertParts parts = insert_parts(plain, joints(plain), num::value(k), num::value(beam.radius));
     const auto moving = Dual<double, 1>::variable(num::value(turned), 0);
     const auto turning = insert_shadow(converted<Dual<double, 1>>(body), num::value(m.angle + flute.azimuth) + moving);
-    const double fall = num::value(body.cos_pitch * m.drop);
+    const double s = num::value(turned), lag = num::value(m.lag);
+    const double fall = num::value(body.cos_pitch * m.drop) * (1 - falling_behind(s, lag));
     const double slope = insert_cover(turning, joints(turning), num::value(k) - fall * (moving - num::value(turned)),
                                       Dual<double, 1>(num::value(beam.radius)), parts)
                              .area.d[0];
     const auto cover = insert_cover(shadow, joints(shadow), k, beam.radius, parts);
     turned = turned - (cover.area - target) / slope;
   }
-  return m.height - m.drop * turned;
+  return turned;
+}
+
+/// The tool centre's height at the trigger, with its derivatives.
+template <class T>
+T differentiable_trigger_height(const Flute<T>& flute, const Beam<T>& beam, const InsertMotionOf<T>& m,
+                                const InsertTrigger& solved) {
+  return m.height_at(differentiable_turned(flute, beam, m, solved));
 }
 
 } // namespace gumshoe::chain

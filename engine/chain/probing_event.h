@@ -6,6 +6,8 @@
 
 namespace gumshoe::chain {
 
+template <class T> struct TurningTool;
+
 template <class T> struct ProbingEvent {
   // commanded, known to effects
   T feed = T(0.0);         ///< m/s, positive
@@ -21,6 +23,8 @@ template <class T> struct ProbingEvent {
   T axis_scale = T(0.0);
   // trigger
   T latch_delay = T(0.0); ///< s
+  /// Only of a tool that turns, and only while effects act: what the stages spindle, timing and insert add to.
+  TurningTool<T>* turning = nullptr;
 };
 
 /// What the control reads when the axis truly stands at `actual` at the trigger, and the inverse.

@@ -10,6 +10,13 @@ constexpr double turn = 2 * 3.14159265358979323846;
 /// Midpoint error at which a cell is halved once more and then good: 16 times less.
 constexpr double tolerance = 1.6e-11;
 constexpr double narrowest = 1e-10; ///< rad: cover begins at once
+
+/// Angles that see every pass of the insert: four while it passes, 72 in a turn at least.
+int cells(const InsertBody<double>& b) {
+  const double outermost = std::max(std::hypot(b.rake.x, b.rake.y) + b.rake_radius,
+                                    std::hypot(b.back.x, b.back.y) + b.back_radius);
+  return static_cast<int>(std::clamp(std::ceil(4 * turn * outermost / b.rake_radius), 72.0, 720.0));
+}
 } // namespace
 
 TriggerCurve::TriggerCurve(const InsertHeight& heights, double drop)
@@ -18,13 +25,13 @@ TriggerCurve::TriggerCurve(const InsertHeight& heights, double drop)
   HeightNode a = heights.highest();
   begin_ = a.angle;
   record_ = a.height + drop_ * a.angle;
-  const double step = heights.coarse_step(), first = record_;
+  const double step = turn / cells(heights.body()), first = record_;
   int i = static_cast<int>(std::floor(a.angle / step)) + 1;
   for (;; ++i) {
-    HeightNode b = heights.coarse(i % heights.coarse_size());
-    b.angle = step * i;
-    if (b.angle >= begin_ + turn - 1e-3 * step) break;
-    if (b.angle < begin_ + 1e-3 * step) continue;
+    const double angle = step * i;
+    if (angle >= begin_ + turn - 1e-3 * step) break;
+    if (angle < begin_ + 1e-3 * step) continue;
+    const HeightNode b = heights.at(angle, a.covered ? a.height : std::nan(""));
     cover(a, b);
     a = b;
   }

@@ -20,6 +20,7 @@ void add_analyse(CLI::App& app, Action& action);
 void add_report(CLI::App& app, Action& action);
 void add_evaluate(CLI::App& app, Action& action);
 void add_estimate(CLI::App& app, Action& action);
+void add_choose(CLI::App& app, Action& action);
 void add_replay(CLI::App& app, Action& action);
 void add_models(CLI::App& app, Action& action);
 void add_effects(CLI::App& app, Action& action);

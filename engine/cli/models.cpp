@@ -129,7 +129,7 @@ ExitCode show(const Cards& cards, const std::string& word, const std::string& na
       if (format == "json")
         all.push_back(to_json(*card));
       else
-        std::cout << fmt::format("{:<20} {}\n", card->name, card->title);
+        std::cout << fmt::format("{:<26} {}\n", card->name, card->title);
     } else if (card->name == name) {
       if (format == "json")
         std::cout << to_json(*card).dump(2) << '\n';

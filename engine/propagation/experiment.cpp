@@ -32,6 +32,17 @@ Location find_line(const scenario::Scenario& s, const std::string& start) {
   return {s.file};
 }
 
+/// Where the scenario states what a model complains of ("feed is not positive"), and the section that it belongs to.
+std::pair<Location, std::string> stated(const scenario::Scenario& s, const ModelCard& card,
+                                        const std::string& problem) {
+  const std::string word = problem.substr(0, problem.find_first_of(" ."));
+  const bool condition = std::ranges::find(card.conditions, word, &VariableCard::name) != card.conditions.end();
+  const std::string section = condition ? "conditions" : effects::find(word) ? "effects" : "quantities";
+  for (const std::string& start : {"[" + section + "." + word, word + " ", word + "="})
+    if (const Location at = find_line(s, start); at.line > 0) return {at, section};
+  return {{s.file}, section};
+}
+
 quantities::SamplePlan located_plan(const scenario::Scenario& s) {
   try {
     return quantities::make_plan(s.quantities, s.correlations, s.readings, s.run.seed);
@@ -67,18 +78,21 @@ Experiment::Experiment(const scenario::Scenario& s)
     if (card.evaluations[i].name == s.evaluation) evaluation_ = i;
   joint_ = evaluation_ < card.evaluations.size() && card.evaluations[evaluation_].joint();
   measurands_ = joint_ ? card.evaluations[evaluation_].measurands : card.measurands;
+  mean_ = s.mean_of_readings && !joint_;
   for (std::size_t c = 0; c < plan_.columns.size(); ++c) column_estimates_.push_back(plan_.estimate(c));
 
   for (const auto& reading : s.readings)
     for (std::size_t c = 0; c < card.conditions.size(); ++c) conditions_.push_back(reading.conditions.at(c));
   for (std::size_t r = 0; r < s.readings.size(); ++r) check_reading(r);
-  if (joint_) {
+  if (joint_ || mean_)
     for (std::size_t c = 0; c < plan_.columns.size(); ++c) every_column_.push_back(c);
+  if (joint_) {
     if (model_->measurands_in_use)
       measurands_ =
           measurands_.first(model_->measurands_in_use(static_cast<int>(evaluation_), reading_point(0, nullptr).data()));
     check_all();
   }
+  joint_ = joint_ || mean_;
   for (std::size_t r = 0; r < (joint_ ? 1 : s.readings.size()); ++r) add_outputs(r);
 
   // Readings that agree in everything the solve reads share one solve.
@@ -118,10 +132,10 @@ void Experiment::check_reading(std::size_t r) const {
   call.evaluation = static_cast<int>(evaluation_);
   call.context = model_->context;
   const std::string problem = model_->check(call);
-  if (!problem.empty())
-    throw InputError(
-        {{find_line(scenario_, "[quantities." + problem.substr(0, problem.find(' '))),
-          "quantities: " + problem + (at.empty() ? "" : " at reading [" + at + "]"), "physically impossible", ""}});
+  if (problem.empty()) return;
+  const auto [where, section] = stated(scenario_, *model_->card, problem);
+  throw InputError({{where, section + ": " + problem + (at.empty() ? "" : " at reading [" + at + "]"),
+                     "physically impossible", ""}});
 }
 
 void Experiment::check_all() const {
@@ -238,7 +252,20 @@ void Experiment::run_columns(std::span<const double* const> columns, std::size_t
 }
 
 void Experiment::run_drawn(std::size_t n, Workspace& w, double* outputs, std::uint8_t* status) const {
+  if (!mean_) return run_model(n, w, outputs, status);
   const std::size_t readings = scenario_.readings.size(), rows = outputs_.size();
+  w.single.resize(readings * rows * n);
+  run_model(n, w, w.single.data(), status);
+  const double share = 1 / static_cast<double>(readings);
+  for (std::size_t i = 0; i < rows * n; ++i) {
+    double sum = 0;
+    for (std::size_t r = 0; r < readings; ++r) sum += w.single[r * rows * n + i];
+    outputs[i] = sum * share;
+  }
+}
+
+void Experiment::run_model(std::size_t n, Workspace& w, double* outputs, std::uint8_t* status) const {
+  const std::size_t readings = scenario_.readings.size(), rows = outputs_.size() * (mean_ ? readings : 1);
   const bool virtual_experiment = scenario_.method == scenario::Method::virtual_experiment;
   w.indications.resize(readings * indications_ * n);
   w.measurands.resize(rows);

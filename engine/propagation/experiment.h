@@ -12,6 +12,7 @@ namespace gumshoe::propagation {
 /// Buffers of one thread, reused from block to block.
 struct Workspace {
   std::vector<double> columns, indications, truth;
+  std::vector<double> single; ///< outputs of the single readings, where their mean is wanted
   std::vector<models::Column> drawn; ///< by the plan's columns
   std::vector<models::Column> quantity_columns, effect_columns, condition_columns, indication_columns;
   std::vector<double*> simulated, measurands, true_measurands;
@@ -27,7 +28,8 @@ public:
   const models::Model& model() const { return *model_; }
   const quantities::SamplePlan& plan() const { return plan_; }
   const std::vector<Output>& outputs() const { return outputs_; }
-  /// All readings are evaluated together: outputs have no reading of their own.
+  /// All readings together give one set of outputs, which have no reading of their own: a joint evaluation, or the mean
+  /// over the readings (Scenario::mean_of_readings).
   bool joint() const { return joint_; }
   /// Of one reading, or of the joint evaluation; output o is measurand o % measurands().size().
   std::span<const VariableCard> measurands() const { return measurands_; }
@@ -70,6 +72,7 @@ private:
   void check_all() const;
   void wire(Workspace& w, bool estimates) const;
   void run_drawn(std::size_t n, Workspace& w, double* outputs, std::uint8_t* status) const;
+  void run_model(std::size_t n, Workspace& w, double* outputs, std::uint8_t* status) const;
   const scenario::Scenario& scenario_;
   const models::Model* model_;
   models::MadeModel made_; ///< keeps a model alive that was made from the scenario
@@ -79,6 +82,7 @@ private:
   std::size_t effect_quantities_ = 0, indications_ = 0, evaluation_ = 0;
   std::span<const VariableCard> measurands_;
   bool joint_ = false;
+  bool mean_ = false; ///< the outputs are means of the model's over the readings
   std::vector<std::size_t> solved_as_, every_column_;
   std::vector<double> column_estimates_, conditions_;
 };

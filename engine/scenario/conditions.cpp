@@ -1,5 +1,7 @@
 #include "scenario/conditions.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "base/units.h"
@@ -120,10 +122,16 @@ Conditions read_conditions(std::optional<Table> table, const ModelCard& model) {
 }
 
 void take_readings(Scenario& scenario, const ModelCard& model, std::size_t n) {
-  const std::vector<double> first = scenario.readings.front().conditions;
+  quantities::Reading first = scenario.readings.front();
+  first.indications.clear();
+  first.scatter.clear();
+  std::erase_if(first.labels, [&](const auto& label) {
+    return std::ranges::any_of(scenario.spreads,
+                               [&](const Spread& s) { return model.conditions[s.condition].name == label.first; });
+  });
   scenario.readings.clear();
   for (std::size_t i = 0; i < n; ++i) {
-    quantities::Reading reading{{}, first, {}, 1};
+    quantities::Reading reading = first;
     for (const Spread& s : scenario.spreads) {
       reading.conditions[s.condition] = spread_value(s, i, n);
       reading.labels.emplace_back(model.conditions[s.condition].name,

@@ -21,8 +21,8 @@ struct Conditions {
 /// from first on, last excluded. Lists go side by side and are of one length.
 Conditions read_conditions(std::optional<Table> table, const ModelCard& model);
 
-/// n readings instead of those there are, their conditions spread anew; conditions not spread are those of the first
-/// reading. For a virtual experiment: what was read is dropped. Without a spread the readings are labelled as repeats.
+/// n readings instead of those there are, their conditions spread anew; all else is as in the first reading, its other
+/// labels included. For a virtual experiment: what was read is dropped. Without a spread the readings are labelled as repeats.
 void take_readings(Scenario& scenario, const ModelCard& model, std::size_t n);
 
 } // namespace gumshoe::scenario

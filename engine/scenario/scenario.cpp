@@ -7,6 +7,7 @@
 
 #include "base/hash.h"
 #include "base/text_file.h"
+#include "scenario/choose.h"
 #include "scenario/conditions.h"
 #include "scenario/expected.h"
 #include "scenario/made_model.h"
@@ -42,7 +43,7 @@ public:
       top.members();
       problems_.raise();
     }
-    const ModelCard seen = evaluated_card(*model, out_.evaluation);
+    const ModelCard &own = *model, seen = evaluated_card(own, out_.evaluation);
     model = &seen;
     read_readings(top, *model);
     read_quantities(top, *model);
@@ -57,6 +58,7 @@ public:
     }
     out_.expected = read_expected(top, *model, context_);
     if (auto estimate = top.table("estimate")) out_.estimate = read_estimate(*estimate);
+    if (auto choose = top.table("choose")) out_.choose = read_choose(*choose, {own, out_, catalogue_}, context_);
     top.refuse_unknown();
     problems_.raise();
     out_.hash = fmt::format("{:016x}", files_.hash(hash64(out_.text)));

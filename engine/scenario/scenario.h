@@ -10,6 +10,7 @@
 #include "math/least_squares.h"
 #include "models/model.h"
 #include "quantities/input_quantity.h"
+#include "scenario/choose_options.h"
 
 namespace gumshoe::scenario {
 
@@ -161,6 +162,9 @@ struct Scenario {
   AnalysisOptions analysis;
   std::vector<Expected> expected;
   EstimateOptions estimate;
+  std::optional<Choose> choose;
+  /// Of an evaluation at single readings: the measurand is the mean over all readings, stated once (`gumshoe choose`).
+  bool mean_of_readings = false;
   std::vector<std::string>
       notes; ///< decisions and warnings a reader must see ("resolution used, not repeatability: ...")
 };

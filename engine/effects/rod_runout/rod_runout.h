@@ -14,7 +14,7 @@ struct RodRunout {
   static constexpr EffectCard card{
       "rod_runout",
       "Radial run-out of the rod",
-      "pose",
+      "standing",
       10,
       "",
       "The axis of the rod lies beside the spindle axis, in the tool-holder frame, so it turns with the holder angle.",

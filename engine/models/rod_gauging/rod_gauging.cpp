@@ -8,7 +8,7 @@ namespace gumshoe::models {
 
 namespace {
 
-constexpr double mm = 1e-3, deg = chain::pi / 180, huge = 1e3;
+using laser_setter::deg, laser_setter::huge, laser_setter::minute, laser_setter::mm;
 
 constexpr QuantityCard quantities[] = {
     {"rod_radius", "mm", "m", 5 * mm, {0, huge, true}, "R_r", "radius of the rod's cylinder"},
@@ -41,22 +41,10 @@ constexpr QuantityCard quantities[] = {
      "L_r",
      "from the spindle reference point to the bottom's centre, at 20 degC"},
     {"holder_angle", "deg", "rad", 0, {-huge, huge}, "theta_th", "from machine X to the tool holder's X"},
-    {"beam_yaw", "deg", "rad", 0, {-huge, huge}, "alpha", "of the beam about Z, from machine X"},
-    {"beam_pitch",
-     "deg",
-     "rad",
-     0,
-     {-90 * deg, 90 * deg, true, true},
-     "beta",
-     "of the beam out of the horizontal, positive upwards along the beam"},
-    {"beam_radius", "mm", "m", 0.2 * mm, {0, huge, true}, "R_l", "radius of the beam's disc on the receiver"},
-    {"trigger_fraction",
-     "1",
-     "1",
-     0.5,
-     {0, 1, true, true},
-     "eta",
-     "share of the disc that is covered when the trigger fires"},
+    laser_setter::beam_yaw,
+    laser_setter::beam_pitch,
+    laser_setter::beam_radius,
+    laser_setter::trigger_fraction,
     {"laser_z",
      "mm",
      "m",
@@ -66,21 +54,30 @@ constexpr QuantityCard quantities[] = {
      "true height of the beam's axis where it passes the spindle axis; only simulation reads it"},
 };
 constexpr VariableCard conditions[] = {
-    {"feed", "mm/min", "m/s", 4 * mm / 60, "feed of the spindle towards the beam"},
-    {"time", "s", "s", 0, "since the start of the work"},
-    {"direction", "1", "1", -1, "of approach along Z: -1 downwards"},
+    {"feed", "mm/min", "m/s", 4 * mm / minute, "feed of the spindle towards the beam"},
+    laser_setter::time,
+    laser_setter::direction,
 };
-constexpr VariableCard indications[] = {{"spindle_z", "mm", "m", 0, "spindle height latched at the trigger, Z'_s"}};
 constexpr VariableCard measurands[] = {
     {"bottom_height", "mm", "m", 0, "height of the bottom's centre above the beam's axis at the trigger, Z'_d"},
     {"laser_z", "mm", "m", 0,
      "height of the beam's axis where it passes the spindle axis: spindle_z - rod_length - bottom_height"},
 };
+constexpr std::string_view per_reading = "approach / feed + retract", once = "rod_change";
 constexpr EvaluationCard evaluations[] = {
-    {"full", "the geometry of rod and beam solved: Fang 2022, section 2.4"},
-    {"conventional", "square rod, aligned beam: bottom_height = 0; what ignoring the geometry costs"},
+    {"full", "the geometry of rod and beam solved: Fang 2022, section 2.4", {}, per_reading, once},
+    {"conventional",
+     "square rod, aligned beam: bottom_height = 0; what ignoring the geometry costs",
+     {},
+     per_reading,
+     once},
 };
-constexpr std::string_view stages[] = {"pose", "motion", "trigger"};
+constexpr QuantityCard timing[] = {
+    {"approach", "mm", "m", 2 * mm, {0, huge}, "", "way at the feed before the trigger"},
+    {"retract", "s", "s", 2, {0, huge}, "", "back up at rapid, and settling, of every reading"},
+    {"rod_change", "s", "s", 60, {0, huge}, "", "the rod into the spindle and over the beam, once"},
+};
+constexpr std::string_view stages[] = {"standing", "pose", "motion", "trigger"};
 
 constexpr ModelCard card{
     "rod_gauging",
@@ -90,10 +87,11 @@ constexpr ModelCard card{
     "Fang 2022, chapter 2 (eqs 2.3 to 2.38), derived anew; see reports/errata.md",
     quantities,
     conditions,
-    indications,
+    laser_setter::indications,
     measurands,
     evaluations,
-    stages};
+    stages,
+    timing};
 
 template <class T> PointOutcome evaluate_point(const PointCall<T>& call) {
   T condition[rod::conditions];
@@ -165,13 +163,8 @@ const Kernels* kernels() { return GUMSHOE_BEST_KERNELS(rod_gauging); }
 } // namespace
 
 extern const Model rod_gauging;
-const Model rod_gauging{&card,
-                        &kernels,
-                        &evaluate_point<Gradient>,
-                        &evaluate_point<Curvature>,
-                        &simulate_point<Gradient>,
-                        &explain,
-                        &check,
-                        &solve_reads};
+const Model rod_gauging{
+    &card,  &kernels,    &evaluate_point<Gradient>, &evaluate_point<Curvature>, &simulate_point<Gradient>, &explain,
+    &check, &solve_reads};
 
 } // namespace gumshoe::models

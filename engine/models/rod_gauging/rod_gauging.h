@@ -5,9 +5,8 @@
 /// the spindle height Z'_s. With the rod's length L_r and the height Z'_d of its bottom's centre above
 /// the beam's axis at that moment, the axis lies at laser_z = Z'_s - L_r - Z'_d.
 /// Source: Fang 2022, chapter 2 (eq 2.38), solved anew: chain/shadow.h.
-#include "chain/probing_event.h"
 #include "chain/trigger_height.h"
-#include "models/model.h"
+#include "models/laser_setter.h"
 
 namespace gumshoe::models::rod {
 
@@ -39,14 +38,14 @@ chain::ProbingEvent<T> probing_event(const T* q, const T* condition, const T* ef
   event.direction = condition[direction];
   event.holder_angle = q[holder_angle];
   event.tool_length = q[length];
-  for (const effects::Active& a : active) effects::functions<T>()[a.effect](effect_quantities + a.first, event);
+  laser_setter::act(active, effect_quantities, event);
   return event;
 }
 
 template <class T> chain::Rod<T> rod(const T* q, const chain::ProbingEvent<T>& event) {
   return {q[radius], q[fillet], q[elevation], q[azimuth] + q[holder_angle], event.tool_x, event.tool_y};
 }
-template <class T> chain::Beam<T> beam(const T* q) { return {q[yaw], q[pitch], q[beam_radius], q[fraction]}; }
+template <class T> chain::Beam<T> beam(const T* q) { return laser_setter::beam(q + yaw); }
 
 /// The machine: what the control reads when the beam's axis lies at q[laser_z].
 template <class T> T simulate(const T* q, const T& bottom_height, const chain::ProbingEvent<T>& event) {

@@ -17,31 +17,45 @@ constexpr double pi = 3.14159265358979323846;
 /// One reading of one sample.
 struct Reading {
   double q[count], condition[mill::conditions];
-  chain::ProbingEvent<double> event;
+  std::vector<double> effects;
+  PointCall<double> point; ///< of these
+  Event<double> event;
   double height = 0; ///< of the spindle above the beam's axis at the trigger, effects removed
 };
 
 class Readings {
 public:
-  explicit Readings(const BlockCall& call) : effects_(call.effect_quantities + 1), all_(call.readings), call_(call) {}
+  explicit Readings(const BlockCall& call) : all_(call.readings), call_(call) {
+    for (Reading& r : all_) {
+      r.effects.resize(call.effect_quantities + 1);
+      r.point.quantities = r.q;
+      r.point.effects = r.effects.data();
+      r.point.active = call.active;
+      r.point.conditions = r.condition;
+      r.point.evaluation = call.evaluation;
+    }
+  }
 
-  const std::vector<Reading>& load(std::size_t sample) {
+  std::vector<Reading>& load(std::size_t sample) {
     const auto at = [&](const Column& c) { return c.data[c.stride * sample]; };
     for (std::size_t r = 0; r < call_.readings; ++r) {
       Reading& x = all_[r];
       for (std::size_t j = 0; j < count; ++j) x.q[j] = at(call_.quantities[r * count + j]);
       for (std::size_t j = 0; j < call_.effect_quantities; ++j)
-        effects_[j] = at(call_.effects[r * call_.effect_quantities + j]);
+        x.effects[j] = at(call_.effects[r * call_.effect_quantities + j]);
       for (std::size_t j = 0; j < mill::conditions; ++j)
         x.condition[j] = at(call_.conditions[r * mill::conditions + j]);
-      x.event = probing_event<double>(x.q, x.condition, effects_.data(), call_.active);
-      if (call_.indications) x.height = mill::evaluate(at(call_.indications[r]), x.q, 0.0, x.event);
+      if (!call_.indications) continue;
+      const double z = at(call_.indications[r]);
+      x.q[length] = z - x.q[laser_z]; // what grows with the length does so by that of the readout
+      x.event = outcome_at(solver_, x.q, x.point, false).event;
+      x.height = chain::actual_of(z, x.event) - x.q[laser_z] - x.event.tool_growth;
     }
     return all_;
   }
 
 private:
-  std::vector<double> effects_;
+  chain::TriggerSolver solver_;
   std::vector<Reading> all_;
   const BlockCall& call_;
 };
@@ -53,7 +67,7 @@ double raised(const Reading& r, int k) { return flute(r.q, r.event, k).raise - r
 
 bool possible(const std::vector<Reading>& all) {
   for (const Reading& r : all)
-    if (impossible(r.q, r.condition) || r.q[inserts] != all[0].q[inserts]) return false;
+    if (impossible(r.q, r.condition, r.event) || r.q[inserts] != all[0].q[inserts]) return false;
   return true;
 }
 
@@ -90,13 +104,14 @@ bool prepare(const std::vector<Reading>& all, Curves& curves, CurveReadings& dat
   const int n = flutes_of(all[0]);
   data.readings = all.size();
   data.flutes = static_cast<std::size_t>(n);
-  data.drop = drop(all[0].condition);
+  data.drop = motion(all[0].q, all[0].event, all[0].condition).drop;
   data.curves.clear();
   data.lines.clear();
   data.heights.clear();
   data.alike = true;
   for (const Reading& r : all) {
-    const double line = r.condition[start_height] + data.drop * (r.q[holder_angle] + r.condition[start_angle]);
+    const auto m = motion(r.q, r.event, r.condition);
+    const double line = m.height + data.drop * m.angle;
     data.heights.push_back(r.height);
     for (int k = 0; k < n; ++k) {
       const auto f = flute(r.q, r.event, k);
@@ -185,7 +200,7 @@ void evaluate_peaks(const Results& results, const std::vector<Reading>& all) {
   results.set(joint_length_row, peaks[0] + least_wear(all[0]));
   results.set(joint_effective_row, peaks[0]);
   results.set(peaks_row, static_cast<double>(peaks.size()));
-  const double per_flute = 2 * pi * drop(all[0].condition) / n; // a flute shorter by more has no peak
+  const double per_flute = 2 * pi * motion(all[0].q, all[0].event, all[0].condition).drop / n; // a flute shorter by more has no peak
   for (int k = 0; k < n; ++k) {
     const bool seen = static_cast<std::size_t>(k) < peaks.size();
     results.flute(peak_rows, k, seen ? peaks[static_cast<std::size_t>(k)] : peaks[0] - per_flute, peaks[0], seen);
@@ -235,18 +250,20 @@ void simulate_together(const BlockCall& call) {
   Readings readings(simulated);
   chain::TriggerSolver solver;
   for (std::size_t i = 0; i < call.samples; ++i) {
-    const auto& all = readings.load(i);
+    auto& all = readings.load(i);
     bool seen[chain::most_inserts] = {};
-    auto status = possible(all) ? chain::SolveStatus::ok : chain::SolveStatus::out_of_domain;
+    auto status = chain::SolveStatus::ok;
     for (std::size_t r = 0; r < all.size(); ++r) {
       call.simulated[r][i] = std::nan("");
       if (status != chain::SolveStatus::ok) continue;
-      const auto t = trigger<double>(solver, all[r].q, all[r].event, all[r].condition);
-      status = t.status;
+      const auto o = mill::simulate(solver, all[r].point);
+      all[r].event = o.event;
+      status = o.trigger.height.status;
       if (status != chain::SolveStatus::ok) continue;
-      seen[t.insert] = true;
-      call.simulated[r][i] = mill::simulate(all[r].q, t.height, all[r].event);
+      seen[o.trigger.insert] = true;
+      call.simulated[r][i] = o.spindle_z;
     }
+    if (all[0].q[inserts] != all.back().q[inserts]) status = chain::SolveStatus::out_of_domain;
     const Results results{call, i, {all[0].q, all[0].q + count}};
     if (status == chain::SolveStatus::ok)
       write_truth(results, all[0], seen);

@@ -7,10 +7,12 @@ namespace gumshoe::models {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846, mm = 1e-3, deg = pi / 180, huge = 1e3;
+using laser_setter::deg, laser_setter::huge, laser_setter::minute, laser_setter::mm, laser_setter::rpm;
 
 #define GUMSHOE_WEAR(k)                                                                                                \
-  { "wear_" #k, "mm", "m", 0, {-huge, huge}, "W_" #k, "flute " #k " is shorter by this; ignored beyond `inserts`" }
+  QuantityCard {                                                                                                       \
+    "wear_" #k, "mm", "m", 0, {-huge, huge}, "W_" #k, "flute " #k " is shorter by this; ignored beyond `inserts`"      \
+  }
 constexpr QuantityCard quantities[] = {
     {"tool_radius",
      "mm",
@@ -25,18 +27,7 @@ constexpr QuantityCard quantities[] = {
     {"insert_radial_angle", "deg", "rad", -8 * deg, {-90 * deg, 90 * deg}, "theta_r", "of the rake face"},
     {"insert_axial_angle", "deg", "rad", -5 * deg, {-90 * deg, 90 * deg, true, true}, "theta_a", "of the rake face"},
     {"inserts", "1", "1", 2, {1, chain::most_inserts}, "n", "number of inserts, evenly spread; a whole number"},
-    GUMSHOE_WEAR(1),
-    GUMSHOE_WEAR(2),
-    GUMSHOE_WEAR(3),
-    GUMSHOE_WEAR(4),
-    GUMSHOE_WEAR(5),
-    GUMSHOE_WEAR(6),
-    GUMSHOE_WEAR(7),
-    GUMSHOE_WEAR(8),
-    GUMSHOE_WEAR(9),
-    GUMSHOE_WEAR(10),
-    GUMSHOE_WEAR(11),
-    GUMSHOE_WEAR(12),
+    GUMSHOE_FOR_EACH_INSERT(GUMSHOE_WEAR),
     {"holder_angle", "deg", "rad", 0, {-huge, huge}, "theta_t", "from the spindle's X to the first insert"},
     {"tool_length",
      "mm",
@@ -46,35 +37,22 @@ constexpr QuantityCard quantities[] = {
      "L_t",
      "from the spindle reference point to the unworn tool's centre; only simulation reads it"},
     {"offset", "mm", "m", 4 * mm, {-huge, huge}, "d", "of the spindle axis beside the beam: it stands at Y = -d"},
-    {"beam_yaw", "deg", "rad", 0, {-huge, huge}, "alpha", "of the beam about Z, from machine X"},
-    {"beam_pitch",
-     "deg",
-     "rad",
-     0,
-     {-90 * deg, 90 * deg, true, true},
-     "beta",
-     "of the beam out of the horizontal, positive upwards along the beam"},
-    {"beam_radius", "mm", "m", 0.2 * mm, {0, huge, true}, "R_l", "radius of the beam's disc on the receiver"},
-    {"trigger_fraction",
-     "1",
-     "1",
-     0.5,
-     {0, 1, true, true},
-     "eta",
-     "share of the disc that is covered when the trigger fires"},
+    laser_setter::beam_yaw,
+    laser_setter::beam_pitch,
+    laser_setter::beam_radius,
+    laser_setter::trigger_fraction,
     {"laser_z", "mm", "m", 0, {-huge, huge}, "Z_ts", "height of the beam's axis, from its calibration"},
 };
 #undef GUMSHOE_WEAR
 static_assert(std::size(quantities) == mill::count);
 constexpr VariableCard conditions[] = {
-    {"spindle_speed", "rpm", "rad/s", 1000 * 2 * pi / 60, "counter-clockwise seen from above"},
-    {"feed", "mm/min", "m/s", 30 * mm / 60, "of the spindle towards the beam"},
+    {"spindle_speed", "rpm", "rad/s", 1000 * rpm, "counter-clockwise seen from above"},
+    {"feed", "mm/min", "m/s", 30 * mm / minute, "of the spindle towards the beam"},
     {"start_angle", "deg", "rad", 0, "spindle angle when the feed begins"},
     {"start_height", "mm", "m", 5 * mm, "of the tool's centre above the beam's axis when the feed begins"},
-    {"time", "s", "s", 0, "since the start of the work"},
-    {"direction", "1", "1", -1, "of approach along Z: -1 downwards"},
+    laser_setter::time,
+    laser_setter::direction,
 };
-constexpr VariableCard indications[] = {{"spindle_z", "mm", "m", 0, "spindle height latched at the trigger, Z'_s"}};
 constexpr VariableCard measurands[] = {
     {"trigger_height", "mm", "m", 0, "height of the unworn tool's centre above the beam's axis at the trigger, Z_t"},
     {"tool_length", "mm", "m", 0, "to the unworn tool's centre: spindle_z - laser_z - trigger_height"},
@@ -109,7 +87,7 @@ constexpr EvaluationCard evaluations[] = {
      "readouts at several start angles, connected by lines: the highest peaks are the flutes (Fang 2022, 3.5.2)",
      mill::peak_measurands, "orientation_time + " GUMSHOE_RUN, GUMSHOE_ONCE},
 };
-constexpr std::string_view stages[] = {"pose", "motion", "trigger"};
+constexpr std::string_view stages[] = {"pose", "insert", "spindle", "motion", "timing", "trigger"};
 
 constexpr ModelCard card{
     "tool_length",
@@ -119,7 +97,7 @@ constexpr ModelCard card{
     "Fang 2022, chapter 3 (eqs 3.1 to 3.29), derived anew; see reports/errata.md",
     quantities,
     conditions,
-    indications,
+    laser_setter::indications,
     measurands,
     evaluations,
     stages,
@@ -127,87 +105,62 @@ constexpr ModelCard card{
 #undef GUMSHOE_RUN
 #undef GUMSHOE_ONCE
 
-template <class T> struct Point {
-  T condition[mill::conditions];
-  chain::ProbingEvent<T> event;
-  chain::Solved<T> height{T(0.0)};
-};
-
-template <class T> Point<T> solve_point(const PointCall<T>& call, bool with_solve) {
-  Point<T> p;
-  double q[mill::count];
-  for (int i = 0; i < mill::count; ++i) q[i] = num::value(call.quantities[i]);
-  for (int i = 0; i < mill::conditions; ++i) p.condition[i] = T(call.conditions[i]);
-  p.event = mill::probing_event<T>(call.quantities, p.condition, call.effects, call.active);
-  if (mill::impossible(q, call.conditions)) {
-    p.height = {T(std::nan("")), chain::SolveStatus::out_of_domain};
-    return p;
-  }
-  if (!with_solve) return p;
-  chain::TriggerSolver solver;
-  const auto trigger = mill::trigger(solver, call.quantities, p.event, call.conditions);
-  if (trigger.status != chain::SolveStatus::ok) {
-    p.height = {T(std::nan("")), trigger.status};
-    return p;
-  }
-  p.height.value = chain::differentiable_trigger_height<T>(
-      mill::flute(call.quantities, p.event, trigger.insert), mill::beam(call.quantities),
-      {call.quantities[mill::holder_angle] + call.conditions[mill::start_angle], T(call.conditions[mill::start_height]),
-       T(mill::drop(call.conditions))},
-      trigger);
-  return p;
-}
-
 template <class T> PointOutcome evaluate_point(const PointCall<T>& call) {
-  const Point<T> p = solve_point(call, call.evaluation == mill::full);
-  const T length = mill::evaluate(call.indications[0], call.quantities, p.height.value, p.event);
-  call.measurands[mill::trigger_height_row] = p.height.value;
-  call.measurands[mill::length_row] = length;
-  call.measurands[mill::effective_row] = mill::effective_length(call.quantities, length);
-  return {static_cast<std::uint8_t>(p.height.status), p.height.kink};
+  chain::TriggerSolver solver;
+  const auto o = mill::evaluate(solver, call);
+  call.measurands[mill::trigger_height_row] = o.trigger.height.value;
+  call.measurands[mill::length_row] = o.length;
+  call.measurands[mill::effective_row] = o.effective_length;
+  return {static_cast<std::uint8_t>(o.trigger.height.status), o.trigger.height.kink};
 }
 
 template <class T> PointOutcome simulate_point(const PointCall<T>& call) {
-  const Point<T> p = solve_point(call, true);
-  call.simulated[0] = mill::simulate(call.quantities, p.height.value, p.event);
-  return {static_cast<std::uint8_t>(p.height.status), p.height.kink};
+  chain::TriggerSolver solver;
+  const auto o = mill::simulate(solver, call);
+  call.simulated[0] = o.spindle_z;
+  return {static_cast<std::uint8_t>(o.trigger.height.status), o.trigger.height.kink};
 }
 
 std::vector<Intermediate> explain(const PointCall<double>& call) {
   const double* q = call.quantities;
-  const Point<double> p = solve_point(call, call.evaluation == mill::full);
+  chain::TriggerSolver solver;
+  const auto o = mill::evaluate(solver, call);
+  const auto& event = o.event;
+  const auto m = mill::motion(q, event, call.conditions);
   std::vector<Intermediate> out{
-      {"tool axis beside the beam's reference point, X", "mm", p.event.tool_x / mm},
-      {"tool axis beside the beam's reference point, Y", "mm", (p.event.tool_y - q[mill::offset]) / mm},
-      {"tool growth", "mm", p.event.tool_growth / mm},
-      {"axis error", "mm", p.event.axis_error / mm},
-      {"axis scale", "um/m", p.event.axis_scale * 1e6},
-      {"latch delay", "s", p.event.latch_delay},
-      {"descent per revolution", "mm", 2 * pi * mill::drop(call.conditions) / mm},
+      {"tool axis beside the beam's reference point, X", "mm", event.tool_x / mm},
+      {"tool axis beside the beam's reference point, Y", "mm", (event.tool_y - q[mill::offset]) / mm},
+      {"tool growth", "mm", event.tool_growth / mm},
+      {"axis error", "mm", event.axis_error / mm},
+      {"axis scale", "um/m", event.axis_scale * 1e6},
+      {"true height when the feed begins", "mm", m.height / mm},
+      {"true angle of the first insert when the feed begins", "deg", m.angle / deg},
+      {"descent per revolution", "mm", 2 * std::numbers::pi * m.drop / mm},
+      {"delay from the trigger to the latch", "s", event.latch_delay},
   };
-  if (call.evaluation == mill::full && p.height.status == chain::SolveStatus::ok) {
-    chain::TriggerSolver solver;
-    const auto trigger = mill::trigger(solver, q, p.event, call.conditions);
-    const double highest =
-        solver.heights(mill::flute(q, p.event, trigger.insert).insert, mill::beam(q)).highest().height;
+  if (call.evaluation == mill::full && o.trigger.height.status == chain::SolveStatus::ok) {
+    const auto flute = mill::flute(q, event, o.trigger.insert);
+    const double highest = solver.heights(flute.insert, mill::beam(q)).highest().height;
     out.insert(out.end(), {{"highest trigger height of this insert, unworn", "mm", highest / mm},
-                           {"insert that triggers", "1", trigger.insert + 1.0},
-                           {"spindle turned until the trigger", "deg", trigger.turned / deg}});
+                           {"insert that triggers", "1", o.trigger.insert + 1.0},
+                           {"spindle turned until the trigger", "deg", o.trigger.turned / deg}});
   }
-  const double length = mill::evaluate(call.indications[0], q, p.height.value, p.event);
-  out.insert(out.end(), {{"trigger_height", "mm", p.height.value / mm},
-                         {"spindle height, effects removed", "mm", chain::actual_of(call.indications[0], p.event) / mm},
-                         {"tool_length", "mm", length / mm},
-                         {"effective_length", "mm", mill::effective_length(q, length) / mm}});
+  out.insert(out.end(), {{"trigger_height", "mm", o.trigger.height.value / mm},
+                         {"spindle height, effects removed", "mm", chain::actual_of(call.indications[0], event) / mm},
+                         {"tool_length", "mm", o.length / mm},
+                         {"effective_length", "mm", o.effective_length / mm}});
   return out;
 }
 
 std::string check(const PointCall<double>& call) {
-  const char* problem = mill::impossible(call.quantities, call.conditions);
+  double condition[mill::conditions];
+  std::copy_n(call.conditions, static_cast<std::size_t>(mill::conditions), condition);
+  const auto event = mill::probing_event<double>(call.quantities, condition, call.effects, call.active);
+  const char* problem = mill::impossible(call.quantities, call.conditions, event);
   return problem ? problem : "";
 }
 
-bool solve_reads(std::size_t quantity) { return quantity != mill::length && quantity != mill::laser_z; }
+bool solve_reads(std::size_t) { return true; } // even laser_z, by the scale of the axis
 
 const Kernels* kernels() { return GUMSHOE_BEST_KERNELS(tool_length); }
 

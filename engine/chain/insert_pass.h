@@ -1,0 +1,79 @@
+#pragma once
+/// Where in a turn one insert can trigger at all, and a rigorous search there for its first trigger.
+///
+/// An insert passes the beam in one or two *windows* of angle: outside them it covers the share at no height above
+/// `highest - below`. Inside, where it can be proved that only the cutting edge shows in the beam, the height is that
+/// of insert_chord.h, whose bound on every other angle is what the search walks by: nothing is skipped unproved.
+#include <array>
+
+#include "chain/insert_lines.h"
+
+namespace gumshoe::chain {
+
+class InsertPass {
+public:
+  /// Where the cutting edge's lowest point is nearest to the beam's axis: about the top of a hump of k. For first
+  /// guesses.
+  struct Crest {
+    double angle;
+    double y;     ///< of the lowest point
+    double k;     ///< height k
+    double blunt; ///< radius of curvature
+    bool rises;   ///< the lowest point comes from the side of -y
+  };
+  struct Window {
+    double from, to; ///< angles
+    double highest;  ///< no height k inside is above it
+    Crest crest;
+  };
+
+  InsertPass(const InsertBody<double>& body, const DiscShare& disc);
+  /// The windows for heights k from `highest()` down to `below` less; false where no proof is had.
+  bool open(double below);
+  /// Lowers the windows' own `highest` to about `margin` above their crests where that can be proved.
+  void lower(double margin);
+  /// No height k at any angle is above it.
+  double highest() const { return highest_; }
+  double below() const { return below_; }
+  /// What a hump's top may at most lie below `highest()`, about.
+  double slack() const { return slack_; }
+  int size() const { return size_; }
+  const Window& window(int i) const { return window_[static_cast<std::size_t>(i)]; }
+
+  enum class Found { none, crossed, inside, unproved };
+  struct Crossing {
+    Found found = Found::none;
+    double turned = 0;
+    double slope = 0;   ///< dk / d(angle) there
+    bool facing = true; ///< the cutting edge's normal points along the beam, or against it
+  };
+  /// The first angle turned from `first` to `last` with k(angle) >= level - fall turned in a window, where the angle is
+  /// turned - shift; `inside` if that holds at `first` itself.
+  Crossing first_crossing(const Window& w, double level, double fall, double shift, double first, double last) const;
+
+  const InsertLines& lines() const { return lines_; }
+  /// True only if k(angle) + fall (angle - from) < limit at all angles from `from` to `to`: by tangents, or by Phi.
+  bool below(double from, double to, double fall, double limit) const;
+
+private:
+  /// Bound on the second derivative of Phi by the angle, in a turn; infinite where there is none.
+  double curve(const RakeChord& c) const;
+  Crossing walk(const Window& w, double level, double fall, double shift, double first, double last) const;
+  /// Only the cutting edge shows within the beam's width, at all angles of the interval inside a window.
+  bool only_edge(double from, double to) const;
+  bool cleared(double from, double to, bool facing, double fall, double limit) const;
+  void add(double from, double to, bool rises);
+  Crest crest_at(double angle, bool rises) const;
+  InsertLines lines_;
+  RakeBody body_;
+  DiscShare disc_;
+  double shrink_share_, spread_, normal_spread_, tilt_;
+  double nz_low_, nz_high_, blunt_;
+  double highest_, slack_, below_ = -1;
+  double amplitude_, phase_, point_, point_error_;
+  std::array<Crest, 2> crest_;
+  std::array<Window, 2> window_;
+  int size_ = 0;
+};
+
+} // namespace gumshoe::chain

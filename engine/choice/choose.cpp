@@ -1,0 +1,236 @@
+#include "choice/choose.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "analysis/rounding.h"
+#include "analysis/shapley.h"
+#include "analysis/sobol.h"
+#include "base/instruction_set.h"
+#include "base/units.h"
+#include "base/version.h"
+#include "choice/figures.h"
+#include "choice/setup.h"
+
+namespace gumshoe::choice {
+
+namespace {
+
+using scenario::Knob;
+using scenario::Setting;
+constexpr std::size_t most_tried = 20;
+
+class Chooser {
+public:
+  Chooser(const scenario::Scenario& s, const Settings& settings)
+      : s_(s), choose_(*s.choose), settings_(settings), search_(s, settings) {}
+
+  Result run() {
+    search_.run();
+    const auto meeting = search_.meeting();
+    const auto least = search_.least();
+    r_.reached = !meeting.empty();
+    if (meeting.empty() && !least)
+      throw InputError("choose: every candidate fails",
+                       fmt::format("more than max_failed_share = {} of its samples", s_.run.max_failed_share));
+    if (r_.reached)
+      confirm(meeting);
+    else
+      take(*least, afresh(*least));
+    r_.neighbours = search_.neighbours(r_.best);
+    search_.mark_pareto();
+    near();
+    describe();
+    budget();
+    compare();
+    state();
+    return std::move(r_);
+  }
+
+private:
+  const Figures& asked(const Candidate& c) const { return choice::asked(c, choose_.worst_case); }
+
+  void report(const char* what) const {
+    if (settings_.progress) settings_.progress({what, 0, 0});
+  }
+
+  Candidate afresh(const Setup& setup, Candidate c) {
+    report("fresh run");
+    c.time = setup.seconds();
+    c.readings = setup.experiment().scenario().readings.size();
+    return search_.judged(std::move(c),
+                          errors({&setup}, choose_.confirm_samples, quantities::Purpose::fresh, settings_.threads)[0]);
+  }
+  Candidate afresh(std::size_t candidate) {
+    ++r_.tried;
+    const Candidate& c = search_.candidates()[candidate];
+    return afresh(Setup(s_, search_.settings_of(c.values)), c);
+  }
+
+  /// That U, and the bias, truly lie within what is asked for.
+  double probability(const Candidate& c) const {
+    double p = probability_below(asked(c).expanded, asked(c).expanded_se, choose_.target);
+    const auto within = [&](double bias, double se) {
+      p = std::min(p, probability_below(std::fabs(bias), se, *choose_.bias));
+    };
+    if (choose_.bias) within(c.average.mean, c.average.mean_se);
+    for (const Figures& f : c.cases)
+      if (choose_.bias && choose_.worst_case) within(f.left, f.mean_se);
+    return p;
+  }
+
+  void take(std::size_t candidate, Candidate fresh) {
+    r_.best = candidate;
+    r_.fresh = std::move(fresh);
+    r_.probability = probability(r_.fresh);
+  }
+
+  /// The numbers that chose a candidate flatter it: fresh ones decide.
+  void confirm(const std::vector<std::size_t>& meeting) {
+    double failed = INFINITY;
+    for (const std::size_t i : meeting) {
+      if (asked(search_.candidates()[i]).expanded >= failed) continue; // with common numbers it would fail too
+      Candidate fresh = afresh(i);
+      const double p = probability(fresh);
+      if (r_.tried == 1 || p > r_.probability) take(i, std::move(fresh));
+      r_.confirmed = p >= choose_.confirm_probability;
+      if (r_.confirmed || r_.tried == most_tried) return;
+      failed = asked(search_.candidates()[i]).expanded;
+    }
+  }
+
+  void near() {
+    const auto& all = search_.candidates();
+    r_.near.resize(choose_.variables.size());
+    for (const Candidate& c : all) {
+      if (!c.meets || c.time > (1 + choose_.near) * all[r_.best].time) continue;
+      for (std::size_t v = 0; v < r_.near.size(); ++v) {
+        Span& span = r_.near[v];
+        span.low = r_.near_count == 0 ? c.values[v] : std::min(span.low, c.values[v]);
+        span.high = r_.near_count == 0 ? c.values[v] : std::max(span.high, c.values[v]);
+      }
+      ++r_.near_count;
+    }
+  }
+
+  void describe() {
+    r_.asked = choose_;
+    r_.title = s_.title;
+    r_.model = s_.model;
+    r_.scenario_file = s_.file;
+    r_.scenario_text = s_.text;
+    r_.scenario_hash = s_.hash;
+    r_.version = version;
+    r_.git_hash = git_hash;
+    r_.instruction_set = name(best_instruction_set());
+    r_.coverage_probability = s_.analysis.coverage_probability;
+    r_.seed = s_.run.seed;
+    r_.candidates = search_.candidates();
+    r_.skipped = search_.skipped();
+    r_.skipped_why = search_.skipped_why();
+    r_.resolution = search_.resolution();
+    r_.notes = s_.notes;
+    if (s_.run.design != scenario::Design::monte_carlo)
+      r_.notes.push_back(
+          fmt::format("design {} is not used here: standard errors need independent samples", name(s_.run.design)));
+  }
+
+  void budget() {
+    scenario::Scenario s = s_;
+    s.analysis.sensitivity.second_order = false;
+    const Setup setup(s, search_.settings_of(r_.candidates[r_.best].values));
+    const propagation::Experiment& e = setup.experiment();
+    const auto& output = e.outputs()[setup.output()];
+    r_.unit = choose_.unit;
+    r_.si_unit = output.si_unit;
+    for (const EvaluationCard& card : e.model().card->evaluations) r_.evaluations.emplace_back(card.name);
+    if (choose_.sobol == 0 || e.plan().variates.empty()) return;
+    report("budget at the optimum");
+    if (e.plan().copulas.empty())
+      r_.sensitivity = analysis::sobol_indices(e, choose_.sobol, settings_.threads).at(setup.output());
+    else
+      r_.shapley = analysis::shapley_effects(e, choose_.sobol, settings_.threads).at(setup.output());
+  }
+
+  void compare() {
+    for (const scenario::ChooseCompare& c : choose_.compare) {
+      try {
+        const Setup setup(s_, c.settings);
+        Compared one{c.name, c.source, in_words(c.settings, r_.evaluations), afresh(setup, {}), 0};
+        one.probability = probability(one.candidate);
+        r_.compared.push_back(std::move(one));
+      } catch (const InputError& error) {
+        auto problems = error.problems();
+        for (Problem& p : problems) p.what = fmt::format("choose.compare '{}': {}", c.name, p.what);
+        throw InputError(problems);
+      }
+    }
+  }
+
+  void state() {
+    const auto shown = [&](double x) { return units::from_si(x, r_.unit, r_.si_unit, units::Kind::difference); };
+    const std::string unit = r_.unit == "1" ? "" : " " + r_.unit;
+    const Figures& f = asked(r_.fresh);
+    const int d = analysis::decimals_for(shown(f.expanded));
+    const auto width = [&](double x) { return analysis::fixed(shown(x), d) + unit; };
+    std::string text;
+    if (!r_.reached) {
+      text = fmt::format(
+          "No candidate meets the target U = {:.6g}{}{}. The best reached is U = {} in {}, with {}",
+          shown(choose_.target), unit,
+          choose_.bias ? fmt::format(" with a bias of at most {:.6g}{}", shown(*choose_.bias), unit) : "",
+          width(f.expanded), duration(r_.fresh.time), in_words(search_.settings_of(r_.fresh.values), r_.evaluations));
+    } else {
+      text = fmt::format("The fastest setting that meets the target U = {:.6g}{}: {}. It takes {} and reaches U = {}",
+                         shown(choose_.target), unit, in_words(search_.settings_of(r_.fresh.values), r_.evaluations),
+                         duration(r_.fresh.time), width(f.expanded));
+    }
+    if (choose_.worst_case) text += fmt::format(" in the worst case, {}", choose_.cases[r_.fresh.worst].name);
+    if (choose_.definition == scenario::Choose::Definition::corrected)
+      text += fmt::format(" after a correction of {}", width(-r_.fresh.average.mean));
+    text += fmt::format("; by {} fresh samples it meets the target with a probability of {:.3g}.",
+                        choose_.confirm_samples, r_.probability);
+    if (r_.reached && !r_.confirmed)
+      text += fmt::format(" No faster or slower setting tried is sure to (probability {:.3g} asked for): more samples "
+                          "or a finer search?",
+                          choose_.confirm_probability);
+    r_.statement = text;
+  }
+
+  const scenario::Scenario& s_;
+  const scenario::Choose& choose_;
+  const Settings& settings_;
+  Search search_;
+  Result r_;
+};
+
+} // namespace
+
+std::string in_words(const std::vector<Setting>& settings, const std::vector<std::string>& evaluations) {
+  std::string text;
+  for (const auto& [knob, value] : settings) {
+    text += text.empty() ? "" : ", ";
+    if (knob.kind == Knob::Kind::evaluation)
+      text += fmt::format("evaluation {}", evaluations[static_cast<std::size_t>(value)]);
+    else
+      text += fmt::format("{} {:.4g}{}", knob.name, units::from_si(value, knob.unit, knob.si_unit),
+                          knob.unit == "1" ? "" : " " + knob.unit);
+  }
+  return text;
+}
+
+std::string duration(double seconds) {
+  if (seconds < 1) return fmt::format("{:.3g} s", seconds);
+  if (seconds < 100) return fmt::format("{:.1f} s", seconds);
+  const auto whole = static_cast<long>(std::lround(seconds));
+  if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);
+  return fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
+}
+
+Result choose(const scenario::Scenario& scenario, const Settings& settings) {
+  return Chooser(scenario, settings).run();
+}
+
+} // namespace gumshoe::choice

@@ -1,0 +1,289 @@
+#include "choice/search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "choice/figures.h"
+#include "choice/setup.h"
+#include "propagation/propagate.h"
+
+namespace gumshoe::choice {
+
+namespace {
+
+using scenario::Knob;
+constexpr std::size_t most_candidates = 50'000, most_centres = 8, most_moves = 16;
+constexpr std::uint64_t values_at_once = 1u << 24; ///< errors kept in memory
+
+} // namespace
+
+Search::Search(const scenario::Scenario& s, const Settings& settings)
+    : scenario_(s), choose_(*s.choose), settings_(settings) {}
+
+int Search::parts(std::size_t v) const {
+  const auto& variable = choose_.variables[v];
+  return variable.range ? (variable.steps - 1) << choose_.refinements : static_cast<int>(variable.values.size()) - 1;
+}
+
+double Search::value(std::size_t v, int place) const {
+  const auto& variable = choose_.variables[v];
+  return variable.range ? variable.at(place, parts(v)) : variable.values[static_cast<std::size_t>(place)];
+}
+
+std::vector<scenario::Setting> Search::settings_of(const std::vector<double>& values) const {
+  std::vector<scenario::Setting> out;
+  for (std::size_t v = 0; v < values.size(); ++v) out.push_back({choose_.variables[v].knob, values[v]});
+  return out;
+}
+
+std::vector<double> Search::resolution() const {
+  std::vector<double> out;
+  for (std::size_t v = 0; v < choose_.variables.size(); ++v)
+    out.push_back(choose_.variables[v].range ? 1.0 / parts(v) : 0);
+  return out;
+}
+
+Candidate Search::judged(Candidate c, const std::vector<std::vector<double>>& errors) const {
+  const double p = scenario_.analysis.coverage_probability;
+  const bool corrected = choose_.definition == scenario::Choose::Definition::corrected;
+  c.average = average_figures(errors[0], p, choose_.definition);
+  c.cases.clear();
+  for (std::size_t k = 1; k < errors.size(); ++k)
+    c.cases.push_back(case_figures(errors[k], p, corrected ? c.average.mean : 0));
+  c.worst = 0; // NaN, no value at all, is the worst
+  for (std::size_t k = 1; k < c.cases.size(); ++k)
+    if (!(c.cases[k].expanded <= c.cases[c.worst].expanded)) c.worst = k;
+  c.meets = usable(c) && asked(c).expanded <= choose_.target;
+  if (choose_.bias) {
+    c.meets = c.meets && std::fabs(c.average.mean) <= *choose_.bias;
+    for (const Figures& f : c.cases)
+      if (choose_.worst_case) c.meets = c.meets && std::fabs(f.left) <= *choose_.bias;
+  }
+  return c;
+}
+
+bool Search::usable(const Candidate& c) const {
+  const auto good = [&](const Figures& f) {
+    return f.valid > 1 &&
+           static_cast<double>(f.failed) <= scenario_.run.max_failed_share * static_cast<double>(f.valid + f.failed);
+  };
+  return good(c.average) && (!choose_.worst_case || std::ranges::all_of(c.cases, good));
+}
+
+void Search::attempt(const std::vector<Place>& places) {
+  std::vector<std::unique_ptr<Setup>> setups;
+  std::vector<Candidate> fresh;
+  const auto run = [&] {
+    std::vector<const Setup*> pointers;
+    for (const auto& s : setups) pointers.push_back(s.get());
+    const Errors e = errors(pointers, choose_.samples, quantities::Purpose::sampling, settings_.threads);
+    const std::size_t first = candidates_.size();
+    candidates_.resize(first + fresh.size());
+    propagation::parallel_for(fresh.size(), settings_.threads,
+                              [&](std::size_t i) { candidates_[first + i] = judged(std::move(fresh[i]), e[i]); });
+    setups.clear();
+    fresh.clear();
+  };
+  const std::uint64_t each = choose_.samples * (1 + choose_.cases.size());
+  std::uint64_t done = 0;
+  std::string first_refusal;
+  for (const Place& place : places) {
+    ++done;
+    std::vector<double> values;
+    for (std::size_t v = 0; v < place.size(); ++v) values.push_back(value(v, place[v]));
+    const auto [it, unknown] = known_.try_emplace(values);
+    if (!unknown) continue;
+    try {
+      setups.push_back(std::make_unique<Setup>(scenario_, settings_of(values)));
+    } catch (const InputError& error) {
+      ++skipped_;
+      const Problem& p = error.problems().front();
+      const std::string why = p.what + (p.why.empty() ? "" : " (" + p.why + ")");
+      if (std::ranges::find(skipped_why_, why) == skipped_why_.end()) skipped_why_.push_back(why);
+      continue;
+    }
+    it->second = candidates_.size() + fresh.size();
+    Candidate c;
+    c.values = std::move(values);
+    c.time = setups.back()->seconds();
+    c.readings = setups.back()->experiment().scenario().readings.size();
+    c.round = round_;
+    fresh.push_back(std::move(c));
+    places_.push_back(place);
+    if (fresh.size() * each < values_at_once && fresh.size() < 64) continue;
+    run();
+    if (settings_.progress) settings_.progress({fmt::format("round {}", round_), done, places.size()});
+  }
+  run();
+}
+
+std::vector<Search::Place> Search::grid() const {
+  std::size_t count = 1;
+  for (const auto& v : choose_.variables) {
+    count *= v.values.size();
+    if (count > most_candidates)
+      throw InputError(fmt::format("choose.variables: more than {} combinations", most_candidates), "",
+                       "fewer steps, or shorter lists?");
+  }
+  std::vector<Place> out{{}};
+  for (std::size_t v = 0; v < choose_.variables.size(); ++v) {
+    const auto& variable = choose_.variables[v];
+    const int n = variable.range ? variable.steps : static_cast<int>(variable.values.size());
+    const int step = variable.range ? 1 << choose_.refinements : 1;
+    std::vector<Place> longer;
+    for (const Place& place : out)
+      for (int i = 0; i < n; ++i) {
+        longer.push_back(place);
+        longer.back().push_back(i * step);
+      }
+    out = std::move(longer);
+  }
+  return out;
+}
+
+std::vector<std::size_t> Search::meeting() const {
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < candidates_.size(); ++i)
+    if (candidates_[i].meets) out.push_back(i);
+  std::ranges::stable_sort(out, [&](std::size_t a, std::size_t b) {
+    const Candidate &x = candidates_[a], &y = candidates_[b];
+    return x.time != y.time ? x.time < y.time : asked(x).expanded < asked(y).expanded;
+  });
+  return out;
+}
+
+std::optional<std::size_t> Search::least() const {
+  std::optional<std::size_t> best;
+  for (std::size_t i = 0; i < candidates_.size(); ++i)
+    if (usable(candidates_[i]) && (!best || asked(candidates_[i]).expanded < asked(candidates_[*best]).expanded))
+      best = i;
+  return best;
+}
+
+std::vector<Search::Place> Search::centres() const {
+  std::map<Place, std::size_t> best; // by the lists' places
+  const auto better = [&](const Candidate& a, const Candidate& b) {
+    if (a.meets != b.meets) return a.meets;
+    if (a.meets && a.time != b.time) return a.time < b.time;
+    return asked(a).expanded < asked(b).expanded;
+  };
+  for (std::size_t i = 0; i < candidates_.size(); ++i) {
+    if (!usable(candidates_[i])) continue;
+    Place lists = places_[i];
+    for (std::size_t v = 0; v < lists.size(); ++v)
+      if (choose_.variables[v].range) lists[v] = 0;
+    const auto [it, fresh] = best.try_emplace(lists, i);
+    if (!fresh && better(candidates_[i], candidates_[it->second])) it->second = i;
+  }
+  std::vector<std::size_t> order;
+  for (const auto& [lists, i] : best) order.push_back(i);
+  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return better(candidates_[a], candidates_[b]); });
+  std::vector<Place> out;
+  for (std::size_t k = 0; k < std::min(order.size(), most_centres); ++k) out.push_back(places_[order[k]]);
+  return out;
+}
+
+std::vector<Search::Place> Search::around(const Place& centre, int step) const {
+  std::vector<Place> out{{}};
+  for (std::size_t v = 0; v < centre.size(); ++v) {
+    std::vector<Place> longer;
+    for (const Place& place : out)
+      for (const int move : {0, -step, step}) {
+        const int to = centre[v] + move;
+        if (move != 0 && (!choose_.variables[v].range || to < 0 || to > parts(v))) continue;
+        longer.push_back(place);
+        longer.back().push_back(to);
+      }
+    out = std::move(longer);
+  }
+  return out;
+}
+
+void Search::run() {
+  attempt(grid());
+  if (candidates_.empty())
+    throw InputError("choose: no combination of the variables can be", skipped_why_.empty() ? "" : skipped_why_[0]);
+  const bool ranges = std::ranges::any_of(choose_.variables, &scenario::Variable::range);
+  for (round_ = 1; ranges && round_ <= choose_.refinements; ++round_) {
+    std::vector<Place> at;
+    for (std::size_t move = 0; move < most_moves; ++move) {
+      const auto next = centres();
+      if (next == at) break;
+      at = next;
+      std::vector<Place> places;
+      for (const Place& centre : at)
+        for (Place& place : around(centre, 1 << (choose_.refinements - round_))) places.push_back(std::move(place));
+      attempt(places);
+    }
+  }
+}
+
+std::vector<Neighbour> Search::neighbours(std::size_t candidate) {
+  round_ = choose_.refinements + 1;
+  const Place from = places_[candidate];
+  std::vector<std::pair<std::size_t, Place>> moves;
+  for (std::size_t v = 0; v < from.size(); ++v) {
+    const auto& variable = choose_.variables[v];
+    std::vector<int> to;
+    if (variable.knob.kind == Knob::Kind::evaluation) {
+      for (int i = 0; i <= parts(v); ++i)
+        if (i != from[v]) to.push_back(i);
+    } else if (variable.range) {
+      // Readings are whole: several places may be one value.
+      for (const int direction : {-1, 1}) {
+        int place = from[v] + direction;
+        while (place >= 0 && place <= parts(v) && value(v, place) == value(v, from[v])) place += direction;
+        if (place >= 0 && place <= parts(v)) to.push_back(place);
+      }
+    } else {
+      // By value: a list need not be in order.
+      std::optional<int> below, above;
+      for (int i = 0; i <= parts(v); ++i) {
+        const double x = value(v, i), here = value(v, from[v]);
+        if (x < here && (!below || x > value(v, *below))) below = i;
+        if (x > here && (!above || x < value(v, *above))) above = i;
+      }
+      for (const auto& next : {below, above})
+        if (next) to.push_back(*next);
+    }
+    for (const int place : to) {
+      moves.emplace_back(v, from);
+      moves.back().second[v] = place;
+    }
+  }
+  std::vector<Place> places;
+  for (const auto& [v, place] : moves) places.push_back(place);
+  attempt(places);
+  std::vector<Neighbour> out;
+  for (const auto& [v, place] : moves) {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < place.size(); ++i) values.push_back(value(i, place[i]));
+    const auto found = known_.at(values);
+    if (!found) continue; // cannot be
+    const Candidate &here = candidates_[candidate], &there = candidates_[*found];
+    Neighbour n{v, *found, there.time / here.time, asked(there).expanded / asked(here).expanded};
+    n.near = n.time_ratio <= 1 + choose_.near && n.expanded_ratio <= 1 + choose_.near;
+    out.push_back(n);
+  }
+  return out;
+}
+
+void Search::mark_pareto() {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < candidates_.size(); ++i)
+    if (usable(candidates_[i])) order.push_back(i);
+  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
+    const Candidate &x = candidates_[a], &y = candidates_[b];
+    return x.time != y.time ? x.time < y.time : asked(x).expanded < asked(y).expanded;
+  });
+  double least = INFINITY;
+  for (const std::size_t i : order) {
+    candidates_[i].pareto = asked(candidates_[i]).expanded < least;
+    if (candidates_[i].pareto) least = asked(candidates_[i]).expanded;
+  }
+}
+
+} // namespace gumshoe::choice

@@ -1,0 +1,72 @@
+#pragma once
+/// Candidates and where to look for them: a coarse grid, refined about the best.
+#include <functional>
+#include <map>
+#include <optional>
+
+#include "choice/results.h"
+#include "scenario/scenario.h"
+
+namespace gumshoe::choice {
+
+struct Progress {
+  std::string what;
+  std::uint64_t done = 0, total = 0;
+};
+struct Settings {
+  int threads = 0;
+  std::function<void(const Progress&)> progress;
+};
+
+/// All candidates tried so far, each once, with common random numbers: their differences are due to the settings.
+class Search {
+public:
+  Search(const scenario::Scenario& scenario, const Settings& settings);
+
+  /// Every combination of lists and coarse grids; then `refinements` rounds, each halving the ranges' steps: about the
+  /// best candidate of each combination of the lists' values (the fastest that meets the target, else the one of least
+  /// U; the eight most promising) all neighbours are tried, until the best stay where they are.
+  void run();
+  /// One step away from a candidate, in one variable: of a range the last step, of a list the next value either way,
+  /// of the evaluation every other. Tried if not known.
+  std::vector<Neighbour> neighbours(std::size_t candidate);
+
+  const std::vector<Candidate>& candidates() const { return candidates_; }
+  /// Those that meet the target, the fastest first; of equal times the one of less U.
+  std::vector<std::size_t> meeting() const;
+  /// The one of least U; empty if all failed.
+  std::optional<std::size_t> least() const;
+  /// Those that nothing beats in both time and U; marks them.
+  void mark_pareto();
+
+  std::uint64_t skipped() const { return skipped_; }
+  const std::vector<std::string>& skipped_why() const { return skipped_why_; }
+  std::vector<double> resolution() const;
+  std::vector<scenario::Setting> settings_of(const std::vector<double>& values) const;
+  /// Figures of a candidate from its errors.
+  Candidate judged(Candidate candidate, const std::vector<std::vector<double>>& errors) const;
+
+private:
+  /// By variable: position in a list, or of a range in parts of the finest grid.
+  using Place = std::vector<int>;
+  double value(std::size_t variable, int place) const;
+  int parts(std::size_t variable) const; ///< of the finest grid of a range; of a list its size less 1
+  void attempt(const std::vector<Place>& places);
+  std::vector<Place> grid() const;
+  std::vector<Place> centres() const;
+  std::vector<Place> around(const Place& centre, int step) const;
+  bool usable(const Candidate& c) const;
+  const Figures& asked(const Candidate& c) const { return choice::asked(c, choose_.worst_case); }
+
+  const scenario::Scenario& scenario_;
+  const scenario::Choose& choose_;
+  const Settings& settings_;
+  int round_ = 0;
+  std::vector<Candidate> candidates_;
+  std::vector<Place> places_;                                       ///< by candidate
+  std::map<std::vector<double>, std::optional<std::size_t>> known_; ///< by values; none: cannot be
+  std::uint64_t skipped_ = 0;
+  std::vector<std::string> skipped_why_;
+};
+
+} // namespace gumshoe::choice

@@ -1,0 +1,68 @@
+/// `gumshoe choose`: which settings measure within a target expanded uncertainty in the least time?
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "choice/choose.h"
+#include "cli/command.h"
+#include "cli/print_choice.h"
+#include "store/choice_file.h"
+
+namespace gumshoe::cli {
+
+namespace {
+
+struct Options {
+  std::string file, out, format = "text";
+  std::optional<std::string> samples, seed;
+  int threads = 0;
+};
+
+/// One line on stderr, rewritten; silent when stderr is no terminal.
+void show(const choice::Progress& p) {
+  if (isatty(2) == 0) return;
+  std::cerr << (p.total > 0 ? fmt::format("\r{}: {} of {} candidates      ", p.what, p.done, p.total)
+                            : fmt::format("\r{}                           ", p.what))
+            << std::flush;
+}
+
+ExitCode choose(const Options& o) {
+  scenario::Scenario s = scenario::read(o.file, catalogue());
+  if (!s.choose)
+    throw InputError({{{s.file},
+                       "choose: missing",
+                       "it says what may be chosen and what is to be reached",
+                       "[choose] target = \"...\"?"}});
+  if (o.samples) s.choose->samples = whole_number(*o.samples, "--samples", 200);
+  if (o.seed) s.run.seed = whole_number(*o.seed, "--seed", 0);
+  const std::string out = !o.out.empty() ? o.out : "results/" + std::filesystem::path(o.file).stem().string() + ".h5";
+  require_different(out, o.file);
+  if (o.out.empty()) std::filesystem::create_directories("results");
+  store::require_writable(out); // before the work, not after it
+  const choice::Result result = choice::choose(s, {o.threads, show});
+  if (isatty(2) != 0) std::cerr << '\n';
+  store::write_choice(out, s, result);
+  print_choice(result, out, o.format);
+  return ExitCode::done;
+}
+
+} // namespace
+
+void add_choose(CLI::App& app, Action& action) {
+  auto* command =
+      app.add_subcommand("choose", "the fastest settings that reach a target expanded uncertainty ([choose])");
+  const auto o = std::make_shared<Options>();
+  command->add_option("scenario", o->file, "scenario file (TOML) with [choose]")->required();
+  command->add_option("--samples", o->samples, "of each candidate, instead of the scenario's, e.g. 1e4");
+  command->add_option("--seed", o->seed, "instead of the scenario's");
+  command->add_option("--threads", o->threads, "0: all processors")->check(CLI::Range(0, 1024));
+  command->add_option("--out", o->out, "result file (default: results/SCENARIO.h5)");
+  command->add_option("--format", o->format, "text, csv or json")->check(CLI::IsMember({"text", "csv", "json"}));
+  command->callback([=, &action] { action = [=] { return choose(*o); }; });
+}
+
+} // namespace gumshoe::cli

@@ -1,0 +1,241 @@
+#include "cli/print_choice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "analysis/rounding.h"
+#include "base/units.h"
+#include "choice/choose.h"
+
+namespace gumshoe::cli {
+
+namespace {
+
+using choice::Candidate;
+using choice::Figures;
+using choice::Result;
+using Json = nlohmann::ordered_json;
+using scenario::Knob;
+
+Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
+
+double length(const Result& r, double si) { return units::from_si(si, r.unit, r.si_unit, units::Kind::difference); }
+
+/// "3.1 um", with the decimals that U asks for.
+std::string width(const Result& r, double si, double expanded) {
+  return analysis::fixed(length(r, si), analysis::decimals_for(length(r, expanded))) +
+         (r.unit == "1" ? "" : " " + r.unit);
+}
+
+std::string value_text(const Result& r, std::size_t variable, double value, int digits) {
+  const Knob& k = r.asked.variables[variable].knob;
+  if (k.kind == Knob::Kind::evaluation) return r.evaluations[static_cast<std::size_t>(value)];
+  return fmt::format("{:.{}g}", units::from_si(value, k.unit, k.si_unit), digits);
+}
+
+std::string setting_text(const Result& r, const std::vector<double>& values) {
+  std::vector<scenario::Setting> settings;
+  for (std::size_t v = 0; v < values.size(); ++v) settings.push_back({r.asked.variables[v].knob, values[v]});
+  return choice::in_words(settings, r.evaluations);
+}
+
+/// Inputs by total effect, the largest first.
+std::vector<std::pair<std::string, double>> limiting(const Result& r) {
+  std::vector<std::pair<std::string, double>> rows;
+  for (const auto& i : r.sensitivity.indices) rows.emplace_back(i.input, i.total);
+  for (const auto& i : r.shapley.effects) rows.emplace_back(i.input, i.value);
+  std::ranges::stable_sort(rows, [](const auto& a, const auto& b) { return a.second > b.second; });
+  return rows;
+}
+
+void print_text(const Result& r, const std::string& file) {
+  const bool worst = r.asked.worst_case;
+  const Figures& best = asked(r.fresh, worst);
+  const auto u = [&](double si) { return width(r, si, best.expanded); };
+  if (!r.title.empty()) std::cout << r.title << '\n';
+  std::cout << r.statement << '\n';
+  const Figures& searched = asked(r.candidates[r.best], worst);
+  std::cout << fmt::format("U of the average {}, bias {}, standard deviation {}; in the search U was {}\n",
+                           u(r.fresh.average.expanded), u(r.fresh.average.mean), u(r.fresh.average.standard_deviation),
+                           u(searched.expanded));
+  for (std::size_t k = 0; k < r.fresh.cases.size(); ++k)
+    std::cout << fmt::format("case {}: U {}, mean error left {}\n", r.asked.cases[k].name, u(r.fresh.cases[k].expanded),
+                             u(r.fresh.cases[k].left));
+  const auto limits = limiting(r);
+  if (!limits.empty()) {
+    std::string text;
+    for (std::size_t i = 0; i < std::min<std::size_t>(5, limits.size()); ++i)
+      if (limits[i].second >= 0.005)
+        text += fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ", limits[i].first, 100 * limits[i].second);
+    std::cout << fmt::format("what limits it ({} of the variance): {}\n",
+                             r.shapley.effects.empty() ? "total Sobol' indices" : "Shapley effects", text);
+  }
+  for (const auto& n : r.neighbours) {
+    const Candidate& c = r.candidates[n.candidate];
+    const Knob& knob = r.asked.variables[n.variable].knob;
+    std::cout << fmt::format("instead {} {}{}: time {:+.1f} %, U {:+.1f} %{}\n", knob.name,
+                             value_text(r, n.variable, c.values[n.variable], 4),
+                             knob.unit == "1" ? "" : " " + knob.unit, 100 * (n.time_ratio - 1),
+                             100 * (n.expanded_ratio - 1), c.meets ? "" : ", misses the target");
+  }
+  if (r.near_count > 1) {
+    std::string text;
+    for (std::size_t v = 0; v < r.near.size(); ++v)
+      if (const Knob& k = r.asked.variables[v].knob; k.kind != Knob::Kind::evaluation)
+        text += fmt::format(", {} {} to {}{}", k.name, value_text(r, v, r.near[v].low, 4),
+                            value_text(r, v, r.near[v].high, 4), k.unit == "1" ? "" : " " + k.unit);
+    std::cout << fmt::format("{} candidates meet the target within {:.3g} % of the least time{}\n", r.near_count,
+                             100 * r.asked.near, text);
+  }
+  for (const auto& c : r.compared) {
+    const Figures& f = asked(c.candidate, worst);
+    std::cout << fmt::format("compared, {} ({}): {}, U = {}, bias {}; {:.3g} times as long as the recommended one\n",
+                             c.name, c.setting, choice::duration(c.candidate.time), width(r, f.expanded, f.expanded),
+                             width(r, c.candidate.average.mean, f.expanded), c.candidate.time / r.fresh.time);
+  }
+  std::cout << "Pareto front (time, U):\n";
+  std::vector<std::size_t> front;
+  for (std::size_t i = 0; i < r.candidates.size(); ++i)
+    if (r.candidates[i].pareto) front.push_back(i);
+  std::ranges::stable_sort(front, {}, [&](std::size_t i) { return r.candidates[i].time; });
+  constexpr std::size_t most = 12; // of a long front some, evenly
+  const std::size_t step = (front.size() + most - 1) / most;
+  for (std::size_t k = 0; k < front.size(); ++k) {
+    const Candidate& c = r.candidates[front[k]];
+    if (k % step != 0 && k + 1 != front.size() && front[k] != r.best) continue;
+    std::cout << fmt::format("  {:>12}  {:>12}  {}{}\n", choice::duration(c.time),
+                             width(r, asked(c, worst).expanded, asked(c, worst).expanded), setting_text(r, c.values),
+                             front[k] == r.best ? "  <- recommended" : "");
+  }
+  for (const std::string& note : r.notes) std::cout << "note: " << note << '\n';
+  for (const std::string& why : r.skipped_why) std::cout << "skipped: " << why << '\n';
+  std::cout << fmt::format("{} candidates of {} samples{}, seed {}, {} definition, target asked of the {}: {}\n",
+                           r.candidates.size(), r.asked.samples,
+                           r.skipped > 0 ? fmt::format(" ({} combinations cannot be)", r.skipped) : "", r.seed,
+                           name(r.asked.definition), worst ? "worst case" : "average", file);
+}
+
+void print_csv(const Result& r) {
+  for (const auto& v : r.asked.variables)
+    std::cout << v.knob.name << (v.knob.unit == "1" ? "" : " (" + v.knob.unit + ")") << ',';
+  const std::string unit = r.unit == "1" ? "" : " (" + r.unit + ")";
+  std::cout << fmt::format("time (s),U{0},U_se{0},bias{0},bias_se{0},standard_deviation{0},", unit);
+  for (const auto& c : r.asked.cases) std::cout << fmt::format("U[{0}]{1},left[{0}]{1},", c.name, unit);
+  std::cout << "meets,pareto,recommended,round,failed\n";
+  for (std::size_t i = 0; i < r.candidates.size(); ++i) {
+    const Candidate& c = r.candidates[i];
+    for (std::size_t v = 0; v < c.values.size(); ++v) std::cout << value_text(r, v, c.values[v], 15) << ',';
+    std::cout << fmt::format("{:.9g}", c.time);
+    for (const double x :
+         {c.average.expanded, c.average.expanded_se, c.average.mean, c.average.mean_se, c.average.standard_deviation})
+      std::cout << fmt::format(",{:.9g}", length(r, x));
+    for (const Figures& f : c.cases)
+      std::cout << fmt::format(",{:.9g},{:.9g}", length(r, f.expanded), length(r, f.left));
+    std::cout << fmt::format(",{:d},{:d},{:d},{},{}\n", c.meets, c.pareto, i == r.best, c.round, c.average.failed);
+  }
+}
+
+Json figures_json(const Result& r, const Figures& f) {
+  return {{"U", number(length(r, f.expanded))},
+          {"U_se", number(length(r, f.expanded_se))},
+          {"bias", number(length(r, f.mean))},
+          {"bias_se", number(length(r, f.mean_se))},
+          {"left", number(length(r, f.left))},
+          {"standard_deviation", number(length(r, f.standard_deviation))},
+          {"valid", f.valid},
+          {"failed", f.failed}};
+}
+
+Json candidate_json(const Result& r, const Candidate& c) {
+  Json settings = Json::object(), cases = Json::object();
+  for (std::size_t v = 0; v < c.values.size(); ++v) {
+    const Knob& k = r.asked.variables[v].knob;
+    if (k.kind == Knob::Kind::evaluation)
+      settings[k.name] = value_text(r, v, c.values[v], 0);
+    else
+      settings[k.name] = number(units::from_si(c.values[v], k.unit, k.si_unit));
+  }
+  Json out{{"settings", settings}, {"time", c.time}, {"readings", c.readings}, {"average", figures_json(r, c.average)}};
+  for (std::size_t k = 0; k < c.cases.size(); ++k) cases[r.asked.cases[k].name] = figures_json(r, c.cases[k]);
+  if (!c.cases.empty()) {
+    out["cases"] = cases;
+    out["worst"] = r.asked.cases[c.worst].name;
+  }
+  out["meets"] = c.meets;
+  return out;
+}
+
+void print_json(const Result& r, const std::string& file) {
+  Json variables = Json::object(), limits = Json::array(), neighbours = Json::array(), compared = Json::array(),
+       candidates = Json::array(), near = Json::object();
+  for (std::size_t v = 0; v < r.asked.variables.size(); ++v) {
+    const Knob& k = r.asked.variables[v].knob;
+    variables[k.name] = {{"unit", k.unit}, {"resolution", r.resolution[v]}};
+    if (k.kind != Knob::Kind::evaluation && r.near_count > 0)
+      near[k.name] = {units::from_si(r.near[v].low, k.unit, k.si_unit),
+                      units::from_si(r.near[v].high, k.unit, k.si_unit)};
+  }
+  for (const auto& i : r.sensitivity.indices)
+    limits.push_back({{"input", i.input}, {"first", number(i.first)}, {"total", number(i.total)}});
+  for (const auto& i : r.shapley.effects) limits.push_back({{"input", i.input}, {"shapley", number(i.value)}});
+  for (const auto& n : r.neighbours) {
+    neighbours.push_back(candidate_json(r, r.candidates[n.candidate]));
+    neighbours.back().update({{"variable", r.asked.variables[n.variable].knob.name},
+                              {"time_ratio", number(n.time_ratio)},
+                              {"U_ratio", number(n.expanded_ratio)},
+                              {"near", n.near}});
+  }
+  for (const auto& c : r.compared) {
+    compared.push_back({{"name", c.name}, {"setting", c.setting}, {"source", c.source}});
+    compared.back().update(candidate_json(r, c.candidate));
+    compared.back().erase("settings");
+    compared.back()["probability"] = number(c.probability);
+  }
+  for (std::size_t i = 0; i < r.candidates.size(); ++i) {
+    candidates.push_back(candidate_json(r, r.candidates[i]));
+    candidates.back().update({{"pareto", r.candidates[i].pareto}, {"round", r.candidates[i].round}});
+  }
+  const Json out{{"scenario", r.scenario_file},
+                 {"hash", r.scenario_hash},
+                 {"measurand", r.asked.measurand},
+                 {"unit", r.unit},
+                 {"target", length(r, r.asked.target)},
+                 {"target_of", r.asked.worst_case ? "worst_case" : "average"},
+                 {"bias_limit", r.asked.bias ? Json(length(r, *r.asked.bias)) : Json(nullptr)},
+                 {"definition", name(r.asked.definition)},
+                 {"coverage_probability", r.coverage_probability},
+                 {"statement", r.statement},
+                 {"reached", r.reached},
+                 {"confirmed", r.confirmed},
+                 {"probability", number(r.probability)},
+                 {"tried", r.tried},
+                 {"recommended", candidate_json(r, r.fresh)},
+                 {"searched", candidate_json(r, r.candidates[r.best])},
+                 {"limits", limits},
+                 {"neighbours", neighbours},
+                 {"near", {{"share", r.asked.near}, {"candidates", r.near_count}, {"spans", near}}},
+                 {"compared", compared},
+                 {"variables", variables},
+                 {"candidates", candidates},
+                 {"skipped", {{"count", r.skipped}, {"reasons", r.skipped_why}}},
+                 {"notes", r.notes},
+                 {"file", file}};
+  std::cout << out.dump(2) << '\n';
+}
+
+} // namespace
+
+void print_choice(const Result& r, const std::string& file, const std::string& format) {
+  if (format == "json")
+    print_json(r, file);
+  else if (format == "csv")
+    print_csv(r);
+  else
+    print_text(r, file);
+}
+
+} // namespace gumshoe::cli

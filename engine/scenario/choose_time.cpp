@@ -1,0 +1,192 @@
+#include "scenario/choose_time.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "models/expression/interpreter.h"
+
+namespace gumshoe::scenario {
+
+namespace expression = models::expression;
+
+namespace {
+
+const expression::Expression& of(const models::MadeModel& model) {
+  return *static_cast<const expression::Expression*>(model->context);
+}
+
+/// A formula as text, and where it stands; from the card: nowhere.
+struct Written {
+  std::string text;
+  Location where;
+};
+
+} // namespace
+
+double TimeModel::value(std::size_t formula, const std::vector<double>& quantities, const quantities::Reading& reading,
+                        std::size_t readings) const {
+  std::vector<double> q;
+  for (const std::size_t i : quantities_) q.push_back(quantities[i]);
+  q.insert(q.end(), constants_.begin(), constants_.end());
+  q.push_back(static_cast<double>(readings));
+  const expression::Program& program = of(formulas_).evaluate;
+  const auto values = expression::interpret<double>(program, {q.data(), reading.conditions.data(), nullptr});
+  return values.steps[program.outputs[formula]];
+}
+
+double TimeModel::seconds(const std::vector<quantities::Reading>& readings,
+                          const std::vector<std::vector<double>>& quantities) const {
+  const std::size_t n = readings.size();
+  double sum = once_ < 0 ? 0 : value(static_cast<std::size_t>(once_), quantities[0], readings[0], n);
+  for (std::size_t r = 0; per_reading_ >= 0 && r < n; ++r)
+    sum += readings[r].repeats * value(static_cast<std::size_t>(per_reading_), quantities[r], readings[r], n);
+  return sum;
+}
+
+class TimeReader {
+public:
+  TimeReader(std::optional<Table> table, const Node& choose, const ModelCard& model, Context& context)
+      : table_(std::move(table)), choose_(choose), model_(model), problems_(context.problems) {
+    if (!table_) return;
+    per_reading_ = written("per_reading");
+    once_ = written("once");
+  }
+
+  std::vector<std::shared_ptr<const TimeModel>> read(const std::vector<bool>& asked) {
+    const std::size_t before = problems_.size();
+    names();
+    std::vector<std::shared_ptr<const TimeModel>> out(model_.evaluations.size());
+    for (std::size_t e = 0; e < out.size(); ++e)
+      if (asked[e] && problems_.size() == before) out[e] = of_evaluation(model_.evaluations[e]);
+    return out;
+  }
+
+private:
+  Written written(const char* key) {
+    const Node* node = table_->find(key);
+    const auto text = node ? table_->text(key) : std::nullopt;
+    if (!text) return {};
+    return {*text, {problems_.file(), node->line, node->column + 1}}; // of the first character, after the quote
+  }
+
+  void names() {
+    for (std::size_t i = 0; i < model_.quantities.size(); ++i) {
+      const QuantityCard& q = model_.quantities[i];
+      if (!expression::is_name(q.name)) continue;
+      named_.push_back(i);
+      symbols_.push_back({std::string(q.name), std::string(q.unit), std::string(q.si_unit), ""});
+    }
+    for (const QuantityCard& t : model_.timing) {
+      constants_.push_back(t.default_value);
+      if (table_ && table_->has(std::string(t.name)))
+        if (const auto v = table_->measure(std::string(t.name), {std::string(t.si_unit), units::Kind::point})) {
+          constants_.back() = *v;
+          if (!t.limits.contain(*v))
+            problems_.add(*table_->find(std::string(t.name)),
+                          fmt::format("choose.time.{}: outside its limits", t.name));
+        }
+      symbols_.push_back({std::string(t.name), std::string(t.unit), std::string(t.si_unit), ""});
+    }
+    if (table_)
+      for (const Member& m : table_->members()) constant(m);
+    symbols_.push_back({"readings", "1", "1", ""});
+  }
+
+  /// A constant of the scenario's own: its unit says what it is.
+  void constant(const Member& m) {
+    const auto is_it = [&](const auto& card) { return card.name == m.key; };
+    if (m.key == "per_reading" || m.key == "once" || std::ranges::any_of(model_.timing, is_it)) return;
+    const std::string path = "choose.time." + m.key;
+    if (m.key == "readings" || std::ranges::any_of(model_.conditions, is_it) ||
+        std::ranges::any_of(model_.quantities, is_it) || !expression::is_name(m.key)) {
+      problems_.add(m.line, m.column,
+                    fmt::format("{}: {}", path,
+                                expression::is_name(m.key) ? "the name has a meaning already"
+                                                           : "no name that a formula can write"));
+      return;
+    }
+    std::string unit = "1";
+    if (m.value.kind == Node::Kind::text) {
+      try {
+        unit = units::parse(m.value.text).unit;
+        const std::string si_unit = units::si_unit_of(unit);
+        if (const auto v = read_measure(m.value, path, {si_unit}, problems_)) {
+          constants_.push_back(*v);
+          symbols_.push_back({m.key, unit, si_unit, ""});
+        }
+      } catch (const InputError& error) {
+        const Problem& p = error.problems().front();
+        problems_.add(m.value, path + ": " + p.what, p.why, p.remedy);
+      }
+    } else if (const auto v = read_number(m.value, path, problems_)) {
+      constants_.push_back(*v);
+      symbols_.push_back({m.key, "1", "1", ""});
+    }
+  }
+
+  std::shared_ptr<const TimeModel> of_evaluation(const EvaluationCard& card) {
+    auto out = std::make_shared<TimeModel>();
+    expression::Statement statement;
+    const auto add = [&](const char* name, Written formula, std::string_view from_card) {
+      if (formula.text.empty()) formula.text = from_card;
+      if (formula.text.empty()) return -1;
+      expression::Stated stated;
+      stated.formula.name = std::string("choose.time.") + name;
+      stated.formula.text = formula.text;
+      stated.formula.where = formula.where;
+      statement.measurands.push_back(std::move(stated));
+      return static_cast<int>(statement.measurands.size()) - 1;
+    };
+    out->per_reading_ = add("per_reading", per_reading_, card.time_per_reading);
+    out->once_ = add("once", once_, card.time_once);
+    if (statement.measurands.empty()) {
+      problems_.add(choose_, fmt::format("choose: nothing says how long '{}' takes", card.name),
+                    "the least time is asked for", "[choose.time] per_reading = \"...\"?");
+      return nullptr;
+    }
+    statement.quantities = symbols_;
+    for (const VariableCard& c : model_.conditions)
+      statement.conditions.push_back({std::string(c.name), std::string(c.unit), std::string(c.si_unit), ""});
+    try {
+      std::vector<std::string> ignored; // what no formula uses
+      out->formulas_ = expression::make(std::move(statement), ignored);
+      require_times(of(out->formulas_));
+    } catch (const InputError& error) {
+      for (Problem p : error.problems()) {
+        if (p.where.file.empty()) p.where = {problems_.file(), choose_.line, choose_.column};
+        if (p.remedy.starts_with("[quantities.")) p.remedy = "a constant of [choose.time]?";
+        problems_.add(InputError(std::vector<Problem>{std::move(p)}));
+      }
+      return nullptr;
+    }
+    out->quantities_ = named_;
+    out->constants_ = constants_;
+    return out;
+  }
+
+  static void require_times(const expression::Expression& e) {
+    for (std::size_t i = 0; i < e.explained.size(); ++i)
+      if (!units::convertible(e.explained[i].unit, "s"))
+        throw InputError({e.formulas[i].problem(
+            0, fmt::format("{}: the formula gives {}", e.formulas[i].name, units::kind_name(e.explained[i].si_unit)),
+            "a time is asked for", "")});
+  }
+
+  std::optional<Table> table_;
+  const Node& choose_;
+  const ModelCard& model_;
+  Problems& problems_;
+  Written per_reading_, once_;
+  std::vector<models::Symbol> symbols_;
+  std::vector<std::size_t> named_;
+  std::vector<double> constants_;
+};
+
+std::vector<std::shared_ptr<const TimeModel>> read_time(std::optional<Table> table, const Node& choose,
+                                                        const ModelCard& model, const std::vector<bool>& asked,
+                                                        Context& context) {
+  return TimeReader(std::move(table), choose, model, context).read(asked);
+}
+
+} // namespace gumshoe::scenario

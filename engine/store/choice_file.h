@@ -1,0 +1,16 @@
+#pragma once
+/// The result file of `gumshoe choose` (layout: README.md beside this file).
+#include <string>
+
+#include "choice/results.h"
+#include "scenario/scenario.h"
+
+namespace gumshoe::store {
+
+/// Throws OutputError if a result cannot be put there: a missing folder, a file that is no result of ours.
+void require_writable(const std::string& path);
+
+/// Writes the whole file in one go; an older result of ours is replaced. Throws OutputError naming path and reason.
+void write_choice(const std::string& path, const scenario::Scenario& scenario, const choice::Result& result);
+
+} // namespace gumshoe::store
