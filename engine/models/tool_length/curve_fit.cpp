@@ -12,7 +12,9 @@ namespace {
 using Unknowns = std::array<double, chain::most_inserts + 1>;
 
 /// Phases looked at per pitch of a flute, how many of the best are improved, and how many carried to their minimum.
-constexpr std::size_t scanned = 96, tried = 12, carried = 3;
+constexpr std::size_t scanned = 192, tried = 24, carried = 4;
+/// Noise allowed for while flutes are sought, in steps of the phase.
+constexpr double margins[] = {1, 8};
 /// A flute counts as seen if leaving it out raises the squares by this many variances: about one in a hundred that
 /// shows nothing passes by chance.
 constexpr double needed = 10;
@@ -60,25 +62,29 @@ public:
   /// Down to the minimum between the jumps around c. False if the steps do not end.
   bool settle(Candidate& c) {
     c.squares = look(c.x, now_);
+    double gain = 0;
     for (int iteration = 0; iteration < 50; ++iteration) {
       Unknowns step;
-      const double promised = best_step(c.x, step);
-      if (promised <= 1e-10 * c.squares + 1e-30) return true;
-      bool better = false;
-      for (double share = 1; share > 1e-4 && !better; share *= 0.4) {
-        Candidate next = c;
+      const double promised = best_step(c.x, step), before = c.squares;
+      if (promised <= 1e-9 * before + 1e-30) return true;
+      // Where the curve bends strongly a step may overshoot, even if it gains: half of it is tried, too.
+      const Candidate start = c;
+      for (double share = 1; share > 1e-4; share *= 0.5) {
+        Candidate next = start;
         for (std::size_t j = 0; j <= d_.flutes; ++j) next.x[j] += share * step[j];
         next.squares = look(next.x, trial_);
-        if (!(next.squares < c.squares)) continue;
-        better = true;
-        const bool small = c.squares - next.squares < 1e-10 * c.squares;
-        c = next;
-        std::swap(now_, trial_);
-        if (small) return true;
+        if (next.squares < c.squares) {
+          c = next;
+          std::swap(now_, trial_);
+        } else if (c.squares < before) {
+          break;
+        }
+        if (before - c.squares > 0.5 * promised) break;
       }
-      if (!better) return true; // at a kink, where one flute takes over from another
+      gain = before - c.squares;
+      if (gain < 1e-10 * before) return true; // or at a kink, where one flute takes over from another
     }
-    return false;
+    return gain < 1e-6 * c.squares; // slow, and a thousandth of a standard deviation from the minimum
   }
 
   /// The same, then across the jumps nearby as long as that helps.
@@ -203,17 +209,21 @@ using Candidate = Fitter::Candidate;
 std::vector<Candidate> scan(const CurveReadings& d, Fitter& fitter) {
   const std::size_t n = scanned * (d.alike ? 1 : d.flutes);
   const double step = turn * d.drop / static_cast<double>(d.flutes * scanned);
-  std::vector<Candidate> all(n), lowest;
-  for (std::size_t s = 0; s < n; ++s) all[s] = fitter.longest(step * static_cast<double>(s), step);
-  for (std::size_t s = 0; s < n; ++s)
-    if (all[s].squares <= all[(s + 1) % n].squares && all[s].squares <= all[(s + n - 1) % n].squares)
-      lowest.push_back(all[s]);
-  std::ranges::stable_sort(lowest, {}, &Candidate::squares);
-  if (lowest.size() > tried) lowest.resize(tried);
-  for (Candidate& c : lowest) fitter.settle(c);
-  std::ranges::stable_sort(lowest, {}, &Candidate::squares);
-  if (lowest.size() > carried) lowest.resize(carried);
-  return lowest;
+  std::vector<Candidate> all(n), best;
+  for (const double margin : margins) {
+    std::vector<Candidate> lowest;
+    for (std::size_t s = 0; s < n; ++s) all[s] = fitter.longest(step * static_cast<double>(s), margin * step);
+    for (std::size_t s = 0; s < n; ++s)
+      if (all[s].squares <= all[(s + 1) % n].squares && all[s].squares <= all[(s + n - 1) % n].squares)
+        lowest.push_back(all[s]);
+    std::ranges::stable_sort(lowest, {}, &Candidate::squares);
+    if (lowest.size() > tried) lowest.resize(tried);
+    best.insert(best.end(), lowest.begin(), lowest.end());
+  }
+  for (Candidate& c : best) fitter.settle(c);
+  std::ranges::stable_sort(best, {}, &Candidate::squares);
+  if (best.size() > carried) best.resize(carried);
+  return best;
 }
 
 /// Greatest height of a hidden flute at which the readings are explained no worse than without it.
