@@ -14,7 +14,7 @@ using Unknowns = std::array<double, chain::most_inserts + 1>;
 /// Phases looked at per pitch of a flute, how many of the best are improved, and how many carried to their minimum.
 constexpr std::size_t scanned = 192, tried = 24, carried = 4;
 /// Noise allowed for while flutes are sought, in steps of the phase.
-constexpr double margins[] = {1, 8};
+constexpr std::size_t margins[] = {1, 8};
 /// A flute counts as seen if leaving it out raises the squares by this many variances: about one in a hundred that
 /// shows nothing passes by chance.
 constexpr double needed = 10;
@@ -207,12 +207,13 @@ using Candidate = Fitter::Candidate;
 
 /// The best phases of a scan, local minima only.
 std::vector<Candidate> scan(const CurveReadings& d, Fitter& fitter) {
-  const std::size_t n = scanned * (d.alike ? 1 : d.flutes);
   const double step = turn * d.drop / static_cast<double>(d.flutes * scanned);
-  std::vector<Candidate> all(n), best;
-  for (const double margin : margins) {
-    std::vector<Candidate> lowest;
-    for (std::size_t s = 0; s < n; ++s) all[s] = fitter.longest(step * static_cast<double>(s), margin * step);
+  std::vector<Candidate> best;
+  for (const std::size_t margin : margins) {
+    const std::size_t stride = (margin + 1) / 2, n = scanned / stride * (d.alike ? 1 : d.flutes);
+    std::vector<Candidate> all(n), lowest;
+    for (std::size_t s = 0; s < n; ++s)
+      all[s] = fitter.longest(step * static_cast<double>(stride * s), step * static_cast<double>(margin));
     for (std::size_t s = 0; s < n; ++s)
       if (all[s].squares <= all[(s + 1) % n].squares && all[s].squares <= all[(s + n - 1) % n].squares)
         lowest.push_back(all[s]);
