@@ -67,7 +67,7 @@ Candidate Search::judged(Candidate c, const std::vector<std::vector<double>>& er
 
 bool Search::usable(const Candidate& c) const {
   const auto good = [&](const Figures& f) {
-    return f.valid > 1 &&
+    return f.valid > 3 &&
            static_cast<double>(f.failed) <= scenario_.run.max_failed_share * static_cast<double>(f.valid + f.failed);
   };
   return good(c.average) && (!choose_.worst_case || std::ranges::all_of(c.cases, good));
