@@ -17,6 +17,7 @@ template <class T> struct Insert {
   T radial_angle, axial_angle;
   T axis_x = T(0.0), axis_y = T(0.0); ///< the tool's axis beside the laser reference point
   T seat = T(0.0);                    ///< tangential displacement of the seat, towards the insert's Y at no tilt
+  bool operator==(const Insert&) const = default;
 };
 
 template <class T> struct Planar { T y, z; };

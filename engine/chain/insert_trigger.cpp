@@ -131,6 +131,9 @@ InsertTrigger TriggerSolver::search(std::span<const Flute<double>> flutes, const
   }
   result.turned = least;
   result.height = motion.start_height - motion.drop * least;
+  const Flute<double>& first = flutes[static_cast<std::size_t>(result.insert)];
+  result.slope =
+      heights(first.insert, beam).at(motion.start_angle + first.azimuth + least, result.height + first.raise).slope;
   return result;
 }
 

@@ -53,8 +53,9 @@ std::optional<InsertTrigger> TriggerSolver::walk(std::span<const Flute<double>> 
       for (std::size_t j = k; j < flutes.size(); ++j)
         if (geometry[j] == k) start = std::min(start, level(j) - fall * m.not_before);
       const double below = 1.02 * share * whole + std::max(p.pass->slack(), p.pass->highest() - start);
-      if (p.asked != below) {
-        p.asked = below, p.open = p.pass->open(below);
+      if (p.below != below || p.whole != whole) {
+        p.below = below, p.whole = whole;
+        p.open = p.pass->open(below);
         // turns that no insert reaches are better passed at once
         if (p.open && p.pass->slack() > whole) p.pass->lower(0.1 * whole);
       }
@@ -84,22 +85,25 @@ std::optional<InsertTrigger> TriggerSolver::walk(std::span<const Flute<double>> 
     }
     InsertTrigger result;
     double least = HUGE_VAL;
-    bool started = false;
-    for (int n = 0; n < 100; ++n) {
+    bool started = false, done = false;
+    for (int n = 0; n < 100 && !started && !done; ++n) {
       Opening* next = &openings[0];
       for (std::size_t i = 1; i < size; ++i)
         if (openings[i].first < next->first) next = &openings[i];
+      done = next->first >= std::min(least, valid);
+      if (done) break;
       const double last = std::min(next->last, least);
-      if (!(next->first < last) || started) break;
-      if (last > valid && next->first > valid) break;
-      const InsertPass& p = *passes_[geometry[next->flute]].pass;
-      const auto crossing =
-          p.first_crossing(p.window(next->window), level(next->flute), fall, next->shift, next->first, last);
-      if (crossing.found == InsertPass::Found::unproved) return std::nullopt;
-      if (crossing.found != InsertPass::Found::none) {
-        least = crossing.turned;
-        result.insert = static_cast<int>(next->flute);
-        started = crossing.found == InsertPass::Found::inside && crossing.turned == 0;
+      if (next->first < last) {
+        const InsertPass& p = *passes_[geometry[next->flute]].pass;
+        const auto crossing =
+            p.first_crossing(p.window(next->window), level(next->flute), fall, next->shift, next->first, last);
+        if (crossing.found == InsertPass::Found::unproved) return std::nullopt;
+        if (crossing.found != InsertPass::Found::none) {
+          least = crossing.turned;
+          result.insert = static_cast<int>(next->flute);
+          result.slope = crossing.slope / cosine;
+          started = crossing.found == InsertPass::Found::inside && crossing.turned == 0;
+        }
       }
       advance(*next, next->last + 1e-9);
     }
@@ -107,7 +111,7 @@ std::optional<InsertTrigger> TriggerSolver::walk(std::span<const Flute<double>> 
       result.status = SolveStatus::already_covered;
       return result;
     }
-    if (least <= valid) {
+    if (done && least <= valid) {
       result.turned = least;
       result.height = m.start_height - m.drop * least;
       return result;
@@ -116,10 +120,19 @@ std::optional<InsertTrigger> TriggerSolver::walk(std::span<const Flute<double>> 
   return std::nullopt;
 }
 
+InsertTrigger TriggerSolver::alone(const Flute<double>& flute, const Beam<double>& beam, double level, double drop) {
+  // from whole turns above the highest point, no more of them than it takes
+  const double top = pass(0, flute.insert, beam).pass->highest() / num::cos(beam.pitch) - flute.raise;
+  const double turns = std::ceil((top - level) / (turn * drop)) + 1;
+  InsertTrigger found = solve({&flute, 1}, beam, {0, level + turns * (turn * drop), drop});
+  found.turned -= turns * turn;
+  return found;
+}
+
 TriggerSolver::Pass& TriggerSolver::pass(std::size_t flute, const Insert<double>& insert, const Beam<double>& beam) {
   Pass& p = passes_[flute];
   if (!(p.pass && same(p.insert, insert) && same(p.beam, beam)))
-    p = {insert, beam, InsertPass(insert_body(insert, beam), DiscShare(beam.radius, beam.fraction)), -1, false};
+    p = {insert, beam, InsertPass(insert_body(insert, beam), DiscShare(beam.radius, beam.fraction)), -1, 0, false};
   return p;
 }
 

@@ -38,6 +38,7 @@ template <class T> struct Beam {
   T pitch;    ///< beta
   T radius;   ///< R_l
   T fraction; ///< share of the disc that is covered at the trigger, in (0, 1)
+  bool operator==(const Beam&) const = default;
 };
 
 /// The rod's lower edge on the photodiode plane (y across, z up), relative to the beam's centre but

@@ -32,6 +32,17 @@ Location find_line(const scenario::Scenario& s, const std::string& start) {
   return {s.file};
 }
 
+/// Where the scenario states what a model complains of ("feed is not positive"), and the section that it belongs to.
+std::pair<Location, std::string> stated(const scenario::Scenario& s, const ModelCard& card,
+                                        const std::string& problem) {
+  const std::string word = problem.substr(0, problem.find_first_of(" ."));
+  const bool condition = std::ranges::find(card.conditions, word, &VariableCard::name) != card.conditions.end();
+  const std::string section = condition ? "conditions" : effects::find(word) ? "effects" : "quantities";
+  for (const std::string& start : {"[" + section + "." + word, word + " ", word + "="})
+    if (const Location at = find_line(s, start); at.line > 0) return {at, section};
+  return {{s.file}, section};
+}
+
 quantities::SamplePlan located_plan(const scenario::Scenario& s) {
   try {
     return quantities::make_plan(s.quantities, s.correlations, s.readings, s.run.seed);
@@ -121,10 +132,10 @@ void Experiment::check_reading(std::size_t r) const {
   call.evaluation = static_cast<int>(evaluation_);
   call.context = model_->context;
   const std::string problem = model_->check(call);
-  if (!problem.empty())
-    throw InputError(
-        {{find_line(scenario_, "[quantities." + problem.substr(0, problem.find(' '))),
-          "quantities: " + problem + (at.empty() ? "" : " at reading [" + at + "]"), "physically impossible", ""}});
+  if (problem.empty()) return;
+  const auto [where, section] = stated(scenario_, *model_->card, problem);
+  throw InputError({{where, section + ": " + problem + (at.empty() ? "" : " at reading [" + at + "]"),
+                     "physically impossible", ""}});
 }
 
 void Experiment::check_all() const {
@@ -285,7 +296,9 @@ void Experiment::run_model(std::size_t n, Workspace& w, double* outputs, std::ui
     for (std::size_t i = 0; i < w.simulated.size(); ++i) w.simulated[i] = &w.indications[i * n];
     call.measurands = w.true_measurands.data();
     call.simulated = w.simulated.data();
+    if (!joint_) call.evaluation = 0; // the machine itself, not what an approximate evaluation takes it for
     model_->kernels()->simulate(call);
+    call.evaluation = static_cast<int>(evaluation_);
   }
 
   // Indications: what was read (or simulated) plus the drawn noise.

@@ -4,8 +4,8 @@
 
 namespace gumshoe::effects {
 
-/// Thermal expansion of the rod. The rod is longer than at 20 degC (ISO 1): length times coefficient times temperature
-/// difference.
+/// Thermal expansion of the rod or tool. It is longer than at 20 degC (ISO 1): length times coefficient times
+/// temperature difference.
 struct RodExpansion {
   static constexpr QuantityCard quantities[] = {
       {"coefficient",
@@ -23,17 +23,17 @@ struct RodExpansion {
        0.0,
        {-200.0, 200.0},
        "dT",
-       "temperature of the rod minus 20 degC",
+       "temperature of the rod or tool minus 20 degC",
        Role::amplitude,
        "0.5-10 K: 1.8 um/K at 160 mm"},
   };
   static constexpr EffectCard card{
       "rod_expansion",
-      "Thermal expansion of the rod",
+      "Thermal expansion of the rod or tool",
       "pose",
       30,
       "",
-      "The rod is longer than at 20 degC (ISO 1): length times coefficient times temperature difference.",
+      "The rod or tool is longer than at 20 degC (ISO 1): length times coefficient times temperature difference.",
       "z_scale (exactly collinear where spindle_z minus rod_length is constant), drift in time",
       "engineering knowledge; Fang 2022, section 2.5 for the kinematic chain; coefficient of steel 11.5 um/(m K)",
       quantities};

@@ -77,7 +77,7 @@ constexpr QuantityCard timing[] = {
     {"retract", "s", "s", 2, {0, huge}, "", "back up at rapid, and settling, of every reading"},
     {"rod_change", "s", "s", 60, {0, huge}, "", "the rod into the spindle and over the beam, once"},
 };
-constexpr std::string_view stages[] = {"pose", "motion", "trigger"};
+constexpr std::string_view stages[] = {"standing", "pose", "motion", "trigger"};
 
 constexpr ModelCard card{
     "rod_gauging",

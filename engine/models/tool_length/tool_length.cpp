@@ -1,6 +1,5 @@
-#include "models/tool_length/tool_length.h"
-
 #include "models/kernel_choice.h"
+#include "models/tool_length/procedures.h"
 
 GUMSHOE_DECLARE_KERNELS(tool_length)
 
@@ -59,9 +58,34 @@ constexpr VariableCard measurands[] = {
     {"tool_length", "mm", "m", 0, "to the unworn tool's centre: spindle_z - laser_z - trigger_height"},
     {"effective_length", "mm", "m", 0, "of the longest flute: tool_length less the least wear"},
 };
+// Of a readout: the spindle comes to speed, the tool is fed into the beam and drawn back; an oriented one stops first.
+#define GUMSHOE_RUN "spindle_speed/spindle_acceleration + start_height/feed + start_height/rapid_feed"
+#define GUMSHOE_ONCE "2*approach_distance/rapid_feed + safety_time"
+constexpr QuantityCard timing[] = {
+    {"rapid_feed", "mm/min", "m/s", 10000 * mm / 60, {0, huge, true}, "", "of approach and retraction"},
+    {"approach_distance",
+     "mm",
+     "m",
+     200 * mm,
+     {0, huge},
+     "",
+     "from where the tool waits to above the beam, there and back"},
+    {"orientation_time", "s", "s", 1, {0, huge}, "", "to stop the spindle at the start angle"},
+    {"spindle_acceleration", "rad/s2", "rad/s2", 200, {0, 1e6, true}, "", "of the spindle coming to speed"},
+    {"safety_time", "s", "s", 2, {0, huge}, "", "checks of the tool setter, dwell, air blast"},
+};
 constexpr EvaluationCard evaluations[] = {
     {"full", "the trigger of the turning tool solved: Fang 2022, chapter 3"},
     {"conventional", "trigger_height = 0: the readout less the laser's height; what ignoring the geometry costs"},
+    {"single",
+     "one readout at any start angle, no curve known: effective_length is the readout less the laser's height",
+     mill::length_measurands, GUMSHOE_RUN, GUMSHOE_ONCE},
+    {"slow", "the same at high spindle speed and low feed", mill::length_measurands, GUMSHOE_RUN, GUMSHOE_ONCE},
+    {"characteristic_curve", "readouts at several start angles: the model's curve fitted, its phase free",
+     mill::curve_measurands, "orientation_time + " GUMSHOE_RUN, GUMSHOE_ONCE},
+    {"peaks",
+     "readouts at several start angles, connected by lines: the highest peaks are the flutes (Fang 2022, 3.5.2)",
+     mill::peak_measurands, "orientation_time + " GUMSHOE_RUN, GUMSHOE_ONCE},
 };
 constexpr std::string_view stages[] = {"pose", "insert", "spindle", "motion", "timing", "trigger"};
 
@@ -70,13 +94,16 @@ constexpr ModelCard card{
     "Length of a round-insert mill on a laser tool setter",
     "A turning mill with round inserts is fed into a laser beam; the trigger fires the first time that an insert's "
     "shadow covers a share of the beam's disc; from the spindle height at that moment follows the tool's length.",
-    "Fang 2022, chapter 3 (eqs 3.1 to 3.29), derived anew; see reports/errata.md",
+    "Fang 2022, chapter 3 (eqs 3.1 to 3.29), derived anew; see reports/errata.md#fang-3",
     quantities,
     conditions,
     laser_setter::indications,
     measurands,
     evaluations,
-    stages};
+    stages,
+    timing};
+#undef GUMSHOE_RUN
+#undef GUMSHOE_ONCE
 
 template <class T> PointOutcome evaluate_point(const PointCall<T>& call) {
   chain::TriggerSolver solver;
@@ -140,8 +167,17 @@ const Kernels* kernels() { return GUMSHOE_BEST_KERNELS(tool_length); }
 } // namespace
 
 extern const Model tool_length;
-const Model tool_length{
-    &card,  &kernels,    &evaluate_point<Gradient>, &evaluate_point<Curvature>, &simulate_point<Gradient>, &explain,
-    &check, &solve_reads};
+const Model tool_length{&card,
+                        &kernels,
+                        &evaluate_point<Gradient>,
+                        &evaluate_point<Curvature>,
+                        &simulate_point<Gradient>,
+                        &explain,
+                        &check,
+                        &solve_reads,
+                        nullptr,
+                        0,
+                        &mill::measurands_in_use,
+                        &mill::check_readings};
 
 } // namespace gumshoe::models

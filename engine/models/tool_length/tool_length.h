@@ -34,7 +34,7 @@ enum Quantity {
 };
 enum Condition { speed, feed, start_angle, start_height, time, direction, conditions };
 enum Measurand { trigger_height_row, length_row, effective_row, measurands };
-enum Evaluation { full, conventional };
+enum Evaluation { full, conventional, single, slow, characteristic_curve, peaks }; ///< from single on: procedures.h
 
 /// What the stages of the measuring chain, the tool's own included, say of one readout.
 template <class T> struct Event : chain::ProbingEvent<T> { chain::TurningTool<T> tool; };

@@ -1,5 +1,5 @@
 /// Block loops of the mill model, scalar inside: the solve branches too much for lanes.
-#include "models/tool_length/tool_length.h"
+#include "models/tool_length/procedures.h"
 
 namespace gumshoe::models {
 namespace {
@@ -39,11 +39,13 @@ void for_each_sample(const BlockCall& call, const Solve& solve, const Finish& fi
 }
 
 void simulate(const BlockCall& call) {
+  if (mill::joint(call.evaluation)) return mill::simulate_together(call);
   for_each_sample(call, mill::simulate<double>,
                   [&](std::size_t r, std::size_t i, const auto& o) { call.simulated[r][i] = o.spindle_z; });
 }
 
 void evaluate(const BlockCall& call) {
+  if (mill::joint(call.evaluation)) return mill::evaluate_together(call);
   for_each_sample(call, mill::evaluate<double>, [](std::size_t, std::size_t, const auto&) {});
 }
 

@@ -1,0 +1,53 @@
+#pragma once
+/// The trigger curve of one flute: the height at which an unworn flute triggers as a function of the line on which it
+/// comes down, z = x - drop psi over its own angle psi, followed from high above:
+///     F(x) = x - drop psi at the first psi where the line meets Zc,   F(x + 2 pi drop) = F(x).
+/// The line meets Zc first where G(psi) = Zc + drop psi reaches x: only the records of G count, so one pass over a turn
+/// tabulates F. Interpolated by cubics between exact heights and slopes.
+#include <vector>
+
+#include "chain/insert_height.h"
+
+namespace gumshoe::chain {
+
+class TriggerCurve {
+public:
+  /// `heights.ever_covered()`, `drop` > 0 in m per rad. Absolute error of F below 1e-11 m where |F'| is below 10: near
+  /// the end of a hump, where the line touches Zc, F' grows without bound.
+  TriggerCurve(const InsertHeight& heights, double drop);
+
+  struct Point {
+    double height;
+    double slope; ///< dF/dx, to -1e6 where the line touches Zc
+  };
+  Point at(double x) const;
+  /// The record of G up to the angle: a flute on a line of greater x has not triggered there yet.
+  double record(double angle) const;
+  /// Descent per turn.
+  double period() const { return period_; }
+  double highest() const { return highest_; }
+
+private:
+  /// G = x over [x0, x1] at angle + width t, t over [t0, t1]: Zc = c[0] + c[1] t + c[2] t^2 + c[3] t^3. A wall, where
+  /// the cover begins all at once, has t0 = t1.
+  struct Piece {
+    double x0, x1, t0, t1, angle, width, c[4];
+  };
+  struct Start {
+    std::vector<std::size_t> first; ///< piece at the beginning of each of as many equal parts
+    double from = 0, step = 1;
+    std::size_t of(double x) const;
+  };
+  double reach(const Piece& p, double t) const;
+  double solve(const Piece& p, double t0, double t1, double x) const;
+  void cover(const HeightNode& a, const HeightNode& b);
+  void add(const HeightNode& a, const HeightNode& b);
+  void wall(const HeightNode& b);
+
+  const InsertHeight* heights_; ///< only while tabulating
+  double drop_, period_, highest_, begin_, record_;
+  std::vector<Piece> pieces_;
+  Start by_x_, by_angle_;
+};
+
+} // namespace gumshoe::chain

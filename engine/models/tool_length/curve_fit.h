@@ -1,0 +1,39 @@
+#pragma once
+/// Flute heights and phase of a characteristic curve from readouts at several start angles, by least squares.
+///
+/// Seen from the spindle, flute k is a curve F_k (chain/trigger_curve.h) hung at its height H_k; reading i comes down
+/// on a line known but for the phase, which all readings share, and shows the flute that triggers first:
+///     height_i = max over k of H_k + F_k(line_ik + phase - H_k).
+/// README.md has the mathematics.
+#include <array>
+#include <vector>
+
+#include "chain/insert_trigger.h"
+#include "chain/trigger_curve.h"
+
+namespace gumshoe::models::mill {
+
+struct CurveReadings {
+  std::size_t readings = 0, flutes = 0;
+  double drop = 0;                                ///< m per rad, of all readings
+  std::vector<const chain::TriggerCurve*> curves; ///< [reading][flute]
+  std::vector<double> lines;                      ///< [reading][flute], m
+  std::vector<double> heights;                    ///< [reading], m
+  bool alike = false; ///< flutes differ in nothing but height, evenly spread: a phase of a flute's pitch renumbers them
+};
+
+struct CurveFit {
+  bool converged = false;
+  double phase = 0;                                  ///< m, from 0 to one turn's descent
+  std::array<double, chain::most_inserts> heights{}; ///< H_k, m; of a hidden flute the greatest that readings allow
+  std::array<bool, chain::most_inserts> seen{};      ///< needed to explain the readings
+  int unknowns = 0;                                  ///< seen flutes and the phase
+  double squares = 0;                                ///< sum of squared residuals, m^2
+};
+
+CurveFit fit_curve(const CurveReadings& data);
+
+/// Model's heights at given phase and heights; flutes that are not `seen` do not count. For tests and plots.
+void curve_heights(const CurveReadings& data, double phase, const double* heights, const bool* seen, double* out);
+
+} // namespace gumshoe::models::mill
