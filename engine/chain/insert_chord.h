@@ -86,15 +86,16 @@ inline RakeChord rake_chord(const RakeView& v, double rho, const DiscShare& disc
                shear = -v.ny * v.nz / alpha;
   const double c0 = beam * disc.half_chord, reach = rho * v.nx;
   // Start: as if ellipse, chord and line were small against each other.
-  const double ratio = c0 / reach;
+  const double by_reach = 1 / reach, ratio = c0 * by_reach;
   if (!(ratio < 0.3)) return chord;
   double p = beam * disc.depth + c0 * ratio * (1.0 / 3.0);
   const double start = -v.cy / (extent * (1 - 0.5 * ratio * ratio) + p), rest = 1 - start * start;
   if (!(rest > 0.1)) return chord;
   double t = shear + v.nx / alpha * start / std::sqrt(rest);
   for (int pass = 0; pass < 12; ++pass) {
-    const double q2 = 1 + t * t, q = std::sqrt(q2), along = t * v.ny - v.nz, g2 = q2 - along * along, g = std::sqrt(g2);
-    const double c = std::sqrt(beam * beam - p * p), s = c * g / (q * reach), s2 = s * s;
+    const double q2 = 1 + t * t, q = std::sqrt(q2), along = t * v.ny - v.nz, g = std::sqrt(q2 - along * along);
+    const double by_q = 1 / q, by_g = 1 / g;
+    const double c = std::sqrt(beam * beam - p * p), s = c * g * by_q * by_reach, s2 = s * s;
     if (!(s2 < 0.04)) return chord;
     // area of the unit circle's segment: integral of 2 s^2 / sqrt(1 - s^2)
     const double segment =
@@ -106,9 +107,9 @@ inline RakeChord rake_chord(const RakeView& v, double rho, const DiscShare& disc
     const double x = disc.rise(rho * reach * segment / (beam * beam));
     const double before = p;
     p = beam * (disc.depth + x);
-    const double r = std::sqrt(1 - s2), normal_y = (alpha * t + v.ny * v.nz) / g;
-    const double off = v.cy + p * t / q + r * rho * normal_y; // dPhi/dt
-    const double stiff = p / (q2 * q) + r * rho * v.nx * v.nx / (g2 * g);
+    const double r = std::sqrt(1 - s2), normal_y = (alpha * t + v.ny * v.nz) * by_g;
+    const double off = v.cy + p * t * by_q + r * rho * normal_y; // dPhi/dt
+    const double stiff = p * by_q * by_q * by_q + r * reach * v.nx * by_g * by_g * by_g;
     const double step = -off / stiff;
     // Phi is stationary in t and in s: what is left is of the second order in both (third in t, corrected).
     const double chord_change = (p - before) * (p + before) / (2 * c * c),
@@ -122,10 +123,10 @@ inline RakeChord rake_chord(const RakeView& v, double rho, const DiscShare& disc
       chord.k = p * q + t * v.cy - v.cz + r * rho * g + 0.5 * off * step;
       // its own change with t over the step that is left, too
       const double along1 = t * v.ny1 - v.nz1;
-      const double mixed = v.cy1 + r * rho * (normal_y * along * along1 / g - v.ny1 * along - v.ny * along1) / g;
-      chord.slope = t * v.cy1 - v.cz1 - r * rho * along * along1 / g + q * area1 * drift + mixed * step;
+      const double mixed = v.cy1 + r * rho * (normal_y * along * along1 * by_g - v.ny1 * along - v.ny * along1) * by_g;
+      chord.slope = t * v.cy1 - v.cz1 - r * rho * along * along1 * by_g + q * area1 * drift + mixed * step;
       chord.t = t;
-      chord.bend = q * (p1 + 4 * std::fabs(p) * p1 * p1 / c1);
+      chord.bend = q * (p1 + 4 * std::fabs(p) * p1 * p1 / (c1 * c1));
       return chord;
     }
     t += step;

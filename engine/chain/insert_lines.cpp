@@ -5,13 +5,15 @@
 namespace gumshoe::chain {
 
 InsertLines::InsertLines(const InsertBody<double>& body, const DiscShare& disc)
-    : rake_(body), disc_(disc), back_radius_(body.back_radius),
-      thickness_(std::hypot(body.back.x - body.rake.x, body.back.y - body.rake.y, body.back.z - body.rake.z)),
-      shrink_share_((body.rake_radius - body.back_radius) /
-                    std::hypot(thickness_, body.rake_radius - body.back_radius)),
-      normal_spread_(std::hypot(rake_.normal.x, rake_.normal.y)),
-      tilt_(std::fabs(body.sin_pitch)), spread_{std::hypot(body.rake.x, body.rake.y),
-                                                std::hypot(body.back.x, body.back.y)} {}
+    : rake_(body), disc_(disc), back_radius_(body.back_radius), tilt_(std::fabs(body.sin_pitch)) {
+  const auto length = [](double x, double y, double z) { return std::sqrt(x * x + y * y + z * z); };
+  const double shrink = body.rake_radius - body.back_radius;
+  thickness_ = length(body.back.x - body.rake.x, body.back.y - body.rake.y, body.back.z - body.rake.z);
+  shrink_share_ = shrink / length(thickness_, shrink, 0);
+  normal_spread_ = length(rake_.normal.x, rake_.normal.y, 0);
+  spread_[0] = length(body.rake.x, body.rake.y, 0);
+  spread_[1] = length(body.back.x, body.back.y, 0);
+}
 
 /// The line of slope t at the middle of the interval, and what both circles may add to either side.
 double InsertLines::line(const RakeView& v, double t, double half, double fall) const {

@@ -108,37 +108,40 @@ void InsertPass::add(double from, double to, bool rises) {
     w.highest = std::min(highest_, top + tilt_ * (spread_ + rho * nz * normal_spread_ / std::sqrt(1 - nz * nz)) * half);
 }
 
-bool InsertPass::only_edge(double from, double to) const {
+int InsertPass::only_edge(double from, double to) const {
   const double half = 0.5 * (to - from), beam = disc_.radius, rho = body_.radius, curl = 0.5 * half * half;
   const RakeView v(body_, from + half);
   const double ny_range = std::fabs(v.ny1) * half + normal_spread_ * curl, ny = std::fabs(v.ny) + ny_range;
   const double along = std::fabs(v.ny1) - std::fabs(v.ny) * half - normal_spread_ * curl;
   const double nx = body_.cos_pitch * along - tilt_ * std::fabs(body_.normal.z);
   if (nx > 0.05) {
+    const double nz = std::max(std::fabs(nz_low_), std::fabs(nz_high_));
     // the lowest point, and the slopes of the edge over |y| <= beam as seen from there: y - y_lowest is at least
     // rho nx^2 t / sqrt(1 + t^2)
     const double y = v.cy + rho * point_ * v.ny, y1 = v.cy1 + rho * point_ * v.ny1;
     const double y_range = std::fabs(y1) * half + amplitude_ * curl + point_error_, stiff = rho * nx * nx;
-    const double right = (beam - y + y_range) / stiff, left = (beam + y + y_range) / stiff;
+    const double right = std::max(0.0, beam - y + y_range) / stiff, left = std::max(0.0, beam + y + y_range) / stiff;
     if (right < 0.9 && left < 0.9) {
       const double up = right / std::sqrt(1 - right * right), down = -left / std::sqrt(1 - left * left);
       const double low = v.ny - ny_range, high = v.ny + ny_range;
       const double most = std::max({up * low, up * high, down * low, down * high});
-      const double steep = std::max(std::fabs(up), std::fabs(down)), lean = (steep + ny) / nx;
+      const double steep = std::max(std::fabs(up), std::fabs(down)), lean = (steep + ny * nz / (nx * nx)) / nx;
       const bool flank_hides = most - nz_low_ < shrink_share_;
       const bool upper_edge_out = nx * rho > beam * (1 + 2 * steep) * std::sqrt(1 + lean * lean);
-      if (flank_hides && upper_edge_out) return true;
+      if (flank_hides && upper_edge_out) return v.ny1 > 0 ? 1 : -1;
     }
   }
-  return false;
+  return 0;
 }
 
 /// Everywhere from `from` to `to` Phi holds, or tangents alone prove k + fall (angle - from) < limit.
-bool InsertPass::cleared(double from, double to, bool facing, double fall, double limit) const {
+bool InsertPass::cleared(double from, double to, int facing, double fall, double limit) const {
+  if (to - from < 0.4) { // wider ones are hardly ever proved at once
+    if (facing != 0 && only_edge(from, to) == facing) return true;
+    if (lines_.below(from, to, fall, limit)) return true;
+    if (to - from < 0.01) return false;
+  }
   const double middle = 0.5 * (from + to);
-  if (only_edge(from, to) && (RakeView(body_, middle).ny1 > 0) == facing) return true;
-  if (lines_.below(from, to, fall, limit)) return true;
-  if (to - from < 0.01) return false;
   return cleared(from, middle, facing, fall, limit) &&
          cleared(middle, to, facing, fall, limit - fall * (middle - from));
 }
@@ -175,12 +178,12 @@ bool InsertPass::below(double from, double to, double fall, double limit) const 
   const RakeChord c = rake_chord(RakeView(body_, from + half), body_.radius, disc_);
   if (!c.solved || !(c.k < limit)) return false;
   const double bound = c.k + fall * half + half * (std::fabs(c.slope + fall) + 0.5 * half * curve(c));
-  return bound < limit && only_edge(from, to);
+  return bound < limit && only_edge(from, to) != 0;
 }
 
 InsertPass::Crossing InsertPass::walk(const Window& w, double level, double fall, double shift, double first,
                                       double last) const {
-  bool facing = true;
+  int facing = 0;
   double clear = first; // no crossing before it
   // Start before the crest, as on a parabola.
   const double below = w.crest.k - (level - fall * (w.crest.angle + shift));
@@ -206,7 +209,7 @@ InsertPass::Crossing InsertPass::walk(const Window& w, double level, double fall
       s = clear;
       continue;
     }
-    facing = v.ny1 > 0;
+    facing = v.ny1 > 0 ? 1 : -1;
     // At d from here the excess is at most excess + rate d + curve d^2 / 2: below zero between the roots.
     const double excess = c.k - (level - fall * s), rate = c.slope + fall, square = rate * rate - 2 * curve * excess;
     if (excess >= 0 && s <= clear) return {s == first ? Found::inside : Found::crossed, s, c.slope, facing};

@@ -44,8 +44,8 @@ public:
   struct Crossing {
     Found found = Found::none;
     double turned = 0;
-    double slope = 0;   ///< dk / d(angle) there
-    bool facing = true; ///< the cutting edge's normal points along the beam, or against it
+    double slope = 0; ///< dk / d(angle) there
+    int facing = 0;   ///< as only_edge()
   };
   /// The first angle turned from `first` to `last` with k(angle) >= level - fall turned in a window, where the angle is
   /// turned - shift; `inside` if that holds at `first` itself.
@@ -60,8 +60,9 @@ private:
   double curve(const RakeChord& c) const;
   Crossing walk(const Window& w, double level, double fall, double shift, double first, double last) const;
   /// Only the cutting edge shows within the beam's width, at all angles of the interval inside a window.
-  bool only_edge(double from, double to) const;
-  bool cleared(double from, double to, bool facing, double fall, double limit) const;
+  /// 1 or -1 as the cutting edge's normal points along the beam or against it; 0 where that is not proved.
+  int only_edge(double from, double to) const;
+  bool cleared(double from, double to, int facing, double fall, double limit) const;
   void add(double from, double to, bool rises);
   Crest crest_at(double angle, bool rises) const;
   InsertLines lines_;

@@ -94,10 +94,12 @@ private:
       if (asked(search_.candidates()[i]).expanded >= failed) continue; // with common numbers it would fail too
       Candidate fresh = afresh(i);
       const double p = probability(fresh);
-      if (r_.tried == 1 || p > r_.probability) take(i, std::move(fresh));
       r_.confirmed = p >= choose_.confirm_probability;
+      if (probability_below(asked(fresh).expanded, asked(fresh).expanded_se, choose_.target) <
+          choose_.confirm_probability)
+        failed = asked(search_.candidates()[i]).expanded; // and not the bias alone
+      if (r_.tried == 1 || p > r_.probability) take(i, std::move(fresh));
       if (r_.confirmed || r_.tried == most_tried) return;
-      failed = asked(search_.candidates()[i]).expanded;
     }
   }
 

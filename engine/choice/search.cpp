@@ -67,7 +67,7 @@ Candidate Search::judged(Candidate c, const std::vector<std::vector<double>>& er
 
 bool Search::usable(const Candidate& c) const {
   const auto good = [&](const Figures& f) {
-    return f.valid > 1 &&
+    return f.valid > 3 &&
            static_cast<double>(f.failed) <= scenario_.run.max_failed_share * static_cast<double>(f.valid + f.failed);
   };
   return good(c.average) && (!choose_.worst_case || std::ranges::all_of(c.cases, good));
@@ -233,7 +233,8 @@ std::vector<Neighbour> Search::neighbours(std::size_t candidate) {
         if (i != from[v]) to.push_back(i);
     } else if (variable.range) {
       // Readings are whole: several places may be one value.
-      for (const int direction : {-1, 1}) {
+      const int step = 1 << std::max(0, choose_.refinements - 2);
+      for (const int direction : {-step, step}) {
         int place = from[v] + direction;
         while (place >= 0 && place <= parts(v) && value(v, place) == value(v, from[v])) place += direction;
         if (place >= 0 && place <= parts(v)) to.push_back(place);

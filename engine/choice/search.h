@@ -27,8 +27,8 @@ public:
   /// best candidate of each combination of the lists' values (the fastest that meets the target, else the one of least
   /// U; the eight most promising) all neighbours are tried, until the best stay where they are.
   void run();
-  /// One step away from a candidate, in one variable: of a range the last step, of a list the next value either way,
-  /// of the evaluation every other. Tried if not known.
+  /// One step away from a candidate, in one variable: of a range a quarter of a step of the coarse grid, of a list the
+  /// next value either way, of the evaluation every other. Tried if not known.
   std::vector<Neighbour> neighbours(std::size_t candidate);
 
   const std::vector<Candidate>& candidates() const { return candidates_; }

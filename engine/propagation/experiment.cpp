@@ -296,7 +296,9 @@ void Experiment::run_model(std::size_t n, Workspace& w, double* outputs, std::ui
     for (std::size_t i = 0; i < w.simulated.size(); ++i) w.simulated[i] = &w.indications[i * n];
     call.measurands = w.true_measurands.data();
     call.simulated = w.simulated.data();
+    if (!joint_) call.evaluation = 0; // the machine itself, not what an approximate evaluation takes it for
     model_->kernels()->simulate(call);
+    call.evaluation = static_cast<int>(evaluation_);
   }
 
   // Indications: what was read (or simulated) plus the drawn noise.

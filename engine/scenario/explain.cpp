@@ -137,6 +137,36 @@ void explain_options(const Scenario& s, const ModelCard& model, Lines out) {
   }
 }
 
+void explain(const Choose& c, const ModelCard& model, Lines out) {
+  constexpr std::string_view kinds[] = {"condition", "quantity", "number of readings", "evaluation"};
+  const auto shown = [&](const Knob& k, double x) {
+    return k.kind == Knob::Kind::evaluation ? std::string(model.evaluations[static_cast<std::size_t>(x)].name)
+                                            : both(x, k.unit, k.si_unit);
+  };
+  fmt::format_to(out, "choose\n  U of {} at most {:.12g} SI in the least time, {}, asked of the {}{}\n", c.measurand,
+                 c.target, name(c.definition), c.worst_case ? "worst case" : "average",
+                 c.bias ? fmt::format("; bias at most {:.12g} SI", *c.bias) : "");
+  fmt::format_to(
+      out, "  samples {} a candidate, {} to confirm with a probability of {}; refinements {}, near {}, sobol {}\n",
+      c.samples, c.confirm_samples, c.confirm_probability, c.refinements, c.near, c.sobol);
+  for (const Variable& v : c.variables) {
+    fmt::format_to(out, "  {} {}:", kinds[static_cast<int>(v.knob.kind)], v.knob.name);
+    if (v.range)
+      fmt::format_to(out, " {} to {}, {} steps, {}\n", shown(v.knob, v.values.front()), shown(v.knob, v.values.back()),
+                     v.steps, v.logarithmic ? "logarithmic" : "linear");
+    else
+      for (std::size_t i = 0; i < v.values.size(); ++i)
+        fmt::format_to(out, " {}{}", shown(v.knob, v.values[i]), i + 1 < v.values.size() ? "," : "\n");
+  }
+  const auto settings = [&](const std::vector<Setting>& list) {
+    for (std::size_t i = 0; i < list.size(); ++i)
+      fmt::format_to(out, "{} {} {}", i > 0 ? "," : "", list[i].knob.name, shown(list[i].knob, list[i].value));
+    fmt::format_to(out, "\n");
+  };
+  for (const ChooseCase& one : c.cases) fmt::format_to(out, "  case {}:", one.name), settings(one.values);
+  for (const ChooseCompare& one : c.compare) fmt::format_to(out, "  compare {}:", one.name), settings(one.settings);
+}
+
 std::string null_effects(const Scenario& s, const ModelCard& model, const Catalogue& catalogue) {
   std::string out;
   for (const EffectCard* effect : catalogue.effects) {
@@ -171,6 +201,7 @@ std::string explain(const Scenario& s, const Catalogue& catalogue) {
   if (const std::string left = null_effects(s, *model, catalogue); !left.empty())
     fmt::format_to(out, "effects at their null value\n  {}\n", left);
   explain_options(s, evaluated_card(*model, s.evaluation), out);
+  if (s.choose) explain(*s.choose, *model, out);
   if (!s.notes.empty()) fmt::format_to(out, "notes\n");
   for (const std::string& note : s.notes) fmt::format_to(out, "  {}\n", note);
   return text;

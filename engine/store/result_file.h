@@ -49,6 +49,7 @@ struct Stored {
   Identity identity;
   std::uint64_t samples_done = 0;
   bool complete = false;
+  bool choice = false; ///< of `gumshoe choose`: candidates, no samples
 };
 Stored read_identity(const std::string& path);
 

@@ -243,7 +243,7 @@ TEST_CASE("a sampled receiver is late by less than a period", "[effects][tool_le
   const double T = 3 * ms, v = 30 * mm / 60;
   Draw draw;
   double sum = 0, least = 1, most = 0;
-  const int n = 400;
+  const int n = 150;
   for (int i = 0; i < n; ++i) {
     const Mill m = Mill().under(mill::start_angle, draw(0, 2 * pi)), sampled = m.with("sampling_rate", {T, draw(0, 1)});
     const double late = (m.reading() - sampled.reading()) / v;

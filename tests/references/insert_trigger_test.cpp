@@ -4,6 +4,7 @@
 #include <random>
 
 #include "chain/insert_trigger.h"
+#include "references/mill_brute_force.h"
 
 using namespace gumshoe;
 using namespace gumshoe::chain;
@@ -59,7 +60,7 @@ private:
 };
 
 /// The most that two searches may differ in height: they solve for k to 1e-14 m.
-constexpr double agreed = 1e-12;
+constexpr double agreed = 1e-13;
 
 } // namespace
 
@@ -212,6 +213,25 @@ TEST_CASE("a tool triggers at the highest of its flutes' own heights", "[laws][t
   REQUIRE(compared > 140);
 }
 
+TEST_CASE("what a solver remembers changes no bit", "[laws][tool_length]") {
+  Draw draw;
+  TriggerSolver lasting;
+  for (int n = 0; n < 120; ++n) {
+    const Tool t = draw.tool(n / 2 * 2);
+    for (int i = 0; i < 4; ++i) { // one geometry from several angles, heights and drops
+      InsertMotion m = t.motion;
+      m.start_angle += i, m.start_height += 1e-4 * (i / 2), m.drop *= i == 3 ? 1.5 : 1;
+      const InsertTrigger again = lasting.solve(t.flutes, t.beam, m),
+                          fresh = TriggerSolver().solve(t.flutes, t.beam, m);
+      INFO("tool " << n);
+      REQUIRE(again.status == fresh.status);
+      REQUIRE(again.height == fresh.height);
+      REQUIRE(again.turned == fresh.turned);
+    }
+    lasting.alone(t.flutes.back(), t.beam, 0, t.motion.drop);
+  }
+}
+
 TEST_CASE("both ways see a characteristic curve jump at the same angle", "[references][tool_length]") {
   // Thesis tool, one tooth worn: the curve jumps where one hump gives way to the next.
   const Insert<double> insert{10 * mm, 5 * mm, 3.2 * mm, 15 * deg, -12 * deg, 6 * deg, 0, -4.9 * mm};
@@ -240,4 +260,55 @@ TEST_CASE("both ways see a characteristic curve jump at the same angle", "[refer
     REQUIRE(std::fabs(where[0] - where[1]) < 1e-6 * deg);
   }
   REQUIRE(jumps >= 2);
+}
+
+TEST_CASE("inserts that differ, and drops large and tiny, agree with the twin", "[references][tool_length]") {
+  namespace mill = models::mill;
+  Draw draw;
+  int solved = 0;
+  for (int n = 0; n < 84; n += 7) { // each insert its own
+    Tool t = draw.tool(n);
+    const int size = static_cast<int>(t.flutes.size());
+    // from a fifth of a micrometre per turn to half a millimetre
+    t.motion.drop = std::pow(10, draw(-7.5, -4.1)), t.motion.not_before = 0;
+    TriggerSolver solver;
+    double highest = -HUGE_VAL;
+    for (const auto& f : t.flutes) {
+      const InsertHeight& heights = solver.heights(f.insert, t.beam);
+      if (heights.ever_covered()) highest = std::max(highest, heights.highest().height - f.raise);
+    }
+    t.motion.start_height = highest + 2 * pi * t.motion.drop * draw(0.1, 0.6);
+    const InsertTrigger found = solver.solve(t.flutes, t.beam, t.motion);
+    if (found.status != SolveStatus::ok) continue;
+    ++solved;
+    INFO("tool " << n);
+    std::vector<std::vector<double>> q;
+    for (const auto& f : t.flutes) {
+      const Insert<double>& i = f.insert;
+      std::vector<double> values(mill::count, 0.0);
+      values[mill::tool_radius] = i.tool_radius, values[mill::insert_radius] = i.radius;
+      values[mill::insert_thickness] = i.thickness, values[mill::clearance] = i.clearance;
+      values[mill::radial_angle] = i.radial_angle, values[mill::axial_angle] = i.axial_angle;
+      values[mill::offset] = -i.axis_y, values[mill::yaw] = t.beam.yaw, values[mill::pitch] = t.beam.pitch;
+      values[mill::beam_radius] = t.beam.radius, values[mill::fraction] = t.beam.fraction;
+      q.push_back(values);
+    }
+    const double target = t.beam.fraction * pi * t.beam.radius * t.beam.radius;
+    const auto most = [&](double s, double raised, int columns) {
+      double area = 0;
+      for (int k = 0; k < size; ++k) {
+        const Flute<double>& f = t.flutes[static_cast<std::size_t>(k)];
+        area = std::max(
+            area, tests::covered_by_strips(q[static_cast<std::size_t>(k)].data(), t.motion.start_angle + f.azimuth + s,
+                                           t.motion.start_height - t.motion.drop * s + f.raise + raised, columns));
+      }
+      return area;
+    };
+    // 4000 strips are good for 1e-8 mm of height (tool_length_test.cpp).
+    REQUIRE(most(found.turned, -1e-7 * mm, 4000) > target);
+    REQUIRE(most(found.turned, 1e-7 * mm, 4000) < target);
+    for (double s = 0; s < found.turned - 1e-6; s += 1 * deg)
+      if (most(s, 0, 24) > 0.99 * target) REQUIRE(most(s, 0, 4000) < target * (1 + 1e-6));
+  }
+  REQUIRE(solved >= 9);
 }

@@ -94,7 +94,7 @@ constexpr ModelCard card{
     "Length of a round-insert mill on a laser tool setter",
     "A turning mill with round inserts is fed into a laser beam; the trigger fires the first time that an insert's "
     "shadow covers a share of the beam's disc; from the spindle height at that moment follows the tool's length.",
-    "Fang 2022, chapter 3 (eqs 3.1 to 3.29), derived anew; see reports/errata.md",
+    "Fang 2022, chapter 3 (eqs 3.1 to 3.29), derived anew; see reports/errata.md#fang-3",
     quantities,
     conditions,
     laser_setter::indications,

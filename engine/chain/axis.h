@@ -1,0 +1,65 @@
+#pragma once
+/// One axis of a machine and its errors by ISO 230-1 and ISO 230-7, in any scalar.
+///
+/// Errors are actual minus commanded, of the moving component, in the right-handed machine frame. E_X0C: location (of
+/// the axis' average line) and zero position; E_XC: error motion, at the commanded position.
+#include <string>
+
+#include "math/pose.h"
+
+namespace gumshoe::chain {
+
+/// Directions of linear errors first, then those of angular errors about X, Y, Z; error motions, then location errors.
+enum ErrorKind { E_X, E_Y, E_Z, E_A, E_B, E_C, E_X0, E_Y0, E_Z0, E_A0, E_B0, E_C0, error_kinds };
+
+struct Axis {
+  std::string name;  ///< "X", "C", "C2"
+  int direction = 0; ///< 0, 1, 2: moves along, or turns about, X, Y, Z
+  bool rotary = false;
+  double sense = 1;        ///< of the component's motion at a positive command: -1 if it carries the workpiece
+  Vector3<double> point{}; ///< a design point on a rotary axis; of a linear one, where its angular errors act; m
+};
+
+/// Whether ISO 230-1 knows this error of such an axis: a line has no offset along itself, a slide no angle about
+/// itself.
+constexpr bool has_error(const Axis& axis, int kind) {
+  if (kind < E_X0) return kind >= 0;
+  if (kind < E_A0) return axis.rotary != (kind - E_X0 == axis.direction);
+  return kind < error_kinds && (axis.rotary || kind - E_A0 != axis.direction);
+}
+
+/// The average line's actual direction as a unit vector, from its design direction and its two orientation errors.
+///     c ~ (tan E_B0C, -tan E_A0C, 1),  b ~ (-tan E_C0B, 1, tan E_A0B),  a ~ (1, tan E_C0A, -tan E_B0A)
+/// Other parametrisations differ in second order. @param orientation E_A0, E_B0, E_C0 in rad; the own one is not read
+template <class T> Vector3<T> actual_direction(int direction, const T* orientation) {
+  const auto slope = [&](int i) { return num::sin(orientation[i]) / num::cos(orientation[i]); };
+  switch (direction) {
+  case 0:
+    return normalised(Vector3<T>{T(1.0), slope(2), -slope(1)});
+  case 1:
+    return normalised(Vector3<T>{-slope(2), T(1.0), slope(0)});
+  default:
+    return normalised(Vector3<T>{slope(1), -slope(0), T(1.0)});
+  }
+}
+
+/// Where the component stands against the one before it, in coordinates of the machine frame at zero position.
+///
+/// First the exact motion along or about the actual line, then the error motions: a rotation Rx Ry Rz by the three
+/// angular ones about the axis' point, as moved, and a shift by the three linear ones, all along the machine's axes.
+/// @param command m or rad
+/// @param e       error_kinds values, m or rad
+template <class T> Pose<T> motion(const Axis& axis, const T& command, const T* e) {
+  Vector3<T> point{T(axis.point.x), T(axis.point.y), T(axis.point.z)}, travel{e[E_X], e[E_Y], e[E_Z]};
+  const Vector3<T> line = actual_direction(axis.direction, e + E_A0);
+  const int d = axis.direction;
+  if (!axis.rotary)
+    return about(point, rotation(e[E_A], e[E_B], e[E_C]), travel + (axis.sense * command + e[E_X0 + d]) * line);
+  point = point + Vector3<T>{e[E_X0], e[E_Y0], e[E_Z0]};
+  const T own = axis.sense * command + e[E_A0 + d] + e[E_A + d]; // all three about the same line
+  const T zero(0.0);
+  const Matrix3<T> tilt = rotation(d == 0 ? zero : e[E_A], d == 1 ? zero : e[E_B], d == 2 ? zero : e[E_C]);
+  return about(point, tilt * rotation(line, own), travel);
+}
+
+} // namespace gumshoe::chain

@@ -1,0 +1,156 @@
+#pragma once
+/// Calibrating a probe and two rotary axes with a sphere, on a six-axis belt grinder.
+///
+/// The probe touches the top of a sphere at many angles B and C, and the control records the commands X, Y, Z. With the
+/// tip's centre t above the sphere, the probe r from the commanded origin (probe.h) and the linear axes' errors e:
+///     (X, Y, Z) = t - r(B + E_BB, C + E_CC) + e.
+/// Source: Fang 2022, chapter 4, derived anew.
+#include "models/model.h"
+#include "models/sphere_calibration/closed_form.h"
+
+namespace gumshoe::models::sphere {
+
+/// The first seven in the order of enum Length; of the middle four the links are added.
+enum Quantity {
+  probe_x,
+  probe_y,
+  probe_z,
+  E_X0B,
+  E_Z0B,
+  E_X0C,
+  E_Y0C,
+  E_A0B,
+  E_C0B,
+  E_A0C,
+  E_B0C,
+  link_B_x,
+  link_B_z,
+  link_C_x,
+  link_C_y,
+  sphere_distance,
+  sphere_radius,
+  tip_radius,
+  sphere_y,
+  sphere_z,
+  E_AA,
+  E_BB,
+  E_CC,
+  E_XX,
+  E_XY,
+  E_XZ,
+  E_YX,
+  E_YY,
+  E_YZ,
+  E_ZX,
+  E_ZY,
+  E_ZZ,
+  S_XY,
+  S_XZ,
+  S_YZ,
+  count
+};
+enum Condition { A, B, C, pattern, repeat, direction, time, conditions };
+enum Reading { X, Y, Z, indications };
+enum Measurand { tip_x, tip_y, tip_z, measurands };
+/// How r is computed at each reading.
+enum Variant { exact, small_angle, closed_form, variants };
+
+/// Actual lengths: the design distances and their errors (eqs 4.3 to 4.6).
+template <class T> void actual_lengths(const T* q, T* length) {
+  for (int i = 0; i < lengths; ++i) length[i] = q[probe_x + i];
+  for (int i = 0; i < 4; ++i) length[length_B_x + i] = q[link_B_x + i] + q[E_X0B + i];
+}
+template <class T> Orientation<T> orientation(const T* q) { return {q[E_A0B], q[E_C0B], q[E_A0C], q[E_B0C]}; }
+
+/// The machine behind the origin, the same at all readings of a sample that share these quantities.
+template <class T> struct Links {
+  T length[lengths];
+  Orientation<T> tilted;
+  Directions<T> lines;
+};
+template <class T> Links<T> links(const T* q) {
+  Links<T> l;
+  actual_lengths(q, l.length);
+  l.tilted = orientation(q);
+  l.lines = directions(l.tilted);
+  return l;
+}
+
+/// Whether a reading is of pattern II (B moves at C = 90 deg), for the closed forms: as its label `pattern` says, else
+/// where B is not 0. A bool, or a mask of lanes.
+template <class T> auto is_pattern_II(const T* condition) {
+  return (condition[pattern] == T(2.0)) || ((condition[pattern] != T(1.0)) && (condition[B] != T(0.0)));
+}
+/// Whether the closed form of its pattern exists at a reading.
+template <class T> auto has_closed_form(const T* condition) {
+  const T right_angle(1.57079632679489661923), tolerance(1e-12);
+  const auto second = is_pattern_II(condition);
+  return (second && (num::abs(condition[C] - right_angle) < tolerance)) ||
+         (!second && (num::abs(condition[B]) < tolerance));
+}
+
+template <class T> Vector3<T> choose(bool first, const Vector3<T>& a, const Vector3<T>& b) { return first ? a : b; }
+inline Vector3<Lanes> choose(const Lanes::batch_bool_type& first, const Vector3<Lanes>& a, const Vector3<Lanes>& b) {
+  return {xsimd::select(first, a.x, b.x), xsimd::select(first, a.y, b.y), xsimd::select(first, a.z, b.z)};
+}
+
+/// The probe from the commanded origin at actual angles. @param pattern_II read by the closed form only
+template <class T, class Mask>
+Vector3<T> probe_from_origin(int variant, const Links<T>& l, const T& at_B, const T& at_C, const Mask& pattern_II) {
+  switch (variant) {
+  case small_angle:
+    return probe_from_origin(l.length, small_angle_turns(l.tilted, at_B, at_C));
+  case closed_form:
+    return choose(pattern_II, closed_form_II(l.length, l.tilted, at_B), closed_form_I(l.length, l.tilted, at_C));
+  default:
+    return probe_from_origin(l.length, exact_turns(l.lines, at_B, at_C));
+  }
+}
+
+/// The tip's centre at the trigger, from the commanded origin of the A axis' flange in machine axes: the top of the
+/// sphere and the tip's radius. The sphere's centre stands at (-d_s, sphere_y, sphere_z), turned by A about +X
+/// (eq 4.1). @param at_A actual angle, rad
+template <class T> Vector3<T> tip_at_top(const T* q, const T& at_A) {
+  const T c = num::cos(at_A), s = num::sin(at_A);
+  return {-q[sphere_distance], q[sphere_y] * c - q[sphere_z] * s,
+          q[sphere_y] * s + q[sphere_z] * c + (q[sphere_radius] + q[tip_radius])};
+}
+
+/// What the linear axes add to the recorded commands, eq 4.51. @param y, z nominal commands, m
+template <class T> Vector3<T> linear_errors(const T* q, const T& y, const T& z) {
+  return {q[E_XX] + q[E_XY] + q[E_XZ] + (q[S_XZ] * z - q[S_XY] * y), q[E_YX] + q[E_YY] + q[E_YZ] - q[S_YZ] * z,
+          q[E_ZX] + q[E_ZY] + q[E_ZZ]};
+}
+
+/// One contact with the sphere's top.
+template <class T> struct Contact {
+  Vector3<T> tip;     ///< tip_at_top
+  Vector3<T> probe;   ///< r, at the actual angles
+  Vector3<T> nominal; ///< commands without positioning errors of A, B, C and without linear errors
+  Vector3<T> added;   ///< linear_errors
+};
+/// @param q          quantities, SI
+/// @param condition  SI
+/// @param pattern_II is_pattern_II of the condition
+/// @param squareness false: S_XY, S_XZ, S_YZ are all 0, and nominal commands are left at 0
+template <class T, class Mask>
+Contact<T> contact(int variant, const T* q, const Links<T>& l, const T* condition, const Mask& pattern_II,
+                   bool squareness = true) {
+  Contact<T> at;
+  at.tip = tip_at_top(q, condition[A] + q[E_AA]);
+  at.probe = probe_from_origin(variant, l, condition[B] + q[E_BB], condition[C] + q[E_CC], pattern_II);
+  if (squareness)
+    at.nominal = tip_at_top(q, condition[A]) - probe_from_origin(variant, l, condition[B], condition[C], pattern_II);
+  at.added = linear_errors(q, at.nominal.y, at.nominal.z);
+  return at;
+}
+
+/// The machine: the commands that the control records.
+template <class T> Vector3<T> simulate(const Contact<T>& at) { return at.tip - at.probe + at.added; }
+
+/// The measurement model: where the tip's centre stood by the recorded commands; the inverse of simulate.
+template <class T> Vector3<T> evaluate(const Vector3<T>& recorded, const Contact<T>& at) {
+  return recorded - at.added + at.probe;
+}
+
+} // namespace gumshoe::models::sphere

@@ -1,0 +1,84 @@
+/// Block loops of the sphere model, compiled once per instruction set.
+#include "chain/shadow.h"
+#include "models/sphere_calibration/sphere_calibration.h"
+
+namespace gumshoe::models {
+namespace {
+
+constexpr std::size_t width = Lanes::size;
+
+Lanes load(const Column& c, std::size_t i) {
+  return c.stride == 0 ? Lanes(c.data[0]) : Lanes::load_unaligned(c.data + i);
+}
+bool all_zero(const Column& c) { return c.stride == 0 && c.data[0] == 0; }
+bool equal(const Column& a, const Column& b) { return a.data == b.data && a.stride == b.stride; }
+
+/// What Links are made of is the same in this reading and the one before.
+bool same_links(const Column* columns, std::size_t r) {
+  const Column *here = columns + r * sphere::count, *before = here - sphere::count;
+  for (std::size_t j = 0; j <= sphere::link_C_y; ++j)
+    if (!equal(here[j], before[j])) return false;
+  return true;
+}
+
+/// Samples whose reading is of neither pattern fail.
+void mark_without_closed_form(const BlockCall& call, std::size_t i, const Lanes* condition) {
+  const auto fine = sphere::has_closed_form(condition);
+  for (std::size_t l = 0; l < width; ++l)
+    if (!fine.get(l)) call.status[i + l] = static_cast<std::uint8_t>(chain::SolveStatus::out_of_domain);
+}
+
+template <class Finish> void for_each_group(const BlockCall& call, const Finish& finish) {
+  // A joint evaluation stands on the exact chain.
+  const int variant = call.evaluation < sphere::variants ? call.evaluation : static_cast<int>(sphere::exact);
+  std::vector<char> square(call.readings), new_links(call.readings);
+  for (std::size_t r = 0; r < call.readings; ++r) {
+    const Column* columns = call.quantities + r * sphere::count;
+    square[r] = all_zero(columns[sphere::S_XY]) && all_zero(columns[sphere::S_XZ]) && all_zero(columns[sphere::S_YZ]);
+    new_links[r] = r == 0 || !same_links(call.quantities, r);
+  }
+  Lanes q[sphere::count], condition[sphere::conditions];
+  sphere::Links<Lanes> links;
+  for (std::size_t i = 0; i < call.samples; i += width)
+    for (std::size_t r = 0; r < call.readings; ++r) {
+      const Column* columns = call.quantities + r * sphere::count;
+      for (std::size_t j = 0; j < sphere::count; ++j) q[j] = load(columns[j], i);
+      for (std::size_t j = 0; j < sphere::conditions; ++j)
+        condition[j] = load(call.conditions[r * sphere::conditions + j], i);
+      if (new_links[r]) links = sphere::links(q);
+      const auto at = sphere::contact(variant, q, links, condition, sphere::is_pattern_II(condition), square[r] == 0);
+      if (variant == sphere::closed_form) mark_without_closed_form(call, i, condition);
+      finish(r, i, at);
+    }
+}
+
+void store(const Vector3<Lanes>& value, double* const* rows, std::size_t i) {
+  value.x.store_unaligned(rows[0] + i);
+  value.y.store_unaligned(rows[1] + i);
+  value.z.store_unaligned(rows[2] + i);
+}
+
+void simulate(const BlockCall& call) {
+  for_each_group(call, [&](std::size_t r, std::size_t i, const auto& at) {
+    store(sphere::simulate(at), call.simulated + r * sphere::indications, i);
+    // Of a joint evaluation the true values are not these.
+    if (call.evaluation < sphere::variants) store(at.tip, call.measurands + r * sphere::measurands, i);
+  });
+}
+
+void evaluate(const BlockCall& call) {
+  for_each_group(call, [&](std::size_t r, std::size_t i, const auto& at) {
+    const Column* read = call.indications + r * sphere::indications;
+    store(sphere::evaluate({load(read[0], i), load(read[1], i), load(read[2], i)}, at),
+          call.measurands + r * sphere::measurands, i);
+  });
+}
+
+} // namespace
+} // namespace gumshoe::models
+
+extern "C" {
+extern const gumshoe::models::Kernels GUMSHOE_KERNEL(gumshoe_sphere_calibration_);
+const gumshoe::models::Kernels GUMSHOE_KERNEL(gumshoe_sphere_calibration_){&gumshoe::models::simulate,
+                                                                           &gumshoe::models::evaluate};
+}

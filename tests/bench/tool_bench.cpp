@@ -1,0 +1,140 @@
+/// Triggers of a round-insert mill per second on one core: geometry sampled, geometry known, a characteristic curve.
+/// Goals: 0.5 M/s (must), 2 M/s (goal) with geometry sampled; 360 start angles of one geometry well under 5 ms.
+#include <random>
+
+#include <benchmark/benchmark.h>
+
+#include "models/tool_length/tool_length.h"
+
+namespace {
+
+using namespace gumshoe;
+namespace mill = models::mill;
+
+constexpr std::size_t n = 4096;
+constexpr double pi = 3.14159265358979323846, deg = pi / 180, mm = 1e-3;
+
+/// The tool of Fang 2022, Tables 3.3 and 3.4, all of its geometry drawn; tilted beams and other shares if asked.
+struct Block {
+  std::vector<std::vector<double>> values = std::vector<std::vector<double>>(mill::count, std::vector<double>(n));
+  std::vector<models::Column> columns, conditions;
+  std::vector<double> outputs = std::vector<double>(3 * n), simulated = std::vector<double>(n), angles;
+  std::vector<std::uint8_t> status = std::vector<std::uint8_t>(n);
+  std::vector<double*> measurands{&outputs[0], &outputs[n], &outputs[2 * n]}, indications{&simulated[0]};
+  double condition[6] = {1000 * 2 * pi / 60, 30 * mm / 60, 0, 5 * mm, 0, -1};
+  std::size_t itself = 0;
+  models::BlockCall call;
+
+  explicit Block(double inserts, bool tilted, bool drawn = true) {
+    std::mt19937_64 engine(1);
+    std::normal_distribution<double> normal;
+    const auto& cards = models::find("tool_length")->card->quantities;
+    const auto fill = [&](std::size_t q, double mean, double u) {
+      for (double& x : values[q]) x = mean + (drawn ? u * normal(engine) : 0);
+    };
+    for (std::size_t q = 0; q < mill::count; ++q) fill(q, cards[q].default_value, 0);
+    fill(mill::tool_radius, 10 * mm, 2e-6);
+    fill(mill::insert_radius, 5 * mm, 2e-6);
+    fill(mill::insert_thickness, 3.2 * mm, 1e-5);
+    fill(mill::clearance, 15 * deg, 1e-3);
+    fill(mill::radial_angle, -12 * deg, 1e-3);
+    fill(mill::axial_angle, 6 * deg, 1e-3);
+    fill(mill::inserts, inserts, 0);
+    for (std::size_t k = 0; k < chain::most_inserts; ++k) fill(mill::wear + k, 2e-6 * (k % 2), 1e-6);
+    fill(mill::offset, 4.9 * mm, 2e-5);
+    fill(mill::beam_radius, 0.2 * mm, 3e-6);
+    if (tilted) fill(mill::yaw, 0, 1e-4), fill(mill::pitch, 0, 1e-4), fill(mill::fraction, 0.5, 0.01);
+    for (std::size_t i = 0; i < n; ++i) angles.push_back(2 * pi * static_cast<double>(i) / n);
+    for (auto& v : values) columns.push_back({v.data(), 1});
+    for (double& c : condition) conditions.push_back({&c, 0});
+    conditions[mill::start_angle] = {angles.data(), 1};
+    call.samples = n;
+    call.readings = 1;
+    call.quantities = columns.data();
+    call.effects = columns.data();
+    call.conditions = conditions.data();
+    call.simulated = indications.data();
+    call.measurands = measurands.data();
+    call.solved_as = &itself;
+    call.status = status.data();
+  }
+};
+
+void run(benchmark::State& state, Block& block) {
+  const auto* kernels = models::find("tool_length")->kernels();
+  for (auto _ : state) {
+    kernels->simulate(block.call);
+    benchmark::DoNotOptimize(block.outputs.data());
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(block.call.samples));
+}
+void tool_trigger_sampled(benchmark::State& state) {
+  Block block(static_cast<double>(state.range(0)), false);
+  run(state, block);
+}
+BENCHMARK(tool_trigger_sampled)->Arg(1)->Arg(2)->Arg(4);
+void tool_trigger_tilted(benchmark::State& state) {
+  Block block(2, true);
+  run(state, block);
+}
+BENCHMARK(tool_trigger_tilted);
+void tool_trigger_known(benchmark::State& state) {
+  Block block(2, false, false);
+  run(state, block);
+}
+BENCHMARK(tool_trigger_known);
+
+/// 360 start angles of one geometry: the time per iteration is that of a curve.
+void characteristic_curve(benchmark::State& state) {
+  Block block(2, false, false);
+  block.call.samples = 360;
+  for (std::size_t i = 0; i < 360; ++i) block.angles[i] = static_cast<double>(i) * deg;
+  run(state, block);
+}
+BENCHMARK(characteristic_curve);
+
+/// Every way by itself, one sample of the block after the other.
+template <class F> void each(benchmark::State& state, const F& solve) {
+  Block block(2, false);
+  std::size_t i = 0;
+  for (auto _ : state) {
+    const auto v = [&](std::size_t q) { return block.values[q][i]; };
+    const chain::Insert<double> insert{v(mill::tool_radius),
+                                       v(mill::insert_radius),
+                                       v(mill::insert_thickness),
+                                       v(mill::clearance),
+                                       v(mill::radial_angle),
+                                       v(mill::axial_angle),
+                                       0,
+                                       -v(mill::offset)};
+    const chain::Flute<double> flutes[] = {{insert, 0, v(mill::wear)}, {insert, pi, v(mill::wear + 1)}};
+    benchmark::DoNotOptimize(
+        solve(std::span<const chain::Flute<double>>(flutes), chain::Beam<double>{0, 0, v(mill::beam_radius), 0.5},
+              chain::InsertMotion{block.angles[i], 5 * mm, block.condition[1] / block.condition[0]}));
+    i = (i + 1) % n;
+  }
+  state.SetItemsProcessed(state.iterations());
+}
+void walk_alone(benchmark::State& state) {
+  chain::TriggerSolver solver;
+  each(state, [&](const auto&... call) { return solver.walk(call...); });
+}
+void search_alone(benchmark::State& state) {
+  chain::TriggerSolver solver;
+  each(state, [&](const auto&... call) { return solver.search(call...); });
+}
+void flute_alone(benchmark::State& state) {
+  chain::TriggerSolver solver;
+  double level = 0;
+  Block block(2, false, false);
+  const chain::Insert<double> insert{10 * mm, 5 * mm, 3.2 * mm, 15 * deg, -12 * deg, 6 * deg, 0, -4.9 * mm};
+  const double drop = block.condition[1] / block.condition[0];
+  for (auto _ : state)
+    benchmark::DoNotOptimize(solver.alone({insert, 0, 0}, {0, 0, 0.2 * mm, 0.5}, level += 0.01 * drop, drop));
+  state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK(walk_alone);
+BENCHMARK(search_alone);
+BENCHMARK(flute_alone);
+
+} // namespace

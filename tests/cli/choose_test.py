@@ -1,0 +1,202 @@
+"""gumshoe choose from outside: answer, file, formats, and what it refuses.
+
+usage: choose_test.py path/to/gumshoe [unittest options]
+"""
+import json
+import pathlib
+import tempfile
+import unittest
+
+import h5py
+
+from program import ROOT, complaint, gumshoe, places
+
+# u^2 = (feed 1 ms)^2 + (2 um)^2 / n; time 5 s + n (5 mm / feed + 0.5 s).
+TEXT = """schema = 1
+[model]
+name = "expression"
+method = "virtual_experiment"
+[model.measurands]
+length = "z"
+[model.indications]
+z = "length + feed * delay + noise"
+[conditions]
+feed = "10 mm/min"
+[quantities]
+length = "100 mm"
+delay = { value = "6 ms", u = "1 ms" }
+noise = { value = "0 um", u = "2 um", per = "reading" }
+[choose]
+target = "3 um"
+samples = 1_000
+confirm_samples = 4_000
+[choose.variables]
+feed = { low = "10 mm/min", high = "1000 mm/min", steps = 5, scale = "log" }
+readings = [1, 2, 3]
+[choose.time]
+per_reading = "way / feed + retract"
+once = "start"
+way = "5 mm"
+retract = "0.5 s"
+start = "5 s"
+[[choose.cases]]
+name = "late"
+values = { delay = "8 ms" }
+[[choose.compare]]
+name = "slow"
+settings = { feed = "30 mm/min", readings = 12 }
+"""
+
+
+def line_of(text, words):
+    return next(i for i, line in enumerate(text.splitlines(), 1) if words in line)
+
+
+class Choose(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.file = pathlib.Path(self.folder.name) / "s.toml"
+        self.out = pathlib.Path(self.folder.name) / "r.h5"
+
+    def choose(self, text=TEXT, *more):
+        self.file.write_text(text)
+        return gumshoe("choose", self.file, "--out", self.out, *more)
+
+    def test_answer_and_formats(self):
+        said = self.choose()
+        self.assertEqual(said.returncode, 0, said.stderr)
+        self.assertIn("The fastest setting that meets the target U = 3 um", said.stdout)
+        self.assertIn("compared, slow", said.stdout)
+        self.assertIn("case late", said.stdout)
+        answer = json.loads(self.choose(TEXT, "--format", "json").stdout)
+        best = answer["recommended"]
+        feed = best["settings"]["feed"]
+        self.assertAlmostEqual(best["time"], 5 + best["settings"]["readings"] * (300 / feed + 0.5), places=9)
+        self.assertLessEqual(best["average"]["U"], 3)
+        self.assertEqual(answer["unit"], "um")
+        # The fastest of all that meet the target, unless fresh numbers refused a faster one.
+        meeting = sorted(c["time"] for c in answer["candidates"] if c["meets"])
+        self.assertLess(meeting.index(best["time"]), answer["tried"] + 5)
+        slow = answer["compared"][0]
+        self.assertAlmostEqual(slow["time"], 5 + 12 * (10 + 0.5), places=9)
+        # In the case 2 ms more than expected are left; (12) readings average the noise.
+        self.assertAlmostEqual(slow["cases"]["late"]["left"], 1.0, delta=5 * 2 / 12 ** 0.5 / 4000 ** 0.5 + 0.05)
+        table = self.choose(TEXT, "--format", "csv").stdout.splitlines()
+        self.assertEqual(len(table), 1 + len(answer["candidates"]))
+        self.assertTrue(table[0].startswith("feed (mm/min),readings,time (s),U (um),"))
+        self.assertEqual(sum(row.split(",")[-3] == "1" for row in table[1:]), 1)
+
+    def test_file_holds_it_all(self):
+        answer = json.loads(self.choose(TEXT, "--format", "json").stdout)
+        with h5py.File(self.out) as file:
+            self.assertEqual(file.attrs["complete"], 1)
+            choice = file["choice"]
+            self.assertAlmostEqual(choice.attrs["target"], 3e-6)
+            self.assertEqual(choice.attrs["statement"], answer["statement"])
+            candidates = choice["candidates"]
+            self.assertEqual(len(candidates["time"]), len(answer["candidates"]))
+            self.assertEqual([v.decode() for v in choice["variables/name"]], ["feed", "readings"])
+            best = candidates["values"][choice.attrs["best"]]
+            self.assertAlmostEqual(best[0] * 60e3, answer["recommended"]["settings"]["feed"])
+            self.assertEqual(candidates["case_expanded"].shape, (len(answer["candidates"]), 1))
+            for k, one in enumerate(answer["candidates"]):
+                self.assertAlmostEqual(candidates["expanded"][k] * 1e6, one["average"]["U"])
+                self.assertEqual(bool(candidates["pareto"][k]), one["pareto"])
+            self.assertEqual([n.decode() for n in choice["fresh/name"]], ["recommended", "slow"])
+            self.assertAlmostEqual(choice["fresh/expanded"][0] * 1e6, answer["recommended"]["average"]["U"])
+            self.assertIn("sensitivity/000/total", choice)
+            for dataset in (candidates["time"], candidates["values"], choice["fresh/mean"]):
+                self.assertIn("long_name", dataset.attrs)
+
+    def test_same_for_any_number_of_threads_and_again(self):
+        one, two = (self.choose(TEXT, "--format", "json", "--threads", n).stdout for n in (1, 2))
+        self.assertEqual(one, two)
+        self.assertNotEqual(one, self.choose(TEXT, "--format", "json", "--seed", 2).stdout)
+
+    def test_none_meets_the_target(self):
+        said = self.choose(TEXT.replace('target = "3 um"', 'target = "1 um"'))
+        self.assertEqual(said.returncode, 0)
+        self.assertIn("No candidate meets the target U = 1 um. The best reached is U =", said.stdout)
+        self.assertIn("what limits it", said.stdout)
+
+    def test_no_run_to_replay(self):
+        self.choose()
+        for words in (("replay", self.out, "--sample", 1), ("analyse", self.out)):
+            said = gumshoe(*words)
+            self.assertIsNone(complaint(said))
+            self.assertIn("gumshoe choose made it", said.stderr)
+
+    def test_mistakes(self):
+        variables = "[choose.variables]\n"
+        mistakes = {
+            "unknown variable": (variables, variables + 'fed = ["1 mm/min"]\n', "fed =", "did you mean 'feed'?"),
+            "empty list": ("readings = [1, 2, 3]", "readings = []", "readings =", "empty"),
+            "no variables": ("readings = [1, 2, 3]", "readings = [1, 2.5]", "readings =", "whole number"),
+            "low above high": ('low = "10 mm/min"', 'low = "2000 mm/min"', "feed = {", "low is not below high"),
+            "low is high": ('low = "10 mm/min"', 'low = "1000 mm/min"', "feed = {", "low is not below high"),
+            "zero on a log scale": ('low = "10 mm/min"', 'low = "0 mm/min"', "feed = {", "scale = \"linear\"?"),
+            "range of another dimension": ('low = "10 mm/min"', 'low = "10 mm"', "feed = {", "'10 mm' is not a"),
+            "one step": ("steps = 5", "steps = 1", "feed = {", "between 2 and"),
+            "unknown evaluation": (variables, variables + 'evaluation = ["fast"]\n', "evaluation =", "'fast'"),
+            "misspelt key": ("confirm_samples", "confirm_sample", "confirm_sample", "did you mean 'confirm_samples'?"),
+            "target of wrong dimension": ('target = "3 um"', 'target = "3 s"', "target =", "'3 s' is not a length"),
+            "no target": ('target = "3 um"\n', "", "[choose]", "choose.target: missing"),
+            "target of zero": ('target = "3 um"', 'target = "0 um"', "target =", "above 0"),
+            "unknown measurand": ("samples = 1_000", 'measurand = "width"', "measurand =", "'width' is unknown"),
+            "worst case of none": ('[[choose.cases]]\nname = "late"\nvalues = { delay = "8 ms" }\n', "", None, None),
+            "case of no quantity": ('delay = "8 ms"', 'feed = "8 mm/min"', 'values = {', "is no quantity"),
+            "compare without settings": ('settings = { feed = "30 mm/min", readings = 12 }', "settings = {}",
+                                         "settings = {}", "empty"),
+            "no formula for the time": ('per_reading = "way / feed + retract"\nonce = "start"\n', "", "[choose]",
+                                        "nothing says how long"),
+            "a time that is a length": ("way / feed + retract", "way", "per_reading", "the formula gives a length"),
+            "sum of unlike": ("way / feed + retract", "way + retract", "per_reading", "a length"),
+            "unknown name in the time": ("way / feed + retract", "way / fed + retract", "per_reading", "'fed'"),
+            "a constant that has a meaning": ('start = "5 s"', 'start = "5 s"\ndelay = "5 s"', 'delay = "5 s"',
+                                              "a meaning already"),
+            "not a virtual experiment": ('method = "virtual_experiment"\n', "", None, None),
+        }
+        for name, (old, new, where, words) in mistakes.items():
+            with self.subTest(name):
+                self.assertIn(old, TEXT)
+                text = TEXT.replace(old, new, 1)
+                if name == "worst case of none":
+                    text = text.replace("samples = 1_000", 'target_of = "worst_case"')
+                    where, words = "target_of", "there are no cases"
+                said = self.choose(text)
+                self.assertIsNone(complaint(said), said.stderr)
+                if where:
+                    self.assertIn((line_of(text, where)), [line for line, _ in places(said, self.file)], said.stderr)
+                    self.assertIn(words, said.stderr)
+                self.assertFalse(self.out.exists())
+        # At the character: the f of 'fed'.
+        text = TEXT.replace("way / feed", "way / fed")
+        column = text.splitlines()[line_of(text, "per_reading") - 1].index("fed") + 1
+        self.assertIn((line_of(text, "per_reading"), column), places(self.choose(text), self.file))
+        # A method that has no truth is told so.
+        text = TEXT.replace('method = "virtual_experiment"', 'method = "propagation"')
+        text = text.replace("[quantities]", '[indications.z]\nreadings = ["100 mm"]\n[quantities]')
+        self.assertIn('needs method = "virtual_experiment"', self.choose(text).stderr)
+
+    def test_no_choose_section(self):
+        said = gumshoe("choose", ROOT / "scenarios" / "expression.toml", "--out", self.out)
+        self.assertIsNone(complaint(said))
+        self.assertIn("choose: missing", said.stderr)
+
+    def test_a_file_of_another_is_not_overwritten(self):
+        self.out.write_text("mine")
+        said = self.choose()
+        self.assertIsNone(complaint(said))
+        self.assertEqual(self.out.read_text(), "mine")
+
+    def test_rods_as_shipped(self):
+        said = gumshoe("choose", ROOT / "scenarios" / "choose_rod_readouts.toml", "--out", self.out, "--format", "json")
+        answer = json.loads(said.stdout)
+        self.assertTrue(answer["reached"])
+        self.assertLessEqual(answer["recommended"]["average"]["U"], 2.5)
+        self.assertLess(answer["recommended"]["time"], answer["compared"][0]["time"])
+
+
+if __name__ == "__main__":
+    unittest.main()

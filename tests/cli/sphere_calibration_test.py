@@ -1,0 +1,117 @@
+"""The sphere calibration from outside: commands at points, the tip from commands, bias of an approximation, a fit.
+
+usage: sphere_calibration_test.py path/to/gumshoe [unittest options]
+"""
+import csv
+import io
+import json
+import math
+import pathlib
+import tempfile
+import unittest
+
+from program import ROOT, complaint, gumshoe
+
+DEG = math.pi / 180
+POSES = [(0, c) for c in range(0, 91, 5)] + [(b, 90) for b in range(-20, 46, 5)]
+TRUTH = {"probe_x": 85.2, "probe_y": 286.9, "probe_z": 453.1, "E_X0B": -0.3, "E_Z0B": 0.61, "E_X0C": 0.11, "E_Y0C": -0.2,
+         "E_A0B": 0.31, "E_C0B": -0.12, "E_A0C": -0.05, "E_B0C": 0.08}
+UNITS = {name: "deg" if name[2] in "AC" or name == "E_B0C" else "mm" for name in TRUTH}
+
+
+class SphereCalibration(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.path = pathlib.Path(self.folder.name)
+
+    def rows(self, header, *points, evaluation="exact", code=0):
+        table = self.path / "points.csv"
+        table.write_text("\n".join(",".join(map(str, row)) for row in (header, *points)) + "\n")
+        self.run = gumshoe("evaluate", "sphere_calibration", "--table", table, "--evaluation", evaluation)
+        self.assertEqual(self.run.returncode, code, self.run.stderr)
+        return list(csv.DictReader(io.StringIO(self.run.stdout)))
+
+    def xyz(self, row):
+        return [float(row[f"{name} (mm)"]) for name in ("X", "Y", "Z")]
+
+    def test_without_errors_by_hand(self):
+        # C = 90 deg carries the probe, seen from the C axis, from (x, y) to (-y, x).
+        clean = {name: 0 for name in TRUTH if name.startswith("E_")}
+        header = [f"{name} ({UNITS[name]})" for name in clean] + ["B (deg)", "C (deg)"]
+        at_0, at_90, down = self.rows(header, [*clean.values(), 0, 0], [*clean.values(), 0, 90], [*clean.values(), 90, 0])
+        for row, expected in (
+                (at_0, (-184.183 - 85.564, 287.428, 15.5 + 454.220)),
+                (at_90, (-184.183 - 50 - (287.428 + 180), -180 - (85.564 - 50), 15.5 + 454.220)),
+                # B = 90 deg carries (x, z), seen from the B axis at (-120, -110), to (z, -x).
+                (down, (-184.183 + 120 - (-454.220 + 110), 287.428, 15.5 + 110 + (85.564 + 120)))):
+            for got, want in zip(self.xyz(row), expected):
+                self.assertAlmostEqual(got, want, delta=1e-11)
+
+    def test_units_and_linear_errors(self):
+        header = ["B (rad)", "C (deg)", "E_XY (um)", "E_ZZ (mm)", "S_XZ (um/m)", "S_XY (um/m)", "S_YZ (urad)"]
+        plain, added = self.rows(header, [12 * DEG, 75, 0, 0, 0, 0, 0], [12 * DEG, 75, 3, -0.002, 8, 5, -6])
+        x, y, z = self.xyz(plain)
+        expected = (x + 3e-3 + 8e-6 * z - 5e-6 * y, y + 6e-6 * z, z - 0.002)
+        for got, want in zip(self.xyz(added), expected):
+            self.assertAlmostEqual(got, want, delta=1e-11)
+
+    def test_commands_give_the_tip_back(self):
+        header = ["B (deg)", "C (deg)", "E_CC (deg)", "sphere_y (mm)", "A (deg)"]
+        point = [-17, 33, 0.04, 2, 90]
+        x, y, z = self.xyz(self.rows(header, point)[0])
+        row = self.rows([*header, "X (mm)", "Y (mm)", "Z (mm)"], [*point, repr(x), repr(y), repr(z + 0.01)])[0]
+        # A = 90 deg lifts a sphere that stands beside the axis along Y.
+        for name, want in (("tip_x", -184.183), ("tip_y", 0), ("tip_z", 15.5 + 2 + 0.01)):
+            self.assertAlmostEqual(float(row[f"{name} (mm)"]), want, delta=1e-11)
+
+    def test_closed_forms_know_their_patterns(self):
+        header = ["B (deg)", "C (deg)", "pattern"]
+        good = self.rows(header, [0, 33, 0], [0, 33, 1], [20, 90, 0], [0, 90, 2], evaluation="closed_form")
+        exact = self.rows(header, [0, 33, 0], [0, 33, 1], [20, 90, 0], [0, 90, 2])
+        for a, b in zip(good, exact):
+            self.assertEqual(a["status"], "ok")
+            for near, truth in zip(self.xyz(a), self.xyz(b)):
+                self.assertAlmostEqual(near, truth, delta=0.011)
+        bad = self.rows(header, [20, 33, 0], [20, 90, 1], [0, 33, 2], evaluation="closed_form", code=2)
+        self.assertEqual([row["status"] for row in bad], ["out_of_domain"] * 3)
+        self.assertIsNone(complaint(self.run))
+        self.assertIn("points.csv:2:1: error: closed_form holds at B = 0", self.run.stderr)
+
+    def test_a_virtual_experiment_shows_the_bias_of_an_approximation(self):
+        # The machine stays exact whatever the evaluation; at one pose the error is the difference of the two commands.
+        exact, small = (self.xyz(self.rows(["B (deg)", "C (deg)"], [45, 90], evaluation=e)[0]) for e in ("exact", "small_angle"))
+        scenario = self.path / "bias.toml"
+        scenario.write_text('schema = 1\n[model]\nname = "sphere_calibration"\nmethod = "virtual_experiment"\n'
+                            'evaluation = "small_angle"\n[conditions]\nB = "45 deg"\nC = "90 deg"\n'
+                            '[quantities.sphere_distance]\nvalue = "184.183 mm"\nu = "1 um"\n[run]\nsamples = 1000\n')
+        run = gumshoe("run", scenario, "--out", self.path / "bias.h5", "--format", "json")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        for result, a, b in zip(json.loads(run.stdout), exact, small):
+            self.assertAlmostEqual(result["estimate"], a - b, delta=1e-11)
+        self.assertGreater(abs(exact[2] - small[2]), 0.015)
+
+    def test_noiseless_commands_give_the_machine_back(self):
+        header = [f"{name} ({UNITS[name]})" for name in TRUTH] + ["B (deg)", "C (deg)"]
+        rows = self.rows(header, *([*TRUTH.values(), b, c] for b, c in POSES))
+        data = "B,C,X,Y,Z\n" + "".join(f"{b},{c},{','.join(map(repr, self.xyz(row)))}\n" for (b, c), row in zip(POSES, rows))
+        (self.path / "data.csv").write_text(data)
+        angles = 'conditions = { B = { column = "B", unit = "deg" }, C = { column = "C", unit = "deg" } }'
+        text = 'schema = 1\n[model]\nname = "sphere_calibration"\n'
+        text += "".join(f"[quantities.{name}]\nestimated = true\n" for name in TRUTH)
+        text += "".join(f'[indications.{name}]\nreadings = {{ file = "data.csv", column = "{name}", unit = "mm", {angles} }}\n' for name in "XYZ")
+        (self.path / "fit.toml").write_text(text)
+        run = gumshoe("estimate", self.path / "fit.toml", "--format", "json")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        fit = json.loads(run.stdout)
+        self.assertEqual(fit["rank"], 11)
+        for name, truth in TRUTH.items():
+            self.assertAlmostEqual(fit["parameters"][name]["value"], truth, delta=1e-7)
+
+    def test_example(self):
+        run = gumshoe("check", ROOT / "engine/models/sphere_calibration/example.toml")
+        self.assertEqual(run.returncode, 0, run.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,274 @@
+/// Laws of the sphere calibration that hold whatever the numbers are.
+#include <catch2/catch.hpp>
+
+#include <random>
+
+#include "chain/machine.h"
+#include "models/sphere_calibration/sphere_calibration.h"
+
+using namespace gumshoe;
+namespace sphere = gumshoe::models::sphere;
+
+namespace {
+
+constexpr double deg = 3.14159265358979323846 / 180;
+constexpr std::size_t samples = 512;
+
+struct Draw {
+  std::mt19937_64 engine{4430};
+  double operator()(double low, double high) {
+    return low + (high - low) * static_cast<double>(engine() >> 11) * 0x1p-53;
+  }
+};
+
+/// Any machine: links and probe up to 0.5 m, location errors up to a degree, all other errors at once.
+std::vector<double> random_quantities(Draw& draw) {
+  std::vector<double> q(sphere::count);
+  const auto fill = [&](int from, int to, double size) {
+    for (int j = from; j <= to; ++j) q[static_cast<std::size_t>(j)] = draw(-size, size);
+  };
+  fill(sphere::probe_x, sphere::probe_z, 0.5), fill(sphere::E_X0B, sphere::E_Y0C, 1e-3);
+  fill(sphere::E_A0B, sphere::E_B0C, 1 * deg), fill(sphere::link_B_x, sphere::link_C_y, 0.3);
+  fill(sphere::sphere_distance, sphere::sphere_z, 0.2), fill(sphere::E_AA, sphere::E_CC, 0.05 * deg);
+  fill(sphere::E_XX, sphere::E_ZZ, 5e-6), fill(sphere::S_XY, sphere::S_YZ, 5e-5);
+  return q;
+}
+std::vector<double> random_condition(Draw& draw) {
+  return {draw(-180, 180) * deg, draw(-120, 120) * deg, draw(-180, 180) * deg, 0, 0, -1, 0};
+}
+
+/// Two readings of many samples through the block kernels.
+struct Run {
+  std::vector<double> simulated, tip;
+  std::vector<std::uint8_t> status;
+  Run(const std::vector<std::vector<double>>& q, const std::vector<std::vector<double>>& condition, int variant,
+      const std::vector<double>* read = nullptr)
+      : simulated(6 * samples), tip(6 * samples), status(samples, 0) {
+    std::vector<models::Column> quantities, conditions, indications;
+    std::vector<double*> out, measurands;
+    for (std::size_t r = 0; r < 2; ++r) {
+      for (const auto& column : q) quantities.push_back({column.data(), 1});
+      for (const double& x : condition[r]) conditions.push_back({&x, 0});
+      for (std::size_t k = 0; k < 3; ++k) {
+        out.push_back(&simulated[(3 * r + k) * samples]);
+        measurands.push_back(&tip[(3 * r + k) * samples]);
+        indications.push_back({read ? &(*read)[(3 * r + k) * samples] : nullptr, 1});
+      }
+    }
+    const std::size_t itself[] = {0, 1};
+    models::BlockCall call;
+    call.samples = samples;
+    call.readings = 2;
+    call.quantities = quantities.data();
+    call.conditions = conditions.data();
+    call.indications = indications.data();
+    call.simulated = out.data();
+    call.measurands = measurands.data();
+    call.solved_as = itself;
+    call.status = status.data();
+    call.evaluation = variant;
+    const auto* kernels = models::find("sphere_calibration")->kernels();
+    (read ? kernels->evaluate : kernels->simulate)(call);
+  }
+};
+
+std::vector<std::vector<double>> random_columns(Draw& draw) {
+  std::vector<std::vector<double>> columns(sphere::count, std::vector<double>(samples));
+  for (std::size_t i = 0; i < samples; ++i) {
+    const auto q = random_quantities(draw);
+    for (std::size_t j = 0; j < q.size(); ++j) columns[j][i] = q[j];
+  }
+  return columns;
+}
+
+template <class T>
+std::vector<T> simulated(const std::vector<T>& q, const std::vector<double>& condition, int variant) {
+  std::vector<T> x(condition.begin(), condition.end());
+  const auto v = sphere::simulate(
+      sphere::contact(variant, q.data(), sphere::links(q.data()), x.data(), sphere::is_pattern_II(condition.data())));
+  return {v.x, v.y, v.z};
+}
+
+} // namespace
+
+TEST_CASE("evaluate undoes simulate: the tip stands above the sphere", "[laws][sphere_calibration]") {
+  Draw draw;
+  const auto q = random_columns(draw);
+  for (const int variant : {sphere::exact, sphere::small_angle, sphere::closed_form}) {
+    std::vector<std::vector<double>> condition{random_condition(draw), random_condition(draw)};
+    if (variant == sphere::closed_form) condition[0][sphere::B] = 0, condition[1][sphere::C] = 90 * deg;
+    const Run there(q, condition, variant), back(q, condition, variant, &there.simulated);
+    for (std::size_t i = 0; i < samples; ++i) {
+      REQUIRE(there.status[i] == 0);
+      const auto column = [&](int j) { return q[static_cast<std::size_t>(j)][i]; };
+      for (std::size_t r = 0; r < 2; ++r) {
+        const double A = condition[r][sphere::A] + column(sphere::E_AA);
+        const double y = column(sphere::sphere_y) * std::cos(A) - column(sphere::sphere_z) * std::sin(A);
+        const double z = column(sphere::sphere_y) * std::sin(A) + column(sphere::sphere_z) * std::cos(A) +
+                         column(sphere::sphere_radius) + column(sphere::tip_radius);
+        const double expected[] = {-column(sphere::sphere_distance), y, z};
+        for (std::size_t k = 0; k < 3; ++k) // lengths below 2 m, a few roundings
+          REQUIRE(std::fabs(back.tip[(3 * r + k) * samples + i] - expected[k]) < 3e-15);
+      }
+    }
+  }
+}
+
+TEST_CASE("lanes, scalars and dual numbers give the same bits", "[laws][sphere_calibration]") {
+  Draw draw;
+  const auto q = random_columns(draw);
+  const std::vector<std::vector<double>> condition{random_condition(draw), random_condition(draw)};
+  for (const int variant : {sphere::exact, sphere::small_angle}) {
+    const Run run(q, condition, variant);
+    for (std::size_t i = 0; i < samples; i += 7)
+      for (std::size_t r = 0; r < 2; ++r) {
+        std::vector<double> plain;
+        for (const auto& column : q) plain.push_back(column[i]);
+        const auto one = simulated(plain, condition[r], variant);
+        std::vector<models::Gradient> x(plain.begin(), plain.end());
+        for (int j = 0; j < 8; ++j)
+          x[static_cast<std::size_t>(j)] = models::Gradient::variable(plain[static_cast<std::size_t>(j)], j);
+        const auto dual = simulated(x, condition[r], variant);
+        for (std::size_t k = 0; k < 3; ++k) {
+          REQUIRE(one[k] == run.simulated[(3 * r + k) * samples + i]);
+          REQUIRE(dual[k].v == one[k]);
+        }
+      }
+  }
+}
+
+TEST_CASE("derivatives agree with differences", "[laws][sphere_calibration]") {
+  const auto* model = models::find("sphere_calibration");
+  Draw draw;
+  for (int i = 0; i < 10; ++i) {
+    const auto q = random_quantities(draw);
+    const auto condition = random_condition(draw);
+    for (std::size_t first = 0; first < sphere::count; first += 8) {
+      std::vector<models::Gradient> x(q.begin(), q.end());
+      const std::size_t n = std::min<std::size_t>(8, sphere::count - first);
+      for (std::size_t j = 0; j < n; ++j) x[first + j] = models::Gradient::variable(q[first + j], static_cast<int>(j));
+      models::Gradient out[3];
+      models::PointCall<models::Gradient> call;
+      call.quantities = x.data();
+      call.conditions = condition.data();
+      call.simulated = out;
+      REQUIRE(model->simulate_gradient(call).status == 0);
+      for (std::size_t j = 0; j < n; ++j) {
+        // Central differences: third derivatives are below 2 m, so h^2 = 1e-10 of error, and 1e-15 / h of rounding.
+        const double h = 1e-5;
+        auto up = q, down = q;
+        up[first + j] += h, down[first + j] -= h;
+        const auto above = simulated(up, condition, 0), below = simulated(down, condition, 0);
+        for (std::size_t k = 0; k < 3; ++k) {
+          CAPTURE(first + j, k);
+          REQUIRE(std::fabs(out[k].d[j] - (above[k] - below[k]) / (2 * h)) < 2e-9);
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("the probe is linear in the seven lengths by the stated matrix", "[laws][sphere_calibration]") {
+  Draw draw;
+  for (int i = 0; i < 50; ++i) {
+    const auto q = random_quantities(draw);
+    const auto l = sphere::links(q.data());
+    const double B = draw(-2, 2), C = draw(-3, 3);
+    for (const auto& turns : {sphere::exact_turns(l.lines, B, C), sphere::small_angle_turns(l.tilted, B, C)}) {
+      const auto columns = sphere::probe_by_lengths(turns);
+      Vector3<double> sum;
+      for (std::size_t j = 0; j < sphere::lengths; ++j) sum = sum + l.length[j] * columns[j];
+      const auto r = sphere::probe_from_origin(l.length, turns);
+      // Sums of 14 products below 1 m.
+      REQUIRE(std::fabs(sum.x - r.x) < 3e-15);
+      REQUIRE(std::fabs(sum.y - r.y) < 3e-15);
+      REQUIRE(std::fabs(sum.z - r.z) < 3e-15);
+    }
+    const sphere::Directions<Lanes> lines{{Lanes(l.lines.b.x), Lanes(l.lines.b.y), Lanes(l.lines.b.z)},
+                                          {Lanes(l.lines.c.x), Lanes(l.lines.c.y), Lanes(l.lines.c.z)}};
+    const auto lanes = sphere::probe_by_lengths(sphere::exact_turns(lines, Lanes(B), Lanes(C)));
+    const auto plain = sphere::probe_by_lengths(sphere::exact_turns(l.lines, B, C));
+    for (std::size_t j = 0; j < sphere::lengths; ++j) REQUIRE(lanes[j].y.get(0) == plain[j].y);
+  }
+}
+
+TEST_CASE("the grinder's probe is that of the general chain", "[laws][sphere_calibration][machine]") {
+  Draw draw;
+  for (int i = 0; i < 100; ++i) {
+    auto q = random_quantities(draw);
+    for (int j = sphere::E_XX; j <= sphere::S_YZ; ++j) q[static_cast<std::size_t>(j)] = 0;
+    const auto at = [&](int j) { return q[static_cast<std::size_t>(j)]; };
+    auto grinder = *chain::find_machine("grinder");
+    (*grinder.tool_side)[2].point = {at(sphere::link_B_x), 0, -at(sphere::link_B_z)};
+    (*grinder.tool_side)[3].point = {at(sphere::link_C_x), at(sphere::link_C_y), 0};
+    grinder.errors = {{"E_X0B", at(sphere::E_X0B)}, {"E_Z0B", -at(sphere::E_Z0B)}, // ISO's offset is along +Z
+                      {"E_X0C", at(sphere::E_X0C)}, {"E_Y0C", at(sphere::E_Y0C)},  {"E_A0B", at(sphere::E_A0B)},
+                      {"E_C0B", at(sphere::E_C0B)}, {"E_A0C", at(sphere::E_A0C)},  {"E_B0C", at(sphere::E_B0C)},
+                      {"E_AA", at(sphere::E_AA)},   {"E_BB", at(sphere::E_BB)},    {"E_CC", at(sphere::E_CC)}};
+    const chain::Machine machine(grinder);
+    const auto condition = random_condition(draw);
+    const auto xyz = simulated(q, condition, sphere::exact);
+    const double commands[] = {xyz[0], condition[sphere::A], xyz[1],
+                               xyz[2], condition[sphere::B], condition[sphere::C]};
+    const Vector3<double> probe{at(sphere::probe_x), -at(sphere::probe_y), -at(sphere::probe_z)};
+    const auto tip = machine.bed_from_tool(commands, machine.errors().data()) * probe;
+    const auto centre = machine.bed_from_workpiece(commands, machine.errors().data()) *
+                        Vector3<double>{-at(sphere::sphere_distance), at(sphere::sphere_y), at(sphere::sphere_z)};
+    // The tip stands above the sphere's centre, by both radii.
+    REQUIRE(std::fabs(tip.x - centre.x) < 3e-15);
+    REQUIRE(std::fabs(tip.y - centre.y) < 3e-15);
+    REQUIRE(std::fabs(tip.z - centre.z - at(sphere::sphere_radius) - at(sphere::tip_radius)) < 3e-15);
+  }
+}
+
+TEST_CASE("commands of one pattern lie on a circle about the actual axis", "[laws][sphere_calibration]") {
+  Draw draw;
+  for (int i = 0; i < 20; ++i) {
+    auto q = random_quantities(draw);
+    for (int j = sphere::E_AA; j <= sphere::S_YZ; ++j) q[static_cast<std::size_t>(j)] = 0;
+    const auto l = sphere::links(q.data());
+    for (const bool turns_C : {true, false}) {
+      std::vector<Vector3<double>> at;
+      for (int step = 0; step < 8; ++step) {
+        std::vector<double> condition(sphere::conditions, 0.0);
+        condition[turns_C ? sphere::C : sphere::B] = 0.4 * step;
+        if (!turns_C) condition[sphere::C] = 0.9;
+        const auto v = simulated(q, condition, sphere::exact);
+        at.push_back({v[0], v[1], v[2]});
+      }
+      // C's line at B = 0 is c itself, B's is b: commands differ by rotations about it.
+      const auto axis = turns_C ? l.lines.c : l.lines.b;
+      const double chord = std::sqrt(dot(at[1] - at[0], at[1] - at[0]));
+      for (std::size_t s = 1; s < at.size(); ++s) {
+        const auto step = at[s] - at[s - 1];
+        REQUIRE(std::fabs(dot(step, axis)) < 3e-15);
+        REQUIRE(std::fabs(std::sqrt(dot(step, step)) - chord) < 5e-15);
+      }
+    }
+  }
+}
+
+TEST_CASE("a shift of the artefact along X is the probe and both axes, shifted back", "[laws][sphere_calibration]") {
+  Draw draw;
+  for (int i = 0; i < 20; ++i) {
+    const auto q = random_quantities(draw);
+    auto shifted = q;
+    shifted[sphere::sphere_distance] += 1e-5;
+    for (const int j : {sphere::probe_x, sphere::E_X0B, sphere::E_X0C}) shifted[static_cast<std::size_t>(j)] -= 1e-5;
+    const auto condition = random_condition(draw);
+    const auto a = simulated(q, condition, sphere::exact), b = simulated(shifted, condition, sphere::exact);
+    for (std::size_t k = 0; k < 3; ++k) REQUIRE(std::fabs(a[k] - b[k]) < 3e-15);
+  }
+}
+
+TEST_CASE("a reading of neither pattern has no closed form", "[laws][sphere_calibration]") {
+  Draw draw;
+  const auto q = random_columns(draw);
+  auto condition = std::vector<std::vector<double>>(2, std::vector<double>(sphere::conditions, 0.0));
+  condition[1][sphere::B] = 0.2, condition[1][sphere::C] = 1.0;
+  const Run run(q, condition, sphere::closed_form);
+  for (const auto status : run.status) REQUIRE(status == 3); // out_of_domain
+  condition[1][sphere::C] = 90 * deg;
+  const Run fine(q, condition, sphere::closed_form);
+  for (const auto status : fine.status) REQUIRE(status == 0);
+}
