@@ -39,6 +39,7 @@ TriggerCurve::TriggerCurve(const InsertHeight& heights, double drop)
   last.angle += turn;
   cover(a, last);
   pieces_.back().x1 = first + period_;
+  join_runs();
   heights_ = nullptr;
   const auto spread = [&](Start& start, double from, double whole, auto end_of) {
     start.from = from;
@@ -52,6 +53,27 @@ TriggerCurve::TriggerCurve(const InsertHeight& heights, double drop)
   };
   spread(by_x_, first, period_, [](const Piece& p) { return p.x1; });
   spread(by_angle_, begin_, turn, [](const Piece& p) { return p.angle + p.width * p.t1; });
+}
+
+/// The first run begins with the first piece and may go on from the last one, a turn before.
+void TriggerCurve::join_runs() {
+  const auto begins = [](const Piece& p) { return p.angle + p.width * p.t0; };
+  const auto ends = [](const Piece& p) { return p.angle + p.width * p.t1; };
+  for (std::size_t i = 0; i < pieces_.size(); ++i) {
+    Piece& p = pieces_[i];
+    if (i == 0 || begins(p) > ends(pieces_[i - 1]) + narrowest) runs_.push_back({p.x0, p.x1, 0});
+    p.run = runs_.size() - 1;
+    runs_.back().to = p.x1;
+    runs_.back().end = p.x1 - drop_ * ends(p);
+  }
+  // The highest point lies on a rising side or on top: what precedes it belongs to its run.
+  if (runs_.size() == 1) {
+    runs_[0].from = -1e300, runs_[0].to = 1e300;
+    return;
+  }
+  runs_.front().from = runs_.back().from - period_;
+  runs_.back().to = runs_.front().to + period_;
+  runs_.back().end = runs_.front().end;
 }
 
 std::size_t TriggerCurve::Start::of(double x) const {
@@ -146,11 +168,14 @@ TriggerCurve::Point TriggerCurve::at(double x) const {
   std::size_t i = by_x_.of(y);
   while (i + 1 < pieces_.size() && pieces_[i].x1 < y) ++i;
   const Piece& p = pieces_[i];
-  if (p.t0 == p.t1) return {y - drop_ * p.angle, 1.0};
+  const Run& run = runs_[p.run];
+  const Run& last = runs_[p.run > 0 ? p.run - 1 : runs_.size() > 1 ? runs_.size() - 2 : 0];
+  const double from = run.from + n * period_, to = run.to + n * period_;
+  if (p.t0 == p.t1) return {y - drop_ * p.angle, 1.0, from, to, last.end};
   const double t = solve(p, p.t0, p.t1, y);
   const double slope = p.c[1] + t * (2 * p.c[2] + t * 3 * p.c[3]); // times width
   const double rise = std::max(slope + drop_ * p.width, 1e-6 * drop_ * p.width);
-  return {p.c[0] + t * (p.c[1] + t * (p.c[2] + t * p.c[3])), slope / rise};
+  return {p.c[0] + t * (p.c[1] + t * (p.c[2] + t * p.c[3])), slope / rise, from, to, last.end};
 }
 
 double TriggerCurve::record(double angle) const {

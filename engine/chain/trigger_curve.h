@@ -18,7 +18,9 @@ public:
 
   struct Point {
     double height;
-    double slope; ///< dF/dx, to -1e6 where the line touches Zc
+    double slope;    ///< dF/dx, to -1e6 where the line touches Zc
+    double from, to; ///< F is continuous in between and jumps down at these
+    double before;   ///< limit of F at `from`, coming from below
   };
   Point at(double x) const;
   /// The record of G up to the angle: a flute on a line of greater x has not triggered there yet.
@@ -32,6 +34,7 @@ private:
   /// the cover begins all at once, has t0 = t1.
   struct Piece {
     double x0, x1, t0, t1, angle, width, c[4];
+    std::size_t run; ///< pieces of one run join
   };
   struct Start {
     std::vector<std::size_t> first; ///< piece at the beginning of each of as many equal parts
@@ -46,7 +49,12 @@ private:
 
   const InsertHeight* heights_; ///< only while tabulating
   double drop_, period_, highest_, begin_, record_;
+  struct Run {
+    double from, to, end; ///< in x; F at `to`
+  };
+  void join_runs();
   std::vector<Piece> pieces_;
+  std::vector<Run> runs_;
   Start by_x_, by_angle_;
 };
 

@@ -184,6 +184,11 @@ TEST_CASE("the probe is linear in the seven lengths by the stated matrix", "[law
       REQUIRE(std::fabs(sum.y - r.y) < 3e-15);
       REQUIRE(std::fabs(sum.z - r.z) < 3e-15);
     }
+    const sphere::Directions<Lanes> lines{{Lanes(l.lines.b.x), Lanes(l.lines.b.y), Lanes(l.lines.b.z)},
+                                          {Lanes(l.lines.c.x), Lanes(l.lines.c.y), Lanes(l.lines.c.z)}};
+    const auto lanes = sphere::probe_by_lengths(sphere::exact_turns(lines, Lanes(B), Lanes(C)));
+    const auto plain = sphere::probe_by_lengths(sphere::exact_turns(l.lines, B, C));
+    for (std::size_t j = 0; j < sphere::lengths; ++j) REQUIRE(lanes[j].y.get(0) == plain[j].y);
   }
 }
 

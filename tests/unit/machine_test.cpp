@@ -282,6 +282,28 @@ TEST_CASE("derivatives by dual numbers agree with differences", "[machine]") {
   }
 }
 
+TEST_CASE("lanes give the bits of the scalar chain", "[machine]") {
+  Draw draw;
+  std::vector<double> errors, commands;
+  const Machine m = odd_machine(draw, 1e-3, errors, commands);
+  const std::vector<Lanes> lane_errors(errors.begin(), errors.end());
+  std::vector<Lanes> lane_commands(commands.begin(), commands.end());
+  for (std::size_t lane = 0; lane < Lanes::size; ++lane) {
+    auto one = commands;
+    for (std::size_t j = 0; j < commands.size(); ++j) {
+      double values[Lanes::size];
+      for (std::size_t l = 0; l < Lanes::size; ++l) values[l] = commands[j] + 0.1 * static_cast<double>(l);
+      lane_commands[j] = Lanes::load_unaligned(values);
+      one[j] = values[lane];
+    }
+    const auto all = m.workpiece_from_tool(lane_commands.data(), lane_errors.data());
+    const auto pose = m.workpiece_from_tool(one.data(), errors.data());
+    CHECK(all.shift.x.get(lane) == pose.shift.x);
+    CHECK(all.shift.z.get(lane) == pose.shift.z);
+    CHECK(all.turn.y.x.get(lane) == pose.turn.y.x);
+  }
+}
+
 TEST_CASE("a wrong description is told by place and reason", "[machine]") {
   using Axes = std::vector<AxisDescription>;
   const auto told = [](const MachineDescription& d, const std::string& place, const std::string& part) {

@@ -7,11 +7,14 @@ namespace gumshoe::models::mill {
 
 namespace {
 
-constexpr int most = chain::most_inserts + 1; ///< unknowns: the phase, then heights
-using Unknowns = std::array<double, most>;
+/// Phase u, then for each flute a_k = u - H_k: u shifts all readouts alike, and a flute's curve jumps at values of its
+/// own a_k, whatever the rest.
+using Unknowns = std::array<double, chain::most_inserts + 1>;
 
 /// Phases looked at per pitch of a flute, how many of the best are improved, and how many carried to their minimum.
-constexpr std::size_t scanned = 96, tried = 16, carried = 3;
+constexpr std::size_t scanned = 192, tried = 24, carried = 4;
+/// Noise allowed for while flutes are sought, in steps of the phase.
+constexpr std::size_t margins[] = {1, 8};
 /// A flute counts as seen if leaving it out raises the squares by this many variances: about one in a hundred that
 /// shows nothing passes by chance.
 constexpr double needed = 10;
@@ -19,205 +22,238 @@ constexpr double needed = 10;
 constexpr double rounding = 2.5e-21;
 /// Near the end of a hump the slope grows without bound: what a step may take for one.
 constexpr double steepest = 100;
+/// How far inside a jump is inside, m.
+constexpr double inside = 1e-14;
+constexpr double turn = 2 * 3.14159265358979323846;
 
 class Fitter {
 public:
-  explicit Fitter(const CurveReadings& d)
-      : d_(d), flutes_(static_cast<int>(d.flutes)), residual_(d.readings), trial_(d.readings) {}
+  explicit Fitter(const CurveReadings& d) : d_(d), now_(d), trial_(d) {}
 
-  struct Reading {
-    double residual, slope;
-    int flute;
-  };
   struct Candidate {
     Unknowns x{};
     double squares = 1e300;
   };
-  std::array<bool, most> active{}; ///< by flute
-
-  double squares(const Unknowns& x, std::vector<Reading>& out) const {
-    double sum = 0;
-    for (std::size_t i = 0; i < d_.readings; ++i) {
-      Reading best{-1e300, 0, 0};
-      for (int k = 0; k < flutes_; ++k) {
-        if (!active[static_cast<std::size_t>(k)]) continue;
-        const std::size_t ik = i * d_.flutes + static_cast<std::size_t>(k);
-        const double h = x[static_cast<std::size_t>(k) + 1];
-        if (h + d_.curves[ik]->highest() - d_.heights[i] <= best.residual) continue;
-        const auto p = d_.curves[ik]->at(d_.lines[ik] + x[0] - h);
-        const double r = h + p.height - d_.heights[i];
-        if (r > best.residual) best = {r, p.slope, k};
-      }
-      out[i] = best;
-      sum += best.residual * best.residual;
-    }
-    return sum;
-  }
+  std::array<bool, chain::most_inserts> active{};
 
   /// Every flute as long as the readings allow at this phase: none may trigger more than `margin` before its reading.
   Candidate longest(double phase, double margin) {
     Candidate c;
     c.x[0] = phase;
     for (std::size_t k = 0; k < d_.flutes; ++k) {
-      double h = 1e300;
+      double a = -1e300;
       for (std::size_t i = 0; i < d_.readings; ++i) {
         const std::size_t ik = i * d_.flutes + k;
-        const double line = d_.lines[ik] + phase;
-        h = std::min(h, line - d_.curves[ik]->record((line - d_.heights[i] - margin) / d_.drop));
+        a = std::max(a,
+                     d_.curves[ik]->record((d_.lines[ik] + phase - d_.heights[i] - margin) / d_.drop) - d_.lines[ik]);
       }
-      c.x[k + 1] = h;
+      c.x[k + 1] = a;
     }
-    c.squares = squares(c.x, residual_);
+    c.squares = look(c.x, now_);
     return c;
   }
 
-  /// Levenberg-Marquardt. True at a minimum; false where a jump of the residuals stops it.
-  bool damped_steps(Candidate& c) {
-    c.squares = squares(c.x, residual_);
-    double damping = 1e-4;
-    for (int iteration = 0; iteration < 60; ++iteration) {
-      const double promised = normal_equations();
-      if (promised <= 1e-9 * c.squares + 1e-28) return true;
-      bool better = false;
-      for (int attempt = 0; attempt < 12 && !better; ++attempt) {
-        const Candidate next = step(c, damping);
-        if (next.squares < c.squares) {
-          better = true;
-          c = next;
-          residual_.swap(trial_);
-          damping = std::max(damping * 0.1, 1e-12);
-        } else {
-          damping *= 8;
-        }
-      }
-      if (!better) return false;
-    }
-    return false;
+  double squares(const Unknowns& x, double* residuals) {
+    const double sum = look(x, trial_);
+    for (std::size_t i = 0; i < d_.readings; ++i) residuals[i] = trial_.residual[i];
+    return sum;
   }
 
-  /// The same, then along the directions in which no line slides over its flute's curve, in turn.
+  /// Down to the minimum between the jumps around c. False if the steps do not end.
+  bool settle(Candidate& c) {
+    c.squares = look(c.x, now_);
+    double gain = 0;
+    for (int iteration = 0; iteration < 50; ++iteration) {
+      Unknowns step;
+      const double promised = best_step(c.x, step), before = c.squares;
+      if (promised <= 1e-9 * before + 1e-30) return true;
+      // Where the curve bends strongly a step may overshoot, even if it gains: half of it is tried, too.
+      const Candidate start = c;
+      for (double share = 1; share > 1e-4; share *= 0.5) {
+        Candidate next = start;
+        for (std::size_t j = 0; j <= d_.flutes; ++j) next.x[j] += share * step[j];
+        next.squares = look(next.x, trial_);
+        if (next.squares < c.squares) {
+          c = next;
+          std::swap(now_, trial_);
+        } else if (c.squares < before) {
+          break;
+        }
+        if (before - c.squares > 0.5 * promised) break;
+      }
+      gain = before - c.squares;
+      if (gain < 1e-10 * before) return true; // or at a kink, where one flute takes over from another
+    }
+    return gain < 1e-6 * c.squares; // slow, and a thousandth of a standard deviation from the minimum
+  }
+
+  /// The same, then across the jumps nearby as long as that helps.
   bool descend(Candidate& c) {
-    for (int round = 0; round < 20; ++round) {
-      if (damped_steps(c) || c.squares <= rounding * static_cast<double>(d_.readings)) return true;
-      if (!slide(c)) return true;
+    bool settled = settle(c);
+    for (int round = 0; round < 50; ++round) {
+      const Candidate before = c;
+      const Box box = now_.box;
+      for (std::size_t k = 0; k < d_.flutes; ++k) {
+        if (!active[k]) continue;
+        for (const double across : {box.low[k] - inside, box.high[k] + inside}) {
+          if (std::fabs(across) > 1e3) continue;
+          Candidate next = before;
+          next.x[k + 1] = across;
+          const bool done = settle(next);
+          if (next.squares < c.squares) c = next, settled = done;
+        }
+      }
+      if (!(c.squares < before.squares)) {
+        look(c.x, now_);
+        return settled;
+      }
+      c.squares = look(c.x, now_);
     }
     return false;
   }
 
 private:
-  /// J'J and J'r from residual_; the drop of the squares that a full step promises.
-  double normal_equations() {
-    for (auto& row : matrix_) row.fill(0);
-    gradient_.fill(0);
-    for (const Reading& r : residual_) {
-      const double s = std::clamp(r.slope, -steepest, steepest);
-      const std::size_t k = static_cast<std::size_t>(r.flute) + 1;
-      matrix_[0][0] += s * s;
-      matrix_[k][k] += (1 - s) * (1 - s);
-      matrix_[k][0] += s * (1 - s);
-      gradient_[0] += s * r.residual;
-      gradient_[k] += (1 - s) * r.residual;
+  /// Between which values of a_k no readout jumps.
+  struct Box {
+    std::array<double, chain::most_inserts> low, high;
+  };
+  struct Look {
+    explicit Look(const CurveReadings& d) : residual(d.readings), slope(d.readings), flute(d.readings) {}
+    std::vector<double> residual, slope;
+    std::vector<std::size_t> flute;
+    Box box;
+  };
+
+  double look(const Unknowns& x, Look& out) const {
+    out.box.low.fill(-1e300);
+    out.box.high.fill(1e300);
+    double sum = 0;
+    for (std::size_t i = 0; i < d_.readings; ++i) {
+      double best = -1e300, end = 0;
+      struct Rival {
+        double low, height;
+      } rivals[chain::most_inserts];
+      for (std::size_t k = 0; k < d_.flutes; ++k) {
+        if (!active[k]) continue;
+        const std::size_t ik = i * d_.flutes + k;
+        const double h = x[0] - x[k + 1];
+        const auto p = d_.curves[ik]->at(d_.lines[ik] + x[k + 1]);
+        rivals[k] = {p.from - d_.lines[ik], x[0] - (p.from - d_.lines[ik]) + p.before};
+        if (h + p.height <= best) continue;
+        best = h + p.height;
+        out.slope[i] = p.slope;
+        out.flute[i] = k;
+        end = p.to - d_.lines[ik];
+      }
+      double& high = out.box.high[out.flute[i]];
+      high = std::min(high, end);
+      for (std::size_t k = 0; k < d_.flutes; ++k)
+        if (active[k] && rivals[k].height > best) out.box.low[k] = std::max(out.box.low[k], rivals[k].low);
+      out.residual[i] = best - d_.heights[i];
+      sum += out.residual[i] * out.residual[i];
     }
-    const Unknowns full = solved(1e-13);
-    double promised = 0;
-    for (std::size_t j = 0; j < most; ++j) promised += full[j] * gradient_[j];
+    return sum;
+  }
+
+  /// Gauss-Newton's step within the box from now_; how much of the squares it promises to take off.
+  double best_step(const Unknowns& x, Unknowns& step) const {
+    const std::size_t n = d_.flutes;
+    Unknowns square{}, mixed{}, gradient{};
+    for (std::size_t i = 0; i < d_.readings; ++i) {
+      const std::size_t k = now_.flute[i] + 1;
+      const double s = std::clamp(now_.slope[i], -steepest, steepest) - 1;
+      square[k] += s * s;
+      mixed[k] += s;
+      gradient[0] += now_.residual[i];
+      gradient[k] += s * now_.residual[i];
+    }
+    std::array<bool, chain::most_inserts + 1> held{};
+    for (;;) {
+      double pivot = static_cast<double>(d_.readings) * (1 + 1e-12), right = -gradient[0];
+      for (std::size_t k = 1; k <= n; ++k) {
+        if (held[k]) {
+          right -= mixed[k] * step[k];
+        } else if (square[k] > 0) {
+          pivot -= mixed[k] * mixed[k] / square[k];
+          right += mixed[k] * gradient[k] / square[k];
+        }
+      }
+      step[0] = right / pivot;
+      double worst = 0;
+      std::size_t over = 0;
+      for (std::size_t k = 1; k <= n; ++k) {
+        if (!held[k]) step[k] = square[k] > 0 ? (-gradient[k] - mixed[k] * step[0]) / square[k] : 0.0;
+        const double beyond =
+            std::max(x[k] + step[k] - (now_.box.high[k - 1] - inside), now_.box.low[k - 1] + inside - (x[k] + step[k]));
+        if (!held[k] && beyond > worst) worst = beyond, over = k;
+      }
+      if (over == 0) break;
+      held[over] = true;
+      const double low = now_.box.low[over - 1] + inside - x[over], high = now_.box.high[over - 1] - inside - x[over];
+      step[over] = step[over] > 0 ? std::max(high, 0.0) : std::min(low, 0.0);
+    }
+    double promised = 0; // -(2 g s + s J'J s)
+    promised -= 2 * gradient[0] * step[0] + static_cast<double>(d_.readings) * step[0] * step[0];
+    for (std::size_t k = 1; k <= n; ++k)
+      promised -= 2 * gradient[k] * step[k] + square[k] * step[k] * step[k] + 2 * mixed[k] * step[k] * step[0];
     return promised;
   }
 
-  /// (J'J + damping diag) step = J'r. The heights' block is diagonal: eliminate them, then the phase.
-  Unknowns solved(double damping) const {
-    double phase = matrix_[0][0] * (1 + damping), right = gradient_[0];
-    for (std::size_t k = 1; k < most; ++k)
-      if (matrix_[k][k] > 0) {
-        const double pivot = matrix_[k][k] * (1 + damping);
-        phase -= matrix_[k][0] * matrix_[k][0] / pivot;
-        right -= matrix_[k][0] * gradient_[k] / pivot;
-      }
-    Unknowns s{};
-    s[0] = phase > 1e-14 * matrix_[0][0] ? right / phase : 0.0;
-    for (std::size_t k = 1; k < most; ++k)
-      if (matrix_[k][k] > 0) s[k] = (gradient_[k] - matrix_[k][0] * s[0]) / (matrix_[k][k] * (1 + damping));
-    return s;
-  }
-
-  Candidate step(const Candidate& c, double damping) {
-    const Unknowns s = solved(damping);
-    Candidate next = c;
-    for (std::size_t j = 0; j < most; ++j) next.x[j] -= s[j];
-    next.squares = squares(next.x, trial_);
-    return next;
-  }
-
-  bool slide(Candidate& c) {
-    const double before = c.squares;
-    const double whole = 2 * 3.14159265358979323846 * d_.drop / static_cast<double>(flutes_);
-    for (double length = whole / 16; length > 1e-6 * whole; length *= 0.5)
-      for (int direction = 0; direction < 2 * flutes_ + 2; ++direction)
-        for (const double sign : {1.0, -1.0}) {
-          Candidate next = c;
-          const int k = direction / 2; // a height alone or with the phase; all heights with the phase or without
-          if (direction % 2) next.x[0] += sign * length;
-          for (int j = 0; j < flutes_; ++j)
-            if (j == k || k == flutes_) next.x[static_cast<std::size_t>(j) + 1] += sign * length;
-          next.squares = squares(next.x, trial_);
-          if (next.squares < c.squares) {
-            c = next;
-            residual_.swap(trial_);
-          }
-        }
-    return c.squares < before * (1 - 1e-6);
-  }
-
   const CurveReadings& d_;
-  int flutes_;
-  std::vector<Reading> residual_, trial_;
-  std::array<std::array<double, most>, most> matrix_{};
-  Unknowns gradient_{};
+  Look now_, trial_;
 };
 
 using Candidate = Fitter::Candidate;
 
 /// The best phases of a scan, local minima only.
 std::vector<Candidate> scan(const CurveReadings& d, Fitter& fitter) {
-  const double turn = 2 * 3.14159265358979323846 * d.drop;
-  const std::size_t n = scanned * (d.alike ? 1 : d.flutes);
-  const double step = turn / static_cast<double>(d.flutes * scanned);
-  std::vector<Candidate> all(n), lowest;
-  for (std::size_t s = 0; s < n; ++s) all[s] = fitter.longest(step * static_cast<double>(s), step);
-  for (std::size_t s = 0; s < n; ++s)
-    if (all[s].squares <= all[(s + 1) % n].squares && all[s].squares <= all[(s + n - 1) % n].squares)
-      lowest.push_back(all[s]);
-  std::ranges::stable_sort(lowest, {}, &Candidate::squares);
-  if (lowest.size() > tried) lowest.resize(tried);
-  for (Candidate& c : lowest) fitter.damped_steps(c);
-  std::ranges::stable_sort(lowest, {}, &Candidate::squares);
-  if (lowest.size() > carried) lowest.resize(carried);
-  return lowest;
+  const double step = turn * d.drop / static_cast<double>(d.flutes * scanned);
+  std::vector<Candidate> best;
+  for (const std::size_t margin : margins) {
+    const std::size_t stride = (margin + 1) / 2, n = scanned / stride * (d.alike ? 1 : d.flutes);
+    std::vector<Candidate> all(n), lowest;
+    for (std::size_t s = 0; s < n; ++s)
+      all[s] = fitter.longest(step * static_cast<double>(stride * s), step * static_cast<double>(margin));
+    for (std::size_t s = 0; s < n; ++s)
+      if (all[s].squares <= all[(s + 1) % n].squares && all[s].squares <= all[(s + n - 1) % n].squares)
+        lowest.push_back(all[s]);
+    std::ranges::stable_sort(lowest, {}, &Candidate::squares);
+    if (lowest.size() > tried) lowest.resize(tried);
+    best.insert(best.end(), lowest.begin(), lowest.end());
+  }
+  for (Candidate& c : best) fitter.settle(c);
+  std::ranges::stable_sort(best, {}, &Candidate::squares);
+  // Several phases find one minimum.
+  const auto twins = std::ranges::unique(best, [](const Candidate& a, const Candidate& b) {
+    return b.squares - a.squares < 1e-3 * b.squares && std::fabs(a.x[1] - b.x[1]) < 1e-9;
+  });
+  best.erase(twins.begin(), twins.end());
+  if (best.size() > carried) best.resize(carried);
+  return best;
 }
 
 /// Greatest height of a hidden flute at which the readings are explained no worse than without it.
-double greatest_height(const CurveReadings& d, const Fitter& fitter, const Candidate& best, int flute) {
-  std::vector<Fitter::Reading> without(d.readings);
-  fitter.squares(best.x, without);
+double greatest_height(const CurveReadings& d, Fitter& fitter, const Candidate& best, int flute) {
+  std::vector<double> without(d.readings);
+  fitter.squares(best.x, without.data());
   const auto worse = [&](double h) {
     double sum = 0;
     for (std::size_t i = 0; i < d.readings; ++i) {
       const std::size_t ik = i * d.flutes + static_cast<std::size_t>(flute);
       const double r = h + d.curves[ik]->at(d.lines[ik] + best.x[0] - h).height - d.heights[i];
-      if (r > without[i].residual) sum += r * r - without[i].residual * without[i].residual;
+      if (r > without[i]) sum += r * r - without[i] * without[i];
     }
     return sum > rounding * static_cast<double>(d.readings);
   };
-  const double turn = 2 * 3.14159265358979323846 * d.drop;
   double high = -1e300;
-  for (int k = 0; k < static_cast<int>(d.flutes); ++k)
-    if (fitter.active[static_cast<std::size_t>(k)]) high = std::max(high, best.x[static_cast<std::size_t>(k) + 1]);
-  high += turn;
-  double low = high - turn;
-  while (worse(low)) high = low, low -= turn;
+  for (std::size_t k = 0; k < d.flutes; ++k)
+    if (fitter.active[k]) high = std::max(high, best.x[0] - best.x[k + 1]);
+  const double period = turn * d.drop;
+  high += period;
+  double low = high - period;
+  while (worse(low)) high = low, low -= period;
   while (high - low > 1e-14) {
     const double middle = 0.5 * (low + high);
-    if (middle <= low || middle >= high) break;
     (worse(middle) ? high : low) = middle;
   }
   return low;
@@ -258,7 +294,7 @@ CurveFit fit_curve(const CurveReadings& d) {
       if (!fitter.active[k]) continue;
       fitter.active[k] = false;
       Candidate c = best;
-      fitter.damped_steps(c);
+      fitter.descend(c);
       if (c.squares < reduced.squares) reduced = c, least = static_cast<int>(k);
       fitter.active[k] = true;
     }
@@ -268,13 +304,13 @@ CurveFit fit_curve(const CurveReadings& d) {
     fit.converged = fitter.descend(best);
     --shown;
   }
-  const double turn = 2 * 3.14159265358979323846 * d.drop;
-  fit.phase = best.x[0] - turn * std::floor(best.x[0] / turn);
+  const double period = turn * d.drop;
+  fit.phase = best.x[0] - period * std::floor(best.x[0] / period);
   fit.squares = best.squares;
   fit.unknowns = shown + 1;
   for (std::size_t k = 0; k < d.flutes; ++k) {
     fit.seen[k] = fitter.active[k];
-    fit.heights[k] = fit.seen[k] ? best.x[k + 1] : greatest_height(d, fitter, best, static_cast<int>(k));
+    fit.heights[k] = fit.seen[k] ? best.x[0] - best.x[k + 1] : greatest_height(d, fitter, best, static_cast<int>(k));
   }
   return fit;
 }

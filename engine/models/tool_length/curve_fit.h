@@ -15,7 +15,7 @@ namespace gumshoe::models::mill {
 
 struct CurveReadings {
   std::size_t readings = 0, flutes = 0;
-  double drop = 0;                                ///< m per rad, of all readings
+  double drop = 0;                                ///< m per rad; of all readings, about
   std::vector<const chain::TriggerCurve*> curves; ///< [reading][flute]
   std::vector<double> lines;                      ///< [reading][flute], m
   std::vector<double> heights;                    ///< [reading], m

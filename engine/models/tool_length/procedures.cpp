@@ -61,9 +61,8 @@ private:
 };
 
 int flutes_of(const Reading& r) { return std::clamp(static_cast<int>(r.q[inserts]), 1, chain::most_inserts); }
-double least_wear(const Reading& r) { return *std::min_element(r.q + wear, r.q + wear + flutes_of(r)); }
-/// What the flute is higher by besides its wear: runout.
-double raised(const Reading& r, int k) { return flute(r.q, r.event, k).raise - r.q[wear + k]; }
+double drop(const Reading& r) { return motion(r.q, r.event, r.condition).drop; }
+double least_raise(const Reading& r) { return mill::least_raise(r.q, r.event); }
 
 bool possible(const std::vector<Reading>& all) {
   for (const Reading& r : all)
@@ -104,20 +103,20 @@ bool prepare(const std::vector<Reading>& all, Curves& curves, CurveReadings& dat
   const int n = flutes_of(all[0]);
   data.readings = all.size();
   data.flutes = static_cast<std::size_t>(n);
-  data.drop = motion(all[0].q, all[0].event, all[0].condition).drop;
+  data.drop = drop(all[0]);
   data.curves.clear();
   data.lines.clear();
   data.heights.clear();
   data.alike = true;
   for (const Reading& r : all) {
     const auto m = motion(r.q, r.event, r.condition);
-    const double line = m.height + data.drop * m.angle;
+    const double line = m.height + m.drop * m.angle;
     data.heights.push_back(r.height);
     for (int k = 0; k < n; ++k) {
       const auto f = flute(r.q, r.event, k);
-      data.curves.push_back(curves.at(f.insert, beam(r.q), data.drop));
+      data.curves.push_back(curves.at(f.insert, beam(r.q), m.drop));
       if (!data.curves.back()) return false;
-      data.lines.push_back(line + data.drop * f.azimuth);
+      data.lines.push_back(line + m.drop * f.azimuth);
       data.alike &= data.curves.back() == data.curves[data.curves.size() - 1 - static_cast<std::size_t>(k)] &&
                     std::fabs(f.azimuth - 2 * pi * k / n) < 1e-12;
     }
@@ -171,10 +170,10 @@ void evaluate_curve(const Results& results, const std::vector<Reading>& all, con
   double lengths[chain::most_inserts], effective = -1e300;
   for (int k = 0; k < flutes_of(all[0]); ++k) {
     const auto at = static_cast<std::size_t>(k);
-    lengths[k] = fit.heights[at] + raised(all[0], k);
+    lengths[k] = fit.heights[at];
     if (fit.seen[at]) effective = std::max(effective, lengths[k]);
   }
-  const double length = effective + least_wear(all[0]);
+  const double length = effective + least_raise(all[0]);
   // A line's phase is start_height + tool_length: what it shows beyond turns the holder.
   write_curve(results, all[0], lengths, fit.seen.data(), all[0].q[holder_angle] + (fit.phase - length) / data.drop,
               length);
@@ -197,10 +196,10 @@ std::vector<double> peaks_of(const std::vector<Reading>& all) {
 void evaluate_peaks(const Results& results, const std::vector<Reading>& all) {
   const auto peaks = peaks_of(all);
   const int n = flutes_of(all[0]);
-  results.set(joint_length_row, peaks[0] + least_wear(all[0]));
+  results.set(joint_length_row, peaks[0] + least_raise(all[0]));
   results.set(joint_effective_row, peaks[0]);
   results.set(peaks_row, static_cast<double>(peaks.size()));
-  const double per_flute = 2 * pi * motion(all[0].q, all[0].event, all[0].condition).drop / n; // a flute shorter by more has no peak
+  const double per_flute = 2 * pi * drop(all[0]) / n; // a flute shorter by more has no peak
   for (int k = 0; k < n; ++k) {
     const bool seen = static_cast<std::size_t>(k) < peaks.size();
     results.flute(peak_rows, k, seen ? peaks[static_cast<std::size_t>(k)] : peaks[0] - per_flute, peaks[0], seen);
@@ -212,7 +211,7 @@ void write_truth(const Results& results, const Reading& r, const bool* seen) {
   const int n = flutes_of(r);
   double lengths[chain::most_inserts];
   bool exists[chain::most_inserts];
-  for (int k = 0; k < n; ++k) lengths[k] = r.q[length] - r.q[wear + k], exists[k] = true;
+  for (int k = 0; k < n; ++k) lengths[k] = r.q[length] - flute(r.q, r.event, k).raise, exists[k] = true;
   if (results.call.evaluation == characteristic_curve) {
     write_curve(results, r, lengths, exists, r.q[holder_angle], r.q[length]);
     const int longest = static_cast<int>(std::max_element(lengths, lengths + n) - lengths);
@@ -291,7 +290,7 @@ void evaluate_together(const BlockCall& call) {
       else
         results.fail(chain::SolveStatus::never_covered);
     } else {
-      results.set(joint_length_row, all[0].height + least_wear(all[0]));
+      results.set(joint_length_row, all[0].height + least_raise(all[0]));
       results.set(joint_effective_row, all[0].height);
     }
   }
@@ -326,10 +325,25 @@ std::string check_readings(const BlockCall& call) {
     if (x.condition[start_angle] - all[0].condition[start_angle] > 2 * pi * (1 - 1e-12))
       return fmt::format("start_angle of reading {} is a turn or more after the first: angles repeat", r + 1);
   }
+  if (call.evaluation != characteristic_curve) return "";
   const int n = flutes_of(all[0]);
-  if (call.evaluation == characteristic_curve && m < static_cast<std::size_t>(n) + 1)
+  if (m < static_cast<std::size_t>(n) + 1)
     return fmt::format("{} reading{} for {} unknowns: {} flute height{} and the phase", m, m == 1 ? "" : "s", n + 1, n,
                        n == 1 ? "" : "s");
+  // From above all flutes the curve repeats every turn of the start angle.
+  Curves curves;
+  CurveReadings data;
+  if (!possible(all)) return "";
+  if (!prepare(all, curves, data)) return "no flute ever covers the beam: the offset is too large";
+  for (std::size_t r = 0; r < m; ++r)
+    for (int k = 0; k < n; ++k) {
+      const double needed = data.curves[r * data.flutes + static_cast<std::size_t>(k)]->highest() -
+                            flute(all[r].q, all[r].event, k).raise;
+      if (all[r].condition[start_height] < needed)
+        return fmt::format("start_height of reading {} is {:g} mm, where flute {} may already be in the beam: above "
+                           "{:.4f} mm the curve repeats every turn",
+                           r + 1, all[r].condition[start_height] * 1e3, k + 1, needed * 1e3);
+    }
   return "";
 }
 
