@@ -1,7 +1,7 @@
 #include "scenario/machine.h"
 
-#include <algorithm>
 #include <map>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -28,10 +28,12 @@ public:
       problems_.add(*table_.find("name"), fmt::format("machine.name: '{}' is a known machine", *name),
                     "its axes need not be listed", "leave out the sides, or name it otherwise?");
     if (auto errors = table_.table("errors")) read_errors(*errors, out);
+    const std::size_t so_far = problems_.size();
     table_.refuse_unknown();
-    // What lists the sides wrongly would be complained of twice.
-    if (problems_.size() == before && (sides || !out.name.empty()))
+    misspelt_ = problems_.size() != so_far;
+    if (sides || !out.name.empty())
       for (const chain::DescriptionProblem& p : chain::problems(out)) {
+        if (told(p.place)) continue;
         const auto& [node, path] = place(p.place);
         problems_.add(*node, fmt::format("{}: {}", path, p.what), p.why, p.remedy);
       }
@@ -67,7 +69,9 @@ private:
       const std::string place = fmt::format("{}[{}]", key, i), path = fmt::format("machine.{}[{}]", key, i + 1);
       places_[place] = {&item, path};
       if (item.kind != Node::Kind::table) {
-        out.push_back({read_text(item, path, problems_).value_or("")});
+        const auto text = read_text(item, path, problems_);
+        if (!text) unreadable_.insert(place);
+        out.push_back({text.value_or("")});
         continue;
       }
       Table row(item, path, problems_);
@@ -78,10 +82,11 @@ private:
 
   AxisDescription axis(Table& row, const std::string& place) {
     AxisDescription out;
-    if (const Node* node = row.require("axis", "axis = \"C\"?")) {
-      out.name = row.text("axis").value_or("");
-      places_[place] = {node, row.path()};
-    }
+    const Node* name = row.require("axis", "axis = \"C\"?");
+    const auto text = row.text("axis");
+    if (name) places_[place] = {name, row.path()};
+    if (!text) unreadable_.insert(place);
+    out.name = text.value_or("");
     for (const char* key : {"kind", "sense", "point"})
       if (const Node* node = row.find(key)) places_[place + '.' + key] = {node, row.path(key)};
     out.kind = row.text("kind").value_or("");
@@ -118,6 +123,12 @@ private:
     }
   }
 
+  /// What could not be read is said already; a side that is not there may be a misspelt one.
+  bool told(const std::string& at) {
+    if (at == "workpiece_side" || at == "tool_side") return misspelt_ || table_.has(at);
+    return unreadable_.contains(at) || (at.empty() && misspelt_);
+  }
+
   /// A place of chain::problems in the file; the nearest known part of it.
   Place place(std::string at) {
     while (!at.empty()) {
@@ -131,6 +142,8 @@ private:
   Table table_;
   Problems& problems_;
   std::map<std::string, Place> places_; ///< by the places of chain::problems, which count from 0
+  std::set<std::string> unreadable_;
+  bool misspelt_ = false;
 };
 
 } // namespace

@@ -207,6 +207,13 @@ class Machine(unittest.TestCase):
             with self.subTest(name):
                 self.refused(text, line, *said)
 
+    def test_all_mistakes_at_once(self):
+        self.file.write_text(CUSTOM.replace("-400 mm", "-400 deg").replace('"Z",', '"X",').replace('"A2"', "3") +
+                             'errors = { E_A0D = "0 deg" }\nwork_side = []\n')
+        run = gumshoe("check", self.file)
+        self.assertIsNone(complaint(run), run.stderr)
+        self.assertEqual([line for line, _ in places(run, self.file)], [6, 8, 10, 12, 13], run.stderr)
+
     def test_another_model_has_no_machine(self):
         self.refused('schema = 1\n[model]\nname = "rod_gauging"\nmethod = "virtual_experiment"\n[machine]\nname = "TTTRR"\n',
                      5, "unknown key 'machine'")

@@ -106,8 +106,8 @@ TEST_CASE("the grinder is that of sphere_calibration", "[laws][sphere_probing][s
     auto d = *chain::find_machine("grinder");
     (*d.tool_side)[2].point = {q[sphere::link_B_x], 0, -q[sphere::link_B_z]};
     (*d.tool_side)[3].point = {q[sphere::link_C_x], q[sphere::link_C_y], 0};
-    // There the errors of the slides add to the commands. By ISO those of X do so, too, as X carries the workpiece; those
-    // of Y and Z, which carry the tool, count against them.
+    // There the errors of the slides add to the commands. By ISO those of X do so, too, as X carries the workpiece;
+    // those of Y and Z, which carry the tool, count against them.
     const auto add = [&](const char* name, double value) { d.errors.emplace_back(name, value); };
     add("E_X0B", q[sphere::E_X0B]), add("E_Z0B", -q[sphere::E_Z0B]), add("E_X0C", q[sphere::E_X0C]);
     add("E_Y0C", q[sphere::E_Y0C]), add("E_A0B", q[sphere::E_A0B]), add("E_C0B", q[sphere::E_C0B]);
