@@ -26,14 +26,6 @@ struct Draw {
   }
 };
 
-std::size_t index(const models::MadeModel& m, std::string_view name) {
-  const auto all = m->card->quantities;
-  for (std::size_t j = 0; j < all.size(); ++j)
-    if (all[j].name == name) return j;
-  FAIL("no quantity " << name);
-  return 0;
-}
-
 using Axes = std::vector<chain::AxisDescription>;
 /// A slide behind a rotary axis on either side, a second slide along Z, and axes that do not meet.
 chain::MachineDescription odd() {
