@@ -7,7 +7,7 @@ import types
 import jinja2
 import markupsafe
 
-from . import explain, figures, region_figures, rounding, sensitivity_figures, studies, tables
+from . import choice, choice_figures, explain, figures, region_figures, rounding, sensitivity_figures, studies, tables
 
 HERE = pathlib.Path(__file__).parent
 OPEN = 2      # outputs shown in full; the others are folded
@@ -91,15 +91,57 @@ def subscripts(text):
     return markupsafe.Markup(re.sub(r"\b([cupR])_([icCP])\b", r"\1<sub>\2</sub>", str(markupsafe.escape(text))))
 
 
+def run_page(r):
+    """What the page of a run is filled with."""
+    return dict(
+        kicker="Measurement uncertainty", title=r.title or r.model_title or r.model, method=METHODS.get(r.method, r.method),
+        samples=thousands(r.samples), sections=list(sections(r)), **whole_run(r), overviews=overviews(r),
+        comparisons=[tables.comparison_row(c) for c in r.comparisons],
+        printed=[tables.printed_row(p) for p in r.printed], inputs=[tables.input_row(i) for i in r.inputs],
+        readings=tables.readings(r))
+
+
+def limiting(c):
+    """The sections of sensitivity at the recommended setting, as those of an output."""
+    for study in [*c.sensitivities, *c.shapley]:
+        sobol, shapley = (study, None) if c.sensitivities else (None, study)
+        yield types.SimpleNamespace(
+            budget=None, sobol=sobol, shapley=studies.shapley(shapley) if shapley else None, pairs=None, why="", given_data=None,
+            morris=None, dgsm=None, shapley_figure="", confidence=rounding.probability(getattr(study, "confidence", 0.95)),
+            side_by_side=markupsafe.Markup(sensitivity_figures.side_by_side(None, sobol, shapley, "s0")))
+
+
+def choice_page(r):
+    """What the page of a choice is filled with."""
+    c = r.choice
+    words = choice.Choice(c, r.coverage_probability)
+    surface, over = choice_figures.heat(c, "u")
+    heat = bool(surface)
+    if not heat:
+        surface, over = choice_figures.line(c, "u")
+    failing = sorted((row for row in c.candidates if row.failed), key=lambda row: -row.failed)
+    return dict(
+        kicker="Choice of settings", title=r.title or r.model, c=words, chance=choice.chance(c.probability),
+        best=words.line(words.fresh, words.fresh.setting), gains=words.gains(),
+        fresh=[(row.name, words.line(row, row.setting), row.source) for row in c.fresh],
+        pareto=markupsafe.Markup(choice_figures.pareto(c, "p")),
+        front=[(words.values(row), words.line(row), row is words.best) for row in words.front()],
+        surface=markupsafe.Markup(surface), over=over, heat=heat, **choice_figures.legend(c), neighbours=words.neighbours(),
+        sections=list(limiting(c)), failing_count=len(failing),
+        failing=[(words.values(row), words.line(row)) for row in failing[:choice.LISTED]],
+        all=[(words.values(row), words.line(row)) for row in sorted(c.candidates, key=lambda row: row.time)[:choice.MOST]])
+
+
+def thousands(n):
+    return f"{int(n):,}".replace(",", "\u202f")
+
+
 def render(r):
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=True, trim_blocks=True,
                                      lstrip_blocks=True, undefined=jinja2.StrictUndefined)
-    environment.filters.update(percent=rounding.percent, fixed=rounding.fixed, subscripts=subscripts,
+    environment.filters.update(percent=rounding.percent, fixed=rounding.fixed, subscripts=subscripts, thousands=thousands,
                                verdicts=studies.sobol_verdict)
-    return environment.get_template("template.html.j2").render(
-        r=r, title=r.title or r.model_title or r.model, question=question(r.scenario_text),
-        method=METHODS.get(r.method, r.method), p=rounding.probability(r.coverage_probability),
-        samples=f"{r.samples:,}".replace(",", "\u202f"), sections=list(sections(r)), **whole_run(r), overviews=overviews(r),
-        comparisons=[tables.comparison_row(c) for c in r.comparisons],
-        printed=[tables.printed_row(p) for p in r.printed], inputs=[tables.input_row(i) for i in r.inputs],
-        readings=tables.readings(r), css=markupsafe.Markup((HERE / "style.css").read_text(encoding="utf-8")))
+    template, contents = ("choice.html.j2", choice_page(r)) if r.choice else ("run.html.j2", run_page(r))
+    return environment.get_template(template).render(
+        r=r, question=question(r.scenario_text), p=rounding.probability(r.coverage_probability), **contents,
+        css=markupsafe.Markup((HERE / "style.css").read_text(encoding="utf-8")))
