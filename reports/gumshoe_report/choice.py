@@ -52,14 +52,20 @@ class Choice:
         self.c, self.p = c, coverage_probability
         self.best = c.candidates[int(c.best)]
         self.fresh, self.compared = c.fresh[0], c.fresh[1:]
-        self.places = decimals(spread(c, self.fresh.asked))
+        self.places = self.digits(self.fresh.asked)
         self.unit = unit_text(c.display_units)
+        self.corrected = c.definition == "corrected"
         self.worst, self.bounded = c.target_of == "worst_case", math.isfinite(c.bias_limit)
         self.chooses_evaluation = any(v.kind == "evaluation" for v in c.variables)
 
+    def digits(self, U):
+        """Places of two digits of U, of three beside the target: else 2.96 and 3.04 were both 3.0."""
+        close = math.isfinite(U) and abs(U / self.c.target - 1) < 0.05
+        return decimals(spread(self.c, U), 3 if close else 2)
+
     def length(self, si, size=None):
         """A difference in the measurand's unit, to the place that U (or `size`) asks for."""
-        places = decimals(spread(self.c, size)) if size is not None else self.places
+        places = self.digits(size) if size is not None else self.places
         return with_unit(fixed(spread(self.c, si), places), self.c.display_units)
 
     def target(self):
@@ -89,9 +95,12 @@ class Choice:
     def recommendation(self):
         c, f = self.c, self.fresh
         worst = f" in the worst case, “{self.case(f)}”" if self.worst else ""
-        result = (f"measuring {c.measurand.replace('_', ' ')} takes {duration(f.time)} and gives U = {self.length(f.asked)} "
+        result = (f"measuring {c.measurand} takes {duration(f.time)} and gives U = {self.length(f.asked)} "
                   f"({probability(self.p)}){worst}")
         bias = f" and a bias of at most {self.limit()}" if self.bounded else ""
+        if not c.reached and c.probability >= c.confirm_probability:
+            return (f"In the search no setting met the target U = {self.target()}{bias}; with fresh samples the nearest does, "
+                    f"with a probability of {chance(c.probability)}: {self.order()}; {result}.")
         if not c.reached:
             return (f"No setting that was tried meets the target U = {self.target()}{bias}. The nearest: {self.order()}; "
                     f"{result}.")
@@ -107,7 +116,7 @@ class Choice:
         return with_unit(plain_number(spread(self.c, self.c.bias_limit)), self.c.display_units)
 
     def correction(self):
-        if self.c.definition != "corrected":
+        if not self.corrected:
             return (f"No correction is applied; the mean error of {self.length(self.fresh.mean)} is part of U.")
         size = fixed(spread(self.c, abs(self.fresh.mean)), self.places)
         if float(size) == 0:
@@ -132,7 +141,7 @@ class Choice:
     def line(self, row, setting=None):
         """Time, U and what goes with it, of a candidate or of a fresh run."""
         c = self.c
-        places = decimals(spread(c, row.asked))
+        places = self.digits(row.asked)
         show = lambda x: fixed(spread(c, x), places)
         return types.SimpleNamespace(
             setting=setting, time=duration(row.time), U=show(row.asked),
@@ -143,6 +152,11 @@ class Choice:
     def values(self, row):
         return [self.c.evaluations[int(x)] if v.kind == "evaluation" else plain_number(point(v, x))
                 for v, x in zip(self.c.variables, row.values)]
+
+    def fixed(self, positions):
+        """Some variables as recommended, in words."""
+        return joined([f"{self.c.variables[k].name.replace('_', ' ')} {self.value(self.c.variables[k], self.best.values[k])}"
+                       for k in positions]) if positions else ""
 
     def heads(self):
         return [(v.name, unit_text(v.display_units)) for v in self.c.variables]
@@ -182,7 +196,7 @@ class Choice:
             spans.append(f"{v.name.replace('_', ' ')} {low}" if low == high else
                          f"{v.name.replace('_', ' ')} from {low} to {high}")
         many = "1 candidate meets" if c.near_count == 1 else f"{c.near_count} candidates meet"
-        return (f"{many} the target within {significant(100 * c.near_share, 2)}{SPACE}% of its time" +
+        return (f"{many} the target within {significant(100 * c.near_share, 2)}{SPACE}% of the recommended time" +
                 (f": {joined(spans)}." if spans else "."))
 
     def resolutions(self):
@@ -193,6 +207,8 @@ class Choice:
                 values = sorted({r.values[self.c.variables.index(v)] for r in self.c.candidates})
                 if v.logarithmic:
                     step = percent((values[-1] / values[0]) ** v.resolution - 1)
+                elif v.kind == "readings":
+                    step = plain_number(max(1, round(v.resolution * (values[-1] - values[0]))))
                 else:
                     step = with_unit(significant(v.resolution * spread(v, values[-1] - values[0]), 2), v.display_units)
                 found.append(f"{step} in {v.name.replace('_', ' ')}")
@@ -204,12 +220,17 @@ class Choice:
         if study is None:
             return ""
         key = "total" if self.c.sensitivities else "effect"
-        rows = sorted((r for r in study.rows if getattr(r, key) >= 0.05), key=lambda r: -getattr(r, key))[:3]
-        if not rows:
+        groups = {}  # readings of one quantity together
+        for r in study.rows:
+            if getattr(r, key) > 0:
+                groups.setdefault(r.input.split("[")[0] if "[reading" in r.input else r.input, []).append(getattr(r, key))
+        largest = sorted(((sum(g), name, len(g)) for name, g in groups.items()), reverse=True)
+        named = [f"{name} ({f'{n} readings, ' if n > 1 else ''}{'at most ' if n > 1 and key == 'total' else ''}"
+                 f"{percent(min(share, 1))})" for share, name, n in largest[:3] if share >= 0.05]
+        if not named:
             return ""
-        named = joined([f"{r.input} ({percent(getattr(r, key))})" for r in rows])
-        return (f"Most of the remaining variance comes from {named}: shares "
-                + ("with interactions." if key == "total" else "by Shapley effects."))
+        return (f"The largest shares of the remaining variance{', interactions included' if key == 'total' else ''}: "
+                f"{joined(named)}.")
 
     def front(self):
         rows = sorted((r for r in self.c.candidates if r.pareto), key=lambda r: r.time)

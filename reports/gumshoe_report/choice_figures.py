@@ -4,14 +4,15 @@ import math
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.colors import LinearSegmentedColormap, TwoSlopeNorm
-from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator
+from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, MaxNLocator, NullLocator
 from matplotlib.tri import LinearTriInterpolator, Triangulation
 
 from . import rounding
 from .choice import duration, plain_number
 from .figures import BLUE, GREY, GRID, INK, ORANGE, PALE, svg
 
-FEASIBLE = LinearSegmentedColormap.from_list("target", [BLUE, "#dbe8f4", "#fbe6d8", ORANGE])  # the target in the middle
+FEASIBLE = LinearSegmentedColormap.from_list("target", [  # a step at the target, in the middle
+    (0, BLUE), (0.5, "#cfe2f2"), (0.5, "#fde3d0"), (1, ORANGE)])
 PREFERRED = ("feed", "spindle_speed")  # what a reader looks for first
 
 
@@ -74,9 +75,22 @@ def plane(c, axes):
 
 
 def time_axis(axis, times):
-    if max(times) > 8 * min(times) > 0:
+    """Ticks at the times that a clock shows."""
+    low, high = min(times), max(times)
+    if high > 5 * low:
         axis.axes.set_xscale("log")
-    axis.set_major_formatter(FuncFormatter(lambda t, _: duration(t).replace(".0\u202f", "\u202f").replace("\u202fmin 0\u202fs", "\u202fmin")))
+    steps = [x * unit for unit, steps in ((1, (1, 2, 3, 5, 7, 10, 15, 20, 30, 45)), (60, (1, 1.5, 2, 3, 5, 7, 10, 15, 20, 30)),
+                                          (3600, (1, 2, 4, 8, 16, 24))) for x in steps]
+    marks = [t for t in steps if 0.95 * low <= t <= 1.05 * high]
+    if high > 5 * low and len(marks) > 2:
+        while len(marks) > 9:
+            marks = marks[::2]
+        axis.set_major_locator(FixedLocator(marks))
+        axis.set_minor_locator(NullLocator())
+    elif high > 5 * low:
+        axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+    axis.set_major_formatter(FuncFormatter(lambda t, _: duration(t).replace(".0\u202f", "\u202f")
+                                           .replace("\u202fmin 0\u202fs", "\u202fmin").replace("\u202fh 0\u202fmin", "\u202fh")))
     axis.set_minor_formatter(FuncFormatter(lambda t, _: ""))
 
 
@@ -114,9 +128,11 @@ def pareto(c, name):
     drawn = [*rows, *others]
     time_axis(axes.xaxis, [r.time for r in drawn])
     logarithmic_U(axes.yaxis, [U(r) for r in drawn])
-    for k, r in enumerate(others):
-        axes.annotate(r.name, (r.time, U(r)), xytext=(0, 8 if k % 2 == 0 else -13), textcoords="offset points", fontsize=8,
-                      color=INK, ha="center")
+    for r in others:
+        at_right = axes.transAxes.inverted().transform(axes.transData.transform((r.time, U(r))))[0] > 0.6
+        axes.annotate(r.name, (r.time, U(r)), xytext=(-7 if at_right else 7, 0), textcoords="offset points", fontsize=8,
+                      color=INK, va="center", ha="right" if at_right else "left",
+                      bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.7, "pad": 0.6})
     axes.annotate(f"target {plain_number(c.target * c.display_factor)}", (1, c.target * c.display_factor),
                   xycoords=("axes fraction", "data"), xytext=(0, 3), textcoords="offset points", fontsize=8, color=ORANGE,
                   ha="right")
@@ -212,10 +228,13 @@ def heat(c, name):
         axes.plot(place[0][meets], place[1][meets], "o", color=INK, markersize=3)
         axes.plot(place[0][~meets], place[1][~meets], "o", markerfacecolor="none", markeredgecolor=INK, markersize=3,
                   markeredgewidth=0.6)
+        failed = np.array([r.failed > 0 for r in rows])
+        axes.plot(place[0][failed], place[1][failed], "x", color=INK, markersize=5, markeredgewidth=0.8)
     else:
         for x, y, r in zip(*place, rows):
             axes.text(x, y, plain_number(float(f"{r.asked * c.display_factor:.2g}")) if r.asked > 0 else "no value",
-                      ha="center", va="center", fontsize=8, color=INK, weight="bold" if r.meets else "normal")
+                      ha="center", va="center", fontsize=8, weight="bold" if r.meets else "normal",
+                      color="white" if r.asked > 0 and abs(norm(math.log(r.asked / c.target)) - 0.5) > 0.35 else INK)
     best = c.candidates[int(c.best)]
     at = [best.values[k] * v.display_factor + v.display_offset for k, v in zip(picked, (vx, vy))]
     at = [a if v.range else int(np.searchsorted(l, a)) for a, v, l in zip(at, (vx, vy), lists)]
@@ -226,9 +245,11 @@ def heat(c, name):
     axes.set_ylabel(label(vy))
     bar = figure.colorbar(image, ax=axes, pad=0.02, aspect=18 if vy.range else 10)
     target = c.target * c.display_factor
-    marks = sorted({float(f"{target * math.exp(x):.1g}") for x in (norm.vmin, norm.vmin / 2, norm.vmax / 2, norm.vmax)})
-    marks = [m for m in marks if norm.vmin - 1e-9 <= math.log(m / target) <= norm.vmax + 1e-9 and
-             abs(math.log(m / target)) > 0.12 * (norm.vmax if m > target else -norm.vmin)]
+    places = [m * 10.0 ** e for e in range(math.floor(math.log10(target)) - 2, math.floor(math.log10(target)) + 3)
+              for m in (1, 1.5, 2, 3, 4, 5, 7)]
+    marks = [m for m in places if norm.vmin <= math.log(m / target) <= norm.vmax and
+             abs(norm(math.log(m / target)) - 0.5) > 0.08]
+    marks = [m for k, m in enumerate(marks) if k == 0 or norm(math.log(m / target)) - norm(math.log(marks[k - 1] / target)) > 0.04]
     bar.set_ticks([0] + [math.log(m / target) for m in marks], labels=[plain_number(target)] + [plain_number(m) for m in marks])
     bar.ax.tick_params(length=2)
     bar.outline.set_visible(False)
@@ -242,6 +263,7 @@ def legend(c):
     picked = drawn_variables(c)
     ranges = [c.variables[k].range for k in picked]
     return {"dots": any(ranges), "lines": any(ranges),
+            "others": [k for k in range(len(c.variables)) if k not in picked],
             "other_ranges": any(v.range for k, v in enumerate(c.variables) if k not in picked)}
 
 
