@@ -21,11 +21,17 @@ def question(text):
     """The comment in which a scenario opens: '# Question: ...', may run over several lines."""
     lines = itertools.takewhile(lambda line: line.startswith("#"), text.splitlines())
     words = " ".join(line.lstrip("# ").strip() for line in lines if not line.startswith("#:")) # "#:schema" is for editors
-    return words.removeprefix("Question:").strip()
+    words = words.removeprefix("Question:").strip()
+    return words[:1].upper() + words[1:]
 
 
 def by_output(items, key):
     return {getattr(item, key): item for item in items}
+
+
+def varying(r):
+    """Outputs that have a distribution; if none has, all."""
+    return [o for o in r.outputs if not tables.constant(o)] or r.outputs
 
 
 def sections(r):
@@ -34,7 +40,7 @@ def sections(r):
               "morris": r.morris, "dgsm": r.dgsm}.items()}
     verdicts = by_output(r.validations, "name")
     picture = lambda full, draw, *arguments: markupsafe.Markup(draw(*arguments)) if full else ""
-    for k, output in enumerate(r.outputs):
+    for k, output in enumerate(varying(r)):
         of = types.SimpleNamespace(**{key: items.get(output.name) for key, items in found.items()})
         full = k < OPEN
         u = output.standard_uncertainty
@@ -77,13 +83,14 @@ def whole_run(r):
 
 def overviews(r):
     """With many outputs: one figure per measurand, and all distributions small."""
-    if len(r.outputs) <= OPEN:
+    outputs = varying(r)
+    if len(outputs) <= OPEN:
         return []
     groups = {}
-    for output in r.outputs:
+    for output in outputs:
         groups.setdefault(output.measurand, []).append(output)
     found = [figures.overview(g[:60], f"o{k}") for k, g in enumerate(groups.values()) if len(g) > 1]
-    return [markupsafe.Markup(f) for f in found + [figures.small_multiples(r.outputs[:MULTIPLES], "m")]]
+    return [markupsafe.Markup(f) for f in found + [figures.small_multiples(outputs[:MULTIPLES], "m")]]
 
 
 def subscripts(text):
@@ -93,9 +100,11 @@ def subscripts(text):
 
 def run_page(r):
     """What the page of a run is filled with."""
+    shown = varying(r)
     return dict(
         kicker="Measurement uncertainty", title=r.title or r.model_title or r.model, method=METHODS.get(r.method, r.method),
         samples=thousands(r.samples), sections=list(sections(r)), **whole_run(r), overviews=overviews(r),
+        constants=[tables.constant_text(o) for o in r.outputs if o not in shown], numbered=tables.numbered(r.outputs),
         comparisons=[tables.comparison_row(c) for c in r.comparisons],
         printed=[tables.printed_row(p) for p in r.printed], inputs=[tables.input_row(i) for i in r.inputs],
         readings=tables.readings(r))
