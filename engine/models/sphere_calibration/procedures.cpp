@@ -1,0 +1,72 @@
+#include "models/sphere_calibration/procedures.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "math/parameter_covariance.h"
+
+namespace gumshoe::models::sphere {
+namespace {
+
+constexpr double deg = 3.14159265358979323846 / 180;
+
+std::vector<const double*> conditions_of(const BlockCall& call, std::vector<double>& values) {
+  values.clear();
+  for (std::size_t i = 0; i < call.readings * conditions; ++i) values.push_back(*call.conditions[i].data);
+  std::vector<const double*> out;
+  for (std::size_t r = 0; r < call.readings; ++r) out.push_back(&values[r * conditions]);
+  return out;
+}
+
+/// The first reading whose clamped axis stands elsewhere than that of the first of `which`, or which.size().
+std::size_t unlike(const std::vector<std::size_t>& which, const std::vector<const double*>& condition, int clamped) {
+  for (std::size_t i = 1; i < which.size(); ++i)
+    if (std::fabs(condition[which[i]][clamped] - condition[which[0]][clamped]) > 1e-12) return i;
+  return which.size();
+}
+
+std::string plane_problem(const std::vector<std::size_t>& which, const std::vector<const double*>& condition,
+                          int clamped) {
+  const std::size_t i = unlike(which, condition, clamped);
+  if (i == which.size()) return "";
+  return fmt::format(
+      "{} of reading {} is {:g} deg, of reading {} {:g} deg: poses of pattern {} lie in a plane at one {} "
+      "only (joint needs no planes)",
+      clamped == B ? 'B' : 'C', which[0] + 1, condition[which[0]][clamped] / deg, which[i] + 1,
+      condition[which[i]][clamped] / deg, clamped == B ? 1 : 2, clamped == B ? 'B' : 'C');
+}
+
+void split(const std::vector<const double*>& condition, Patterns& out) {
+  for (std::size_t r = 0; r < condition.size(); ++r) (is_pattern_II(condition[r]) ? out.II : out.I).push_back(r);
+}
+
+} // namespace
+
+Patterns patterns(const std::vector<const double*>& condition) {
+  Patterns out;
+  split(condition, out);
+  if (unlike(out.I, condition, B) < out.I.size()) out.I.clear();
+  if (unlike(out.II, condition, C) < out.II.size()) out.II.clear();
+  return out;
+}
+
+std::string check_readings(const BlockCall& call) {
+  if (!is_joint(call.evaluation)) return "";
+  if (call.readings == 0) return "no reading: the commands at several poses are needed";
+  std::vector<double> values;
+  const auto condition = conditions_of(call, values);
+  if (call.evaluation == sequential) {
+    Patterns all;
+    split(condition, all);
+    for (const auto& problem : {plane_problem(all.I, condition, B), plane_problem(all.II, condition, C)})
+      if (!problem.empty()) return problem;
+  }
+  if (call.evaluation != joint_weighted) return "";
+  if (!call.declared) return "weights follow from what a scenario declares; a table declares nothing: joint?";
+  std::string problem;
+  whitening(call, problem);
+  return problem;
+}
+
+} // namespace gumshoe::models::sphere
