@@ -57,19 +57,23 @@ template <class T> struct Identified {
 template <class T> class Identification {
 public:
   Identification(std::size_t readings, const Patterns& patterns, const Whitening& whitening)
-      : poses(readings), patterns_(patterns), whitening_(whitening), rows_(3 * readings) {}
+      : poses(readings), patterns_(patterns), whitening_(whitening), rows_(3 * readings) {
+    for (std::size_t i = 0; i < readings; ++i) all_.push_back(i);
+  }
 
   std::vector<Pose<T>> poses;
 
-  /// Plane fits for the orientations, then the lengths. @param declared theta
+  /// Plane fits for the orientations; probe and C axis from pattern I, then the B axis from pattern II (eqs 4.27 and
+  /// 4.40, which are linear in the lengths). @param declared theta
   Identified<T> sequential(const T* declared) {
     Identified<T> out = begin(declared);
-    const Normal<T> normal = normal_equations(out.theta);
-    T step[unknowns];
-    solve(normal, step, lengths);
-    for (int j = 0; j < lengths; ++j) out.theta[j] = out.theta[j] + step[j];
+    constexpr bool of_C[lengths] = {true, true, true, false, false, true, true};
+    constexpr bool of_B[lengths] = {false, false, false, true, true, false, false};
+    constexpr bool all[lengths] = {true, true, true, true, true, true, true};
+    if (!patterns_.I.empty()) solve_lengths(patterns_.I, of_C, out);
+    if (!patterns_.II.empty()) solve_lengths(patterns_.II, patterns_.I.empty() ? all : of_B, out);
     out.converged = T(0.0) == T(0.0);
-    judge(normal_equations(out.theta), out);
+    judge(normal_equations(out.theta, all_), out);
     return out;
   }
 
@@ -80,7 +84,7 @@ public:
     T before(1e300);
     out.converged = T(0.0) != T(0.0);
     for (int i = 0; i < 100; ++i) { // a limit for data that are no such machine's
-      normal = normal_equations(out.theta);
+      normal = normal_equations(out.theta, all_);
       T step[unknowns];
       const T size = solve(normal, step, unknowns) / T(whitening_.size);
       for (int j = 0; j < unknowns; ++j) {
@@ -256,7 +260,22 @@ private:
     for (const Row& row : rows_) squares_ = squares_ + row[unknowns] * row[unknowns];
   }
 
-  Normal<T> normal_equations(const T* theta) {
+  /// The lengths of `kept` from the readings of one pattern, all else as it is.
+  void solve_lengths(const std::vector<std::size_t>& pattern, const bool (&kept)[lengths], Identified<T>& out) {
+    Normal<T> normal = normal_equations(out.theta, pattern);
+    for (int j = 0; j < lengths; ++j) {
+      if (kept[j]) continue;
+      for (int k = 0; k < j; ++k) normal.matrix.at[j][k] = T(0.0);
+      for (int k = j; k < lengths; ++k) normal.matrix.at[k][j] = T(k == j ? 1.0 : 0.0);
+      normal.right[j] = T(0.0);
+    }
+    T step[unknowns];
+    solve(normal, step, lengths);
+    for (int j = 0; j < lengths; ++j) out.theta[j] = out.theta[j] + step[j];
+  }
+
+  /// From some readings; whitened only if from all.
+  Normal<T> normal_equations(const T* theta, const std::vector<std::size_t>& readings) {
     residuals(theta);
     whiten();
     Normal<T> n;
@@ -264,8 +283,8 @@ private:
       n.right[j] = T(0.0);
       for (int k = 0; k <= j; ++k) n.matrix.at[j][k] = T(0.0);
     }
-    for (std::size_t i = 0; i < rows_.size(); i += 3) {
-      const Row &a = rows_[i], &b = rows_[i + 1], &c = rows_[i + 2];
+    for (const std::size_t i : readings) {
+      const Row &a = rows_[3 * i], &b = rows_[3 * i + 1], &c = rows_[3 * i + 2];
       for (std::size_t j = 0; j < unknowns; ++j) {
         for (std::size_t k = 0; k <= j; ++k)
           n.matrix.at[j][k] = n.matrix.at[j][k] + (a[j] * a[k] + b[j] * b[k] + c[j] * c[k]);
@@ -339,6 +358,7 @@ private:
 
   const Patterns& patterns_;
   const Whitening& whitening_;
+  std::vector<std::size_t> all_; ///< readings
   std::vector<Row> rows_;
   std::vector<Vector3<T>> points_;
   T squares_;

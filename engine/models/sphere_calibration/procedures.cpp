@@ -61,6 +61,10 @@ std::string check_readings(const BlockCall& call) {
     split(condition, all);
     for (const auto& problem : {plane_problem(all.I, condition, B), plane_problem(all.II, condition, C)})
       if (!problem.empty()) return problem;
+    if (!all.I.empty() && std::fabs(condition[all.I[0]][B]) > 1e-12)
+      return fmt::format(
+          "B is {:g} deg in pattern 1: probe and C axis follow from poses at B = 0 alone (joint needs none)",
+          condition[all.I[0]][B] / deg);
   }
   if (call.evaluation != joint_weighted) return "";
   if (!call.declared) return "weights follow from what a scenario declares; a table declares nothing: joint?";
