@@ -178,7 +178,8 @@ TEST_CASE("what the poses cannot see stays as declared", "[laws][sphere_calibrat
       REQUIRE(study.status[0] == 0);
       if (rank > 0) CHECK(study.results[sphere::rank_row][0] == rank);
       if (rank == 0) CHECK(study.results[sphere::rank_row][0] < 7); // two points, six numbers
-      CHECK(study.results[sphere::residual_row][0] < 1e-13);
+      // Two poses are no planes: the wrong orientations declared stay in the sequential method.
+      if (rank > 0 || method != sphere::sequential) CHECK(study.results[sphere::residual_row][0] < 1e-13);
       if (poses.size() == pattern_I().size()) { // at B = 0 nothing is seen of the B axis
         for (const int j : {sphere::E_X0B, sphere::E_Z0B, sphere::E_A0B, sphere::E_C0B})
           CHECK(study.found(j) == estimates[j]);

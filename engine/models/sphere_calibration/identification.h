@@ -81,7 +81,7 @@ public:
   Identified<T> joint(const T* declared) {
     Identified<T> out = begin(declared);
     Normal<T> normal, last;
-    T before(1e300);
+    T before(0.0);
     out.converged = T(0.0) != T(0.0);
     for (int i = 0; i < 100; ++i) { // a limit for data that are no such machine's
       normal = normal_equations(out.theta, all_);
