@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "math/parameter_covariance.h"
+#include "math/direction_words.h"
 
 namespace gumshoe::models::sphere {
 namespace {
@@ -71,6 +71,42 @@ std::string check_readings(const BlockCall& call) {
   std::string problem;
   whitening(call, problem);
   return problem;
+}
+
+/// Directions that all commands together cannot see, among the unknowns and what is uncertain of links and artefact for
+/// all readings alike.
+std::vector<std::string> remarks(const BlockCall& call) {
+  if (!is_joint(call.evaluation) || !call.declared) return {};
+  std::vector<std::size_t> quantities;
+  for (std::size_t j = 0; j < unknowns; ++j) quantities.push_back(j);
+  for (const auto& draw : call.declared->draws)
+    if (draw.moves.size() == call.readings && draw.moves[0].column >= link_B_x && draw.moves[0].column < E_AA)
+      quantities.push_back(draw.moves[0].column);
+  const std::size_t p = quantities.size(), n = 3 * call.readings;
+  std::vector<double> jacobian(n * p), magnitude(p, 1e-3);
+  const auto unseen_among = [&](std::size_t first) {
+    std::vector<double> part;
+    for (std::size_t i = 0; i < n; ++i) part.insert(part.end(), &jacobian[i * p], &jacobian[i * p] + first);
+    return least_squares::parameter_covariance(
+        part, n, first, {magnitude.begin(), magnitude.begin() + static_cast<std::ptrdiff_t>(first)}, unseen_below);
+  };
+  for (std::size_t r = 0; r < call.readings; ++r)
+    for (std::size_t j = 0; j < p; ++j) {
+      const auto d = derivative(call, r, quantities[j]);
+      jacobian[3 * r * p + j] = d.x, jacobian[(3 * r + 1) * p + j] = d.y, jacobian[(3 * r + 2) * p + j] = d.z;
+    }
+  std::vector<least_squares::Parameter> names;
+  for (const std::size_t q : quantities) {
+    const QuantityCard& card = find("sphere_calibration")->card->quantities[q];
+    names.push_back({std::string(card.name), std::string(card.unit), std::string(card.si_unit)});
+  }
+  std::vector<std::string> out;
+  const auto machine = unseen_among(unknowns), all = unseen_among(p);
+  if (machine.rank < unknowns)
+    out.push_back(
+        fmt::format("the poses see {} of 11 directions; along the others the unknowns stay as declared", machine.rank));
+  for (const auto& direction : all.unseen) out.push_back(in_words(direction, names));
+  return out;
 }
 
 } // namespace gumshoe::models::sphere

@@ -35,6 +35,8 @@ constexpr bool is_joint(int evaluation) { return evaluation >= variants; }
 
 /// @param condition [reading][conditions]
 Patterns patterns(const std::vector<const double*>& condition);
+/// The commands of one reading by one quantity, at the declared estimates.
+Vector3<double> derivative(const BlockCall& call, std::size_t reading, std::size_t quantity);
 /// From what is declared of the data; throws nothing, empty rows beside `problem` if it leaves commands without noise.
 Whitening whitening(const BlockCall& call, std::string& problem);
 

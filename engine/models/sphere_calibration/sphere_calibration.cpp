@@ -192,6 +192,7 @@ const Model sphere_calibration{&card,
                                nullptr,
                                0,
                                nullptr,
-                               &sphere::check_readings};
+                               &sphere::check_readings,
+                               &sphere::remarks};
 
 } // namespace gumshoe::models

@@ -6,9 +6,7 @@
 #include "models/sphere_calibration/procedures.h"
 
 namespace gumshoe::models::sphere {
-namespace {
 
-/// The commands by one quantity, at the estimates.
 Vector3<double> derivative(const BlockCall& call, std::size_t reading, std::size_t quantity) {
   using D = Dual<double, 1>;
   D q[count], condition[conditions];
@@ -18,6 +16,8 @@ Vector3<double> derivative(const BlockCall& call, std::size_t reading, std::size
   const auto x = simulate(contact(exact, q, links(q), condition, false));
   return {x.x.d[0], x.y.d[0], x.z.d[0]};
 }
+
+namespace {
 
 /// Moves the commands as some unknowns do: no weight depends on it.
 bool as_unknowns_do(const Declared::Draw& draw, std::size_t readings) {
