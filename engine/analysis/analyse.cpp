@@ -91,6 +91,7 @@ void describe(Results& r, const propagation::Experiment& e) {
   r.samples = s.run.samples;
   r.coverage_probability = s.analysis.coverage_probability;
   r.notes = s.notes;
+  r.notes.insert(r.notes.end(), e.remarks().begin(), e.remarks().end());
   r.readings = s.readings;
   for (const auto& c : card.conditions)
     r.condition_names.emplace_back(c.name), r.condition_units.emplace_back(c.si_unit);

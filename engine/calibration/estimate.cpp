@@ -10,8 +10,8 @@
 
 #include "base/error.h"
 #include "base/units.h"
-#include "calibration/directions.h"
 #include "calibration/priors.h"
+#include "math/direction_words.h"
 #include "math/parameter_covariance.h"
 
 namespace gumshoe::calibration {
@@ -215,10 +215,12 @@ private:
         least_squares::parameter_covariance(stacked(), n_ + priors_.target.size(), p_, magnitudes(), tolerance);
     out.rank = by_data.rank;
     out.condition = by_data.condition;
-    for (const auto& direction : by_data.unseen) out.indistinguishable.push_back(in_words(direction, unknowns_));
+    std::vector<least_squares::Parameter> named;
+    for (const Unknown& u : unknowns_) named.push_back({u.name, u.unit, u.si_unit});
+    for (const auto& direction : by_data.unseen) out.indistinguishable.push_back(in_words(direction, named));
     out.determined = all.rank == p_;
     if (by_data.rank == p_ && by_data.condition > 1e6) {
-      const auto names = members(by_data.weakest, unknowns_);
+      const auto names = members(by_data.weakest, named);
       out.notes.push_back(fmt::format("{} {} hardly told apart by the data (condition number {:.1e})",
                                       fmt::join(names, ", "), names.size() > 1 ? "are" : "is", by_data.condition));
     }

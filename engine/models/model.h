@@ -19,6 +19,20 @@ struct Column {
   std::size_t stride = 0;
 };
 
+/// What is declared of the data, for evaluations that weight them: independent draws, each with its standard
+/// uncertainty and all that it moves.
+struct Declared {
+  struct Moved {
+    std::size_t reading, column; ///< of the model's quantities, then of the indications
+  };
+  struct Draw {
+    double u; ///< SI
+    std::vector<Moved> moves;
+  };
+  std::vector<double> estimates; ///< [reading][quantity of the model]
+  std::vector<Draw> draws;
+};
+
 /// BlockCall::first_sample of points that are not samples of the run (the estimates, an analysis).
 inline constexpr std::uint64_t unnumbered = ~std::uint64_t{0};
 /// propagation::Status of a sample that a plugin or a command gives no value for.
@@ -33,14 +47,15 @@ struct BlockCall {
   std::size_t effect_quantities = 0;
   std::span<const effects::Active> active;
   const Column* conditions = nullptr;
-  Column* indications = nullptr;          ///< evaluate: read
-  double* const* simulated = nullptr;     ///< simulate: [reading][indication] -> samples
+  Column* indications = nullptr;      ///< evaluate: read
+  double* const* simulated = nullptr; ///< simulate: [reading][indication] -> samples
   /// [reading][measurand] -> samples, of a joint evaluation [measurand] -> samples (simulate: the true values).
   double* const* measurands = nullptr;
   const std::size_t* solved_as = nullptr; ///< [reading]: earlier reading with the same columns for the solve, or itself
   std::uint8_t* status = nullptr;         ///< [sample], propagation::Status; 0 on entry
   int evaluation = 0;
   const void* context = nullptr;           ///< Model::context
+  const Declared* declared = nullptr;      ///< of a joint evaluation in a scenario
   std::uint64_t first_sample = unnumbered; ///< of the run, for messages only
 };
 
@@ -103,6 +118,8 @@ struct Model {
   std::size_t (*measurands_in_use)(int evaluation, const double* quantities) = nullptr;
   /// What is impossible about all readings together, one sample at the estimates; empty if nothing. May be null.
   std::string (*check_readings)(const BlockCall&) = nullptr;
+  /// What a reader must know of all readings together, one sample at the estimates: directions that they cannot see.
+  std::vector<std::string> (*remarks)(const BlockCall&) = nullptr;
 };
 
 /// A model made from a scenario (an expression, a plugin, a command): the pointer owns card and context.

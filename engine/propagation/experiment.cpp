@@ -90,6 +90,7 @@ Experiment::Experiment(const scenario::Scenario& s)
     if (model_->measurands_in_use)
       measurands_ =
           measurands_.first(model_->measurands_in_use(static_cast<int>(evaluation_), reading_point(0, nullptr).data()));
+    declare();
     check_all();
   }
   joint_ = joint_ || mean_;
@@ -138,7 +139,23 @@ void Experiment::check_reading(std::size_t r) const {
                      "physically impossible", ""}});
 }
 
-void Experiment::check_all() const {
+/// Draws as the model sees them; correlations are left out.
+void Experiment::declare() {
+  const std::size_t nq = model_quantities(), first_noise = nq + effect_quantities_;
+  for (const auto& variate : plan_.variates)
+    declared_.draws.push_back({std::sqrt(variate.distribution.variance()), {}});
+  for (std::size_t r = 0; r < scenario_.readings.size(); ++r) {
+    for (std::size_t q = 0; q < plan_.gather[r].size(); ++q) {
+      const std::size_t c = plan_.gather[r][q];
+      if (q < nq) declared_.estimates.push_back(column_estimates_[c]);
+      if (q >= nq && q < first_noise) continue;
+      for (const std::size_t v : plan_.columns[c].variates)
+        declared_.draws[v].moves.push_back({r, q < nq ? q : q - effect_quantities_});
+    }
+  }
+}
+
+void Experiment::check_all() {
   if (!model_->check_readings) return;
   Workspace w;
   wire(w, true);
@@ -158,9 +175,11 @@ void Experiment::check_all() const {
   call.indications = w.indication_columns.data();
   call.evaluation = static_cast<int>(evaluation_);
   call.context = model_->context;
+  call.declared = &declared_;
   const std::string problem = model_->check_readings(call);
   if (!problem.empty())
     throw InputError({{find_line(scenario_, "[model]"), scenario_.evaluation + ": " + problem, "", ""}});
+  if (model_->remarks) remarks_ = model_->remarks(call);
 }
 
 std::vector<std::string> Experiment::place_names() const {
@@ -287,6 +306,7 @@ void Experiment::run_model(std::size_t n, Workspace& w, double* outputs, std::ui
   call.evaluation = static_cast<int>(evaluation_);
   call.context = model_->context;
   call.first_sample = w.first_sample;
+  call.declared = joint_ && !mean_ ? &declared_ : nullptr;
 
   if (virtual_experiment) {
     w.truth.resize(rows * n);

@@ -12,7 +12,7 @@ namespace gumshoe::propagation {
 /// Buffers of one thread, reused from block to block.
 struct Workspace {
   std::vector<double> columns, indications, truth;
-  std::vector<double> single; ///< outputs of the single readings, where their mean is wanted
+  std::vector<double> single;        ///< outputs of the single readings, where their mean is wanted
   std::vector<models::Column> drawn; ///< by the plan's columns
   std::vector<models::Column> quantity_columns, effect_columns, condition_columns, indication_columns;
   std::vector<double*> simulated, measurands, true_measurands;
@@ -44,6 +44,8 @@ public:
   std::size_t model_quantities() const { return model_->card->quantities.size(); }
   std::size_t effect_quantities() const { return effect_quantities_; }
   std::size_t evaluation() const { return evaluation_; }
+  /// What the model says of all readings of a joint evaluation together.
+  const std::vector<std::string>& remarks() const { return remarks_; }
 
   /// Outputs for given variates (variates[v] points to n values, n a multiple of 8):
   /// outputs[row * n + i], SI, NaN where status[i] is not ok. Virtual experiment: errors, evaluated minus true.
@@ -69,7 +71,8 @@ public:
 private:
   void add_outputs(std::size_t reading);
   void check_reading(std::size_t reading) const;
-  void check_all() const;
+  void declare();
+  void check_all();
   void wire(Workspace& w, bool estimates) const;
   void run_drawn(std::size_t n, Workspace& w, double* outputs, std::uint8_t* status) const;
   void run_model(std::size_t n, Workspace& w, double* outputs, std::uint8_t* status) const;
@@ -85,6 +88,8 @@ private:
   bool mean_ = false; ///< the outputs are means of the model's over the readings
   std::vector<std::size_t> solved_as_, every_column_;
   std::vector<double> column_estimates_, conditions_;
+  models::Declared declared_; ///< of a joint evaluation
+  std::vector<std::string> remarks_;
 };
 
 /// 16 hex digits over everything that fixes the samples and their meaning: variates, copulas, columns, design, seed

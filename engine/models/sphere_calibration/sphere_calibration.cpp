@@ -5,6 +5,7 @@
 
 #include "chain/shadow.h"
 #include "models/kernel_choice.h"
+#include "models/sphere_calibration/procedures.h"
 
 GUMSHOE_DECLARE_KERNELS(sphere_calibration)
 
@@ -80,6 +81,12 @@ constexpr EvaluationCard evaluations[] = {
     {"exact", "exact rotations about the actual axes"},
     {"small_angle", "the thesis' product (4.7) to (4.10); for the reproduction study, 12 to 20 um off"},
     {"closed_form", "eqs 4.23 to 4.25 at B = 0 and 4.30 to 4.38, corrected, at C = 90 deg; for the reproduction study"},
+    {"sequential",
+     "orientations by planes through each pattern's poses, then the seven lengths by linear least squares",
+     sphere::joint_measurands},
+    {"joint", "all eleven at once by least squares, every command of equal weight", sphere::joint_measurands},
+    {"joint_weighted", "all eleven at once, weighted with the covariance matrix of all that the scenario declares",
+     sphere::joint_measurands},
 };
 
 constexpr ModelCard card{"sphere_calibration",
@@ -174,8 +181,18 @@ const Kernels* kernels() { return GUMSHOE_BEST_KERNELS(sphere_calibration); }
 } // namespace
 
 extern const Model sphere_calibration;
-const Model sphere_calibration{
-    &card,  &kernels,    &evaluate_point<Gradient>, &evaluate_point<Curvature>, &simulate_point<Gradient>, &explain,
-    &check, &solve_reads};
+const Model sphere_calibration{&card,
+                               &kernels,
+                               &evaluate_point<Gradient>,
+                               &evaluate_point<Curvature>,
+                               &simulate_point<Gradient>,
+                               &explain,
+                               &check,
+                               &solve_reads,
+                               nullptr,
+                               0,
+                               nullptr,
+                               &sphere::check_readings,
+                               &sphere::remarks};
 
 } // namespace gumshoe::models

@@ -52,8 +52,8 @@ enum Quantity {
 enum Condition { A, B, C, pattern, repeat, direction, time, conditions };
 enum Reading { X, Y, Z, indications };
 enum Measurand { tip_x, tip_y, tip_z, measurands };
-/// How r is computed at each reading.
-enum Variant { exact, small_angle, closed_form, variants };
+/// How r is computed at each reading; then the joint evaluations (procedures.h).
+enum Variant { exact, small_angle, closed_form, variants, sequential = variants, joint, joint_weighted };
 
 /// Actual lengths: the design distances and their errors (eqs 4.3 to 4.6).
 template <class T> void actual_lengths(const T* q, T* length) {

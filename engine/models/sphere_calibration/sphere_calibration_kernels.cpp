@@ -1,6 +1,6 @@
 /// Block loops of the sphere model, compiled once per instruction set.
 #include "chain/shadow.h"
-#include "models/sphere_calibration/sphere_calibration.h"
+#include "models/sphere_calibration/procedures.h"
 
 namespace gumshoe::models {
 namespace {
@@ -58,7 +58,19 @@ void store(const Vector3<Lanes>& value, double* const* rows, std::size_t i) {
   value.z.store_unaligned(rows[2] + i);
 }
 
+/// The machine that a joint evaluation should find; readings agree in it.
+void store_truth(const BlockCall& call) {
+  for (std::size_t i = 0; i < call.samples; i += width) {
+    for (std::size_t j = 0; j < sphere::unknowns; ++j)
+      load(call.quantities[j], i).store_unaligned(call.measurands[sphere::row_of[j]] + i);
+    Lanes(0.0).store_unaligned(call.measurands[sphere::residual_row] + i);
+    Lanes(0.0).store_unaligned(call.measurands[sphere::rank_row] + i);
+    Lanes(0.0).store_unaligned(call.measurands[sphere::condition_row] + i);
+  }
+}
+
 void simulate(const BlockCall& call) {
+  if (sphere::is_joint(call.evaluation)) store_truth(call);
   for_each_group(call, [&](std::size_t r, std::size_t i, const auto& at) {
     store(sphere::simulate(at), call.simulated + r * sphere::indications, i);
     // Of a joint evaluation the true values are not these.
@@ -66,7 +78,60 @@ void simulate(const BlockCall& call) {
   });
 }
 
+void load_pose(const BlockCall& call, std::size_t r, std::size_t i, sphere::Pose<Lanes>& pose) {
+  const Column* columns = call.quantities + r * sphere::count;
+  const Column* read = call.indications + r * sphere::indications;
+  const Column* condition = call.conditions + r * sphere::conditions;
+  Lanes q[sphere::count];
+  for (std::size_t j = 0; j < sphere::count; ++j) q[j] = load(columns[j], i);
+  for (std::size_t j = 0; j < 4; ++j) pose.link[j] = q[sphere::link_B_x + j];
+  for (std::size_t j = 0; j < 3; ++j) pose.square[j] = q[sphere::S_XY + j];
+  pose.squareness =
+      !(all_zero(columns[sphere::S_XY]) && all_zero(columns[sphere::S_XZ]) && all_zero(columns[sphere::S_YZ]));
+  const Lanes A = load(condition[sphere::A], i), zero(0.0);
+  pose.B = load(condition[sphere::B], i), pose.C = load(condition[sphere::C], i);
+  pose.at_B = pose.B + q[sphere::E_BB], pose.at_C = pose.C + q[sphere::E_CC];
+  pose.tip = sphere::tip_at_top(q, A);
+  const Vector3<Lanes> recorded{load(read[0], i), load(read[1], i), load(read[2], i)};
+  // Squareness follows the nominal commands, which are the machine's that is sought.
+  q[sphere::S_XY] = q[sphere::S_XZ] = q[sphere::S_YZ] = zero;
+  pose.measured = sphere::tip_at_top(q, A + q[sphere::E_AA]) + sphere::linear_errors(q, zero, zero) - recorded;
+}
+
+void identify(const BlockCall& call) {
+  std::vector<double> values(call.readings * sphere::conditions);
+  std::vector<const double*> condition;
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = *call.conditions[i].data;
+  for (std::size_t r = 0; r < call.readings; ++r) condition.push_back(&values[r * sphere::conditions]);
+  const auto patterns = sphere::patterns(condition);
+  std::string problem;
+  const auto whitening = call.evaluation == sphere::joint_weighted && call.declared ? sphere::whitening(call, problem)
+                                                                                    : sphere::Whitening{};
+  sphere::Identification<Lanes> identification(call.readings, patterns, whitening);
+  for (std::size_t i = 0; i < call.samples; i += width) {
+    for (std::size_t r = 0; r < call.readings; ++r) load_pose(call, r, i, identification.poses[r]);
+    Lanes declared[sphere::unknowns];
+    for (std::size_t j = 0; j < sphere::unknowns; ++j) declared[j] = load(call.quantities[j], i);
+    const auto found =
+        call.evaluation == sphere::sequential ? identification.sequential(declared) : identification.joint(declared);
+    for (std::size_t j = 0; j < sphere::unknowns; ++j)
+      found.theta[j].store_unaligned(call.measurands[sphere::row_of[j]] + i);
+    found.residual_rms.store_unaligned(call.measurands[sphere::residual_row] + i);
+    found.rank.store_unaligned(call.measurands[sphere::rank_row] + i);
+    found.condition.store_unaligned(call.measurands[sphere::condition_row] + i);
+    for (std::size_t l = 0; l < width; ++l) {
+      std::uint8_t& status = call.status[i + l];
+      if (status != 0) continue;
+      const auto failed = !found.finite.get(l)      ? chain::SolveStatus::out_of_domain
+                          : !found.converged.get(l) ? chain::SolveStatus::not_converged
+                                                    : chain::SolveStatus::ok;
+      status = static_cast<std::uint8_t>(failed);
+    }
+  }
+}
+
 void evaluate(const BlockCall& call) {
+  if (sphere::is_joint(call.evaluation)) return identify(call);
   for_each_group(call, [&](std::size_t r, std::size_t i, const auto& at) {
     const Column* read = call.indications + r * sphere::indications;
     store(sphere::evaluate({load(read[0], i), load(read[1], i), load(read[2], i)}, at),

@@ -1,4 +1,4 @@
-#include "calibration/directions.h"
+#include "math/direction_words.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,13 +7,13 @@
 
 #include "base/units.h"
 
-namespace gumshoe::calibration {
+namespace gumshoe::least_squares {
 namespace {
 
 /// A part of the direction smaller than this is left out of the words.
 constexpr double dominant = 0.01;
 
-std::vector<std::size_t> order(const least_squares::Direction& direction) {
+std::vector<std::size_t> order(const Direction& direction) {
   std::vector<std::size_t> out;
   for (std::size_t j = 0; j < direction.share.size(); ++j)
     if (std::fabs(direction.share[j]) > dominant) out.push_back(j);
@@ -32,21 +32,21 @@ std::string joined(const std::vector<std::string>& parts) {
 
 } // namespace
 
-std::vector<std::string> members(const least_squares::Direction& direction, const std::vector<Unknown>& unknowns) {
+std::vector<std::string> members(const Direction& direction, const std::vector<Parameter>& parameters) {
   std::vector<std::string> out;
-  for (const std::size_t j : order(direction)) out.push_back(unknowns[j].name);
+  for (const std::size_t j : order(direction)) out.push_back(parameters[j].name);
   return out;
 }
 
-std::string in_words(const least_squares::Direction& direction, const std::vector<Unknown>& unknowns) {
+std::string in_words(const Direction& direction, const std::vector<Parameter>& parameters) {
   const auto who = order(direction);
-  const Unknown& first = unknowns[who.front()];
+  const Parameter& first = parameters[who.front()];
   if (who.size() == 1) return "the indications do not depend on " + first.name;
   std::vector<std::string> others, changes;
   // One unit of the first, and what the others do about it.
   const double one = units::to_si(1, first.unit, first.si_unit, units::Kind::difference) / direction.change[who[0]];
   for (const std::size_t j : who) {
-    const Unknown& u = unknowns[j];
+    const Parameter& u = parameters[j];
     const double change = units::from_si(direction.change[j] * one, u.unit, u.si_unit, units::Kind::difference);
     changes.push_back(fmt::format("{} {:+.4g}{}", u.name, change, u.unit == "1" ? "" : " " + u.unit));
     if (j != who[0]) others.push_back(u.name);
@@ -55,4 +55,4 @@ std::string in_words(const least_squares::Direction& direction, const std::vecto
                      joined(others), others.size() > 1 ? " together" : "", joined(changes));
 }
 
-} // namespace gumshoe::calibration
+} // namespace gumshoe::least_squares

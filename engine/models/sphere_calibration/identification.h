@@ -1,0 +1,367 @@
+#pragma once
+/// Probe and axes from the commands of many poses, on lanes: each lane is one sample's identification.
+///
+/// With t, r, e of sphere_calibration.h the commands are x = t - r(theta) + e. Unknowns theta are the seven lengths,
+/// in which r is linear, and the four orientation errors, in the order of the model's quantities. README.md has the
+/// mathematics.
+#include <vector>
+
+#include "math/symmetric.h"
+#include "models/sphere_calibration/sphere_calibration.h"
+
+namespace gumshoe::models::sphere {
+
+inline constexpr int unknowns = E_B0C + 1;
+static_assert(unknowns == lengths + 4);
+
+/// Singular values below this share of the largest count as zero (columns of length one). What such a direction would
+/// make of a micrometre is a metre.
+inline constexpr double unseen_below = 1e-6;
+/// Steps end where what is left of them moves the commands by less, m.
+inline constexpr double converged_below = 1e-13;
+
+/// Which readings lie in a plane, by their conditions: C moves at one B, B moves at one C.
+struct Patterns {
+  std::vector<std::size_t> I, II;
+};
+
+/// Rows of a matrix W that makes the data's covariance matrix the unit matrix, W V W' = 1: lower triangle, row i from
+/// column first[i] on. `size` is the root mean square of W's columns, 1/m. Empty: equal weights.
+struct Whitening {
+  std::vector<std::size_t> first;
+  std::vector<std::vector<double>> rows;
+  double size = 1;
+};
+
+/// One reading of the lanes at hand.
+template <class T> struct Pose {
+  Vector3<T> measured;  ///< t + e - recorded, without squareness: where the probe stood from the origin
+  Vector3<T> tip;       ///< at the commanded A
+  T B, C, at_B, at_C;   ///< commanded; actual as declared
+  T link[4], square[3]; ///< declared; S_XY, S_XZ, S_YZ
+  bool squareness = false;
+};
+
+/// What the data say near theta: sums over rows, columns of length one.
+template <class T> struct Normal {
+  Symmetric<T, unknowns> matrix;
+  T right[unknowns], scale[unknowns]; ///< 1/length of a column; 0 for one without effect
+};
+
+template <class T> struct Identified {
+  T theta[unknowns];
+  T residual_rms, rank, condition;
+  decltype(T() < T()) converged, finite;
+};
+
+template <class T> class Identification {
+public:
+  Identification(std::size_t readings, const Patterns& patterns, const Whitening& whitening)
+      : poses(readings), patterns_(patterns), whitening_(whitening), rows_(3 * readings) {
+    for (std::size_t i = 0; i < readings; ++i) all_.push_back(i);
+  }
+
+  std::vector<Pose<T>> poses;
+
+  /// Plane fits for the orientations; probe and C axis from pattern I, then the B axis from pattern II (eqs 4.27 and
+  /// 4.40, which are linear in the lengths). @param declared theta
+  Identified<T> sequential(const T* declared) {
+    Identified<T> out = begin(declared);
+    constexpr bool of_C[lengths] = {true, true, true, false, false, true, true};
+    constexpr bool of_B[lengths] = {false, false, false, true, true, false, false};
+    constexpr bool all[lengths] = {true, true, true, true, true, true, true};
+    if (!patterns_.I.empty()) solve_lengths(patterns_.I, of_C, out);
+    if (!patterns_.II.empty()) solve_lengths(patterns_.II, patterns_.I.empty() ? all : of_B, out);
+    out.converged = T(0.0) == T(0.0);
+    judge(normal_equations(out.theta, all_), out);
+    return out;
+  }
+
+  /// All eleven at once, by Gauss-Newton from the planes' orientations.
+  Identified<T> joint(const T* declared) {
+    Identified<T> out = begin(declared);
+    Normal<T> normal, last;
+    T before(0.0);
+    out.converged = T(0.0) != T(0.0);
+    for (int i = 0; i < 100; ++i) { // a limit for data that are no such machine's
+      normal = normal_equations(out.theta, all_);
+      T step[unknowns];
+      const T size = solve(normal, step, unknowns) / T(whitening_.size);
+      for (int j = 0; j < unknowns; ++j) {
+        out.theta[j] = num::select(out.converged, out.theta[j], out.theta[j] + step[j]);
+        last.right[j] = normal.right[j];
+        last.scale[j] = num::select(out.converged, last.scale[j], normal.scale[j]);
+        for (int k = 0; k <= j; ++k)
+          last.matrix.at[j][k] = num::select(out.converged, last.matrix.at[j][k], normal.matrix.at[j][k]);
+      }
+      // Steps shrink by a factor or faster; the next one is what this one leaves.
+      out.converged = out.converged || (size <= T(converged_below)) ||
+                      ((size < before) && (size * size <= T(converged_below) * before));
+      before = size;
+      if (!num::any(!out.converged && (size == size))) break;
+    }
+    residuals(out.theta);
+    judge(last, out);
+    return out;
+  }
+
+  /// Of all rows at theta, not whitened: 11 derivatives and the residual, [3 reading + axis][12].
+  using Row = std::array<T, unknowns + 1>;
+  const std::vector<Row>& linearise(const T* theta) {
+    const auto lines = directions(Orientation<T>{theta[E_A0B], theta[E_C0B], theta[E_A0C], theta[E_B0C]});
+    const T by_A0B = slope(lines.b.z, lines.b.y), by_C0B = -slope(lines.b.x, lines.b.y);
+    const T by_A0C = -slope(lines.c.y, lines.c.z), by_B0C = slope(lines.c.x, lines.c.z);
+    const Vector3<T> b_A0B = by_A0B * across(lines.b, {T(0.0), T(0.0), T(1.0)}),
+                     b_C0B = by_C0B * across(lines.b, {T(1.0), T(0.0), T(0.0)}),
+                     c_A0C = by_A0C * across(lines.c, {T(0.0), T(1.0), T(0.0)}),
+                     c_B0C = by_B0C * across(lines.c, {T(1.0), T(0.0), T(0.0)});
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      const Pose<T>& pose = poses[i];
+      T length[lengths];
+      actual(theta, pose, length);
+      const Turns<T> turns = exact_turns(lines, pose.at_B, pose.at_C);
+      const auto columns = probe_by_lengths(turns);
+      const Vector3<T> from_c{length[length_probe_x] - length[length_C_x], -length[length_probe_y] - length[length_C_y],
+                              -length[length_probe_z]};
+      const Vector3<T> from_b =
+          Vector3<T>{length[length_C_x] - length[length_B_x], length[length_C_y], length[length_B_z]} +
+          turns.c * from_c;
+      for (int j = 0; j < lengths; ++j) put(i, j, columns[static_cast<std::size_t>(j)]);
+      put(i, E_A0B, tilted(lines.b, b_A0B, pose.at_B, from_b));
+      put(i, E_C0B, tilted(lines.b, b_C0B, pose.at_B, from_b));
+      put(i, E_A0C, turns.b * tilted(lines.c, c_A0C, pose.at_C, from_c));
+      put(i, E_B0C, turns.b * tilted(lines.c, c_B0C, pose.at_C, from_c));
+      put(i, unknowns, pose.measured + square(pose, theta, lines) - sphere::probe_from_origin(length, turns));
+      if (pose.squareness)
+        for (int j = 0; j < unknowns; ++j) put(i, j, get(i, j) + squared(pose, get(i, j)));
+    }
+    return rows_;
+  }
+
+private:
+  /// Derivative of the slope's tangent, over the length of (slope, slope, 1).
+  static T slope(const T& along, const T& main) {
+    const T tangent = along / main;
+    return (T(1.0) + tangent * tangent) * main;
+  }
+  /// The part of v across the unit vector k.
+  static Vector3<T> across(const Vector3<T>& k, const Vector3<T>& v) { return v - dot(k, v) * k; }
+  /// Derivative of rotation(k, angle) v where k moves by dk.
+  static Vector3<T> tilted(const Vector3<T>& k, const Vector3<T>& dk, const T& angle, const Vector3<T>& v) {
+    const T s = num::sin(angle), versine = T(1.0) - num::cos(angle);
+    return s * cross(dk, v) + versine * (dot(k, v) * dk + dot(dk, v) * k);
+  }
+  static void actual(const T* theta, const Pose<T>& pose, T* length) {
+    for (int j = 0; j < lengths; ++j) length[j] = theta[j];
+    for (int j = 0; j < 4; ++j) length[length_B_x + j] = length[length_B_x + j] + pose.link[j];
+  }
+  /// What squareness adds to the recorded commands, of nominal ones.
+  static Vector3<T> squared(const Pose<T>& pose, const Vector3<T>& nominal) {
+    return {pose.square[1] * nominal.z - pose.square[0] * nominal.y, T(0.0) - pose.square[2] * nominal.z, T(0.0)};
+  }
+  static Vector3<T> square(const Pose<T>& pose, const T* theta, const Directions<T>& lines) {
+    if (!pose.squareness) return {};
+    T length[lengths];
+    actual(theta, pose, length);
+    return squared(pose, pose.tip - sphere::probe_from_origin(length, exact_turns(lines, pose.B, pose.C)));
+  }
+  void put(std::size_t i, int j, const Vector3<T>& v) {
+    const auto k = static_cast<std::size_t>(j);
+    rows_[3 * i][k] = v.x, rows_[3 * i + 1][k] = v.y, rows_[3 * i + 2][k] = v.z;
+  }
+  Vector3<T> get(std::size_t i, int j) const {
+    const auto k = static_cast<std::size_t>(j);
+    return {rows_[3 * i][k], rows_[3 * i + 1][k], rows_[3 * i + 2][k]};
+  }
+
+  /// Declared lengths, orientations by the planes of the two patterns (eqs 4.15, 4.16 and 4.28); as declared where
+  /// there is no plane.
+  Identified<T> begin(const T* declared) {
+    Identified<T> out;
+    for (int j = 0; j < unknowns; ++j) out.theta[j] = declared[j];
+    T* e = out.theta;
+    const T one(1.0), zero(0.0);
+    if (patterns_.II.size() > 2) {
+      Vector3<T> n;
+      const auto plane = normal_of(patterns_.II, declared, n);
+      n = num::select(n.y < zero, -one, one) * n;
+      const auto upright = plane && (n.y > T(0.1));
+      e[E_A0B] = num::select(upright, num::atan2(n.z, n.y), e[E_A0B]);
+      e[E_C0B] = num::select(upright, num::atan2(-n.x, n.y), e[E_C0B]);
+    }
+    if (patterns_.I.size() > 2) {
+      Vector3<T> n;
+      const auto plane = normal_of(patterns_.I, declared, n);
+      // Seen before B turned it.
+      const Pose<T>& pose = poses[patterns_.I[0]];
+      const auto lines = directions(Orientation<T>{e[E_A0B], e[E_C0B], e[E_A0C], e[E_B0C]});
+      n = rotation(lines.b, -pose.at_B) * n;
+      n = num::select(n.z < zero, -one, one) * n;
+      const auto upright = plane && (n.z > T(0.1));
+      e[E_A0C] = num::select(upright, num::atan2(-n.y, n.z), e[E_A0C]);
+      e[E_B0C] = num::select(upright, num::atan2(n.x, n.z), e[E_B0C]);
+    }
+    return out;
+  }
+
+  /// Normal of the plane with the least squares of distances; false where the points lie on a line.
+  auto normal_of(const std::vector<std::size_t>& which, const T* declared, Vector3<T>& normal) {
+    const auto lines = directions(Orientation<T>{declared[E_A0B], declared[E_C0B], declared[E_A0C], declared[E_B0C]});
+    std::vector<Vector3<T>>& points = points_;
+    points.clear();
+    Vector3<T> middle;
+    for (const std::size_t i : which) {
+      points.push_back(poses[i].measured + square(poses[i], declared, lines));
+      middle = middle + points.back();
+    }
+    middle = T(1.0 / static_cast<double>(which.size())) * middle;
+    Symmetric<T, 3> scatter;
+    for (auto& row : scatter.at)
+      for (T& x : row) x = T(0.0);
+    for (const Vector3<T>& point : points) {
+      const Vector3<T> d = point - middle;
+      const T v[] = {d.x, d.y, d.z};
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j <= i; ++j) scatter.at[i][j] = scatter.at[i][j] + v[i] * v[j];
+    }
+    const auto axes = eigen_system(scatter);
+    T least = axes.value[0], most = axes.value[0], sum = axes.value[0];
+    T v[] = {axes.vector[0][0], axes.vector[0][1], axes.vector[0][2]};
+    for (int k = 1; k < 3; ++k) {
+      const auto less = axes.value[k] < least;
+      for (int i = 0; i < 3; ++i) v[i] = num::select(less, axes.vector[k][i], v[i]);
+      least = num::select(less, axes.value[k], least);
+      most = num::select(axes.value[k] > most, axes.value[k], most);
+      sum = sum + axes.value[k];
+    }
+    normal = {v[0], v[1], v[2]};
+    const T second = sum - least - most;
+    return (second > T(unseen_below * unseen_below) * most) && (second > T(1e-14));
+  }
+
+  void whiten() {
+    for (std::size_t i = whitening_.rows.size(); i-- > 0;) {
+      Row sum;
+      for (T& x : sum) x = T(0.0);
+      for (std::size_t j = whitening_.first[i]; j <= i; ++j) {
+        const T w(whitening_.rows[i][j - whitening_.first[i]]);
+        for (std::size_t k = 0; k < sum.size(); ++k) sum[k] = sum[k] + w * rows_[j][k];
+      }
+      rows_[i] = sum;
+    }
+  }
+
+  void residuals(const T* theta) {
+    linearise(theta);
+    squares();
+  }
+  void squares() {
+    squares_ = T(0.0);
+    for (const Row& row : rows_) squares_ = squares_ + row[unknowns] * row[unknowns];
+  }
+
+  /// The lengths of `kept` from the readings of one pattern, all else as it is.
+  void solve_lengths(const std::vector<std::size_t>& pattern, const bool (&kept)[lengths], Identified<T>& out) {
+    Normal<T> normal = normal_equations(out.theta, pattern);
+    for (int j = 0; j < lengths; ++j) {
+      if (kept[j]) continue;
+      for (int k = 0; k < j; ++k) normal.matrix.at[j][k] = T(0.0);
+      for (int k = j; k < lengths; ++k) normal.matrix.at[k][j] = T(k == j ? 1.0 : 0.0);
+      normal.right[j] = T(0.0);
+    }
+    T step[unknowns];
+    solve(normal, step, lengths);
+    for (int j = 0; j < lengths; ++j) out.theta[j] = out.theta[j] + step[j];
+  }
+
+  /// From some readings; whitened only if from all.
+  Normal<T> normal_equations(const T* theta, const std::vector<std::size_t>& readings) {
+    residuals(theta);
+    whiten();
+    Normal<T> n;
+    for (int j = 0; j < unknowns; ++j) {
+      n.right[j] = T(0.0);
+      for (int k = 0; k <= j; ++k) n.matrix.at[j][k] = T(0.0);
+    }
+    for (const std::size_t i : readings) {
+      const Row &a = rows_[3 * i], &b = rows_[3 * i + 1], &c = rows_[3 * i + 2];
+      for (std::size_t j = 0; j < unknowns; ++j) {
+        for (std::size_t k = 0; k <= j; ++k)
+          n.matrix.at[j][k] = n.matrix.at[j][k] + (a[j] * a[k] + b[j] * b[k] + c[j] * c[k]);
+        n.right[j] = n.right[j] + (a[j] * a[unknowns] + b[j] * b[unknowns] + c[j] * c[unknowns]);
+      }
+    }
+    T largest(0.0);
+    for (int j = 0; j < unknowns; ++j) largest = num::select(n.matrix.at[j][j] > largest, n.matrix.at[j][j], largest);
+    for (int j = 0; j < unknowns; ++j) {
+      const T square = n.matrix.at[j][j];
+      const auto felt = square > T(1e-26) * largest;
+      n.scale[j] = num::select(felt, 1.0 / num::sqrt(num::select(felt, square, T(1.0))), T(0.0));
+    }
+    for (int j = 0; j < unknowns; ++j) {
+      n.right[j] = n.right[j] * n.scale[j];
+      for (int k = 0; k <= j; ++k) n.matrix.at[j][k] = n.matrix.at[j][k] * (n.scale[j] * n.scale[k]);
+    }
+    return n;
+  }
+
+  /// The least-squares step of the first n unknowns, of minimum norm where the data cannot see all. Returns its effect
+  /// on the rows, root mean square.
+  T solve(const Normal<T>& normal, T* step, int n) {
+    for (int j = 0; j < n; ++j) step[j] = normal.right[j];
+    const T pivot = solve_cholesky(normal.matrix, step, n);
+    const auto doubtful = !(pivot > T(1e-9));
+    if (num::any(doubtful)) {
+      const auto system = eigen_system(normal.matrix, n);
+      const T least = smallest_seen(system, n);
+      T least_norm[unknowns];
+      for (int j = 0; j < n; ++j) least_norm[j] = T(0.0);
+      for (int k = 0; k < n; ++k) {
+        T along(0.0);
+        for (int j = 0; j < n; ++j) along = along + system.vector[k][j] * normal.right[j];
+        const auto seen = system.value[k] > least;
+        along = num::select(seen, along / num::select(seen, system.value[k], T(1.0)), T(0.0));
+        for (int j = 0; j < n; ++j) least_norm[j] = least_norm[j] + along * system.vector[k][j];
+      }
+      for (int j = 0; j < n; ++j) step[j] = num::select(doubtful, least_norm[j], step[j]);
+    }
+    T effect(0.0);
+    for (int j = 0; j < n; ++j) {
+      effect = effect + step[j] * normal.right[j];
+      step[j] = step[j] * normal.scale[j];
+    }
+    effect = effect * T(1.0 / static_cast<double>(rows_.size()));
+    return num::sqrt(num::select(effect < T(0.0), T(0.0), effect)); // step'J'J step = step'J'residuals
+  }
+
+  static T smallest_seen(const EigenSystem<T, unknowns>& system, int n) {
+    T largest = system.value[0];
+    for (int k = 1; k < n; ++k) largest = num::select(system.value[k] > largest, system.value[k], largest);
+    return largest * T(unseen_below * unseen_below);
+  }
+
+  void judge(const Normal<T>& normal, Identified<T>& out) {
+    const auto system = eigen_system(normal.matrix);
+    const T least = smallest_seen(system, unknowns);
+    T smallest(1e300), largest(0.0);
+    out.rank = T(0.0);
+    for (int k = 0; k < unknowns; ++k) {
+      const auto seen = system.value[k] > least;
+      out.rank = out.rank + num::select(seen, T(1.0), T(0.0));
+      smallest = num::select(seen && (system.value[k] < smallest), system.value[k], smallest);
+      largest = num::select(system.value[k] > largest, system.value[k], largest);
+    }
+    out.condition = num::sqrt(largest / smallest);
+    out.residual_rms = num::sqrt(squares_ * T(1.0 / static_cast<double>(rows_.size())));
+    out.finite = out.residual_rms < T(1e300);
+  }
+
+  const Patterns& patterns_;
+  const Whitening& whitening_;
+  std::vector<std::size_t> all_; ///< readings
+  std::vector<Row> rows_;
+  std::vector<Vector3<T>> points_;
+  T squares_;
+};
+
+} // namespace gumshoe::models::sphere

@@ -1,0 +1,72 @@
+/// The data's covariance matrix by what is declared, as rows that whiten.
+#include <cmath>
+
+#include <Eigen/Dense>
+
+#include "models/sphere_calibration/procedures.h"
+
+namespace gumshoe::models::sphere {
+
+Vector3<double> derivative(const BlockCall& call, std::size_t reading, std::size_t quantity) {
+  using D = Dual<double, 1>;
+  D q[count], condition[conditions];
+  for (std::size_t j = 0; j < count; ++j) q[j] = D(call.declared->estimates[reading * count + j]);
+  for (std::size_t j = 0; j < conditions; ++j) condition[j] = D(*call.conditions[reading * conditions + j].data);
+  q[quantity].d[0] = 1;
+  const auto x = simulate(contact(exact, q, links(q), condition, false));
+  return {x.x.d[0], x.y.d[0], x.z.d[0]};
+}
+
+namespace {
+
+/// Moves the commands as some unknowns do: no weight depends on it.
+bool as_unknowns_do(const Declared::Draw& draw, std::size_t readings) {
+  const std::size_t q = draw.moves.front().column;
+  return q < link_B_x || (q <= sphere_distance && draw.moves.size() == readings);
+}
+
+} // namespace
+
+Whitening whitening(const BlockCall& call, std::string& problem) {
+  const auto n = static_cast<Eigen::Index>(3 * call.readings);
+  Eigen::MatrixXd V = Eigen::MatrixXd::Zero(n, n);
+  for (const auto& draw : call.declared->draws) {
+    if (draw.moves.empty() || as_unknowns_do(draw, call.readings)) continue;
+    std::vector<std::pair<Eigen::Index, double>> moved;
+    for (const auto& [reading, column] : draw.moves) {
+      const auto first = static_cast<Eigen::Index>(3 * reading);
+      if (column >= count) {
+        moved.emplace_back(first + static_cast<Eigen::Index>(column - count), draw.u);
+        continue;
+      }
+      const auto d = derivative(call, reading, column);
+      moved.emplace_back(first, draw.u * d.x);
+      moved.emplace_back(first + 1, draw.u * d.y);
+      moved.emplace_back(first + 2, draw.u * d.z);
+    }
+    for (const auto& [i, a] : moved)
+      for (const auto& [j, b] : moved) V(i, j) += a * b;
+  }
+  Whitening out;
+  const Eigen::LLT<Eigen::MatrixXd> factor(V);
+  const Eigen::MatrixXd L = factor.matrixL();
+  for (Eigen::Index i = 0; i < n; ++i)
+    if (factor.info() != Eigen::Success || !(L(i, i) > 1e-6 * std::sqrt(V(i, i)))) {
+      constexpr const char* names[] = {"X", "Y", "Z"};
+      problem = std::string("what is declared leaves ") + names[i % 3] + " of reading " + std::to_string(i / 3 + 1) +
+                " without noise of its own: no weights (linear errors or noise of the indications, per reading)";
+      return out;
+    }
+  const Eigen::MatrixXd W = L.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(n, n));
+  for (Eigen::Index i = 0; i < n; ++i) {
+    Eigen::Index first = 0;
+    while (W(i, first) == 0) ++first;
+    out.first.push_back(static_cast<std::size_t>(first));
+    out.rows.emplace_back();
+    for (Eigen::Index j = first; j <= i; ++j) out.rows.back().push_back(W(i, j));
+  }
+  out.size = W.norm() / std::sqrt(static_cast<double>(n));
+  return out;
+}
+
+} // namespace gumshoe::models::sphere
