@@ -65,6 +65,8 @@ class Choice:
 
     def length(self, si, size=None):
         """A difference in the measurand's unit, to the place that U (or `size`) asks for."""
+        if not math.isfinite(si):
+            return "no value"
         places = self.digits(size) if size is not None else self.places
         return with_unit(fixed(spread(self.c, si), places), self.c.display_units)
 
@@ -79,6 +81,10 @@ class Choice:
 
     def case(self, row):
         return self.c.cases[int(row.worst)].name if self.c.cases else ""
+
+    def valueless(self):
+        """Cases in which the recommended setting has no U."""
+        return [case.name for k, case in enumerate(self.c.cases) if not math.isfinite(self.fresh.case_expanded[k])]
 
     def order(self):
         """What to do, in an imperative sentence."""
@@ -182,6 +188,10 @@ class Choice:
                 U=sign(n.expanded_ratio) if math.isfinite(n.expanded_ratio) else "–", near=bool(n.near),
                 refused=self.refused(row)))
         return found
+
+    def noise(self):
+        """Standard error of a U of the search, as a share."""
+        return percent(self.best.asked_se / self.best.asked) if self.best.asked > 0 else "–"
 
     def flatness(self):
         """How much room there is, in words."""

@@ -139,7 +139,8 @@ def pareto(c, name):
     axes.grid(**GRID)
     axes.set_xlabel("time that measuring takes")
     axes.set_ylabel(U_label(c))
-    axes.legend(loc="upper right", frameon=False, fontsize=8)
+    axes.legend(loc="lower left", bbox_to_anchor=(-0.02, 1), ncols=5, frameon=False, fontsize=8, handletextpad=0.4,
+                columnspacing=1.4)
     return svg(figure, name, "Time against expanded uncertainty of all candidates, with the Pareto front")
 
 
@@ -278,7 +279,8 @@ def line(c, name):
     x = [r.values[picked[0]] * v.display_factor + v.display_offset for r in rows]
     figure, (top, low) = plt.subplots(2, 1, sharex=True, figsize=(7.2, 4.2), layout="constrained",
                                       gridspec_kw={"height_ratios": [2, 1]})
-    top.plot(x, [r.asked * c.display_factor for r in rows], "o-", color=BLUE, markersize=4, linewidth=1)
+    top.errorbar(x, [r.asked * c.display_factor for r in rows], yerr=[r.asked_se * c.display_factor for r in rows], fmt="o-",
+                 color=BLUE, ecolor=GREY, elinewidth=0.8, markersize=4, linewidth=1)
     top.axhline(c.target * c.display_factor, color=ORANGE, linewidth=1, linestyle=(0, (5, 2)))
     top.fill_between(x, 0, c.target * c.display_factor, color=PALE, alpha=0.6, linewidth=0)
     top.set_ylim(bottom=0)
