@@ -1,4 +1,4 @@
-"""What `gumshoe choose` found, as text for people: the recommendation first, then why, how sure and compared with what."""
+"""What `gumshoe choose` found, as text for people: what to set, how sure, why, and compared with what."""
 import math
 import types
 
@@ -45,6 +45,10 @@ def joined(parts):
     return parts[0] if len(parts) == 1 else ", ".join(parts[:-1]) + " and " + parts[-1]
 
 
+def axis_label(name, units):
+    return name.replace("_", " ") + (f", {unit_text(units)}" if unit_text(units) else "")
+
+
 class Choice:
     """The group `choice` with its units: `show` makes text of it."""
 
@@ -65,6 +69,8 @@ class Choice:
 
     def length(self, si, size=None):
         """A difference in the measurand's unit, to the place that U (or `size`) asks for."""
+        if not math.isfinite(si):
+            return "no value"
         places = self.digits(size) if size is not None else self.places
         return with_unit(fixed(spread(self.c, si), places), self.c.display_units)
 
@@ -80,10 +86,15 @@ class Choice:
     def case(self, row):
         return self.c.cases[int(row.worst)].name if self.c.cases else ""
 
+    def valueless(self):
+        """Cases in which the recommended setting has no U."""
+        return [case.name for k, case in enumerate(self.c.cases) if not math.isfinite(self.fresh.case_expanded[k])]
+
     def order(self):
         """What to do, in an imperative sentence."""
         known = list(zip(self.c.variables, self.best.values))
-        parts = [f"{v.name.replace('_', ' ')} to {self.value(v, x)}" for v, x in known if v.kind in ("condition", "quantity")]
+        parts = [f"{v.name.replace('_', ' ')} to {self.value(v, x)}" for v, x in known
+                 if v.kind in ("condition", "quantity")]
         acts = ["set " + joined(parts)] if parts else []
         for v, x in known:
             if v.kind == "readings":
@@ -99,11 +110,11 @@ class Choice:
                   f"({probability(self.p)}){worst}")
         bias = f" and a bias of at most {self.limit()}" if self.bounded else ""
         if not c.reached and c.probability >= c.confirm_probability:
-            return (f"In the search no setting met the target U = {self.target()}{bias}; with fresh samples the nearest does, "
-                    f"with a probability of {chance(c.probability)}: {self.order()}; {result}.")
+            return (f"In the search no setting met the target U = {self.target()}{bias}; with fresh samples the nearest "
+                    f"does, with a probability of {chance(c.probability)}: {self.order()}; {result}.")
         if not c.reached:
-            return (f"No setting that was tried meets the target U = {self.target()}{bias}. The nearest: {self.order()}; "
-                    f"{result}.")
+            return (f"No setting that was tried meets the target U = {self.target()}{bias}. The nearest: "
+                    f"{self.order()}; {result}.")
         order = self.order()
         text = f"{order[0].upper()}{order[1:]}: {result}"
         sure = f"{chance(c.probability)}"
@@ -122,8 +133,8 @@ class Choice:
         if float(size) == 0:
             return "The mean error is so small that there is nothing to correct."
         verb, end = ("add", "to") if self.fresh.mean < 0 else ("subtract", "from")
-        return (f"This U holds after a correction: {verb} {with_unit(size, self.c.display_units)} {end} every result, whose "
-                f"mean error is {self.length(self.fresh.mean)}.")
+        return (f"This U holds after a correction: {verb} {with_unit(size, self.c.display_units)} {end} every result, "
+                f"whose mean error is {self.length(self.fresh.mean)}.")
 
     def refused(self, row):
         """Why a candidate does not meet the target; "" if it does."""
@@ -145,9 +156,10 @@ class Choice:
         show = lambda x: fixed(spread(c, x), places)
         return types.SimpleNamespace(
             setting=setting, time=duration(row.time), U=show(row.asked),
-            U_se=significant(spread(c, row.asked_se), 1), average=show(row.expanded), mean=show(row.mean), meets=bool(row.meets),
-            worst=self.case(row), refused=self.refused(row), failed=f"{row.failed} of {row.valid + row.failed}" if row.failed else "",
-            cases=[(show(u), show(left)) for u, left in zip(getattr(row, "case_expanded", []), getattr(row, "case_left", []))])
+            U_se=significant(spread(c, row.asked_se), 1), average=show(row.expanded), mean=show(row.mean),
+            meets=bool(row.meets), refused=self.refused(row),
+            failed=f"{row.failed} of {row.valid + row.failed}" if row.failed else "",
+            cases=[(show(u), show(left)) for u, left in zip(row.case_expanded, row.case_left)] if c.cases else [])
 
     def values(self, row):
         return [self.c.evaluations[int(x)] if v.kind == "evaluation" else plain_number(point(v, x))
@@ -155,8 +167,8 @@ class Choice:
 
     def fixed(self, positions):
         """Some variables as recommended, in words."""
-        return joined([f"{self.c.variables[k].name.replace('_', ' ')} {self.value(self.c.variables[k], self.best.values[k])}"
-                       for k in positions]) if positions else ""
+        chosen = [(self.c.variables[k], self.best.values[k]) for k in positions]
+        return joined([f"{v.name.replace('_', ' ')} {self.value(v, x)}" for v, x in chosen]) if chosen else ""
 
     def heads(self):
         return [(v.name, unit_text(v.display_units)) for v in self.c.variables]
@@ -182,6 +194,10 @@ class Choice:
                 U=sign(n.expanded_ratio) if math.isfinite(n.expanded_ratio) else "–", near=bool(n.near),
                 refused=self.refused(row)))
         return found
+
+    def noise(self):
+        """Standard error of a U of the search, as a share."""
+        return percent(self.best.asked_se / self.best.asked) if self.best.asked > 0 else "–"
 
     def flatness(self):
         """How much room there is, in words."""
@@ -223,7 +239,8 @@ class Choice:
         groups = {}  # readings of one quantity together
         for r in study.rows:
             if getattr(r, key) > 0:
-                groups.setdefault(r.input.split("[")[0] if "[reading" in r.input else r.input, []).append(getattr(r, key))
+                name = r.input.split("[")[0] if "[reading" in r.input else r.input
+                groups.setdefault(name, []).append(getattr(r, key))
         largest = sorted(((sum(g), name, len(g)) for name, g in groups.items()), reverse=True)
         named = [f"{name} ({f'{n} readings, ' if n > 1 else ''}{'at most ' if n > 1 and key == 'total' else ''}"
                  f"{percent(min(share, 1))})" for share, name, n in largest[:3] if share >= 0.05]

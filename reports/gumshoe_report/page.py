@@ -7,7 +7,8 @@ import types
 import jinja2
 import markupsafe
 
-from . import choice, choice_figures, explain, figures, region_figures, rounding, sensitivity_figures, studies, tables
+from . import choice, choice_figures, choice_surface, explain, figures, region_figures, rounding, sensitivity_figures
+from . import studies, tables
 
 HERE = pathlib.Path(__file__).parent
 OPEN = 2      # outputs shown in full; the others are folded
@@ -102,8 +103,8 @@ def run_page(r):
     """What the page of a run is filled with."""
     shown = varying(r)
     return dict(
-        kicker="Measurement uncertainty", title=r.title or r.model_title or r.model, method=METHODS.get(r.method, r.method),
-        samples=thousands(r.samples), sections=list(sections(r)), **whole_run(r), overviews=overviews(r),
+        kicker="Measurement uncertainty", title=r.title or r.model_title or r.model,
+        method=METHODS.get(r.method, r.method), samples=thousands(r.samples), sections=list(sections(r)), **whole_run(r), overviews=overviews(r),
         constants=[tables.constant_text(o) for o in r.outputs if o not in shown], numbered=tables.numbered(r.outputs),
         comparisons=[tables.comparison_row(c) for c in r.comparisons],
         printed=[tables.printed_row(p) for p in r.printed], inputs=[tables.input_row(i) for i in r.inputs],
@@ -115,8 +116,9 @@ def limiting(c):
     for study in [*c.sensitivities, *c.shapley]:
         sobol, shapley = (study, None) if c.sensitivities else (None, study)
         yield types.SimpleNamespace(
-            budget=None, sobol=sobol, shapley=studies.shapley(shapley) if shapley else None, pairs=None, why="", given_data=None,
-            morris=None, dgsm=None, shapley_figure="", confidence=rounding.probability(getattr(study, "confidence", 0.95)),
+            budget=None, sobol=sobol, shapley=studies.shapley(shapley) if shapley else None, pairs=None, why="",
+            given_data=None, morris=None, dgsm=None, shapley_figure="",
+            confidence=rounding.probability(getattr(study, "confidence", 0.95)),
             side_by_side=markupsafe.Markup(sensitivity_figures.side_by_side(None, sobol, shapley, "s0")))
 
 
@@ -124,10 +126,10 @@ def choice_page(r):
     """What the page of a choice is filled with."""
     c = r.choice
     words = choice.Choice(c, r.coverage_probability)
-    surface, over = choice_figures.heat(c, "u")
+    surface, over = choice_surface.heat(c, "u")
     heat = bool(surface)
     if not heat:
-        surface, over = choice_figures.line(c, "u")
+        surface, over = choice_surface.line(c, "u")
     failing = sorted((row for row in c.candidates if row.failed), key=lambda row: -row.failed)
     return dict(
         kicker="Choice of settings", title=r.title or r.model, c=words, chance=choice.chance(c.probability),
@@ -135,10 +137,12 @@ def choice_page(r):
         fresh=[(row.name, words.line(row, row.setting), row.source) for row in c.fresh],
         pareto=markupsafe.Markup(choice_figures.pareto(c, "p")),
         front=[(words.values(row), words.line(row), row is words.best) for row in words.front()],
-        surface=markupsafe.Markup(surface), over=over, heat=heat, **choice_figures.legend(c), neighbours=words.neighbours(),
+        surface=markupsafe.Markup(surface), over=over, heat=heat, **choice_surface.legend(c),
+        neighbours=words.neighbours(),
         sections=list(limiting(c)), failing_count=len(failing),
         failing=[(words.values(row), words.line(row)) for row in failing[:choice.LISTED]],
-        all=[(words.values(row), words.line(row)) for row in sorted(c.candidates, key=lambda row: row.time)[:choice.MOST]])
+        all=[(words.values(row), words.line(row))
+             for row in sorted(c.candidates, key=lambda row: row.time)[:choice.MOST]])
 
 
 def thousands(n):

@@ -64,8 +64,10 @@ def numbered(outputs):
             return fixed(point(o, o.estimate), None), ""
         return fixed(point(o, o.estimate), decimals(spread(o, u))), significant(spread(o, u))
     return types.SimpleNamespace(
-        heads=[(name, unit_text(rows[numbers[0]].display_units)) for name, rows in stems.items()],
-        rows=[(k, [cell(rows[k]) for rows in stems.values()]) for k in numbers])
+        hidden="seen" in stems and any(o.symmetric_low < 1 for o in stems["seen"].values()),
+        heads=[(name, unit_text(rows[numbers[0]].display_units), not all(map(constant, rows.values())))
+               for name, rows in stems.items()],
+        rows=[(k, [(*cell(rows[k]), not all(map(constant, rows.values()))) for rows in stems.values()]) for k in numbers])
 
 
 def coefficient_unit(output_unit, unit):

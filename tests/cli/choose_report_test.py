@@ -19,7 +19,7 @@ from program import ROOT, gumshoe
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "reports"))
 from choose_test import TEXT
-from gumshoe_report import choice, choice_figures, read
+from gumshoe_report import choice, choice_surface
 
 
 class Elements(html.parser.HTMLParser):
@@ -178,30 +178,30 @@ class Surface(unittest.TestCase):
     def test_the_most_influential_are_drawn_but_feed_and_speed_before_all(self):
         kinds = [("a", 1, 1), ("b", 0, 0), ("c", 1, 0)]
         c = made_up(lambda x, y, z: x ** 0.1 * y ** 2 * z, (kinds, self.GRID))
-        self.assertEqual(choice_figures.drawn_variables(c), [2, 1])  # the range along x, though b matters more
+        self.assertEqual(choice_surface.drawn_variables(c), [2, 1])  # the range along x, though b matters more
         for name, k in (("feed", 0), ("spindle_speed", 2)):
             c.variables[k].name = name
-        self.assertEqual(choice_figures.drawn_variables(c), [0, 2])
+        self.assertEqual(choice_surface.drawn_variables(c), [0, 2])
 
     def test_between_the_points_it_is_linear_on_the_scale(self):
         # ln U = 0.5 ln x + ln y: on a logarithmic scale a straight line in each row.
         c = made_up(lambda x, y, z: x ** 0.5 * y, ([("x", 1, 1), ("y", 0, 0), ("z", 0, 0)], self.GRID))
-        rows = choice_figures.plane(c, [0, 1])
+        rows = choice_surface.plane(c, [0, 1])
         self.assertEqual(len(rows), 6)  # z as in the recommended one
-        _, lists, edges, centres, _, surface = choice_figures.mesh(c, [0, 1], rows)
+        _, lists, edges, centres, _, surface = choice_surface.mesh(c, [0, 1], rows)
         for j, y in enumerate(lists[1] / 2):
             for x, shown in zip(centres[0], surface[j]):
                 self.assertAlmostEqual(shown, 0.5 * (x - math.log(2)) + math.log(y), places=12)  # x is shown doubled
         # Two ranges: a plane in (ln x, z) is met by triangles exactly.
         c = made_up(lambda x, y, z: x ** 0.5 * math.exp(z), ([("x", 1, 1), ("y", 0, 0), ("z", 1, 0)], self.GRID))
-        *_, centres, _, surface = choice_figures.mesh(c, [0, 2], choice_figures.plane(c, [0, 2]))
+        *_, centres, _, surface = choice_surface.mesh(c, [0, 2], choice_surface.plane(c, [0, 2]))
         for j, z in enumerate(centres[1]):
             for x, shown in zip(centres[0], surface[j]):
                 self.assertAlmostEqual(shown, 0.5 * (x - math.log(2)) + z / 2, places=9)
 
     def test_no_value_leaves_a_gap(self):
         c = made_up(lambda x, y, z: math.nan if x == 4 else x * y, ([("x", 1, 1), ("y", 0, 0), ("z", 0, 0)], self.GRID))
-        *_, centres, _, surface = choice_figures.mesh(c, [0, 1], choice_figures.plane(c, [0, 1]))
+        *_, centres, _, surface = choice_surface.mesh(c, [0, 1], choice_surface.plane(c, [0, 1]))
         for x, shown in zip(centres[0], surface[0]):
             self.assertEqual(math.isnan(shown), x > math.log(2 * 2))  # beyond the last point that has one
 
