@@ -55,17 +55,19 @@ TEST_CASE("bias of the sequential method by the thesis' approximations", "[refer
   std::vector<Vector3<double>> measured;
   for (const Pose33& pose : poses)
     measured.push_back(sphere::probe_from_origin(sphere::exact, truth, pose.B, pose.C, pose.II));
-  const auto bias = [&](int variant) {
-    auto found = truth; // orientations by the planes are exact: rotations are
-    solve(variant, found,
-          {sphere::length_probe_x, sphere::length_probe_y, sphere::length_probe_z, sphere::length_C_x,
-           sphere::length_C_y},
-          false, poses, measured);
+  const auto bias = [&](int variant, bool known_C = false) { // known_C: as if pattern I had shown the truth
+    auto found = truth;                                      // orientations by the planes are exact: rotations are
+    if (!known_C)
+      solve(variant, found,
+            {sphere::length_probe_x, sphere::length_probe_y, sphere::length_probe_z, sphere::length_C_x,
+             sphere::length_C_y},
+            false, poses, measured);
     solve(variant, found, {sphere::length_B_x, sphere::length_B_z}, true, poses, measured);
     return std::pair(found.length[sphere::length_B_x] - truth.length[sphere::length_B_x],
                      found.length[sphere::length_B_z] - truth.length[sphere::length_B_z]);
   };
   const auto exact = bias(sphere::exact), closed = bias(sphere::closed_form), small = bias(sphere::small_angle);
+  const auto second = bias(sphere::small_angle, true);
   CAPTURE(closed.first, closed.second, small.first, small.second);
   CHECK(std::fabs(exact.first) < 1e-13);
   CHECK(std::fabs(exact.second) < 1e-13);
@@ -73,4 +75,6 @@ TEST_CASE("bias of the sequential method by the thesis' approximations", "[refer
   CHECK(std::fabs(closed.second - 9.0 * um) < 0.05 * um);
   CHECK(std::fabs(small.first + 0.82 * um) < 0.005 * um);
   CHECK(std::fabs(small.second + 10.35 * um) < 0.005 * um);
+  CHECK(std::fabs(second.first - 22.9 * um) < 0.05 * um);
+  CHECK(std::fabs(second.second + 16.0 * um) < 0.05 * um);
 }
