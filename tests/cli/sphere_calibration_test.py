@@ -108,6 +108,101 @@ class SphereCalibration(unittest.TestCase):
         for name, truth in TRUTH.items():
             self.assertAlmostEqual(fit["parameters"][name]["value"], truth, delta=1e-7)
 
+    def noisy(self):
+        """Commands at all poses with an error of micrometres that anyone can compute again."""
+        header = [f"{name} ({UNITS[name]})" for name in TRUTH] + ["B (deg)", "C (deg)"]
+        rows = self.rows(header, *([*TRUTH.values(), b, c] for b, c in POSES))
+        return [[b, c, *(x + 5e-3 * math.sin(7 * i + 3 * k) for k, x in enumerate(self.xyz(row)))]
+                for i, ((b, c), row) in enumerate(zip(POSES, rows))]
+
+    def test_joint_is_the_fit_of_estimate(self):
+        data = self.noisy()
+        found = self.rows(["B (deg)", "C (deg)", "X (mm)", "Y (mm)", "Z (mm)"], *([repr(x) for x in row] for row in data),
+                          evaluation="joint")[0]
+        self.assertEqual(float(found["rank (1)"]), 11)
+        self.assertAlmostEqual(float(found["residual_rms (um)"]), 5 / math.sqrt(2), delta=0.5)
+        (self.path / "data.csv").write_text("B,C,X,Y,Z\n" + "".join(",".join(map(repr, row)) + "\n" for row in data))
+        angles = 'conditions = { B = { column = "B", unit = "deg" }, C = { column = "C", unit = "deg" } }'
+        text = 'schema = 1\n[model]\nname = "sphere_calibration"\n'
+        text += "".join(f"[quantities.{name}]\nestimated = true\n" for name in [*TRUTH, "sphere_distance"])
+        text += "".join(f'[indications.{name}]\nreadings = {{ file = "data.csv", column = "{name}", unit = "mm", {angles} }}\n' for name in "XYZ")
+        without = text.replace("[quantities.sphere_distance]\nestimated = true\n", "")
+        (self.path / "fit.toml").write_text(without)
+        run = gumshoe("estimate", self.path / "fit.toml", "--format", "json")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        for name, value in json.loads(run.stdout)["parameters"].items():
+            # Two ways to the same minimum; near it 1e-9 of a quantity is 1e-12 of the squares.
+            self.assertAlmostEqual(float(found[f"{name} ({UNITS[name]})"]), value["value"], delta=1e-9 * max(1, abs(value["value"])))
+        # The artefact's place cannot be told from the machine's.
+        (self.path / "fit.toml").write_text(text)
+        run = gumshoe("estimate", self.path / "fit.toml")
+        words = run.stdout + run.stderr
+        self.assertIn("indistinguishable", words)
+        for name in ("sphere_distance", "probe_x", "E_X0C", "E_X0B"):
+            self.assertIn(name, words[words.index("indistinguishable") - 40:])
+
+    def study(self, *changes, scenario="sphere_calibration", samples=20_000):
+        text = (ROOT / f"scenarios/{scenario}.toml").read_text()
+        text = text.replace("samples = 100_000", f"samples = {samples}")
+        text = "\n".join(line for line in text.split("\n") if not line.startswith("sensitivity"))
+        for old, new in changes:
+            self.assertIn(old, text)
+            text = text.replace(old, new)
+        (self.path / "study.toml").write_text(text)
+        run = gumshoe("run", self.path / "study.toml", "--out", self.path / "study.h5", "--format", "json")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        return {result["output"].removeprefix("error of "): result for result in json.loads(run.stdout)}
+
+    def test_standard_uncertainties_of_the_study(self):
+        # Recomputed independently with numpy; four standard errors of ours and half a digit of theirs.
+        names = ("probe_x", "probe_y", "probe_z", "E_X0B", "E_Z0B", "E_A0B", "E_C0B", "E_X0C", "E_Y0C", "E_A0C", "E_B0C")
+        narrow = ("0.0121", "0.0048", "0.0024", "0.0219", "0.0210", "0.00108", "0.00121", "0.0132", "0.0117", "0.00078", "0.00089")
+        printed = ("0.0777", "0.0263", "0.0024", "0.139", "0.134", "0.00108", "0.00121", "0.0720", "0.0628", "0.00078", "0.00089")
+        for scenario, expected in (("sphere_calibration", narrow), ("sphere_calibration_printed", printed)):
+            found = self.study(scenario=scenario)
+            for name, text in zip(names, expected):
+                u, digits = float(text), len(text.split(".")[1])
+                # Theirs is a Monte Carlo, too: twice the variance.
+                tolerance = 0.5 * 10**-digits + 4 * u * math.sqrt(2 / (2 * 20_000))
+                self.assertAlmostEqual(found[name]["standard_uncertainty"], u, delta=tolerance, msg=name)
+
+    def test_methods_beside_each_other(self):
+        method = 'evaluation = "sequential"'
+        u = {e: {name: r["standard_uncertainty"] for name, r in self.study((method, f'evaluation = "{e}"')).items()}
+             for e in ("sequential", "joint", "joint_weighted")}
+        # Planes are immune to rotary errors, a joint fit with equal weights is not; with the right weights it is best.
+        for name in ("E_A0B", "E_C0B", "E_A0C", "E_B0C"):
+            self.assertGreater(u["joint"][name], 1.5 * u["sequential"][name])
+        for name in TRUTH:
+            for other in ("sequential", "joint"):
+                self.assertLess(u["joint_weighted"][name], 1.02 * u[other][name], msg=name)
+        self.assertAlmostEqual(u["joint_weighted"]["E_X0B"], 0.0138, delta=0.00005 + 4 * 0.0138 / math.sqrt(20_000))
+
+    def test_correlations_under_independent_noise(self):
+        errors = ("E_BB", "E_CC", "E_X", "E_Y", "E_Z", "S_")
+        text = (ROOT / "scenarios/sphere_calibration.toml").read_text()
+        sections = text.replace("\n[quantities.", "\n\0[quantities.").replace("\n[run]", "\n\0[run]").split("\0")
+        kept = [s for s in sections if not s.startswith(tuple(f"[quantities.{e}" for e in errors))]
+        noise = "".join(f'[indications.{k}]\ncomponents = [ {{ distribution = "normal", u = "5 um", per = "reading" }} ]\n' for k in "XYZ")
+        text = "".join(kept[:-1]) + noise + kept[-1]
+        text = text.replace('evaluation = "sequential"', 'evaluation = "joint"').replace("samples = 100_000", "samples = 20_000")
+        text = "\n".join(line for line in text.split("\n") if not line.startswith("sensitivity"))
+        (self.path / "noise.toml").write_text(text)
+        run = gumshoe("run", self.path / "noise.toml", "--out", self.path / "noise.h5", "--format", "json")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        found = {r["output"].removeprefix("error of "): r for r in json.loads(run.stdout)}
+        for a, b, r in (("E_X0C", "E_B0C", 0.97), ("E_A0B", "E_C0B", 0.95), ("E_Y0C", "E_A0C", -0.94)):
+            self.assertAlmostEqual(found[a]["joint"][0]["correlation"][f"error of {b}"], r,
+                                   delta=0.005 + 4 * (1 - r * r) / math.sqrt(20_000))
+
+    def test_procedures_refuse_what_they_cannot_use(self):
+        points = [[b, c, 0, 0, 0] for b, c in ((0, 0), (0, 30), (0, 60), (10, 80), (20, 90), (30, 90))]
+        header = ["B (deg)", "C (deg)", "X (mm)", "Y (mm)", "Z (mm)"]
+        self.rows(header, *points, evaluation="sequential", code=2)
+        self.assertIn("C of reading 4 is 80 deg, of reading 5 90 deg", self.run.stderr)
+        self.rows(header, *points, evaluation="joint_weighted", code=2)
+        self.assertIn("a table declares nothing", self.run.stderr)
+
     def test_example(self):
         run = gumshoe("check", ROOT / "engine/models/sphere_calibration/example.toml")
         self.assertEqual(run.returncode, 0, run.stderr)
