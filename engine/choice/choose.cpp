@@ -35,10 +35,12 @@ public:
     if (meeting.empty() && !least)
       throw InputError("choose: every candidate fails",
                        fmt::format("more than max_failed_share = {} of its samples", s_.run.max_failed_share));
-    if (r_.reached)
+    if (r_.reached) {
       confirm(meeting);
-    else
+    } else { // fresh numbers may know better than the few of the search
       take(*least, afresh(*least));
+      r_.reached = r_.confirmed = r_.probability >= choose_.confirm_probability;
+    }
     r_.neighbours = search_.neighbours(r_.best);
     search_.mark_pareto();
     near();
@@ -208,6 +210,11 @@ private:
   Result r_;
 };
 
+/// Four significant digits, and 12000 rather than 1.2e+04.
+std::string four_digits(double x) {
+  return std::fabs(x) >= 1e4 && std::fabs(x) < 1e9 ? fmt::format("{:.0f}", x) : fmt::format("{:.4g}", x);
+}
+
 } // namespace
 
 std::string in_words(const std::vector<Setting>& settings, const std::vector<std::string>& evaluations) {
@@ -217,7 +224,7 @@ std::string in_words(const std::vector<Setting>& settings, const std::vector<std
     if (knob.kind == Knob::Kind::evaluation)
       text += fmt::format("evaluation {}", evaluations[static_cast<std::size_t>(value)]);
     else
-      text += fmt::format("{} {:.4g}{}", knob.name, units::from_si(value, knob.unit, knob.si_unit),
+      text += fmt::format("{} {}{}", knob.name, four_digits(units::from_si(value, knob.unit, knob.si_unit)),
                           knob.unit == "1" ? "" : " " + knob.unit);
   }
   return text;

@@ -76,6 +76,7 @@ void print_indices(const Results& r, std::ostream& out) {
       totals.emplace_back(i.total, i.input);
       ++verdicts[i.total_verdict];
     }
+    if (std::ranges::all_of(totals, [](const auto& t) { return std::isnan(t.first); })) continue; // it does not vary
     std::string counts;
     for (const auto& [word, count] : verdicts)
       counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", count, word);

@@ -144,8 +144,7 @@ void evaluate_together(const models::Model& model, int evaluation, const std::ve
       if (r == 0 && i < q) first.push_back(*column.data);
     }
   auto measurands = card.evaluations[static_cast<std::size_t>(evaluation)].measurands;
-  if (model.measurands_in_use)
-    measurands = measurands.first(model.measurands_in_use(evaluation, first.data()));
+  if (model.measurands_in_use) measurands = measurands.first(model.measurands_in_use(evaluation, first.data()));
   std::vector<double> values(measurands.size() * n);
   std::vector<double*> value_rows;
   for (std::size_t m = 0; m < measurands.size(); ++m) value_rows.push_back(&values[m * n]);
@@ -167,9 +166,23 @@ void evaluate_together(const models::Model& model, int evaluation, const std::ve
   call.status = status;
   call.evaluation = evaluation;
   call.context = model.context;
+  for (std::size_t r = 0; r < rows; ++r) {
+    std::vector<double> point;
+    for (const Slot& s : slots) point.push_back(s.column.empty() ? s.value : s.column[r]);
+    models::PointCall<double> at;
+    at.quantities = point.data();
+    at.effects = at.quantities + q;
+    at.active = active;
+    at.conditions = at.effects + effect_quantities;
+    at.indications = at.conditions + card.conditions.size();
+    at.evaluation = evaluation;
+    at.context = model.context;
+    const std::string wrong = bad_row[r] ? std::string() : model.check(at);
+    if (!wrong.empty())
+      result.impossible.push_back({{table.file, table.rows[r][0].line, 1}, wrong, "physically impossible", ""});
+  }
   const bool possible = result.impossible.empty() && std::ranges::find(bad_row, true) == bad_row.end();
-  const std::string problem = model.check_readings ? model.check_readings(call)
-                                                     : std::string();
+  const std::string problem = model.check_readings && possible ? model.check_readings(call) : std::string();
   if (!problem.empty()) result.impossible.push_back({{table.file}, problem, "", ""});
   if (problem.empty() && possible)
     model.kernels()->evaluate(call);
@@ -211,7 +224,18 @@ PointTable evaluate_points(const models::Model& model, const Csv& table, const s
   std::size_t chosen = card.evaluations.size();
   for (std::size_t i = 0; i < card.evaluations.size(); ++i)
     if (evaluation.empty() ? i == 0 : card.evaluations[i].name == evaluation) chosen = i;
-  if (chosen == card.evaluations.size()) problems.push_back({{}, "unknown evaluation '" + evaluation + "'", "", ""});
+  if (chosen == card.evaluations.size()) {
+    std::vector<std::string> names;
+    for (const EvaluationCard& e : card.evaluations) names.emplace_back(e.name);
+    const std::string meant = nearest(evaluation, names);
+    problems.push_back(
+        {{}, "unknown evaluation '" + evaluation + "'", "", meant.empty() ? "" : "did you mean '" + meant + "'?"});
+  } else if (!indicated && card.evaluations[chosen].joint()) {
+    problems.push_back({{table.file},
+                        "no column of readings: '" + evaluation + "' evaluates them together",
+                        "",
+                        fmt::format("a column '{} ({})'?", card.indications[0].name, card.indications[0].unit)});
+  }
   if (!problems.empty()) throw InputError(problems);
 
   if (indicated && card.evaluations[chosen].joint()) {
@@ -248,7 +272,7 @@ PointTable evaluate_points(const models::Model& model, const Csv& table, const s
   call.measurands = measurand_rows.data();
   call.solved_as = &itself;
   call.status = status.data();
-  call.evaluation = card.evaluations[chosen].joint() ? 0 : static_cast<int>(chosen); // joint: without indications only
+  call.evaluation = static_cast<int>(chosen);
   call.context = model.context;
   if (n > 0) (indicated ? model.kernels()->evaluate : model.kernels()->simulate)(call);
 
