@@ -42,6 +42,28 @@ std::vector<std::vector<bool>> reaching_variates(const propagation::Experiment& 
   return reaches;
 }
 
+std::vector<Factor> factors(const propagation::Experiment& e) {
+  const auto& plan = e.plan();
+  std::vector<Factor> found;
+  std::vector<std::size_t> of_quantity(e.scenario().quantities.size(), plan.variates.size());
+  for (std::size_t v = 0; v < plan.variates.size(); ++v) {
+    std::size_t& place = of_quantity[plan.variates[v].quantity];
+    if (!e.scenario().analysis.sensitivity.by_quantity) {
+      found.push_back({plan.variates[v].name, {v}});
+    } else if (place == plan.variates.size()) {
+      place = found.size();
+      found.push_back({e.scenario().quantities[plan.variates[v].quantity].name, {v}});
+    } else {
+      found[place].variates.push_back(v);
+    }
+  }
+  return found;
+}
+
+bool reaches(const std::vector<bool>& variates, const Factor& factor) {
+  return std::ranges::any_of(factor.variates, [&](std::size_t v) { return variates[v]; });
+}
+
 namespace {
 
 constexpr std::size_t rows_per_block = 1024; // a multiple of every group's rows
@@ -49,11 +71,17 @@ constexpr std::size_t rows_per_block = 1024; // a multiple of every group's rows
 /// One block of rows: its draws, its outputs, and which rows failed. Its buffers serve one block after the other.
 class Block {
 public:
-  Block(const propagation::Experiment& e, const quantities::Sampler& sampler)
-      : e_(e), sampler_(sampler), d_(e.plan().variates.size()), outputs_(e.outputs().size()), pointers_(d_),
-        columns_of_(d_) {
+  Block(const propagation::Experiment& e, const quantities::Sampler& sampler, const std::vector<Factor>& factors)
+      : e_(e), sampler_(sampler), factors_(factors), d_(e.plan().variates.size()), outputs_(e.outputs().size()),
+        pointers_(d_), columns_of_(factors.size()) {
+    std::vector<std::size_t> factor_of(d_);
+    for (std::size_t f = 0; f < factors.size(); ++f)
+      for (const std::size_t v : factors[f].variates) factor_of[v] = f;
     for (std::size_t c = 0; c < e.plan().columns.size(); ++c)
-      for (const std::size_t v : e.plan().columns[c].variates) columns_of_[v].push_back(c);
+      for (const std::size_t v : e.plan().columns[c].variates) {
+        auto& columns = columns_of_[factor_of[v]];
+        if (columns.empty() || columns.back() != c) columns.push_back(c);
+      }
   }
 
   void draw(std::uint64_t first, std::size_t rows) {
@@ -73,17 +101,17 @@ public:
     model(y.data(), nullptr);
   }
 
-  /// After run(): outputs [(v * outputs + output) * rows + i] of the rows with variate v from the other draw.
+  /// After run(): outputs [(f * outputs + output) * rows + i] of the rows with factor f from the other draw.
   void run_frozen(bool from_a, std::vector<double>& y) {
-    y.resize(d_ * outputs_ * rows_);
+    y.resize(factors_.size() * outputs_ * rows_);
     const std::vector<double>&x = from_a ? a_ : b_, &other = from_a ? b_ : a_;
     std::vector<std::size_t> changed;
-    for (std::size_t v = 0; v < d_; ++v) {
-      pointers_[v] = &other[v * rows_];
-      changed = columns_of_[v];
-      if (v > 0) changed.insert(changed.end(), columns_of_[v - 1].begin(), columns_of_[v - 1].end());
-      model(&y[v * outputs_ * rows_], &changed);
-      pointers_[v] = &x[v * rows_];
+    for (std::size_t f = 0; f < factors_.size(); ++f) {
+      for (const std::size_t v : factors_[f].variates) pointers_[v] = &other[v * rows_];
+      changed = columns_of_[f];
+      if (f > 0) changed.insert(changed.end(), columns_of_[f - 1].begin(), columns_of_[f - 1].end());
+      model(&y[f * outputs_ * rows_], &changed);
+      for (const std::size_t v : factors_[f].variates) pointers_[v] = &x[v * rows_];
     }
   }
 
@@ -111,6 +139,7 @@ private:
 
   const propagation::Experiment& e_;
   const quantities::Sampler& sampler_;
+  const std::vector<Factor>& factors_;
   std::size_t d_, outputs_, rows_ = 0;
   std::vector<double> a_, b_;
   std::vector<const double*> pointers_;
@@ -125,11 +154,12 @@ struct Outputs {
 };
 
 /// Means of the outputs over the first 64 rows: from there, squares do not drown the variance.
-std::vector<double> origins(const propagation::Experiment& e, const quantities::Sampler& sampler) {
+std::vector<double> origins(const propagation::Experiment& e, const quantities::Sampler& sampler,
+                            const std::vector<Factor>& factors) {
   constexpr std::size_t n = 64;
   const std::size_t outputs = e.outputs().size();
   std::vector<double> y, origin(outputs);
-  Block block(e, sampler);
+  Block block(e, sampler, factors);
   block.draw(0, n);
   block.run(true, y);
   for (std::size_t o = 0; o < outputs; ++o) {
@@ -143,18 +173,19 @@ std::vector<double> origins(const propagation::Experiment& e, const quantities::
 
 } // namespace
 
-PickFreezeSums run_pick_freeze(const propagation::Experiment& e, std::uint64_t n, bool mirrored, int threads) {
+PickFreezeSums run_pick_freeze(const propagation::Experiment& e, const std::vector<Factor>& factors, std::uint64_t n,
+                               bool mirrored, int threads) {
   const auto& plan = e.plan();
   n = (n + 63) / 64 * 64;
-  const std::size_t d = plan.variates.size(), outputs = e.outputs().size(), per_group = rows_per_group(n);
+  const std::size_t d = factors.size(), outputs = e.outputs().size(), per_group = rows_per_group(n);
   PickFreezeSums s{n, outputs, d, (n + per_group - 1) / per_group, mirrored, {}, {}, {}};
   s.base_values.resize(outputs * base_sums * s.groups);
   s.frozen_values.resize(outputs * d * s.kept() * s.groups);
   if (mirrored) s.pair_values.resize(outputs * s.pairs() * s.groups);
 
-  const auto reaches = reaching_variates(e);
+  const auto reaching = reaching_variates(e);
   const quantities::Sampler sampler(plan, quantities::PointSet::monte_carlo, n);
-  const std::vector<double> origin = origins(e, sampler);
+  const std::vector<double> origin = origins(e, sampler, factors);
   const PickFreezeKernels& kernels = pick_freeze_kernels();
 
   const auto run_block = [&](Block& block, Outputs& y, std::uint64_t first, std::size_t rows) {
@@ -177,12 +208,12 @@ PickFreezeSums run_pick_freeze(const propagation::Experiment& e, std::uint64_t n
         s.base(o, base_n)[group + g] = static_cast<double>(std::count(begin, end, std::uint8_t{0}));
       }
       for (std::size_t v = 0; v < d; ++v) {
-        if (!reaches[o][v]) continue;
+        if (!reaches(reaching[o], factors[v])) continue;
         kernels.frozen(a, b, c(v), from, rows, per_group, s.frozen(o, v, 0) + group, s.groups);
         if (!mirrored) continue;
         kernels.mirrored(a, b, c(v), mirror(v), from, rows, per_group, s.frozen(o, v, 0) + group, s.groups);
         for (std::size_t i = 0; i < v; ++i)
-          if (reaches[o][i])
+          if (reaches(reaching[o], factors[i]))
             kernels.pair(a, b, c(i), mirror(i), c(v), mirror(v), rows, per_group, s.pair(o, i, v) + group);
       }
     }
@@ -192,7 +223,7 @@ PickFreezeSums run_pick_freeze(const propagation::Experiment& e, std::uint64_t n
   const std::size_t blocks = (n + rows_per_block - 1) / rows_per_block;
   const std::size_t tasks = std::max(std::min<std::size_t>(blocks, 16), blocks / 8);
   propagation::parallel_for(tasks, threads, [&](std::size_t task) {
-    Block block(e, sampler);
+    Block block(e, sampler, factors);
     Outputs y;
     for (std::size_t at = task * blocks / tasks; at < (task + 1) * blocks / tasks; ++at) {
       const std::uint64_t first = at * rows_per_block;

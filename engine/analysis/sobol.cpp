@@ -135,8 +135,9 @@ std::vector<Sensitivity> sobol_indices(const propagation::Experiment& e, std::ui
                      "Sobol' indices are defined for independent inputs, Shapley effects for all",
                      "sensitivity = { shapley = 4096 }?");
   const bool second_order = e.scenario().analysis.sensitivity.second_order;
-  PickFreezeSums sums = run_pick_freeze(e, n, second_order, threads);
-  const auto reaches = reaching_variates(e);
+  const auto groups = factors(e);
+  PickFreezeSums sums = run_pick_freeze(e, groups, n, second_order, threads);
+  const auto reaching = reaching_variates(e);
   std::vector<Sensitivity> results;
   for (std::size_t o = 0; o < sums.outputs; ++o) {
     Estimator estimator(sums, o);
@@ -145,12 +146,12 @@ std::vector<Sensitivity> sobol_indices(const propagation::Experiment& e, std::ui
     s.base_samples = sums.rows;
     s.dropped_rows = sums.rows - static_cast<std::uint64_t>(estimator.rows());
     s.confidence = index_confidence;
-    for (std::size_t v = 0; v < sums.variates; ++v)
-      if (reaches[o][v]) s.indices.push_back(estimator.index(v, plan.variates[v].name));
-    for (std::size_t i = 0; second_order && i < sums.variates; ++i)
-      for (std::size_t j = i + 1; j < sums.variates; ++j)
-        if (reaches[o][i] && reaches[o][j])
-          s.pairs.push_back(estimator.pair(i, j, plan.variates[i].name, plan.variates[j].name));
+    const auto matters = [&](std::size_t f) { return reaches(reaching[o], groups[f]); };
+    for (std::size_t f = 0; f < groups.size(); ++f)
+      if (matters(f)) s.indices.push_back(estimator.index(f, groups[f].name));
+    for (std::size_t i = 0; second_order && i < groups.size(); ++i)
+      for (std::size_t j = i + 1; j < groups.size(); ++j)
+        if (matters(i) && matters(j)) s.pairs.push_back(estimator.pair(i, j, groups[i].name, groups[j].name));
     results.push_back(std::move(s));
   }
   return results;

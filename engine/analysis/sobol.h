@@ -7,7 +7,7 @@
 
 namespace gumshoe::analysis {
 
-/// Indices of every output by every variate that reaches it, from n rows (rounded up to a multiple of 64) of the
+/// Indices of every output by every factor (pick_freeze.h) that reaches it, from n rows (rounded up to a multiple of 64) of the
 /// design of pick_freeze.h; n (d + 2) model runs, or n (2 d + 2) with `second_order`. V is the variance of y.
 ///   total:        Jansen 1999, mean (y_A - y_AB_i)^2 / 2 V.
 ///   first order:  correlation of y_B and y_AB_i, which share only x_i (Martinez 2011; Janon 2014), with

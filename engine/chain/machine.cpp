@@ -35,11 +35,6 @@ std::optional<ErrorName> parsed_error(std::string_view name) {
   const bool location = name[3] == '0';
   return ErrorName{static_cast<int>(letter) + (location ? E_X0 : 0), name.substr(location ? 4 : 3)};
 }
-std::string error_name(const Axis& axis, int kind) {
-  return fmt::format("E_{}{}{}", error_letters[static_cast<std::size_t>(kind % E_X0)], kind < E_X0 ? "" : "0",
-                     axis.name);
-}
-
 Axis axis_of(const AxisDescription& d, bool on_tool_side) {
   return {d.name,
           direction_of(d.name).value_or(0),
@@ -108,6 +103,11 @@ DescriptionProblem unknown_error(std::span<const Axis> axes, const std::string& 
 
 } // namespace
 
+std::string error_name(const Axis& axis, int kind) {
+  return fmt::format("E_{}{}{}", error_letters[static_cast<std::size_t>(kind % E_X0)], kind < E_X0 ? "" : "0",
+                     axis.name);
+}
+
 std::vector<DescriptionProblem> problems(const MachineDescription& d) {
   std::vector<DescriptionProblem> out;
   std::vector<std::string> seen;
@@ -158,8 +158,7 @@ std::span<const MachineDescription> machines() {
   using Axes = std::vector<AxisDescription>;
   // Of the grinder: eq 4.1 turns the workpiece by +A where the text says -A; the links are inferred, none is printed.
   static const std::vector<MachineDescription> table{
-      {"grinder",
-       Axes{{"X"}, {"A", "", {}, 1}},
+      {"grinder", Axes{{"X"}, {"A", "", {}, 1}},
        Axes{{"Y"}, {"Z"}, {"B", "", {-0.120, 0, -0.110}}, {"C", "", {0.050, 0.180, 0}}}},
       {"RRTTT", Axes{}, Axes{{"X"}, {"Y"}, {"Z"}, {"A"}, {"B"}}},
       {"TTTRR", Axes{{"A"}, {"C"}}, Axes{{"X"}, {"Y"}, {"Z"}}},

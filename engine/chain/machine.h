@@ -35,9 +35,13 @@ struct DescriptionProblem {
 std::vector<DescriptionProblem> problems(const MachineDescription& description);
 
 /// "grinder": the six-axis belt grinder of Fang 2022, its links inferred; "RRTTT", "TTTRR", "RTTTR": two rotary axes
-/// in the head (A, B), two in the table (A, C), one in each (B, A), all through the origin (Wang 2013). Null if unknown.
+/// in the head (A, B), two in the table (A, C), one in each (B, A), all through the origin (Wang 2013). Null if
+/// unknown.
 const MachineDescription* find_machine(std::string_view name);
 std::span<const MachineDescription> machines();
+
+/// "E_A0C": ISO's name of an error of an axis. @param kind ErrorKind
+std::string error_name(const Axis& axis, int kind);
 
 /// One error of one axis: a place in a row of errors.
 struct ErrorPlace {
@@ -54,7 +58,8 @@ public:
   explicit Machine(const MachineDescription& description);
 
   std::span<const Axis> axes() const { return axes_; }
-  std::span<const double> errors() const { return errors_; } ///< as described
+  std::size_t on_workpiece_side() const { return on_workpiece_side_; } ///< how many of them, the first ones
+  std::span<const double> errors() const { return errors_; }           ///< as described
   /// SIZE_MAX if there is no such axis.
   std::size_t axis(std::string_view name) const;
   /// "E_A0C" -> its place, if the machine has such an error.

@@ -10,6 +10,8 @@ constexpr double turn = 2 * 3.14159265358979323846;
 /// Midpoint error at which a cell is halved once more and then good: 16 times less.
 constexpr double tolerance = 1.6e-11;
 constexpr double narrowest = 1e-10; ///< rad: cover begins at once
+/// Of a piece's t: heights are read off the line, x - drop psi, so 1e-9 of 0.1 rad leaves 1e-10 drop.
+constexpr double settled = 1e-9;
 
 /// Angles that see every pass of the insert: four while it passes, 72 in a turn at least.
 int cells(const InsertBody<double>& b) {
@@ -94,7 +96,7 @@ double TriggerCurve::solve(const Piece& p, double t0, double t1, double x) const
     (f >= 0 ? t1 : t0) = t;
     double next = t - f / rise;
     if (!(next >= t0 && next <= t1) || i % 16 == 15) next = 0.5 * (t0 + t1);
-    if (std::fabs(next - t) < 1e-15) return next;
+    if (std::fabs(next - t) < settled) return next;
     t = next;
   }
   return t;
@@ -175,7 +177,7 @@ TriggerCurve::Point TriggerCurve::at(double x) const {
   const double t = solve(p, p.t0, p.t1, y);
   const double slope = p.c[1] + t * (2 * p.c[2] + t * 3 * p.c[3]); // times width
   const double rise = std::max(slope + drop_ * p.width, 1e-6 * drop_ * p.width);
-  return {p.c[0] + t * (p.c[1] + t * (p.c[2] + t * p.c[3])), slope / rise, from, to, last.end};
+  return {y - drop_ * (p.angle + p.width * t), slope / rise, from, to, last.end};
 }
 
 double TriggerCurve::record(double angle) const {

@@ -34,7 +34,7 @@ private:
   /// the cover begins all at once, has t0 = t1.
   struct Piece {
     double x0, x1, t0, t1, angle, width, c[4];
-    std::size_t run; ///< pieces of one run join
+    std::size_t run = 0; ///< pieces of one run join
   };
   struct Start {
     std::vector<std::size_t> first; ///< piece at the beginning of each of as many equal parts

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include <fmt/format.h>
 
@@ -15,23 +14,13 @@ namespace gumshoe::choice {
 namespace {
 
 using scenario::Knob;
-constexpr std::size_t most_candidates = 50'000, most_centres = 8, most_moves = 16;
+constexpr std::size_t most_centres = 8, most_moves = 16;
 constexpr std::uint64_t values_at_once = 1u << 24; ///< errors kept in memory
 
 } // namespace
 
 Search::Search(const scenario::Scenario& s, const Settings& settings)
-    : scenario_(s), choose_(*s.choose), settings_(settings) {}
-
-int Search::parts(std::size_t v) const {
-  const auto& variable = choose_.variables[v];
-  return variable.range ? (variable.steps - 1) << choose_.refinements : static_cast<int>(variable.values.size()) - 1;
-}
-
-double Search::value(std::size_t v, int place) const {
-  const auto& variable = choose_.variables[v];
-  return variable.range ? variable.at(place, parts(v)) : variable.values[static_cast<std::size_t>(place)];
-}
+    : scenario_(s), choose_(*s.choose), grid_(*s.choose), settings_(settings) {}
 
 std::vector<scenario::Setting> Search::settings_of(const std::vector<double>& values) const {
   std::vector<scenario::Setting> out;
@@ -42,7 +31,7 @@ std::vector<scenario::Setting> Search::settings_of(const std::vector<double>& va
 std::vector<double> Search::resolution() const {
   std::vector<double> out;
   for (std::size_t v = 0; v < choose_.variables.size(); ++v)
-    out.push_back(choose_.variables[v].range ? 1.0 / parts(v) : 0);
+    out.push_back(choose_.variables[v].range ? 1.0 / grid_.parts(v) : 0);
   return out;
 }
 
@@ -89,11 +78,10 @@ void Search::attempt(const std::vector<Place>& places) {
   };
   const std::uint64_t each = choose_.samples * (1 + choose_.cases.size());
   std::uint64_t done = 0;
-  std::string first_refusal;
   for (const Place& place : places) {
     ++done;
     std::vector<double> values;
-    for (std::size_t v = 0; v < place.size(); ++v) values.push_back(value(v, place[v]));
+    for (std::size_t v = 0; v < place.size(); ++v) values.push_back(grid_.value(v, place[v]));
     const auto [it, unknown] = known_.try_emplace(values);
     if (!unknown) continue;
     try {
@@ -120,30 +108,6 @@ void Search::attempt(const std::vector<Place>& places) {
   run();
 }
 
-std::vector<Search::Place> Search::grid() const {
-  std::size_t count = 1;
-  for (const auto& v : choose_.variables) {
-    count *= v.values.size();
-    if (count > most_candidates)
-      throw InputError(fmt::format("choose.variables: more than {} combinations", most_candidates), "",
-                       "fewer steps, or shorter lists?");
-  }
-  std::vector<Place> out{{}};
-  for (std::size_t v = 0; v < choose_.variables.size(); ++v) {
-    const auto& variable = choose_.variables[v];
-    const int n = variable.range ? variable.steps : static_cast<int>(variable.values.size());
-    const int step = variable.range ? 1 << choose_.refinements : 1;
-    std::vector<Place> longer;
-    for (const Place& place : out)
-      for (int i = 0; i < n; ++i) {
-        longer.push_back(place);
-        longer.back().push_back(i * step);
-      }
-    out = std::move(longer);
-  }
-  return out;
-}
-
 std::vector<std::size_t> Search::meeting() const {
   std::vector<std::size_t> out;
   for (std::size_t i = 0; i < candidates_.size(); ++i)
@@ -163,7 +127,7 @@ std::optional<std::size_t> Search::least() const {
   return best;
 }
 
-std::vector<Search::Place> Search::centres() const {
+std::vector<Place> Search::centres() const {
   std::map<Place, std::size_t> best; // by the lists' places
   const auto better = [&](const Candidate& a, const Candidate& b) {
     if (a.meets != b.meets) return a.meets;
@@ -186,24 +150,8 @@ std::vector<Search::Place> Search::centres() const {
   return out;
 }
 
-std::vector<Search::Place> Search::around(const Place& centre, int step) const {
-  std::vector<Place> out{{}};
-  for (std::size_t v = 0; v < centre.size(); ++v) {
-    std::vector<Place> longer;
-    for (const Place& place : out)
-      for (const int move : {0, -step, step}) {
-        const int to = centre[v] + move;
-        if (move != 0 && (!choose_.variables[v].range || to < 0 || to > parts(v))) continue;
-        longer.push_back(place);
-        longer.back().push_back(to);
-      }
-    out = std::move(longer);
-  }
-  return out;
-}
-
 void Search::run() {
-  attempt(grid());
+  attempt(grid_.coarse());
   if (candidates_.empty())
     throw InputError("choose: no combination of the variables can be", skipped_why_.empty() ? "" : skipped_why_[0]);
   const bool ranges = std::ranges::any_of(choose_.variables, &scenario::Variable::range);
@@ -215,7 +163,8 @@ void Search::run() {
       at = next;
       std::vector<Place> places;
       for (const Place& centre : at)
-        for (Place& place : around(centre, 1 << (choose_.refinements - round_))) places.push_back(std::move(place));
+        for (Place& place : grid_.around(centre, 1 << (choose_.refinements - round_)))
+          places.push_back(std::move(place));
       attempt(places);
     }
   }
@@ -229,23 +178,24 @@ std::vector<Neighbour> Search::neighbours(std::size_t candidate) {
     const auto& variable = choose_.variables[v];
     std::vector<int> to;
     if (variable.knob.kind == Knob::Kind::evaluation) {
-      for (int i = 0; i <= parts(v); ++i)
+      for (int i = 0; i <= grid_.parts(v); ++i)
         if (i != from[v]) to.push_back(i);
     } else if (variable.range) {
       // Readings are whole: several places may be one value.
       const int step = 1 << std::max(0, choose_.refinements - 2);
       for (const int direction : {-step, step}) {
         int place = from[v] + direction;
-        while (place >= 0 && place <= parts(v) && value(v, place) == value(v, from[v])) place += direction;
-        if (place >= 0 && place <= parts(v)) to.push_back(place);
+        while (place >= 0 && place <= grid_.parts(v) && grid_.value(v, place) == grid_.value(v, from[v]))
+          place += direction;
+        if (place >= 0 && place <= grid_.parts(v)) to.push_back(place);
       }
     } else {
       // By value: a list need not be in order.
       std::optional<int> below, above;
-      for (int i = 0; i <= parts(v); ++i) {
-        const double x = value(v, i), here = value(v, from[v]);
-        if (x < here && (!below || x > value(v, *below))) below = i;
-        if (x > here && (!above || x < value(v, *above))) above = i;
+      for (int i = 0; i <= grid_.parts(v); ++i) {
+        const double x = grid_.value(v, i), here = grid_.value(v, from[v]);
+        if (x < here && (!below || x > grid_.value(v, *below))) below = i;
+        if (x > here && (!above || x < grid_.value(v, *above))) above = i;
       }
       for (const auto& next : {below, above})
         if (next) to.push_back(*next);
@@ -261,7 +211,7 @@ std::vector<Neighbour> Search::neighbours(std::size_t candidate) {
   std::vector<Neighbour> out;
   for (const auto& [v, place] : moves) {
     std::vector<double> values;
-    for (std::size_t i = 0; i < place.size(); ++i) values.push_back(value(i, place[i]));
+    for (std::size_t i = 0; i < place.size(); ++i) values.push_back(grid_.value(i, place[i]));
     const auto found = known_.at(values);
     if (!found) continue; // cannot be
     const Candidate &here = candidates_[candidate], &there = candidates_[*found];

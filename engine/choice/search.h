@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 
+#include "choice/places.h"
 #include "choice/results.h"
 #include "scenario/scenario.h"
 
@@ -47,19 +48,14 @@ public:
   Candidate judged(Candidate candidate, const std::vector<std::vector<double>>& errors) const;
 
 private:
-  /// By variable: position in a list, or of a range in parts of the finest grid.
-  using Place = std::vector<int>;
-  double value(std::size_t variable, int place) const;
-  int parts(std::size_t variable) const; ///< of the finest grid of a range; of a list its size less 1
   void attempt(const std::vector<Place>& places);
-  std::vector<Place> grid() const;
   std::vector<Place> centres() const;
-  std::vector<Place> around(const Place& centre, int step) const;
   bool usable(const Candidate& c) const;
   const Figures& asked(const Candidate& c) const { return choice::asked(c, choose_.worst_case); }
 
   const scenario::Scenario& scenario_;
   const scenario::Choose& choose_;
+  const Places grid_;
   const Settings& settings_;
   int round_ = 0;
   std::vector<Candidate> candidates_;

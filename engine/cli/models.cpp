@@ -164,12 +164,13 @@ void add_models(CLI::App& app, Action& action) {
   add(app, "models", "lists the models, or one model's card: quantities, units, defaults, limits, meaning, source",
       action, [](const Options& o) {
         if (std::ranges::find(scenario::made_models, o.name) != std::end(scenario::made_models))
-          throw InputError("'" + o.name + "' has no card of its own", "the scenario states its quantities",
+          throw InputError("'" + o.name + "' has no card of its own", "its quantities follow from the scenario",
                            "see engine/models/" + o.name + "/README.md?");
         const ExitCode code = show(catalogue().models, "model", o.name, o.format);
         if (o.name.empty() && o.format == "text")
           std::cout << "A scenario can also state its model: name = \"expression\" (formulas), \"plugin\" (a shared "
-                       "library) or \"command\" (a program); see scenarios/README.md.\n";
+                       "library), \"command\" (a program) or \"sphere_probing\" (a sphere on the machine of "
+                       "[machine]); see scenarios/README.md.\n";
         return code;
       });
 }

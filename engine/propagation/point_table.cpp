@@ -127,6 +127,7 @@ std::vector<effects::Active> named_effects(const ModelCard& card, const std::vec
 void evaluate_together(const models::Model& model, int evaluation, const std::vector<Slot>& slots, const Csv& table,
                        const std::vector<bool>& bad_row, PointTable& result) {
   constexpr std::size_t n = 8; // one lane group; every lane the same
+  if (table.rows.empty()) throw InputError({{{table.file}, "the table has no rows", "every row is a reading", ""}});
   const ModelCard& card = *model.card;
   const std::size_t rows = table.rows.size(), q = card.quantities.size(), k = card.indications.size();
   const std::size_t effect_quantities = slots.size() - q - card.conditions.size() - k;
@@ -143,7 +144,7 @@ void evaluate_together(const models::Model& model, int evaluation, const std::ve
       if (r == 0 && i < q) first.push_back(*column.data);
     }
   auto measurands = card.evaluations[static_cast<std::size_t>(evaluation)].measurands;
-  if (model.measurands_in_use && rows > 0)
+  if (model.measurands_in_use)
     measurands = measurands.first(model.measurands_in_use(evaluation, first.data()));
   std::vector<double> values(measurands.size() * n);
   std::vector<double*> value_rows;
@@ -167,8 +168,7 @@ void evaluate_together(const models::Model& model, int evaluation, const std::ve
   call.evaluation = evaluation;
   call.context = model.context;
   const bool possible = result.impossible.empty() && std::ranges::find(bad_row, true) == bad_row.end();
-  const std::string problem = rows == 0              ? "the table has no rows"
-                              : model.check_readings ? model.check_readings(call)
+  const std::string problem = model.check_readings ? model.check_readings(call)
                                                      : std::string();
   if (!problem.empty()) result.impossible.push_back({{table.file}, problem, "", ""});
   if (problem.empty() && possible)

@@ -6,19 +6,19 @@
 #include <fmt/format.h>
 
 #include "scenario/choose_time.h"
+#include "scenario/knobs.h"
 
 namespace gumshoe::scenario {
 namespace {
 
-constexpr std::int64_t most_samples = std::int64_t{1} << 32, most_readings = 100'000, most_steps = 1000;
+constexpr std::int64_t most_samples = std::int64_t{1} << 32, most_steps = 1000;
 using Kind = Knob::Kind;
 
 class ChooseReader {
 public:
   ChooseReader(Table table, const ChooseScope& scope, Context& context)
-      : table_(std::move(table)), scope_(scope), context_(context), problems_(context.problems) {
-    for (const EvaluationCard& e : scope.model.evaluations) evaluations_.emplace_back(e.name);
-  }
+      : table_(std::move(table)), scope_(scope), context_(context), problems_(context.problems),
+        knobs_(scope, context.problems) {}
 
   Choose read() {
     if (scope_.scenario.method != Method::virtual_experiment)
@@ -139,7 +139,7 @@ private:
 
   void read_variables(Table& table) {
     for (const Member& m : table.members()) {
-      const auto knob = find_knob(m, table.path(), false);
+      const auto knob = knobs_.find(m, table.path(), false);
       if (!knob) continue;
       Variable v{*knob, {}};
       if (m.value.kind == Node::Kind::table)
@@ -154,7 +154,7 @@ private:
   void values(const std::vector<Node>& items, const Member& m, const std::string& path, Variable& v) {
     if (items.empty()) problems_.add(m.value, path + ": empty", "nothing to choose from");
     for (const Node& item : items) {
-      const auto x = value(item, path, v.knob);
+      const auto x = knobs_.value(item, path, v.knob);
       if (x && std::ranges::find(v.values, *x) != v.values.end())
         problems_.add(item, path + ": the value stands twice");
       else if (x)
@@ -170,8 +170,8 @@ private:
       return;
     }
     const Node *low = table.require("low"), *high = table.require("high");
-    const auto a = low ? value(*low, table.path("low"), v.knob) : std::nullopt;
-    const auto b = high ? value(*high, table.path("high"), v.knob) : std::nullopt;
+    const auto a = low ? knobs_.value(*low, table.path("low"), v.knob) : std::nullopt;
+    const auto b = high ? knobs_.value(*high, table.path("high"), v.knob) : std::nullopt;
     const auto steps = table.integer("steps", 2, most_steps).value_or(5);
     if (const auto scale = table.choice("scale", {"linear", "log"})) v.logarithmic = *scale == 1;
     table.refuse_unknown();
@@ -216,91 +216,17 @@ private:
     std::vector<Setting> out;
     if (table.members().empty()) table.add(table.path() + ": empty");
     for (const Member& m : table.members())
-      if (const auto knob = find_knob(m, table.path(), quantities_only))
-        if (const auto x = value(m.value, table.path(m.key), *knob)) out.push_back({*knob, *x});
+      if (const auto knob = knobs_.find(m, table.path(), quantities_only))
+        if (const auto x = knobs_.value(m.value, table.path(m.key), *knob)) out.push_back({*knob, *x});
     return out;
-  }
-
-  std::optional<double> value(const Node& node, const std::string& path, const Knob& knob) {
-    if (knob.kind == Kind::evaluation) {
-      const auto word = read_text(node, path, problems_);
-      if (!word) return std::nullopt;
-      const auto it = std::ranges::find(evaluations_, *word);
-      if (it != evaluations_.end()) return static_cast<double>(it - evaluations_.begin());
-      problems_.add(node, fmt::format("{}: {} has no evaluation '{}'", path, scope_.model.name, *word), "",
-                    did_you_mean(*word, evaluations_));
-      return std::nullopt;
-    }
-    if (knob.kind == Kind::readings) {
-      const auto n = read_number(node, path, problems_);
-      if (!n || (*n == std::floor(*n) && *n >= 1 && *n <= most_readings)) return n;
-      problems_.add(node, fmt::format("{}: {} is no number of readings", path, *n), "", "a whole number from 1?");
-      return std::nullopt;
-    }
-    const auto x = read_measure(node, path, {knob.si_unit}, problems_);
-    const QuantityCard* card = knob.kind == Kind::quantity ? card_of(knob) : nullptr;
-    if (x && card && !card->limits.contain(*x)) {
-      problems_.add(node, fmt::format("{}: outside the limits of {}", path, knob.name));
-      return std::nullopt;
-    }
-    return x;
-  }
-
-  const QuantityCard* card_of(const Knob& knob) const {
-    if (knob.index < scope_.model.quantities.size()) return &scope_.model.quantities[knob.index];
-    for (const EffectCard* e : scope_.catalogue.effects)
-      for (const QuantityCard& q : e->quantities)
-        if (knob.name == std::string(e->name) + '.' + std::string(q.name)) return &q;
-    return nullptr;
-  }
-
-  std::optional<Knob> find_knob(const Member& m, const std::string& path, bool quantities_only) {
-    const Scenario& s = scope_.scenario;
-    const auto refuse = [&](const std::string& what, const std::string& why) {
-      problems_.add(m.line, m.column, fmt::format("{}.{}: {}", path, m.key, what), why);
-      return std::nullopt;
-    };
-    std::vector<std::string> names;
-    if (!quantities_only) {
-      if (m.key == "evaluation") return Knob{Kind::evaluation, m.key};
-      if (m.key == "readings") {
-        if (s.spreads.empty() && s.readings.size() > 1)
-          return refuse("the readings are listed", "only readings alike or evenly spread can be more or fewer");
-        return Knob{Kind::readings, m.key};
-      }
-      names = {"evaluation", "readings"};
-      for (std::size_t c = 0; c < scope_.model.conditions.size(); ++c) {
-        const VariableCard& card = scope_.model.conditions[c];
-        names.emplace_back(card.name);
-        if (card.name != m.key) continue;
-        for (const auto& r : s.readings)
-          if (r.conditions[c] != s.readings.front().conditions[c])
-            return refuse("it differs between the readings", "one value is wanted for all");
-        if (std::ranges::find(s.spreads, c, &Spread::condition) != s.spreads.end())
-          return refuse("it is spread over the readings", "one value is wanted for all");
-        return Knob{Kind::condition, m.key, c, std::string(card.unit), std::string(card.si_unit)};
-      }
-    }
-    const std::size_t own = s.quantities.size() - std::min(s.quantities.size(), scope_.model.indications.size());
-    for (std::size_t i = 0; i < own; ++i) { // the rest is noise
-      const quantities::InputQuantity& q = s.quantities[i];
-      names.push_back(q.name);
-      if (q.name != m.key) continue;
-      if (q.entries.size() > 1) return refuse("its value differs between the readings", "one value is wanted for all");
-      return Knob{Kind::quantity, m.key, i, q.unit, q.si_unit};
-    }
-    problems_.add(m.line, m.column,
-                  fmt::format("{}: '{}' is no {}", path, m.key,
-                              quantities_only ? "quantity" : "condition or quantity of this scenario"),
-                  "", did_you_mean(m.key, names));
-    return std::nullopt;
   }
 
   Table table_;
   const ChooseScope& scope_;
   Context& context_;
   Problems& problems_;
-  std::vector<std::string> evaluations_;
+  KnobReader knobs_;
+  const std::vector<std::string>& evaluations_ = knobs_.evaluations();
   Choose out_;
 };
 

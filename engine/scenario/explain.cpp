@@ -105,6 +105,7 @@ std::string studies(const SensitivityOptions& o) {
   for (const auto& [study, n] : counts)
     if (n > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", study, n);
   if (o.second_order) text += ", second order";
+  if (o.by_quantity) text += ", by quantity";
   return text.empty() ? "none" : text;
 }
 

@@ -111,6 +111,7 @@ private:
     const std::string folder = std::filesystem::path(out_.file).parent_path().string();
     if (name == "expression") return make_expression(table, top, context_);
     if (name == "plugin") return make_plugin(table, folder, context_);
+    if (name == "sphere_probing") return make_sphere_probing(top, context_);
     return make_command(table, top, folder, context_);
   }
 

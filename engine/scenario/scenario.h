@@ -67,6 +67,7 @@ struct Printed {
 struct SensitivityOptions {
   std::uint64_t sobol = 0;      ///< base size N of the pick-freeze design; 0: none
   bool second_order = false;    ///< second-order Sobol' indices too
+  bool by_quantity = false;     ///< Sobol' indices of quantities, all draws of one together
   std::uint64_t shapley = 0;    ///< rows of the Shapley design; 0: none
   std::uint64_t given_data = 0; ///< stored samples to compute given-data indices from; 0: none
   std::uint64_t morris = 0;     ///< trajectories; 0: no screening

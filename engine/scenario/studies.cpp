@@ -73,6 +73,10 @@ SensitivityOptions read_sensitivity(Table table) {
   for (const auto& [key, member] : counts)
     if (const auto n = table.integer(key, 0, most)) out.*member = static_cast<std::uint64_t>(*n);
   out.second_order = table.boolean("second_order").value_or(false);
+  if (const auto by = table.choice("by", {"draw", "quantity"})) out.by_quantity = *by == 1;
+  if (out.by_quantity && out.sobol == 0)
+    table.problems().add(*table.find("by"), table.path("by") + ": needs a base size", "it is about Sobol' indices",
+                         "sobol = 65536?");
   if (out.second_order && out.sobol == 0)
     table.problems().add(*table.find("second_order"), table.path("second_order") + ": needs a base size", "",
                          "sobol = 65536?");

@@ -73,10 +73,35 @@ def decisions(r):
                    for t in r.targets for i in t.rows]}
 
 
+def choice(c):
+    """All candidates, the fresh runs and the optimum's neighbours; U and errors in the measurand's unit."""
+    if c is None:
+        return {}
+    def chosen(values):
+        return {v.name + ("" if v.kind == "evaluation" or v.display_units == "1" else f" ({v.display_units})"):
+                c.evaluations[int(x)] if v.kind == "evaluation" else point(v, x) for v, x in zip(c.variables, values)}
+    def figures(row):
+        cases = {f"{n}[{case.name}]": spread(c, getattr(row, key)[k]) for k, case in enumerate(c.cases)
+                 for n, key in (("U", "case_expanded"), ("U_se", "case_expanded_se"), ("mean_error_left", "case_left"))}
+        return {"time_s": row.time, "number_of_readings": row.readings, "unit": c.display_units, "U": spread(c, row.expanded),
+                "U_se": spread(c, row.expanded_se), "mean_error": spread(c, row.mean), "mean_error_se": spread(c, row.mean_se),
+                "standard_deviation": spread(c, row.standard_deviation), **cases, "valid": row.valid, "failed": row.failed,
+                "meets": row.meets}
+    return {"candidates": [{**chosen(row.values), **figures(row), "pareto": row.pareto, "round": row.round,
+                            "recommended": int(k == c.best)} for k, row in enumerate(c.candidates)],
+            "compared": [{"name": row.name, "setting": row.setting, "source": row.source, **figures(row),
+                          "probability": row.probability} for row in c.fresh],
+            "neighbours": [{"variable": c.variables[int(n.variable)].name,
+                            **chosen(c.candidates[int(n.candidate)].values), "time_ratio": n.time_ratio,
+                            "U_ratio": n.expanded_ratio, "near": n.near, "meets": c.candidates[int(n.candidate)].meets}
+                           for n in c.neighbours],
+            **{name: lines for name, lines in sensitivity(c).items() if lines}}
+
+
 def write(r, folder, stem):
     """Every table that has rows. Returns the paths."""
     written = []
-    for name, lines in {**plain(r), **sensitivity(r), **decisions(r)}.items():
+    for name, lines in {**plain(r), **sensitivity(r), **decisions(r), **choice(r.choice)}.items():
         if lines:
             path = folder / f"{stem}_{name}.csv"
             with open(path, "w", newline="", encoding="utf-8") as file:

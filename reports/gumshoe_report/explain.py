@@ -65,7 +65,8 @@ def why(budget, indices, shapley, u_monte_carlo):
     """One sentence on budget and indices; "" where there is nothing to compare. u_monte_carlo in SI."""
     known = first_orders(indices) or first_orders(shapley)
     rows = [c for c in budget.rows if c.name in known] if budget else []
-    if not rows:
+    shares = budget is not None and (budget.applicable or any(math.isfinite(c.share) or not c.differentiable for c in rows))
+    if not rows or not shares:
         return ""
     apart = {c.name: abs((c.share if math.isfinite(c.share) else 0.0) - known[c.name][0]) for c in rows}
     worst = max(apart, key=apart.get)

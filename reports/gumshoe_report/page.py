@@ -7,7 +7,8 @@ import types
 import jinja2
 import markupsafe
 
-from . import explain, figures, region_figures, rounding, sensitivity_figures, studies, tables
+from . import choice, choice_figures, choice_surface, explain, figures, region_figures, rounding, sensitivity_figures
+from . import studies, tables
 
 HERE = pathlib.Path(__file__).parent
 OPEN = 2      # outputs shown in full; the others are folded
@@ -21,11 +22,17 @@ def question(text):
     """The comment in which a scenario opens: '# Question: ...', may run over several lines."""
     lines = itertools.takewhile(lambda line: line.startswith("#"), text.splitlines())
     words = " ".join(line.lstrip("# ").strip() for line in lines if not line.startswith("#:")) # "#:schema" is for editors
-    return words.removeprefix("Question:").strip()
+    words = words.removeprefix("Question:").strip()
+    return words[:1].upper() + words[1:]
 
 
 def by_output(items, key):
     return {getattr(item, key): item for item in items}
+
+
+def varying(r):
+    """Outputs that have a distribution; if none has, all."""
+    return [o for o in r.outputs if not tables.constant(o)] or r.outputs
 
 
 def sections(r):
@@ -34,7 +41,7 @@ def sections(r):
               "morris": r.morris, "dgsm": r.dgsm}.items()}
     verdicts = by_output(r.validations, "name")
     picture = lambda full, draw, *arguments: markupsafe.Markup(draw(*arguments)) if full else ""
-    for k, output in enumerate(r.outputs):
+    for k, output in enumerate(varying(r)):
         of = types.SimpleNamespace(**{key: items.get(output.name) for key, items in found.items()})
         full = k < OPEN
         u = output.standard_uncertainty
@@ -77,13 +84,14 @@ def whole_run(r):
 
 def overviews(r):
     """With many outputs: one figure per measurand, and all distributions small."""
-    if len(r.outputs) <= OPEN:
+    outputs = varying(r)
+    if len(outputs) <= OPEN:
         return []
     groups = {}
-    for output in r.outputs:
+    for output in outputs:
         groups.setdefault(output.measurand, []).append(output)
     found = [figures.overview(g[:60], f"o{k}") for k, g in enumerate(groups.values()) if len(g) > 1]
-    return [markupsafe.Markup(f) for f in found + [figures.small_multiples(r.outputs[:MULTIPLES], "m")]]
+    return [markupsafe.Markup(f) for f in found + [figures.small_multiples(outputs[:MULTIPLES], "m")]]
 
 
 def subscripts(text):
@@ -91,15 +99,62 @@ def subscripts(text):
     return markupsafe.Markup(re.sub(r"\b([cupR])_([icCP])\b", r"\1<sub>\2</sub>", str(markupsafe.escape(text))))
 
 
+def run_page(r):
+    """What the page of a run is filled with."""
+    shown = varying(r)
+    return dict(
+        kicker="Measurement uncertainty", title=r.title or r.model_title or r.model,
+        method=METHODS.get(r.method, r.method), samples=thousands(r.samples), sections=list(sections(r)), **whole_run(r), overviews=overviews(r),
+        constants=[tables.constant_text(o) for o in r.outputs if o not in shown], numbered=tables.numbered(r.outputs),
+        comparisons=[tables.comparison_row(c) for c in r.comparisons],
+        printed=[tables.printed_row(p) for p in r.printed], inputs=[tables.input_row(i) for i in r.inputs],
+        readings=tables.readings(r))
+
+
+def limiting(c):
+    """The sections of sensitivity at the recommended setting, as those of an output."""
+    for study in [*c.sensitivities, *c.shapley]:
+        sobol, shapley = (study, None) if c.sensitivities else (None, study)
+        yield types.SimpleNamespace(
+            budget=None, sobol=sobol, shapley=studies.shapley(shapley) if shapley else None, pairs=None, why="",
+            given_data=None, morris=None, dgsm=None, shapley_figure="",
+            confidence=rounding.probability(getattr(study, "confidence", 0.95)),
+            side_by_side=markupsafe.Markup(sensitivity_figures.side_by_side(None, sobol, shapley, "s0")))
+
+
+def choice_page(r):
+    """What the page of a choice is filled with."""
+    c = r.choice
+    words = choice.Choice(c, r.coverage_probability)
+    surface, over = choice_surface.heat(c, "u")
+    heat = bool(surface)
+    if not heat:
+        surface, over = choice_surface.line(c, "u")
+    failing = sorted((row for row in c.candidates if row.failed), key=lambda row: -row.failed)
+    return dict(
+        kicker="Choice of settings", title=r.title or r.model, c=words, chance=choice.chance(c.probability),
+        best=words.line(words.fresh, words.fresh.setting), gains=words.gains(),
+        fresh=[(row.name, words.line(row, row.setting), row.source) for row in c.fresh],
+        pareto=markupsafe.Markup(choice_figures.pareto(c, "p")),
+        front=[(words.values(row), words.line(row), row is words.best) for row in words.front()],
+        surface=markupsafe.Markup(surface), over=over, heat=heat, **choice_surface.legend(c),
+        neighbours=words.neighbours(),
+        sections=list(limiting(c)), failing_count=len(failing),
+        failing=[(words.values(row), words.line(row)) for row in failing[:choice.LISTED]],
+        all=[(words.values(row), words.line(row))
+             for row in sorted(c.candidates, key=lambda row: row.time)[:choice.MOST]])
+
+
+def thousands(n):
+    return f"{int(n):,}".replace(",", "\u202f")
+
+
 def render(r):
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=True, trim_blocks=True,
                                      lstrip_blocks=True, undefined=jinja2.StrictUndefined)
-    environment.filters.update(percent=rounding.percent, fixed=rounding.fixed, subscripts=subscripts,
+    environment.filters.update(percent=rounding.percent, fixed=rounding.fixed, subscripts=subscripts, thousands=thousands,
                                verdicts=studies.sobol_verdict)
-    return environment.get_template("template.html.j2").render(
-        r=r, title=r.title or r.model_title or r.model, question=question(r.scenario_text),
-        method=METHODS.get(r.method, r.method), p=rounding.probability(r.coverage_probability),
-        samples=f"{r.samples:,}".replace(",", "\u202f"), sections=list(sections(r)), **whole_run(r), overviews=overviews(r),
-        comparisons=[tables.comparison_row(c) for c in r.comparisons],
-        printed=[tables.printed_row(p) for p in r.printed], inputs=[tables.input_row(i) for i in r.inputs],
-        readings=tables.readings(r), css=markupsafe.Markup((HERE / "style.css").read_text(encoding="utf-8")))
+    template, contents = ("choice.html.j2", choice_page(r)) if r.choice else ("run.html.j2", run_page(r))
+    return environment.get_template(template).render(
+        r=r, question=question(r.scenario_text), p=rounding.probability(r.coverage_probability), **contents,
+        css=markupsafe.Markup((HERE / "style.css").read_text(encoding="utf-8")))

@@ -63,6 +63,18 @@ def studies(file, r):
         if "stopping" in file else None
 
 
+def choice(group):
+    """What `gumshoe choose` found; None of a run."""
+    if group is None:
+        return None
+    c = types.SimpleNamespace(**attributes(group), evaluations=texts(group, "evaluations"),
+                              skipped_why=texts(group, "skipped_why"))
+    for name in ("variables", "cases", "candidates", "fresh", "neighbours"):
+        setattr(c, name, rows(group.get(name)))
+    studies(group, c)
+    return c
+
+
 def texts(file, name):
     return [plain(t) for t in file[name][()]] if name in file else []
 
@@ -90,6 +102,7 @@ def result(path):
                 setattr(output, key, file[name][()] if name in file else np.zeros(0))
         r.budgets = numbered(file.get("budget"))
         studies(file, r)
+        r.choice = choice(file.get("choice"))
         r.validations = rows(file.get("validation"))
         r.comparisons = rows(file.get("comparison"))
         r.printed = rows(file.get("printed"))

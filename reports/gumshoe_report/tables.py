@@ -1,10 +1,12 @@
 """The tables of a report: rows of text for people."""
 import math
+import re
 import types
 
 from .rounding import COMMON, decimals, finer, fixed, percent, significant, unit_text
 
 FOLDED_BELOW = 5e-4  # shares that the page sums up in one line when a budget is long
+FOLDED_INDEX = 5e-3  # the same of indices, where the law of propagation has no shares
 
 
 def point(row, value):
@@ -31,6 +33,43 @@ def summary_row(o):
         tail_remark=getattr(o, "tail_remark", ""), statement=o.statement)
 
 
+def constant(o):
+    """The same in every sample: there is no distribution to show."""
+    return o.standard_uncertainty == 0 and o.symmetric_low == o.symmetric_high
+
+
+def with_unit(text, units):
+    return text + (f"\u202f{unit_text(units)}" if unit_text(units) else "")
+
+
+def constant_text(o):
+    return f"{o.name} = {with_unit(fixed(point(o, o.estimate), None), o.display_units)}" + (
+        f" ({o.failed} of {o.valid + o.failed} samples failed)" if o.failed else "")
+
+
+def numbered(outputs):
+    """Outputs like length_1, length_2, seen_1, seen_2 as one table, a row per number; None if there are none such."""
+    found = {}
+    for o in outputs:
+        match = re.fullmatch(r"(.+)_(\d+)", o.name)
+        if match:
+            found.setdefault(match[1], {})[int(match[2])] = o
+    numbers = sorted({k for stem in found.values() for k in stem})
+    stems = {name: rows for name, rows in found.items() if sorted(rows) == numbers}
+    if len(numbers) < 2 or len(stems) < 2:
+        return None
+    def cell(o):
+        u = o.standard_uncertainty
+        if constant(o):
+            return fixed(point(o, o.estimate), None), ""
+        return fixed(point(o, o.estimate), decimals(spread(o, u))), significant(spread(o, u))
+    return types.SimpleNamespace(
+        hidden="seen" in stems and any(o.symmetric_low < 1 for o in stems["seen"].values()),
+        heads=[(name, unit_text(rows[numbers[0]].display_units), not all(map(constant, rows.values())))
+               for name, rows in stems.items()],
+        rows=[(k, [(*cell(rows[k]), not all(map(constant, rows.values()))) for rows in stems.values()]) for k in numbers])
+
+
 def coefficient_unit(output_unit, unit):
     if unit in ("1", output_unit):
         return unit_text(output_unit) if unit == "1" else ""
@@ -55,8 +94,10 @@ def budget_row(b, c, factor):
 def budget(b, u_monte_carlo=math.nan):
     """The budget of one output as text; `u_monte_carlo` in SI."""
     ordered = sorted(b.rows, key=lambda c: -max([s for s in (c.share, c.monte_carlo_share) if math.isfinite(s)] + [0.0]))
+    has_gum = any(math.isfinite(c.share) for c in b.rows) or not all(c.differentiable for c in b.rows) or b.applicable
     small = [c for c in ordered if c.differentiable and math.isfinite(c.share) and c.share < FOLDED_BELOW and
-             not c.monte_carlo_share >= FOLDED_BELOW]
+             not c.monte_carlo_share >= FOLDED_BELOW] if has_gum else \
+        [c for c in ordered if c.monte_carlo_share < FOLDED_INDEX]
     folded = small if len(ordered) > 10 and len(small) > 3 else []
     u = b.combined_standard_uncertainty
     dof = b.effective_degrees_of_freedom
@@ -67,7 +108,8 @@ def budget(b, u_monte_carlo=math.nan):
     return types.SimpleNamespace(
         output=b.output, unit=unit_text(b.display_units), applicable=bool(b.applicable), reason=b.reason,
         rows=[budget_row(b, c, factor) for c in ordered if c not in folded], folded=len(folded),
-        folded_share=percent(sum(c.share for c in folded)),
+        folded_share=percent(sum(c.share if has_gum else c.monte_carlo_share for c in folded)),
+        folded_below=percent(FOLDED_BELOW if has_gum else FOLDED_INDEX), has_gum=has_gum,
         has_monte_carlo=any(math.isfinite(c.monte_carlo_share) for c in b.rows),
         correlation=percent(b.correlation_share), fine_unit=unit_text(fine),
         interactions=percent(b.monte_carlo_interactions), u=significant(spread(b, u)),

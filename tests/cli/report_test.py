@@ -266,6 +266,70 @@ class EveryStudy(unittest.TestCase):
         self.assertNotIn("sobol", made["loss"])
 
 
+CURVE = """schema = 1
+[model]
+name = "tool_length"
+evaluation = "characteristic_curve"
+[conditions]
+spindle_speed = "1000 rpm"
+feed = "30 mm/min"
+start_angle = {{ spread = ["0 deg", "360 deg"], readings = 8 }}
+start_height = "5 mm"
+[quantities]
+offset = {{ value = "4.9 mm", u = "0.02 mm" }}
+[indications.spindle_z]
+readings = [{}]
+components = [ {{ u = "0.5 um", per = "reading" }} ]
+[run]
+samples = 100
+"""
+
+
+class Curve(unittest.TestCase):
+    """Many outputs from all readings together: some never vary, some are numbered by flute."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        folder = pathlib.Path(cls.temporary.name)
+        table = "spindle_speed (rpm),feed (mm/min),start_height (mm),offset (mm),start_angle (deg)\n"
+        (folder / "curve.csv").write_text(table + "".join(f"1000,30,5,4.9,{45 * k}\n" for k in range(8)))
+        seen = subprocess.run([GUMSHOE, "evaluate", "tool_length", "--table", folder / "curve.csv"], check=True,
+                              capture_output=True, text=True).stdout
+        heights = [row["spindle_z (mm)"] for row in csv.DictReader(seen.splitlines())]
+        (folder / "curve.toml").write_text(CURVE.format(", ".join(f'"{z} mm"' for z in heights)))
+        for words in (("run", folder / "curve.toml", "--out", folder / "curve.h5"), ("report", folder / "curve.h5")):
+            subprocess.run([GUMSHOE, *words], cwd=ROOT, check=True, capture_output=True)
+        cls.text = (folder / "curve.html").read_text(encoding="utf-8")
+        with open(folder / "curve_summary.csv", encoding="utf-8") as file:
+            cls.summary = {row["output"]: row for row in csv.DictReader(file)}
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.temporary.cleanup()
+
+    def test_what_never_varies_is_one_line_and_no_distribution(self):
+        line = re.search("The same in all samples: ([^<]*)", self.text)[1]
+        still = {name for name, row in self.summary.items() if float(row["standard_uncertainty"]) == 0}
+        self.assertIn("degrees_of_freedom", still)
+        self.assertEqual({item.split(" = ")[0] for item in line.rstrip(".").split("; ")}, still)
+        self.assertIn("degrees_of_freedom = 5", line)  # eight readings less two flutes less the phase
+        for name in still:
+            self.assertFalse(f"<h2>{name}</h2>" in self.text or f'<span class="symbol">{name}</span>' in self.text, name)
+        self.assertTrue("<h2>tool_length</h2>" in self.text)
+
+    def test_flutes_stand_side_by_side(self):
+        table = self.text[self.text.index("One by one"):]
+        table = table[:table.index("</table>")]
+        rows = re.findall(r'<tr><th scope="row">(\d+)</th>(.*?)</tr>', table)
+        self.assertEqual([number for number, _ in rows], ["1", "2"])
+        for number, cells in rows:
+            values = re.findall(r'strong">([^<]*)<', cells)
+            length = float(self.summary[f"flute_length_{number}"]["estimate"])
+            self.assertAlmostEqual(float(values[0].replace("\u2212", "-")), length, delta=1e-4)
+            self.assertEqual(float(values[2]), float(self.summary[f"seen_{number}"]["estimate"]))
+
+
 class WhyTheyDiffer(unittest.TestCase):
     """The sentence follows its rules (reports/README.md): each reason alone gives its own words and no other."""
 
@@ -300,6 +364,14 @@ class WhyTheyDiffer(unittest.TestCase):
                          {"tails"})
         self.assertEqual(self.reasons(self.sentence({"share": 0.3}, correlation=0.2)), {"correlated"})
         self.assertIn("not linear over the range", self.sentence({"share": 0.3}))
+
+    def test_without_a_law_of_propagation_there_is_nothing_to_compare(self):
+        none = float("nan")  # as of a virtual experiment
+        row = types.SimpleNamespace(name="a", share=none, sensitivity=none, differentiable=1, distribution="normal",
+                                    degrees_of_freedom=0.0)
+        budget = types.SimpleNamespace(rows=[row], applicable=False, correlation_share=none, combined_standard_uncertainty=none)
+        indices = types.SimpleNamespace(rows=[types.SimpleNamespace(input="a", first=0.5, total=1.0)])
+        self.assertEqual(explain.why(budget, indices, None, 1.0), "")
 
     def test_size_of_the_difference(self):
         self.assertIn("most for a (0.20)", self.sentence({"share": 0.3}))

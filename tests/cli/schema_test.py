@@ -68,6 +68,18 @@ class Schema(unittest.TestCase):
             with self.subTest(name):
                 self.assertFalse(self.validator.is_valid(broken(change)))
 
+    def test_mistakes_of_a_machine_are_refused(self):
+        good = load(FOLDER / "machine_five_axis.toml")
+        own = {"workpiece_side": ["X", {"axis": "B", "point": ["0 mm", "0 mm", "-400 mm"]}], "tool_side": ["Z", "Y"]}
+        for machine, fine in (
+                (own, True), (own | {"name": "own"}, True), (own | {"errors": {"E_A0B": "0.01 deg"}}, True), ({}, False),
+                ({"tool_side": ["X"]}, False), (own | {"tool_side": ["Q"]}, False), (own | {"tool_sied": []}, False),
+                (own | {"errors": {"A0B": "0.01 deg"}}, False), (own | {"tool_side": [{"kind": "linear"}]}, False),
+                (own | {"tool_side": [{"axis": "X", "sense": 0}]}, False),
+                (own | {"tool_side": [{"axis": "X", "point": ["1 mm"]}]}, False)):
+            with self.subTest(machine):
+                self.assertEqual(self.validator.is_valid(good | {"machine": machine}), fine)
+
     @unittest.skipUnless(GUMSHOE, "needs the program")
     def test_program_accepts_the_shipped_scenarios(self):
         for file in sorted(FOLDER.glob("*.toml")):

@@ -213,3 +213,26 @@ TEST_CASE("correlated inputs have no Sobol' indices", "[sobol]") {
   CHECK_THROWS_WITH(sobol_indices(*toy->experiment, 1024, 1),
                     Catch::Contains("correlated") && Catch::Contains("shapley = 4096"));
 }
+
+TEST_CASE("the draws of one quantity together are one factor", "[sobol]") {
+  // y = x1 x2 + x3, x1 the sum of two draws: S_1 = v1 m2^2 / V and T_1 = S_1 + v1 v2 / V, with v1 the sum of two.
+  const auto toy = experiment<Borgonovo>(Borgonovo::distributions(), 5, {}, true);
+  auto& s = toy->scenario;
+  s.quantities[0].entries[0].components.push_back({"more", normal(0.3), 'B', 0, {}, ""});
+  s.analysis.sensitivity.by_quantity = true;
+  const propagation::Experiment grouped(s);
+  const double v = 1 / 12., v1 = v + 0.09, all = v1 * v + v1 / 4 + v / 4 + v;
+  const Truth truth{{v1 / 4 / all, v / 4 / all, v / all},
+                    {(v1 / 4 + v1 * v) / all, (v / 4 + v1 * v) / all, v / all},
+                    {v1 * v / all, 0, 0}};
+  REQUIRE(truth.first[0] > 1.5 * truth.first[1]); // the second draw matters
+  const Sensitivity found = sobol_indices(grouped, 65536, 2).at(0);
+  CHECK(found.indices.at(0).input == "x1");
+  CHECK(check_against(found, truth) < 0.01);
+
+  s.analysis.sensitivity.by_quantity = false;
+  const propagation::Experiment apart(s);
+  const auto single = sobol_indices(apart, 65536, 2).at(0).indices;
+  REQUIRE(single.size() == 4);
+  CHECK(single[0].first + single[1].first == Approx(truth.first[0]).margin(0.02));
+}

@@ -62,6 +62,11 @@ private:
 
 int flutes_of(const Reading& r) { return std::clamp(static_cast<int>(r.q[inserts]), 1, chain::most_inserts); }
 double drop(const Reading& r) { return motion(r.q, r.event, r.condition).drop; }
+/// Of the lines on which readings come down, where this one's is: m, but for what all share.
+double line_of(const Reading& r) {
+  const auto m = motion(r.q, r.event, r.condition);
+  return m.height + m.drop * m.angle;
+}
 double least_raise(const Reading& r) { return mill::least_raise(r.q, r.event); }
 
 bool possible(const std::vector<Reading>& all) {
@@ -108,9 +113,10 @@ bool prepare(const std::vector<Reading>& all, Curves& curves, CurveReadings& dat
   data.lines.clear();
   data.heights.clear();
   data.alike = true;
+  const double reference = line_of(all[0]); // what all readings share leaves no trace in the fit
   for (const Reading& r : all) {
     const auto m = motion(r.q, r.event, r.condition);
-    const double line = m.height + m.drop * m.angle;
+    const double line = line_of(r) - reference;
     data.heights.push_back(r.height);
     for (int k = 0; k < n; ++k) {
       const auto f = flute(r.q, r.event, k);
@@ -175,8 +181,8 @@ void evaluate_curve(const Results& results, const std::vector<Reading>& all, con
   }
   const double length = effective + least_raise(all[0]);
   // A line's phase is start_height + tool_length: what it shows beyond turns the holder.
-  write_curve(results, all[0], lengths, fit.seen.data(), all[0].q[holder_angle] + (fit.phase - length) / data.drop,
-              length);
+  write_curve(results, all[0], lengths, fit.seen.data(),
+              all[0].q[holder_angle] + (fit.phase - line_of(all[0]) - length) / data.drop, length);
   results.set(residual_row, std::sqrt(fit.squares / static_cast<double>(all.size())));
 }
 

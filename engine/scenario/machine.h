@@ -1,0 +1,17 @@
+#pragma once
+/// [machine]: a named machine, or the axes of one's own.
+#include <optional>
+
+#include "chain/machine.h"
+#include "scenario/context.h"
+
+namespace gumshoe::scenario {
+
+/// nullopt and problems, each at its place, if the section is missing or wrong.
+///     name = "TTTRR"                                       # a known machine, or any name beside the two sides
+///     workpiece_side = ["Y", { axis = "C", point = ["0 mm", "0 mm", "-50 mm"], sense = 1 }]   # from the bed outwards
+///     tool_side = ["X", "Z"]
+///     errors = { E_A0C = "0.01 deg" }                      # defaults of the quantities of these names
+std::optional<chain::MachineDescription> read_machine(Table& top, Problems& problems);
+
+} // namespace gumshoe::scenario

@@ -1,0 +1,84 @@
+"""Figure of a choice: time against U of all candidates, with the Pareto front."""
+import matplotlib.pyplot as plt
+from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullLocator
+
+from .choice import axis_label, duration, plain_number
+from .figures import BLUE, GREY, GRID, INK, ORANGE, svg
+
+
+CLOCK = ([1, 2, 3, 5, 7, 10, 15, 20, 30, 45] + [60 * x for x in (1, 1.5, 2, 3, 5, 7, 10, 15, 20, 30)] +
+         [3600 * x for x in (1, 2, 4, 8, 16, 24)])
+
+
+def short(seconds):
+    """A duration without its zeros."""
+    text = duration(seconds).replace(".0\u202f", "\u202f")
+    return text.replace("\u202fmin 0\u202fs", "\u202fmin").replace("\u202fh 0\u202fmin", "\u202fh")
+
+
+def time_axis(axis, times):
+    """Ticks at the times that a clock shows."""
+    low, high = min(times), max(times)
+    if high > 5 * low:
+        axis.axes.set_xscale("log")
+    marks = [t for t in CLOCK if 0.95 * low <= t <= 1.05 * high]
+    if high > 5 * low and len(marks) > 2:
+        while len(marks) > 9:
+            marks = marks[::2]
+        axis.set_major_locator(FixedLocator(marks))
+        axis.set_minor_locator(NullLocator())
+    elif high > 5 * low:
+        axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+    axis.set_major_formatter(FuncFormatter(lambda t, _: short(t)))
+    axis.set_minor_formatter(FuncFormatter(lambda t, _: ""))
+
+
+def logarithmic_U(axis, values):
+    """A scale with plain numbers; logarithmic if U varies much."""
+    if max(values) > 4 * min(values):
+        axis.axes.set_yscale("log")
+        axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        axis.set_minor_formatter(FuncFormatter(lambda *_: ""))
+    axis.set_major_formatter(FuncFormatter(lambda u, _: plain_number(u)))
+
+
+def pareto(c, name):
+    rows = [r for r in c.candidates if r.asked > 0 and r.time > 0]
+    if len(rows) < 2:
+        return ""
+    U = lambda r: r.asked * c.display_factor
+    figure, axes = plt.subplots(figsize=(7.2, 3.9), layout="constrained")
+    for group, colour, text in (([r for r in rows if not r.meets], GREY, "misses the target"),
+                                ([r for r in rows if r.meets], BLUE, "meets the target")):
+        if group:
+            axes.plot([r.time for r in group], [U(r) for r in group], "o", color=colour, markersize=3.2, alpha=0.45,
+                      markeredgewidth=0, label=text)
+    front = sorted((r for r in rows if r.pareto), key=lambda r: r.time)
+    axes.step([r.time for r in front], [U(r) for r in front], where="post", color=INK, linewidth=1,
+              label="Pareto front")
+    axes.axhline(c.target * c.display_factor, color=ORANGE, linewidth=1, linestyle=(0, (5, 2)))
+    others = [r for r in c.fresh[1:] if r.asked > 0]
+    if others:
+        axes.plot([r.time for r in others], [U(r) for r in others], "D", color=INK, markersize=5.5, linestyle="none",
+                  markerfacecolor="white", label="compared")
+    best = c.fresh[0]
+    if best.asked > 0:
+        axes.plot([best.time], [U(best)], "*", color=ORANGE, markersize=14, markeredgecolor="white",
+                  label="recommended" if c.reached else "least U", zorder=5)
+    drawn = [*rows, *others]
+    time_axis(axes.xaxis, [r.time for r in drawn])
+    logarithmic_U(axes.yaxis, [U(r) for r in drawn])
+    for r in others:
+        at_right = axes.transAxes.inverted().transform(axes.transData.transform((r.time, U(r))))[0] > 0.6
+        axes.annotate(r.name, (r.time, U(r)), xytext=(-7 if at_right else 7, 0), textcoords="offset points", fontsize=8,
+                      color=INK, va="center", ha="right" if at_right else "left",
+                      bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.7, "pad": 0.6})
+    axes.annotate(f"target {plain_number(c.target * c.display_factor)}", (1, c.target * c.display_factor),
+                  xycoords=("axes fraction", "data"), xytext=(0, 3), textcoords="offset points", fontsize=8,
+                  color=ORANGE, ha="right")
+    axes.grid(**GRID)
+    axes.set_xlabel("time that measuring takes")
+    axes.set_ylabel(axis_label("U", c.display_units))
+    axes.legend(loc="lower left", bbox_to_anchor=(-0.02, 1), ncols=5, frameon=False, fontsize=8, handletextpad=0.4,
+                columnspacing=1.4)
+    return svg(figure, name, "Time against expanded uncertainty of all candidates, with the Pareto front")

@@ -1,0 +1,242 @@
+/// Probing a sphere on a described machine: the laws of every model, against the grinder's own model, published
+/// transforms, and differences.
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <random>
+
+#include "base/error.h"
+#include "chain/shadow.h"
+#include "models/sphere_calibration/sphere_calibration.h"
+#include "models/sphere_probing/sphere_probing.h"
+
+using namespace gumshoe;
+using models::Gradient;
+namespace probing = models::probing;
+namespace sphere = models::sphere;
+
+namespace {
+
+constexpr double deg = 3.14159265358979323846 / 180;
+
+struct Draw {
+  std::mt19937_64 engine{841};
+  double operator()(double low, double high) {
+    return low + (high - low) * static_cast<double>(engine() >> 11) * 0x1p-53;
+  }
+};
+
+using Axes = std::vector<chain::AxisDescription>;
+/// A slide behind a rotary axis on either side, a second slide along Z, and axes that do not meet.
+chain::MachineDescription odd() {
+  return {"odd", Axes{{"Y", "", {0.1, 0.2, 0.3}}, {"C", "", {0.2, -0.1, 0.05}}, {"W"}},
+          Axes{{"Z"}, {"A", "", {0, 0.1, 0.4}, -1}, {"X", "", {-0.3, 0, 0.1}}, {"B2", "", {0.05, 0, -0.2}}}};
+}
+
+struct Case {
+  models::MadeModel model;
+  std::vector<double> q, conditions;
+  Case(const chain::MachineDescription& d, Draw& draw, double size) : model(probing::make(d)) {
+    for (const auto& card : model->card->quantities)
+      q.push_back(card.name.starts_with("E_") ? size * draw(-1, 1) : draw(-0.3, 0.3));
+    for (const auto& card : model->card->conditions)
+      conditions.push_back(card.unit == "deg" ? draw(-0.9, 0.9) : draw(-0.2, 0.2));
+  }
+  Gradient exact[3];
+  std::array<double, 3> simulated(std::size_t variable = 0) {
+    std::vector<Gradient> g(q.begin(), q.end());
+    g[variable] = Gradient::variable(q[variable], 0);
+    models::PointCall<Gradient> call{};
+    call.quantities = g.data(), call.conditions = conditions.data(), call.simulated = exact;
+    call.context = model->context;
+    REQUIRE(model->simulate_gradient(call).status == 0);
+    return {exact[0].v, exact[1].v, exact[2].v};
+  }
+  std::array<double, 3> evaluated(const std::array<double, 3>& read, std::size_t variable = 0) {
+    std::vector<Gradient> g(q.begin(), q.end());
+    g[variable] = Gradient::variable(q[variable], 0);
+    const Gradient x[] = {read[0], read[1], read[2]};
+    models::PointCall<Gradient> call{};
+    call.quantities = g.data(), call.conditions = conditions.data(), call.measurands = exact;
+    call.indications = x, call.context = model->context;
+    REQUIRE(model->evaluate_gradient(call).status == 0);
+    return {exact[0].v, exact[1].v, exact[2].v};
+  }
+};
+
+} // namespace
+
+TEST_CASE("at the simulated commands the tip stands at the sphere, on any machine", "[laws][sphere_probing]") {
+  Draw draw;
+  std::vector<chain::MachineDescription> all(chain::machines().begin(), chain::machines().end());
+  all.push_back(odd());
+  for (const auto& d : all)
+    for (const double size : {0.0, 1e-4, 0.05})
+      for (int i = 0; i < 20; ++i) {
+        CAPTURE(d.name, size, i);
+        Case c(d, draw, size);
+        // Coordinates of a metre through a dozen products; the odd machine's slides span half a unit volume or more.
+        for (const double v : c.evaluated(c.simulated())) CHECK(std::fabs(v) < 5e-15);
+      }
+}
+
+TEST_CASE("the grinder is that of sphere_calibration", "[laws][sphere_probing][sphere_calibration]") {
+  Draw draw;
+  for (int i = 0; i < 100; ++i) {
+    double q[sphere::count] = {};
+    for (int j = sphere::probe_x; j <= sphere::probe_z; ++j) q[j] = draw(0.05, 0.5);
+    for (int j = sphere::E_X0B; j <= sphere::E_Y0C; ++j) q[j] = draw(-1e-3, 1e-3);
+    for (int j = sphere::E_A0B; j <= sphere::E_B0C; ++j) q[j] = draw(-0.5, 0.5) * deg;
+    for (int j = sphere::link_B_x; j <= sphere::link_C_y; ++j) q[j] = draw(-0.2, 0.2);
+    for (const int j : {sphere::sphere_distance, sphere::sphere_y, sphere::sphere_z}) q[j] = draw(-0.2, 0.2);
+    for (const int j : {sphere::E_AA, sphere::E_BB, sphere::E_CC}) q[j] = draw(-0.1, 0.1) * deg;
+    for (int j = sphere::E_XX; j <= sphere::E_ZZ; ++j) q[j] = draw(-1e-5, 1e-5);
+    q[sphere::sphere_radius] = 0.0125, q[sphere::tip_radius] = 0.003;
+    double condition[sphere::conditions] = {draw(-2, 2), draw(-2, 2), draw(-2, 2)};
+    const auto wanted = sphere::simulate(sphere::contact(sphere::exact, q, sphere::links(q), condition, false));
+
+    auto d = *chain::find_machine("grinder");
+    (*d.tool_side)[2].point = {q[sphere::link_B_x], 0, -q[sphere::link_B_z]};
+    (*d.tool_side)[3].point = {q[sphere::link_C_x], q[sphere::link_C_y], 0};
+    // There the errors of the slides add to the commands. By ISO those of X do so, too, as X carries the workpiece;
+    // those of Y and Z, which carry the tool, count against them.
+    const auto add = [&](const char* name, double value) { d.errors.emplace_back(name, value); };
+    add("E_X0B", q[sphere::E_X0B]), add("E_Z0B", -q[sphere::E_Z0B]), add("E_X0C", q[sphere::E_X0C]);
+    add("E_Y0C", q[sphere::E_Y0C]), add("E_A0B", q[sphere::E_A0B]), add("E_C0B", q[sphere::E_C0B]);
+    add("E_A0C", q[sphere::E_A0C]), add("E_B0C", q[sphere::E_B0C]), add("E_AA", q[sphere::E_AA]);
+    add("E_BB", q[sphere::E_BB]), add("E_CC", q[sphere::E_CC]);
+    for (const auto& [name, index, carried] :
+         {std::tuple{"E_XX", sphere::E_XX, true}, std::tuple{"E_YX", sphere::E_YX, true},
+          std::tuple{"E_ZX", sphere::E_ZX, true}, std::tuple{"E_XY", sphere::E_XY, false},
+          std::tuple{"E_YY", sphere::E_YY, false}, std::tuple{"E_ZY", sphere::E_ZY, false},
+          std::tuple{"E_XZ", sphere::E_XZ, false}, std::tuple{"E_YZ", sphere::E_YZ, false},
+          std::tuple{"E_ZZ", sphere::E_ZZ, false}})
+      add(name, carried ? q[index] : -q[index]);
+    Case c(d, draw, 0);
+    for (std::size_t j = 0; j < c.q.size(); ++j) c.q[j] = c.model->card->quantities[j].default_value;
+    const double points[] = {q[sphere::probe_x],
+                             -q[sphere::probe_y],
+                             -q[sphere::probe_z],
+                             -q[sphere::sphere_distance],
+                             q[sphere::sphere_y],
+                             q[sphere::sphere_z],
+                             0,
+                             0,
+                             0.0155};
+    std::copy(std::begin(points), std::end(points), c.q.begin());
+    c.conditions = {condition[sphere::A], condition[sphere::B], condition[sphere::C]};
+    const auto xyz = c.simulated();
+    CHECK(std::fabs(xyz[0] - wanted.x) < 1e-14);
+    CHECK(std::fabs(xyz[1] - wanted.y) < 1e-14);
+    CHECK(std::fabs(xyz[2] - wanted.z) < 1e-14);
+  }
+}
+
+TEST_CASE("commands of the published five-axis machines", "[laws][sphere_probing][references]") {
+  Draw draw;
+  for (int i = 0; i < 20; ++i) {
+    const double x = draw(-1, 1), y = draw(-1, 1), z = draw(-1, 1), a = draw(-2, 2), b = draw(-2, 2);
+    { // Wang 2013, RRTTT: the tip (0, 0, -r) at x + r sin b (-1), y + r sin a cos b, z - r cos a cos b
+      Case c(*chain::find_machine("RRTTT"), draw, 0);
+      const double points[] = {0, 0, -0.25, x, y, z, 0, 0, 0};
+      std::copy(std::begin(points), std::end(points), c.q.begin());
+      c.conditions = {a, b};
+      const auto at = c.simulated();
+      CHECK(std::fabs(at[0] - (x + 0.25 * std::sin(b))) < 2e-15);
+      CHECK(std::fabs(at[1] - (y - 0.25 * std::sin(a) * std::cos(b))) < 2e-15);
+      CHECK(std::fabs(at[2] - (z + 0.25 * std::cos(a) * std::cos(b))) < 2e-15);
+    }
+    { // TTTRR: the table turns a point by -a about X after -b about Z
+      Case c(*chain::find_machine("TTTRR"), draw, 0);
+      const double points[] = {0, 0, 0, x, y, z, 0, 0, 0};
+      std::copy(std::begin(points), std::end(points), c.q.begin());
+      c.conditions = {a, b};
+      const auto at = c.simulated();
+      const double u = x * std::cos(b) + y * std::sin(b), v = -x * std::sin(b) + y * std::cos(b);
+      CHECK(std::fabs(at[0] - u) < 2e-15);
+      CHECK(std::fabs(at[1] - (v * std::cos(a) + z * std::sin(a))) < 2e-15);
+      CHECK(std::fabs(at[2] - (z * std::cos(a) - v * std::sin(a))) < 2e-15);
+    }
+  }
+}
+
+TEST_CASE("exact derivatives agree with differences", "[laws][sphere_probing]") {
+  Draw draw;
+  Case c(odd(), draw, 1e-3);
+  const auto read = c.simulated();
+  for (std::size_t j = 0; j < c.q.size(); ++j) {
+    CAPTURE(c.model->card->quantities[j].name);
+    const double h = 1e-5, at = c.q[j]; // third derivatives below 10 m: 1e-9; rounding 1e-15 / h = 1e-10
+    c.q[j] = at + h;
+    const auto s_up = c.simulated(), e_up = c.evaluated(read);
+    c.q[j] = at - h;
+    const auto s_down = c.simulated(), e_down = c.evaluated(read);
+    c.q[j] = at;
+    c.simulated(j);
+    for (std::size_t k = 0; k < 3; ++k) CHECK(std::fabs(c.exact[k].d[0] - (s_up[k] - s_down[k]) / (2 * h)) < 4e-9);
+    c.evaluated(read, j);
+    for (std::size_t k = 0; k < 3; ++k) CHECK(std::fabs(c.exact[k].d[0] - (e_up[k] - e_down[k]) / (2 * h)) < 4e-9);
+  }
+}
+
+TEST_CASE("blocks give the bits of points", "[laws][sphere_probing]") {
+  Draw draw;
+  Case c(odd(), draw, 1e-3);
+  constexpr std::size_t n = 16;
+  std::vector<std::vector<double>> values;
+  for (std::size_t j = 0; j < c.q.size(); ++j) { // every third quantity is drawn
+    values.emplace_back(n, c.q[j]);
+    for (double& v : values.back()) v = j % 3 == 0 ? c.q[j] * draw(0.5, 1.5) : c.q[j];
+  }
+  std::vector<models::Column> quantities, conditions, read(3);
+  for (std::size_t j = 0; j < c.q.size(); ++j) quantities.push_back({values[j].data(), j % 3 == 0 ? 1u : 0u});
+  for (const double& v : c.conditions) conditions.push_back({&v, 0});
+  std::vector<std::vector<double>> rows(6, std::vector<double>(n));
+  std::vector<double*> out;
+  for (auto& r : rows) out.push_back(r.data());
+  std::vector<std::uint8_t> status(n);
+  models::BlockCall call{};
+  call.samples = n, call.readings = 1;
+  call.quantities = quantities.data(), call.conditions = conditions.data(), call.indications = read.data();
+  call.simulated = out.data(), call.measurands = out.data() + 3, call.status = status.data();
+  call.context = c.model->context;
+  c.model->kernels()->simulate(call);
+  for (std::size_t k = 0; k < 3; ++k) CHECK(rows[3 + k] == std::vector<double>(n, 0.0));
+  for (std::size_t k = 0; k < 3; ++k) read[k] = {rows[k].data(), 1};
+  c.model->kernels()->evaluate(call);
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < c.q.size(); ++j) c.q[j] = values[j][i];
+    const auto xyz = c.simulated(), off = c.evaluated({rows[0][i], rows[1][i], rows[2][i]});
+    for (std::size_t k = 0; k < 3; ++k) {
+      CHECK(rows[k][i] == xyz[k]);
+      CHECK(rows[3 + k][i] == off[k]);
+    }
+    CHECK(status[i] == 0);
+  }
+}
+
+TEST_CASE("slides in one plane are out of reach", "[laws][sphere_probing]") {
+  Draw draw;
+  // X stands behind B: at 90 deg it moves along Z.
+  Case c({"", Axes{}, Axes{{"Y"}, {"Z"}, {"B"}, {"X"}}}, draw, 0);
+  c.conditions = {90 * deg};
+  models::PointCall<double> call{};
+  call.quantities = c.q.data(), call.conditions = c.conditions.data(), call.context = c.model->context;
+  CHECK(c.model->check(call).find("B = 90 deg") != std::string::npos);
+  const models::Column condition{c.conditions.data(), 0};
+  std::vector<models::Column> quantities;
+  for (const double& v : c.q) quantities.push_back({&v, 0});
+  std::vector<std::vector<double>> rows(6, std::vector<double>(8));
+  std::vector<double*> out;
+  for (auto& r : rows) out.push_back(r.data());
+  std::vector<std::uint8_t> status(8);
+  models::BlockCall block{};
+  block.samples = 8, block.readings = 1, block.quantities = quantities.data(), block.conditions = &condition;
+  block.simulated = out.data(), block.measurands = out.data() + 3, block.status = status.data();
+  block.context = c.model->context;
+  c.model->kernels()->simulate(block);
+  for (const auto s : status) CHECK(s == static_cast<std::uint8_t>(chain::SolveStatus::out_of_domain));
+  c.conditions = {30 * deg};
+  CHECK(c.model->check(call).empty());
+  REQUIRE_THROWS_AS(probing::make({"", Axes{{"C"}}, Axes{{"X"}, {"Z"}}}), InputError);
+}
