@@ -166,6 +166,18 @@ class SphereCalibration(unittest.TestCase):
                 tolerance = 0.5 * 10**-digits + 4 * u * math.sqrt(2 / (2 * 20_000))
                 self.assertAlmostEqual(found[name]["standard_uncertainty"], u, delta=tolerance, msg=name)
 
+    def test_dominance(self):
+        run = gumshoe("run", ROOT / "scenarios/sphere_calibration.toml", "--out", self.path / "study.h5", "--samples", 10_000, "--format", "json")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        found = {r["output"].removeprefix("error of "): r["sobol"] for r in json.loads(run.stdout)}
+        # Shares of variance, recomputed independently to a per cent or so; the sums of the terms of one direction.
+        for output, contributors, share in (
+                ("probe_x", ("E_CC",), 0.93), ("probe_y", ("E_CC",), 0.66), ("probe_y", ("S_",), 0.21),
+                ("E_X0C", ("E_CC",), 0.65), ("E_X0C", ("E_Z",), 0.28), ("E_X0B", ("E_BB",), 0.90),
+                ("E_C0B", ("E_Y",), 1), ("E_B0C", ("E_Z",), 1), ("probe_z", ("E_Z",), 1)):
+            total = sum(v["total"]["value"] for k, v in found[output].items() if k.startswith(contributors))
+            self.assertAlmostEqual(total, share, delta=0.05, msg=output)
+
     def test_methods_beside_each_other(self):
         method = 'evaluation = "sequential"'
         u = {e: {name: r["standard_uncertainty"] for name, r in self.study((method, f'evaluation = "{e}"')).items()}
