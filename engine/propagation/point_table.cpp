@@ -216,6 +216,10 @@ PointTable evaluate_points(const models::Model& model, const Csv& table, const s
   };
   bool indicated = false;
   for (const auto& i : card.indications) indicated |= given(i.name) != nullptr;
+  for (const auto& i : card.indications)
+    if (indicated && !given(i.name))
+      problems.push_back(
+          {{table.file}, fmt::format("column '{}' is missing", i.name), "the other indications are given", ""});
   for (const auto& m : card.measurands)
     if (const Slot* s = given(m.name); s && indicated)
       problems.push_back({table.at(table.header[static_cast<std::size_t>(s->given_column)]),

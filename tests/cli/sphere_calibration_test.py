@@ -166,6 +166,18 @@ class SphereCalibration(unittest.TestCase):
                 tolerance = 0.5 * 10**-digits + 4 * u * math.sqrt(2 / (2 * 20_000))
                 self.assertAlmostEqual(found[name]["standard_uncertainty"], u, delta=tolerance, msg=name)
 
+    def test_dominance(self):
+        run = gumshoe("run", ROOT / "scenarios/sphere_calibration.toml", "--out", self.path / "study.h5", "--samples", 10_000, "--format", "json")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        found = {r["output"].removeprefix("error of "): r["sobol"] for r in json.loads(run.stdout)}
+        # Shares of variance, recomputed independently to a per cent or so; the sums of the terms of one direction.
+        for output, contributors, share in (
+                ("probe_x", ("E_CC",), 0.93), ("probe_y", ("E_CC",), 0.66), ("probe_y", ("S_",), 0.21),
+                ("E_X0C", ("E_CC",), 0.65), ("E_X0C", ("E_Z",), 0.28), ("E_X0B", ("E_BB",), 0.90),
+                ("E_C0B", ("E_Y",), 1), ("E_B0C", ("E_Z",), 1), ("probe_z", ("E_Z",), 1)):
+            total = sum(v["total"]["value"] for k, v in found[output].items() if k.startswith(contributors))
+            self.assertAlmostEqual(total, share, delta=0.05, msg=output)
+
     def test_methods_beside_each_other(self):
         method = 'evaluation = "sequential"'
         u = {e: {name: r["standard_uncertainty"] for name, r in self.study((method, f'evaluation = "{e}"')).items()}
@@ -194,6 +206,35 @@ class SphereCalibration(unittest.TestCase):
         for a, b, r in (("E_X0C", "E_B0C", 0.97), ("E_A0B", "E_C0B", 0.95), ("E_Y0C", "E_A0C", -0.94)):
             self.assertAlmostEqual(found[a]["joint"][0]["correlation"][f"error of {b}"], r,
                                    delta=0.005 + 4 * (1 - r * r) / math.sqrt(20_000))
+
+    def test_bad_data(self):
+        data = self.noisy()
+        header = ["B (deg)", "C (deg)", "X (mm)", "Y (mm)", "Z (mm)"]
+        # Where all lengths are in a wrong unit the fit is as good as ever: the declared machine tells.
+        for factor, axes in ((1000, (2, 3, 4)), (1e-3, (2, 3, 4)), (1e-3, (2,))):
+            wrong = [[x * factor if k in axes else x for k, x in enumerate(row)] for row in data]
+            self.rows(header, *wrong, evaluation="joint", code=2)
+            self.assertIn("X spreads over", self.run.stderr)
+            self.assertIn("a wrong unit?", self.run.stderr)
+        self.rows(header[:4], *(row[:4] for row in data), evaluation="joint", code=2)
+        self.assertIn("column 'Z' is missing", self.run.stderr)
+        self.rows(header, data[0], evaluation="joint", code=2)
+        self.assertIn("one pose says nothing of the axes", self.run.stderr)
+        # Poses repeated, or at one B only: an answer, and how much of it the data bear.
+        rank = lambda rows: self.rows(header, *rows, evaluation="joint")[0]["rank (1)"]
+        self.assertEqual(rank(data + data[-3:]), "11")
+        self.assertEqual(rank(data[:19]), "7")
+        self.assertEqual(rank([data[0], data[25]]), "6")
+
+    def test_a_run_names_what_the_poses_cannot_see(self):
+        shift = '[quantities.sphere_distance]\nvalue = "184.183 mm"\nu = "5 um"\n[run]'
+        text = (ROOT / "scenarios/sphere_calibration_printed.toml").read_text().replace("[run]", shift)
+        (self.path / "unseen.toml").write_text(text.replace("samples = 100_000", "samples = 1000"))
+        run = gumshoe("run", self.path / "unseen.toml", "--out", self.path / "unseen.h5")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        note = next(line for line in run.stdout.splitlines() if "indistinguishable" in line)
+        for name in ("sphere_distance -1 mm", "probe_x +1 mm", "E_X0B +1 mm", "E_X0C +1 mm"):
+            self.assertIn(name, note)
 
     def test_procedures_refuse_what_they_cannot_use(self):
         points = [[b, c, 0, 0, 0] for b, c in ((0, 0), (0, 30), (0, 60), (10, 80), (20, 90), (30, 90))]

@@ -1,5 +1,6 @@
 #include "models/sphere_calibration/procedures.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -41,6 +42,42 @@ void split(const std::vector<const double*>& condition, Patterns& out) {
   for (std::size_t r = 0; r < condition.size(); ++r) (is_pattern_II(condition[r]) ? out.II : out.I).push_back(r);
 }
 
+/// Largest less smallest value of one axis' commands, as recorded and of the declared machine.
+struct Spread {
+  double recorded[2] = {1e300, -1e300}, declared[2] = {1e300, -1e300};
+  static void add(double (&range)[2], double x) { range[0] = std::min(range[0], x), range[1] = std::max(range[1], x); }
+  double recorded_size() const { return recorded[1] - recorded[0]; }
+  double declared_size() const { return declared[1] - declared[0]; }
+};
+
+/// Lengths in a wrong unit fit as well as others where all are: the machine found is a thousand times as large. Only
+/// the declared one tells.
+std::string unit_problem(const BlockCall& call, const std::vector<const double*>& condition) {
+  Spread spread[indications];
+  bool recorded = false;
+  for (std::size_t r = 0; r < call.readings; ++r) {
+    double q[count];
+    for (std::size_t j = 0; j < count; ++j) q[j] = *call.quantities[r * count + j].data;
+    const auto x = simulate(contact(exact, q, links(q), condition[r], false));
+    const double machine[] = {x.x, x.y, x.z};
+    for (std::size_t k = 0; k < indications; ++k) {
+      const double read = *call.indications[r * indications + k].data;
+      recorded |= read != 0;
+      Spread::add(spread[k].recorded, read);
+      Spread::add(spread[k].declared, machine[k]);
+    }
+  }
+  double largest = 0;
+  for (const Spread& s : spread) largest = std::max(largest, s.declared_size());
+  for (std::size_t k = 0; recorded && k < indications; ++k) {
+    const double ratio = spread[k].recorded_size() / spread[k].declared_size();
+    if (spread[k].declared_size() > 0.1 * largest && (ratio > 30 || ratio < 1.0 / 30))
+      return fmt::format("{} spreads over {:.4g} mm, by the declared machine over {:.4g} mm: a wrong unit?", "XYZ"[k],
+                         spread[k].recorded_size() * 1e3, spread[k].declared_size() * 1e3);
+  }
+  return "";
+}
+
 } // namespace
 
 Patterns patterns(const std::vector<const double*>& condition) {
@@ -53,9 +90,10 @@ Patterns patterns(const std::vector<const double*>& condition) {
 
 std::string check_readings(const BlockCall& call) {
   if (!is_joint(call.evaluation)) return "";
-  if (call.readings == 0) return "no reading: the commands at several poses are needed";
+  if (call.readings < 2) return "one pose says nothing of the axes: commands at several angles of B and C are needed";
   std::vector<double> values;
   const auto condition = conditions_of(call, values);
+  if (const std::string problem = unit_problem(call, condition); !problem.empty()) return problem;
   if (call.evaluation == sequential) {
     Patterns all;
     split(condition, all);
