@@ -90,8 +90,9 @@ def volume(b, c, before, after):
                                (axes[1], after, "After: exceeded in 5 % of the runs", "µm")):
         image = ax.contourf(c, b, z, levels=10, cmap="viridis")
         figure.colorbar(image, ax=ax, label=f"length of the error / {unit}")
-        ax.plot([p[1] for p in study.POSES], [p[0] for p in study.POSES], ".", color="white", ms=4)
-        ax.plot([p[1] for p in study.VALIDATION], [p[0] for p in study.VALIDATION], "x", color="white", ms=4, mew=1)
+        for poses, mark in ((study.POSES, "o"), (study.VALIDATION, "X")):
+            ax.plot([p[1] for p in poses], [p[0] for p in poses], mark, ms=4 if mark == "o" else 5.5, color="white",
+                    mec="#1f2933", mew=0.6, clip_on=False, zorder=5)
         ax.set_title(title, fontsize=9.5)
         ax.set_xlabel("C / deg")
         ax.set_ylabel("B / deg")
