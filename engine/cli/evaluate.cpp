@@ -78,6 +78,7 @@ void add_evaluate(CLI::App& app, Action& action) {
         std::cout << text;
       else
         write_file(o->out, text);
+      for (const std::string& note : points.notes) std::cerr << "note: " << note << '\n';
       for (const Problem& p : points.impossible) std::cerr << format(p) << '\n';
       return points.impossible.empty() ? ExitCode::done : ExitCode::bad_input;
     };

@@ -184,6 +184,7 @@ void evaluate_together(const models::Model& model, int evaluation, const std::ve
   const bool possible = result.impossible.empty() && std::ranges::find(bad_row, true) == bad_row.end();
   const std::string problem = model.check_readings && possible ? model.check_readings(call) : std::string();
   if (!problem.empty()) result.impossible.push_back({{table.file}, problem, "", ""});
+  if (problem.empty() && possible && model.remarks) result.notes = model.remarks(call);
   if (problem.empty() && possible)
     model.kernels()->evaluate(call);
   else

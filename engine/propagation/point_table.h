@@ -12,14 +12,16 @@ struct PointTable {
   std::vector<std::string> header;          ///< of the columns that are added: "bottom_height (mm)"
   std::vector<std::vector<double>> columns; ///< in those units; NaN where the status is not ok
   std::vector<std::string> status;          ///< "ok" or why there is no value
-  bool joint = false; ///< the table's rows were evaluated together: one row of results
+  std::vector<std::string> notes;           ///< of a joint evaluation: what its readings cannot see
+  bool joint = false;                       ///< the table's rows were evaluated together: one row of results
   std::vector<Problem> impossible;          ///< cells outside the model's limits, by row; their rows have no value
 };
 
 /// Header cells are `name (unit)`: quantities, conditions, effects' quantities (effect.quantity) and
 /// indications, in any order; what is left out stays at its default. Without indications the added
 /// columns are the solved measurands and the simulated indications; with them, the measurands
-/// evaluated from them, row by row or, by a joint evaluation, from all rows together. Throws InputError for headers and cells that cannot be read.
+/// evaluated from them, row by row or, by a joint evaluation, from all rows together. Throws InputError for headers and
+/// cells that cannot be read.
 PointTable evaluate_points(const models::Model& model, const Csv& table, const std::string& evaluation);
 
 } // namespace gumshoe::propagation

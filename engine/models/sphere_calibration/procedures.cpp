@@ -114,11 +114,13 @@ std::string check_readings(const BlockCall& call) {
 /// Directions that all commands together cannot see, among the unknowns and what is uncertain of links and artefact for
 /// all readings alike.
 std::vector<std::string> remarks(const BlockCall& call) {
-  if (!is_joint(call.evaluation) || !call.declared) return {};
+  if (!is_joint(call.evaluation)) return {};
   std::vector<std::size_t> quantities;
   for (std::size_t j = 0; j < unknowns; ++j) quantities.push_back(j);
-  for (const auto& draw : call.declared->draws)
-    if (draw.moves.size() == call.readings && draw.moves[0].column >= link_B_x && draw.moves[0].column < E_AA)
+  const std::size_t declared = call.declared ? call.declared->draws.size() : 0; // a table declares nothing
+  for (std::size_t i = 0; i < declared; ++i)
+    if (const auto& draw = call.declared->draws[i];
+        draw.moves.size() == call.readings && draw.moves[0].column >= link_B_x && draw.moves[0].column < E_AA)
       quantities.push_back(draw.moves[0].column);
   const std::size_t p = quantities.size(), n = 3 * call.readings;
   std::vector<double> jacobian(n * p), magnitude(p, 1e-3);
