@@ -248,26 +248,27 @@ def slips(lines):
     exact = study.commands([GIVEN], study.POSES)[0]
     turned = {**GIVEN, "E_A0B": GIVEN["E_C0B"], "E_C0B": GIVEN["E_A0B"], "E_A0C": GIVEN["E_B0C"], "E_B0C": GIVEN["E_A0C"]}
     as_radians = {**GIVEN, **{n: GIVEN[n] / RADIANS for n in ("E_A0C", "E_B0C")}}
-    designed = {**GIVEN, "E_X0C": 0, "E_Y0C": 0}
     wrong_plane = np.degrees(np.arctan(np.tan(GIVEN["E_B0C"] * RADIANS) / np.tan(GIVEN["E_A0C"] * RADIANS)))
     cases = [("4.13: R_p left out (R_c + R_p taken 3 less)", GIVEN, {"tip_radius (mm)": 1e-9}),
              ("Table 4.3: tip radius 6", GIVEN, {"tip_radius (mm)": 6}),
              ("4.15, 4.16: degrees taken as radians", as_radians, {}),
-             ("4.17: no E_X0C, E_Y0C in the whole chain", designed, {}),
+             ("4.17: d_rcx, d_rcy for D_rcx, D_rcy in the sums of X and Y", "offsets", (GIVEN["E_X0C"], GIVEN["E_Y0C"], 0)),
              (f"4.29: normal of the other plane, E_C0B = {wrong_plane:.2f}", {**GIVEN, "E_C0B": wrong_plane}, {}),
              ("Table 4.1: names exchanged, A with C of B, A with B of C", turned, {}),
              ("E_Z0B along +Z, as ISO", {**GIVEN, "E_Z0B": -GIVEN["E_Z0B"]}, {}),
              ("4.48, 4.51: S_XY, S_XZ, S_YZ of 8 µm/m with the other sign", None, 8)]
     rows = []
     for label, machine, more in cases:
-        if machine is None:
+        if machine == "offsets":
+            change = np.array([more])
+        elif machine is None:
             plus, minus = [study.commands([GIVEN], study.POSES, **{f"{n} (um/m)": s * more for n in study.SQUARENESS})[0] for s in (1, -1)]
             change = plus - minus
         else:
             change = study.commands([machine], study.POSES, **more)[0] - exact
         rows.append([label] + [um(v) for v in 1e3 * np.abs(change).max(axis=0)])
     lines += ["Slips, symbols and names of the printed source if they are taken literally: largest change of a command over the",
-              "33 poses, µm. Which of them the thesis' own program had is not known; its results look as if none.", ""]
+              "33 poses, µm. Which of them the thesis' own program had is not known.", ""]
     lines += table(["", "X", "Y", "Z"], rows)
 
 
