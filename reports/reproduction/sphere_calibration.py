@@ -133,11 +133,14 @@ def variants(lines):
     both = sum(r.u[at["probe_z"]] > 6e-3 and r.u[at["E_A0C"]] < 2 * 6e-4 and r.u[at["E_B0C"]] < 2 * 7e-4 for r in found.values()) or "none"
     gain = max((r.u / found[case, other].u).max() for (case, e), r in found.items() if e == "joint_weighted"
                for other in ("sequential", "joint"))
+    one = [study.commands([GIVEN], study.POSES, **more) for more in ({}, {"E_AA (deg)": 0.04})]
+    still = 1e6 * np.abs(one[1] - one[0]).max()
     factor = lambda a, b, name: f"{a.u[at[name]] / b.u[at[name]]:.1f}"
     lines += [f"- The thesis lets the clamped axis stand exactly. Drawn once a pattern it makes u of `probe_x` "
               f"{factor(clamped, base, 'probe_x')}, `E_X0B` {factor(clamped, base, 'E_X0B')}, `E_Z0B` "
               f"{factor(clamped, base, 'E_Z0B')}, `probe_z` {factor(clamped, base, 'probe_z')} and `E_B0C` "
               f"{factor(clamped, base, 'E_B0C')} times as large: a constant error of B *is* a tilt of C.",
+              f"- A stands still with the sphere on its axis: an error of 0.04 deg moves the commands by {still:.0f} nm.",
               f"- `joint` with equal weights is worse than `sequential` in orientations (`E_A0C` {factor(joint, base, 'E_A0C')} "
               "times), as rotary errors enter what the planes ignore.",
               f"- `joint_weighted` has the smallest u of the three {'everywhere' if gain < 1.001 else 'almost everywhere'}: `E_X0B` {um(1e3 * base.u[at['E_X0B']])} to "
