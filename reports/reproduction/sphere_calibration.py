@@ -2,11 +2,12 @@
 """Fang 2022, chapter 4: our numbers beside the printed ones, and what they say about the method. Writes
 sphere_calibration.md next to this file and figures/sphere_*.svg beside it.
 
-    sphere_calibration.py [PROGRAM]      # default: build/release/gumshoe of this checkout; about a minute
+    sphere_calibration.py [PROGRAM]      # default: build/release/gumshoe of this checkout; half a minute
 """
 
 import pathlib
 import sys
+import textwrap
 
 import numpy as np
 
@@ -27,6 +28,22 @@ def table(header, rows):
 def plain(text):
     """Without the sign of a zero."""
     return text[1:] if text.startswith("-") and not text.strip("-0.") else text
+
+
+def wrapped(lines):
+    """Paragraphs and bullets filled to 118 columns; tables, headings, pictures and anchors as they are."""
+    out, block = [], []
+    for line in [*lines, ""]:
+        if block and (not line or line[0] in "|#!<" or line.startswith("- ")):
+            indent = "  " if block[0].startswith("- ") else ""
+            out += textwrap.wrap(" ".join(block), 118, subsequent_indent=indent, break_long_words=False,
+                                 break_on_hyphens=False)
+            block = []
+        if not line or line[0] in "|#!<":
+            out.append(line)
+        else:
+            block.append(line)
+    return out
 
 
 def show(name, value, more=0):
@@ -348,7 +365,7 @@ def main():
     bias(lines, found)
     slips(lines)
     volume(lines, base, found["clamped axis too, one draw a pattern", "sequential"])
-    (study.HERE / "sphere_calibration.md").write_text("\n".join(lines).rstrip() + "\n")
+    (study.HERE / "sphere_calibration.md").write_text("\n".join(wrapped(lines)).rstrip() + "\n")
 
 
 if __name__ == "__main__":
