@@ -10,7 +10,8 @@ namespace gumshoe::models::sphere {
 Vector3<double> derivative(const BlockCall& call, std::size_t reading, std::size_t quantity) {
   using D = Dual<double, 1>;
   D q[count], condition[conditions];
-  for (std::size_t j = 0; j < count; ++j) q[j] = D(call.declared->estimates[reading * count + j]);
+  for (std::size_t j = 0; j < count; ++j) // of a scenario the estimates, of a table what it states
+    q[j] = D(call.declared ? call.declared->estimates[reading * count + j] : *call.quantities[reading * count + j].data);
   for (std::size_t j = 0; j < conditions; ++j) condition[j] = D(*call.conditions[reading * conditions + j].data);
   q[quantity].d[0] = 1;
   const auto x = simulate(contact(exact, q, links(q), condition, false));
