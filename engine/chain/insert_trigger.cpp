@@ -95,7 +95,7 @@ private:
 
 const InsertHeight& TriggerSolver::heights(const Insert<double>& insert, const Beam<double>& beam) {
   const auto known = std::ranges::find_if(
-      remembered_, [&](const Remembered& r) { return same(r.insert, insert) && same(r.beam, beam); });
+      remembered_, [&](const Remembered& r) { return r.insert == insert && r.beam == beam; });
   if (known == remembered_.end()) {
     if (remembered_.size() >= most_inserts) remembered_.pop_back();
     remembered_.push_front({insert, beam, InsertHeight(insert, beam)});

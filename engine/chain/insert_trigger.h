@@ -24,16 +24,6 @@ template <class T> struct Flute {
   T raise;   ///< the flute is shorter by this: W_k, m
 };
 
-/// Equal in every bit.
-inline bool same(const Insert<double>& a, const Insert<double>& b) {
-  return a.tool_radius == b.tool_radius && a.radius == b.radius && a.thickness == b.thickness &&
-         a.clearance == b.clearance && a.radial_angle == b.radial_angle && a.axial_angle == b.axial_angle &&
-         a.axis_x == b.axis_x && a.axis_y == b.axis_y && a.seat == b.seat;
-}
-inline bool same(const Beam<double>& a, const Beam<double>& b) {
-  return a.yaw == b.yaw && a.pitch == b.pitch && a.radius == b.radius && a.fraction == b.fraction;
-}
-
 /// Derivatives dropped.
 template <class To, class T> Flute<To> converted(const Flute<T>& f) {
   const auto number = [](const T& x) { return To(num::value(x)); };

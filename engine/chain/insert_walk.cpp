@@ -34,7 +34,7 @@ std::optional<InsertTrigger> TriggerSolver::walk(std::span<const Flute<double>> 
   for (std::size_t k = 0; k < flutes.size(); ++k) {
     geometry[k] = k;
     for (std::size_t j = 0; j < k; ++j)
-      if (same(flutes[j].insert, flutes[k].insert)) {
+      if (flutes[j].insert == flutes[k].insert) {
         geometry[k] = geometry[j];
         break;
       }
@@ -131,7 +131,7 @@ InsertTrigger TriggerSolver::alone(const Flute<double>& flute, const Beam<double
 
 TriggerSolver::Pass& TriggerSolver::pass(std::size_t flute, const Insert<double>& insert, const Beam<double>& beam) {
   Pass& p = passes_[flute];
-  if (!(p.pass && same(p.insert, insert) && same(p.beam, beam)))
+  if (!(p.pass && p.insert == insert && p.beam == beam))
     p = {insert, beam, InsertPass(insert_body(insert, beam), DiscShare(beam.radius, beam.fraction)), -1, 0, false};
   return p;
 }
