@@ -11,6 +11,7 @@
 #include "models/model.h"
 #include "quantities/input_quantity.h"
 #include "scenario/choose_options.h"
+#include "scenario/trace_options.h"
 
 namespace gumshoe::scenario {
 
@@ -106,7 +107,7 @@ struct Target {
 
 struct AnalysisOptions {
   double coverage_probability = 0.95;
-  int validation_digits = 2;       ///< n_dig of JCGM 101 8.1
+  int validation_digits = 2; ///< n_dig of JCGM 101 8.1
   SensitivityOptions sensitivity;
   std::vector<OneAtATime> one_at_a_time;
   std::vector<ConformityTest> conformity;
@@ -154,7 +155,7 @@ struct Scenario {
   std::string evaluation; ///< one of the model's evaluations
   /// Every quantity of the model in card order (defaults filled in), then the freed quantities of
   /// effects ("effect.quantity", catalogue order, each with all quantities of its effect), then the
-  /// indications' noise.
+  /// indications' noise, then the sizes of stated effects ("NAME.size").
   std::vector<quantities::InputQuantity> quantities;
   std::vector<quantities::Correlation> correlations;
   std::vector<quantities::Reading> readings; ///< at least one
@@ -164,6 +165,8 @@ struct Scenario {
   std::vector<Expected> expected;
   EstimateOptions estimate;
   std::optional<Choose> choose;
+  std::vector<StatedEffect> stated_effects;
+  TraceOptions trace;
   /// Of an evaluation at single readings: the measurand is the mean over all readings, stated once (`gumshoe choose`).
   bool mean_of_readings = false;
   std::vector<std::string>

@@ -1,0 +1,44 @@
+#pragma once
+/// What [trace] says of the data in which an undeclared effect is sought, and effects stated as formulas.
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace gumshoe::scenario {
+
+/// What was recorded beside the readings: a temperature, an order. One value a reading, SI (the mean over its
+/// readouts).
+struct TraceColumn {
+  std::string name, unit, si_unit;
+  std::vector<double> values;
+};
+
+/// An effect that a scenario states: its size times a formula of conditions and columns adds to an indication. Without
+/// a size it stands at its null value, zero, and is a candidate of tracing; with one it is an input quantity
+/// "NAME.size" like any other, after the indications' noise among Scenario::quantities.
+struct StatedEffect {
+  std::string name, meaning, source;
+  std::size_t indication = 0;  ///< by position in the model's card
+  std::string formula;         ///< as written
+  std::string unit, si_unit;   ///< of the size
+  std::vector<double> loading; ///< the formula's value at each reading, SI
+  bool freed = false;
+};
+
+struct TraceOptions {
+  bool stated = false;                   ///< the scenario has [trace]
+  std::string blocks;                    ///< label whose values are blocks; empty: none
+  std::vector<std::string> final_blocks; ///< kept apart until the end; empty: chosen by rule
+  std::vector<double> order;             ///< of measurement, by reading; empty: as the readings stand
+  std::string order_name;                ///< condition or column that gives it
+  std::vector<TraceColumn> columns;
+  /// Sets of labels that stand for one act done anew: { rod, setup } is a clamping. What it leaves behind may scatter.
+  /// Empty: every set of one or two labels with at least six combinations.
+  std::vector<std::vector<std::string>> redone;
+  double alpha = 0.05; ///< chance that anything is found where nothing is
+  int draws = 999;     ///< of the parametric bootstrap
+  std::uint64_t seed = 1;
+};
+
+} // namespace gumshoe::scenario

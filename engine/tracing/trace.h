@@ -1,0 +1,144 @@
+#pragma once
+/// Finds what is left after a scenario's model is fitted to its readings, and traces it to an effect that the scenario
+/// holds at null. All values SI; names and units as shown to people beside them. Method: README.md.
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "calibration/estimate.h"
+#include "propagation/experiment.h"
+
+namespace gumshoe::tracing {
+
+enum class Kind {
+  named,             ///< one effect, which beats its rivals
+  equivalence_class, ///< effects that these data cannot tell apart
+  scatter,           ///< a variance component by label
+  not_in_catalogue,  ///< structure that no known effect explains
+};
+/// "named", "class", "scatter", "not_in_catalogue"
+const char* name(Kind kind);
+
+/// Size of an effect, with an interval that allows for the search (README.md).
+struct SizedQuantity {
+  std::string name; ///< "delay"; of a declared quantity its name
+  std::string unit, si_unit;
+  double value = 0, u = 0, low95 = 0, high95 = 0;
+  /// Where it stands in a scenario: "trigger_latency.delay", "rod_length"; empty: nowhere (scatter, a shape).
+  std::string scenario_name;
+  std::vector<std::pair<std::string, std::string>> labels; ///< holds where the readings have these; empty: everywhere
+};
+
+/// A table that can be plotted: the size of what is not in the catalogue against one condition.
+struct Curve {
+  std::string against, unit, si_unit; ///< condition or column; or a label, then `levels` name the points
+  std::vector<std::string> levels;
+  std::vector<double> x, y, u; ///< y and u in the indication's unit
+  std::string indication, indication_unit, indication_si_unit;
+};
+
+struct Finding {
+  Kind kind = Kind::named;
+  std::string name; ///< "trigger_latency", "declared:rod_length[rod 2]", "scatter:rod,setup", "not in the catalogue"
+  std::vector<std::string> members;    ///< those that cannot be told apart, the best first; of a named effect itself
+  double p_value = 1;                  ///< of the largest statistic over all that was tried
+  std::vector<std::string> depends_on; ///< conditions, columns or labels
+  std::string suggestion;              ///< the measurement that would split the class
+  std::vector<SizedQuantity> quantities;
+  /// The same sizes for every member of a class, by member; the first are `quantities`.
+  std::vector<std::vector<SizedQuantity>> alternatives;
+  double removed_share = 0;         ///< of the residual's mean square in the training data
+  std::vector<Curve> curves;        ///< of what is not in the catalogue
+  std::vector<std::string> remarks; ///< implausible size, kept shapes, also described by ...
+};
+
+/// One line of the search, for the ranking.
+struct Candidate {
+  std::string name;   ///< "trigger_latency", "declared:rod_length[rod 2]", "polynomial:feed^2"
+  std::string shape;  ///< what was held fixed: "time_constant 30 min"
+  std::string family; ///< effect, declared, stated, shape, omnibus, scatter
+  int parameters = 1;
+  double statistic = 0;    ///< likelihood ratio, 2 ln
+  double p_single = 1;     ///< were it the only one tried
+  double identifiable = 1; ///< share of its signature that the declared model does not absorb
+  std::string absorbed_by; ///< estimated or declared quantity, where next to nothing is left
+  double correlation = 0;  ///< of its projected signature with that of the best
+  std::string outcome;     ///< "named", "in the class", "refused: ..."
+};
+
+/// The smallest size that would have been seen, in nine cases of ten.
+struct DetectionLimit {
+  std::string effect, quantity, unit, si_unit;
+  double value = 0; ///< infinity: not at all by these data
+};
+
+/// Root mean squares of residuals, SI of the first indication. NaN where there is none.
+struct Rms {
+  std::string unit, si_unit;
+  double before = 0, after = 0, noise = 0; ///< of the training data, in sample
+  double noise_low = 0, noise_high = 0;    ///< 95 % of what noise alone gives
+  double holdout_before = 0, holdout_after = 0, holdout_noise = 0;
+  double holdout_noise_low = 0, holdout_noise_high = 0;
+  double worst_block_before = 0, worst_block_after = 0; ///< largest of the final blocks
+  std::string worst_block;
+  double worst_point_before = 0, worst_point_after = 0; ///< largest residual of one reading there
+  std::string worst_point;
+  double share_removed = 0; ///< (before^2 - after^2) / (before^2 - noise^2) of the hold-out
+  std::string holdout;      ///< what the hold-out is: "setup 3, 4", "each block left out in turn", "none: one block"
+};
+
+/// One reading of one indication.
+struct Row {
+  std::size_t reading = 0, indication = 0;
+  double order = 0;
+  std::string block;
+  bool final = false;
+  double measured = 0;
+  double before = 0, after = 0; ///< residuals with the data's own constants taken off; NaN if not scored
+  double noise_u = 0;
+  double weight = 1; ///< below 1: taken for an outlier
+};
+
+/// What of the noise is estimated.
+struct Noise {
+  double scale = 1; ///< of the declared standard uncertainties; of a readout in SI where none are declared
+  bool declared = true;
+  double correlation = 0;   ///< from a reading to the next in the order of measurement
+  std::string scatter;      ///< labels of the variance component in use, or empty
+  double scatter_u = 0;     ///< SI
+  double chi_squared_p = 1; ///< of residuals as large as these, were the declared noise true
+  int outliers = 0;
+};
+
+enum class Outcome { found, nothing_found, insufficient_data };
+
+struct Trace {
+  Outcome outcome = Outcome::nothing_found;
+  std::vector<Finding> findings;
+  double p_anything = 1; ///< of the one verdict over all tests
+  Rms rms;
+  Noise noise;
+  std::vector<DetectionLimit> detection_limits;
+  std::vector<Candidate> candidates; ///< of the first search, best first
+  std::vector<Row> rows;
+  int tried = 0, draws = 0;
+  double alpha = 0.05;
+  bool vetoed = false;                 ///< by the final blocks: nothing was added
+  std::vector<std::string> statements; ///< what these data cannot tell, and every decision a reader must see
+  std::vector<std::string> plain;      ///< two sentences for a machinist
+  /// The scenario with the effects found marked as estimated quantities, and their joint estimate, for
+  /// traced_scenario.h. Empty parameters: nothing to add.
+  scenario::Scenario extended;
+  calibration::Estimate estimate;
+};
+
+struct Settings {
+  int threads = 0; ///< 0: all processors
+  std::function<void(const std::string& what)> progress = {};
+};
+
+/// Throws InputError: bad input. What the data cannot tell is in the result.
+Trace trace(const scenario::Scenario& scenario, const Settings& settings);
+
+} // namespace gumshoe::tracing
