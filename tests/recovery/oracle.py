@@ -23,10 +23,10 @@ class Oracle:
     def __init__(self, system, program, d, kind="white"):
         self.system, self.program, self.d = system, program, d
         values, steps = d.values(), d.steps()
-        points = [values] + [values + s * np.eye(len(values))[i] for i, s in enumerate(steps)]
-        y = system.simulate(program, d, points)
+        known = [i for i, c in enumerate(d.cells) if c.u > 0 or c.free]
+        y = system.simulate(program, d, [values] + [values + steps[i] * np.eye(len(values))[i] for i in known])
         self.base = y[0]
-        self.by_cell = ((y[1:] - y[0]) / steps[:, None, None])  # um per shown unit
+        self.by_cell = {i: (yi - y[0]) / steps[i] for i, yi in zip(known, y[1:])}  # um per shown unit
         channels = y.shape[2]
         self.keep = np.repeat(d.training(), channels)
         free = [i for i, c in enumerate(d.cells) if c.free]

@@ -168,3 +168,8 @@ meaning    = "coolant that a slow rod does not wipe off"
 def scatter_toml(d):
     per = ", ".join(f'"{l}"' for l in d.redone[0])
     return f'[effects.reclamp]\nshift = {{ value = "0 um", u = "{d.scatter:g} um", per = [{per}] }}\n'
+
+
+def leave(program, d, q, left):
+    """Readings with what each clamping left (um, by reading) in the rod's height."""
+    return simulate(program, d, [q])[0] + left[:, None]

@@ -6,12 +6,13 @@ from pathlib import Path
 
 import numpy as np
 
+import mills
 import rods
 from noise import noise
 from oracle import Oracle, power
 from scenario_text import readings_csv, scenario_toml
 
-SYSTEMS = {m.MODEL: m for m in (rods,)}
+SYSTEMS = {m.MODEL: m for m in (rods, mills)}
 NULLS = ("white", "ar03", "ar06", "t3", "outliers", "quantised", "clamp_declared")
 STRENGTHS = (3, 5, 8, 15)
 # Development seeds are below, judgement seeds from here on; no number is both.
@@ -69,8 +70,8 @@ def make(program, system, kind, what, strength, seed, noise_kind="white"):
         effects.append((truth, shift))
     e = noise(noise_kind, rng, d.time, base.shape[1], d.noise)
     if noise_kind == "clamp_declared" or kind == "scatter":
-        left = rng.standard_normal((d.readings, base.shape[1]))[d.acts()] * getattr(system, "SCATTER", np.ones(base.shape[1])) ** 0.5
-        e = e + (d.scatter if d.scatter else strength / 8 * 2 * d.noise) * left
+        sd = d.scatter or strength / 8 * 2 * d.noise
+        total = total + system.leave(program, d, q, sd * rng.standard_normal(d.readings)[d.acts()]) - base
     y = total + e
     if d.resolution:
         y = d.resolution * np.round(y / d.resolution)
@@ -91,7 +92,8 @@ def effect(program, system, d, oracle, name, rng):
     if name.startswith("declared:"):
         title = name.removeprefix("declared:")
         if "*" in title:
-            seen = {c.title: oracle.strength(oracle.by_cell[i]) for i, c in enumerate(d.cells) if c.name == title.split("[")[0]}
+            seen = {c.title: oracle.strength(oracle.by_cell[i]) for i, c in enumerate(d.cells)
+                    if c.name == title.split("[")[0]}
             title = str(rng.choice([t for t, s in seen.items() if s > 0.3 * max(seen.values())]))
         at = [i for i, c in enumerate(d.cells) if c.title == title or (c.name == title and c.label)]
         cell = d.cells[at[0]]
