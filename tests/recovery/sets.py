@@ -8,11 +8,12 @@ import numpy as np
 
 import mills
 import rods
+import spheres
 from noise import noise
 from oracle import Oracle, power
 from scenario_text import readings_csv, scenario_toml
 
-SYSTEMS = {m.MODEL: m for m in (rods, mills)}
+SYSTEMS = {m.MODEL: m for m in (rods, mills, spheres)}
 NULLS = ("white", "ar03", "ar06", "t3", "outliers", "quantised", "clamp_declared")
 STRENGTHS = (3, 5, 8, 15)
 # Development seeds are below, judgement seeds from here on; no number is both.
@@ -45,9 +46,9 @@ def make(program, system, kind, what, strength, seed, noise_kind="white"):
         alias = system.ALIASES[what]
         more = dict(alias[0])
     if noise_kind == "quantised":
-        more.update(noise=0.3, resolution=1.0)
+        more.update(noise=0.3, resolution=1.0)  # um: mostly rounding
     if noise_kind == "clamp_declared":
-        more.update(scatter=1.0)
+        more.update(scatter=getattr(system, "CLAMP", 1.0))
     d = system.design(rng, **more)
     q = np.array([c.value + (rng.uniform(-0.03, 0.03) * (c.step / 0.01) if c.free else c.u * rng.standard_normal()) for c in d.cells])
     if hasattr(system, "truth"):
@@ -101,9 +102,11 @@ def effect(program, system, d, oracle, name, rng):
         def one(size, q, base):
             moved = q.copy()
             moved[at] += size
+            truth["absolute"] = float(moved[at[0]])
             return system.simulate(program, d, [moved])[0] - base
-        return one, dict(name="declared:" + title, quantity=cell.name, unit=cell.unit, sign="either",
-                         depends_on=[cell.label] if cell.label else [])
+        truth = dict(name="declared:" + title, quantity=cell.name, unit=cell.unit, sign="either",
+                     depends_on=[cell.label] if cell.label else [])
+        return one, truth
     make_shape, quantity, unit, depends = system.ADDED[name][:4]
     shape = make_shape(d, rng)
     if callable(shape):  # through the geometry: size -> quantities or readings anew
