@@ -121,7 +121,7 @@ def covered(finding, effect):
             continue
         per = factor(effect["unit"], q["unit"])
         low, high = q["interval95"]
-        true = [effect["size"] * per] + ([effect["absolute"] * per] if "absolute" in effect else [])
+        true = [effect[k] * per for k in (("off", "absolute") if "off" in effect else ("size",))]
         return [low <= min(true, key=lambda t: abs(t - q["value"])) <= high]
     return []
 

@@ -102,7 +102,7 @@ def effect(program, system, d, oracle, name, rng):
         def one(size, q, base):
             moved = q.copy()
             moved[at] += size
-            truth["absolute"] = float(moved[at[0]])
+            truth.update(absolute=float(moved[at[0]]), off=float(moved[at[0]] - cell.value))
             return system.simulate(program, d, [moved])[0] - base
         truth = dict(name="declared:" + title, quantity=cell.name, unit=cell.unit, sign="either",
                      depends_on=[cell.label] if cell.label else [])
