@@ -7,8 +7,6 @@ import json
 import math
 import sys
 
-from scipy.stats import beta
-
 from units import factor
 
 SHAPES = ("polynomial:", "harmonic:", "step:", "hysteresis:", "drift:", "product:", "omnibus:")
@@ -127,8 +125,14 @@ def covered(finding, effect):
 
 
 def upper_limit(alarms, n, level=0.95):
-    """Clopper and Pearson's one-sided upper limit."""
-    return 1.0 if alarms >= n else float(beta.ppf(level, alarms + 1, n - alarms))
+    """Clopper and Pearson's one-sided upper limit: as few alarms have this much chance left."""
+    low, high = 0.0, 1.0
+    for _ in range(60 if alarms < n else 0):
+        p = (low + high) / 2
+        left = sum(math.exp(math.lgamma(n + 1) - math.lgamma(k + 1) - math.lgamma(n - k + 1) + k * math.log(p) + (n - k) * math.log1p(-p))
+                   for k in range(alarms + 1))
+        low, high = (p, high) if left > 1 - level else (low, p)
+    return high
 
 
 if __name__ == "__main__":
