@@ -54,10 +54,13 @@ def lifted(program, d, q, growth):
 
 
 def moving(profile):
-    """An effect that moves the tool's centre by size times profile."""
+    """An effect that moves the tool's centre by size times profile. Its strength is that of the profile: a jump to the
+    next tooth counts for much and says nothing."""
     def of(d, rng):
         one = profile(d, rng)
-        return lambda program, size, q: lifted(program, d, q, size * one)
+        read = lambda program, size, q: lifted(program, d, q, size * one)
+        read.smooth = one[:, None]
+        return read
     return of
 
 
@@ -140,8 +143,8 @@ CATALOGUE = []
 def own_catalogue(d):
     """Smooth over a tooth: what moves the tool is read in full on the average."""
     feed, speed, t = d.value("feed"), d.value("spindle_speed"), d.time
-    rows = [("trigger_latency", feed), ("servo_lag", feed), ("sampling_rate", feed), ("revolution_confirm", feed / speed),
-            ("spindle_axial_shift", speed**2), ("thermal_growth", t)]
+    rows = [("trigger_latency", -feed / 60), ("servo_lag", -feed / 60), ("sampling_rate", -feed / 120),
+            ("revolution_confirm", -1e3 * feed / speed), ("spindle_axial_shift", (speed / 1e4)**2), ("thermal_growth", t / 3600)]
     rows += [("thermal_growth", -np.expm1(-t / 60 / tau)) for tau in (10, 30, 90)]
     rows += [("spindle_axial_shift", -speed**2 * np.expm1(-t / 60 / tau)) for tau in (3, 10, 30)]
     return [(name, x[:, None]) for name, x in rows]

@@ -1,9 +1,6 @@
 """Noise with a given standard deviation, honest and ugly, in the order of measurement."""
 import numpy as np
 
-KINDS = ("white", "ar03", "ar06", "t3", "outliers", "quantised", "clamp_declared")
-
-
 def noise(kind, rng, order, channels, sd):
     """(n, channels), um. `order`: times; correlated noise runs along them, each channel for itself."""
     n = len(order)

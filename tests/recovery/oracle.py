@@ -54,7 +54,8 @@ class Oracle:
         return float(np.linalg.norm(self.projected(shift)))
 
     def catalogue(self):
-        """(name, projected signature) of effects, declared quantities and plain shapes."""
+        """(name, projected signature of length 1) of effects and declared quantities that are not absorbed. The first
+        signature of an effect is of one shown unit of its quantity."""
         if hasattr(self, "_catalogue"):
             return self._catalogue
         d, raw = self.d, []
@@ -66,12 +67,19 @@ class Oracle:
         raw += [("declared:" + c.title, self.by_cell[i]) for i, c in enumerate(d.cells) if c.u > 0]
         for name in sorted({c.name for c in d.cells if c.u > 0 and c.label}):
             raw.append(("declared:" + name, sum(self.by_cell[i] for i, c in enumerate(d.cells) if c.name == name)))
-        self._catalogue = []
+        self._catalogue, self.per_unit = [], {}
         for name, shift in raw:
             w, full = self.projected(shift), self._white(np.asarray(shift, float).reshape(self.keep.size, -1))
             if np.linalg.norm(w) > 0.03 * np.linalg.norm(full) > 0:
                 self._catalogue.append((name, w[:, 0] / np.linalg.norm(w)))
+                self.per_unit.setdefault(name, w[:, 0])
         return self._catalogue
+
+    def nearest(self, name, shift):
+        """Size of the catalogue's effect, by the first of its quantities, that comes nearest to this shift."""
+        self.catalogue()
+        g = self.per_unit.get(name)
+        return None if g is None else float(g @ self.projected(shift)[:, 0] / (g @ g))
 
     def rivals(self, shift):
         """Correlation of the truth's projected signature with the closest member of each name."""

@@ -59,11 +59,10 @@ class Generator(unittest.TestCase):
             self.assertAlmostEqual(squares, freedom, delta=5 * math.sqrt(2 * freedom), msg=system.MODEL)
 
     def test_strength_is_as_asked(self):
-        # The mill's teeth make strength a jagged function of size.
-        for system, what, within in ((rods, "trigger_latency", 0.01), (rods, "declared:rod_length[rod 3]", 0.01), (spheres, "c_encoder_ovality", 0.01),
-                                     (mills, "trigger_latency", 0.01), (mills, "thermal_growth", 0.5)):
+        for system, what in ((rods, "trigger_latency"), (rods, "declared:rod_length[rod 3]"), (spheres, "c_encoder_ovality"),
+                             (mills, "trigger_latency"), (mills, "thermal_growth")):
             truth = sets.make(GUMSHOE, system, "single", what, 8, 1)[2]
-            self.assertAlmostEqual(truth["effects"][0]["strength"], 8, delta=8 * within + 1e-9)
+            self.assertAlmostEqual(truth["effects"][0]["strength"], 8, delta=0.08)
             self.assertGreater(truth["effects"][0]["power_catalogue"], 0.9)
 
     def test_aliases_are_aliases(self):

@@ -44,7 +44,8 @@ def score(verdict, truth):
     out = dict(system=truth["system"], kind=truth["kind"], noise=truth["noise"], strength=truth["nominal_strength"], seed=truth["seed"],
                expected=truth["expected"], verdict=verdict["verdict"], what="+".join(e["name"] for e in truth["effects"]) or truth["kind"],
                found=bool(findings), names=[f["name"] for f in findings], intervals=[])
-    out["false_alarm"] = truth["expected"] == "nothing_found" and bool(findings)
+    out["false_alarm"] = (truth["expected"] == "nothing_found" and bool(findings)
+                          or truth["expected"] == "scatter" and any(f["kind"] != "scatter" for f in findings))
     out["naming"] = {"nothing_found": nothing, "scatter": scatter, "not_in_catalogue": outside}.get(truth["expected"], named)(
         findings, truth, out)
     out["wrong_name"] = out["naming"] < 0

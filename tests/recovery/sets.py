@@ -14,7 +14,7 @@ from oracle import Oracle, power
 from scenario_text import readings_csv, scenario_toml
 
 SYSTEMS = {m.MODEL: m for m in (rods, mills, spheres)}
-NULLS = ("white", "ar03", "ar06", "t3", "outliers", "quantised", "clamp_declared")
+NULLS = ("white", "ar03", "ar06", "t3", "outliers", "quantised", "clamp_declared", "clamp_undeclared")
 STRENGTHS = (3, 5, 8, 15)
 # Development seeds are below, judgement seeds from here on; no number is both.
 JUDGEMENT = 1_000_000
@@ -67,22 +67,25 @@ def make(program, system, kind, what, strength, seed, noise_kind="white"):
         if sign < 0:
             size, shift = -size, one(-size, q, base)
         total = total + shift
+        shift = size * one.smooth if hasattr(one, "smooth") else shift
         truth.update(size=size, strength=d0.strength(shift), depends_on=list(truth["depends_on"]))
         effects.append((truth, shift))
     e = noise(noise_kind, rng, d.time, base.shape[1], d.noise)
-    if noise_kind == "clamp_declared" or kind == "scatter":
-        sd = d.scatter or strength / 8 * 2 * d.noise
+    if noise_kind.startswith("clamp") or kind == "scatter":
+        sd = d.scatter or (strength / 8 if kind == "scatter" else 1) * 2 * d.noise
         total = total + system.leave(program, d, q, sd * rng.standard_normal(d.readings)[d.acts()]) - base
     y = total + e
     if d.resolution:
         y = d.resolution * np.round(y / d.resolution)
     truth = dict(system=system.MODEL, kind=kind, noise=noise_kind, seed=seed, nominal_strength=strength, readings=int(d.readings),
-                 final=list(d.final), expected=expected(kind, alias), scatter=list(d.redone[0]), noise_um=float(d.noise))
+                 final=list(d.final), expected=expected(kind, alias, noise_kind), scatter=list(d.redone[0]), noise_um=float(d.noise))
     truth["effects"] = [judged(d0, t, shift, strength, alias, rng) for t, shift in effects]
     return d, y, truth
 
 
-def expected(kind, alias):
+def expected(kind, alias, noise_kind):
+    if noise_kind == "clamp_undeclared":
+        return "scatter"
     if kind == "null" or (alias and not alias[2]):
         return "nothing_found"
     return {"single": "named", "pair": "named", "alias": "class", "outside": "not_in_catalogue", "scatter": "scatter"}[kind]
@@ -111,6 +114,8 @@ def effect(program, system, d, oracle, name, rng):
     shape = make_shape(d, rng)
     if callable(shape):  # through the geometry: size -> quantities or readings anew
         one = lambda size, q, base: shape(program, size, q) - base
+        if hasattr(shape, "smooth"):
+            one.smooth = shape.smooth
     else:
         one = lambda size, q, base: size * shape
     return one, dict(name=name.split(":")[0] if not name.startswith("stated:") else name.removeprefix("stated:"), quantity=quantity, unit=unit,
@@ -121,6 +126,9 @@ def scaled(one, base, q, oracle, strength, alias):
     """The size at which the effect has this strength; where nothing of it can be seen, one that would be plain to see."""
     if alias and not alias[2]:
         size = 6 * oracle.d.noise / np.abs(one(1.0, q, base)).max()
+        return size, one(size, q, base)
+    if hasattr(one, "smooth"):
+        size = strength / oracle.strength(one.smooth)
         return size, one(size, q, base)
     size = 1e-3
     for _ in range(6):
@@ -138,6 +146,9 @@ def judged(oracle, truth, shift, strength, alias, rng):
     if seen < 1e-3:
         return {**truth, "strength": 0.0, "size": float(truth["size"]), "power_known": 0.05, "power_catalogue": 0.05, "twins": [],
                 "unsplit": [], "rivals": {}}
+    if truth["quantity"] and not truth["name"].startswith("declared:") and oracle.nearest(truth["name"], shift) is not None:
+        # The truth is not quite of the catalogue's shape: its size there is that of the nearest.
+        truth = {**truth, "made_with": float(truth["size"]), "size": oracle.nearest(truth["name"], shift)}
     rivals = oracle.rivals(shift)
     limit = oracle.threshold(rng)
     # A rival is refused when twice its log likelihood falls short by chi-square's 95 % point of one degree of freedom.

@@ -207,17 +207,17 @@ def own_catalogue(d):
     """Small changes of this file's machine, by the catalogue's formulas."""
     B, C = d.value("B") * np.pi / 180, d.value("C") * np.pi / 180
     base = simulate(None, d, [d.values()])[0]
-    rows = [(name, simulate(None, d, [d.values()], **{axis: 5 * ARCSEC * x})[0] - base) for name, axis, x in (
+    rows = [(name, simulate(None, d, [d.values()], **{axis: ARCSEC * x})[0] - base) for name, axis, x in (
         ("b_encoder_eccentricity", "B_error", np.cos(B)), ("b_encoder_eccentricity", "B_error", np.sin(B)),
         ("c_encoder_eccentricity", "C_error", np.cos(C)), ("c_encoder_eccentricity", "C_error", np.sin(C)),
         ("b_encoder_ovality", "B_error", np.cos(2 * B)), ("b_encoder_ovality", "B_error", np.sin(2 * B)),
         ("c_encoder_ovality", "C_error", np.cos(2 * C)), ("c_encoder_ovality", "C_error", np.sin(2 * C)),
-        ("b_axis_reversal", "B_error", d.value("B_direction")), ("c_axis_reversal", "C_error", d.value("C_direction")),
+        ("b_axis_reversal", "B_error", -0.5 * d.value("B_direction")), ("c_axis_reversal", "C_error", -0.5 * d.value("C_direction")),
         ("c_brake_shift", "C_error", d.value("C_clamped")))]
     one = np.eye(3)
     t = d.time / 60
-    rows += [("trigger_latency", d.value("feed")[:, None] * one[2]), ("pretravel", np.ones((d.readings, 1)) * one[2]),
-             ("thermal_growth", t[:, None] * one[2]), ("gravity_sag", np.sin(B)[:, None] * one[2])]
+    rows += [("trigger_latency", -d.value("feed")[:, None] / 60 * one[2]), ("pretravel", np.ones((d.readings, 1)) * one[2]),
+             ("thermal_growth", t[:, None] / 60 * one[2]), ("gravity_sag", np.sin(B)[:, None] * one[2])]
     rows += [("thermal_growth", -np.expm1(-t / tau)[:, None] * one[2]) for tau in (10, 30, 90)]
     rows += [("thermal_drift", t[:, None] * one[k]) for k in (0, 1)]
     rows += [("thermal_drift", -np.expm1(-t / tau)[:, None] * one[k]) for k in (0, 1) for tau in (10, 30, 90)]

@@ -44,8 +44,8 @@ def show(x, digits=2):
 def false_alarms(rows):
     out = []
     for (system, noise), group in by([r for r in rows if r["kind"] == "null" and "failed" not in r], "system", "noise").items():
-        n, alarms = len(group), sum(r["found"] for r in group)
-        kinds = by([r for r in group if r["found"]], "verdict")
+        n, alarms = len(group), sum(r["false_alarm"] for r in group)
+        kinds = by([r for r in group if r["false_alarm"]], "verdict")
         out.append((system, noise, n, alarms, f"{alarms / n:.3f}", f"{upper_limit(alarms, n):.3f}",
                     ", ".join(f"{len(v)} {k[0]}" for k, v in kinds.items())))
     return out
@@ -104,7 +104,8 @@ def report(rows, run):
         + (f"{len(failed)} runs gave no verdict and are in no table." if failed else "Every run gave a verdict."),
         "Strength is the length of the effect's signature in standard deviations, after declared and free quantities took what they can: beta times the root of "
         "g'WMg, training blocks only. Something of strength 3 is at the edge of what can be seen.",
-        "### False alarms where nothing is\n\nNominal 0.05. `clamp_declared`: scatter between clampings, declared. `quantised`: 0.3 um of noise read in steps of "
+        "### False alarms where nothing is\n\nNominal 0.05. `clamp_declared`: scatter between clampings, declared; `clamp_undeclared`: not declared, so "
+        "that scatter is the right answer and anything else an alarm. `quantised`: 0.3 um of noise read in steps of "
         "1 um, declared.\n\n" + table(HEAD_NULL, false_alarms(rows)),
         "### Found and named\n\n\"Oracle finds\" is the power of somebody who knows the noise and tests the catalogue's exact signatures and nothing else, at the same "
         "0.05 over all of them. Naming: +1 the right name, or the class where the oracle cannot split it; +0.5 a wider class that holds the truth; 0 silence; "
