@@ -12,9 +12,10 @@ struct HeldOut {
   std::vector<Index> rows;
 };
 
-/// Predicts `test` rows from a fit of `train` rows under a structure of noise: fixed, declared and scatter parts as the
-/// training rows tell them, `extra` columns likewise. Fixed columns that no training row feels are the block's own
-/// constants; they are projected out of its residuals, and where there are as many as rows it is not scored.
+/// Predicts `test` rows from a fit of `train` rows under a structure of noise: fixed and `extra` columns as the
+/// training rows tell them; declared quantities stay at what is declared, so their uncertainty is part of the error.
+/// Fixed columns that no training row feels are the block's own constants; they are projected out of its residuals, and
+/// where there are as many as rows it is not scored.
 /// @param residual all rows x sets, at the point where the design was linearised
 HeldOut hold_out(const Design& design, const Matrix& residual, const Matrix& extra, const std::vector<Index>& train,
                  const std::vector<Index>& test, const Structure& structure);

@@ -85,22 +85,20 @@ Scores score(const JointFit& fit, const Matrix& residual, const std::vector<Inde
   return out;
 }
 
-/// Residuals of the fit's own readings: beside fixed, declared and scatter parts.
+/// Residuals of the fit's own readings about the fitted unknowns, declared quantities as declared: root mean squares.
 Vector in_sample(const JointFit& fit, const std::vector<Index>& rows, const Matrix& residual, Matrix* left) {
   const auto use = independent(fit.design, rows);
-  const Whitened w(fit.design, rows, use, Structure{0, fit.structure.scatter, fit.structure.ratio});
-  const Matrix white = w.whiten(w.take(residual));
-  // What is left is whitened noise; x - Q Q'x is the residual beside the best random parts.
-  const Matrix rest = w.project(white);
-  if (left) {
-    *left = rest;
-    const auto k = static_cast<Index>(fit.design.indications);
-    for (Index i = 0; i < left->rows(); i += k) {
-      const auto place = static_cast<std::size_t>(rows[static_cast<std::size_t>(i)]) / fit.design.indications;
-      left->middleRows(i, k) = (fit.design.local[place].triangularView<Eigen::Lower>() * rest.middleRows(i, k)).eval();
-    }
-  }
-  return (rest.colwise().squaredNorm() / static_cast<double>(rows.size() - use.size())).cwiseSqrt().transpose();
+  const Whitened w(fit.design, rows, use, fit.structure);
+  const Matrix x = w.solve_all(Matrix(static_cast<Index>(rows.size()), 0), w.whiten(w.take(residual)));
+  Matrix rest = w.take(residual);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t j = 0; j < use.size(); ++j)
+      rest.row(static_cast<Index>(i)) -= fit.design.fixed(rows[i], use[j]) * x.row(static_cast<Index>(j));
+  if (left) *left = rest;
+  Design plain = fit.design;
+  plain.random.resize(plain.random.rows(), 0);
+  const Matrix white = Whitened(plain, rows, {}, Structure{}).whiten(rest);
+  return (white.colwise().squaredNorm() / static_cast<double>(rows.size() - use.size())).cwiseSqrt().transpose();
 }
 
 double quantile(std::vector<double> x, double p) {

@@ -412,7 +412,7 @@ double cross_validated(const Circumstances& c, const JointFit& fit) {
                         std::back_inserter(train));
     // Sizes of terms are found anew without the fold: they are fixed columns of the design.
     const HeldOut held = hold_out(fit.design, clean, Matrix(clean.rows(), 0), train, fold, fit.structure);
-    if (held.count > 0) squares += held.squares[0];
+    if (held.count > 0) squares += held.whitened[0];
   }
   return squares;
 }
