@@ -7,8 +7,8 @@ namespace gumshoe::tracing {
 /// Of one held-out block, for one residual or many (columns).
 struct HeldOut {
   Matrix residual;  ///< test rows x sets, SI; the block's own constants are taken off
-  Vector squares;  ///< [set], in units of the noise of single readings
-  Vector whitened; ///< [set], in units of all that is declared of them together; expected: count
+  Vector squares;   ///< [set], in units of the noise of single readings
+  Vector whitened;  ///< [set], in units of all that is declared of them together; expected: count
   double count = 0; ///< rows minus the block's own constants; 0: not scored
   std::vector<Index> rows;
 };

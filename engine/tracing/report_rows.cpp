@@ -56,7 +56,8 @@ struct Scored {
 /// Root mean squares by set of residual columns.
 struct Scores {
   std::vector<double> all;
-  Scored first; ///< of the first column
+  double whitened = 0; ///< squares of the first column in units of all that is declared
+  Scored first;        ///< of the first column
 };
 
 Scores score(const JointFit& fit, const Matrix& residual, const std::vector<Index>& training, const Blocks& blocks,
@@ -73,6 +74,7 @@ Scores score(const JointFit& fit, const Matrix& residual, const std::vector<Inde
         hold_out(fit.design, residual, Matrix(residual.rows(), 0), train, blocks.rows[b], fit.structure);
     if (held.count <= 0) continue;
     squares += held.squares;
+    out.whitened += held.whitened[0];
     count += held.count;
     const double rms = reference * std::sqrt(held.squares[0] / held.count);
     if (!(rms <= out.first.worst_block)) out.first.worst_block = rms, out.first.worst_name = blocks.names[b];
@@ -163,7 +165,16 @@ bool compare(const Circumstances& c, const Search& s, Trace& out) {
     } else {
       rms.holdout += ": no more readings than constants of their own, not scored";
     }
-    vetoed = !after.terms.empty() && !final_blocks(o).rows.empty() && rms.holdout_after >= rms.holdout_before;
+    // What the final blocks do not feel they can neither confirm nor refuse.
+    const bool felt = std::any_of(after.terms.begin(), after.terms.end(), [&](const Term& t) {
+      return std::any_of(blocks.rows.begin(), blocks.rows.end(), [&](const std::vector<Index>& b) {
+        return t.alternative.columns(b, Eigen::all).norm() > 1e-9 * t.alternative.columns.norm();
+      });
+    });
+    const bool opened = !o.final_blocks.empty() && std::isfinite(b.first.rms) && !after.terms.empty();
+    if (opened && !felt)
+      out.statements.push_back("the final blocks do not feel what was found: they neither confirm nor refuse it");
+    vetoed = opened && felt && (a.whitened >= b.whitened || a.first.rms > 1.05 * b.first.rms);
     if (vetoed) {
       a = b;
       rms.holdout_after = rms.holdout_before;

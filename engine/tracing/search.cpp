@@ -318,7 +318,7 @@ private:
       out_.steps.push_back(std::move(s));
       return;
     }
-    if (assessment_.p_noise_overall <= c_.alpha && assessment_.p_component.size() + 1 > 0) {
+    if (assessment_.p_noise_overall <= c_.alpha && out_.steps.empty()) {
       const bool scatters = std::any_of(assessment_.p_component.begin(), assessment_.p_component.end(),
                                         [&](double p) { return p <= c_.alpha; });
       if (scatters) return;
