@@ -270,6 +270,13 @@ private:
         refused_[rival.alternative] = "refused: " + alternatives_[best.alternative].name + " fits better";
         continue;
       }
+      // What still counts beside the best is another effect, not the same under another name.
+      if (!same && scan_->pair_ratio(best.alternative, rival.alternative, data_, k) -
+                           scan_->pair_ratio(best.alternative, best.alternative, data_, k) >
+                       assessment_.null[rival.alternative].quantile(assessment_.threshold)) {
+        refused_[rival.alternative] = "counts beside " + alternatives_[best.alternative].name;
+        continue;
+      }
       s.members.push_back(alternatives_[rival.alternative].name);
       s.rivals.push_back(rival.fit.terms.back());
     }
@@ -287,30 +294,40 @@ private:
   /// No known effect: the dependence itself, as smooth as the data ask for.
   bool take_shape() {
     const auto all = best_of([](const Alternative& a) { return !a.physical(); }, 6);
+    std::vector<std::pair<std::size_t, JointFit>> unconfirmed;
     for (const std::size_t a : all) {
       if (assessment_.p[a] > assessment_.threshold) continue;
       auto terms = out_.found.terms;
       terms.push_back({alternatives_[a], scan_->fit(a, data_).size});
       JointFit fit = c_.fitter.fit(terms, out_.found.noise, &out_.found);
-      if (!fit.valid || !predicts_better(fit)) {
-        refused_[a] = "refused: blocks held out are predicted no better with it";
-        continue;
+      if (!fit.valid) continue;
+      if (predicts_better(fit)) {
+        add_shape(a, fit, {});
+        return true;
       }
-      Step s;
-      s.kind = Kind::not_in_catalogue;
-      s.members = {};
-      s.p_value = assessment_.p_signature;
-      s.threshold = assessment_.null[a].quantile(assessment_.threshold);
-      s.depends_on = alternatives_[a].depends_on;
-      s.terms = {out_.found.terms.size()};
-      s.remarks.push_back("described by " + alternatives_[a].name +
-                          (alternatives_[a].shape.empty() ? "" : " (" + alternatives_[a].shape + ")"));
-      refused_[a] = "describes what is not in the catalogue";
-      out_.steps.push_back(std::move(s));
-      out_.found = c_.fitter.fit(fit.terms, 0, &fit);
-      return true;
+      refused_[a] = "refused: blocks held out are predicted no better with it";
+      unconfirmed.emplace_back(a, std::move(fit));
     }
-    return false;
+    // What shows in one block only cannot be predicted from the others: there it is nevertheless.
+    if (unconfirmed.empty() || !out_.steps.empty()) return false;
+    add_shape(unconfirmed[0].first, unconfirmed[0].second,
+              "blocks held out are predicted no better with it: it may belong to some of them only");
+    return true;
+  }
+
+  void add_shape(std::size_t a, const JointFit& fit, const std::string& remark) {
+    Step s;
+    s.kind = Kind::not_in_catalogue;
+    s.p_value = assessment_.p_signature;
+    s.threshold = assessment_.null[a].quantile(assessment_.threshold);
+    s.depends_on = alternatives_[a].depends_on;
+    s.terms = {out_.found.terms.size()};
+    s.remarks.push_back("described by " + alternatives_[a].name +
+                        (alternatives_[a].shape.empty() ? "" : " (" + alternatives_[a].shape + ")"));
+    if (!remark.empty()) s.remarks.push_back(remark);
+    refused_[a] = "describes what is not in the catalogue";
+    out_.steps.push_back(std::move(s));
+    out_.found = c_.fitter.fit(fit.terms, 0, &fit);
   }
 
   void take_component() {
@@ -327,7 +344,7 @@ private:
       out_.steps.push_back(std::move(s));
       return;
     }
-    if (assessment_.p_noise_overall <= c_.alpha && out_.steps.empty()) {
+    if (assessment_.p_noise_overall <= c_.alpha && assessment_.p_signature > c_.alpha && out_.steps.empty()) {
       const bool scatters = std::any_of(assessment_.p_component.begin(), assessment_.p_component.end(),
                                         [&](double p) { return p <= c_.alpha; });
       if (scatters) return;

@@ -14,8 +14,8 @@ struct Step {
   std::vector<std::string> members;
   std::vector<Term> rivals; ///< members of the class beside the first, fitted in its place
   double p_value = 1;
-  double threshold = 0; ///< likelihood ratio that the term had to pass
-  double noise = 1;     ///< scale at that step
+  double threshold = 0;     ///< likelihood ratio that the term had to pass
+  double removed_share = 0; ///< of the mean square of what the declared model leaves
   std::vector<std::string> remarks;
   std::vector<std::string> depends_on;
   int component = -1; ///< of Design::scatter
