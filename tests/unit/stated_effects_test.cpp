@@ -11,10 +11,12 @@
 #include "analysis/derivatives.h"
 #include "analysis/differences.h"
 #include "analysis/gum.h"
+#include "base/text_file.h"
 #include "calibration/estimated_scenario.h"
 #include "choice/setup.h"
 #include "effects/catalogue.h"
 #include "models/model.h"
+#include "places.h"
 #include "unit/scenario_fixture.h"
 
 using namespace gumshoe;
@@ -221,6 +223,41 @@ TEST_CASE("the estimated scenario holds the size where it belongs", "[stated][es
   CHECK(written.correlations.size() == 1);
   CHECK(written.readings.size() == 8);
   CHECK_NOTHROW(propagation::Experiment(written));
+}
+
+TEST_CASE("weights of a joint evaluation know a size as the noise that it makes", "[stated][sphere_calibration]") {
+  std::string text = read_text_file(GUMSHOE_SOURCE_DIR "/scenarios/sphere_calibration.toml", 1 << 20);
+  text.replace(text.find("\"sequential\""), 12, "\"joint_weighted\"");
+  const auto moved = [&](const std::string& more) {
+    const Case c(text + more);
+    const auto& e = c.experiment;
+    std::vector<const double*> columns(e.plan().columns.size(), nullptr);
+    const std::vector<double> shift(8, 4e-6);
+    std::size_t q = 0;
+    while (c.scenario.quantities[q].name != "E_XX") ++q;
+    columns[e.plan().gather[3][q]] = shift.data();
+    propagation::Workspace w;
+    std::vector<double> out(e.outputs().size() * 8);
+    std::vector<std::uint8_t> status(8);
+    e.run_columns(columns, 8, w, out.data(), status.data());
+    REQUIRE(status[0] == 0);
+    std::vector<double> first;
+    for (std::size_t o = 0; o < e.outputs().size(); ++o) first.push_back(out[o * 8]);
+    return first;
+  };
+  // Half the draw, the other sign: a standard deviation of 10 um in every reading of X.
+  const auto bare = moved(""),
+             noise = moved(
+                 "[indications.X]\ncomponents = [ { distribution = \"normal\", u = \"10 um\", per = \"reading\" } ]\n"),
+             size = moved(
+                 "[stated_effects.lag]\nindication = \"X\"\nformula = \"-1 / 2\"\nunit = \"um\"\nsize = { value = "
+                 "\"0 um\", u = \"20 um\", per = \"reading\" }\n");
+  double difference = 0;
+  for (std::size_t o = 0; o < bare.size(); ++o) {
+    CHECK(std::fabs(size[o] - noise[o]) < 1e-6 * std::fabs(noise[o]) + 1e-12);
+    difference = std::max(difference, std::fabs(bare[o] - noise[o]) / std::fabs(noise[o]));
+  }
+  CHECK(difference > 0.01); // the weights do matter
 }
 
 TEST_CASE("a choice computes the formula anew for its settings", "[stated][choose]") {
