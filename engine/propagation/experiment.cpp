@@ -66,10 +66,11 @@ Experiment::Experiment(const scenario::Scenario& s)
   plan_ = located_plan(s);
   const ModelCard& card = *model_->card;
   indications_ = card.indications.size();
-  for (const auto& e : s.stated_effects)
-    if (e.freed) stated_.push_back({0, e.indication, &e.loading});
-  for (std::size_t i = 0; i < stated_.size(); ++i) // the last ones
-    stated_[i].quantity = s.quantities.size() - stated_.size() + i;
+  for (const auto& e : s.stated_effects) {
+    const auto size = std::ranges::find(s.quantities, e.name + ".size", &quantities::InputQuantity::name);
+    if (size != s.quantities.end())
+      stated_.push_back({static_cast<std::size_t>(size - s.quantities.begin()), e.indication, &e.loading});
+  }
   effect_quantities_ = s.quantities.size() - card.quantities.size() - indications_ - stated_.size();
   for (std::size_t e = 0, at = 0; e < effects::cards().size(); ++e) {
     const std::string prefix = std::string(effects::cards()[e]->name) + ".";
