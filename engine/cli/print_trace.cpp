@@ -79,7 +79,6 @@ void print_finding(const Finding& f) {
 }
 
 void print_rms(const Rms& r) {
-  if (!std::isfinite(r.before)) return;
   const Lengths lengths(r);
   const auto show = [&](double si) { return lengths.show(si); };
   const auto line = [&](const std::string& what, double before, double after, const std::string& noise) {
@@ -148,9 +147,9 @@ void print_trace(const Trace& t, const std::string& title, const std::vector<std
   if (!title.empty()) std::cout << title << '\n';
   print_verdict(t);
   for (const Finding& f : t.findings) print_finding(f);
-  if (t.outcome != Outcome::insufficient_data || std::isfinite(t.rms.before)) {
+  if (std::isfinite(t.rms.before)) {
     print_rms(t.rms);
-    if (!t.rms.unit.empty()) print_noise(t.noise, t.rms);
+    print_noise(t.noise, t.rms);
   }
   print_candidates(t.candidates);
   if (t.findings.empty()) print_limits(t.detection_limits);

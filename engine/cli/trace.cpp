@@ -27,9 +27,7 @@ struct Options {
 
 /// The scenario with what the command line says otherwise.
 scenario::Scenario asked(const Options& o) {
-  if (!o.data.empty()) // here the scenario is to be read with its data file replaced
-    throw InputError("--data: not yet", "readings come from the files that the scenario names");
-  scenario::Scenario s = scenario::read(o.file, catalogue());
+  scenario::Scenario s = scenario::read(o.file, catalogue(), {.data = o.data});
   if (o.draws)
     s.trace.draws = static_cast<int>(std::min<std::uint64_t>(whole_number(*o.draws, "--draws", 19), 1'000'000));
   if (o.seed) s.trace.seed = whole_number(*o.seed, "--seed", 0);

@@ -109,6 +109,10 @@ class Trace:
             found.append(("removed of what can be removed", self.removed()))
         return found
 
+    def of_blocks(self, text):
+        """Final blocks with the label whose values they are."""
+        return f"{self.t.blocks} {text}" if self.apart and self.t.blocks and not text.startswith(self.t.blocks) else text
+
     def removed(self):
         return fixed(100 * self.t.rms.share_removed, 0) + f"{SPACE}%"
 
@@ -151,9 +155,9 @@ class Trace:
             if math.isfinite(before) or math.isfinite(after):
                 rows.append(types.SimpleNamespace(what=what, note=note, before=self.number(before),
                                                   after=self.number(after), noise=text))
-        add("hold-out", r.holdout, r.holdout_before, r.holdout_after,
+        add("hold-out", self.of_blocks(r.holdout), r.holdout_before, r.holdout_after,
             noise(r.holdout_noise, r.holdout_noise_low, r.holdout_noise_high))
-        add("worst block", r.worst_block, r.worst_block_before, r.worst_block_after)
+        add("worst block", self.of_blocks(r.worst_block), r.worst_block_before, r.worst_block_after)
         add("worst point", r.worst_point, r.worst_point_before, r.worst_point_after)
         add("in sample", "training data: chosen and fitted on these, so flattering", r.before, r.after,
             noise(r.noise, r.noise_low, r.noise_high))

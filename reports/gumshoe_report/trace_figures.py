@@ -209,9 +209,9 @@ def by_label(rows, labels, blocks, name):
 def sizes(t, name):
     """Root mean squares before, after and of noise alone, with what chance makes of it."""
     r, w = t.t.rms, t.factor
-    found = [("hold-out", r.holdout, r.holdout_before, r.holdout_after,
+    found = [("hold-out", t.of_blocks(r.holdout), r.holdout_before, r.holdout_after,
               (r.holdout_noise, r.holdout_noise_low, r.holdout_noise_high)),
-             ("worst block", r.worst_block, r.worst_block_before, r.worst_block_after, None),
+             ("worst block", t.of_blocks(r.worst_block), r.worst_block_before, r.worst_block_after, None),
              ("in sample", "training data", r.before, r.after, (r.noise, r.noise_low, r.noise_high))]
     found = [row for row in found if math.isfinite(row[2])]
     figure, axes = plt.subplots(figsize=(7.2, 0.65 + (0.66 if t.added else 0.48) * len(found)), layout="constrained")
