@@ -15,6 +15,8 @@ SIDES = (("before", ORANGE), ("after", BLUE))
 WIDE = 9.2  # inches, of the figures with many points
 LEVELS = 60  # of a label, beyond them it is not drawn
 DISTINCT = 12  # values of a condition that are averaged one by one; beyond them in bins
+MANY = 400  # residuals; beyond them the points are an image in the figure, or the page were megabytes
+DOTS = 200  # per inch, of such an image
 UNCHANGED = (("before", BLUE),)  # nothing was added: there is one residual only
 
 
@@ -64,7 +66,7 @@ def in_order(rows, name):
     values = {side: v * factor for side, v in values.items()}
     shown = sides(rows)
     figure, grid = plt.subplots(len(shown), 1, sharex=True, sharey=True, figsize=(WIDE, 0.9 + 1.5 * len(shown)),
-                                layout="constrained", squeeze=False)
+                                layout="constrained", squeeze=False, dpi=DOTS)
     grid = grid[:, 0]
     x = np.arange(1, len(rows) + 1)
     edges = [0] + [k for k in range(1, len(rows)) if rows[k].block != rows[k - 1].block] + [len(rows)]
@@ -78,7 +80,8 @@ def in_order(rows, name):
             if first:
                 axes.axvline(first + 0.5, color="#d5d9df", linewidth=0.6, zorder=0.3)
         outlier = np.array([r.weight < 0.5 for r in rows])
-        axes.plot(x[~outlier], values[side][~outlier], "o", color=colour, markersize=size, markeredgewidth=0, alpha=0.75)
+        axes.plot(x[~outlier], values[side][~outlier], "o", color=colour, markersize=size, markeredgewidth=0, alpha=0.75,
+                  rasterized=len(rows) > MANY)
         if outlier.any():
             axes.plot(x[outlier], np.clip(values[side][outlier], -top, top), "x", color=INK, markersize=4.5)
         axes.set_ylim(-top, top)
@@ -115,7 +118,7 @@ def points(axes, x, y, final, colour):
     """Every residual, those of final blocks open, and their averages."""
     for which, face in ((~final, colour), (final, "white")):
         axes.plot(x.jittered[which], y[which], "o", color=colour, markerfacecolor=face, markersize=2.8,
-                  markeredgewidth=0.5 if face == "white" else 0, alpha=0.5)
+                  markeredgewidth=0.5 if face == "white" else 0, alpha=0.5, rasterized=len(y) > MANY)
     centre, mean, half = averages(x.values, y)
     axes.errorbar(centre, mean, half, color=INK, marker="o", markersize=3.2, linewidth=1, capsize=1.8, zorder=4)
     if len(x.distinct) <= 6:
@@ -145,7 +148,7 @@ def against(rows, columns, name):
     shown = sides(rows)
     lines = math.ceil(len(columns) * len(shown) / 2)
     figure, grid = plt.subplots(lines, 2, sharey=True, figsize=(WIDE, 0.4 + 1.9 * lines), layout="constrained",
-                                squeeze=False)
+                                squeeze=False, dpi=DOTS)
     top = limits({side: v * factor for side, v in values.items()})
     final = np.array([bool(r.final) for r in rows])
     panels = [(column, side) for column in columns for side in shown]
@@ -173,7 +176,8 @@ def by_label(rows, labels, blocks, name):
              if 2 <= len({of[r.reading] for r in rows}) <= min(LEVELS, len(rows) // 2)]
     if not shown:
         return ""
-    figure, grid = plt.subplots(len(shown), 1, figsize=(WIDE, 0.2 + 1.75 * len(shown)), layout="constrained", squeeze=False)
+    figure, grid = plt.subplots(len(shown), 1, figsize=(WIDE, 0.2 + 1.75 * len(shown)), layout="constrained", squeeze=False,
+                                dpi=DOTS)
     for axes, (title, of) in zip(grid[:, 0], shown):
         levels = list(dict.fromkeys(of[r.reading] for r in rows))
         place = {level: k for k, level in enumerate(levels)}
@@ -188,7 +192,7 @@ def by_label(rows, labels, blocks, name):
                 offset = 0 if len(both) == 1 else -0.14 if side == "before" else 0.14
                 half = 2 * here.std(ddof=1) / math.sqrt(len(here)) if len(here) > 1 else 0
                 axes.plot(k + offset + np.linspace(-0.07, 0.07, len(here)), here, "o", color=colour, markersize=2.2,
-                          markeredgewidth=0, alpha=0.3)
+                          markeredgewidth=0, alpha=0.3, rasterized=len(rows) > MANY)
                 axes.errorbar(k + offset, here.mean(), half, color=colour, marker="o", markersize=4.2, linewidth=1.3,
                               capsize=2.4, zorder=4, label=side if k == 0 else None)
         if title == blocks:
