@@ -10,7 +10,6 @@ import re
 import subprocess
 import sys
 import tempfile
-import types
 import unittest
 
 import h5py
@@ -194,7 +193,7 @@ class Page(Made):
 
     def test_both_budgets_side_by_side(self):
         text = words_of(self.pages["named"])
-        part = text[text.index("Uncertainty of laser_z, before and after"):]
+        part = text[text.index("Uncertainty of laser_z, before and after"):].replace("&#8239;", " ")
         self.assertRegex(part, r"trigger_latency\.delay ?new ?– ?0\.041 ms")
         with h5py.File(self.file("named")) as file:
             for side in ("before", "after"):

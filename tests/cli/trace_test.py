@@ -26,7 +26,7 @@ SETUPS
 value = "150 mm"
 u = "1 um"
 [indications.spindle_z]
-readings = { file = "r.csv", column = "spindle_z", unit = "mm", labels = { setup = "setup" }, conditions = { feed = { column = "feed", unit = "mm/min" } } }
+readings = { file = "r.csv", column = "spindle_z", unit = "mm", labels = { setup = "setup", round = "round" }, conditions = { feed = { column = "feed", unit = "mm/min" } } }
 components = [ { distribution = "normal", u = "0.5 um", per = "reading" } ]
 [trace]
 blocks = "setup"
@@ -38,11 +38,11 @@ SETUPS = 8
 def readings(delay, seed=1):
     """Delay in ms; feed in mm/min; noise of 0.5 um."""
     chance = random.Random(seed)
-    lines = ["setup,feed,spindle_z"]
+    lines = ["setup,round,feed,spindle_z"]
     for setup in range(1, SETUPS + 1):
         constant = -360 + chance.gauss(0, 0.01)
-        for feed in (20, 200, 500, 1000) * 3:
-            lines.append(f"{setup},{feed},{constant - feed / 60 * delay * 1e-3 + chance.gauss(0, 5e-4):.7f}")
+        for k, feed in enumerate((20, 200, 500, 1000) * 3):
+            lines.append(f"{setup},{k // 4},{feed},{constant - feed / 60 * delay * 1e-3 + chance.gauss(0, 5e-4):.7f}")
     return "\n".join(lines) + "\n"
 
 
