@@ -114,7 +114,9 @@ class Trace:
         return f"{self.t.blocks} {text}" if self.apart and self.t.blocks and not text.startswith(self.t.blocks) else text
 
     def removed(self):
-        return fixed(100 * self.t.rms.share_removed, 0) + f"{SPACE}%"
+        """Above 1 what is left is less than the noise expected: chance, and not more than all."""
+        share = self.t.rms.share_removed
+        return "all" if share > 1 else fixed(100 * share, 0) + f"{SPACE}%"
 
     def sizes(self, f):
         """One line per size; of a class every member's."""
@@ -140,7 +142,7 @@ class Trace:
                 kind=f.kind, title=self.title(f), what=KINDS[f.kind], members=f.members,
                 p=self.p(f.p_value), depends_on=joined(f.depends_on) if f.depends_on else "",
                 suggestion=f.suggestion, remarks=f.remarks, sizes=self.sizes(f),
-                removed=f"{fixed(100 * f.removed_share, 0)}{SPACE}%" if math.isfinite(f.removed_share) else "", curves=f.curves)
+                removed=f"{fixed(100 * f.removed_share, 0)}{SPACE}%" if f.removed_share > 0 else "", curves=f.curves)
 
     def before_and_after(self):
         """The rows of the table: what, before, after, noise with its interval."""

@@ -167,6 +167,14 @@ def against(rows, columns, name):
     return svg(figure, name, "Residuals against each condition" + and_after(shown))
 
 
+def in_sequence(levels):
+    """Numbers by size, words as they appear."""
+    try:
+        return sorted(levels, key=float)
+    except ValueError:
+        return levels
+
+
 def by_label(rows, labels, blocks, name):
     """Mean residual of every value of a label with twice its standard error."""
     rows, values = scored(rows)
@@ -179,7 +187,7 @@ def by_label(rows, labels, blocks, name):
     figure, grid = plt.subplots(len(shown), 1, figsize=(WIDE, 0.2 + 1.75 * len(shown)), layout="constrained", squeeze=False,
                                 dpi=DOTS)
     for axes, (title, of) in zip(grid[:, 0], shown):
-        levels = list(dict.fromkeys(of[r.reading] for r in rows))
+        levels = in_sequence(list(dict.fromkeys(of[r.reading] for r in rows)))
         place = {level: k for k, level in enumerate(levels)}
         at = np.array([place[of[r.reading]] for r in rows])
         axes.axhline(0, color=GREY, linewidth=0.6, zorder=0.5)
