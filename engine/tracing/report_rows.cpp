@@ -56,7 +56,8 @@ struct Scored {
 /// Root mean squares by set of residual columns.
 struct Scores {
   std::vector<double> all;
-  Scored first; ///< of the first column
+  double whitened = 0; ///< squares of the first column in units of all that is declared
+  Scored first;        ///< of the first column
 };
 
 Scores score(const JointFit& fit, const Matrix& residual, const std::vector<Index>& training, const Blocks& blocks,
@@ -73,6 +74,7 @@ Scores score(const JointFit& fit, const Matrix& residual, const std::vector<Inde
         hold_out(fit.design, residual, Matrix(residual.rows(), 0), train, blocks.rows[b], fit.structure);
     if (held.count <= 0) continue;
     squares += held.squares;
+    out.whitened += held.whitened[0];
     count += held.count;
     const double rms = reference * std::sqrt(held.squares[0] / held.count);
     if (!(rms <= out.first.worst_block)) out.first.worst_block = rms, out.first.worst_name = blocks.names[b];
@@ -85,22 +87,20 @@ Scores score(const JointFit& fit, const Matrix& residual, const std::vector<Inde
   return out;
 }
 
-/// Residuals of the fit's own readings: beside fixed, declared and scatter parts.
+/// Residuals of the fit's own readings about the fitted unknowns, declared quantities as declared: root mean squares.
 Vector in_sample(const JointFit& fit, const std::vector<Index>& rows, const Matrix& residual, Matrix* left) {
   const auto use = independent(fit.design, rows);
-  const Whitened w(fit.design, rows, use, Structure{0, fit.structure.scatter, fit.structure.ratio});
-  const Matrix white = w.whiten(w.take(residual));
-  // What is left is whitened noise; x - Q Q'x is the residual beside the best random parts.
-  const Matrix rest = w.project(white);
-  if (left) {
-    *left = rest;
-    const auto k = static_cast<Index>(fit.design.indications);
-    for (Index i = 0; i < left->rows(); i += k) {
-      const auto place = static_cast<std::size_t>(rows[static_cast<std::size_t>(i)]) / fit.design.indications;
-      left->middleRows(i, k) = (fit.design.local[place].triangularView<Eigen::Lower>() * rest.middleRows(i, k)).eval();
-    }
-  }
-  return (rest.colwise().squaredNorm() / static_cast<double>(rows.size() - use.size())).cwiseSqrt().transpose();
+  const Whitened w(fit.design, rows, use, fit.structure);
+  const Matrix x = w.solve_all(Matrix(static_cast<Index>(rows.size()), 0), w.whiten(w.take(residual)));
+  Matrix rest = w.take(residual);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t j = 0; j < use.size(); ++j)
+      rest.row(static_cast<Index>(i)) -= fit.design.fixed(rows[i], use[j]) * x.row(static_cast<Index>(j));
+  if (left) *left = rest;
+  Design plain = fit.design;
+  plain.random.resize(plain.random.rows(), 0);
+  const Matrix white = Whitened(plain, rows, {}, Structure{}).whiten(rest);
+  return (white.colwise().squaredNorm() / static_cast<double>(rows.size() - use.size())).cwiseSqrt().transpose();
 }
 
 double quantile(std::vector<double> x, double p) {
@@ -165,7 +165,16 @@ bool compare(const Circumstances& c, const Search& s, Trace& out) {
     } else {
       rms.holdout += ": no more readings than constants of their own, not scored";
     }
-    vetoed = !after.terms.empty() && !final_blocks(o).rows.empty() && rms.holdout_after >= rms.holdout_before;
+    // What the final blocks do not feel they can neither confirm nor refuse.
+    const bool felt = std::any_of(after.terms.begin(), after.terms.end(), [&](const Term& t) {
+      return std::any_of(blocks.rows.begin(), blocks.rows.end(), [&](const std::vector<Index>& b) {
+        return t.alternative.columns(b, Eigen::all).norm() > 1e-9 * t.alternative.columns.norm();
+      });
+    });
+    const bool opened = !o.final_blocks.empty() && std::isfinite(b.first.rms) && !after.terms.empty();
+    if (opened && !felt)
+      out.statements.push_back("the final blocks do not feel what was found: they neither confirm nor refuse it");
+    vetoed = opened && felt && (a.whitened >= b.whitened || a.first.rms > 1.05 * b.first.rms);
     if (vetoed) {
       a = b;
       rms.holdout_after = rms.holdout_before;

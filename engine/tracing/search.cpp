@@ -318,7 +318,7 @@ private:
       out_.steps.push_back(std::move(s));
       return;
     }
-    if (assessment_.p_noise_overall <= c_.alpha && assessment_.p_component.size() + 1 > 0) {
+    if (assessment_.p_noise_overall <= c_.alpha && out_.steps.empty()) {
       const bool scatters = std::any_of(assessment_.p_component.begin(), assessment_.p_component.end(),
                                         [&](double p) { return p <= c_.alpha; });
       if (scatters) return;
@@ -412,7 +412,7 @@ double cross_validated(const Circumstances& c, const JointFit& fit) {
                         std::back_inserter(train));
     // Sizes of terms are found anew without the fold: they are fixed columns of the design.
     const HeldOut held = hold_out(fit.design, clean, Matrix(clean.rows(), 0), train, fold, fit.structure);
-    if (held.count > 0) squares += held.squares[0];
+    if (held.count > 0) squares += held.whitened[0];
   }
   return squares;
 }
