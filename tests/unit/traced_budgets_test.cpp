@@ -45,7 +45,7 @@ TEST_CASE("what was found stands in the second budget only", "[tracing][budget]"
     CHECK(a.contributions.size() == b.contributions.size() + 1);
     // 60 mm/min is 1 mm/s: 0.3 ms is 0.3 um, and 1.5 ms is 1.5 um that a downward approach reads too low.
     const double added = std::pow(a.combined_standard_uncertainty, 2) - std::pow(b.combined_standard_uncertainty, 2);
-    CHECK(std::sqrt(added) == Approx(0.3e-6).epsilon(1e-6));
+    CHECK(std::sqrt(added) * 1e6 == Approx(0.3).epsilon(1e-6));
     CHECK(a.estimate - b.estimate == Approx(1.5e-6).epsilon(1e-6));
   }
   CHECK(seen);
