@@ -187,6 +187,7 @@ void collect(const Circumstances& c, const Search& s, Trace& out) {
     f.p_value = step.p_value;
     f.depends_on = step.depends_on;
     f.remarks = step.remarks;
+    f.removed_share = step.removed_share;
     f.name = step.kind == Kind::not_in_catalogue ? "not in the catalogue" : step.members.front();
     if (step.kind == Kind::equivalence_class) f.name = fmt::format("{}", fmt::join(step.members, " | "));
     for (const std::size_t t : step.terms) {

@@ -253,8 +253,8 @@ JointFit Fitter::fit(const std::vector<Term>& terms, double noise, const JointFi
     t.size.setZero();
   }
   apply(fit, sizes, 1);
-  fit.converged = linearise(fit);
-  if (!fit.converged) return fit;
+  fit.valid = fit.converged = linearise(fit);
+  if (!fit.valid) return fit;
   if (!noise_declared_ && noise == 0 && !start) {
     // No scale at all yet: that of the plain residuals about the free unknowns.
     const Scan scan(fit.design, rows_, {}, threads_);

@@ -23,6 +23,7 @@ struct JointFit {
   Structure structure;                 ///< of the noise
   double variance = 1;                 ///< left over by the design's noise
   double criterion = 0;                ///< minus two ln likelihood, comparable between fits of equal noise
+  bool valid = true;                   ///< false: the model has no value there
   bool converged = true, kink = false;
   int iterations = 0;
 };
