@@ -15,6 +15,7 @@ struct Step {
   std::vector<Term> rivals; ///< members of the class beside the first, fitted in its place
   double p_value = 1;
   double threshold = 0; ///< likelihood ratio that the term had to pass
+  double removed_share = 0; ///< of the mean square of the training residuals
   double noise = 1;     ///< scale at that step
   std::vector<std::string> remarks;
   std::vector<std::string> depends_on;
