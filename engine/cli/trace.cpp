@@ -64,8 +64,8 @@ ExitCode trace(const Options& o) {
   const ModelCard& card = s.made ? *s.made->card : *models::find(s.model)->card;
   const tracing::Trace found = tracing::trace(s, {o.threads, show});
   if (isatty(2) != 0) std::cerr << '\n';
-  // Here the scenario with what was found is to be written beside `out`, and `budgets` filled with those of both
-  // scenarios (analysis::budget).
+  // Here the scenario with what was found is to be written beside `out`; of it and `s` traced_budgets
+  // (traced_budgets.h).
   const store::TracedBudgets budgets;
   std::vector<std::string> written{out};
   store::write_trace(out, s, card, found, budgets);
