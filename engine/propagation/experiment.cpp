@@ -63,6 +63,9 @@ Experiment::Experiment(const scenario::Scenario& s)
   if (s.method == scenario::Method::virtual_experiment && !model_->kernels()->simulate)
     throw InputError({{find_line(s, "[model]"), "model: it does not say what the readouts would be",
                        "a virtual experiment simulates every indication", "method = \"propagation\"?"}});
+  for (const auto& e : s.stated_effects)
+    if (e.freed)
+      throw InputError({{find_line(s, "[stated_effects." + e.name), "sizes of stated effects cannot run yet", "", ""}});
   plan_ = located_plan(s);
   const ModelCard& card = *model_->card;
   indications_ = card.indications.size();

@@ -14,13 +14,27 @@ namespace {
 constexpr std::size_t largest_data_file = std::size_t{256} << 20;
 }
 
-DataFiles::DataFiles(const std::string& scenario_file)
-    : folder_(std::filesystem::path(scenario_file).parent_path().string()) {}
+DataFiles::DataFiles(const std::string& scenario_file, std::string of_readings)
+    : folder_(std::filesystem::path(scenario_file).parent_path().string()), of_readings_(std::move(of_readings)) {}
 
 const Csv* DataFiles::open(const Node& node, const std::string& path, Problems& problems) {
   const auto name = read_text(node, path, problems);
   if (!name) return nullptr;
   const std::string file = (std::filesystem::path(folder_) / *name).string();
+  const auto no_file = [&](const Problem& p) {
+    problems.add(node, fmt::format("{}: '{}': {}", path, file, p.what), p.why, p.remedy);
+  };
+  return open_file(file, no_file, problems);
+}
+
+const Csv* DataFiles::open_readings(const Node& node, const std::string& path, Problems& problems) {
+  if (!readings_replaced()) return open(node, path, problems);
+  const auto no_file = [&](const Problem& p) { problems.add(InputError(std::vector<Problem>{p})); };
+  return open_file(of_readings_, no_file, problems);
+}
+
+const Csv* DataFiles::open_file(const std::string& file, const std::function<void(const Problem&)>& no_file,
+                                Problems& problems) {
   for (const File& f : files_)
     if (f.name == file) return f.csv.get();
   files_.push_back({file, {}, nullptr});
@@ -32,7 +46,7 @@ const Csv* DataFiles::open(const Node& node, const std::string& path, Problems& 
       if (p.where.line > 0)
         problems.add(InputError(std::vector<Problem>{p}));
       else
-        problems.add(node, fmt::format("{}: '{}': {}", path, file, p.what), p.why, p.remedy);
+        no_file(p);
     }
   }
   return files_.back().csv.get();
@@ -63,12 +77,15 @@ int find_column(Table& table, const std::string& key, const Csv& csv) {
   return column;
 }
 
-std::optional<DataColumn> read_data_column(Table& table, const std::string& si_unit, DataFiles& files) {
+std::optional<DataColumn> read_data_column(Table& table, const std::string& si_unit, DataFiles& files,
+                                           bool of_readings) {
   DataColumn out;
   const Node* file = table.require("file");
   const Node* column = table.require("column");
   const auto unit = table.text("unit");
-  if (file) out.csv = files.open(*file, table.path("file"), table.problems());
+  if (file)
+    out.csv = of_readings ? files.open_readings(*file, table.path("file"), table.problems())
+                          : files.open(*file, table.path("file"), table.problems());
   if (!table.has("unit") && si_unit != "1")
     table.add(fmt::format("{}: missing", table.path("unit")), "the column's numbers carry none", "unit = \"mm\"?");
   out.unit = unit.value_or("1");

@@ -1,6 +1,7 @@
 #pragma once
 /// What the parts of the parser share: problems, notes, data files and the labels of the readings.
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <set>
@@ -16,9 +17,13 @@ namespace gumshoe::scenario {
 /// Data files named by a scenario, relative to its folder; each is read once and hashed.
 class DataFiles {
 public:
-  explicit DataFiles(const std::string& scenario_file);
+  /// `of_readings`: stands for every data file of readings, relative to the current directory; empty: none does.
+  DataFiles(const std::string& scenario_file, std::string of_readings);
   /// The file named by the text node; null and a problem if it cannot be read or is no CSV.
   const Csv* open(const Node& name, const std::string& path, Problems& problems);
+  /// The same for a file of readings.
+  const Csv* open_readings(const Node& name, const std::string& path, Problems& problems);
+  bool readings_replaced() const { return !of_readings_.empty(); }
   /// A file that fixes the numbers in another way (a model's library or script): its bytes enter the hash. No such
   /// file: nothing.
   void include(const std::string& name);
@@ -30,7 +35,8 @@ private:
     std::string name, bytes;
     std::unique_ptr<Csv> csv; ///< null if it was no CSV
   };
-  std::string folder_;
+  const Csv* open_file(const std::string& file, const std::function<void(const Problem&)>& no_file, Problems& problems);
+  std::string folder_, of_readings_;
   std::vector<File> files_;
 };
 
@@ -43,7 +49,8 @@ struct DataColumn {
 /// Finds the column named by `key` of the table; -1 and a problem if it is not there.
 int find_column(Table& table, const std::string& key, const Csv& csv);
 /// Reads file, column and unit; nullopt and problems if something is wrong.
-std::optional<DataColumn> read_data_column(Table& table, const std::string& si_unit, DataFiles& files);
+std::optional<DataColumn> read_data_column(Table& table, const std::string& si_unit, DataFiles& files,
+                                           bool of_readings = false);
 /// A cell in SI; nullopt and a problem located in the data file.
 std::optional<double> read_cell(const Csv& csv, const CsvCell& cell, const std::string& unit,
                                 const Dimension& dimension, Problems& problems);

@@ -77,7 +77,8 @@ void explain(const InputQuantity& q, const ModelCard& model, Lines out) {
   }
 }
 
-void explain(const Reading& r, std::size_t number, const ModelCard& model, Lines out) {
+void explain(const Scenario& s, std::size_t number, const ModelCard& model, Lines out) {
+  const Reading& r = s.readings[number - 1];
   fmt::format_to(out, "  {}{}:", number, r.labels.empty() ? "" : " [" + text_of(r.labels) + "]");
   for (std::size_t i = 0; i < model.conditions.size(); ++i) {
     const VariableCard& c = model.conditions[i];
@@ -87,6 +88,10 @@ void explain(const Reading& r, std::size_t number, const ModelCard& model, Lines
     const VariableCard& c = model.indications[i];
     fmt::format_to(out, " {} {};", c.name, both(r.indications[i], c.unit, c.si_unit));
   }
+  for (const TraceColumn& c : s.trace.columns)
+    fmt::format_to(out, " {} {};", c.name, both(c.values[number - 1], c.unit, c.si_unit));
+  for (const StatedEffect& e : s.stated_effects)
+    fmt::format_to(out, " loading of {} {:.12g} SI;", e.name, e.loading[number - 1]);
   fmt::format_to(out, " {}\n", r.repeats == 1 ? "one readout" : fmt::format("mean of {} readouts", r.repeats));
 }
 
@@ -168,6 +173,28 @@ void explain(const Choose& c, const ModelCard& model, Lines out) {
   for (const ChooseCompare& one : c.compare) fmt::format_to(out, "  compare {}:", one.name), settings(one.settings);
 }
 
+void explain(const StatedEffect& e, const ModelCard& model, Lines out) {
+  fmt::format_to(out, "  {}: size ({}) * ({}) adds to {}{}{}{}\n", e.name, e.unit, e.formula,
+                 model.indications[e.indication].name, e.freed ? "" : ", at null",
+                 e.meaning.empty() ? "" : ", meaning: " + e.meaning, e.source.empty() ? "" : ", source: " + e.source);
+}
+
+void explain(const TraceOptions& t, Lines out) {
+  fmt::format_to(out, "trace\n  blocks {}, final {}; order {}\n", t.blocks.empty() ? "none" : t.blocks,
+                 t.final_blocks.empty() ? std::string("the last quarter")
+                                        : fmt::format("{}", fmt::join(t.final_blocks, ", ")),
+                 t.order_name.empty() ? "as the readings stand" : t.order_name);
+  if (t.redone.empty())
+    fmt::format_to(out, "  redone: every set of one or two labels with at least six combinations\n");
+  for (const auto& labels : t.redone) fmt::format_to(out, "  redone: {}\n", fmt::join(labels, " with "));
+  fmt::format_to(out, "  alpha {}, draws {}, seed {}\n", t.alpha, t.draws, t.seed);
+  for (const TraceColumn& c : t.columns) {
+    const auto [low, high] = std::minmax_element(c.values.begin(), c.values.end());
+    fmt::format_to(out, "  column {}: {} to {}\n", c.name, both(*low, c.unit, c.si_unit),
+                   both(*high, c.unit, c.si_unit));
+  }
+}
+
 std::string null_effects(const Scenario& s, const ModelCard& model, const Catalogue& catalogue) {
   std::string out;
   for (const EffectCard* effect : catalogue.effects) {
@@ -186,6 +213,7 @@ std::string explain(const Scenario& s, const Catalogue& catalogue) {
   std::string text;
   const Lines out = std::back_inserter(text);
   fmt::format_to(out, "{} (hash {})\n", s.file, s.hash);
+  if (!s.data.empty()) fmt::format_to(out, "readings from {}\n", s.data);
   if (!s.title.empty()) fmt::format_to(out, "title: {}\n", s.title);
   fmt::format_to(out, "model {}, method {}, evaluation {}\n", s.model, name(s.method), s.evaluation);
   const auto known =
@@ -194,15 +222,18 @@ std::string explain(const Scenario& s, const Catalogue& catalogue) {
   if (!model) return text;
   if (s.made && !model->summary.empty()) fmt::format_to(out, "stated here\n  {}\n", model->summary);
   fmt::format_to(out, "readings\n");
-  for (std::size_t i = 0; i < s.readings.size(); ++i) explain(s.readings[i], i + 1, *model, out);
+  for (std::size_t i = 0; i < s.readings.size(); ++i) explain(s, i + 1, *model, out);
   fmt::format_to(out, "quantities (SI; a component is a deviation from the value)\n");
   for (const InputQuantity& q : s.quantities) explain(q, *model, out);
   if (!s.correlations.empty()) fmt::format_to(out, "correlations\n");
   for (const auto& c : s.correlations) explain(c, out);
   if (const std::string left = null_effects(s, *model, catalogue); !left.empty())
     fmt::format_to(out, "effects at their null value\n  {}\n", left);
+  if (!s.stated_effects.empty()) fmt::format_to(out, "stated effects\n");
+  for (const StatedEffect& e : s.stated_effects) explain(e, *model, out);
   explain_options(s, evaluated_card(*model, s.evaluation), out);
   if (s.choose) explain(*s.choose, *model, out);
+  if (s.trace.stated) explain(s.trace, out);
   if (!s.notes.empty()) fmt::format_to(out, "notes\n");
   for (const std::string& note : s.notes) fmt::format_to(out, "  {}\n", note);
   return text;

@@ -9,14 +9,16 @@ namespace {
 
 using quantities::Labels;
 
-void add_row(std::vector<Readouts>& groups, const Labels& labels, const std::vector<double>& conditions, double value) {
+void add_row(std::vector<Readouts>& groups, const Labels& labels, const std::vector<double>& conditions, double value,
+             std::size_t row) {
   for (Readouts& g : groups) {
     if (g.labels != labels || g.conditions != conditions) continue;
     g.values.push_back(value);
+    g.rows.push_back(row);
     ++g.repeats;
     return;
   }
-  groups.push_back({labels, conditions, {value}, 1});
+  groups.push_back({labels, conditions, {value}, 1, {row}});
 }
 
 bool reserved(const std::string& label, const Member& at, const std::string& path, Problems& problems) {
@@ -55,12 +57,12 @@ public:
   IndicationReadouts read(const std::vector<double>& conditions) {
     IndicationReadouts out;
     const std::size_t problems = context_.problems.size();
-    const auto data = read_data_column(table_, std::string(card_.si_unit), context_.files);
+    const auto data = read_data_column(table_, std::string(card_.si_unit), context_.files, true);
     // Without the file its other columns cannot be judged.
     const Csv* csv = nullptr;
     if (const Node* file = table_.find("file"); file && file->kind == Node::Kind::text) {
       Problems silent(context_.problems.file());
-      csv = context_.files.open(*file, table_.path("file"), silent);
+      csv = context_.files.open_readings(*file, table_.path("file"), silent);
     }
     if (csv) {
       columns(*csv);
@@ -70,16 +72,19 @@ public:
     }
     where();
     table_.refuse_unknown();
+    out.csv = csv;
     if (!data || !complete_) return out;
-    for (const auto& row : csv->rows) {
+    out.column = csv->header[static_cast<std::size_t>(data->column)].text;
+    for (std::size_t i = 0; i < csv->rows.size(); ++i) {
+      const auto& row = csv->rows[i];
       Labels labels;
       std::vector<double> here = conditions;
       if (!read_row(*csv, row, labels, here)) continue;
       const auto value = read_cell(*csv, row[static_cast<std::size_t>(data->column)], data->unit,
                                    {std::string(card_.si_unit)}, context_.problems);
       if (!value) continue;
-      add_row(out.all, labels, here, *value);
-      if (matches(labels, where_)) add_row(out.used, labels, here, *value);
+      add_row(out.all, labels, here, *value, i);
+      if (matches(labels, where_)) add_row(out.used, labels, here, *value, i);
     }
     if (out.used.empty() && context_.problems.size() == problems) nothing(*csv, out);
     return out;
@@ -272,6 +277,10 @@ IndicationReadouts read_readouts(Table& table, const VariableCard& card, const M
   if (readings && table.has("rows")) {
     table.add(table.path() + ": readings beside rows", "both say what was read", "leave one out?");
   }
+  if (context.files.readings_replaced() && (!readings || readings->kind != Node::Kind::table))
+    problems.add(readings ? *readings : table.node(),
+                 fmt::format("{}: no data file that --data could replace", table.path()),
+                 "its readings stand in the scenario", "readings = { file = \"...\", column = \"...\" }?");
   Labels labels;
   if (table.has("labels")) {
     if (readings && readings->kind == Node::Kind::table) {

@@ -13,11 +13,14 @@ struct Readouts {
   std::vector<double> conditions; ///< SI, by position in the model's card
   std::vector<double> values;     ///< SI; empty in a virtual experiment
   int repeats = 1;
+  std::vector<std::size_t> rows = {}; ///< of the data file, by readout; empty without one
 };
 
 struct IndicationReadouts {
   std::vector<Readouts> used;
   std::vector<Readouts> all; ///< also the rows that `where` leaves out: what can be pooled
+  const Csv* csv = nullptr;  ///< the data file; null without one
+  std::string column;        ///< of it
 };
 
 /// Reads the keys readings, rows and labels of [indications.NAME]. Conditions listed one a reading need as many

@@ -14,6 +14,8 @@
 #include "scenario/noise.h"
 #include "scenario/options.h"
 #include "scenario/quantity.h"
+#include "scenario/stated_effects.h"
+#include "scenario/trace.h"
 
 namespace gumshoe::scenario {
 namespace {
@@ -25,9 +27,11 @@ constexpr std::size_t largest_scenario = std::size_t{4} << 20;
 
 class ScenarioReader {
 public:
-  ScenarioReader(const std::string& path, const Catalogue& catalogue)
-      : catalogue_(catalogue), problems_(path), files_(path), context_{problems_, files_, out_.notes, {}, {}, true} {
+  ScenarioReader(const std::string& path, const Catalogue& catalogue, const Overrides& overrides)
+      : catalogue_(catalogue), problems_(path),
+        files_(path, overrides.data), context_{problems_, files_, out_.notes, {}, {}, true} {
     out_.file = path;
+    out_.data = overrides.data;
     out_.text = read_text_file(path, largest_scenario);
   }
 
@@ -49,6 +53,8 @@ public:
     read_quantities(top, *model);
     read_effects(top, *model);
     out_.quantities.insert(out_.quantities.end(), noise_.begin(), noise_.end());
+    if (auto trace = top.table("trace")) out_.trace = read_trace(*trace, {own, out_.readings, readouts_}, context_);
+    if (auto stated = top.table("stated_effects")) read_stated(*stated, own);
     if (const auto* items = top.array("correlations"))
       out_.correlations = read_correlations(*items, problems_, out_.quantities);
     if (auto run = top.table("run")) out_.run = read_run(*run);
@@ -121,7 +127,7 @@ private:
     out_.spreads = conditions.spreads;
     auto indications = top.table("indications");
     static const Node nothing;
-    std::vector<IndicationReadouts> readouts;
+    auto& readouts = readouts_;
     std::vector<Table> tables;
     for (const VariableCard& card : model.indications) {
       const std::string name(card.name);
@@ -227,6 +233,14 @@ private:
     table->refuse_unknown();
   }
 
+  void read_stated(Table& table, const ModelCard& model) {
+    std::vector<std::string> effects;
+    for (const EffectCard* effect : catalogue_.effects) effects.emplace_back(effect->name);
+    StatedEffects stated = read_stated_effects(table, {model, out_.readings, out_.trace.columns, effects}, context_);
+    out_.stated_effects = std::move(stated.effects);
+    out_.quantities.insert(out_.quantities.end(), stated.sizes.begin(), stated.sizes.end());
+  }
+
   const Catalogue& catalogue_;
   Scenario out_;
   Problems problems_;
@@ -234,6 +248,7 @@ private:
   Context context_;
   Node document_;
   std::vector<InputQuantity> noise_;
+  std::vector<IndicationReadouts> readouts_; ///< by indication
 };
 
 } // namespace
@@ -245,6 +260,8 @@ ModelCard evaluated_card(const ModelCard& model, const std::string& evaluation) 
   return card;
 }
 
-Scenario read(const std::string& path, const Catalogue& catalogue) { return ScenarioReader(path, catalogue).read(); }
+Scenario read(const std::string& path, const Catalogue& catalogue, const Overrides& overrides) {
+  return ScenarioReader(path, catalogue, overrides).read();
+}
 
 } // namespace gumshoe::scenario

@@ -147,6 +147,7 @@ struct Spread {
 struct Scenario {
   std::string file;
   std::string text; ///< as read, kept in the result
+  std::string data; ///< file that stands for every data file of readings (Overrides); empty: those of the scenario
   std::string hash; ///< 16 hex digits over everything that fixes the numbers: the text and the data files
   std::string title;
   std::string model;
@@ -184,8 +185,13 @@ struct Catalogue {
 /// The card as an evaluation sees it: with the measurands that the evaluation yields.
 ModelCard evaluated_card(const ModelCard& model, const std::string& evaluation);
 
+/// What a command says in place of the scenario.
+struct Overrides {
+  std::string data; ///< data file of every indication, relative to the current directory; empty: as the scenario says
+};
+
 /// Reads and validates a file. Throws InputError with every problem found, located.
-Scenario read(const std::string& path, const Catalogue& catalogue);
+Scenario read(const std::string& path, const Catalogue& catalogue, const Overrides& overrides = {});
 
 /// The scenario as understood, in SI, with every default: what `gumshoe check --explain` prints.
 std::string explain(const Scenario& scenario, const Catalogue& catalogue);

@@ -73,6 +73,12 @@ MISTAKES = {
     "label value without a row": (
         of_pitch('[quantities.beam_pitch.by.setup]\n1 = "0.2836 deg"', 'labels = { setup = "2" }\n'), 7, ["no value for setup = '2'"]),
     "label without rows": (of_pitch("[quantities.beam_pitch.by.setup]", 'labels = { setup = "2" }\n'), 7, ["no value for setup = '2'"]),
+    "trace by an unknown label": (SCENARIO + '[trace]\nblocks = "setup"\n', 15, ["trace.blocks", "'setup'"]),
+    "trace with few draws": (SCENARIO + "[trace]\ndraws = 10\n", 15, ["trace.draws", "99"]),
+    "trace in an unknown order": (SCENARIO + '[trace]\norder = "tiem"\n', 15, ["did you mean 'time'?"]),
+    "signature of the readings": (
+        SCENARIO + '[stated_effects.film]\nunit = "1"\nformula = "2 * spindle_z"\n', 16, [":16:16:", "explains itself"]),
+    "signature of another dimension": (SCENARIO + '[stated_effects.film]\nunit = "um"\nformula = "feed"\n', 16, [":16:12:", "spindle_z"]),
     "unknown scope": (swap('u = "0.005 deg"', 'u = "0.005 deg"\nper = "setup"'), 10, ["'setup'"]),
     # 1 and 2 as well as 2 and 3 alike, 1 and 3 opposite: eigenvalues 1.9, 1.9, -0.8.
     "correlation matrix not positive definite": (

@@ -80,6 +80,18 @@ class Schema(unittest.TestCase):
             with self.subTest(machine):
                 self.assertEqual(self.validator.is_valid(good | {"machine": machine}), fine)
 
+    def test_mistakes_of_tracing_are_refused(self):
+        good = load(FOLDER / "rod_gauging.toml")
+        film = {"formula": "1 / feed", "unit": "um*mm/min"}
+        for trace, effect, fine in (
+                ({"blocks": "setup", "final": ["1"], "redone": [["rod", "setup"]], "columns": {"T": {"column": "T"}}}, film, True),
+                ({}, film | {"size": {"value": "1 um*mm/min", "u": "1 um*mm/min"}}, True), ({"final": ["1"]}, film, False),
+                ({"draws": 98}, film, False), ({"alpha": 1}, film, False), ({"blocks": "setup", "final": [7]}, film, False),
+                ({"columns": {"T": {"unit": "degC"}}}, film, False), ({"colums": {}}, film, False),
+                ({}, {"formula": "1"}, False), ({}, film | {"amount": "1 um"}, False)):
+            with self.subTest((trace, effect)):
+                self.assertEqual(self.validator.is_valid(good | {"trace": trace, "stated_effects": {"film": effect}}), fine)
+
     @unittest.skipUnless(GUMSHOE, "needs the program")
     def test_program_accepts_the_shipped_scenarios(self):
         for file in sorted(FOLDER.glob("*.toml")):

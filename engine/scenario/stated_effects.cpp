@@ -1,0 +1,192 @@
+#include "scenario/stated_effects.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/dimension.h"
+#include "models/expression/expression.h"
+#include "models/expression/interpreter.h"
+#include "scenario/quantity.h"
+
+namespace gumshoe::scenario {
+
+namespace expression = models::expression;
+
+namespace {
+
+class Reader {
+public:
+  Reader(Table table, const std::string& name, const StatedScope& scope, Context& context)
+      : table_(std::move(table)), scope_(scope), context_(context), problems_(context.problems) {
+    out_.name = name;
+  }
+
+  StatedEffect read(std::vector<quantities::InputQuantity>& sizes) {
+    const std::size_t before = problems_.size();
+    name_is_free();
+    std::vector<std::string> indications;
+    for (const VariableCard& i : scope_.model.indications) indications.emplace_back(i.name);
+    const bool one = indications.size() == 1;
+    const Node* node = one ? table_.find("indication") : table_.require("indication", "indication = \"...\"?");
+    const auto index = node ? table_.choice("indication", indications) : std::nullopt;
+    out_.indication = index.value_or(0);
+    out_.meaning = table_.text("meaning").value_or("");
+    out_.source = table_.rendered("source");
+    const bool has_unit = unit();
+    if (table_.require("formula", "formula = \"1 / feed\"?")) formula();
+    if (const Node* size = table_.find("size"); size && has_unit) {
+      const QuantityCard card{"size", out_.unit, out_.si_unit, 0, {-HUGE_VAL, HUGE_VAL}, "", "", Role::amplitude};
+      sizes.push_back(read_quantity(*size, table_.path("size"), card, out_.name + ".size", context_));
+      out_.freed = true;
+    }
+    table_.refuse_unknown();
+    if (problems_.size() == before) compute();
+    return std::move(out_);
+  }
+
+private:
+  void name_is_free() const {
+    const auto is_it = [&](const auto& card) { return card.name == out_.name; };
+    std::string owner;
+    if (std::ranges::find(scope_.effects, out_.name) != scope_.effects.end()) owner = "an effect of the catalogue";
+    if (std::ranges::any_of(scope_.model.conditions, is_it)) owner = "a condition";
+    if (std::ranges::any_of(scope_.columns, is_it)) owner = "a column";
+    if (std::ranges::any_of(scope_.model.indications, is_it)) owner = "an indication";
+    if (std::ranges::any_of(scope_.model.quantities, is_it)) owner = "a quantity of the model";
+    if (!owner.empty())
+      table_.add(fmt::format("{}: {} has this name", table_.path(), owner), "a name means one thing", "another name?");
+    else if (!expression::is_name(out_.name))
+      table_.add(table_.path() + ": no name for an effect", "letters, digits and _, no digit first");
+  }
+
+  void formula() {
+    const Node& node = *table_.find("formula");
+    if (node.kind == Node::Kind::integer || node.kind == Node::Kind::real)
+      out_.formula = fmt::format("{}", node.number);
+    else
+      out_.formula = table_.text("formula").value_or("");
+  }
+
+  bool unit() {
+    if (!table_.require("unit", "unit = \"um\"?")) return false;
+    const auto text = table_.text("unit");
+    if (!text) return false;
+    try {
+      out_.unit = *text;
+      out_.si_unit = units::si_unit_of(*text);
+      if (units::to_si(0, *text, out_.si_unit) == 0) return true;
+      problems_.add(*table_.find("unit"), fmt::format("{}: '{}' has a zero of its own", table_.path("unit"), *text),
+                    "a size is a difference", out_.si_unit + "?");
+    } catch (const InputError& error) {
+      const Problem& p = error.problems().front();
+      problems_.add(*table_.find("unit"), table_.path("unit") + ": " + p.what, p.why, p.remedy);
+    }
+    return false;
+  }
+
+  void compute() {
+    const Node& node = *table_.find("formula");
+    expression::Stated stated;
+    stated.formula = {table_.path(), out_.formula, {problems_.file(), node.line, node.column + 1}, {}};
+    try {
+      expression::parse(stated.formula);
+      names(stated.formula);
+      stated.formula.nodes.clear();
+      expression::Statement statement;
+      for (const VariableCard& c : scope_.model.conditions)
+        statement.conditions.push_back({std::string(c.name), std::string(c.unit), std::string(c.si_unit), ""});
+      for (const TraceColumn& c : scope_.columns) statement.conditions.push_back({c.name, c.unit, c.si_unit, ""});
+      statement.measurands.push_back(std::move(stated));
+      std::vector<std::string> ignored;
+      const models::MadeModel made = expression::make(std::move(statement), ignored);
+      const auto& e = *static_cast<const expression::Expression*>(made->context);
+      fits(e);
+      if (std::ranges::all_of(scope_.columns, [&](const auto& c) { return c.values.size() == scope_.readings.size(); }))
+        load(e);
+    } catch (const InputError& error) {
+      for (Problem p : error.problems()) {
+        if (p.where.file.empty()) p.where = {problems_.file(), node.line, node.column};
+        problems_.add(InputError(std::vector<Problem>{std::move(p)}));
+      }
+    }
+  }
+
+  /// Only what was commanded or recorded beside the readings.
+  void names(const expression::Formula& f) const {
+    std::vector<Problem> found;
+    std::vector<std::string> known;
+    for (const VariableCard& c : scope_.model.conditions) known.emplace_back(c.name);
+    for (const TraceColumn& c : scope_.columns) known.push_back(c.name);
+    for (const expression::Node& n : f.nodes) {
+      const auto is_it = [&](const auto& card) { return card.name == n.name; };
+      if (n.operation != expression::Operation::name || std::ranges::find(known, n.name) != known.end() ||
+          expression::find_constant(n.name))
+        continue;
+      if (std::ranges::any_of(scope_.model.indications, is_it))
+        found.push_back(f.problem(n.at, fmt::format("'{}' is an indication", n.name),
+                                  "a signature computed from what was measured explains itself",
+                                  "what was commanded, or a column of [trace.columns]?"));
+      else if (std::ranges::any_of(scope_.model.quantities, is_it))
+        found.push_back(f.problem(n.at, fmt::format("'{}' is a quantity of the model", n.name),
+                                  "a signature is known before the fit",
+                                  "what was commanded, or a column of [trace.columns]?"));
+      else
+        found.push_back(f.problem(n.at, fmt::format("'{}' is no condition and no column", n.name), "",
+                                  did_you_mean(n.name, known)));
+    }
+    if (!found.empty()) throw InputError(found);
+  }
+
+  /// Size times formula is what the indication is.
+  void fits(const expression::Expression& e) const {
+    const VariableCard& card = scope_.model.indications[out_.indication];
+    const gumshoe::Dimension formula = gumshoe::Dimension::of(e.explained[0].unit),
+                             size = gumshoe::Dimension::of(out_.unit),
+                             wanted = gumshoe::Dimension::of(std::string(card.si_unit));
+    if ((size * formula).like(wanted)) return;
+    const gumshoe::Dimension right = wanted / formula;
+    throw InputError({e.formulas[0].problem(
+        0,
+        fmt::format("the formula gives {}, with a size in {} {}", formula.words(), out_.unit, (size * formula).words()),
+        fmt::format("{} is {}", card.name, wanted.words()),
+        right.has_unit() ? fmt::format("unit = \"{}\"?", right.si_unit()) : "")});
+  }
+
+  void load(const expression::Expression& e) {
+    const expression::Program& program = e.evaluate;
+    bool any = false;
+    for (std::size_t r = 0; r < scope_.readings.size(); ++r) {
+      std::vector<double> conditions = scope_.readings[r].conditions;
+      for (const TraceColumn& c : scope_.columns) conditions.push_back(c.values[r]);
+      const auto values = expression::interpret<double>(program, {nullptr, conditions.data(), nullptr});
+      const double x = values.steps[program.outputs[0]];
+      if (!std::isfinite(x)) {
+        const std::string of = text_of(scope_.readings[r].labels);
+        throw InputError({e.formulas[0].problem(0, fmt::format("the formula has no finite value at reading {}{}", r + 1,
+                                                               of.empty() ? "" : " (" + of + ")"))});
+      }
+      any |= x != 0;
+      out_.loading.push_back(x);
+    }
+    if (!any) context_.notes.push_back(table_.path() + ": the formula is 0 at every reading, it changes nothing");
+  }
+
+  Table table_;
+  const StatedScope& scope_;
+  Context& context_;
+  Problems& problems_;
+  StatedEffect out_;
+};
+
+} // namespace
+
+StatedEffects read_stated_effects(Table& table, const StatedScope& scope, Context& context) {
+  StatedEffects out;
+  for (const Member& m : table.members())
+    if (auto own = table.table(m.key)) out.effects.push_back(Reader(*own, m.key, scope, context).read(out.sizes));
+  return out;
+}
+
+} // namespace gumshoe::scenario

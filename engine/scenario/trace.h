@@ -1,0 +1,17 @@
+#pragma once
+/// Reads [trace]: what of the readings is a block, an order, one act done anew, and what was recorded beside them.
+#include "base/card.h"
+#include "scenario/readouts.h"
+#include "scenario/trace_options.h"
+
+namespace gumshoe::scenario {
+
+struct TraceScope {
+  const ModelCard& model;
+  const std::vector<quantities::Reading>& readings;
+  const std::vector<IndicationReadouts>& readouts; ///< by indication; those used of the first are the readings
+};
+
+TraceOptions read_trace(Table table, const TraceScope& scope, Context& context);
+
+} // namespace gumshoe::scenario
