@@ -1,0 +1,192 @@
+#include "tracing/design.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <boost/math/special_functions/erf.hpp>
+
+#include "random/streams.h"
+
+namespace gumshoe::tracing {
+
+std::vector<Structure> structures(const Design& d, std::size_t rows) {
+  std::vector<double> rho{0.0};
+  // With few readings serial correlation cannot be told from a trend.
+  if (rows / d.indications >= 12) rho = {-0.2, 0.0, 0.2, 0.4, 0.6, 0.8};
+  std::vector<Structure> out;
+  for (const double r : rho) out.push_back({r, -1, 0});
+  for (std::size_t c = 0; c < d.scatter.size(); ++c)
+    for (const double ratio : {0.35, 0.7, 1.4, 2.8, 6.0, 15.0, 50.0})
+      for (const double r : rho)
+        if (r >= 0) out.push_back({r, static_cast<int>(c), ratio});
+  return out;
+}
+
+Matrix normals(std::size_t rows, std::size_t columns, std::uint64_t seed, std::uint16_t purpose) {
+  const std::size_t even = (columns + 1) / 2 * 2;
+  Matrix out(static_cast<Index>(rows), static_cast<Index>(columns));
+  std::vector<double> u(even);
+  for (std::size_t i = 0; i < rows; ++i) {
+    random::uniforms({seed, static_cast<std::uint32_t>(i + 1), purpose, 0}, 0, even, u.data());
+    for (std::size_t j = 0; j < columns; ++j)
+      out(static_cast<Index>(i), static_cast<Index>(j)) = -1.4142135623730951 * boost::math::erfc_inv(2 * u[j]);
+  }
+  return out;
+}
+
+Whitened::Whitened(const Design& d, std::vector<Index> rows, const std::vector<Index>& use, const Structure& s)
+    : design_(d), rows_(std::move(rows)), use_(use), structure_(s) {
+  const auto n = static_cast<Index>(rows_.size());
+  fixed_ = use_.size();
+  // Draws that none of these readings feels cost nothing and are left out.
+  Matrix random(n, d.random.cols());
+  for (Index i = 0; i < n; ++i) random.row(i) = d.random.row(rows_[static_cast<std::size_t>(i)]);
+  random_ = static_cast<std::size_t>(random.cols());
+  const Matrix scatter = scatter_matrix();
+  scatter_ = static_cast<std::size_t>(scatter.cols());
+  const auto p = static_cast<Index>(fixed_), q = static_cast<Index>(random_ + scatter_);
+  Matrix top(n, p + q);
+  for (Index j = 0; j < p; ++j)
+    for (Index i = 0; i < n; ++i)
+      top(i, j) = d.fixed(rows_[static_cast<std::size_t>(i)], use_[static_cast<std::size_t>(j)]);
+  if (random.cols() > 0) top.middleCols(p, random.cols()) = random;
+  if (scatter.cols() > 0) top.rightCols(scatter.cols()) = scatter;
+  stacked_ = Matrix::Zero(n + q, p + q);
+  stacked_.topRows(n) = whiten(std::move(top));
+  for (Index j = 0; j < q; ++j) stacked_(n + j, p + j) = 1;
+  // Columns of length one: the determinant below is of the data, not of the unknowns' units.
+  Vector scale = Vector::Ones(p + q);
+  Matrix scaled = stacked_;
+  const auto k = static_cast<double>(rows_.size()) / static_cast<double>(d.indications);
+  log_determinant_ = static_cast<double>(d.indications) * (k - 1) * std::log(1 - s.correlation * s.correlation);
+  if (p + q == 0) {
+    basis_ = Matrix::Zero(n, 0);
+    return;
+  }
+  for (Index j = 0; j < p; ++j) {
+    // The same scale under every structure.
+    double square = 0;
+    for (Index i = 0; i < n; ++i) {
+      const Index row = rows_[static_cast<std::size_t>(i)];
+      const double x =
+          d.fixed(row, use_[static_cast<std::size_t>(j)]) / d.reference[static_cast<std::size_t>(row) % d.indications];
+      square += x * x;
+    }
+    scale[j] = square > 0 ? 1 / std::sqrt(square) : 1;
+    scaled.col(j) *= scale[j];
+  }
+  const Eigen::HouseholderQR<Matrix> qr(scaled);
+  for (Index j = 0; j < p + q; ++j) log_determinant_ += 2 * std::log(std::fabs(qr.matrixQR()(j, j)));
+  Matrix thin = Matrix::Identity(n + q, p + q);
+  thin.applyOnTheLeft(qr.householderQ());
+  basis_ = thin.topRows(n);
+}
+
+Matrix Whitened::scatter_matrix() const {
+  if (structure_.scatter < 0 || !(structure_.ratio > 0)) return Matrix(static_cast<Index>(rows_.size()), 0);
+  const Grouping& g = design_.scatter[static_cast<std::size_t>(structure_.scatter)];
+  std::vector<int> column(g.groups.size() * design_.indications, -1);
+  int count = 0;
+  const auto at = [&](Index row) {
+    const auto r = static_cast<std::size_t>(row);
+    return g.group[design_.reading[r]] * design_.indications + r % design_.indications;
+  };
+  for (const Index row : rows_)
+    if (column[at(row)] < 0) column[at(row)] = count++;
+  Matrix out = Matrix::Zero(static_cast<Index>(rows_.size()), count);
+  for (std::size_t i = 0; i < rows_.size(); ++i)
+    out(static_cast<Index>(i), column[at(rows_[i])]) =
+        structure_.ratio * design_.reference[static_cast<std::size_t>(rows_[i]) % design_.indications];
+  return out;
+}
+
+Matrix Whitened::take(const Matrix& all) const {
+  Matrix out(static_cast<Index>(rows_.size()), all.cols());
+  for (std::size_t i = 0; i < rows_.size(); ++i) out.row(static_cast<Index>(i)) = all.row(rows_[i]);
+  return out;
+}
+
+Matrix Whitened::whiten(Matrix x) const {
+  const auto k = static_cast<Index>(design_.indications), n = x.rows();
+  for (Index i = 0; i < n; i += k) {
+    const auto place = static_cast<std::size_t>(rows_[static_cast<std::size_t>(i)]) / design_.indications;
+    const Matrix& local = design_.local[place];
+    if (k == 1)
+      x.row(i) /= local(0, 0);
+    else
+      x.middleRows(i, k) = local.triangularView<Eigen::Lower>().solve(x.middleRows(i, k)).eval();
+  }
+  const double rho = structure_.correlation;
+  if (rho == 0) return x;
+  const double factor = 1 / std::sqrt(1 - rho * rho);
+  for (Index i = n - 1; i >= k; --i) x.row(i) = factor * (x.row(i) - rho * x.row(i - k));
+  return x;
+}
+
+Vector Whitened::left(const Matrix& whitened) const {
+  return whitened.colwise().squaredNorm().transpose() -
+         (basis_.transpose() * whitened).colwise().squaredNorm().transpose();
+}
+
+Matrix Whitened::solve_all(const Matrix& extra, const Matrix& y, Matrix* covariance) const {
+  const Index top = stacked_.rows(), p = stacked_.cols(), m = extra.cols(), n = y.rows();
+  Matrix a = Matrix::Zero(top, p + m);
+  a.leftCols(p) = stacked_;
+  if (m > 0) a.topRightCorner(n, m) = extra;
+  Matrix b = Matrix::Zero(top, y.cols());
+  b.topRows(n) = y;
+  Vector scale(p + m);
+  for (Index j = 0; j < p + m; ++j) {
+    const double length = a.col(j).norm();
+    scale[j] = length > 0 ? 1 / length : 1;
+    a.col(j) *= scale[j];
+  }
+  const Eigen::ColPivHouseholderQR<Matrix> qr(a);
+  const Matrix x = qr.solve(b);
+  if (covariance) {
+    const Eigen::CompleteOrthogonalDecomposition<Matrix> cod(a.transpose() * a);
+    *covariance = scale.asDiagonal() * Matrix(cod.pseudoInverse()) * scale.asDiagonal();
+  }
+  return scale.asDiagonal() * x;
+}
+
+Matrix Whitened::draw(std::size_t n, std::uint64_t seed) const {
+  const auto k = static_cast<Index>(design_.indications);
+  Matrix out = normals(rows_.size(), n, seed, 1);
+  const double rho = structure_.correlation, factor = std::sqrt(1 - rho * rho);
+  if (rho != 0)
+    for (Index i = k; i < out.rows(); ++i) out.row(i) = rho * out.row(i - k) + factor * out.row(i);
+  for (Index i = 0; i < out.rows(); i += k) {
+    const auto place = static_cast<std::size_t>(rows_[static_cast<std::size_t>(i)]) / design_.indications;
+    out.middleRows(i, k) = (design_.local[place].triangularView<Eigen::Lower>() * out.middleRows(i, k)).eval();
+  }
+  if (random_ > 0) out += take(design_.random) * normals(random_, n, seed, 2);
+  if (scatter_ > 0) out += scatter_matrix() * normals(scatter_, n, seed, 3);
+  return out;
+}
+
+std::vector<Index> independent(const Design& d, const std::vector<Index>& rows) {
+  Matrix all(static_cast<Index>(rows.size()), d.fixed.cols());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double u = d.reference[static_cast<std::size_t>(rows[i]) % d.indications];
+    all.row(static_cast<Index>(i)) = d.fixed.row(rows[i]) / u;
+  }
+  // In the order in which they are declared: what earlier ones explain is left out.
+  std::vector<Index> out;
+  Matrix basis(all.rows(), 0);
+  for (Index j = 0; j < all.cols(); ++j) {
+    const double length = all.col(j).norm();
+    if (!(length > 0)) continue;
+    Vector x = all.col(j) / length;
+    for (int pass = 0; pass < 2; ++pass) x -= basis * (basis.transpose() * x);
+    if (x.norm() < 1e-7) continue;
+    basis.conservativeResize(Eigen::NoChange, basis.cols() + 1);
+    basis.rightCols(1) = x.normalized();
+    out.push_back(j);
+  }
+  return out;
+}
+
+} // namespace gumshoe::tracing

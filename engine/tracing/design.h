@@ -1,0 +1,84 @@
+#pragma once
+/// The fitted model linearised: residuals, what the fit absorbs, what is declared of the rest, and structures of noise.
+#include <string>
+#include <vector>
+
+#include "tracing/observations.h"
+
+namespace gumshoe::tracing {
+
+/// Rows are [place in the sequence][indication]: always in the order of measurement.
+struct Design {
+  std::size_t indications = 1;
+  std::vector<std::size_t> reading; ///< by row
+  Matrix fixed;                     ///< J, rows x free unknowns
+  std::vector<std::string> fixed_names;
+  Matrix random; ///< U, rows x declared draws shared by readings, each of unit variance
+  std::vector<std::string> random_names;
+  /// By reading of the sequence: lower Cholesky factor of its own noise, indications x indications.
+  std::vector<Matrix> local;
+  std::vector<double> reference; ///< by indication: typical standard uncertainty of its noise
+  std::vector<Grouping> scatter; ///< what may scatter; group by reading of the scenario
+};
+
+/// Noise beside what is declared: serial correlation along the sequence, and a variance component.
+struct Structure {
+  double correlation = 0;
+  int scatter = -1; ///< of Design::scatter; -1: none
+  double ratio = 0; ///< u of the component over the noise's
+};
+
+/// rho over a grid, alone and with each variance component over a grid of ratios.
+std::vector<Structure> structures(const Design& design, std::size_t rows);
+
+/// Some rows of a design (whole readings, in order) under one structure: whitening and projection.
+class Whitened {
+public:
+  /// @param rows   chosen rows, rising; @param use columns of Design::fixed that take part
+  Whitened(const Design& design, std::vector<Index> rows, const std::vector<Index>& use, const Structure& structure);
+
+  /// Chosen rows of a matrix over all rows.
+  Matrix take(const Matrix& all) const;
+  /// Rows in units of the noise, without serial correlation.
+  Matrix whiten(Matrix chosen) const;
+  /// What is left beside fixed and random parts: x - Q Q'x, of whitened x.
+  Matrix project(const Matrix& whitened) const { return whitened - basis_ * (basis_.transpose() * whitened); }
+  /// Squares left of each whitened column, with what the random parts cost.
+  Vector left(const Matrix& whitened) const;
+  /// Q, the data's part.
+  const Matrix& basis() const { return basis_; }
+  /// Minus two ln of the density's factor that does not depend on the data.
+  double log_determinant() const { return log_determinant_; }
+  /// Best fixed and random coefficients and those of `extra` for a whitened column: x = (fixed, random, scatter,
+  /// extra).
+  Vector solve(const Matrix& whitened_extra, const Vector& whitened, Matrix* covariance = nullptr) const {
+    return solve_all(whitened_extra, whitened, covariance);
+  }
+  /// The same for many columns.
+  Matrix solve_all(const Matrix& whitened_extra, const Matrix& whitened, Matrix* covariance = nullptr) const;
+  /// n draws of the noise, declared draws included, in the chosen rows' own units. `seed` keys the stream.
+  Matrix draw(std::size_t n, std::uint64_t seed) const;
+  std::size_t fixed_columns() const { return fixed_; }
+  std::size_t random_columns() const { return random_; }
+  std::size_t scatter_columns() const { return scatter_; }
+  const std::vector<Index>& rows() const { return rows_; }
+
+private:
+  Matrix scatter_matrix() const;
+
+  const Design& design_;
+  std::vector<Index> rows_, use_;
+  Structure structure_;
+  std::size_t fixed_ = 0, random_ = 0, scatter_ = 0;
+  Matrix stacked_; ///< whitened fixed, random and scatter columns, over the unit rows of the latter two
+  Matrix basis_;
+  double log_determinant_ = 0;
+};
+
+/// Columns of Design::fixed that the chosen rows can tell apart.
+std::vector<Index> independent(const Design& design, const std::vector<Index>& rows);
+
+/// Independent standard normal numbers: column i of stream (seed, row).
+Matrix normals(std::size_t rows, std::size_t columns, std::uint64_t seed, std::uint16_t purpose);
+
+} // namespace gumshoe::tracing

@@ -1,0 +1,311 @@
+#include "tracing/joint_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+#include <Eigen/Cholesky>
+
+#include "quantities/cells.h"
+
+namespace gumshoe::tracing {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+} // namespace
+
+Fitter::Fitter(const propagation::Experiment& e, const Simulator& simulator, const Observations& o,
+               std::vector<Index> rows, int threads)
+    : experiment_(e), simulator_(simulator), observations_(o), rows_(std::move(rows)), threads_(threads) {
+  const auto& s = e.scenario();
+  const auto& plan = e.plan();
+  std::set<std::size_t> needed;
+  for (std::size_t q = 0; q < s.quantities.size(); ++q) {
+    if (!s.quantities[q].estimated) continue;
+    for (std::size_t i = 0; i < s.quantities[q].entries.size(); ++i) {
+      const auto& entry = s.quantities[q].entries[i];
+      if (!entry.components.empty()) continue; // has a prior: a declared draw
+      FreeUnknown u;
+      u.quantity = q;
+      u.entry = i;
+      u.name = s.quantities[q].name + (entry.labels.empty() ? "" : "[" + quantities::text_of(entry.labels) + "]");
+      for (const auto& reading : s.readings) u.holds.push_back(quantities::holds_for(entry.labels, reading.labels));
+      if (std::find(u.holds.begin(), u.holds.end(), true) == u.holds.end()) continue;
+      unknowns_.push_back(std::move(u));
+      needed.insert(q);
+    }
+  }
+  for (const auto& v : plan.variates) {
+    const double variance = v.distribution.variance();
+    draws_.push_back(
+        {v.name, std::isfinite(variance) ? std::sqrt(variance) : std::fabs(v.distribution.parameters[1]), {}, false});
+  }
+  const std::size_t first_noise = e.model_quantities() + e.effect_quantities();
+  for (std::size_t r = 0; r < s.readings.size(); ++r)
+    for (std::size_t q = 0; q < plan.gather[r].size(); ++q)
+      for (const std::size_t v : plan.columns[plan.gather[r][q]].variates) {
+        draws_[v].moves.push_back({r, q});
+        if (q >= first_noise && q < first_noise + o.indications)
+          noise_declared_ = true;
+        else
+          needed.insert(q);
+      }
+  for (Draw& d : draws_)
+    d.local =
+        std::all_of(d.moves.begin(), d.moves.end(), [&](const auto& m) { return m.first == d.moves.front().first; });
+  needed_.assign(needed.begin(), needed.end());
+}
+
+/// Noise of each reading by itself: its own draws.
+void Fitter::local_noise(const Matrix& derivative, JointFit& fit) const {
+  const auto& e = experiment_;
+  const auto& o = observations_;
+  const auto k = static_cast<Index>(o.indications);
+  const std::size_t first_noise = e.model_quantities() + e.effect_quantities();
+  std::vector<Matrix> covariance(o.readings, Matrix::Zero(k, k));
+  const auto effect_of = [&](std::size_t reading, std::size_t quantity) {
+    Vector g = Vector::Zero(k);
+    if (quantity >= first_noise && quantity < first_noise + o.indications) {
+      g[static_cast<Index>(quantity - first_noise)] = 1;
+      return g;
+    }
+    const auto at = std::lower_bound(needed_.begin(), needed_.end(), quantity) - needed_.begin();
+    g = derivative.col(at).segment(static_cast<Index>(reading) * k, k);
+    return g;
+  };
+  for (const Draw& d : draws_) {
+    if (!d.local || d.moves.empty()) continue;
+    Vector g = Vector::Zero(k);
+    for (const auto& [r, q] : d.moves) g += effect_of(r, q) * d.u;
+    covariance[d.moves.front().first] += g * g.transpose();
+  }
+  Vector mean = Vector::Zero(k);
+  for (std::size_t r = 0; r < o.readings; ++r) {
+    if (!noise_declared_) covariance[r] = Matrix::Identity(k, k) / e.scenario().readings[r].repeats;
+    mean += covariance[r].diagonal() / static_cast<double>(o.readings);
+  }
+  fit.design.reference.assign(static_cast<std::size_t>(k), 0);
+  for (Index i = 0; i < k; ++i) fit.design.reference[static_cast<std::size_t>(i)] = fit.noise * std::sqrt(mean[i]);
+  fit.design.local.clear();
+  for (const std::size_t r : o.sequence) {
+    // An indication that declares nothing of its own here: a small share keeps it from being exact.
+    for (Index i = 0; i < k; ++i) covariance[r](i, i) += 1e-8 * mean[i] + 1e-30;
+    fit.design.local.push_back(fit.noise * Matrix(covariance[r].llt().matrixL()));
+  }
+}
+
+bool Fitter::linearise(JointFit& fit) const {
+  const auto& o = observations_;
+  const auto& plan = experiment_.plan();
+  const auto k = static_cast<Index>(o.indications), n = static_cast<Index>(o.readings) * k;
+  auto wanted = needed_;
+  for (const Term& t : fit.terms)
+    for (const Amplitude& a : t.alternative.amplitudes)
+      if (a.quantity != Amplitude::npos) wanted.push_back(a.quantity);
+  Vector f;
+  Matrix derivative;
+  if (!simulator_.derivatives(fit.at, wanted, f, derivative, &fit.kink)) return false;
+  Vector measured(n);
+  for (Index i = 0; i < n; ++i) measured[i] = o.measured[static_cast<std::size_t>(i)];
+  fit.residual = in_sequence(o, measured - f);
+  Design& d = fit.design;
+  d.indications = o.indications;
+  d.reading.clear();
+  for (const std::size_t r : o.sequence)
+    for (Index i = 0; i < k; ++i) d.reading.push_back(r);
+  d.scatter = o.redone;
+  const auto at = [&](std::size_t q) {
+    return static_cast<Index>(std::lower_bound(needed_.begin(), needed_.end(), q) - needed_.begin());
+  };
+  // Free unknowns, then terms.
+  Matrix fixed = Matrix::Zero(n, static_cast<Index>(unknowns_.size()));
+  d.fixed_names.clear();
+  for (std::size_t u = 0; u < unknowns_.size(); ++u) {
+    for (std::size_t r = 0; r < o.readings; ++r)
+      if (unknowns_[u].holds[r])
+        fixed.col(static_cast<Index>(u)).segment(static_cast<Index>(r) * k, k) =
+            derivative.col(at(unknowns_[u].quantity)).segment(static_cast<Index>(r) * k, k);
+    d.fixed_names.push_back(unknowns_[u].name);
+  }
+  d.fixed = in_sequence(o, fixed);
+  auto column = static_cast<Index>(needed_.size());
+  for (Term& t : fit.terms) {
+    for (std::size_t j = 0; j < t.alternative.amplitudes.size(); ++j) {
+      const Amplitude& a = t.alternative.amplitudes[j];
+      Vector signature = t.alternative.columns.col(static_cast<Index>(j));
+      if (a.quantity != Amplitude::npos) {
+        Matrix moved = derivative.col(column++);
+        for (std::size_t r = 0; r < o.readings; ++r)
+          if (!quantities::holds_for(a.labels, experiment_.scenario().readings[r].labels))
+            moved.col(0).segment(static_cast<Index>(r) * k, k).setZero();
+        signature = in_sequence(o, moved);
+      } else {
+        fit.residual -= signature * t.size[static_cast<Index>(j)];
+      }
+      d.fixed.conservativeResize(Eigen::NoChange, d.fixed.cols() + 1);
+      d.fixed.rightCols(1) = signature;
+      d.fixed_names.push_back(t.alternative.name);
+      t.alternative.columns.col(static_cast<Index>(j)) = signature;
+    }
+  }
+  local_noise(derivative, fit);
+  // Draws shared by readings, tied ones through the factor of their copula's matrix.
+  Matrix shared = Matrix::Zero(n, static_cast<Index>(draws_.size()));
+  std::vector<bool> used(draws_.size(), false);
+  const std::size_t first_noise = experiment_.model_quantities() + experiment_.effect_quantities();
+  for (std::size_t v = 0; v < draws_.size(); ++v) {
+    if (draws_[v].local) continue;
+    for (const auto& [r, q] : draws_[v].moves) {
+      const auto rows = Eigen::seqN(static_cast<Index>(r) * k, k);
+      if (q >= first_noise && q < first_noise + o.indications)
+        shared(static_cast<Index>(r) * k + static_cast<Index>(q - first_noise), static_cast<Index>(v)) += draws_[v].u;
+      else
+        shared(rows, static_cast<Index>(v)) += derivative(rows, at(q)) * draws_[v].u;
+    }
+    used[v] = true;
+  }
+  for (const auto& group : plan.copulas) {
+    const std::size_t m = group.variates.size();
+    Matrix old(n, static_cast<Index>(m));
+    for (std::size_t i = 0; i < m; ++i)
+      old.col(static_cast<Index>(i)) = shared.col(static_cast<Index>(group.variates[i]));
+    for (std::size_t j = 0; j < m; ++j) {
+      Vector sum = Vector::Zero(n);
+      for (std::size_t i = j; i < m; ++i) sum += old.col(static_cast<Index>(i)) * group.cholesky[i * m + j];
+      shared.col(static_cast<Index>(group.variates[j])) = sum;
+    }
+  }
+  d.random.resize(n, 0);
+  d.random_names.clear();
+  for (std::size_t v = 0; v < draws_.size(); ++v) {
+    const Vector one = in_sequence(o, shared.col(static_cast<Index>(v)));
+    if (!used[v] || !(one.norm() > 1e-6 * d.reference[0])) continue;
+    d.random.conservativeResize(n, d.random.cols() + 1);
+    d.random.rightCols(1) = one;
+    d.random_names.push_back(draws_[v].name);
+  }
+  return fit.residual.allFinite() && d.fixed.allFinite() && d.random.allFinite();
+}
+
+void Fitter::apply(JointFit& fit, const Vector& change, double share) const {
+  Index j = 0;
+  for (const FreeUnknown& u : unknowns_) {
+    const double step = share * change[j++];
+    if (step == 0) continue;
+    for (std::size_t r = 0; r < observations_.readings; ++r)
+      if (u.holds[r]) fit.at[r][u.quantity] += step;
+  }
+  for (Term& t : fit.terms)
+    for (std::size_t i = 0; i < t.alternative.amplitudes.size(); ++i) {
+      const Amplitude& a = t.alternative.amplitudes[i];
+      double& size = t.size[static_cast<Index>(i)];
+      const double before = size;
+      size = std::clamp(size + share * change[j++], a.low, a.high);
+      if (a.quantity == Amplitude::npos) continue;
+      for (std::size_t r = 0; r < observations_.readings; ++r)
+        if (quantities::holds_for(a.labels, experiment_.scenario().readings[r].labels))
+          fit.at[r][a.quantity] += size - before;
+    }
+}
+
+double Fitter::objective(const JointFit& fit, const Whitened& prior) const {
+  return prior.left(prior.whiten(prior.take(fit.residual)))[0];
+}
+
+JointFit Fitter::fit(const std::vector<Term>& terms, double noise, const JointFit* start) const {
+  JointFit fit;
+  fit.at = start ? start->at : simulator_.estimates();
+  if (start) { // its terms' sizes are in its point
+    JointFit bare = *start;
+    Vector back = Vector::Zero(static_cast<Index>(unknowns_.size()));
+    for (const Term& t : start->terms) {
+      back.conservativeResize(back.size() + t.size.size());
+      back.tail(t.size.size()) = -t.size;
+    }
+    for (Term& t : bare.terms)
+      for (Amplitude& a : t.alternative.amplitudes) a.low = -1e300, a.high = 1e300;
+    apply(bare, back, 1);
+    fit.at = bare.at;
+  }
+  fit.terms = terms;
+  fit.noise = noise > 0 ? noise : start ? start->noise : 1;
+  for (const Term& t : terms)
+    for (const auto& [q, value] : t.alternative.held)
+      for (auto& p : fit.at) p[q] = value;
+  Vector sizes = Vector::Zero(static_cast<Index>(unknowns_.size()));
+  for (Term& t : fit.terms) {
+    sizes.conservativeResize(sizes.size() + t.size.size());
+    sizes.tail(t.size.size()) = t.size;
+    t.size.setZero();
+  }
+  apply(fit, sizes, 1);
+  fit.converged = linearise(fit);
+  if (!fit.converged) return fit;
+  if (!noise_declared_ && noise == 0 && !start) {
+    // No scale at all yet: that of the plain residuals about the free unknowns.
+    const Scan scan(fit.design, rows_, {}, threads_);
+    fit.noise *= scan.run(scan.whitened(scan.plain()).take(fit.residual)).scale[0];
+    linearise(fit);
+  }
+  fit.converged = false;
+  for (fit.iterations = 1; fit.iterations <= 40; ++fit.iterations) {
+    const Scan scan(fit.design, rows_, {}, threads_);
+    const Whitened& plain = scan.whitened(scan.plain());
+    const Matrix chosen = plain.take(fit.residual);
+    const Statistics now = scan.run(chosen);
+    fit.structure = scan.all_structures()[now.structure[0]];
+    fit.variance = now.variance[0];
+    const Whitened& w = scan.whitened(now.structure[0]);
+    fit.criterion = static_cast<double>(scan.degrees_of_freedom()) * std::log(fit.variance) + w.log_determinant();
+    const Vector white = w.whiten(scan.winsorised(chosen));
+    Matrix covariance;
+    const Vector x = w.solve(Matrix(white.size(), 0), white, &covariance);
+    const auto p = static_cast<Index>(scan.used().size());
+    Vector change = Vector::Zero(fit.design.fixed.cols());
+    fit.covariance = Matrix::Constant(change.size(), change.size(), nan);
+    double largest = 0;
+    for (Index i = 0; i < p; ++i) {
+      const Index column = scan.used()[static_cast<std::size_t>(i)];
+      change[column] = x[i];
+      const double u = std::sqrt(std::max(0.0, fit.variance * covariance(i, i)));
+      if (u > 0) largest = std::max(largest, std::fabs(x[i]) / u);
+      for (Index j = 0; j < p; ++j)
+        fit.covariance(column, scan.used()[static_cast<std::size_t>(j)]) = fit.variance * covariance(i, j);
+    }
+    fit.converged = largest < 1e-3;
+    // The noise's scale once the fit stands, as far as the readings know it.
+    if (fit.converged || fit.iterations == 40) {
+      if (noise > 0) break;
+      const auto freedom = static_cast<double>(scan.degrees_of_freedom());
+      const double prior = noise_declared_ ? 4 : 0,
+                   factor = (freedom * fit.variance + prior / (fit.noise * fit.noise)) / (freedom + prior);
+      if (std::fabs(std::log(factor)) < 0.02 || fit.iterations > 30) break;
+      fit.noise *= std::sqrt(factor);
+      fit.converged = false;
+      linearise(fit);
+      continue;
+    }
+    const Whitened prior(fit.design, rows_, {}, fit.structure);
+    const double before = objective(fit, prior);
+    bool better = false;
+    for (double share = 1; share > 1e-3 && !better; share /= 2) {
+      JointFit next = fit;
+      apply(next, change, share);
+      if (!linearise(next)) continue;
+      better = objective(next, prior) <= before * (1 + 1e-9);
+      if (better) fit = std::move(next);
+    }
+    if (!better) { // at the floor of what steps can do
+      fit.converged = largest < 0.1;
+      if (noise > 0 || !fit.converged) break;
+      noise = fit.noise;
+      break;
+    }
+  }
+  return fit;
+}
+
+} // namespace gumshoe::tracing

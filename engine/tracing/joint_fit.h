@@ -1,0 +1,73 @@
+#pragma once
+/// The declared model and the effects found so far, fitted to some of the readings with the full non-linear model.
+#include "tracing/candidates.h"
+#include "tracing/design.h"
+#include "tracing/scan.h"
+
+namespace gumshoe::tracing {
+
+/// An effect that has been taken in, with its size.
+struct Term {
+  Alternative alternative;
+  Vector size; ///< SI
+};
+
+struct JointFit {
+  std::vector<Term> terms;
+  Points at;                           ///< all quantities, sizes of terms included
+  Vector residual;                     ///< measured minus simulated, rows in the order of measurement, all readings
+  Design design;                       ///< linearised there; the terms' columns are its last fixed ones
+  std::vector<std::string> free_names; ///< unknowns, then terms' amplitudes
+  Matrix covariance;                   ///< of all fixed columns in use, SI; NaN for those that the readings do not see
+  double noise = 1;                    ///< scale of the declared noise that the design holds
+  Structure structure;                 ///< of the noise
+  double variance = 1;                 ///< left over by the design's noise
+  double criterion = 0;                ///< minus two ln likelihood, comparable between fits of equal noise
+  bool converged = true, kink = false;
+  int iterations = 0;
+};
+
+/// A free unknown: a quantity marked estimated that has no prior, or one of its entries.
+struct FreeUnknown {
+  std::string name;
+  std::size_t quantity = 0, entry = 0;
+  std::vector<bool> holds; ///< by reading
+};
+
+class Fitter {
+public:
+  /// @param experiment of the extended scenario
+  Fitter(const propagation::Experiment& experiment, const Simulator& simulator, const Observations& observations,
+         std::vector<Index> rows, int threads);
+
+  /// Gauss-Newton with the winsorised residuals; from `start` where it is given. `noise` 0: found with the fit.
+  JointFit fit(const std::vector<Term>& terms, double noise, const JointFit* start = nullptr) const;
+  const std::vector<FreeUnknown>& unknowns() const { return unknowns_; }
+  bool noise_declared() const { return noise_declared_; }
+  const std::vector<Index>& rows() const { return rows_; }
+
+private:
+  bool linearise(JointFit& fit) const;
+  void local_noise(const Matrix& derivative, JointFit& fit) const;
+  void apply(JointFit& fit, const Vector& change, double share) const;
+  double objective(const JointFit& fit, const Whitened& prior) const;
+
+  const propagation::Experiment& experiment_;
+  const Simulator& simulator_;
+  const Observations& observations_;
+  std::vector<Index> rows_;
+  int threads_;
+  std::vector<FreeUnknown> unknowns_;
+  bool noise_declared_ = false;
+  std::vector<std::size_t> needed_; ///< quantities whose derivatives are used
+  /// Draws with all that they move: by reading of the scenario, quantity.
+  struct Draw {
+    std::string name;
+    double u = 0;
+    std::vector<std::pair<std::size_t, std::size_t>> moves;
+    bool local = false; ///< of one reading only
+  };
+  std::vector<Draw> draws_;
+};
+
+} // namespace gumshoe::tracing

@@ -1,0 +1,46 @@
+#pragma once
+/// The readings as the search sees them: in the order of measurement, in blocks, with what they may depend on.
+#include <string>
+#include <vector>
+
+#include "tracing/simulator.h"
+
+namespace gumshoe::tracing {
+
+/// A condition, a column of the data or the order of measurement: what a residual may depend on. It varies.
+struct Covariate {
+  std::string name, unit, si_unit;
+  std::vector<double> value;  ///< by reading of the scenario, SI
+  std::vector<double> levels; ///< distinct values, rising
+  bool angle = false;
+};
+
+/// A label, or a set of labels, with the group of each reading.
+struct Grouping {
+  std::string name; ///< "setup", "rod,setup"
+  std::vector<std::string> labels;
+  std::vector<std::size_t> group;  ///< by reading
+  std::vector<std::string> groups; ///< names: "setup 3"
+};
+
+struct Observations {
+  std::size_t readings = 0, indications = 0;
+  /// Readings in the order of measurement. Equal for rows shuffled, where an order is stated.
+  std::vector<std::size_t> sequence;
+  std::vector<double> order; ///< by reading: as stated, or its number
+  std::vector<Covariate> covariates;
+  std::vector<Grouping> labels; ///< each label with two values or more
+  std::vector<Grouping> redone; ///< what may scatter: at least five groups
+  Grouping blocks;              ///< no groups: none stated
+  std::vector<bool> final;      ///< by reading
+  std::vector<std::string> final_blocks;
+  std::vector<double> measured;        ///< [reading][indication], SI
+  std::vector<std::string> statements; ///< what these data cannot tell, by their design
+  std::string indication_name(std::size_t k) const { return names[k]; }
+  std::vector<std::string> names; ///< of the indications
+};
+
+/// Throws InputError: nothing was read, a block that is not there.
+Observations observe(const propagation::Experiment& experiment);
+
+} // namespace gumshoe::tracing
