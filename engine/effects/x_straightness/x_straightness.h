@@ -4,7 +4,7 @@
 
 namespace gumshoe::effects {
 
-/// A guideway of X bowed in a plane of any azimuth: its slide strays across by the square of its position.
+/// A bowed guideway of X: its slide strays across by the square of its position.
 struct XStraightness {
   static constexpr QuantityCard quantities[] = {
       {"E_YX",
@@ -14,7 +14,7 @@ struct XStraightness {
        {-1e-1, 1e-1},
        "E_YX",
        "along Y, per square of the position",
-       Role::pair,
+       Role::amplitude,
        "20-200 um/m2"},
       {"E_ZX",
        "um/m2",
@@ -23,7 +23,7 @@ struct XStraightness {
        {-1e-1, 1e-1},
        "E_ZX",
        "along Z, per square of the position",
-       Role::pair,
+       Role::amplitude,
        "20-200 um/m2"},
   };
   static constexpr EffectCard card{

@@ -4,7 +4,7 @@
 
 namespace gumshoe::effects {
 
-/// A guideway of Y bowed in a plane of any azimuth: its slide strays across by the square of its position.
+/// A bowed guideway of Y: its slide strays across by the square of its position.
 struct YStraightness {
   static constexpr QuantityCard quantities[] = {
       {"E_XY",
@@ -14,7 +14,7 @@ struct YStraightness {
        {-1e-1, 1e-1},
        "E_XY",
        "along X, per square of the position",
-       Role::pair,
+       Role::amplitude,
        "20-200 um/m2"},
       {"E_ZY",
        "um/m2",
@@ -23,7 +23,7 @@ struct YStraightness {
        {-1e-1, 1e-1},
        "E_ZY",
        "along Z, per square of the position",
-       Role::pair,
+       Role::amplitude,
        "20-200 um/m2"},
   };
   static constexpr EffectCard card{

@@ -4,7 +4,7 @@
 
 namespace gumshoe::effects {
 
-/// A guideway of Z bowed in a plane of any azimuth: its slide strays across by the square of its position.
+/// A bowed guideway of Z: its slide strays across by the square of its position.
 struct ZStraightness {
   static constexpr QuantityCard quantities[] = {
       {"E_XZ",
@@ -14,7 +14,7 @@ struct ZStraightness {
        {-1e-1, 1e-1},
        "E_XZ",
        "along X, per square of the position",
-       Role::pair,
+       Role::amplitude,
        "20-200 um/m2"},
       {"E_YZ",
        "um/m2",
@@ -23,7 +23,7 @@ struct ZStraightness {
        {-1e-1, 1e-1},
        "E_YZ",
        "along Y, per square of the position",
-       Role::pair,
+       Role::amplitude,
        "20-200 um/m2"},
   };
   static constexpr EffectCard card{
