@@ -24,7 +24,8 @@ struct Options {
 };
 
 void refuse_unusable(const store::Stored& stored, const std::string& file) {
-  if (stored.choice) throw InputError(file + ": holds no samples", "gumshoe choose made it", "gumshoe run?");
+  if (!stored.made_by.empty())
+    throw InputError(file + ": holds no samples", "gumshoe " + stored.made_by + " made it", "gumshoe run?");
   if (!stored.identity.store_samples)
     throw InputError(file + ": holds no samples", "its scenario says store_samples = false", "run again with them?");
   if (!stored.complete)

@@ -11,6 +11,7 @@
 #include "cli/command.h"
 #include "cli/print_choice.h"
 #include "store/choice_file.h"
+#include "store/result_file.h"
 
 namespace gumshoe::cli {
 

@@ -1,6 +1,9 @@
 #include "cli/command.h"
 
+#include <cerrno>
 #include <cmath>
+#include <cstdio>
+#include <cstring>
 #include <filesystem>
 
 #include "effects/catalogue.h"
@@ -33,6 +36,13 @@ void require_different(const std::string& out, const std::string& in) {
   std::error_code ignored;
   if (std::filesystem::equivalent(out, in, ignored))
     throw OutputError(out + ": is the file that is read", "it would be lost", "another name for the output?");
+}
+
+void write_text(const std::string& path, const std::string& text) {
+  std::FILE* file = std::fopen(path.c_str(), "wb");
+  const bool wrote = file && std::fwrite(text.data(), 1, text.size(), file) == text.size();
+  const bool closed = file && std::fclose(file) == 0;
+  if (!wrote || !closed) throw OutputError(path + ": cannot be written", std::strerror(errno));
 }
 
 } // namespace gumshoe::cli

@@ -21,6 +21,7 @@ void add_report(CLI::App& app, Action& action);
 void add_evaluate(CLI::App& app, Action& action);
 void add_estimate(CLI::App& app, Action& action);
 void add_choose(CLI::App& app, Action& action);
+void add_trace(CLI::App& app, Action& action);
 void add_replay(CLI::App& app, Action& action);
 void add_models(CLI::App& app, Action& action);
 void add_effects(CLI::App& app, Action& action);
@@ -34,5 +35,8 @@ std::uint64_t whole_number(const std::string& text, const std::string& option, s
 
 /// Refuses to write over what was read.
 void require_different(const std::string& out, const std::string& in);
+
+/// Throws OutputError naming path and reason.
+void write_text(const std::string& path, const std::string& text);
 
 } // namespace gumshoe::cli

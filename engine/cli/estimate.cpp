@@ -1,8 +1,5 @@
 /// `gumshoe estimate`: fits the quantities marked `estimated` and writes them into a new scenario.
-#include <cerrno>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -181,13 +178,6 @@ void print_text(const propagation::Experiment& e, const Estimate& r, const std::
   if (!written.empty()) std::cout << "written: " << written << '\n';
 }
 
-void write_file(const std::string& path, const std::string& text) {
-  std::FILE* file = std::fopen(path.c_str(), "wb");
-  const bool wrote = file && std::fwrite(text.data(), 1, text.size(), file) == text.size();
-  const bool closed = file && std::fclose(file) == 0;
-  if (!wrote || !closed) throw OutputError(path + ": cannot be written", std::strerror(errno));
-}
-
 ExitCode estimate(const Options& o) {
   const scenario::Scenario s = scenario::read(o.file, catalogue());
   const propagation::Experiment experiment(s);
@@ -204,7 +194,7 @@ ExitCode estimate(const Options& o) {
       std::cerr << "no scenario is written: " << why.what() << '\n';
     }
     if (!text.empty()) {
-      write_file(out.string(), text);
+      write_text(out.string(), text);
       written = out.string();
     }
   }

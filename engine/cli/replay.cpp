@@ -71,8 +71,8 @@ void add_replay(CLI::App& app, Action& action) {
   command->callback([=, &action] {
     action = [=] {
       const store::Stored stored = store::read_identity(o->file);
-      if (stored.choice)
-        throw InputError(o->file + ": holds candidates, no run", "gumshoe choose made it", "gumshoe run?");
+      if (!stored.made_by.empty())
+        throw InputError(o->file + ": holds no run", "gumshoe " + stored.made_by + " made it", "gumshoe run?");
       const std::uint64_t sample = whole_number(o->sample, "--sample", 0);
       if (sample >= stored.identity.samples)
         throw InputError(fmt::format("--sample: {} is beyond the run", sample),

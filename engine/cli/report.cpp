@@ -1,12 +1,8 @@
 /// `gumshoe report`: hands a result file to the report generator (reports/report.py).
-#include <cstdlib>
-#include <filesystem>
 #include <memory>
 
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include "cli/command.h"
+#include "cli/generator.h"
 #include "store/result_file.h"
 
 namespace gumshoe::cli {
@@ -26,24 +22,10 @@ void add_report(CLI::App& app, Action& action) {
       if (!store::read_identity(o->file).complete)
         throw InputError(o->file + ": the run is not finished", "it was interrupted",
                          "run the same command again to resume it?");
-      const char* folder = std::getenv("GUMSHOE_REPORTS");
-      const std::string script = (std::filesystem::path(folder ? folder : GUMSHOE_REPORTS_DIR) / "report.py").string();
-      std::vector<std::string> words{"python3", script, o->file};
+      std::vector<std::string> words{o->file};
       if (!o->out.empty()) words.insert(words.end(), {"--out", o->out});
       if (!o->csv.empty()) words.insert(words.end(), {"--csv", o->csv});
-      std::vector<char*> argv;
-      for (std::string& word : words) argv.push_back(word.data());
-      argv.push_back(nullptr);
-      const pid_t child = fork();
-      if (child == 0) {
-        execv("/usr/bin/python3", argv.data());
-        _exit(127);
-      }
-      int status = 0;
-      if (child < 0 || waitpid(child, &status, 0) < 0 || !WIFEXITED(status))
-        throw InputError("report: the generator could not be started", "/usr/bin/python3 " + script);
-      if (WEXITSTATUS(status) == 127) throw InputError("report: /usr/bin/python3 is missing", "", "run scripts/setup?");
-      return WEXITSTATUS(status) == 0 ? ExitCode::done : ExitCode::bad_input;
+      return generate(words);
     };
   });
 }

@@ -7,9 +7,6 @@
 
 namespace gumshoe::store {
 
-/// Throws OutputError if a result cannot be put there: a missing folder, a file that is no result of ours.
-void require_writable(const std::string& path);
-
 /// Writes the whole file in one go; an older result of ours is replaced. Throws OutputError naming path and reason.
 void write_choice(const std::string& path, const scenario::Scenario& scenario, const choice::Result& result);
 

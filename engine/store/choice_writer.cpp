@@ -172,13 +172,6 @@ void write_neighbours(hid_t parent, const Result& r) {
                 "1 if neither is larger by more than near_share");
 }
 
-void write_texts(hid_t parent, const char* name, const std::vector<std::string>& texts, const char* what) {
-  if (texts.empty()) return;
-  const hdf5::Handle dataset = hdf5::create_dataset(parent, name, hdf5::text_type(), {texts.size()}, "1", what);
-  hdf5::write_texts(dataset, texts);
-  hdf5::make_scale(dataset, name);
-}
-
 void write_cases(hid_t parent, const Result& r) {
   const auto& cases = r.asked.cases;
   if (cases.empty()) return;
@@ -205,9 +198,9 @@ void write_choice_group(hid_t file, const Result& r) {
   if (!r.sensitivity.indices.empty()) budget.sensitivities.push_back(r.sensitivity);
   if (!r.shapley.effects.empty()) budget.shapley.push_back(r.shapley);
   write_sensitivity(group, budget);
-  write_texts(group, "evaluations", r.evaluations, "evaluations of the model, by position");
-  write_texts(group, "skipped_why", r.skipped_why, "why some combinations cannot be");
-  write_texts(file, "notes", r.notes, "decisions and warnings a reader must see");
+  write_list(group, "evaluations", r.evaluations, "evaluations of the model, by position");
+  write_list(group, "skipped_why", r.skipped_why, "why some combinations cannot be");
+  write_list(file, "notes", r.notes, "decisions and warnings a reader must see");
 }
 
 } // namespace gumshoe::store

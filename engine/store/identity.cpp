@@ -66,7 +66,7 @@ Stored read_stored(hid_t file) {
   i.samples = hdf5::read_integer(file, "samples");
   i.store_samples = hdf5::read_integer(file, "store_samples") != 0;
   s.complete = hdf5::read_integer(file, "complete") != 0;
-  s.choice = hdf5::has(file, "choice");
+  s.made_by = hdf5::has(file, "choice") ? "choose" : hdf5::has(file, "trace") ? "trace" : "";
   const hdf5::Handle marker =
       hdf5::own(H5Dopen2(file, "samples_done", H5P_DEFAULT), H5Dclose, "read the progress marker");
   const hdf5::Handle space = hdf5::own(H5Dget_space(marker), H5Sclose, "read the progress marker");

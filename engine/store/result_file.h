@@ -19,6 +19,9 @@ struct Identity {
   std::string design_hash; ///< propagation::design_hash; empty in files older than it
 };
 
+/// Throws OutputError if a result cannot be put there: a missing folder, a file that is no result of ours.
+void require_writable(const std::string& path);
+
 /// The samples of a run, written block by block in order. Throws OutputError naming path and reason
 /// (unwritable, disk full, not one of our files: never overwritten).
 class ResultFile : public propagation::SampleStore {
@@ -49,7 +52,7 @@ struct Stored {
   Identity identity;
   std::uint64_t samples_done = 0;
   bool complete = false;
-  bool choice = false; ///< of `gumshoe choose`: candidates, no samples
+  std::string made_by; ///< "choose" or "trace", whose results hold no samples; empty: a run
 };
 Stored read_identity(const std::string& path);
 

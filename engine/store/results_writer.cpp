@@ -33,15 +33,6 @@ void write_record(hid_t file, const Results& r) {
   hdf5::write_attribute(file, "coverage_probability", r.coverage_probability);
 }
 
-/// A list of texts in the root, its own dimension.
-void write_list(hid_t file, const std::string& name, const std::vector<std::string>& texts, const char* long_name) {
-  hdf5::drop(file, name);
-  if (texts.empty()) return;
-  const hdf5::Handle dataset = hdf5::create_dataset(file, name, hdf5::text_type(), {texts.size()}, "1", long_name);
-  hdf5::write_texts(dataset, texts);
-  hdf5::make_scale(dataset, name);
-}
-
 void write_readings(hid_t file, const Results& r) {
   const hdf5::Handle group = hdf5::create_group(file, "readings");
   Table table(group, "reading", r.readings.size());
@@ -232,12 +223,24 @@ void write_printed(hid_t file, const std::vector<PrintedResult>& rows) {
 
 } // namespace
 
+void write_list(hid_t file, const std::string& name, const std::vector<std::string>& texts, const char* long_name) {
+  hdf5::drop(file, name);
+  if (texts.empty()) return;
+  const hdf5::Handle dataset = hdf5::create_dataset(file, name, hdf5::text_type(), {texts.size()}, "1", long_name);
+  hdf5::write_texts(dataset, texts);
+  hdf5::make_scale(dataset, name);
+}
+
+void write_budgets(hid_t file, const std::string& name, const std::vector<Budget>& budgets) {
+  write_numbered(file, name, budgets, write_budget);
+}
+
 void write_results(hid_t file, const Results& r) {
   write_record(file, r);
   write_readings(file, r);
   write_inputs(file, r.inputs);
   write_summary(file, r);
-  write_numbered(file, "budget", r.budgets, write_budget);
+  write_budgets(file, "budget", r.budgets);
   write_validation(file, r.validations);
   write_sensitivity(file, r);
   write_joint(file, r);

@@ -13,6 +13,12 @@ void write_sensitivity(hid_t file, const analysis::Results& results); ///< sensi
 void write_joint(hid_t file, const analysis::Results& results);       ///< joint_writer.cpp: joint, circular, conformity
 void write_planning(hid_t file, const analysis::Results& results);    ///< planning_writer.cpp: targets, stopping
 
+/// Budgets as a group `name` of sub-groups 000, 001, ...; none if there are none.
+void write_budgets(hid_t file, const std::string& name, const std::vector<analysis::Budget>& budgets);
+
+/// A list of texts, its own dimension; nothing if it is empty.
+void write_list(hid_t group, const std::string& name, const std::vector<std::string>& texts, const char* long_name);
+
 /// Label values of a reading in one line: "rod 2, 1".
 std::string label_text(const quantities::Labels& labels);
 

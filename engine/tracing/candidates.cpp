@@ -128,7 +128,8 @@ private:
           other.amplitudes[0].scenario_name == a.amplitudes[0].scenario_name &&
           std::fabs(alike(other.columns.col(0), a.columns.col(0))) > 0.9995)
         return;
-    a.depends_on = dependence(o_, a.columns);
+    for (const auto& [label, value] : a.amplitudes[0].labels) a.depends_on.push_back(label);
+    if (a.depends_on.empty()) a.depends_on = dependence(o_, a.columns);
     family.push_back(std::move(a));
   }
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <map>
 
-#include <Eigen/QR>
-
 namespace gumshoe::tracing {
 
 HeldOut hold_out(const Design& d, const Matrix& residual, const Matrix& extra, const std::vector<Index>& train,
@@ -13,46 +11,45 @@ HeldOut hold_out(const Design& d, const Matrix& residual, const Matrix& extra, c
   out.rows = test;
   const auto use = independent(d, train);
   const Whitened w(d, train, use, structure);
-  const auto p = static_cast<Index>(use.size()), q = d.random.cols(), n = static_cast<Index>(test.size());
+  const auto p = static_cast<Index>(use.size()), n = static_cast<Index>(test.size());
   const Matrix data = w.whiten(w.take(residual)), signature = w.whiten(w.take(extra));
   Matrix predicted = Matrix::Zero(n, residual.cols());
   const Matrix x = w.solve_all(signature, data);
   for (Index i = 0; i < n; ++i) {
     const Index row = test[static_cast<std::size_t>(i)];
     for (Index j = 0; j < p; ++j) predicted.row(i) += d.fixed(row, use[static_cast<std::size_t>(j)]) * x.row(j);
-    if (q > 0) predicted.row(i) += d.random.row(row) * x.middleRows(p, q);
     if (extra.cols() > 0) predicted.row(i) += extra.row(row) * x.bottomRows(extra.cols());
   }
   out.residual.resize(n, residual.cols());
   for (Index i = 0; i < n; ++i)
     out.residual.row(i) = residual.row(test[static_cast<std::size_t>(i)]) - predicted.row(i);
   // The block's own constants.
-  const Whitened local(d, test, {}, Structure{});
-  Matrix own(n, 0);
-  for (Index j = 0; j < d.fixed.cols(); ++j) {
-    const auto felt = [&](const std::vector<Index>& rows) {
-      return std::any_of(rows.begin(), rows.end(), [&](Index row) { return d.fixed(row, j) != 0; });
-    };
-    if (felt(train) || !felt(test)) continue;
-    own.conservativeResize(Eigen::NoChange, own.cols() + 1);
-    own.rightCols(1) = local.take(d.fixed.col(j));
+  std::vector<Index> constants;
+  const auto felt = [&](const std::vector<Index>& rows, Index j) {
+    return std::any_of(rows.begin(), rows.end(), [&](Index row) { return d.fixed(row, j) != 0; });
+  };
+  for (Index j = 0; j < d.fixed.cols(); ++j)
+    if (!felt(train, j) && felt(test, j)) constants.push_back(j);
+  Design own = d;
+  own.fixed = Matrix(d.fixed(Eigen::all, constants));
+  const auto seen = independent(own, test);
+  out.count = static_cast<double>(test.size() - seen.size());
+  out.squares = out.whitened = Vector::Zero(residual.cols());
+  // Beside declared draws and scatter, as they are expected of readings not seen.
+  const Whitened declared(own, test, seen, {0, structure.scatter, structure.ratio});
+  own.random.resize(own.random.rows(), 0);
+  const Whitened local(own, test, seen, Structure{});
+  const Matrix white = local.whiten(out.residual);
+  if (!seen.empty()) {
+    const Matrix constant = local.solve_all(Matrix(white.rows(), 0), white);
+    for (Index i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < seen.size(); ++j)
+        out.residual.row(i) -=
+            own.fixed(test[static_cast<std::size_t>(i)], seen[j]) * constant.row(static_cast<Index>(j));
   }
-  Matrix white = local.whiten(out.residual);
-  Index taken = 0;
-  if (own.cols() > 0) {
-    const Matrix basis = local.whiten(own);
-    const Eigen::ColPivHouseholderQR<Matrix> qr(basis);
-    taken = qr.rank();
-    const Matrix coefficients = qr.solve(white);
-    white -= basis * coefficients;
-    out.residual -= own * coefficients;
-  }
-  out.count = static_cast<double>(n - taken);
-  out.squares = white.colwise().squaredNorm().transpose();
-  if (out.count <= 0) {
-    out.count = 0;
-    out.squares.setZero();
-  }
+  if (out.count <= 0) return out;
+  out.squares = local.left(white);
+  out.whitened = declared.left(white);
   return out;
 }
 

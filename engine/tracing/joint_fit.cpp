@@ -156,8 +156,19 @@ bool Fitter::linearise(JointFit& fit) const {
   Matrix shared = Matrix::Zero(n, static_cast<Index>(draws_.size()));
   std::vector<bool> used(draws_.size(), false);
   const std::size_t first_noise = experiment_.model_quantities() + experiment_.effect_quantities();
+  // What is declared of a quantity that is found to be off binds it no more.
+  const auto released = [&](const Draw& draw) {
+    return std::any_of(fit.terms.begin(), fit.terms.end(), [&](const Term& t) {
+      if (t.alternative.family != Family::declared) return false;
+      const Amplitude& a = t.alternative.amplitudes[0];
+      return std::all_of(draw.moves.begin(), draw.moves.end(), [&](const auto& m) {
+        return m.second == a.quantity &&
+               quantities::holds_for(a.labels, experiment_.scenario().readings[m.first].labels);
+      });
+    });
+  };
   for (std::size_t v = 0; v < draws_.size(); ++v) {
-    if (draws_[v].local) continue;
+    if (draws_[v].local || released(draws_[v])) continue;
     for (const auto& [r, q] : draws_[v].moves) {
       const auto rows = Eigen::seqN(static_cast<Index>(r) * k, k);
       if (q >= first_noise && q < first_noise + o.indications)

@@ -180,12 +180,14 @@ Statistics Scan::run(const Matrix& residuals) const {
   out.scatter = Matrix::Zero(static_cast<Index>(design_.scatter.size()), sets);
   out.structure.resize(static_cast<std::size_t>(sets));
   out.without_scatter.resize(static_cast<std::size_t>(sets));
+  out.criterion.resize(sets);
   out.variance.resize(sets);
   out.variance_without_scatter.resize(sets);
   for (Index j = 0; j < sets; ++j) {
     Index k = 0;
     const double base = without.col(j).minCoeff(&k);
     out.structure[static_cast<std::size_t>(j)] = static_cast<std::size_t>(k);
+    out.criterion[j] = base;
     double plain = none;
     Vector component = Vector::Constant(out.scatter.rows(), none);
     for (std::size_t i = 0; i < count; ++i) {

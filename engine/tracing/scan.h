@@ -16,6 +16,7 @@ struct Statistics {
   Vector scale;                             ///< [set]: of the noise, robust, relative to the design's
   std::vector<std::size_t> structure;       ///< [set]: best without a signature
   std::vector<std::size_t> without_scatter; ///< [set]: the best of those without a variance component
+  Vector criterion;                         ///< [set]: minus 2 ln likelihood under `structure`, but for a constant
   Vector variance;                          ///< [set]: s^2 under `structure`
   Vector variance_without_scatter;
 };

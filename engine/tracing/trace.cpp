@@ -1,6 +1,50 @@
 #include "tracing/trace.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "base/units.h"
+#include "quantities/cells.h"
+#include "tracing/findings.h"
+#include "tracing/report_rows.h"
+#include "tracing/search.h"
+
 namespace gumshoe::tracing {
+namespace {
+
+/// What the design of the data rules out, whatever is in them.
+void state_what_cannot_be_told(const Circumstances& c, const scenario::Scenario& s, Trace& out) {
+  const ModelCard& card = *c.experiment.model().card;
+  out.statements.insert(out.statements.end(), c.observations.statements.begin(), c.observations.statements.end());
+  for (std::size_t i = 0; i < card.conditions.size() && s.readings.size() > 1; ++i) {
+    const double first = s.readings.front().conditions[i];
+    if (!std::all_of(s.readings.begin(), s.readings.end(), [&](const auto& r) { return r.conditions[i] == first; }))
+      continue;
+    const std::string unit(card.conditions[i].unit);
+    out.statements.push_back(
+        fmt::format("{} is {:.6g}{} in every reading: whatever grows with it cannot be told from a constant",
+                    card.conditions[i].name, units::from_si(first, unit, std::string(card.conditions[i].si_unit)),
+                    unit == "1" ? "" : " " + unit));
+  }
+}
+
+bool enough(const Circumstances& c, Trace& out) {
+  const auto& rows = c.fitter.rows();
+  const JointFit fit = c.fitter.fit({}, 1);
+  const std::size_t unknowns = independent(fit.design, rows).size();
+  if (rows.size() >= unknowns + 4) return true;
+  out.outcome = Outcome::insufficient_data;
+  out.statements.push_back(
+      fmt::format("{} readings are left to {} unknowns: what remains beside them cannot be judged; it takes "
+                  "four readings more than unknowns at the least",
+                  rows.size(), unknowns));
+  return false;
+}
+
+} // namespace
 
 const char* name(Kind kind) {
   switch (kind) {
@@ -16,8 +60,45 @@ const char* name(Kind kind) {
   return "";
 }
 
-Trace trace(const scenario::Scenario& scenario, const Settings&) {
-  throw InputError("tracing is being built", scenario.file, "");
+Trace trace(const scenario::Scenario& scenario, const Settings& settings) {
+  Trace out;
+  out.extended = extended(scenario);
+  const propagation::Experiment experiment(out.extended);
+  const auto& model = experiment.model();
+  if (!model.simulate_gradient && !(model.kernels && model.kernels() && model.kernels()->simulate))
+    calibration::refuse(scenario.file, fmt::format("model {}: it cannot simulate its indications", scenario.model),
+                        "residuals are measured minus simulated indications",
+                        scenario.made ? "[model.indications] with a formula for each?" : "");
+  const Observations observations = observe(experiment);
+  const Simulator simulator(experiment, settings.threads);
+  std::vector<bool> training;
+  for (const bool final : observations.final) training.push_back(!final);
+  const Fitter fitter(experiment, simulator, observations, rows_where(observations, training), settings.threads);
+  const Circumstances c{
+      experiment,           simulator,           observations,     fitter,           scenario.trace.alpha,
+      scenario.trace.draws, scenario.trace.seed, settings.threads, settings.progress};
+  out.alpha = c.alpha;
+  out.draws = c.draws;
+  state_what_cannot_be_told(c, scenario, out);
+  if (!enough(c, out)) {
+    speak(out);
+    return out;
+  }
+  const Search found = search(c);
+  out.tried = found.tried;
+  out.p_anything = found.first.p_anything;
+  out.candidates = found.candidates;
+  out.detection_limits = found.limits;
+  out.statements.insert(out.statements.end(), found.statements.begin(), found.statements.end());
+  if (!found.base.converged)
+    out.statements.push_back("the fit of the declared model did not converge: judge nothing by it");
+  if (found.base.kink)
+    out.statements.push_back("the model has a kink where it was linearised: derivatives there are of one side");
+  out.vetoed = compare(c, found, out);
+  describe_noise(c, found, out);
+  collect(c, found, out);
+  speak(out);
+  return out;
 }
 
 } // namespace gumshoe::tracing

@@ -1,0 +1,14 @@
+#pragma once
+/// The report generator, reports/report.py.
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+
+namespace gumshoe::cli {
+
+/// Runs it with these words and waits. GUMSHOE_REPORTS in the environment names another folder. `bad_input` if it
+/// complained; throws InputError if it could not be started.
+ExitCode generate(const std::vector<std::string>& words);
+
+} // namespace gumshoe::cli

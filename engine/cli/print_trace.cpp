@@ -1,0 +1,161 @@
+#include "cli/print_trace.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "analysis/rounding.h"
+#include "base/units.h"
+#include "tracing/verdict_json.h"
+
+namespace gumshoe::cli {
+
+namespace {
+
+using namespace tracing;
+
+constexpr std::size_t listed = 12; // candidates and detection limits; the result file has all
+
+std::string with_unit(std::string text, const std::string& unit) { return unit == "1" ? text : text + " " + unit; }
+
+/// To the place that `u` asks for; without a u to four digits.
+std::string rounded(double x, double u) {
+  if (!std::isfinite(x)) return "-";
+  return u > 0 && std::isfinite(u) ? analysis::fixed(x, analysis::decimals_for(u)) : fmt::format("{:.4g}", x);
+}
+
+std::string two_digits(double x) { return rounded(x, std::fabs(x)); }
+
+std::string probability(double p) { return std::isfinite(p) ? fmt::format("{:.2g}", p) : "-"; }
+
+std::string size_text(const SizedQuantity& q) {
+  const ShownSize s = shown(q);
+  std::string text = fmt::format("{} = {}, u = {}, 95 % [{}, {}]", q.name, with_unit(rounded(s.value, s.u), s.unit),
+                                 with_unit(rounded(s.u, s.u), s.unit), rounded(s.low95, s.u), rounded(s.high95, s.u));
+  for (const auto& [label, value] : q.labels) text += fmt::format(", {} {}", label, value);
+  return text;
+}
+
+/// Lengths of less than a tenth of a millimetre in micrometres.
+struct Lengths {
+  std::string unit, si_unit;
+  explicit Lengths(const Rms& r) : unit(r.unit), si_unit(r.si_unit) {
+    if (unit == "mm" && !(std::max({r.before, r.after, r.noise}) >= 1e-4)) unit = "um";
+  }
+  std::string show(double si) const {
+    return std::isfinite(si) ? two_digits(units::from_si(si, unit, si_unit, units::Kind::difference)) : "-";
+  }
+  std::string with_unit(double si) const { return cli::with_unit(show(si), unit); }
+};
+
+void print_verdict(const Trace& t) {
+  for (const std::string& sentence : t.plain) std::cout << sentence << '\n';
+  if (t.findings.empty())
+    std::cout << (t.outcome == Outcome::insufficient_data ? "verdict: these data cannot tell\n"
+                                                          : "verdict: nothing found\n");
+  if (std::isfinite(t.p_anything))
+    std::cout << fmt::format("probability of so much where nothing is: {} (of {} draws, {} candidates; asked: {:g})\n",
+                             probability(t.p_anything), t.draws, t.tried, t.alpha);
+  if (t.vetoed) std::cout << "the final blocks did not improve: nothing is added\n";
+}
+
+void print_finding(const Finding& f) {
+  const char* words[] = {"", " (a class: these data cannot tell them apart)", " (scatter by label)", ""};
+  std::cout << fmt::format("found: {}{}, p = {}\n", f.name, words[static_cast<int>(f.kind)], probability(f.p_value));
+  if (!f.depends_on.empty()) std::cout << fmt::format("  depends on {}\n", fmt::join(f.depends_on, ", "));
+  if (f.alternatives.empty())
+    for (const SizedQuantity& q : f.quantities) std::cout << "  " << size_text(q) << '\n';
+  for (std::size_t i = 0; i < f.alternatives.size() && i < f.members.size(); ++i) {
+    std::cout << fmt::format("  {} {}\n", i == 0 ? "either" : "or", f.members[i]);
+    for (const SizedQuantity& q : f.alternatives[i]) std::cout << "    " << size_text(q) << '\n';
+  }
+  if (std::isfinite(f.removed_share))
+    std::cout << fmt::format("  takes away {:.0f} % of the residuals' mean square\n", 100 * f.removed_share);
+  if (!f.suggestion.empty()) std::cout << "  to split them: " << f.suggestion << '\n';
+  for (const std::string& remark : f.remarks) std::cout << "  remark: " << remark << '\n';
+}
+
+void print_rms(const Rms& r) {
+  if (!std::isfinite(r.before)) return;
+  const Lengths lengths(r);
+  const auto show = [&](double si) { return lengths.show(si); };
+  const auto line = [&](const std::string& what, double before, double after, const std::string& noise) {
+    if (std::isfinite(before) || std::isfinite(after))
+      std::cout << fmt::format("{:<44}{:>10}{:>10}   {}\n", what, show(before), show(after), noise);
+  };
+  const auto noise = [&](double middle, double low, double high) {
+    return std::isfinite(low) && std::isfinite(high)
+               ? fmt::format("{} (95 %: {} to {})", show(middle), show(low), show(high))
+               : show(middle);
+  };
+  std::cout << fmt::format("{:<44}{:>10}{:>10}   noise alone\n",
+                           with_unit("residuals, root mean square,", lengths.unit), "before", "after");
+  line("  in sample (training data)", r.before, r.after, noise(r.noise, r.noise_low, r.noise_high));
+  line("  hold-out: " + r.holdout, r.holdout_before, r.holdout_after,
+       noise(r.holdout_noise, r.holdout_noise_low, r.holdout_noise_high));
+  line("  worst block: " + r.worst_block, r.worst_block_before, r.worst_block_after, "");
+  line("  worst point: " + r.worst_point, r.worst_point_before, r.worst_point_after, "");
+  if (std::isfinite(r.share_removed))
+    std::cout << fmt::format("  {:.0f} % of what could be removed of the hold-out's mean square is gone\n",
+                             100 * r.share_removed);
+  if (!std::isfinite(r.holdout_before) && !r.holdout.empty()) std::cout << "  hold-out: " << r.holdout << '\n';
+}
+
+void print_candidates(const std::vector<Candidate>& candidates) {
+  if (candidates.empty()) return;
+  std::size_t width = 9;
+  const std::size_t n = std::min(listed, candidates.size());
+  for (std::size_t i = 0; i < n; ++i) width = std::max(width, candidates[i].name.size());
+  std::cout << fmt::format("{:<{}}  {:>9}  {:>9}  {:>6}  outcome\n", "candidate", width, "2 ln L", "p alone", "left");
+  for (std::size_t i = 0; i < n; ++i) {
+    const Candidate& c = candidates[i];
+    std::cout << fmt::format("{:<{}}  {:>9}  {:>9}  {:>5.1f}%  {}{}\n", c.name, width,
+                             std::isfinite(c.statistic) ? fmt::format("{:.4g}", c.statistic) : "-",
+                             probability(c.p_single), 100 * c.identifiable, c.outcome,
+                             c.shape.empty() ? "" : ", with " + c.shape);
+  }
+  if (n < candidates.size()) std::cout << fmt::format("({} more in the result file)\n", candidates.size() - n);
+}
+
+void print_limits(const std::vector<DetectionLimit>& limits) {
+  if (limits.empty()) return;
+  std::cout << "would have been seen, in nine cases of ten, from\n";
+  for (std::size_t i = 0; i < std::min(listed, limits.size()); ++i) {
+    const ShownSize s = shown(limits[i]);
+    const std::string size =
+        std::isfinite(s.value) ? with_unit(two_digits(s.value), s.unit) : "no size: not by these data";
+    std::cout << fmt::format("  {}, {}: {}\n", limits[i].effect, limits[i].quantity, size);
+  }
+  if (limits.size() > listed) std::cout << fmt::format("({} more in the result file)\n", limits.size() - listed);
+}
+
+void print_noise(const Noise& n, const Rms& r) {
+  const Lengths lengths(r);
+  std::string text = n.declared ? n.scale == 1 ? "as declared" : fmt::format("{:.3g} times what is declared", n.scale)
+                                : lengths.with_unit(n.scale) + " of a readout, from the residuals";
+  if (n.correlation != 0) text += fmt::format(", correlation from reading to reading {:.2f}", n.correlation);
+  if (!n.scatter.empty()) text += fmt::format(", scatter by {} {}", n.scatter, lengths.with_unit(n.scatter_u));
+  if (n.outliers > 0) text += fmt::format(", {} outlier{} weighed down", n.outliers, n.outliers == 1 ? "" : "s");
+  std::cout << "noise: " << text << '\n';
+}
+
+} // namespace
+
+void print_trace(const Trace& t, const std::string& title, const std::vector<std::string>& written) {
+  if (!title.empty()) std::cout << title << '\n';
+  print_verdict(t);
+  for (const Finding& f : t.findings) print_finding(f);
+  if (t.outcome != Outcome::insufficient_data || std::isfinite(t.rms.before)) {
+    print_rms(t.rms);
+    if (!t.rms.unit.empty()) print_noise(t.noise, t.rms);
+  }
+  print_candidates(t.candidates);
+  if (t.findings.empty()) print_limits(t.detection_limits);
+  for (const std::string& text : t.statements) std::cout << "note: " << text << '\n';
+  if (!written.empty()) std::cout << fmt::format("written: {}\n", fmt::join(written, ", "));
+}
+
+} // namespace gumshoe::cli

@@ -1,0 +1,107 @@
+/// `gumshoe trace`: what is left after the model is fitted, and which effect that the scenario lacks explains it?
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "cli/command.h"
+#include "cli/generator.h"
+#include "cli/print_trace.h"
+#include "store/result_file.h"
+#include "store/trace_file.h"
+#include "tracing/verdict_json.h"
+
+namespace gumshoe::cli {
+
+namespace {
+
+struct Options {
+  std::string file, data, out, json, report, format = "text";
+  std::optional<std::string> draws, seed;
+  int threads = 0;
+};
+
+/// The scenario with what the command line says otherwise.
+scenario::Scenario asked(const Options& o) {
+  if (!o.data.empty()) // here the scenario is to be read with its data file replaced
+    throw InputError("--data: not yet", "readings come from the files that the scenario names");
+  scenario::Scenario s = scenario::read(o.file, catalogue());
+  if (o.draws)
+    s.trace.draws = static_cast<int>(std::min<std::uint64_t>(whole_number(*o.draws, "--draws", 19), 1'000'000));
+  if (o.seed) s.trace.seed = whole_number(*o.seed, "--seed", 0);
+  return s;
+}
+
+/// Every file that will be written, checked before the work and not after it.
+std::string checked_output(const Options& o) {
+  const std::string out =
+      !o.out.empty() ? o.out : "results/" + std::filesystem::path(o.file).stem().string() + ".traced.h5";
+  if (o.out.empty()) std::filesystem::create_directories("results");
+  for (const std::string& path : {out, o.json, o.report}) {
+    if (path.empty()) continue;
+    require_different(path, o.file);
+    if (!o.data.empty()) require_different(path, o.data);
+  }
+  store::require_writable(out);
+  for (const std::string& path : {o.json, o.report}) {
+    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+    if (!path.empty() && !folder.empty() && !std::filesystem::is_directory(folder))
+      throw OutputError(path + ": cannot be written", "no folder '" + folder.string() + "'");
+  }
+  return out;
+}
+
+/// One line on stderr, rewritten; silent when stderr is no terminal.
+void show(const std::string& what) {
+  if (isatty(2) != 0) std::cerr << fmt::format("\r{:<70}", what) << std::flush;
+}
+
+ExitCode trace(const Options& o) {
+  const scenario::Scenario s = asked(o);
+  const std::string out = checked_output(o);
+  const ModelCard& card = s.made ? *s.made->card : *models::find(s.model)->card;
+  const tracing::Trace found = tracing::trace(s, {o.threads, show});
+  if (isatty(2) != 0) std::cerr << '\n';
+  // Here the scenario with what was found is to be written beside `out`, and `budgets` filled with those of both
+  // scenarios (analysis::budget).
+  const store::TracedBudgets budgets;
+  std::vector<std::string> written{out};
+  store::write_trace(out, s, card, found, budgets);
+  if (!o.json.empty()) {
+    write_text(o.json, tracing::verdict_json(found) + '\n');
+    written.push_back(o.json);
+  }
+  ExitCode code = ExitCode::done;
+  if (!o.report.empty()) {
+    code = generate({out, "--out", o.report, "--page-only"});
+    if (code == ExitCode::done) written.push_back(o.report);
+  }
+  if (o.format == "json")
+    std::cout << tracing::verdict_json(found) << '\n';
+  else
+    print_trace(found, s.title, written);
+  return code;
+}
+
+} // namespace
+
+void add_trace(CLI::App& app, Action& action) {
+  auto* command = app.add_subcommand("trace", "what the residuals show that the model lacks ([trace])");
+  const auto o = std::make_shared<Options>();
+  command->add_option("scenario", o->file, "scenario file (TOML) with readings")->required();
+  command->add_option("--data", o->data, "readings, instead of the files that the scenario names (CSV)");
+  command->add_option("--out", o->out, "result file (default: results/SCENARIO.traced.h5)");
+  command->add_option("--json", o->json, "file for the verdict");
+  command->add_option("--report", o->report, "file for the report, one HTML page");
+  command->add_option("--draws", o->draws, "of the bootstrap, instead of the scenario's");
+  command->add_option("--seed", o->seed, "instead of the scenario's");
+  command->add_option("--threads", o->threads, "0: all processors")->check(CLI::Range(0, 1024));
+  command->add_option("--format", o->format, "text or json")->check(CLI::IsMember({"text", "json"}));
+  command->callback([=, &action] { action = [=] { return trace(*o); }; });
+}
+
+} // namespace gumshoe::cli

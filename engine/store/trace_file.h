@@ -1,0 +1,22 @@
+#pragma once
+/// The result file of `gumshoe trace` (layout: README.md beside this file).
+#include <string>
+#include <vector>
+
+#include "analysis/results.h"
+#include "base/card.h"
+#include "tracing/trace.h"
+
+namespace gumshoe::store {
+
+/// Uncertainty budgets of the scenario as it was and with what was found; both empty if nothing was added.
+struct TracedBudgets {
+  std::vector<analysis::Budget> before, after;
+};
+
+/// Writes the whole file in one go; an older result of ours is replaced. `card`: of the scenario's model. Throws
+/// OutputError naming path and reason.
+void write_trace(const std::string& path, const scenario::Scenario& scenario, const ModelCard& card,
+                 const tracing::Trace& trace, const TracedBudgets& budgets);
+
+} // namespace gumshoe::store

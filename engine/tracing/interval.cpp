@@ -1,0 +1,39 @@
+#include "tracing/interval.h"
+
+#include <cmath>
+
+#include <boost/math/distributions/normal.hpp>
+
+namespace gumshoe::tracing {
+namespace {
+
+/// P(X <= x | |X| > c) for X of mean m and unit variance, x >= c > 0.
+double truncated(double x, double c, double m) {
+  const boost::math::normal normal;
+  const double below = boost::math::cdf(normal, -c - m);
+  const double above = boost::math::cdf(boost::math::complement(normal, c - m));
+  const double beyond = boost::math::cdf(boost::math::complement(normal, x - m));
+  if (!(below + above > 0)) return m > 0 ? 0 : 1;
+  return (below + above - beyond) / (below + above);
+}
+
+double mean_at(double x, double c, double p) {
+  // Falls with the mean.
+  double low = x - 40, high = x + 10;
+  for (int i = 0; i < 200; ++i) {
+    const double middle = (low + high) / 2;
+    (truncated(x, c, middle) > p ? low : high) = middle;
+  }
+  return (low + high) / 2;
+}
+
+} // namespace
+
+std::pair<double, double> interval_after_selection(double x, double u, double least) {
+  if (!(u > 0)) return {x, x};
+  const double sign = x < 0 ? -1 : 1, z = std::fabs(x) / u, c = std::min(std::fabs(least) / u, z);
+  const double a = u * mean_at(z, c, 0.975), b = u * mean_at(z, c, 0.025);
+  return sign > 0 ? std::pair{a, b} : std::pair{-b, -a};
+}
+
+} // namespace gumshoe::tracing

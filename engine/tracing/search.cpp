@@ -1,0 +1,422 @@
+#include "tracing/search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "tracing/shapes.h"
+
+namespace gumshoe::tracing {
+namespace {
+
+/// Likelihood ratios closer than this (2 ln, chi-squared 0.95 of one) decide nothing.
+constexpr double decisive = 3.84;
+/// Beyond this no simulation is needed.
+constexpr double beyond_doubt = 25;
+/// Projected signatures as alike as this are one and the same to any data of this design.
+constexpr double alike = 0.995;
+constexpr std::size_t most_findings = 5;
+
+class Searcher {
+public:
+  explicit Searcher(const Circumstances& c) : c_(c) {}
+
+  Search run() {
+    say("fits the declared model");
+    out_.base = out_.found = c_.fitter.fit({}, 0);
+    while (out_.steps.size() < most_findings && step()) {
+    }
+    return std::move(out_);
+  }
+
+private:
+  void say(const std::string& what) const {
+    if (c_.progress) c_.progress(what);
+  }
+
+  bool taken(const Alternative& a) const {
+    for (const Term& t : out_.found.terms)
+      if (t.alternative.name == a.name && (a.amplitudes[0].scenario_name.empty() ||
+                                           t.alternative.amplitudes[0].scenario_name == a.amplitudes[0].scenario_name))
+        return true;
+    return false;
+  }
+
+  void prepare() {
+    const JointFit& fit = out_.found;
+    const double size = std::sqrt(std::max(1e-300, fit.variance)) * fit.design.reference[0];
+    alternatives_ = physical_candidates(c_.experiment, c_.simulator, fit.at, c_.observations, 3 * size,
+                                        [&](const Alternative& a) { return taken(a); });
+    for (Alternative& a : shapes(c_.observations))
+      if (!taken(a)) alternatives_.push_back(std::move(a));
+    pointers_.clear();
+    for (const Alternative& a : alternatives_) pointers_.push_back(&a);
+    scan_ = std::make_unique<Scan>(fit.design, c_.fitter.rows(), pointers_, c_.threads);
+    data_ = scan_->whitened(scan_->plain()).take(fit.residual);
+  }
+
+  /// Takes in one more effect; false if there is none.
+  bool step() {
+    say(out_.steps.empty() ? "looks for what the declared model lacks" : "looks for more");
+    prepare();
+    const double declared = c_.fitter.noise_declared() ? 1 / out_.found.noise : 0;
+    assessment_ = assess(*scan_, data_, c_.draws, c_.seed + out_.steps.size(), c_.alpha, declared);
+    const bool first = out_.steps.empty() && out_.first.p.empty();
+    if (first) {
+      out_.first = assessment_;
+      out_.alternatives = alternatives_;
+      out_.tried = static_cast<int>(alternatives_.size()) + static_cast<int>(c_.observations.redone.size());
+      limits();
+    }
+    out_.last = assessment_;
+    bool more = false;
+    if (assessment_.p_anything <= c_.alpha && assessment_.p_signature <= c_.alpha) more = take_signature();
+    if (first) rank();
+    if (!more && assessment_.p_anything <= c_.alpha) take_component();
+    return more;
+  }
+
+  double score(std::size_t a) const {
+    return assessment_.data.ratio(static_cast<Index>(a), 0) - 2 * assessment_.null[a].mean;
+  }
+
+  /// The likelihood ratio of a term with the whole model, from the fit at hand; its size.
+  struct Finalist {
+    std::size_t alternative = 0;
+    JointFit fit;
+    double ratio = 0, score = 0;
+  };
+
+  Finalist refit(std::size_t a) const {
+    Finalist out;
+    out.alternative = a;
+    auto terms = out_.found.terms;
+    terms.push_back({alternatives_[a], scan_->fit(a, data_).size});
+    out.fit = c_.fitter.fit(terms, out_.found.noise, &out_.found);
+    // At the fitted size, beside the same unknowns as without the term.
+    Design without = out.fit.design;
+    without.fixed = Matrix(without.fixed.leftCols(without.fixed.cols() - alternatives_[a].columns.cols()));
+    const Scan scan(without, c_.fitter.rows(), {}, c_.threads);
+    out.ratio =
+        assessment_.data.criterion[0] - scan.run(scan.whitened(scan.plain()).take(out.fit.residual)).criterion[0];
+    if (!std::isfinite(out.ratio)) out.ratio = 0;
+    out.score = out.ratio - 2 * assessment_.null[a].mean;
+    return out;
+  }
+
+  /// The best alternatives of different names among those that `fits`, best first.
+  std::vector<std::size_t> best_of(const std::function<bool(const Alternative&)>& fits, std::size_t most) const {
+    std::vector<std::size_t> order;
+    for (std::size_t a = 0; a < alternatives_.size(); ++a)
+      if (fits(alternatives_[a]) && assessment_.data.ratio(static_cast<Index>(a), 0) > 0) order.push_back(a);
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return score(a) > score(b); });
+    std::vector<std::size_t> out;
+    std::set<std::string> names;
+    for (const std::size_t a : order) {
+      if (out.size() == most) break;
+      if (names.insert(alternatives_[a].name).second) out.push_back(a);
+    }
+    return out;
+  }
+
+  /// Chance that `better` would lead `than` by so much, were `than` the truth.
+  double chance_of_lead(std::size_t better, std::size_t than, double lead) const {
+    constexpr std::size_t sets = 199;
+    const Fit truth = scan_->fit(than, data_);
+    const Whitened& w = scan_->whitened(truth.structure);
+    const Vector signal = w.take(alternatives_[than].columns) * truth.size;
+    Matrix drawn = w.draw(sets, c_.seed ^ 0x41a7ull);
+    const double s = std::sqrt(out_.found.variance);
+    drawn = (s * drawn).colwise() + signal;
+    const Scan both(out_.found.design, c_.fitter.rows(), {&alternatives_[better], &alternatives_[than]}, c_.threads);
+    const Statistics statistics = both.run(drawn);
+    const double shift = 2 * (assessment_.null[than].mean - assessment_.null[better].mean);
+    int as_much = 0;
+    for (Index j = 0; j < static_cast<Index>(sets); ++j)
+      as_much += statistics.ratio(0, j) - statistics.ratio(1, j) + shift >= lead;
+    return (1.0 + as_much) / (1.0 + sets);
+  }
+
+  bool take_signature() {
+    const auto physical = best_of([](const Alternative& a) { return a.physical(); }, 12);
+    const auto plain = best_of([](const Alternative& a) { return a.family == Family::shape; }, 3);
+    const double cv_before = cross_validated(c_, out_.found);
+    // Finalists by the full model; only those that could still win are fitted.
+    std::vector<Finalist> finalists;
+    for (const std::size_t a : physical) {
+      if (assessment_.p[a] > assessment_.threshold && !finalists.empty()) break;
+      if (!finalists.empty() && score(a) < 0.6 * score(physical[0]) - 5) break;
+      finalists.push_back(refit(a));
+    }
+    std::sort(finalists.begin(), finalists.end(), [](const auto& a, const auto& b) { return a.score > b.score; });
+    const bool significant =
+        !finalists.empty() &&
+        (assessment_.p[finalists[0].alternative] <= assessment_.threshold ||
+         finalists[0].ratio > assessment_.null[finalists[0].alternative].quantile(assessment_.threshold));
+    if (significant) {
+      const Finalist& best = finalists[0];
+      if (const auto better = refused_for(best, plain); better.empty()) {
+        if (cross_validated(c_, best.fit) < cv_before) return take(finalists);
+        refused_[best.alternative] = "refused: blocks held out are predicted no better with it";
+      } else {
+        if (take_pair(physical, plain)) return true;
+        for (const Finalist& f : finalists)
+          refused_[f.alternative] = "refused: " + better + " fits better, as simple as it is";
+      }
+    }
+    return take_shape(cv_before);
+  }
+
+  /// A plain shape of no more parameters that fits better than the effect could let it; empty if there is none.
+  std::string refused_for(const Finalist& best, const std::vector<std::size_t>& plain) const {
+    for (const std::size_t g : plain) {
+      const auto parameters = [&](std::size_t a) { return alternatives_[a].columns.cols(); };
+      if (parameters(g) > parameters(best.alternative)) continue;
+      const double lead = score(g) - best.score;
+      if (lead < decisive) continue;
+      if (lead > beyond_doubt || chance_of_lead(g, best.alternative, lead) < 0.01)
+        return alternatives_[g].name + (alternatives_[g].shape.empty() ? "" : " (" + alternatives_[g].shape + ")");
+    }
+    return {};
+  }
+
+  /// One masks the other: two effects together that explain more than any shape alone.
+  bool take_pair(const std::vector<std::size_t>&, const std::vector<std::size_t>& plain) {
+    const auto many = best_of([](const Alternative& a) { return a.physical(); }, 60);
+    const std::size_t k = assessment_.data.structure[0];
+    double best = 0;
+    std::pair<std::size_t, std::size_t> pair{0, 0};
+    const auto all = physical_all();
+    for (const std::size_t a : many)
+      for (const std::size_t b : all) {
+        if (b == a || alternatives_[a].name == alternatives_[b].name) continue;
+        const double s = scan_->pair_ratio(a, b, data_, k) - 2 * (assessment_.null[a].mean + assessment_.null[b].mean);
+        if (s > best) best = s, pair = {a, b};
+      }
+    const double shape = plain.empty() ? 0 : score(plain[0]);
+    if (!(best > shape + decisive)) return false;
+    for (const std::size_t a : {pair.first, pair.second}) {
+      // Each must count beside the other.
+      const std::size_t other = a == pair.first ? pair.second : pair.first;
+      if (best - score(other) < assessment_.null[a].quantile(assessment_.threshold)) return false;
+    }
+    auto terms = out_.found.terms;
+    for (const std::size_t a : {pair.first, pair.second}) {
+      Term t{alternatives_[a], scan_->fit(a, data_).size};
+      t.size.setZero();
+      terms.push_back(std::move(t));
+    }
+    const double cv_before = cross_validated(c_, out_.found);
+    JointFit fit = c_.fitter.fit(terms, out_.found.noise, &out_.found);
+    if (!(cross_validated(c_, fit) < cv_before)) return false;
+    for (const std::size_t a : {pair.first, pair.second}) {
+      Step s;
+      s.kind = Kind::named;
+      s.members = {alternatives_[a].name};
+      s.p_value = assessment_.p_signature;
+      s.threshold = assessment_.null[a].quantile(assessment_.threshold);
+      s.noise = out_.found.noise;
+      s.depends_on = alternatives_[a].depends_on;
+      s.terms = {out_.found.terms.size() + (a == pair.first ? 0 : 1)};
+      s.remarks.push_back("found together with " + alternatives_[a == pair.first ? pair.second : pair.first].name +
+                          ": each hides the other");
+      out_.steps.push_back(std::move(s));
+      refused_[a] = "named";
+    }
+    out_.found = c_.fitter.fit(fit.terms, 0, &fit);
+    return true;
+  }
+
+  std::vector<std::size_t> physical_all() const {
+    std::vector<std::size_t> out;
+    for (std::size_t a = 0; a < alternatives_.size(); ++a)
+      if (alternatives_[a].physical() && scan_->identifiable(a) > 1e-3) out.push_back(a);
+    return out;
+  }
+
+  /// The best of the finalists, alone or with those that these data cannot tell from it.
+  bool take(std::vector<Finalist>& finalists) {
+    const Finalist& best = finalists[0];
+    Step s;
+    s.members = {alternatives_[best.alternative].name};
+    s.p_value = assessment_.p_signature;
+    s.threshold = assessment_.null[best.alternative].quantile(assessment_.threshold);
+    s.noise = out_.found.noise;
+    s.depends_on = alternatives_[best.alternative].depends_on;
+    s.terms = {out_.found.terms.size()};
+    refused_[best.alternative] = "named";
+    const std::size_t k = assessment_.data.structure[0];
+    for (std::size_t i = 1; i < finalists.size(); ++i) {
+      const Finalist& rival = finalists[i];
+      const double lead = best.score - rival.score;
+      const double correlation = scan_->correlation(best.alternative, rival.alternative, k);
+      const bool same = correlation > alike;
+      if (!same && (lead > beyond_doubt ||
+                    (lead > decisive && chance_of_lead(best.alternative, rival.alternative, lead) < 0.05))) {
+        refused_[rival.alternative] = "refused: " + alternatives_[best.alternative].name + " fits better";
+        continue;
+      }
+      s.members.push_back(alternatives_[rival.alternative].name);
+      s.rivals.push_back(rival.fit.terms.back());
+    }
+    if (s.members.size() > 1) {
+      s.kind = Kind::equivalence_class;
+      for (const Finalist& f : finalists)
+        if (std::find(s.members.begin(), s.members.end(), alternatives_[f.alternative].name) != s.members.end())
+          refused_[f.alternative] = "in the class";
+    }
+    out_.steps.push_back(std::move(s));
+    out_.found = c_.fitter.fit(best.fit.terms, 0, &best.fit);
+    return true;
+  }
+
+  /// No known effect: the dependence itself, as smooth as the data ask for.
+  bool take_shape(double cv_before) {
+    const auto all = best_of([](const Alternative& a) { return !a.physical(); }, 6);
+    for (const std::size_t a : all) {
+      if (assessment_.p[a] > assessment_.threshold) continue;
+      auto terms = out_.found.terms;
+      terms.push_back({alternatives_[a], scan_->fit(a, data_).size});
+      JointFit fit = c_.fitter.fit(terms, out_.found.noise, &out_.found);
+      if (!(cross_validated(c_, fit) < cv_before)) {
+        refused_[a] = "refused: blocks held out are predicted no better with it";
+        continue;
+      }
+      Step s;
+      s.kind = Kind::not_in_catalogue;
+      s.members = {};
+      s.p_value = assessment_.p_signature;
+      s.threshold = assessment_.null[a].quantile(assessment_.threshold);
+      s.noise = out_.found.noise;
+      s.depends_on = alternatives_[a].depends_on;
+      s.terms = {out_.found.terms.size()};
+      s.remarks.push_back("described by " + alternatives_[a].name +
+                          (alternatives_[a].shape.empty() ? "" : " (" + alternatives_[a].shape + ")"));
+      refused_[a] = "describes what is not in the catalogue";
+      out_.steps.push_back(std::move(s));
+      out_.found = c_.fitter.fit(fit.terms, 0, &fit);
+      return true;
+    }
+    return false;
+  }
+
+  void take_component() {
+    for (std::size_t c = 0; c < assessment_.p_component.size(); ++c) {
+      const bool largest =
+          assessment_.data.scatter(static_cast<Index>(c), 0) == assessment_.data.scatter.col(0).maxCoeff();
+      if (!largest || assessment_.p_component[c] > c_.alpha) continue;
+      Step s;
+      s.kind = Kind::scatter;
+      s.component = static_cast<int>(c);
+      s.p_value = assessment_.p_component[c];
+      s.depends_on = c_.observations.redone[c].labels;
+      s.members = {"scatter:" + c_.observations.redone[c].name};
+      out_.steps.push_back(std::move(s));
+      return;
+    }
+    if (assessment_.p_noise_overall <= c_.alpha && out_.steps.empty()) {
+      const bool scatters = std::any_of(assessment_.p_component.begin(), assessment_.p_component.end(),
+                                        [&](double p) { return p <= c_.alpha; });
+      if (scatters) return;
+      Step s;
+      s.kind = Kind::scatter;
+      s.p_value = assessment_.p_noise_overall;
+      s.depends_on = {"reading"};
+      s.members = {"scatter:reading"};
+      out_.steps.push_back(std::move(s));
+    }
+  }
+
+  void limits() {
+    const std::size_t k = assessment_.data.structure[0];
+    const double s = std::sqrt(assessment_.data.variance[0]);
+    std::set<std::string> seen;
+    for (std::size_t a = 0; a < alternatives_.size(); ++a) {
+      const Alternative& one = alternatives_[a];
+      if (!one.physical() || one.finite != 0) continue;
+      for (std::size_t j = 0; j < one.amplitudes.size(); ++j) {
+        const Amplitude& amplitude = one.amplitudes[j];
+        if (!seen.insert(one.name + "/" + amplitude.name).second) continue;
+        const bool told = scan_->identifiable(a) > 1e-3;
+        const double ratio = assessment_.null[a].quantile(std::max(assessment_.threshold, 1e-12));
+        const double information = told ? scan_->information(a, static_cast<Index>(j), k) : 0;
+        // Above the threshold in nine cases of ten.
+        const double limit = information > 0 ? (std::sqrt(ratio) + 1.2816) * s / std::sqrt(information)
+                                             : std::numeric_limits<double>::infinity();
+        out_.limits.push_back({one.name, amplitude.name, amplitude.unit, amplitude.si_unit, limit});
+      }
+    }
+  }
+
+  void rank() {
+    const std::size_t k = assessment_.data.structure[0];
+    std::vector<std::size_t> order(alternatives_.size());
+    for (std::size_t a = 0; a < order.size(); ++a) order[a] = a;
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return assessment_.p[a] < assessment_.p[b]; });
+    const Design& design = out_.base.design;
+    int shown = 0;
+    for (const std::size_t a : order) {
+      const Alternative& one = alternatives_[a];
+      Candidate line;
+      line.name = one.name;
+      line.shape = one.shape;
+      line.family = name(one.family);
+      line.parameters = static_cast<int>(one.columns.cols());
+      line.statistic = assessment_.data.ratio(static_cast<Index>(a), 0);
+      line.p_single = assessment_.p[a];
+      line.identifiable = scan_->identifiable(a);
+      if (line.identifiable < 0.1 && scan_->absorbed_by(a) >= 0) {
+        const auto by = static_cast<std::size_t>(scan_->absorbed_by(a)), fixed = design.fixed_names.size();
+        line.absorbed_by = by < fixed ? design.fixed_names[by] : design.random_names[by - fixed];
+      }
+      if (shown++ < 40) line.correlation = scan_->correlation(order[0], a, k);
+      if (const auto it = refused_.find(a); it != refused_.end())
+        line.outcome = it->second;
+      else if (line.identifiable <= 1e-3)
+        line.outcome =
+            "not testable: absorbed by " + (line.absorbed_by.empty() ? std::string("the fit") : line.absorbed_by);
+      else if (assessment_.p[a] > assessment_.threshold)
+        line.outcome = "refused: no more than chance";
+      else
+        line.outcome = "refused: another explains it better";
+      out_.candidates.push_back(std::move(line));
+    }
+  }
+
+  const Circumstances& c_;
+  Search out_;
+  std::vector<Alternative> alternatives_;
+  std::vector<const Alternative*> pointers_;
+  std::unique_ptr<Scan> scan_;
+  Vector data_;
+  Assessment assessment_;
+  std::map<std::size_t, std::string> refused_;
+};
+
+} // namespace
+
+double cross_validated(const Circumstances& c, const JointFit& fit) {
+  double squares = 0;
+  const Scan scan(fit.design, c.fitter.rows(), {}, c.threads);
+  Matrix clean = fit.residual;
+  const Vector chosen = scan.winsorised(scan.whitened(scan.plain()).take(fit.residual));
+  for (std::size_t i = 0; i < c.fitter.rows().size(); ++i) clean(c.fitter.rows()[i], 0) = chosen[static_cast<Index>(i)];
+  for (const auto& fold : folds(c.observations, c.fitter.rows())) {
+    std::vector<Index> train;
+    std::set_difference(c.fitter.rows().begin(), c.fitter.rows().end(), fold.begin(), fold.end(),
+                        std::back_inserter(train));
+    // Sizes of terms are found anew without the fold: they are fixed columns of the design.
+    const HeldOut held = hold_out(fit.design, clean, Matrix(clean.rows(), 0), train, fold, fit.structure);
+    if (held.count > 0) squares += held.whitened[0];
+  }
+  return squares;
+}
+
+Search search(const Circumstances& circumstances) { return Searcher(circumstances).run(); }
+
+} // namespace gumshoe::tracing

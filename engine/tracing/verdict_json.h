@@ -1,0 +1,24 @@
+#pragma once
+/// The verdict of a trace for programs: the public interface of `gumshoe trace --json` (cli/README.md).
+#include <string>
+
+#include "tracing/trace.h"
+
+namespace gumshoe::tracing {
+
+/// Kind of the first finding, else "nothing_found", else "insufficient_data".
+std::string verdict(const Trace& trace);
+
+/// A size in the unit people are shown; in SI where its unit does not convert: no finished search is lost over that.
+/// What stands in a scenario is a point on its scale (20 degC), anything else a difference.
+struct ShownSize {
+  std::string unit;
+  double value = 0, u = 0, low95 = 0, high95 = 0;
+};
+ShownSize shown(const SizedQuantity& quantity);
+ShownSize shown(const DetectionLimit& limit); ///< value only
+
+/// One JSON object. Root mean squares are SI, sizes in their shown units; what is no finite number is null.
+std::string verdict_json(const Trace& trace);
+
+} // namespace gumshoe::tracing

@@ -1,0 +1,109 @@
+"""Who knows the truth's shape, the noise and the catalogue: generalised least squares in numpy, with nothing of the
+engine's search. Its strength, power and the rivals that no one could tell apart are what a verdict is judged by."""
+import math
+
+import numpy as np
+
+from noise import noise
+
+
+def covariance_of_noise(kind, d, channels):
+    """True covariance, um^2; channels run fastest."""
+    n = d.readings
+    if kind in ("ar03", "ar06"):
+        rank = np.argsort(np.argsort(d.time, kind="stable"))
+        lag = np.abs(rank[:, None] - rank[None, :])
+        one = d.noise**2 * {"ar03": 0.3, "ar06": 0.6}[kind] ** lag
+    else:
+        one = (d.noise**2 + (d.resolution**2 / 12)) * np.eye(n)
+    return np.kron(one, np.eye(channels))
+
+
+class Oracle:
+    def __init__(self, system, program, d, kind="white"):
+        self.system, self.program, self.d = system, program, d
+        values, steps = d.values(), d.steps()
+        known = [i for i, c in enumerate(d.cells) if c.u > 0 or c.free]
+        y = system.simulate(program, d, [values] + [values + steps[i] * np.eye(len(values))[i] for i in known])
+        self.base = y[0]
+        self.by_cell = {i: (yi - y[0]) / steps[i] for i, yi in zip(known, y[1:])}  # um per shown unit
+        channels = y.shape[2]
+        self.keep = np.repeat(d.training(), channels)
+        free = [i for i, c in enumerate(d.cells) if c.free]
+        declared = [i for i, c in enumerate(d.cells) if c.u > 0]
+        prior = np.array([self.by_cell[i].ravel() * d.cells[i].u for i in declared]).T.reshape(self.keep.size, -1)
+        v = covariance_of_noise(kind, d, channels) + prior @ prior.T
+        if d.scatter:
+            same = d.acts()[:, None] == d.acts()[None, :]
+            v += d.scatter**2 * np.kron(same, np.diag(system.SCATTER) if hasattr(system, "SCATTER") else np.eye(channels))
+        self.lower = np.linalg.cholesky(v[np.ix_(self.keep, self.keep)])
+        j = self._white(np.array([self.by_cell[i].ravel() for i in free]).T) if free else np.zeros((self.keep.sum(), 0))
+        j = j / np.maximum(np.linalg.norm(j, axis=0), 1e-300)
+        u, s, _ = np.linalg.svd(j, full_matrices=False)
+        self.span = u[:, s > 1e-9 * max(s.max(initial=0), 1e-300)]
+
+    def _white(self, columns):
+        return np.linalg.solve(self.lower, columns[self.keep] if len(columns) == self.keep.size else columns)
+
+    def projected(self, shift):
+        """Whitened training rows of a shift, what the free quantities explain taken off."""
+        w = self._white(np.asarray(shift, float).reshape(self.keep.size, -1))
+        return w - self.span @ (self.span.T @ w)
+
+    def strength(self, shift):
+        return float(np.linalg.norm(self.projected(shift)))
+
+    def catalogue(self):
+        """(name, projected signature of length 1) of effects and declared quantities that are not absorbed. The first
+        signature of an effect is of one shown unit of its quantity."""
+        if hasattr(self, "_catalogue"):
+            return self._catalogue
+        d, raw = self.d, []
+        effects = self.system.CATALOGUE
+        y = self.system.simulate(self.program, d, [d.values()] * len(effects),
+                                 [{key: step, **shape} for _, key, step, shape in effects]) if effects else []
+        raw += [(e[0], (yi - self.base) / e[2]) for e, yi in zip(effects, y)]
+        raw += getattr(self.system, "own_catalogue", lambda d: [])(d)
+        raw += [("declared:" + c.title, self.by_cell[i]) for i, c in enumerate(d.cells) if c.u > 0]
+        for name in sorted({c.name for c in d.cells if c.u > 0 and c.label}):
+            raw.append(("declared:" + name, sum(self.by_cell[i] for i, c in enumerate(d.cells) if c.name == name)))
+        self._catalogue, self.per_unit = [], {}
+        for name, shift in raw:
+            w, full = self.projected(shift), self._white(np.asarray(shift, float).reshape(self.keep.size, -1))
+            if np.linalg.norm(w) > 0.03 * np.linalg.norm(full) > 0:
+                self._catalogue.append((name, w[:, 0] / np.linalg.norm(w)))
+                self.per_unit.setdefault(name, w[:, 0])
+        return self._catalogue
+
+    def nearest(self, name, shift):
+        """Size of the catalogue's effect, by the first of its quantities, that comes nearest to this shift."""
+        self.catalogue()
+        g = self.per_unit.get(name)
+        return None if g is None else float(g @ self.projected(shift)[:, 0] / (g @ g))
+
+    def rivals(self, shift):
+        """Correlation of the truth's projected signature with the closest member of each name."""
+        w = self.projected(shift)[:, 0]
+        w /= np.linalg.norm(w)
+        best = {}
+        for name, g in self.catalogue():
+            best[name] = max(best.get(name, 0.0), abs(float(w @ g)))
+        # Effects of several quantities: what their span explains.
+        for name in {n for n, _ in self.catalogue()}:
+            g = np.array([v for n, v in self.catalogue() if n == name]).T
+            if g.shape[1] > 1:
+                u, s, _ = np.linalg.svd(g, full_matrices=False)
+                best[name] = float(np.linalg.norm(u[:, s > 1e-6 * s[0]].T @ w))
+        return dict(sorted(best.items(), key=lambda item: -item[1]))
+
+    def threshold(self, rng, alpha=0.05, draws=2000):
+        """Of the largest statistic over the catalogue, nothing there."""
+        g = np.array([v for _, v in self.catalogue()])
+        z = np.abs(g @ rng.standard_normal((g.shape[1], draws))).max(axis=0)
+        return float(np.quantile(z, 1 - alpha))
+
+
+def power(strength, threshold):
+    """Chance that a normal deviate of this mean is beyond the threshold on either side."""
+    phi = lambda x: 0.5 * math.erfc(-x / math.sqrt(2))
+    return phi(strength - threshold) + phi(-strength - threshold)

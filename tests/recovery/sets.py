@@ -1,0 +1,168 @@
+"""Sets of readings with something in them that their scenario does not declare, or with nothing. Each is a folder
+`scenario.toml`, `readings.csv`; what is true stands in a folder of its own."""
+import json
+import zlib
+from pathlib import Path
+
+import numpy as np
+
+import mills
+import rods
+import spheres
+from noise import noise
+from oracle import Oracle, power
+from scenario_text import readings_csv, scenario_toml
+
+SYSTEMS = {m.MODEL: m for m in (rods, mills, spheres)}
+NULLS = ("white", "ar03", "ar06", "t3", "outliers", "quantised", "clamp_declared", "clamp_undeclared")
+STRENGTHS = (3, 5, 8, 15)
+# Development seeds are below, judgement seeds from here on; no number is both.
+JUDGEMENT = 1_000_000
+
+
+def stream(seed, *words):
+    return np.random.default_rng([seed, zlib.crc32("/".join(map(str, words)).encode())])
+
+
+def kinds(system):
+    """Everything there is but the nulls: (kind, what, strengths)."""
+    yield from (("single", name) for name in system.SINGLES)
+    yield from (("pair", pair) for pair in system.PAIRS)
+    yield from (("alias", i) for i in range(len(system.ALIASES)))
+    yield from (("outside", name) for name in system.OUTSIDE)
+    yield ("scatter", "clamp")
+
+
+def title(kind, what, strength, seed, noise_kind):
+    """Of a set's folder; says nothing of what is in it but to who made it."""
+    return f"{zlib.crc32(f'{kind}/{what}/{strength}/{noise_kind}'.encode()):08x}-{seed}"
+
+
+def make(program, system, kind, what, strength, seed, noise_kind="white"):
+    """One set: (design, readings um, truth)."""
+    rng = stream(seed, system.MODEL, kind, what, strength, noise_kind)
+    more, alias = {}, None
+    if kind == "alias":
+        alias = system.ALIASES[what]
+        more = dict(alias[0])
+    if noise_kind == "quantised":
+        more.update(noise=0.3, resolution=1.0)  # um: mostly rounding
+    if noise_kind == "clamp_declared":
+        more.update(scatter=getattr(system, "CLAMP", 1.0))
+    d = system.design(rng, **more)
+    q = np.array([c.value + (rng.uniform(-0.03, 0.03) * (c.step / 0.01) if c.free else c.u * rng.standard_normal()) for c in d.cells])
+    if hasattr(system, "truth"):
+        q = system.truth(d, q, rng)
+    names = {"single": lambda: [what], "outside": lambda: [what], "pair": lambda: list(what), "alias": lambda: [alias[1]],
+             "null": list, "scatter": list}[kind]()
+    d0 = Oracle(system, program, d, noise_kind) if names else None
+    base = system.simulate(program, d, [q])[0]
+    total, effects = base.copy(), []
+    for i, name in enumerate(names):
+        # Of a pair the second is the weaker, half hidden by the first.
+        wanted = strength if i == 0 else max(0.6 * strength, 4)
+        one, truth = effect(program, system, d, d0, name, rng)
+        size, shift = scaled(one, base, q, d0, wanted, alias)
+        sign = rng.choice([-1, 1]) if truth["sign"] == "either" else 1
+        if sign < 0:
+            size, shift = -size, one(-size, q, base)
+        total = total + shift
+        shift = size * one.smooth if hasattr(one, "smooth") else shift
+        truth.update(size=size, strength=d0.strength(shift), depends_on=list(truth["depends_on"]))
+        effects.append((truth, shift))
+    e = noise(noise_kind, rng, d.time, base.shape[1], d.noise)
+    if noise_kind.startswith("clamp") or kind == "scatter":
+        sd = d.scatter or (strength / 8 if kind == "scatter" else 1) * 2 * d.noise
+        total = total + system.leave(program, d, q, sd * rng.standard_normal(d.readings)[d.acts()]) - base
+    y = total + e
+    if d.resolution:
+        y = d.resolution * np.round(y / d.resolution)
+    truth = dict(system=system.MODEL, kind=kind, noise=noise_kind, seed=seed, nominal_strength=strength, readings=int(d.readings),
+                 final=list(d.final), expected=expected(kind, alias, noise_kind), scatter=list(d.redone[0]), noise_um=float(d.noise))
+    truth["effects"] = [judged(d0, t, shift, strength, alias, rng) for t, shift in effects]
+    return d, y, truth
+
+
+def expected(kind, alias, noise_kind):
+    if noise_kind == "clamp_undeclared":
+        return "scatter"
+    if kind == "null" or (alias and not alias[2]):
+        return "nothing_found"
+    return {"single": "named", "pair": "named", "alias": "class", "outside": "not_in_catalogue", "scatter": "scatter"}[kind]
+
+
+def effect(program, system, d, oracle, name, rng):
+    """(size, quantities, base) -> shift in um; and what is true of it."""
+    if name.startswith("declared:"):
+        title = name.removeprefix("declared:")
+        if "*" in title:
+            seen = {c.title: oracle.strength(oracle.by_cell[i]) for i, c in enumerate(d.cells)
+                    if c.name == title.split("[")[0]}
+            title = str(rng.choice([t for t, s in seen.items() if s > 0.3 * max(seen.values())]))
+        at = [i for i, c in enumerate(d.cells) if c.title == title or (c.name == title and c.label)]
+        cell = d.cells[at[0]]
+
+        def one(size, q, base):
+            moved = q.copy()
+            moved[at] += size
+            truth.update(absolute=float(moved[at[0]]), off=float(moved[at[0]] - cell.value))
+            return system.simulate(program, d, [moved])[0] - base
+        truth = dict(name="declared:" + title, quantity=cell.name, unit=cell.unit, sign="either",
+                     depends_on=[cell.label] if cell.label else [])
+        return one, truth
+    make_shape, quantity, unit, depends = system.ADDED[name][:4]
+    shape = make_shape(d, rng)
+    if callable(shape):  # through the geometry: size -> quantities or readings anew
+        one = lambda size, q, base: shape(program, size, q) - base
+        if hasattr(shape, "smooth"):
+            one.smooth = shape.smooth
+    else:
+        one = lambda size, q, base: size * shape
+    return one, dict(name=name.split(":")[0] if not name.startswith("stated:") else name.removeprefix("stated:"), quantity=quantity, unit=unit,
+                     sign=system.ADDED[name][4] if len(system.ADDED[name]) > 4 else "either", depends_on=depends)
+
+
+def scaled(one, base, q, oracle, strength, alias):
+    """The size at which the effect has this strength; where nothing of it can be seen, one that would be plain to see."""
+    if alias and not alias[2]:
+        size = 6 * oracle.d.noise / np.abs(one(1.0, q, base)).max()
+        return size, one(size, q, base)
+    if hasattr(one, "smooth"):
+        size = strength / oracle.strength(one.smooth)
+        return size, one(size, q, base)
+    size = 1e-3
+    for _ in range(6):
+        shift = one(size, q, base)
+        seen = oracle.strength(shift)
+        if abs(seen - strength) < 0.01 * strength:
+            break
+        size *= min(max(strength / seen, 1e-4), 1e4)
+    return size, one(size, q, base)
+
+
+def judged(oracle, truth, shift, strength, alias, rng):
+    """What an oracle could say: its power alone and among the catalogue, and the rivals it could not refuse."""
+    seen = truth["strength"]
+    if seen < 1e-3:
+        return {**truth, "strength": 0.0, "size": float(truth["size"]), "power_known": 0.05, "power_catalogue": 0.05, "twins": [],
+                "unsplit": [], "rivals": {}}
+    if truth["quantity"] and not truth["name"].startswith("declared:") and oracle.nearest(truth["name"], shift) is not None:
+        # The truth is not quite of the catalogue's shape: its size there is that of the nearest.
+        truth = {**truth, "made_with": float(truth["size"]), "size": oracle.nearest(truth["name"], shift)}
+    rivals = oracle.rivals(shift)
+    limit = oracle.threshold(rng)
+    # A rival is refused when twice its log likelihood falls short by chi-square's 95 % point of one degree of freedom.
+    unsplit = [n for n, c in rivals.items() if n != truth["name"] and seen**2 * (1 - c * c) < 3.84]
+    return {**truth, "size": float(truth["size"]), "power_known": power(seen, 1.96), "power_catalogue": power(seen, limit),
+            "threshold": limit, "twins": [n for n, c in rivals.items() if c > 0.98 and n != truth["name"]], "unsplit": unsplit,
+            "rivals": {n: round(c, 4) for n, c in list(rivals.items())[:8]}}
+
+
+def write(folder, sealed, name, d, y, truth, system):
+    folder, sealed = Path(folder) / name, Path(sealed)
+    folder.mkdir(parents=True, exist_ok=True)
+    sealed.mkdir(parents=True, exist_ok=True)
+    (folder / "readings.csv").write_text(readings_csv(d, y, system.OUTPUTS))
+    (folder / "scenario.toml").write_text(scenario_toml(d, system))
+    (sealed / f"{name}.json").write_text(json.dumps({"name": name, **truth}, indent=1) + "\n")
+    return folder / "scenario.toml"
