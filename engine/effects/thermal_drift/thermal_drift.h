@@ -7,8 +7,8 @@ namespace gumshoe::effects {
 /// Thermal drift of the probe against the workpiece along X and Y; along Z it is thermal_growth.
 struct ThermalDrift {
   static constexpr QuantityCard quantities[] = {
-      {"rate_x", "um/h", "m/s", 0.0, {-1e-6, 1e-6}, "", "steady drift along X", Role::amplitude, "2-30 um/h"},
-      {"rate_y", "um/h", "m/s", 0.0, {-1e-6, 1e-6}, "", "steady drift along Y", Role::amplitude, "2-30 um/h"},
+      {"rate_x", "um/h", "m/s", 0.0, {-1e-6, 1e-6}, "", "steady drift along X", Role::pair, "2-30 um/h"},
+      {"rate_y", "um/h", "m/s", 0.0, {-1e-6, 1e-6}, "", "steady drift along Y", Role::pair, "2-30 um/h"},
       {"amplitude_x",
        "um",
        "m",
@@ -16,7 +16,7 @@ struct ThermalDrift {
        {-1e-3, 1e-3},
        "",
        "final drift of the first-order part along X",
-       Role::amplitude,
+       Role::pair,
        "5-50 um"},
       {"amplitude_y",
        "um",
@@ -25,7 +25,7 @@ struct ThermalDrift {
        {-1e-3, 1e-3},
        "",
        "final drift of the first-order part along Y",
-       Role::amplitude,
+       Role::pair,
        "5-50 um"},
       {"time_constant", "min", "s", 1800.0, {1.0, 1e6}, "", "of the first-order part", Role::shape, "10-60 min"},
   };
