@@ -7,6 +7,7 @@
 namespace gumshoe::chain {
 
 template <class T> struct TurningTool;
+template <class T> struct RotaryProbing;
 
 template <class T> struct ProbingEvent {
   // commanded, known to effects
@@ -25,6 +26,8 @@ template <class T> struct ProbingEvent {
   T latch_delay = T(0.0); ///< s
   /// Only of a tool that turns, and only while effects act: what the stages spindle, timing and insert add to.
   TurningTool<T>* turning = nullptr;
+  /// Only of a probe behind rotary axes, likewise: what rotary, slides and contact add to.
+  RotaryProbing<T>* rotary = nullptr;
 };
 
 /// What the control reads when the axis truly stands at `actual` at the trigger, and the inverse.

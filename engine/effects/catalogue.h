@@ -3,13 +3,24 @@
 /// include here, and its line in catalogue.def.
 #include <array>
 
+#include "effects/axis_reversal/axis_reversal.h"
 #include "effects/beam_offset/beam_offset.h"
+#include "effects/brake_shift/brake_shift.h"
+#include "effects/c_axial_motion/c_axial_motion.h"
+#include "effects/c_radial_motion/c_radial_motion.h"
+#include "effects/c_tilt_motion/c_tilt_motion.h"
+#include "effects/encoder_eccentricity/encoder_eccentricity.h"
+#include "effects/encoder_ovality/encoder_ovality.h"
 #include "effects/feed_start_delay/feed_start_delay.h"
+#include "effects/gravity_sag/gravity_sag.h"
 #include "effects/insert_axial_angle_error/insert_axial_angle_error.h"
 #include "effects/insert_pitch_error/insert_pitch_error.h"
 #include "effects/insert_radial_angle_error/insert_radial_angle_error.h"
 #include "effects/insert_radius_error/insert_radius_error.h"
 #include "effects/insert_seat_error/insert_seat_error.h"
+#include "effects/pretravel/pretravel.h"
+#include "effects/pretravel_bending/pretravel_bending.h"
+#include "effects/pretravel_lobing/pretravel_lobing.h"
 #include "effects/reclamp/reclamp.h"
 #include "effects/revolution_confirm/revolution_confirm.h"
 #include "effects/rod_expansion/rod_expansion.h"
@@ -18,11 +29,17 @@
 #include "effects/servo_lag/servo_lag.h"
 #include "effects/spindle_axial_shift/spindle_axial_shift.h"
 #include "effects/spindle_speed_error/spindle_speed_error.h"
+#include "effects/thermal_drift/thermal_drift.h"
 #include "effects/thermal_growth/thermal_growth.h"
 #include "effects/tool_runout/tool_runout.h"
 #include "effects/trigger_latency/trigger_latency.h"
+#include "effects/x_scale/x_scale.h"
+#include "effects/x_straightness/x_straightness.h"
+#include "effects/y_scale/y_scale.h"
+#include "effects/y_straightness/y_straightness.h"
 #include "effects/z_reversal/z_reversal.h"
 #include "effects/z_scale/z_scale.h"
+#include "effects/z_straightness/z_straightness.h"
 
 namespace gumshoe::effects {
 
@@ -48,5 +65,10 @@ struct Active {
   std::size_t effect = 0;
   std::size_t first = 0;
 };
+
+/// Lets the active effects act on an event that is filled in as commanded.
+template <class T> void act(std::span<const Active> active, const T* quantities, chain::ProbingEvent<T>& event) {
+  for (const Active& a : active) functions<T>()[a.effect](quantities + a.first, event);
+}
 
 } // namespace gumshoe::effects

@@ -1,6 +1,5 @@
 #pragma once
-/// What the models of a laser tool setter share: units, the beam's rows of their cards, conditions, the indication, and
-/// how effects come to act on the probing event.
+/// What the models of a laser tool setter share: units, the beam's rows of their cards, conditions, the indication.
 #include <numbers>
 
 #include "chain/probing_event.h"
@@ -37,11 +36,5 @@ inline constexpr VariableCard indications[] = {
 
 /// The beam, from four quantities in a row: yaw, pitch, radius, trigger fraction.
 template <class T> chain::Beam<T> beam(const T* q) { return {q[0], q[1], q[2], q[3]}; }
-
-/// Lets the active effects act on an event that is filled in as commanded.
-template <class T>
-void act(std::span<const effects::Active> active, const T* effect_quantities, chain::ProbingEvent<T>& event) {
-  for (const effects::Active& a : active) effects::functions<T>()[a.effect](effect_quantities + a.first, event);
-}
 
 } // namespace gumshoe::models::laser_setter

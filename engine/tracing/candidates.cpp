@@ -224,34 +224,43 @@ private:
     }
     for (std::size_t g = 1; g < longest; ++g) {
       Points at = at_;
-      std::vector<std::size_t> amplitudes;
-      std::vector<const Grid*> owner;
+      std::vector<std::size_t> moved;
+      struct Group {
+        const Grid* grid;
+        std::size_t first, count; ///< among `moved`: an amplitude, or both of a pair
+      };
+      std::vector<Group> groups;
       for (const Grid& grid : grids) {
         if (g >= grid.values.size()) continue;
         for (auto& p : at) p[grid.shape] = grid.values[g];
         const auto& a = e_.active()[grid.effect];
-        const EffectCard& card = *effects::cards()[a.effect];
-        for (std::size_t i = 0; i < card.quantities.size(); ++i)
-          if (card.quantities[i].role == Role::amplitude) {
-            amplitudes.push_back(e_.model_quantities() + a.first + i);
-            owner.push_back(&grid);
-          }
+        const auto& card = effects::cards()[a.effect]->quantities;
+        for (std::size_t i = 0; i < card.size(); ++i) {
+          const bool pair = card[i].role == Role::pair && i + 1 < card.size() && card[i + 1].role == Role::pair;
+          if (card[i].role != Role::amplitude && !pair) continue;
+          groups.push_back({&grid, moved.size(), pair ? std::size_t{2} : std::size_t{1}});
+          moved.push_back(e_.model_quantities() + a.first + i);
+          if (pair) moved.push_back(e_.model_quantities() + a.first + ++i);
+        }
       }
       Vector f;
       Matrix d;
-      if (amplitudes.empty() || !simulator_.derivatives(at, amplitudes, f, d)) continue;
-      for (std::size_t i = 0; i < amplitudes.size(); ++i) {
-        const EffectCard* effect = nullptr;
-        const QuantityCard* card = effect_card(e_, amplitudes[i], &effect);
-        const auto& shape = e_.scenario().quantities[owner[i]->shape];
+      if (moved.empty() || !simulator_.derivatives(at, moved, f, d)) continue;
+      for (const Group& group : groups) {
+        const double value = group.grid->values[g];
+        const auto& shape = e_.scenario().quantities[group.grid->shape];
         Alternative one;
-        one.name = effect->name;
-        one.amplitudes = {amplitude(amplitudes[i], *card)};
-        one.held = {{owner[i]->shape, owner[i]->values[g]}};
+        for (std::size_t i = group.first; i < group.first + group.count; ++i) {
+          const EffectCard* effect = nullptr;
+          const QuantityCard* card = effect_card(e_, moved[i], &effect);
+          one.name = effect->name;
+          one.amplitudes.push_back(amplitude(moved[i], *card));
+        }
+        one.held = {{group.grid->shape, value}};
         one.shape = fmt::format("{} {:.3g} {}", shape.name.substr(shape.name.find('.') + 1),
-                                units::from_si(owner[i]->values[g], shape.unit, shape.si_unit),
-                                shape.unit == "1" ? "" : shape.unit);
-        one.columns = in_sequence(o_, d.col(static_cast<Index>(i)));
+                                units::from_si(value, shape.unit, shape.si_unit), shape.unit == "1" ? "" : shape.unit);
+        one.columns = in_sequence(o_, d.middleCols(static_cast<Index>(group.first), static_cast<Index>(group.count)));
+        drop_still(one);
         add(std::move(one), found);
       }
     }

@@ -34,7 +34,7 @@ std::vector<double> random_quantities(Draw& draw) {
   return q;
 }
 std::vector<double> random_condition(Draw& draw) {
-  return {draw(-180, 180) * deg, draw(-120, 120) * deg, draw(-180, 180) * deg, 0, 0, -1, 0};
+  return {draw(-180, 180) * deg, draw(-120, 120) * deg, draw(-180, 180) * deg, 0, 0, -1, 0, 0.5e-3, 1, 1, 0, 0};
 }
 
 /// Two readings of many samples through the block kernels.

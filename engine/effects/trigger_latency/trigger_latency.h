@@ -4,8 +4,8 @@
 
 namespace gumshoe::effects {
 
-/// Trigger latency. The control latches the axes a delay after the beam is broken: latched position = position(t +
-/// delay). Grows with feed.
+/// Trigger latency. The control latches the axes a delay after the trigger, a beam broken or a probe's switch opened:
+/// latched position = position(t + delay). Grows with feed.
 struct TriggerLatency {
   static constexpr QuantityCard quantities[] = {
       {"delay",
@@ -23,7 +23,8 @@ struct TriggerLatency {
                                    "trigger",
                                    10,
                                    "",
-                                   "The control latches the axes a delay after the beam is broken: latched position = "
+                                   "The control latches the axes a delay after the trigger, a beam broken or a probe's "
+                                   "switch opened: latched position = "
                                    "position(t + delay). Grows with feed.",
                                    "servo lag; a length error when all data share one feed",
                                    "engineering knowledge; Fang 2022, section 2.5 for the kinematic chain",

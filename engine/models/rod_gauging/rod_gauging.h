@@ -38,7 +38,7 @@ chain::ProbingEvent<T> probing_event(const T* q, const T* condition, const T* ef
   event.direction = condition[direction];
   event.holder_angle = q[holder_angle];
   event.tool_length = q[length];
-  laser_setter::act(active, effect_quantities, event);
+  effects::act(active, effect_quantities, event);
   return event;
 }
 

@@ -43,7 +43,7 @@ template <class T> struct Identified {
 };
 
 template <class T> class Identification : public PoseRows<T> {
-  using PoseRows<T>::rows_, PoseRows<T>::linearise, PoseRows<T>::square;
+  using PoseRows<T>::rows_, PoseRows<T>::linearise, PoseRows<T>::undisturbed;
 
 public:
   using PoseRows<T>::poses, typename PoseRows<T>::Row;
@@ -132,7 +132,7 @@ private:
     points.clear();
     Vector3<T> middle;
     for (const std::size_t i : which) {
-      points.push_back(poses[i].measured + square(poses[i], declared, lines));
+      points.push_back(undisturbed(poses[i], declared, lines));
       middle = middle + points.back();
     }
     middle = T(1.0 / static_cast<double>(which.size())) * middle;

@@ -18,6 +18,14 @@ template <class T> struct Pose {
   T B, C, at_B, at_C;   ///< commanded; actual as declared
   T link[4], square[3]; ///< declared; S_XY, S_XZ, S_YZ
   bool squareness = false;
+  /// Only where effects act; some follow the nominal commands, which are the machine's that is sought.
+  struct {
+    std::span<const effects::Active> active;
+    std::vector<T> quantities;
+    T condition[conditions];
+    Vector3<T> top, recorded; ///< t at the actual A; recorded commands less e
+  } freed;
+  bool effects() const { return !freed.active.empty(); }
 };
 
 template <class T> class PoseRows {
@@ -40,19 +48,21 @@ public:
       const Pose<T>& pose = poses[i];
       T length[lengths];
       actual(theta, pose, length);
-      const Turns<T> turns = exact_turns(lines, pose.at_B, pose.at_C);
+      const Here here = at(pose, theta, length, lines);
+      const Turns<T>& turns = here.moved.turns;
       const auto columns = probe_by_lengths(turns);
       const Vector3<T> from_c{length[length_probe_x] - length[length_C_x], -length[length_probe_y] - length[length_C_y],
                               -length[length_probe_z]};
-      const Vector3<T> from_b =
-          Vector3<T>{length[length_C_x] - length[length_B_x], length[length_C_y], length[length_B_z]} +
-          turns.c * from_c;
+      Vector3<T> from_b = Vector3<T>{length[length_C_x] - length[length_B_x], length[length_C_y], length[length_B_z]} +
+                          turns.c * from_c;
+      if (pose.effects()) from_b = from_b + here.moved.shift_C;
+      const auto behind = [&](const Matrix3<T>& tilt, const Vector3<T>& v) { return pose.effects() ? tilt * v : v; };
       for (int j = 0; j < lengths; ++j) put(i, j, columns[static_cast<std::size_t>(j)]);
-      put(i, E_A0B, tilted(lines.b, b_A0B, pose.at_B, from_b));
-      put(i, E_C0B, tilted(lines.b, b_C0B, pose.at_B, from_b));
-      put(i, E_A0C, turns.b * tilted(lines.c, c_A0C, pose.at_C, from_c));
-      put(i, E_B0C, turns.b * tilted(lines.c, c_B0C, pose.at_C, from_c));
-      put(i, unknowns, pose.measured + square(pose, theta, lines) - sphere::probe_from_origin(length, turns));
+      put(i, E_A0B, behind(here.moved.tilt_B, tilted(lines.b, b_A0B, here.at_B, from_b)));
+      put(i, E_C0B, behind(here.moved.tilt_B, tilted(lines.b, b_C0B, here.at_B, from_b)));
+      put(i, E_A0C, turns.b * behind(here.moved.tilt_C, tilted(lines.c, c_A0C, here.at_C, from_c)));
+      put(i, E_B0C, turns.b * behind(here.moved.tilt_C, tilted(lines.c, c_B0C, here.at_C, from_c)));
+      put(i, unknowns, here.measured - here.probe);
       if (pose.squareness)
         for (int j = 0; j < unknowns; ++j) put(i, j, get(i, j) + squared(pose, get(i, j)));
     }
@@ -60,6 +70,37 @@ public:
   }
 
 protected:
+  /// One pose by the machine theta: where its probe stood, and should.
+  struct Here {
+    Vector3<T> measured, probe;
+    T at_B, at_C;
+    Moved<T> moved; ///< without effects only the turns
+  };
+  static Here at(const Pose<T>& pose, const T* theta, const T* length, const Directions<T>& lines) {
+    Here h{pose.measured + square(pose, theta, lines), {}, pose.at_B, pose.at_C, {}};
+    if (!pose.effects()) {
+      h.moved.turns = exact_turns(lines, h.at_B, h.at_C);
+      h.probe = sphere::probe_from_origin(length, h.moved.turns);
+      return h;
+    }
+    const auto& freed = pose.freed;
+    const auto nominal = pose.tip - sphere::probe_from_origin(length, exact_turns(lines, pose.B, pose.C));
+    const auto t = touch<T>(freed.condition, nominal, {freed.active, freed.quantities.data()});
+    h.at_B = h.at_B + t.probing.B_error[chain::E_B], h.at_C = h.at_C + t.probing.C_error[chain::E_C];
+    h.moved = moved(exact_turns(lines, h.at_B, h.at_C), t.probing);
+    h.measured = freed.top - t.actual_of(freed.recorded - square(pose, theta, lines));
+    h.probe = sphere::probe_from_origin(length, h.moved.turns) + h.moved.shift();
+    return h;
+  }
+  /// Where the probe would have stood without effects, by those at theta.
+  static Vector3<T> undisturbed(const Pose<T>& pose, const T* theta, const Directions<T>& lines) {
+    if (!pose.effects()) return pose.measured + square(pose, theta, lines);
+    T length[lengths];
+    actual(theta, pose, length);
+    const Here h = at(pose, theta, length, lines);
+    return h.measured - (h.probe - sphere::probe_from_origin(length, exact_turns(lines, pose.at_B, pose.at_C)));
+  }
+
   /// Derivative of the slope's tangent, over the length of (slope, slope, 1).
   static T slope(const T& along, const T& main) {
     const T tangent = along / main;

@@ -66,6 +66,11 @@ constexpr VariableCard conditions[] = {
     {"repeat", "1", "1", 0, "a label: which repetition"},
     {"direction", "1", "1", -1, "of approach along Z: -1 downwards"},
     {"time", "s", "s", 0, "since the start of the work"},
+    {"feed", "mm/min", "m/s", 30 * mm / 60, "of the approach; only effects read this and what follows"},
+    {"B_direction", "1", "1", 1, "from which B was reached: 1 or -1, upwards or downwards; 0: neither"},
+    {"C_direction", "1", "1", 1, "from which C was reached: 1 or -1, upwards or downwards; 0: neither"},
+    {"B_clamped", "1", "1", 0, "1 where the brake of B holds"},
+    {"C_clamped", "1", "1", 0, "1 where the brake of C holds"},
 };
 constexpr VariableCard indications[] = {
     {"X", "mm", "m", 0, "command recorded at the trigger"},
@@ -89,6 +94,8 @@ constexpr EvaluationCard evaluations[] = {
      sphere::joint_measurands},
 };
 
+constexpr std::string_view stages[] = {"motion", "rotary", "slides", "contact", "trigger"};
+
 constexpr ModelCard card{"sphere_calibration",
                          "Calibrating a probe and two rotary axes with a sphere",
                          "A belt grinder's probe touches the top of a sphere at many angles of B and C; from the "
@@ -100,7 +107,7 @@ constexpr ModelCard card{"sphere_calibration",
                          indications,
                          measurands,
                          evaluations,
-                         {}};
+                         stages};
 
 int variant_of(int evaluation) { return evaluation < sphere::variants ? evaluation : static_cast<int>(sphere::exact); }
 
@@ -113,7 +120,8 @@ template <class T> Point<T> point(const PointCall<T>& call) {
   for (int i = 0; i < sphere::conditions; ++i) condition[i] = T(call.conditions[i]);
   const int variant = variant_of(call.evaluation);
   const auto links = sphere::links(call.quantities);
-  Point<T> p{sphere::contact(variant, call.quantities, links, condition, sphere::is_pattern_II(call.conditions))};
+  Point<T> p{sphere::contact(variant, call.quantities, links, condition, sphere::is_pattern_II(call.conditions), true,
+                             {call.active, call.effects})};
   if (variant == sphere::closed_form && !sphere::has_closed_form(call.conditions))
     p.status = static_cast<std::uint8_t>(chain::SolveStatus::out_of_domain);
   return p;
@@ -159,6 +167,15 @@ std::vector<Intermediate> explain(const PointCall<double>& call) {
   add(out, "probe from the commanded origin", at.probe);
   add(out, "nominal command", at.nominal);
   add(out, "linear axes add to the command", at.added, "um", 1 / um);
+  if (at.touch) {
+    const auto& [along_Z, probing] = *at.touch;
+    out.insert(out.end(), {{"effects turn B", "arcsec", probing.B_error[chain::E_B] / deg * 3600},
+                           {"effects turn C", "arcsec", probing.C_error[chain::E_C] / deg * 3600},
+                           {"pretravel", "um", probing.pretravel / um},
+                           {"latch delay", "s", along_Z.latch_delay}});
+    add(out, "approach in the probe's frame", probing.approach, "1", 1);
+    add(out, "effects add to the command", at.touch->reading_of(at.tip - at.probe) - (at.tip - at.probe), "um", 1 / um);
+  }
   add(out, "command at the sphere's top", sphere::simulate(at));
   const auto tip = sphere::evaluate({call.indications[0], call.indications[1], call.indications[2]}, at);
   out.insert(out.end(), {{"tip_x", "mm", tip.x / mm}, {"tip_y", "mm", tip.y / mm}, {"tip_z", "mm", tip.z / mm}});
@@ -170,6 +187,14 @@ std::string check(const PointCall<double>& call) {
     if (!std::isfinite(call.conditions[i])) return "a condition is not finite";
   if (call.evaluation == sphere::closed_form && !sphere::has_closed_form(call.conditions))
     return "closed_form holds at B = 0 (pattern 1) or at C = 90 deg (pattern 2) only";
+  if (call.evaluation == sphere::closed_form && !call.active.empty()) return "closed_form has no place for effects";
+  if (call.conditions[sphere::feed] < 0) return "feed is negative";
+  for (const auto [name, value] : {std::pair{"B_direction", call.conditions[sphere::B_direction]},
+                                   {"C_direction", call.conditions[sphere::C_direction]}})
+    if (value != 1 && value != -1 && value != 0) return std::string(name) + " is none of 1, -1, 0";
+  for (const auto [name, value] :
+       {std::pair{"B_clamped", call.conditions[sphere::B_clamped]}, {"C_clamped", call.conditions[sphere::C_clamped]}})
+    if (value != 1 && value != 0) return std::string(name) + " is neither 0 nor 1";
   return {};
 }
 

@@ -5,6 +5,9 @@
 /// tip's centre t above the sphere, the probe r from the commanded origin (probe.h) and the linear axes' errors e:
 ///     (X, Y, Z) = t - r(B + E_BB, C + E_CC) + e.
 /// Source: Fang 2022, chapter 4, derived anew.
+#include <optional>
+
+#include "chain/rotary_probing.h"
 #include "models/model.h"
 #include "models/sphere_calibration/closed_form.h"
 
@@ -49,7 +52,21 @@ enum Quantity {
   S_YZ,
   count
 };
-enum Condition { A, B, C, pattern, repeat, direction, time, conditions };
+enum Condition {
+  A,
+  B,
+  C,
+  pattern,
+  repeat,
+  direction,
+  time,
+  feed,
+  B_direction,
+  C_direction,
+  B_clamped,
+  C_clamped,
+  conditions
+};
 enum Reading { X, Y, Z, indications };
 enum Measurand { tip_x, tip_y, tip_z, measurands };
 /// How r is computed at each reading; then the joint evaluations (procedures.h).
@@ -94,17 +111,67 @@ inline Vector3<Lanes> choose(const Lanes::batch_bool_type& first, const Vector3<
   return {xsimd::select(first, a.x, b.x), xsimd::select(first, a.y, b.y), xsimd::select(first, a.z, b.z)};
 }
 
-/// The probe from the commanded origin at actual angles. @param pattern_II read by the closed form only
+/// The freed effects and their quantities; none by default.
+template <class T> struct Freed {
+  std::span<const effects::Active> active;
+  const T* quantities = nullptr;
+  bool any() const { return !active.empty(); }
+};
+
+/// One touch as the stages of the measuring chain see it: motion and trigger act on the event along Z, rotary, slides
+/// and contact on what lies behind it.
+template <class T> struct Touch {
+  chain::ProbingEvent<T> along_Z;
+  chain::RotaryProbing<T> probing;
+
+  Vector3<T> reading_of(const Vector3<T>& actual) const { return chain::reading_of(actual, along_Z, probing); }
+  Vector3<T> actual_of(const Vector3<T>& reading) const { return chain::actual_of(reading, along_Z, probing); }
+};
+/// @param nominal commands by the quantities, without errors of positioning or effects, m
+template <class T> Touch<T> touch(const T* condition, const Vector3<T>& nominal, const Freed<T>& freed) {
+  Touch<T> t;
+  t.along_Z.feed = condition[feed];
+  t.along_Z.time = condition[time];
+  t.along_Z.direction = condition[direction];
+  t.probing.B = condition[B];
+  t.probing.C = condition[C];
+  t.probing.B_direction = condition[B_direction];
+  t.probing.C_direction = condition[C_direction];
+  t.probing.B_clamped = condition[B_clamped];
+  t.probing.C_clamped = condition[C_clamped];
+  t.probing.position = nominal;
+  t.probing.approach = chain::approach_in_probe(condition[direction], condition[B], condition[C]);
+  t.along_Z.rotary = &t.probing;
+  effects::act(freed.active, freed.quantities, t.along_Z);
+  t.along_Z.rotary = nullptr; // the touch may be copied
+  return t;
+}
+
+/// Turns of B and C with error motions: about the axes' lines, then tilted; `shift` is what moves the lines, from the
+/// origin. At null the turns are as they were, bit for bit.
+template <class T> struct Moved {
+  Matrix3<T> tilt_B, tilt_C;
+  Vector3<T> shift_B, shift_C;
+  Turns<T> turns;
+  Vector3<T> shift() const { return shift_B + turns.b * shift_C; }
+};
+template <class T> Moved<T> moved(const Turns<T>& turns, const chain::RotaryProbing<T>& probing) {
+  const auto b = chain::error_motion(probing.B_error, 1), c = chain::error_motion(probing.C_error, 2);
+  return {b.tilt, c.tilt, b.shift, c.shift, {b.tilt * turns.b, c.tilt * turns.c}};
+}
+
+/// The probe from the commanded origin at actual angles. @param pattern_II read by the closed form only  @param probing
+/// error motions, which the closed form has no place for; null: none
 template <class T, class Mask>
-Vector3<T> probe_from_origin(int variant, const Links<T>& l, const T& at_B, const T& at_C, const Mask& pattern_II) {
-  switch (variant) {
-  case small_angle:
-    return probe_from_origin(l.length, small_angle_turns(l.tilted, at_B, at_C));
-  case closed_form:
+Vector3<T> probe_from_origin(int variant, const Links<T>& l, const T& at_B, const T& at_C, const Mask& pattern_II,
+                             const chain::RotaryProbing<T>* probing = nullptr) {
+  if (variant == closed_form)
     return choose(pattern_II, closed_form_II(l.length, l.tilted, at_B), closed_form_I(l.length, l.tilted, at_C));
-  default:
-    return probe_from_origin(l.length, exact_turns(l.lines, at_B, at_C));
-  }
+  const Turns<T> turns =
+      variant == small_angle ? small_angle_turns(l.tilted, at_B, at_C) : exact_turns(l.lines, at_B, at_C);
+  if (!probing) return probe_from_origin(l.length, turns);
+  const Moved<T> m = moved(turns, *probing);
+  return probe_from_origin(l.length, m.turns) + m.shift();
 }
 
 /// The tip's centre at the trigger, from the commanded origin of the A axis' flange in machine axes: the top of the
@@ -124,32 +191,44 @@ template <class T> Vector3<T> linear_errors(const T* q, const T& y, const T& z) 
 
 /// One contact with the sphere's top.
 template <class T> struct Contact {
-  Vector3<T> tip;     ///< tip_at_top
-  Vector3<T> probe;   ///< r, at the actual angles
-  Vector3<T> nominal; ///< commands without positioning errors of A, B, C and without linear errors
-  Vector3<T> added;   ///< linear_errors
+  Vector3<T> tip;                ///< tip_at_top
+  Vector3<T> probe;              ///< r, at the actual angles
+  Vector3<T> nominal;            ///< commands without positioning errors of A, B, C, without linear errors and effects
+  Vector3<T> added;              ///< linear_errors
+  std::optional<Touch<T>> touch; ///< only if effects act
 };
 /// @param q          quantities, SI
 /// @param condition  SI
 /// @param pattern_II is_pattern_II of the condition
-/// @param squareness false: S_XY, S_XZ, S_YZ are all 0, and nominal commands are left at 0
+/// @param squareness false: S_XY, S_XZ, S_YZ are all 0, and nominal commands are left at 0 unless effects act
 template <class T, class Mask>
 Contact<T> contact(int variant, const T* q, const Links<T>& l, const T* condition, const Mask& pattern_II,
-                   bool squareness = true) {
+                   bool squareness = true, const Freed<T>& freed = {}) {
   Contact<T> at;
   at.tip = tip_at_top(q, condition[A] + q[E_AA]);
-  at.probe = probe_from_origin(variant, l, condition[B] + q[E_BB], condition[C] + q[E_CC], pattern_II);
-  if (squareness)
+  if (squareness || freed.any())
     at.nominal = tip_at_top(q, condition[A]) - probe_from_origin(variant, l, condition[B], condition[C], pattern_II);
   at.added = linear_errors(q, at.nominal.y, at.nominal.z);
+  T at_B = condition[B] + q[E_BB], at_C = condition[C] + q[E_CC];
+  if (!freed.any()) {
+    at.probe = probe_from_origin(variant, l, at_B, at_C, pattern_II);
+    return at;
+  }
+  at.touch = touch(condition, at.nominal, freed);
+  at_B = at_B + at.touch->probing.B_error[chain::E_B], at_C = at_C + at.touch->probing.C_error[chain::E_C];
+  at.probe = probe_from_origin(variant, l, at_B, at_C, pattern_II, &at.touch->probing);
   return at;
 }
 
 /// The machine: the commands that the control records.
-template <class T> Vector3<T> simulate(const Contact<T>& at) { return at.tip - at.probe + at.added; }
+template <class T> Vector3<T> simulate(const Contact<T>& at) {
+  if (at.touch) return at.touch->reading_of(at.tip - at.probe) + at.added;
+  return at.tip - at.probe + at.added;
+}
 
 /// The measurement model: where the tip's centre stood by the recorded commands; the inverse of simulate.
 template <class T> Vector3<T> evaluate(const Vector3<T>& recorded, const Contact<T>& at) {
+  if (at.touch) return at.touch->actual_of(recorded - at.added) + at.probe;
   return recorded - at.added + at.probe;
 }
 

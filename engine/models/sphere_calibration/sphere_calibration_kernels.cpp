@@ -21,6 +21,10 @@ bool same_links(const Column* columns, std::size_t r) {
   return true;
 }
 
+void load_effects(const BlockCall& call, std::size_t r, std::size_t i, std::vector<Lanes>& e) {
+  for (std::size_t j = 0; j < e.size(); ++j) e[j] = load(call.effects[r * e.size() + j], i);
+}
+
 /// Samples whose reading is of neither pattern fail.
 void mark_without_closed_form(const BlockCall& call, std::size_t i, const Lanes* condition) {
   const auto fine = sphere::has_closed_form(condition);
@@ -38,6 +42,7 @@ template <class Finish> void for_each_group(const BlockCall& call, const Finish&
     new_links[r] = r == 0 || !same_links(call.quantities, r);
   }
   Lanes q[sphere::count], condition[sphere::conditions];
+  std::vector<Lanes> e(call.effect_quantities);
   sphere::Links<Lanes> links;
   for (std::size_t i = 0; i < call.samples; i += width)
     for (std::size_t r = 0; r < call.readings; ++r) {
@@ -45,8 +50,10 @@ template <class Finish> void for_each_group(const BlockCall& call, const Finish&
       for (std::size_t j = 0; j < sphere::count; ++j) q[j] = load(columns[j], i);
       for (std::size_t j = 0; j < sphere::conditions; ++j)
         condition[j] = load(call.conditions[r * sphere::conditions + j], i);
+      load_effects(call, r, i, e);
       if (new_links[r]) links = sphere::links(q);
-      const auto at = sphere::contact(variant, q, links, condition, sphere::is_pattern_II(condition), square[r] == 0);
+      const auto at = sphere::contact(variant, q, links, condition, sphere::is_pattern_II(condition), square[r] == 0,
+                                      {call.active, e.data()});
       if (variant == sphere::closed_form) mark_without_closed_form(call, i, condition);
       finish(r, i, at);
     }
@@ -95,7 +102,15 @@ void load_pose(const BlockCall& call, std::size_t r, std::size_t i, sphere::Pose
   const Vector3<Lanes> recorded{load(read[0], i), load(read[1], i), load(read[2], i)};
   // Squareness follows the nominal commands, which are the machine's that is sought.
   q[sphere::S_XY] = q[sphere::S_XZ] = q[sphere::S_YZ] = zero;
-  pose.measured = sphere::tip_at_top(q, A + q[sphere::E_AA]) + sphere::linear_errors(q, zero, zero) - recorded;
+  const auto top = sphere::tip_at_top(q, A + q[sphere::E_AA]), added = sphere::linear_errors(q, zero, zero);
+  pose.measured = top + added - recorded;
+  if (call.active.empty()) return;
+  auto& freed = pose.freed;
+  freed.active = call.active;
+  freed.quantities.resize(call.effect_quantities);
+  load_effects(call, r, i, freed.quantities);
+  for (std::size_t j = 0; j < sphere::conditions; ++j) freed.condition[j] = load(condition[j], i);
+  freed.top = top, freed.recorded = recorded - added;
 }
 
 void identify(const BlockCall& call) {

@@ -51,7 +51,7 @@ Event<T> probing_event(const T* q, const T* condition, const T* effect_quantitie
   event.tool_length = q[length];
   event.tool.speed = condition[speed];
   event.turning = &event.tool;
-  laser_setter::act<T>(active, effect_quantities, event);
+  effects::act<T>(active, effect_quantities, event);
   event.turning = nullptr; // the event may be copied
   return event;
 }

@@ -1,0 +1,37 @@
+#pragma once
+#include "chain/rotary_probing.h"
+#include "effects/effect.h"
+
+namespace gumshoe::effects {
+
+/// Linear positioning error of X. Actual minus commanded position grows in proportion to the commanded X.
+struct XScale {
+  static constexpr QuantityCard quantities[] = {
+      {"E_XX",
+       "um/m",
+       "1",
+       0.0,
+       {-1e-2, 1e-2},
+       "E_XX",
+       "positioning error per length of travel",
+       Role::amplitude,
+       "5-20 um/m"},
+  };
+  static constexpr EffectCard card{
+      "x_scale",
+      "Linear positioning error of X",
+      "slides",
+      20,
+      "E_XX",
+      "Actual minus commanded position grows in proportion to the commanded X. The quantity E_XX of a model is an "
+      "error at one place and adds to the reading.",
+      "lengths of the probe and links; the other slides' scales, as all three together are a scale of the whole",
+      "engineering knowledge; ISO 230-1",
+      quantities};
+  template <class T> static void apply(const T* q, chain::ProbingEvent<T>& event) {
+    chain::RotaryProbing<T>& r = *event.rotary;
+    r.X.scale = r.X.scale + q[0];
+  }
+};
+
+} // namespace gumshoe::effects

@@ -1,0 +1,48 @@
+#pragma once
+#include "chain/rotary_probing.h"
+#include "effects/effect.h"
+
+namespace gumshoe::effects {
+
+/// A bowed guideway of Y: its slide strays across by the square of its position.
+struct YStraightness {
+  static constexpr QuantityCard quantities[] = {
+      {"E_XY",
+       "um/m2",
+       "1/m",
+       0.0,
+       {-1e-1, 1e-1},
+       "E_XY",
+       "along X, per square of the position",
+       Role::amplitude,
+       "20-200 um/m2"},
+      {"E_ZY",
+       "um/m2",
+       "1/m",
+       0.0,
+       {-1e-1, 1e-1},
+       "E_ZY",
+       "along Z, per square of the position",
+       Role::amplitude,
+       "20-200 um/m2"},
+  };
+  static constexpr EffectCard card{
+      "y_straightness",
+      "Straightness of Y",
+      "slides",
+      31,
+      "E_XY, E_ZY",
+      "The guideway is bowed: actual minus commanded along X and Z grows with the square of the commanded Y. 80 um/m2 "
+      "are 5 um over 0.5 m. What is linear is squareness.",
+      "second harmonics of C, as a square is one on a circle; squareness and offsets over a short travel",
+      "engineering knowledge; ISO 230-1",
+      quantities};
+  template <class T> static void apply(const T* q, chain::ProbingEvent<T>& event) {
+    chain::RotaryProbing<T>& r = *event.rotary;
+    const T square = r.position.y * r.position.y;
+    r.X.error = r.X.error + q[0] * square;
+    event.axis_error = event.axis_error + q[1] * square;
+  }
+};
+
+} // namespace gumshoe::effects
