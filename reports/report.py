@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Report of a result file: one self-contained HTML page and CSV tables beside it.
 
-report.py RESULT.h5 [--out FILE.html] [--csv DIR]
+report.py RESULT.h5 [--out FILE.html] [--csv DIR] [--page-only]
 """
 import argparse
 import pathlib
@@ -16,12 +16,16 @@ def main():
     parser.add_argument("result", type=pathlib.Path, help="result file (HDF5)")
     parser.add_argument("--out", type=pathlib.Path, help="HTML file (default: beside the result)")
     parser.add_argument("--csv", type=pathlib.Path, help="folder for the CSV tables (default: beside the HTML)")
+    parser.add_argument("--page-only", action="store_true", help="no CSV tables, no list of what was written")
     arguments = parser.parse_args()
     out = arguments.out or arguments.result.with_suffix(".html")
     folder = arguments.csv or out.parent
     try:
         result = read.result(arguments.result)
         html = page.render(result)
+        if arguments.page_only:
+            out.write_text(html, encoding="utf-8")
+            return 0
         folder.mkdir(parents=True, exist_ok=True)
         out.write_text(html, encoding="utf-8")
         written = [out] + csv_tables.write(result, folder, out.stem)

@@ -13,14 +13,15 @@ constexpr std::size_t chunk = 8;
 
 /// Calls the model at one reading in scalar T; `point` holds all quantities in scenario order.
 template <class T>
-models::PointOutcome call(const propagation::Experiment& e, std::size_t reading, const std::vector<T>& point,
+models::PointOutcome call(const propagation::Experiment& e, std::size_t reading, std::vector<T> point,
                           std::vector<T>& measurands, models::PointOutcome (*evaluate)(const models::PointCall<T>&)) {
+  e.take_off_stated(reading, point.data());
   models::PointCall<T> c;
   c.quantities = point.data();
   c.effects = point.data() + e.model_quantities();
   c.active = e.active();
   c.conditions = e.scenario().readings[reading].conditions.data();
-  c.indications = point.data() + e.model_quantities() + e.effect_quantities();
+  c.indications = point.data() + e.first_indication();
   measurands.resize(e.model().card->measurands.size());
   c.measurands = measurands.data();
   c.evaluation = static_cast<int>(e.evaluation());

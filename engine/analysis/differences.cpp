@@ -94,6 +94,9 @@ std::vector<double> values_at(const propagation::Experiment& e, std::size_t read
   std::vector<double> columns(width * n), values(card.measurands.size() * n);
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t q = 0; q < width; ++q) columns[q * n + i] = points[std::min(i, count - 1)][q];
+  for (const propagation::StatedSize& s : e.stated())
+    for (std::size_t i = 0; i < n; ++i)
+      columns[(e.first_indication() + s.indication) * n + i] -= columns[s.quantity * n + i] * (*s.loading)[reading];
   std::vector<models::Column> inputs, conditions;
   for (std::size_t q = 0; q < width; ++q) inputs.push_back({&columns[q * n], 1});
   for (const double& c : e.scenario().readings[reading].conditions) conditions.push_back({&c, 0});
@@ -109,7 +112,7 @@ std::vector<double> values_at(const propagation::Experiment& e, std::size_t read
   call.effect_quantities = e.effect_quantities();
   call.active = e.active();
   call.conditions = conditions.data();
-  call.indications = inputs.data() + e.model_quantities() + e.effect_quantities();
+  call.indications = inputs.data() + e.first_indication();
   call.measurands = measurands.data();
   call.solved_as = &itself;
   call.status = status.data();

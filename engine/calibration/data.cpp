@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/units.h"
 #include "quantities/cells.h"
 
 namespace gumshoe::calibration {
@@ -15,8 +16,12 @@ namespace {
 
 using propagation::Experiment;
 
-/// The card of a quantity of the model or of an active effect.
+/// Of the size of a stated effect, whose unit the scenario states.
+constexpr QuantityCard size_card{"size", "", "", 0, {-HUGE_VAL, HUGE_VAL}, "", "", Role::amplitude};
+
+/// The card of a quantity of the model, of an active effect or of a stated one.
 const QuantityCard& card_of(const Experiment& e, std::size_t quantity) {
+  if (quantity >= e.first_indication()) return size_card;
   if (quantity < e.model_quantities()) return e.model().card->quantities[quantity];
   const std::size_t at = quantity - e.model_quantities();
   const effects::Active* owner = nullptr;
@@ -80,7 +85,8 @@ std::vector<Unknown> unknowns_of(const Experiment& e) {
       u.prior_u = std::sqrt(squares);
       u.low = card.limits.low;
       u.high = card.limits.high;
-      const double usual = std::fabs(card.default_value);
+      double usual = std::fabs(card.default_value);
+      if (q >= e.first_indication()) usual = units::to_si(1, u.unit, u.si_unit, units::Kind::difference);
       u.magnitude = u.start != 0 ? std::fabs(u.start) : u.prior_u > 0 ? u.prior_u : usual > 0 ? usual : 1;
       out.push_back(u);
     }
@@ -95,7 +101,7 @@ Data data_of(const Experiment& e) {
   const auto& s = e.scenario();
   const auto& plan = e.plan();
   const std::size_t indications = e.model().card->indications.size(), n = s.readings.size() * indications;
-  const std::size_t first = e.model_quantities() + e.effect_quantities();
+  const std::size_t first = e.first_indication();
   Data out;
   std::map<std::size_t, std::vector<std::size_t>> rows_of; // variate to rows
   std::string quiet, loud;

@@ -294,7 +294,8 @@ private:
   void remarks(Estimate& out) const {
     const auto& s = experiment_.scenario();
     const auto& card = *experiment_.model().card;
-    for (std::size_t q = 0; q < experiment_.model_quantities() + experiment_.effect_quantities(); ++q) {
+    for (std::size_t q = 0; q < s.quantities.size(); ++q) {
+      if (q >= experiment_.first_indication() && q < experiment_.first_indication() + card.indications.size()) continue;
       const auto& quantity = s.quantities[q];
       const bool uncertain = std::any_of(quantity.entries.begin(), quantity.entries.end(),
                                          [](const auto& e) { return !e.components.empty(); });

@@ -55,11 +55,22 @@ void erase(Node& table, const std::string& key) {
   std::erase_if(table.members, [&](const Member& m) { return m.key == key; });
 }
 
-/// Where "quantity" or "effect.quantity" stands.
-Node& place_of(Node& document, const std::string& name) {
+/// Where "quantity", "effect.quantity" or "effect.size" of a stated effect stands.
+Node& place_of(Node& document, const scenario::Scenario& s, const std::string& name) {
   const std::size_t dot = name.find('.');
   if (dot == std::string::npos) return member(member(document, "quantities"), name);
-  return member(member(member(document, "effects"), name.substr(0, dot)), name.substr(dot + 1));
+  const std::string effect = name.substr(0, dot);
+  const bool stated =
+      std::ranges::find(s.stated_effects, effect, &scenario::StatedEffect::name) != s.stated_effects.end();
+  return member(member(member(document, stated ? "stated_effects" : "effects"), effect), name.substr(dot + 1));
+}
+
+/// The data file that was read in place of the scenario's own.
+void replace_readings(Node& document, const std::string& file) {
+  if (Node* indications = find(document, "indications"))
+    for (Member& m : indications->members)
+      if (Node* readings = find(m.value, "readings"))
+        if (Node* old = find(*readings, "file")) *old = text(file);
 }
 
 /// Data files are named relative to the scenario's folder.
@@ -104,6 +115,8 @@ std::string estimated_scenario(const propagation::Experiment& experiment, const 
   const auto there = std::filesystem::absolute(folder.empty() ? "." : folder);
   if (std::filesystem::weakly_canonical(here) != std::filesystem::weakly_canonical(there))
     move_paths(document, here, there);
+  if (!s.data.empty())
+    replace_readings(document, std::filesystem::relative(std::filesystem::absolute(s.data), there).generic_string());
   const std::string source =
       fmt::format("gumshoe estimate of {}, {} readings, hash of scenario and data {}",
                   std::filesystem::path(s.file).filename().string(), estimate.rows.size(), s.hash);
@@ -112,7 +125,7 @@ std::string estimated_scenario(const propagation::Experiment& experiment, const 
   for (std::size_t i = 0; i < estimate.parameters.size(); ++i) {
     const Parameter& p = estimate.parameters[i];
     const auto& quantity = s.quantities[p.unknown.quantity];
-    Node* place = &place_of(document, quantity.name);
+    Node* place = &place_of(document, s, quantity.name);
     erase(*place, "estimated");
     for (const auto& [label, value] : quantity.entries[p.unknown.entry].labels)
       place = &member(member(member(*place, "by"), label), value);

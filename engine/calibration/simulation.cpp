@@ -49,7 +49,7 @@ std::uint8_t Simulation::reading_by_duals(std::size_t reading, const double* x, 
   call.effects = point.data() + e.model_quantities();
   call.active = e.active();
   call.conditions = e.scenario().readings[reading].conditions.data();
-  call.indications = call.effects + e.effect_quantities();
+  call.indications = point.data() + e.first_indication();
   call.measurands = measurands.data();
   call.simulated = out.data();
   call.evaluation = static_cast<int>(e.evaluation());
@@ -63,6 +63,8 @@ std::uint8_t Simulation::reading_by_duals(std::size_t reading, const double* x, 
     }
     const auto outcome = e.model().simulate_gradient(call);
     if (outcome.status != 0) return outcome.status;
+    for (const propagation::StatedSize& s : e.stated())
+      out[s.indication] = out[s.indication] + point[s.quantity] * (*s.loading)[reading];
     for (std::size_t k = 0; k < indications_; ++k) {
       simulated[reading * indications_ + k] = out[k].v;
       for (std::size_t i = at; i < end; ++i)
@@ -119,8 +121,8 @@ bool Simulation::by_differences(const double* x, double* simulated, double* jaco
     for (const std::size_t u : involved_[r]) wired[r * quantities + unknowns_[u].quantity] = {columns[u].data(), 1};
     const auto* row = &wired[r * quantities];
     q.insert(q.end(), row, row + e.model_quantities());
-    effects.insert(effects.end(), row + e.model_quantities(), row + e.model_quantities() + e.effect_quantities());
-    indications.insert(indications.end(), row + e.model_quantities() + e.effect_quantities(), row + quantities);
+    effects.insert(effects.end(), row + e.model_quantities(), row + e.first_indication());
+    indications.insert(indications.end(), row + e.first_indication(), row + e.first_indication() + indications_);
     for (const double& c : e.scenario().readings[r].conditions) conditions.push_back({&c, 0});
   }
   for (std::size_t i = 0; i < rows_; ++i) out.push_back(&values[i * samples]);
@@ -143,6 +145,12 @@ bool Simulation::by_differences(const double* x, double* simulated, double* jaco
   call.evaluation = static_cast<int>(e.evaluation());
   call.context = e.model().context;
   e.model().kernels()->simulate(call);
+  for (const propagation::StatedSize& s : e.stated())
+    for (std::size_t r = 0; r < readings; ++r) {
+      const models::Column size = wired[r * quantities + s.quantity];
+      for (std::size_t i = 0; i < points; ++i)
+        out[r * indications_ + s.indication][i] += size.data[i * size.stride] * (*s.loading)[r];
+    }
   for (std::size_t i = 0; i < points; ++i) {
     if (status[i] == 0) continue;
     failure_ = {0, static_cast<propagation::Status>(status[i])};

@@ -36,6 +36,11 @@ scenario::Scenario with(const scenario::Scenario& scenario, const std::vector<sc
     if (knob.kind == Knob::Kind::condition)
       for (auto& reading : s.readings) reading.conditions[knob.index] = value;
   }
+  for (scenario::StatedEffect& e : s.stated_effects) {
+    if (!e.freed) continue;
+    e.loading.clear();
+    for (const auto& reading : s.readings) e.loading.push_back(e.loading_at(reading.conditions, {}));
+  }
   return s;
 }
 

@@ -72,14 +72,13 @@ void print_finding(const Finding& f) {
     std::cout << fmt::format("  {} {}\n", i == 0 ? "either" : "or", f.members[i]);
     for (const SizedQuantity& q : f.alternatives[i]) std::cout << "    " << size_text(q) << '\n';
   }
-  if (std::isfinite(f.removed_share))
+  if (f.removed_share > 0)
     std::cout << fmt::format("  takes away {:.0f} % of the residuals' mean square\n", 100 * f.removed_share);
   if (!f.suggestion.empty()) std::cout << "  to split them: " << f.suggestion << '\n';
   for (const std::string& remark : f.remarks) std::cout << "  remark: " << remark << '\n';
 }
 
 void print_rms(const Rms& r) {
-  if (!std::isfinite(r.before)) return;
   const Lengths lengths(r);
   const auto show = [&](double si) { return lengths.show(si); };
   const auto line = [&](const std::string& what, double before, double after, const std::string& noise) {
@@ -99,8 +98,8 @@ void print_rms(const Rms& r) {
   line("  worst block: " + r.worst_block, r.worst_block_before, r.worst_block_after, "");
   line("  worst point: " + r.worst_point, r.worst_point_before, r.worst_point_after, "");
   if (std::isfinite(r.share_removed))
-    std::cout << fmt::format("  {:.0f} % of what could be removed of the hold-out's mean square is gone\n",
-                             100 * r.share_removed);
+    std::cout << fmt::format("  {} of what could be removed of the hold-out's mean square is gone\n",
+                             r.share_removed > 1 ? "all" : fmt::format("{:.0f} %", 100 * r.share_removed));
   if (!std::isfinite(r.holdout_before) && !r.holdout.empty()) std::cout << "  hold-out: " << r.holdout << '\n';
 }
 
@@ -148,9 +147,9 @@ void print_trace(const Trace& t, const std::string& title, const std::vector<std
   if (!title.empty()) std::cout << title << '\n';
   print_verdict(t);
   for (const Finding& f : t.findings) print_finding(f);
-  if (t.outcome != Outcome::insufficient_data || std::isfinite(t.rms.before)) {
+  if (std::isfinite(t.rms.before)) {
     print_rms(t.rms);
-    if (!t.rms.unit.empty()) print_noise(t.noise, t.rms);
+    print_noise(t.noise, t.rms);
   }
   print_candidates(t.candidates);
   if (t.findings.empty()) print_limits(t.detection_limits);

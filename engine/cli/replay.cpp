@@ -25,25 +25,32 @@ scenario::Scenario scenario_of(const store::Identity& identity, const std::strin
 }
 
 /// In a virtual experiment the drawn values are the truth: the indications are simulated from them, and
-/// the evaluation uses the estimates. `simulated`: the reading's indications, noise included.
+/// the evaluation uses the estimates. `simulated`: the reading's indications as evaluated: noise included, stated
+/// effects taken off.
 void print_reading(const propagation::Experiment& e, std::size_t r, const std::vector<double>& variates,
                    const std::vector<double>& simulated) {
   const auto& s = e.scenario();
   const std::string name = propagation::reading_name(s.readings[r]);
   std::cout << "\nreading" << (name.empty() ? "" : " [" + name + "]") << '\n';
   const bool virtual_experiment = s.method == scenario::Method::virtual_experiment;
-  const std::size_t first_indication = e.model_quantities() + e.effect_quantities();
+  const std::size_t first_indication = e.first_indication();
   auto point = e.reading_point(r, variates.data());
-  if (virtual_experiment)
+  const auto estimates = e.reading_point(r);
+  if (virtual_experiment) {
     std::copy(simulated.begin(), simulated.end(), point.begin() + static_cast<long>(first_indication));
+    for (const propagation::StatedSize& t : e.stated()) // as the readout shows it
+      point[first_indication + t.indication] += estimates[t.quantity] * (*t.loading)[r];
+  }
   for (std::size_t q = 0; q < point.size(); ++q)
     std::cout << fmt::format("  {:<44} {:.17g} {}\n", s.quantities[q].name,
                              units::from_si(point[q], s.quantities[q].unit, s.quantities[q].si_unit),
                              s.quantities[q].unit);
   if (virtual_experiment) {
     std::cout << "  evaluated at the estimates\n";
-    point = e.reading_point(r);
+    point = estimates;
     std::copy(simulated.begin(), simulated.end(), point.begin() + static_cast<long>(first_indication));
+  } else {
+    e.take_off_stated(r, point.data());
   }
   models::PointCall<double> call;
   call.quantities = point.data();

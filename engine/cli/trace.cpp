@@ -27,9 +27,7 @@ struct Options {
 
 /// The scenario with what the command line says otherwise.
 scenario::Scenario asked(const Options& o) {
-  if (!o.data.empty()) // here the scenario is to be read with its data file replaced
-    throw InputError("--data: not yet", "readings come from the files that the scenario names");
-  scenario::Scenario s = scenario::read(o.file, catalogue());
+  scenario::Scenario s = scenario::read(o.file, catalogue(), {o.data});
   if (o.draws)
     s.trace.draws = static_cast<int>(std::min<std::uint64_t>(whole_number(*o.draws, "--draws", 19), 1'000'000));
   if (o.seed) s.trace.seed = whole_number(*o.seed, "--seed", 0);
@@ -66,8 +64,8 @@ ExitCode trace(const Options& o) {
   const ModelCard& card = s.made ? *s.made->card : *models::find(s.model)->card;
   const tracing::Trace found = tracing::trace(s, {o.threads, show});
   if (isatty(2) != 0) std::cerr << '\n';
-  // Here the scenario with what was found is to be written beside `out`, and `budgets` filled with those of both
-  // scenarios (analysis::budget).
+  // Here the scenario with what was found is to be written beside `out`; of it and `s` traced_budgets
+  // (traced_budgets.h).
   const store::TracedBudgets budgets;
   std::vector<std::string> written{out};
   store::write_trace(out, s, card, found, budgets);

@@ -24,6 +24,7 @@ struct Column {
 struct Declared {
   struct Moved {
     std::size_t reading, column; ///< of the model's quantities, then of the indications
+    double by = 1;               ///< times the draw
   };
   struct Draw {
     double u; ///< SI

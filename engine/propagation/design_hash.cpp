@@ -69,6 +69,10 @@ std::string design_hash(const Experiment& e) {
     record.add(r.conditions);
     record.add(r.indications);
   }
+  for (const StatedSize& stated : e.stated()) {
+    record.add(std::uint64_t{stated.indication});
+    record.add(*stated.loading);
+  }
   return record.hash();
 }
 

@@ -33,8 +33,8 @@ Location find_line(const scenario::Scenario& s, const std::string& start) {
 }
 
 /// Where the scenario states what a model complains of ("feed is not positive"), and the section that it belongs to.
-std::pair<Location, std::string> stated(const scenario::Scenario& s, const ModelCard& card,
-                                        const std::string& problem) {
+std::pair<Location, std::string> place_of(const scenario::Scenario& s, const ModelCard& card,
+                                          const std::string& problem) {
   const std::string word = problem.substr(0, problem.find_first_of(" ."));
   const bool condition = std::ranges::find(card.conditions, word, &VariableCard::name) != card.conditions.end();
   const std::string section = condition ? "conditions" : effects::find(word) ? "effects" : "quantities";
@@ -63,13 +63,15 @@ Experiment::Experiment(const scenario::Scenario& s)
   if (s.method == scenario::Method::virtual_experiment && !model_->kernels()->simulate)
     throw InputError({{find_line(s, "[model]"), "model: it does not say what the readouts would be",
                        "a virtual experiment simulates every indication", "method = \"propagation\"?"}});
-  for (const auto& e : s.stated_effects)
-    if (e.freed)
-      throw InputError({{find_line(s, "[stated_effects." + e.name), "sizes of stated effects cannot run yet", "", ""}});
   plan_ = located_plan(s);
   const ModelCard& card = *model_->card;
   indications_ = card.indications.size();
-  effect_quantities_ = s.quantities.size() - card.quantities.size() - indications_;
+  for (const auto& e : s.stated_effects) {
+    const auto size = std::ranges::find(s.quantities, e.name + ".size", &quantities::InputQuantity::name);
+    if (size != s.quantities.end())
+      stated_.push_back({static_cast<std::size_t>(size - s.quantities.begin()), e.indication, &e.loading});
+  }
+  effect_quantities_ = s.quantities.size() - card.quantities.size() - indications_ - stated_.size();
   for (std::size_t e = 0, at = 0; e < effects::cards().size(); ++e) {
     const std::string prefix = std::string(effects::cards()[e]->name) + ".";
     if (at < effect_quantities_ && s.quantities[card.quantities.size() + at].name.starts_with(prefix)) {
@@ -126,7 +128,8 @@ void Experiment::add_outputs(std::size_t r) {
 
 void Experiment::check_reading(std::size_t r) const {
   const std::string at = reading_name(scenario_.readings[r]);
-  const auto values = reading_point(r, nullptr);
+  auto values = reading_point(r, nullptr);
+  take_off_stated(r, values.data());
   models::PointCall<double> call;
   call.quantities = values.data();
   call.effects = values.data() + model_quantities();
@@ -137,24 +140,27 @@ void Experiment::check_reading(std::size_t r) const {
   call.context = model_->context;
   const std::string problem = model_->check(call);
   if (problem.empty()) return;
-  const auto [where, section] = stated(scenario_, *model_->card, problem);
+  const auto [where, section] = place_of(scenario_, *model_->card, problem);
   throw InputError({{where, section + ": " + problem + (at.empty() ? "" : " at reading [" + at + "]"),
                      "physically impossible", ""}});
 }
 
 /// Draws as the model sees them; correlations are left out.
 void Experiment::declare() {
-  const std::size_t nq = model_quantities(), first_noise = nq + effect_quantities_;
+  const std::size_t nq = model_quantities(), first_noise = first_indication();
   for (const auto& variate : plan_.variates)
     declared_.draws.push_back({std::sqrt(variate.distribution.variance()), {}});
   for (std::size_t r = 0; r < scenario_.readings.size(); ++r) {
-    for (std::size_t q = 0; q < plan_.gather[r].size(); ++q) {
+    for (std::size_t q = 0; q < first_noise + indications_; ++q) {
       const std::size_t c = plan_.gather[r][q];
       if (q < nq) declared_.estimates.push_back(column_estimates_[c]);
       if (q >= nq && q < first_noise) continue;
       for (const std::size_t v : plan_.columns[c].variates)
         declared_.draws[v].moves.push_back({r, q < nq ? q : q - effect_quantities_});
     }
+    for (const StatedSize& s : stated_)
+      for (const std::size_t v : plan_.columns[plan_.gather[r][s.quantity]].variates)
+        declared_.draws[v].moves.push_back({r, nq + s.indication, -(*s.loading)[r]});
   }
 }
 
@@ -166,6 +172,9 @@ void Experiment::check_all() {
   for (std::size_t r = 0; r < scenario_.readings.size(); ++r)
     for (std::size_t k = 0; k < indications_; ++k)
       read.push_back(scenario_.readings[r].indications.empty() ? 0.0 : scenario_.readings[r].indications[k]);
+  for (std::size_t r = 0; r < scenario_.readings.size(); ++r)
+    for (const StatedSize& s : stated_)
+      read[r * indications_ + s.indication] -= column_estimates_[plan_.gather[r][s.quantity]] * (*s.loading)[r];
   for (const double& x : read) w.indication_columns.push_back({&x, 0});
   models::BlockCall call;
   call.samples = 1;
@@ -194,11 +203,11 @@ std::vector<std::string> Experiment::place_names() const {
 
 std::vector<double> Experiment::reading_point(std::size_t reading, const double* variates) const {
   std::vector<double> values;
-  const std::size_t first_noise = model_quantities() + effect_quantities_;
+  const std::size_t first_noise = first_indication();
   for (std::size_t q = 0; q < scenario_.quantities.size(); ++q) {
     const std::size_t c = plan_.gather[reading][q];
     double x = variates ? plan_.value(c, variates) : column_estimates_[c];
-    if (q >= first_noise && !scenario_.readings[reading].indications.empty())
+    if (q >= first_noise && q < first_noise + indications_ && !scenario_.readings[reading].indications.empty())
       x += scenario_.readings[reading].indications[q - first_noise];
     values.push_back(x);
   }
@@ -325,7 +334,7 @@ void Experiment::run_model(std::size_t n, Workspace& w, double* outputs, std::ui
   }
 
   // Indications: what was read (or simulated) plus the drawn noise.
-  const std::size_t first_noise = model_quantities() + effect_quantities_;
+  const std::size_t first_noise = first_indication();
   w.indication_columns.clear();
   for (std::size_t r = 0; r < readings; ++r)
     for (std::size_t k = 0; k < indications_; ++k) {
@@ -334,6 +343,16 @@ void Experiment::run_model(std::size_t n, Workspace& w, double* outputs, std::ui
       const double read = virtual_experiment ? 0 : scenario_.readings[r].indications[k];
       for (std::size_t i = 0; i < n; ++i) x[i] = (virtual_experiment ? x[i] : read) + noise.data[i * noise.stride];
       w.indication_columns.push_back({x, 1});
+    }
+  // Stated effects: the evaluation takes the drawn size off; in a virtual experiment that stands in the readout, and
+  // the estimate is taken off.
+  for (const StatedSize& s : stated_)
+    for (std::size_t r = 0; r < readings; ++r) {
+      double* x = &w.indications[(r * indications_ + s.indication) * n];
+      const models::Column size = w.drawn[plan_.gather[r][s.quantity]];
+      const double held = virtual_experiment ? column_estimates_[plan_.gather[r][s.quantity]] : 0;
+      const double loading = virtual_experiment ? (*s.loading)[r] : -(*s.loading)[r];
+      for (std::size_t i = 0; i < n; ++i) x[i] += (size.data[i * size.stride] - held) * loading;
     }
   call.indications = w.indication_columns.data();
   call.measurands = w.measurands.data();

@@ -19,6 +19,12 @@ struct Workspace {
   std::uint64_t first_sample = models::unnumbered; ///< of the run, for messages
 };
 
+/// A stated effect that has a size: the quantity that is its size, and what it adds to.
+struct StatedSize {
+  std::size_t quantity, indication;
+  const std::vector<double>* loading; ///< by reading, SI
+};
+
 class Experiment {
 public:
   /// Throws InputError: an unknown model, labels that do not match, values that exclude each other.
@@ -43,6 +49,16 @@ public:
   std::span<const effects::Active> active() const { return active_; }
   std::size_t model_quantities() const { return model_->card->quantities.size(); }
   std::size_t effect_quantities() const { return effect_quantities_; }
+  std::size_t first_indication() const { return model_quantities() + effect_quantities_; }
+  std::span<const StatedSize> stated() const { return stated_; }
+  /// Takes the stated effects off the indications of a reading, as every evaluation does first. `point`: all
+  /// quantities.
+  template <class T> void take_off_stated(std::size_t reading, T* point) const {
+    for (const StatedSize& s : stated_) {
+      T& indication = point[first_indication() + s.indication];
+      indication = indication - point[s.quantity] * (*s.loading)[reading];
+    }
+  }
   std::size_t evaluation() const { return evaluation_; }
   /// What the model says of all readings of a joint evaluation together.
   const std::vector<std::string>& remarks() const { return remarks_; }
@@ -61,7 +77,7 @@ public:
   /// Estimates of the plan's columns.
   const std::vector<double>& column_estimates() const { return column_estimates_; }
 
-  /// Values of all quantities at a reading (model, effects, indications in this order): the estimates,
+  /// Values of all quantities at a reading (model, effects, indications as read, sizes, in this order): the estimates,
   /// or one sample's when `variates` holds one value per variate.
   std::vector<double> reading_point(std::size_t reading, const double* variates = nullptr) const;
   /// What the outputs at a reading hang on, in the order of columns_at: reading_point; of a joint evaluation the values
@@ -82,6 +98,7 @@ private:
   quantities::SamplePlan plan_;
   std::vector<Output> outputs_;
   std::vector<effects::Active> active_;
+  std::vector<StatedSize> stated_;
   std::size_t effect_quantities_ = 0, indications_ = 0, evaluation_ = 0;
   std::span<const VariableCard> measurands_;
   bool joint_ = false;

@@ -64,7 +64,13 @@ public:
     }
     out_.expected = read_expected(top, *model, context_);
     if (auto estimate = top.table("estimate")) out_.estimate = read_estimate(*estimate);
-    if (auto choose = top.table("choose")) out_.choose = read_choose(*choose, {own, out_, catalogue_}, context_);
+    if (auto choose = top.table("choose")) {
+      out_.choose = read_choose(*choose, {own, out_, catalogue_}, context_);
+      for (const StatedEffect& e : out_.stated_effects)
+        if (e.freed && e.of_columns)
+          choose->add(fmt::format("choose: stated_effects.{} reads columns", e.name),
+                      "nothing says what they would be in other settings", "conditions only?");
+    }
     top.refuse_unknown();
     problems_.raise();
     out_.hash = fmt::format("{:016x}", files_.hash(hash64(out_.text)));

@@ -103,6 +103,12 @@ private:
       const models::MadeModel made = expression::make(std::move(statement), ignored);
       const auto& e = *static_cast<const expression::Expression*>(made->context);
       fits(e);
+      out_.loading_at = [made](const std::vector<double>& conditions, const std::vector<double>& columns) {
+        const expression::Program& program = static_cast<const expression::Expression*>(made->context)->evaluate;
+        std::vector<double> known = conditions;
+        known.insert(known.end(), columns.begin(), columns.end());
+        return expression::interpret<double>(program, {nullptr, known.data(), nullptr}).steps[program.outputs[0]];
+      };
       if (std::ranges::all_of(scope_.columns, [&](const auto& c) { return c.values.size() == scope_.readings.size(); }))
         load(e);
     } catch (const InputError& error) {
@@ -114,13 +120,14 @@ private:
   }
 
   /// Only what was commanded or recorded beside the readings.
-  void names(const expression::Formula& f) const {
+  void names(const expression::Formula& f) {
     std::vector<Problem> found;
     std::vector<std::string> known;
     for (const VariableCard& c : scope_.model.conditions) known.emplace_back(c.name);
     for (const TraceColumn& c : scope_.columns) known.push_back(c.name);
     for (const expression::Node& n : f.nodes) {
       const auto is_it = [&](const auto& card) { return card.name == n.name; };
+      out_.of_columns |= n.operation == expression::Operation::name && std::ranges::any_of(scope_.columns, is_it);
       if (n.operation != expression::Operation::name || std::ranges::find(known, n.name) != known.end() ||
           expression::find_constant(n.name))
         continue;
@@ -155,13 +162,11 @@ private:
   }
 
   void load(const expression::Expression& e) {
-    const expression::Program& program = e.evaluate;
     bool any = false;
     for (std::size_t r = 0; r < scope_.readings.size(); ++r) {
-      std::vector<double> conditions = scope_.readings[r].conditions;
-      for (const TraceColumn& c : scope_.columns) conditions.push_back(c.values[r]);
-      const auto values = expression::interpret<double>(program, {nullptr, conditions.data(), nullptr});
-      const double x = values.steps[program.outputs[0]];
+      std::vector<double> columns;
+      for (const TraceColumn& c : scope_.columns) columns.push_back(c.values[r]);
+      const double x = out_.loading_at(scope_.readings[r].conditions, columns);
       if (!std::isfinite(x)) {
         const std::string of = text_of(scope_.readings[r].labels);
         throw InputError({e.formulas[0].problem(0, fmt::format("the formula has no finite value at reading {}{}", r + 1,

@@ -1,7 +1,7 @@
 #pragma once
 /// What [trace] says of the data in which an undeclared effect is sought, and effects stated as formulas.
 #include <cstdint>
-#include <memory>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -24,6 +24,9 @@ struct StatedEffect {
   std::string unit, si_unit;   ///< of the size
   std::vector<double> loading; ///< the formula's value at each reading, SI
   bool freed = false;
+  bool of_columns = false; ///< the formula reads columns
+  /// The formula at other conditions (by position in the model's card) and columns (as TraceOptions::columns), SI.
+  std::function<double(const std::vector<double>& conditions, const std::vector<double>& columns)> loading_at;
 };
 
 struct TraceOptions {

@@ -14,13 +14,12 @@ namespace gumshoe::tracing {
 std::vector<Structure> structures(const Design& d, std::size_t rows) {
   std::vector<double> rho{0.0};
   // With few readings serial correlation cannot be told from a trend.
-  if (rows / d.indications >= 12) rho = {-0.2, 0.0, 0.2, 0.4, 0.6, 0.8};
+  if (rows / d.indications >= 12) rho = {0.0, 0.2, 0.4, 0.6, 0.8};
   std::vector<Structure> out;
   for (const double r : rho) out.push_back({r, -1, 0});
   for (std::size_t c = 0; c < d.scatter.size(); ++c)
     for (const double ratio : {0.35, 0.7, 1.4, 2.8, 6.0, 15.0, 50.0})
-      for (const double r : rho)
-        if (r >= 0) out.push_back({r, static_cast<int>(c), ratio});
+      for (const double r : rho) out.push_back({r, static_cast<int>(c), ratio});
   return out;
 }
 

@@ -226,6 +226,14 @@ double Fitter::objective(const JointFit& fit, const Whitened& prior) const {
   return prior.left(prior.whiten(prior.take(fit.residual)))[0];
 }
 
+JointFit Fitter::linearised(double noise) const {
+  JointFit fit;
+  fit.at = simulator_.estimates();
+  fit.noise = noise;
+  fit.valid = linearise(fit);
+  return fit;
+}
+
 JointFit Fitter::fit(const std::vector<Term>& terms, double noise, const JointFit* start) const {
   JointFit fit;
   fit.at = start ? start->at : simulator_.estimates();
@@ -253,8 +261,8 @@ JointFit Fitter::fit(const std::vector<Term>& terms, double noise, const JointFi
     t.size.setZero();
   }
   apply(fit, sizes, 1);
-  fit.converged = linearise(fit);
-  if (!fit.converged) return fit;
+  fit.valid = fit.converged = linearise(fit);
+  if (!fit.valid) return fit;
   if (!noise_declared_ && noise == 0 && !start) {
     // No scale at all yet: that of the plain residuals about the free unknowns.
     const Scan scan(fit.design, rows_, {}, threads_);

@@ -23,6 +23,7 @@ struct JointFit {
   Structure structure;                 ///< of the noise
   double variance = 1;                 ///< left over by the design's noise
   double criterion = 0;                ///< minus two ln likelihood, comparable between fits of equal noise
+  bool valid = true;                   ///< false: the model has no value there
   bool converged = true, kink = false;
   int iterations = 0;
 };
@@ -42,6 +43,8 @@ public:
 
   /// Gauss-Newton with the winsorised residuals; from `start` where it is given. `noise` 0: found with the fit.
   JointFit fit(const std::vector<Term>& terms, double noise, const JointFit* start = nullptr) const;
+  /// The declared model at its estimates, not fitted.
+  JointFit linearised(double noise) const;
   const std::vector<FreeUnknown>& unknowns() const { return unknowns_; }
   bool noise_declared() const { return noise_declared_; }
   const std::vector<Index>& rows() const { return rows_; }

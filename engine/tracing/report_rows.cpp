@@ -118,7 +118,12 @@ double root_mean_square(const std::vector<double>& x) {
 bool compare(const Circumstances& c, const Search& s, Trace& out) {
   const Observations& o = c.observations;
   const auto& rows = c.fitter.rows();
-  const JointFit &before = s.base, &after = s.found;
+  const JointFit& after = s.found;
+  // Both in the units of one noise: the fit without the effect takes it for noise.
+  JointFit before = s.base;
+  before.design.local = after.design.local;
+  before.design.reference = after.design.reference;
+  before.structure = after.structure;
   const double ref_before = before.design.reference[0], ref_after = after.design.reference[0];
   const auto& card = c.experiment.model().card->indications[0];
   Rms& rms = out.rms;

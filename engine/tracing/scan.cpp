@@ -13,8 +13,6 @@
 namespace gumshoe::tracing {
 namespace {
 
-/// Below this share of a signature nothing can be said of it.
-constexpr double absorbed_share = 1e-3;
 /// Residuals are drawn in to so many robust standard deviations.
 constexpr double wide = 3.5;
 
@@ -107,6 +105,9 @@ Scan::Scan(const Design& design, const std::vector<Index>& rows, const std::vect
     p.signatures.conservativeResize(Eigen::NoChange, used);
   });
   for (auto& m : made) whitened_.push_back(std::move(*m));
+  for (std::size_t a = 0; a < alternatives_.size(); ++a)
+    if (share_[a] <= absorbed_share)
+      for (Prepared& p : prepared_) p.blocks[a].count = 0;
 }
 
 double Scan::criterion(double left, std::size_t k) const {

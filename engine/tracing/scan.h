@@ -9,6 +9,10 @@
 
 namespace gumshoe::tracing {
 
+/// Below this share of a signature nothing is said of it: what is left is of the size of what a linearised model
+/// neglects.
+inline constexpr double absorbed_share = 1e-5;
+
 /// Of one data set or many (columns).
 struct Statistics {
   Matrix ratio;                             ///< [signature][set]: 2 ln of the likelihood ratio, at least 0

@@ -28,7 +28,14 @@ public:
   Search run() {
     say("fits the declared model");
     out_.base = out_.found = c_.fitter.fit({}, 0);
-    while (out_.steps.size() < most_findings && step()) {
+    const auto mean_square = [](const JointFit& fit) { return fit.noise * fit.noise * fit.variance; };
+    for (bool more = true; more && out_.steps.size() < most_findings;) {
+      const double before = mean_square(out_.found);
+      const std::size_t known = out_.steps.size();
+      more = step();
+      for (std::size_t i = known; i < out_.steps.size(); ++i)
+        out_.steps[i].removed_share = (before - mean_square(out_.found)) / mean_square(out_.base) /
+                                      static_cast<double>(out_.steps.size() - known);
     }
     return std::move(out_);
   }
@@ -97,6 +104,7 @@ private:
     auto terms = out_.found.terms;
     terms.push_back({alternatives_[a], scan_->fit(a, data_).size});
     out.fit = c_.fitter.fit(terms, out_.found.noise, &out_.found);
+    if (!out.fit.valid) return out;
     // At the fitted size, beside the same unknowns as without the term.
     Design without = out.fit.design;
     without.fixed = Matrix(without.fixed.leftCols(without.fixed.cols() - alternatives_[a].columns.cols()));
@@ -106,6 +114,11 @@ private:
     if (!std::isfinite(out.ratio)) out.ratio = 0;
     out.score = out.ratio - 2 * assessment_.null[a].mean;
     return out;
+  }
+
+  /// Parts of the training readings that are left out in turn: does the fit predict them better than without its term?
+  bool predicts_better(const JointFit& fit) const {
+    return cross_validated(c_, fit, fit.structure) < cross_validated(c_, out_.found, fit.structure);
   }
 
   /// The best alternatives of different names among those that `fits`, best first.
@@ -144,13 +157,13 @@ private:
   bool take_signature() {
     const auto physical = best_of([](const Alternative& a) { return a.physical(); }, 12);
     const auto plain = best_of([](const Alternative& a) { return a.family == Family::shape; }, 3);
-    const double cv_before = cross_validated(c_, out_.found);
     // Finalists by the full model; only those that could still win are fitted.
     std::vector<Finalist> finalists;
     for (const std::size_t a : physical) {
       if (assessment_.p[a] > assessment_.threshold && !finalists.empty()) break;
       if (!finalists.empty() && score(a) < 0.6 * score(physical[0]) - 5) break;
       finalists.push_back(refit(a));
+      if (!finalists.back().fit.valid) finalists.pop_back();
     }
     std::sort(finalists.begin(), finalists.end(), [](const auto& a, const auto& b) { return a.score > b.score; });
     const bool significant =
@@ -160,7 +173,7 @@ private:
     if (significant) {
       const Finalist& best = finalists[0];
       if (const auto better = refused_for(best, plain); better.empty()) {
-        if (cross_validated(c_, best.fit) < cv_before) return take(finalists);
+        if (predicts_better(best.fit)) return take(finalists);
         refused_[best.alternative] = "refused: blocks held out are predicted no better with it";
       } else {
         if (take_pair(physical, plain)) return true;
@@ -168,7 +181,7 @@ private:
           refused_[f.alternative] = "refused: " + better + " fits better, as simple as it is";
       }
     }
-    return take_shape(cv_before);
+    return take_shape();
   }
 
   /// A plain shape of no more parameters that fits better than the effect could let it; empty if there is none.
@@ -210,16 +223,14 @@ private:
       t.size.setZero();
       terms.push_back(std::move(t));
     }
-    const double cv_before = cross_validated(c_, out_.found);
     JointFit fit = c_.fitter.fit(terms, out_.found.noise, &out_.found);
-    if (!(cross_validated(c_, fit) < cv_before)) return false;
+    if (!fit.valid || !predicts_better(fit)) return false;
     for (const std::size_t a : {pair.first, pair.second}) {
       Step s;
       s.kind = Kind::named;
       s.members = {alternatives_[a].name};
       s.p_value = assessment_.p_signature;
       s.threshold = assessment_.null[a].quantile(assessment_.threshold);
-      s.noise = out_.found.noise;
       s.depends_on = alternatives_[a].depends_on;
       s.terms = {out_.found.terms.size() + (a == pair.first ? 0 : 1)};
       s.remarks.push_back("found together with " + alternatives_[a == pair.first ? pair.second : pair.first].name +
@@ -234,7 +245,7 @@ private:
   std::vector<std::size_t> physical_all() const {
     std::vector<std::size_t> out;
     for (std::size_t a = 0; a < alternatives_.size(); ++a)
-      if (alternatives_[a].physical() && scan_->identifiable(a) > 1e-3) out.push_back(a);
+      if (alternatives_[a].physical() && scan_->identifiable(a) > absorbed_share) out.push_back(a);
     return out;
   }
 
@@ -245,7 +256,6 @@ private:
     s.members = {alternatives_[best.alternative].name};
     s.p_value = assessment_.p_signature;
     s.threshold = assessment_.null[best.alternative].quantile(assessment_.threshold);
-    s.noise = out_.found.noise;
     s.depends_on = alternatives_[best.alternative].depends_on;
     s.terms = {out_.found.terms.size()};
     refused_[best.alternative] = "named";
@@ -258,6 +268,13 @@ private:
       if (!same && (lead > beyond_doubt ||
                     (lead > decisive && chance_of_lead(best.alternative, rival.alternative, lead) < 0.05))) {
         refused_[rival.alternative] = "refused: " + alternatives_[best.alternative].name + " fits better";
+        continue;
+      }
+      // What still counts beside the best is another effect, not the same under another name.
+      if (!same && scan_->pair_ratio(best.alternative, rival.alternative, data_, k) -
+                           scan_->pair_ratio(best.alternative, best.alternative, data_, k) >
+                       assessment_.null[rival.alternative].quantile(assessment_.threshold)) {
+        refused_[rival.alternative] = "counts beside " + alternatives_[best.alternative].name;
         continue;
       }
       s.members.push_back(alternatives_[rival.alternative].name);
@@ -275,33 +292,42 @@ private:
   }
 
   /// No known effect: the dependence itself, as smooth as the data ask for.
-  bool take_shape(double cv_before) {
+  bool take_shape() {
     const auto all = best_of([](const Alternative& a) { return !a.physical(); }, 6);
+    std::vector<std::pair<std::size_t, JointFit>> unconfirmed;
     for (const std::size_t a : all) {
       if (assessment_.p[a] > assessment_.threshold) continue;
       auto terms = out_.found.terms;
       terms.push_back({alternatives_[a], scan_->fit(a, data_).size});
       JointFit fit = c_.fitter.fit(terms, out_.found.noise, &out_.found);
-      if (!(cross_validated(c_, fit) < cv_before)) {
-        refused_[a] = "refused: blocks held out are predicted no better with it";
-        continue;
+      if (!fit.valid) continue;
+      if (predicts_better(fit)) {
+        add_shape(a, fit, {});
+        return true;
       }
-      Step s;
-      s.kind = Kind::not_in_catalogue;
-      s.members = {};
-      s.p_value = assessment_.p_signature;
-      s.threshold = assessment_.null[a].quantile(assessment_.threshold);
-      s.noise = out_.found.noise;
-      s.depends_on = alternatives_[a].depends_on;
-      s.terms = {out_.found.terms.size()};
-      s.remarks.push_back("described by " + alternatives_[a].name +
-                          (alternatives_[a].shape.empty() ? "" : " (" + alternatives_[a].shape + ")"));
-      refused_[a] = "describes what is not in the catalogue";
-      out_.steps.push_back(std::move(s));
-      out_.found = c_.fitter.fit(fit.terms, 0, &fit);
-      return true;
+      refused_[a] = "refused: blocks held out are predicted no better with it";
+      unconfirmed.emplace_back(a, std::move(fit));
     }
-    return false;
+    // What shows in one block only cannot be predicted from the others: there it is nevertheless.
+    if (unconfirmed.empty() || !out_.steps.empty()) return false;
+    add_shape(unconfirmed[0].first, unconfirmed[0].second,
+              "blocks held out are predicted no better with it: it may belong to some of them only");
+    return true;
+  }
+
+  void add_shape(std::size_t a, const JointFit& fit, const std::string& remark) {
+    Step s;
+    s.kind = Kind::not_in_catalogue;
+    s.p_value = assessment_.p_signature;
+    s.threshold = assessment_.null[a].quantile(assessment_.threshold);
+    s.depends_on = alternatives_[a].depends_on;
+    s.terms = {out_.found.terms.size()};
+    s.remarks.push_back("described by " + alternatives_[a].name +
+                        (alternatives_[a].shape.empty() ? "" : " (" + alternatives_[a].shape + ")"));
+    if (!remark.empty()) s.remarks.push_back(remark);
+    refused_[a] = "describes what is not in the catalogue";
+    out_.steps.push_back(std::move(s));
+    out_.found = c_.fitter.fit(fit.terms, 0, &fit);
   }
 
   void take_component() {
@@ -318,7 +344,7 @@ private:
       out_.steps.push_back(std::move(s));
       return;
     }
-    if (assessment_.p_noise_overall <= c_.alpha && out_.steps.empty()) {
+    if (assessment_.p_noise_overall <= c_.alpha && assessment_.p_signature > c_.alpha && out_.steps.empty()) {
       const bool scatters = std::any_of(assessment_.p_component.begin(), assessment_.p_component.end(),
                                         [&](double p) { return p <= c_.alpha; });
       if (scatters) return;
@@ -341,7 +367,7 @@ private:
       for (std::size_t j = 0; j < one.amplitudes.size(); ++j) {
         const Amplitude& amplitude = one.amplitudes[j];
         if (!seen.insert(one.name + "/" + amplitude.name).second) continue;
-        const bool told = scan_->identifiable(a) > 1e-3;
+        const bool told = scan_->identifiable(a) > absorbed_share;
         const double ratio = assessment_.null[a].quantile(std::max(assessment_.threshold, 1e-12));
         const double information = told ? scan_->information(a, static_cast<Index>(j), k) : 0;
         // Above the threshold in nine cases of ten.
@@ -377,7 +403,7 @@ private:
       if (shown++ < 40) line.correlation = scan_->correlation(order[0], a, k);
       if (const auto it = refused_.find(a); it != refused_.end())
         line.outcome = it->second;
-      else if (line.identifiable <= 1e-3)
+      else if (line.identifiable <= absorbed_share)
         line.outcome =
             "not testable: absorbed by " + (line.absorbed_by.empty() ? std::string("the fit") : line.absorbed_by);
       else if (assessment_.p[a] > assessment_.threshold)
@@ -400,7 +426,7 @@ private:
 
 } // namespace
 
-double cross_validated(const Circumstances& c, const JointFit& fit) {
+double cross_validated(const Circumstances& c, const JointFit& fit, const Structure& structure) {
   double squares = 0;
   const Scan scan(fit.design, c.fitter.rows(), {}, c.threads);
   Matrix clean = fit.residual;
@@ -411,7 +437,7 @@ double cross_validated(const Circumstances& c, const JointFit& fit) {
     std::set_difference(c.fitter.rows().begin(), c.fitter.rows().end(), fold.begin(), fold.end(),
                         std::back_inserter(train));
     // Sizes of terms are found anew without the fold: they are fixed columns of the design.
-    const HeldOut held = hold_out(fit.design, clean, Matrix(clean.rows(), 0), train, fold, fit.structure);
+    const HeldOut held = hold_out(fit.design, clean, Matrix(clean.rows(), 0), train, fold, structure);
     if (held.count > 0) squares += held.whitened[0];
   }
   return squares;

@@ -14,8 +14,8 @@ struct Step {
   std::vector<std::string> members;
   std::vector<Term> rivals; ///< members of the class beside the first, fitted in its place
   double p_value = 1;
-  double threshold = 0; ///< likelihood ratio that the term had to pass
-  double noise = 1;     ///< scale at that step
+  double threshold = 0;     ///< likelihood ratio that the term had to pass
+  double removed_share = 0; ///< of the mean square of what the declared model leaves
   std::vector<std::string> remarks;
   std::vector<std::string> depends_on;
   int component = -1; ///< of Design::scatter
@@ -47,7 +47,8 @@ struct Circumstances {
 
 Search search(const Circumstances& circumstances);
 
-/// Sum of squares, in units of the noise, of every part of the training readings predicted from the others.
-double cross_validated(const Circumstances& circumstances, const JointFit& fit);
+/// Sum of squares of every part of the training readings predicted from the others, whitened by what is declared and
+/// the given structure of noise. Fits are compared under one structure.
+double cross_validated(const Circumstances& circumstances, const JointFit& fit, const Structure& structure);
 
 } // namespace gumshoe::tracing

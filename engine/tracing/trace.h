@@ -3,6 +3,7 @@
 /// holds at null. All values SI; names and units as shown to people beside them. Method: README.md.
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -75,17 +76,18 @@ struct DetectionLimit {
 
 /// Root mean squares of residuals, SI of the first indication. NaN where there is none.
 struct Rms {
+  static constexpr double none = std::numeric_limits<double>::quiet_NaN();
   std::string unit, si_unit;
-  double before = 0, after = 0, noise = 0; ///< of the training data, in sample
-  double noise_low = 0, noise_high = 0;    ///< 95 % of what noise alone gives
-  double holdout_before = 0, holdout_after = 0, holdout_noise = 0;
-  double holdout_noise_low = 0, holdout_noise_high = 0;
-  double worst_block_before = 0, worst_block_after = 0; ///< largest of the final blocks
+  double before = none, after = none, noise = none; ///< of the training data, in sample
+  double noise_low = none, noise_high = none;       ///< 95 % of what noise alone gives
+  double holdout_before = none, holdout_after = none, holdout_noise = none;
+  double holdout_noise_low = none, holdout_noise_high = none;
+  double worst_block_before = none, worst_block_after = none; ///< largest of the final blocks
   std::string worst_block;
-  double worst_point_before = 0, worst_point_after = 0; ///< largest residual of one reading there
+  double worst_point_before = none, worst_point_after = none; ///< largest residual of one reading there
   std::string worst_point;
-  double share_removed = 0; ///< (before^2 - after^2) / (before^2 - noise^2) of the hold-out
-  std::string holdout;      ///< what the hold-out is: "setup 3, 4", "each block left out in turn", "none: one block"
+  double share_removed = none; ///< (before^2 - after^2) / (before^2 - noise^2) of the hold-out
+  std::string holdout;         ///< what the hold-out is: "setup 3, 4", "each block left out in turn", "none: one block"
 };
 
 /// One reading of one indication.

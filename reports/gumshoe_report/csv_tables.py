@@ -98,10 +98,35 @@ def choice(c):
             **{name: lines for name, lines in sensitivity(c).items() if lines}}
 
 
+def trace(t):
+    """Findings, ranking, detection limits and every residual with its labels and conditions."""
+    if t is None:
+        return {}
+    beside = {**t.data.labels, **t.data.columns, **t.data.conditions}
+    def heads(name, column):
+        unit = getattr(column, "display_units", "1")
+        return name if unit == "1" else f"{name} ({unit})"
+    def value(column, k):
+        x = column.values[k]
+        return x if isinstance(x, str) else x * column.display_factor + column.display_offset
+    return {"findings": [{"finding": f.name, "kind": f.kind, "p_value": f.p_value, "member": q.member, "quantity": q.name,
+                          "labels": q.labels, "unit": q.display_units,
+                          **of(q, *(("value low high", "standard_uncertainty") if q.scenario_name else
+                                    ("", "value standard_uncertainty low high"))), "suggestion": f.suggestion}
+                         for f in t.findings for q in f.quantities],
+            "candidates": [vars(c) for c in t.candidates],
+            "detection_limits": [{"effect": d.effect, "quantity": d.quantity, "unit": d.display_units, **of(d, "", "value")}
+                                 for d in t.limits],
+            "residuals": [{"reading": row.reading + 1, "indication": row.indication, "order": row.order, "block": row.block,
+                           "final": row.final, **{heads(n, c): value(c, row.reading) for n, c in beside.items()},
+                           "unit": row.display_units, **of(row, "measured", "before after noise_u"), "weight": row.weight}
+                          for row in t.residuals]}
+
+
 def write(r, folder, stem):
     """Every table that has rows. Returns the paths."""
     written = []
-    for name, lines in {**plain(r), **sensitivity(r), **decisions(r), **choice(r.choice)}.items():
+    for name, lines in {**plain(r), **sensitivity(r), **decisions(r), **choice(r.choice), **trace(r.trace)}.items():
         if lines:
             path = folder / f"{stem}_{name}.csv"
             with open(path, "w", newline="", encoding="utf-8") as file:

@@ -1,5 +1,6 @@
 """The page: gathers tables and figures and fills the template."""
 import itertools
+import math
 import pathlib
 import re
 import types
@@ -8,7 +9,7 @@ import jinja2
 import markupsafe
 
 from . import choice, choice_figures, choice_surface, explain, figures, region_figures, rounding, sensitivity_figures
-from . import studies, tables
+from . import studies, tables, trace, trace_figures
 
 HERE = pathlib.Path(__file__).parent
 OPEN = 2      # outputs shown in full; the others are folded
@@ -99,6 +100,11 @@ def subscripts(text):
     return markupsafe.Markup(re.sub(r"\b([cupR])_([icCP])\b", r"\1<sub>\2</sub>", str(markupsafe.escape(text))))
 
 
+def symbols(text):
+    """Units in sentences of the program as one writes them."""
+    return re.sub(r"(\d ?)um\b", "\\1µm", text)
+
+
 def run_page(r):
     """What the page of a run is filled with."""
     shown = varying(r)
@@ -145,6 +151,36 @@ def choice_page(r):
              for row in sorted(c.candidates, key=lambda row: row.time)[:choice.MOST]])
 
 
+def residual_figures(t, k, indication):
+    """The residuals of one indication: in order, against conditions, by label."""
+    rows = [r for r in t.residuals if r.indication == indication]
+    if sum(math.isfinite(r.before) for r in rows) < 2:
+        return None
+    varying = trace.columns(t)
+    labels = trace.labels(t)
+    drawings = {"order": trace_figures.in_order(rows, f"o{k}"),
+                "against": trace_figures.against(rows, varying[:DRAWN], f"a{k}") if varying else "",
+                "labels": trace_figures.by_label(rows, labels, t.blocks, f"l{k}")}
+    return types.SimpleNamespace(
+        indication=indication, left_out=[name for name, *_ in varying[DRAWN:]], final=any(r.final for r in rows),
+        unscored=sum(not math.isfinite(r.before) for r in rows), several=len(varying) > 1,
+        dependent=any(chosen for *_, chosen in varying), outliers=any(r.weight < 0.5 for r in rows),
+        **{name: markupsafe.Markup(drawing) for name, drawing in drawings.items()})
+
+
+def trace_page(r):
+    """What the page of a trace is filled with."""
+    words = trace.Trace(r.trace)
+    indications = list(dict.fromkeys(row.indication for row in r.trace.residuals))
+    drawn = [residual_figures(r.trace, k, indication) for k, indication in enumerate(indications)]
+    findings = [with_figure(f, trace_figures.curves(f.curves, f"c{k}")) for k, f in enumerate(words.findings())]
+    return dict(
+        kicker="Tracing of residuals", title=r.title or r.model_title or r.model, t=words, findings=findings,
+        sizes=markupsafe.Markup(trace_figures.sizes(words, "z")) if words.known else "",
+        residuals=[d for d in drawn if d], candidates=list(words.candidates()), limits=list(words.limits()),
+        budgets=list(words.budgets()), indications=indications)
+
+
 def thousands(n):
     return f"{int(n):,}".replace(",", "\u202f")
 
@@ -152,9 +188,11 @@ def thousands(n):
 def render(r):
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=True, trim_blocks=True,
                                      lstrip_blocks=True, undefined=jinja2.StrictUndefined)
-    environment.filters.update(percent=rounding.percent, fixed=rounding.fixed, subscripts=subscripts, thousands=thousands,
+    environment.filters.update(percent=rounding.percent, fixed=rounding.fixed, subscripts=subscripts, thousands=thousands, unit_text=rounding.unit_text,
+                               symbols=symbols,
                                verdicts=studies.sobol_verdict)
-    template, contents = ("choice.html.j2", choice_page(r)) if r.choice else ("run.html.j2", run_page(r))
+    template, contents = ("choice.html.j2", choice_page(r)) if r.choice else \
+        ("trace.html.j2", trace_page(r)) if r.trace else ("run.html.j2", run_page(r))
     return environment.get_template(template).render(
         r=r, question=question(r.scenario_text), p=rounding.probability(r.coverage_probability), **contents,
         css=markupsafe.Markup((HERE / "style.css").read_text(encoding="utf-8")))

@@ -75,6 +75,34 @@ def choice(group):
     return c
 
 
+def columns(group):
+    """Datasets of one group by name: `values` as a list, and their attributes."""
+    return {n: types.SimpleNamespace(**attributes(d), values=[plain(v) for v in d[()]])
+            for n, d in (group or {}).items() if isinstance(d, h5py.Dataset) and not is_dimension(d)}
+
+
+def finding(group):
+    return types.SimpleNamespace(
+        **attributes(group), **{n: texts(group, n) for n in ("members", "depends_on", "remarks")},
+        quantities=rows(group.get("quantities")), curves=numbered(group.get("curves"), "point"))
+
+
+def trace(file):
+    """What `gumshoe trace` found; None of another file."""
+    group, data = file.get("trace"), file.get("data")
+    if group is None:
+        return None
+    return types.SimpleNamespace(
+        **attributes(group), rms=types.SimpleNamespace(**attributes(group["rms"])),
+        noise=types.SimpleNamespace(**attributes(group["noise"])),
+        findings=[finding(group["findings"][k]) for k in sorted(group.get("findings", ()))],
+        candidates=rows(group.get("candidates")), limits=rows(group.get("detection_limits"), "limit"),
+        plain=texts(group, "plain"), statements=texts(group, "statements"), residuals=rows(file["residuals"]),
+        **attributes(file["residuals"]), before=numbered(file.get("budget_before")),
+        after=numbered(file.get("budget_after")),
+        data=types.SimpleNamespace(**{n: columns(data[n]) for n in ("labels", "conditions", "indications", "columns")}))
+
+
 def texts(file, name):
     return [plain(t) for t in file[name][()]] if name in file else []
 
@@ -103,6 +131,7 @@ def result(path):
         r.budgets = numbered(file.get("budget"))
         studies(file, r)
         r.choice = choice(file.get("choice"))
+        r.trace = trace(file)
         r.validations = rows(file.get("validation"))
         r.comparisons = rows(file.get("comparison"))
         r.printed = rows(file.get("printed"))

@@ -109,14 +109,14 @@ void add_rms(Trace& t) {
   r.holdout = "setup 7, 8";
   for (const char* block : {"7", "8"}) {
     const auto in = [&](const Row& row) { return row.block == block; };
-    if (const double after = root_mean_square(t.rows, &Row::after, in); after > r.worst_block_after) {
+    if (const double after = root_mean_square(t.rows, &Row::after, in); !(after <= r.worst_block_after)) {
       r.worst_block = fmt::format("setup {}", block);
       r.worst_block_after = after;
       r.worst_block_before = root_mean_square(t.rows, &Row::before, in);
     }
   }
   for (const Row& row : t.rows)
-    if (row.final && std::fabs(row.after) > r.worst_point_after) {
+    if (row.final && !(std::fabs(row.after) <= r.worst_point_after)) {
       r.worst_point = fmt::format("reading {}, setup {}", row.reading + 1, row.block);
       r.worst_point_before = std::fabs(row.before);
       r.worst_point_after = std::fabs(row.after);
@@ -340,8 +340,6 @@ Traced insufficient_data() {
   t.scenario.readings.resize(3);
   t.scenario.trace.columns.clear();
   t.trace.outcome = Outcome::insufficient_data;
-  t.trace.rms = {"mm", "m",  none, none, none, none, none, none, none, none,
-                 none, none, none, none, "",   none, none, "",   none, "none: one block"};
   t.trace.noise.chi_squared_p = none;
   t.trace.statements = {"3 readings, 4 unknowns: no residual is left to trace",
                         "all readings are of one feed: nothing that grows with feed can be told from a constant"};

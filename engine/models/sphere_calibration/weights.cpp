@@ -34,10 +34,10 @@ Whitening whitening(const BlockCall& call, std::string& problem) {
   for (const auto& draw : call.declared->draws) {
     if (draw.moves.empty() || as_unknowns_do(draw, call.readings)) continue;
     std::vector<std::pair<Eigen::Index, double>> moved;
-    for (const auto& [reading, column] : draw.moves) {
+    for (const auto& [reading, column, by] : draw.moves) {
       const auto first = static_cast<Eigen::Index>(3 * reading);
       if (column >= count) {
-        moved.emplace_back(first + static_cast<Eigen::Index>(column - count), draw.u);
+        moved.emplace_back(first + static_cast<Eigen::Index>(column - count), draw.u * by);
         continue;
       }
       const auto d = derivative(call, reading, column);

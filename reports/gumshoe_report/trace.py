@@ -1,0 +1,254 @@
+"""What `gumshoe trace` found, as text for people: what it is, how sure, what is left, and what was refused."""
+import math
+import types
+
+from .choice import SPACE, joined, with_unit
+from .rounding import COMMON, decimals, finer, fixed, percent, significant, unit_text
+from .tables import budget_row, point, spread
+
+LISTED = 25  # candidates and detection limits on the page; the CSV tables have all
+FAMILIES = {"effect": "effect", "declared": "declared quantity", "stated": "stated in the scenario",
+            "shape": "mere shape", "omnibus": "test of everything", "scatter": "scatter"}
+KINDS = {"named": "one effect", "class": "effects that these data cannot tell apart", "scatter": "scatter by label",
+         "not_in_catalogue": "not in the catalogue"}
+
+
+def in_words(name):
+    """A candidate's name as one says it."""
+    family, _, rest = name.partition(":")
+    if not rest:
+        return name.replace("_", " ")
+    if family == "declared":
+        quantity, _, label = rest.partition("[")
+        of = f" of {label.rstrip(']')}" if label else ""
+        return f"{quantity.replace('_', ' ')}{of} is not what was declared"
+    if family == "scatter":
+        return "scatter by " + joined(rest.split(","))
+    return f"{family.replace('_', ' ')} in {rest}"
+
+
+def shown_unit(row, size):
+    """A unit in which a difference of this size (SI) has digits before the point, and its factor from SI."""
+    unit, factor = finer(row.display_units, abs(spread(row, size)))
+    return unit, factor * row.display_factor
+
+
+def capitalised(text):
+    return text[:1].upper() + text[1:]
+
+
+class Trace:
+    """The group `trace` with its units."""
+
+    def __init__(self, t):
+        self.t = t
+        sizes = [x for x in (t.rms.noise, t.rms.after, t.rms.before) if math.isfinite(x) and x > 0]
+        self.known = math.isfinite(t.rms.before)
+        self.unit, self.factor = shown_unit(t.rms, max(sizes, default=0))
+        self.places = decimals(self.factor * (sizes[0] if sizes else math.nan))
+        self.found = bool(t.findings)
+        self.added = any(r.after != r.before for r in t.residuals if math.isfinite(r.before))
+        self.apart = any(r.final for r in t.residuals)
+
+    def number(self, si):
+        """A residual's size, to the place that the noise asks for, but to three digits at most."""
+        x = self.factor * si
+        if not math.isfinite(x):
+            return "–"
+        limit = decimals(abs(x), 3)
+        return fixed(x, self.places if limit is None or self.places is None else min(self.places, max(limit, 0)))
+
+    def size(self, si):
+        return with_unit(self.number(si), self.unit)
+
+    def p(self, value):
+        """A p-value of the bootstrap, which cannot be less than one draw in all."""
+        if not math.isfinite(value):
+            return "not known"
+        least = 1 / (self.t.draws + 1)
+        return ("≤ " if value <= 1.001 * least else "= ") + significant(value, 2 if value > 0.01 else 1)
+
+    def headline(self):
+        t = self.t
+        if t.findings:
+            names = [f"one of {len(f.members)} effects" if f.kind == "class" else
+                     "something that is not in the catalogue" if f.kind == "not_in_catalogue" else in_words(f.name)
+                     for f in t.findings]
+            return f"Found: {joined(names)}"
+        if t.verdict == "insufficient_data":
+            return "These data cannot tell"
+        return "Found, and withdrawn" if t.vetoed else "Nothing found"
+
+    def explanation(self):
+        """How sure the verdict is."""
+        t = self.t
+        if t.verdict == "insufficient_data":
+            return "What is missing stands below."
+        chance = f"the chance to find something where nothing is was held to {significant(100 * t.alpha, 1)}{SPACE}%"
+        if t.vetoed:
+            return (f"The search found something (p {self.p(t.p_anything)}), but the final blocks, kept apart until then, "
+                    "are no better with it: nothing is added.")
+        if t.findings:
+            return (f"{t.tried} candidates were tried; {chance}. Of the largest statistic of all, "
+                    f"p {self.p(t.p_anything)}.")
+        return (f"{t.tried} candidates were tried; of the largest statistic of all, p {self.p(t.p_anything)}; {chance}.")
+
+    def key_figures(self):
+        r = self.t.rms
+        if not self.known:
+            return []
+        kept = math.isfinite(r.holdout_after)
+        before, after, noise = ((r.holdout_before, r.holdout_after, r.holdout_noise) if kept else
+                                (r.before, r.after, r.noise))
+        where = "hold-out" if kept else "in sample"
+        found = [(f"error before, {where}", self.size(before)), (f"error after, {where}", self.size(after))]
+        if not self.added:
+            found = [(f"error, {where}", self.size(before))]
+        found.append(("noise alone", self.size(noise)))
+        if math.isfinite(r.share_removed) and self.added:
+            found.append(("removed of what can be removed", self.removed()))
+        return found
+
+    def of_blocks(self, text):
+        """Final blocks with the label whose values they are."""
+        return f"{self.t.blocks} {text}" if self.apart and self.t.blocks and not text.startswith(self.t.blocks) else text
+
+    def removed(self):
+        """Above 1 what is left is less than the noise expected: chance, and not more than all."""
+        share = self.t.rms.share_removed
+        return "all" if share > 1 else fixed(100 * share, 0) + f"{SPACE}%"
+
+    def sizes(self, f):
+        """One line per size; of a class every member's."""
+        lines = []
+        for q in f.quantities:
+            u = spread(q, q.standard_uncertainty)
+            shift = point if q.scenario_name else spread  # what stands nowhere is a difference
+            places = decimals(u)
+            show = lambda x: fixed(shift(q, x), places)
+            lines.append(types.SimpleNamespace(
+                member=q.member, name=q.name, labels=q.labels, value=show(q.value), u=fixed(u, places),
+                low=show(q.low), high=show(q.high), unit=unit_text(q.display_units), where=q.scenario_name))
+        return lines
+
+    def title(self, f):
+        if f.kind == "class" and len(f.members) <= 3:
+            return capitalised(" or ".join(map(in_words, f.members)))
+        return f"One of {len(f.members)} effects" if f.kind == "class" else capitalised(in_words(f.name))
+
+    def findings(self):
+        for f in self.t.findings:
+            yield types.SimpleNamespace(
+                kind=f.kind, title=self.title(f), what=KINDS[f.kind], members=f.members,
+                p=self.p(f.p_value), depends_on=joined(f.depends_on) if f.depends_on else "",
+                suggestion=f.suggestion, remarks=f.remarks, sizes=self.sizes(f),
+                removed=f"{fixed(100 * f.removed_share, 0)}{SPACE}%" if f.removed_share > 0 else "", curves=f.curves)
+
+    def before_and_after(self):
+        """The rows of the table: what, before, after, noise with its interval."""
+        r = self.t.rms
+        def noise(middle, low, high):
+            if not math.isfinite(middle):
+                return ""
+            interval = f" [{self.number(low)}, {self.number(high)}]" if math.isfinite(low) and math.isfinite(high) else ""
+            return self.number(middle) + interval
+        rows = []
+        def add(what, note, before, after, text=""):
+            if math.isfinite(before) or math.isfinite(after):
+                rows.append(types.SimpleNamespace(what=what, note=note, before=self.number(before),
+                                                  after=self.number(after), noise=text))
+        add("hold-out", self.of_blocks(r.holdout), r.holdout_before, r.holdout_after,
+            noise(r.holdout_noise, r.holdout_noise_low, r.holdout_noise_high))
+        add("worst block", self.of_blocks(r.worst_block), r.worst_block_before, r.worst_block_after)
+        add("worst point", r.worst_point, r.worst_point_before, r.worst_point_after)
+        add("in sample", "training data: chosen and fitted on these, so flattering", r.before, r.after,
+            noise(r.noise, r.noise_low, r.noise_high))
+        return rows
+
+    def candidates(self):
+        top = max((c.statistic for c in self.t.candidates if math.isfinite(c.statistic)), default=0)
+        for c in self.t.candidates[:LISTED]:
+            yield types.SimpleNamespace(
+                name=c.name, shape=c.shape, family=FAMILIES.get(c.family, c.family), parameters=c.parameters,
+                statistic=significant(c.statistic, 3), width=100 * c.statistic / top if top > 0 and c.statistic > 0 else 0,
+                p=significant(c.p_single), left=percent(c.identifiable), absorbed=c.absorbed_by,
+                correlation=fixed(c.correlation, 2), outcome=c.outcome, kept=not c.outcome.startswith("refused"))
+
+    def limits(self):
+        for d in self.t.limits[:LISTED]:
+            unit, factor = finer(d.display_units, abs(spread(d, d.value)))
+            seen = math.isfinite(d.value)
+            yield types.SimpleNamespace(effect=d.effect, quantity=d.quantity, seen=seen, value=with_unit(
+                significant(factor * spread(d, d.value)), unit) if seen else "not at all by these data")
+
+    def noise(self):
+        """What of the noise is estimated, in sentences."""
+        n = self.t.noise
+        if not self.known:
+            return []
+        text = []
+        if not n.declared:
+            text.append(f"The scenario declares no noise; the residuals show a standard deviation of {self.size(n.scale)} "
+                        "of a readout.")
+        elif n.scale == 1:
+            text.append("The noise is taken as declared.")
+        else:
+            text.append(f"The residuals scatter {significant(n.scale, 3)} times as much as is declared.")
+        if n.declared and math.isfinite(n.chi_squared_p):
+            text.append("Residuals as large as these have a probability of "
+                        f"{significant(n.chi_squared_p)} under the declared uncertainties (chi-square).")
+        if n.correlation:
+            text.append(f"A reading carries over to the next with a correlation of {fixed(n.correlation, 2)}.")
+        if n.scatter:
+            text.append(f"Beside it there is scatter by {joined([s.strip() for s in n.scatter.split(',')])}, "
+                        f"standard deviation {self.size(n.scatter_u)}.")
+        if n.outliers:
+            text.append(f"{n.outliers} reading{'s' if n.outliers > 1 else ''} weighed down as outliers.")
+        return text
+
+    def budgets(self):
+        """Both budgets of each output, component by component."""
+        after = {b.output: b for b in self.t.after}
+        for b in self.t.before:
+            if b.output not in after:
+                continue
+            a = after[b.output]
+            u = [spread(x, x.combined_standard_uncertainty) for x in (b, a)]
+            fine, factor = finer(b.display_units, max(u))
+            sides = [{c.name: budget_row(x, c, factor) for c in x.rows} for x in (b, a)]
+            names = sorted({**sides[0], **sides[1]}, key=lambda name: -max(
+                abs(c.contribution) for x in (b, a) for c in x.rows if c.name == name and math.isfinite(c.contribution))
+                if any(math.isfinite(c.contribution) for x in (b, a) for c in x.rows if c.name == name) else 0)
+            places = [decimals(x.display_factor * x.expanded_uncertainty) for x in (b, a)]
+            yield types.SimpleNamespace(
+                output=b.output, unit=unit_text(b.display_units), fine=unit_text(fine),
+                rows=[(name, sides[0].get(name), sides[1].get(name)) for name in names],
+                u=[significant(factor * x) for x in u],
+                applicable=[bool(x.applicable) for x in (b, a)], reasons=[x.reason for x in (b, a)],
+                estimates=[fixed(point(x, x.estimate), place) for x, place in zip((b, a), places)],
+                U=[significant(spread(x, x.expanded_uncertainty)) for x in (b, a)])
+
+
+def labels(t):
+    """Values of each label by reading; what scatters by two labels together comes first."""
+    of = {name: column.values for name, column in t.data.labels.items()}
+    joint = [f.depends_on for f in t.findings
+             if f.kind == "scatter" and len(f.depends_on) > 1 and all(name in of for name in f.depends_on)]
+    return {**{", ".join(names): [", ".join(values) for values in zip(*(of[n] for n in names))] for names in joint}, **of}
+
+
+def columns(t):
+    """What residuals are drawn against: conditions and recorded columns that vary, those that a finding depends on
+    first. (name, unit, values by reading, whether a finding depends on it)"""
+    chosen = {name for f in t.findings for name in f.depends_on}
+    found = []
+    for name, column in {**t.data.columns, **t.data.conditions}.items():
+        if len({v for v in column.values if math.isfinite(v)}) < 2:
+            continue
+        unit, factor, offset = column.display_units, column.display_factor, column.display_offset
+        if unit == column.units and unit in COMMON:
+            unit, factor = COMMON[unit]
+        if unit == "s" and max(column.values) - min(column.values) > 600:
+            unit, factor = "min", 1 / 60
+        found.append((name, unit, [v * factor + offset for v in column.values], name in chosen))
+    return sorted(found, key=lambda c: not c[3])

@@ -1,0 +1,283 @@
+"""Files and report of a trace, from made-up outcomes of every kind: what is stored, and that the page says it.
+
+usage: trace_report_test.py path/to/gumshoe [unittest options]
+"""
+import csv
+import json
+import math
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import h5py
+import numpy as np
+
+from program import GUMSHOE, ROOT, complaint, gumshoe
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(ROOT / "reports"))
+from choose_report_test import Elements, labels, words_of
+from gumshoe_report import trace, trace_figures
+
+MADE = pathlib.Path(GUMSHOE).parent / "tests/gumshoe_made_result"
+KINDS = ("named", "class", "scatter", "not_in_catalogue", "two_findings", "vetoed", "nothing_found", "insufficient_data")
+
+
+def made(*words):
+    run = subprocess.run([MADE, "--trace", *words], capture_output=True, text=True)
+    assert run.returncode == 0, run.stderr
+    return run.stdout
+
+
+def root_mean_square(x):
+    return math.sqrt(np.mean(np.square(x)))
+
+
+class Made(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        cls.folder = pathlib.Path(cls.temporary.name)
+        cls.said, cls.pages = {}, {}
+        for kind in KINDS:
+            made(kind, str(cls.file(kind)))
+            cls.said[kind] = json.loads(made(kind, "--json"))
+            report = gumshoe("report", cls.file(kind))
+            assert (report.returncode, report.stderr) == (0, ""), report.stderr
+            cls.pages[kind] = cls.file(kind).with_suffix(".html").read_text(encoding="utf-8")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.temporary.cleanup()
+
+    @classmethod
+    def file(cls, kind):
+        return cls.folder / f"{kind}.h5"
+
+    def table(self, kind, name):
+        with open(self.folder / f"{kind}_{name}.csv", encoding="utf-8") as file:
+            return list(csv.DictReader(file))
+
+
+class File(Made):
+    def test_every_dataset_says_what_it_is(self):
+        def check(name, item):
+            if isinstance(item, h5py.Dataset):
+                self.assertTrue(item.attrs["units"] and item.attrs["long_name"], name)
+                if item.attrs.get("CLASS") != b"DIMENSION_SCALE":
+                    for dimension in item.dims:
+                        self.assertEqual(len(dimension), 1, name)
+                        self.assertTrue(dimension[0].name.endswith("/" + dimension.label), name)
+        for kind in KINDS:
+            with self.subTest(kind), h5py.File(self.file(kind)) as file:
+                file.visititems(check)
+                self.assertEqual((file.attrs["program"], file.attrs["complete"]), ("gumshoe", 1))
+                self.assertTrue(file.attrs["scenario_text"] and file.attrs["scenario_hash"])
+                self.assertEqual(file["trace"].attrs["verdict"], self.said[kind]["verdict"])
+
+    def test_residuals_stand_beside_what_they_may_depend_on(self):
+        with h5py.File(self.file("named")) as file:
+            r, data = file["residuals"], file["data"]
+            self.assertEqual(r["final"].attrs["flag_meanings"].split(), ["training", "final"])
+            self.assertEqual(list(r["final"].attrs["flag_values"]), [0, 1])
+            final = r["final"][()] == 1
+            self.assertEqual({b.decode() for b in r["block"][()][final]}, {"7", "8"})
+            self.assertEqual(r.attrs["blocks"], "setup")
+            # The sizes that are told come from these rows.
+            told = self.said["named"]["rms"]
+            for side in ("before", "after"):
+                self.assertAlmostEqual(root_mean_square(r[side][()][~final]) / told[side], 1, places=12)
+                self.assertAlmostEqual(root_mean_square(r[side][()][final]) / told[f"holdout_{side}"], 1, places=12)
+            # Slope against feed: the latency of 1.5 ms, on readings that go downwards, and nothing of it after.
+            feed = data["conditions/feed"][()][r["reading"][()]]
+            noise = r["noise_u"][0] / math.sqrt(np.sum((feed - feed.mean()) ** 2))
+            slope = lambda side: np.polyfit(feed, r[side][()], 1)[0]
+            self.assertAlmostEqual(slope("before"), -1.5e-3, delta=4 * noise)
+            self.assertAlmostEqual(slope("after"), 0, delta=4 * noise)
+            self.assertAlmostEqual(data["conditions/feed"].attrs["display_factor"], 60000)
+            temperature = data["columns/temperature"]
+            self.assertEqual((temperature.attrs["units"], temperature.attrs["display_units"]), ("K", "degC"))
+            self.assertAlmostEqual(temperature[0] + temperature.attrs["display_offset"], 20)
+            self.assertEqual([v.decode() for v in data["labels/rod"][()][[0, -1]]], ["rod 1", "rod 2"])
+
+    def test_findings_with_all_their_sizes(self):
+        with h5py.File(self.file("class")) as file:
+            f = file["trace/findings/000"]
+            self.assertEqual((f.attrs["kind"], len(f["members"])), ("class", 2))
+            q = f["quantities"]
+            self.assertEqual([m.decode() for m in q["member"]], ["thermal_growth", "rod_expansion"])
+            self.assertEqual([m.decode() for m in q["units"]], ["m", "K-1"])
+            shown = q["value"][()] * q["display_factor"][()]
+            np.testing.assert_allclose(shown, [3.1, 11.2])
+        with h5py.File(self.file("two_findings")) as file:
+            curves = file["trace/findings/001/curves"]
+            self.assertEqual([curves[k].attrs["against"] for k in curves], ["time", "setup"])
+            self.assertEqual(len(curves["000/x"]), len(curves["000/y"]))
+            self.assertEqual([v.decode() for v in curves["001/level"]], list("12345678"))
+            self.assertEqual(curves["000"].attrs["size_display_units"], "um")
+        with h5py.File(self.file("named")) as file:
+            limits = file["trace/detection_limits/value"][()]
+            self.assertTrue(np.isinf(limits[2]) and np.isfinite(limits[[0, 1, 3]]).all())
+            self.assertEqual(file["budget_after/000"].attrs["units"], "m")
+            self.assertNotIn("trigger_latency.delay", [n.decode() for n in file["budget_before/000/name"]])
+        with h5py.File(self.file("insufficient_data")) as file:
+            self.assertNotIn("candidates", file["trace"])
+            self.assertTrue(math.isnan(file["trace/rms"].attrs["before"]))
+
+    def test_no_samples_are_promised(self):
+        for command in (("replay", self.file("named"), "--sample", 0), ("analyse", self.file("named"))):
+            run = gumshoe(*command)
+            self.assertIsNone(complaint(run), run.stderr)
+            self.assertIn("gumshoe trace made it", run.stderr)
+
+
+class Page(Made):
+    def test_pages_are_sound(self):
+        for kind, page in self.pages.items():
+            with self.subTest(kind):
+                found = Elements(page)
+                self.assertEqual(len(found.ids), len(set(found.ids)), "identifiers clash")
+                self.assertEqual([r for r in found.loaded if not r.startswith(("#", "data:"))], [])
+                self.assertNotIn("script", found.tags)
+                self.assertFalse({"nan", "inf", "None", "NaN"} & set(re.split(r"\W+", words_of(page))))
+
+    def first(self, kind):
+        page = self.pages[kind]
+        return words_of(page[page.index("<main>"):])[:700]
+
+    def test_what_it_is_stands_first(self):
+        for kind, headline in {"named": "Found: trigger latency", "class": "Found: one of 2 effects",
+                               "scatter": "Found: scatter by rod and setup", "vetoed": "Found, and withdrawn",
+                               "not_in_catalogue": "Found: something that is not in the catalogue",
+                               "two_findings": "Found: trigger latency and something that is not in the catalogue",
+                               "nothing_found": "Nothing found", "insufficient_data": "These data cannot tell"}.items():
+            self.assertTrue(self.first(kind).startswith(f" {headline} "), self.first(kind)[:80])
+            plain = self.said[kind]["plain"][0].replace(" um", " µm")
+            self.assertIn(plain, self.first(kind))
+
+    def test_errors_before_and_after_are_the_files(self):
+        rms = self.said["named"]["rms"]
+        um = lambda name: f"{1e6 * rms[name]:.2f}"
+        first = self.first("named")
+        self.assertIn(f"error before, hold-out{um('holdout_before')} µm", first)
+        self.assertIn(f"error after, hold-out{um('holdout_after')} µm", first)
+        self.assertIn("p ≤ 0.001", first)  # one draw in a thousand is the least that can be told
+        text = words_of(self.pages["named"])
+        part = text[text.index("Before and after"):text.index("Residuals In the order")]
+        for name in ("before", "after", "holdout_before", "holdout_after", "worst_block_after"):
+            self.assertIn(um(name), part)
+        low, high = (f"{1e6 * x:.2f}" for x in rms["holdout_noise_interval95"])
+        self.assertIn(f"[{low}, {high}]", part)
+        self.assertIn("in sample", part)
+        self.assertIn("neither to choose nor to fit", part)
+
+    def test_sizes_are_rounded_by_their_uncertainty(self):
+        self.assertRegex(words_of(self.pages["named"]), r"delay ?trigger_latency\.delay ?1\.520 ?0\.041 ?\[1\.430, 1\.610\] ?ms")
+        self.assertRegex(words_of(self.pages["class"]), r"expansion ?rod_expansion\.expansion ?11\.2 ?1\.1 ?\[8\.9, 13\.5\] ?µm/m/K")
+
+    def test_a_class_comes_with_what_would_split_it(self):
+        text = words_of(self.pages["class"])
+        self.assertIn("To find out which: let the spindle rest for an hour", text)
+        self.assertIn("these data cannot tell which it is", text)
+
+    def test_what_was_refused_says_why(self):
+        text = words_of(self.pages["named"])
+        tried = text[text.index("What was tried"):text.index("What would have been seen")]
+        for reason in ("the same as trigger_latency, which is a cause", "within its uncertainty", "absorbed by laser_z"):
+            self.assertIn(reason, tried)
+        self.assertEqual(self.pages["named"].count('<tr class="chosen"><th scope="row"><code>'), 1)
+        self.assertRegex(text, r"z_scale ?scale ?not at all by these data")
+
+    def test_both_budgets_side_by_side(self):
+        text = words_of(self.pages["named"])
+        part = text[text.index("Uncertainty of laser_z, before and after"):].replace("&#8239;", " ")
+        self.assertRegex(part, r"trigger_latency\.delay ?new ?– ?0\.041 ms")
+        with h5py.File(self.file("named")) as file:
+            for side in ("before", "after"):
+                U = file[f"budget_{side}/000"].attrs["expanded_uncertainty"] * 1e3
+                self.assertRegex(part, rf"U = {U:.4f} mm")
+        self.assertNotIn("Uncertainty of", words_of(self.pages["class"]))
+
+    def test_figures_show_one_residual_where_nothing_was_added(self):
+        both = labels(self.pages["named"])
+        for what in ("in the order of measurement", "against each condition", "by label"):
+            self.assertIn(f"Residuals {what}, before and after", both)
+            self.assertIn(f"Residuals {what}", labels(self.pages["nothing_found"]))
+            self.assertNotIn(f"Residuals {what}, before and after", labels(self.pages["nothing_found"]))
+        self.assertIn("not in the catalogue: against time, against setup", labels(self.pages["not_in_catalogue"]))
+        self.assertEqual(labels(self.pages["insufficient_data"]), "")
+        self.assertIn("rod, setup</text>", self.pages["scatter"])  # what scatters by both is drawn by both
+
+    def test_csv(self):
+        residuals = self.table("named", "residuals")
+        self.assertEqual(len(residuals), 192)
+        first = residuals[0]
+        self.assertAlmostEqual(float(first["feed (mm/min)"]), 4)
+        self.assertAlmostEqual(float(first["temperature (degC)"]), 20)
+        self.assertEqual((first["rod"], first["setup"], first["final"], first["unit"]), ("rod 1", "1", "0", "mm"))
+        before = [float(r["before"]) for r in residuals if r["final"] == "0"]
+        self.assertAlmostEqual(root_mean_square(before) * 1e-3 / self.said["named"]["rms"]["before"], 1, places=9)
+        sizes = self.table("class", "findings")
+        self.assertEqual([(s["member"], s["unit"]) for s in sizes], [("thermal_growth", "um"), ("rod_expansion", "um/m/K")])
+        self.assertAlmostEqual(float(sizes[1]["high"]), 13.5)
+        self.assertEqual(len(self.table("named", "candidates")), 6)
+        self.assertEqual(self.table("named", "detection_limits")[2]["value"], "inf")
+
+    def test_page_only(self):
+        alone = self.folder / "alone"
+        alone.mkdir()
+        run = subprocess.run(["/usr/bin/python3", ROOT / "reports/report.py", self.file("named"), "--out", alone / "p.html",
+                              "--page-only"], capture_output=True, text=True)
+        self.assertEqual((run.returncode, run.stdout, run.stderr), (0, "", ""))
+        self.assertEqual([p.name for p in alone.iterdir()], ["p.html"])
+
+    def test_browser_has_no_complaint(self):
+        with tempfile.TemporaryDirectory() as profile:
+            run = subprocess.run(["/usr/bin/chromium", "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
+                                  "--disable-background-networking", f"--user-data-dir={profile}", "--enable-logging=stderr",
+                                  f"--screenshot={self.folder / 'p.png'}", self.file("two_findings").with_suffix(".html").as_uri()],
+                                 capture_output=True, text=True, timeout=180)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertNotIn("CONSOLE", run.stderr)
+
+
+class Text(unittest.TestCase):
+    def test_for_a_terminal(self):
+        text = made("named", "--text")
+        self.assertIn("found: trigger_latency, p = 0.001\n", text)
+        self.assertIn("delay = 1.520 ms, u = 0.041 ms, 95 % [1.430, 1.610]", text)
+        self.assertRegex(text, r"in sample \(training data\) +1\.2 +0\.40 +0\.39 \(95 %: 0\.34 to 0\.44\)")
+        self.assertIn("refused: within its uncertainty", text)
+        text = made("class", "--text")
+        self.assertRegex(text, r"either thermal_growth\n    growth = 3\.10 um.*\n  or rod_expansion\n    expansion = 11\.2 um/m/K")
+        self.assertIn("to split them: let the spindle rest", text)
+        self.assertIn("z_scale, scale: no size: not by these data", made("nothing_found", "--text"))
+        text = made("insufficient_data", "--text")
+        self.assertIn("these data cannot tell", text)
+        for kind in KINDS:
+            self.assertFalse({"nan", "inf"} & set(re.split(r"\W+", made(kind, "--text"))), kind)
+
+
+class Words(unittest.TestCase):
+    def test_names_as_one_says_them(self):
+        for name, said in (("trigger_latency", "trigger latency"), ("scatter:rod,setup", "scatter by rod and setup"),
+                           ("declared:rod_length[rod 2]", "rod length of rod 2 is not what was declared"),
+                           ("polynomial:feed^2", "polynomial in feed^2")):
+            self.assertEqual(trace.in_words(name), said)
+
+    def test_averages_lie_on_a_line(self):
+        x = np.repeat(np.arange(40.0), 6)
+        centre, mean, half = trace_figures.averages(x, 2 * x + np.tile([-1, 1], 120))
+        np.testing.assert_allclose(mean, 2 * centre, atol=1e-12)  # bins hold whole groups, whose noise cancels
+        self.assertGreater(len(centre), trace_figures.DISTINCT)
+        x = np.repeat([4.0, 120.0], 8)  # per value: s = sqrt(8 / 7), two standard errors of a mean of 8
+        centre, mean, half = trace_figures.averages(x, np.tile([-1.0, 1.0], 8))
+        np.testing.assert_allclose((*centre, *mean), (4, 120, 0, 0), atol=1e-12)
+        np.testing.assert_allclose(half, 2 * math.sqrt(8 / 7) / math.sqrt(8))
+
+
+if __name__ == "__main__":
+    unittest.main()
