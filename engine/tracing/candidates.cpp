@@ -100,6 +100,8 @@ private:
       const EffectCard* effect = nullptr;
       const QuantityCard* card = effect_card(e_, q, &effect);
       if (card->role == Role::shape) continue;
+      // Another insert is another body, solved anew for every size; it does not jump from tooth to tooth.
+      const bool body = effect->stage == "insert";
       const double slope =
           tangents_.col(static_cast<Index>(q)).norm() / std::sqrt(static_cast<double>(simulator_.rows()));
       const double typical = typical_size(*card);
@@ -111,6 +113,7 @@ private:
                               return card->limits.contain(p[q] + signed_size);
                             });
         if (!inside) continue;
+        if (body && slope > 0) continue;
         sizes_[2 * q + i] = signed_size;
         if (slope > 0) {
           variations.push_back({{{q, signed_size, false}}});
