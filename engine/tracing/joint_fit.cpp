@@ -228,8 +228,9 @@ void Fitter::apply(JointFit& fit, const Vector& change, double share) const {
     }
 }
 
-double Fitter::objective(const JointFit& fit, const Whitened& prior) const {
-  return prior.left(prior.whiten(prior.take(fit.residual)))[0];
+/// Of the residuals as the step saw them, drawn in: an outlier must not hold the fit back.
+double Fitter::objective(const JointFit& fit, const Whitened& prior, const Scan& scan) const {
+  return prior.left(prior.whiten(scan.winsorised(prior.take(fit.residual))))[0];
 }
 
 JointFit Fitter::linearised(double noise) const {
@@ -314,13 +315,13 @@ JointFit Fitter::fit(const std::vector<Term>& terms, double noise, const JointFi
       continue;
     }
     const Whitened prior(fit.design, rows_, {}, fit.structure);
-    const double before = objective(fit, prior);
+    const double before = objective(fit, prior, scan);
     bool better = false;
     for (double share = 1; share > 1e-3 && !better; share /= 2) {
       JointFit next = fit;
       apply(next, change, share);
       if (!linearise(next)) continue;
-      better = objective(next, prior) <= before * (1 + 1e-9);
+      better = objective(next, prior, scan) <= before * (1 + 1e-9);
       if (better) fit = std::move(next);
     }
     if (!better) { // at the floor of what steps can do
