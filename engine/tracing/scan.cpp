@@ -17,9 +17,14 @@ namespace {
 constexpr double wide = 3.5;
 
 double robust_scale(std::vector<double>& sizes) {
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  return *middle / 0.6744897501960817;
+  const auto at = [&](double share) {
+    const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(sizes.size()));
+    std::nth_element(sizes.begin(), sizes.begin() + rank, sizes.end());
+    return sizes[static_cast<std::size_t>(rank)];
+  };
+  const double half = at(0.5) / 0.6744897501960817, most = at(0.9) / 1.6448536269514722;
+  // Half the residuals equal, as rounded readings may be: those that differ tell the scale.
+  return half > 0.2 * most ? half : most;
 }
 
 /// Orthonormal columns that span the projected signature; empty if next to nothing is left.
@@ -127,8 +132,8 @@ Matrix Scan::winsorised(const Matrix& residuals, Vector* scale, Matrix* weight) 
     for (Index i = 0; i < residuals.rows(); ++i) sizes[static_cast<std::size_t>(i)] = std::fabs(left(i, j));
     const double s = robust_scale(sizes) / std::sqrt(lost);
     const double rms = std::sqrt(left.col(j).squaredNorm() / static_cast<double>(freedom_));
-    // Half the residuals equal, as rounded readings may be: no robust scale.
-    const double used = s > 0.2 * rms ? s : rms;
+    // Nearly all equal: no robust scale.
+    const double used = s > 1e-9 * rms ? s : rms;
     if (scale) (*scale)[j] = used;
     for (Index i = 0; i < residuals.rows(); ++i) {
       const double size = std::fabs(left(i, j)), bound = wide * used;
