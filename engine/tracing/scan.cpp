@@ -23,8 +23,8 @@ double robust_scale(std::vector<double>& sizes) {
     return sizes[static_cast<std::size_t>(rank)];
   };
   const double half = at(0.5) / 0.6744897501960817, most = at(0.9) / 1.6448536269514722;
-  // Half the residuals equal, as rounded readings may be: those that differ tell the scale.
-  return half > 0.2 * most ? half : most;
+  // Half the residuals equal but for rounding, as readouts in steps may be: those that differ tell the scale.
+  return half > 1e-8 * most ? half : most;
 }
 
 /// Orthonormal columns that span the projected signature; empty if next to nothing is left.
