@@ -136,7 +136,7 @@ void find_blocks(const Scenario& s, Observations& o) {
     for (std::size_t i = count - std::max<std::size_t>(1, count / 4); i < count; ++i)
       chosen.push_back(value_of(met[i]));
   }
-  if (chosen.size() + 2 > count) {
+  if (chosen.empty() || chosen.size() + 2 > count) {
     o.statements.push_back(fmt::format("{} blocks are too few to keep some apart to the end: each is left out in turn "
                                        "instead, and the figures are of data that the search has seen in part",
                                        count));

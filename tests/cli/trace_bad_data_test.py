@@ -153,7 +153,10 @@ class BadData(unittest.TestCase):
             said = self.verdict(data, **options)
             self.assertEqual(said["findings"][0]["name"], "trigger_latency")
             random.Random(2).shuffle(data)
-            self.assertEqual(self.verdict(data, **options), said)
+            again = self.verdict(data, **options)
+            for one in (said, again):  # readings are counted as they stand in the file
+                one["rms"]["worst_point"] = re.sub(r"reading \d+", "reading", one["rms"]["worst_point"])
+            self.assertEqual(again, said)
 
     def test_a_gross_outlier_hides_nothing(self):
         data = rows()

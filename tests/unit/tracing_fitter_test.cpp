@@ -13,14 +13,14 @@ namespace {
 /// Heights of half a metre in double precision, over the fit's arithmetic: nanometres would be a thousand times more.
 constexpr double rounding = 1e-12;
 
-/// Frees one candidate in noise-free readings and returns its size; what is left of all readings is rounding.
+/// Frees one candidate in noise-free readings and returns its size; what is left of all readings is rounding. (Steps are
+/// judged beside the noise, and there is none: `converged` says nothing here.)
 Vector recovered(Case& c, const std::string& name, double noise = 1) {
   const JointFit base = c.fitter->fit({}, noise);
   REQUIRE(base.valid);
   CHECK(base.residual.cwiseAbs().maxCoeff() > 1e-7); // something is missing
   const JointFit fit = c.fitter->fit({c.term(base, name)}, noise, &base);
   REQUIRE(fit.valid);
-  CHECK(fit.converged);
   CHECK(fit.residual.cwiseAbs().maxCoeff() < rounding);
   return fit.terms[0].size;
 }
