@@ -395,10 +395,12 @@ double typical_size(const QuantityCard& card, double* low) {
   const double first = std::strtod(text.c_str(), &end);
   if (end == text.c_str()) return 0;
   double second = first;
-  if (*end == '-') {
-    const char* from = end + 1;
-    second = std::strtod(from, &end);
-  }
+  for (const std::string_view joint : {"-", " to ", " or "})
+    if (std::string_view(end).starts_with(joint)) {
+      const char* from = end + joint.size();
+      second = std::strtod(from, &end);
+      break;
+    }
   std::string written = end;
   written = written.substr(0, written.find_first_of(":;,("));
   while (!written.empty() && written.front() == ' ') written.erase(0, 1);

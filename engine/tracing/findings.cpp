@@ -225,8 +225,8 @@ void collect(const Circumstances& c, const Search& s, Trace& out) {
 void speak(Trace& out) {
   const Rms& r = out.rms;
   if (out.outcome == Outcome::insufficient_data) {
-    out.plain = {"These data are too few to judge what the model lacks.",
-                 "Measure more readings than there are unknowns."};
+    out.plain = {"These data cannot tell what the model lacks."};
+    if (!out.statements.empty()) out.plain.push_back("Why: " + out.statements.back() + ".");
     return;
   }
   if (out.findings.empty() && out.vetoed) {

@@ -53,7 +53,7 @@ private:
   bool linearise(JointFit& fit) const;
   void local_noise(const Matrix& derivative, JointFit& fit) const;
   void apply(JointFit& fit, const Vector& change, double share) const;
-  double objective(const JointFit& fit, const Whitened& prior) const;
+  double objective(const JointFit& fit, const Whitened& prior, const Scan& scan) const;
 
   const propagation::Experiment& experiment_;
   const Simulator& simulator_;
