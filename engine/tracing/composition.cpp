@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <set>
 
+#include <Eigen/QR>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
