@@ -213,6 +213,7 @@ void collect(const Circumstances& c, const Search& s, Trace& out) {
         f.alternatives.push_back(sizes(c, with.terms[step.terms[0]], u, step.threshold, with));
       }
       f.suggestion = splitting_measurement(c, s, step);
+      if (f.suggestion.empty()) f.remarks.push_back("no change of a condition that was tried would tell them apart");
     }
     if (step.kind == Kind::scatter) describe_scatter(c, s, step, f);
     out.findings.push_back(std::move(f));
@@ -226,6 +227,12 @@ void speak(Trace& out) {
   if (out.outcome == Outcome::insufficient_data) {
     out.plain = {"These data are too few to judge what the model lacks.",
                  "Measure more readings than there are unknowns."};
+    return;
+  }
+  if (out.findings.empty() && out.vetoed) {
+    out.plain = {
+        "Something was found in the data of the search, but readings kept apart are predicted no better with it.",
+        "Nothing is added to the model; measure more blocks to decide."};
     return;
   }
   if (out.findings.empty()) {

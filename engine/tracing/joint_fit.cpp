@@ -226,6 +226,14 @@ double Fitter::objective(const JointFit& fit, const Whitened& prior) const {
   return prior.left(prior.whiten(prior.take(fit.residual)))[0];
 }
 
+JointFit Fitter::linearised(double noise) const {
+  JointFit fit;
+  fit.at = simulator_.estimates();
+  fit.noise = noise;
+  fit.valid = linearise(fit);
+  return fit;
+}
+
 JointFit Fitter::fit(const std::vector<Term>& terms, double noise, const JointFit* start) const {
   JointFit fit;
   fit.at = start ? start->at : simulator_.estimates();

@@ -43,6 +43,8 @@ public:
 
   /// Gauss-Newton with the winsorised residuals; from `start` where it is given. `noise` 0: found with the fit.
   JointFit fit(const std::vector<Term>& terms, double noise, const JointFit* start = nullptr) const;
+  /// The declared model at its estimates, not fitted.
+  JointFit linearised(double noise) const;
   const std::vector<FreeUnknown>& unknowns() const { return unknowns_; }
   bool noise_declared() const { return noise_declared_; }
   const std::vector<Index>& rows() const { return rows_; }

@@ -77,6 +77,8 @@ Trace trace(const scenario::Scenario& scenario, const Settings& settings) {
   const Circumstances c{
       experiment,           simulator,           observations,     fitter,           scenario.trace.alpha,
       scenario.trace.draws, scenario.trace.seed, settings.threads, settings.progress};
+  out.rms.unit = model.card->indications[0].unit;
+  out.rms.si_unit = model.card->indications[0].si_unit;
   out.alpha = c.alpha;
   out.draws = c.draws;
   state_what_cannot_be_told(c, scenario, out);
