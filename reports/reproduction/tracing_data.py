@@ -207,7 +207,7 @@ def socket_section(program):
 2013). Two orientation errors are free in each movement: 12 numbers, 8 unknowns. Uncertainties of 2 um are assumed, none is
 printed. um.
 
-{tables.table(HEAD, [row("as shipped", shipped), row("blocks = \"case\"", blocks), row("the same two errors in all movements", common)])}
+{tables.table(HEAD, [row("as shipped", shipped), row("each movement a block", blocks), row("the same two errors in all movements", common)])}
 As shipped:
 
 {sizes(shipped)}
