@@ -20,7 +20,7 @@ HEIGHT, RADIUS = 20.0, 70.0  # of the surfaces above the table at this radius, m
 ANGLES = np.arange(5, 290, 20.0)
 START, LINE_TIME = {1: 0.0, 2: 7200.0}, 40.0  # s
 NOISE = 2.4 / np.sqrt(2)  # um: differences of two scatter by 2.4 um, as the paper's do
-FORM = [(2, 3.0, 20.0), (3, 2.5, 75.0), (5, 1.0, 140.0)]  # harmonic, um, deg: about 12 um from peak to valley
+FORM = [(2, 3.0, 20.0), (3, 2.5, 75.0), (5, 1.0, 140.0)]  # harmonic, um, deg: 11 um from peak to valley
 # R-test of the paper: mm and rad. Its alpha_CR, beta_CR are not in its Table 1; taken for alpha_CB and beta_BR.
 MACHINE = dict(dx_BR=6.3e-3, dy_BR=2.8e-3, dz_BR=10.7e-3, dx_CB=2.4e-3, alpha_BR=0.0, beta_BR=19.6e-6, gamma_BR=0.0, alpha_CB=20e-6)
 NONE = dict(e_x=0.0, e_y=0.0, e_z=0.0, e_a=0.0, e_b=0.0, zero=0.0, growth=0.0)
