@@ -9,6 +9,11 @@
 namespace gumshoe::tracing {
 namespace {
 
+/// Without long double: a tail probability needs no more digits.
+using Gamma =
+    boost::math::gamma_distribution<double,
+                                    boost::math::policies::policy<boost::math::policies::promote_double<false>>>;
+
 Null null_of(const Eigen::Ref<const Matrix>& draws) {
   Null out;
   const double n = static_cast<double>(draws.size());
@@ -26,13 +31,13 @@ double share_at_most(const std::vector<double>& draws, double value) {
 
 double Null::p(double statistic) const {
   if (!(mean > 0) || !(variance > 0)) return 1;
-  const boost::math::gamma_distribution<> gamma(mean * mean / variance, variance / mean);
+  const Gamma gamma(mean * mean / variance, variance / mean);
   return statistic > 0 ? std::max(1e-300, boost::math::cdf(boost::math::complement(gamma, statistic))) : 1;
 }
 
 double Null::quantile(double p) const {
   if (!(mean > 0) || !(variance > 0)) return std::numeric_limits<double>::infinity();
-  const boost::math::gamma_distribution<> gamma(mean * mean / variance, variance / mean);
+  const Gamma gamma(mean * mean / variance, variance / mean);
   return boost::math::quantile(boost::math::complement(gamma, p));
 }
 

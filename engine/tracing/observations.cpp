@@ -64,6 +64,18 @@ std::vector<std::size_t> sequence_of(const Scenario& s) {
   return out;
 }
 
+/// A label that only says under which conditions a reading was taken stands for no act done anew.
+bool says_conditions(const Scenario& s, const Grouping& g) {
+  std::map<std::vector<double>, std::set<std::size_t>> groups;
+  std::set<std::vector<double>> all;
+  for (std::size_t r = 0; r < s.readings.size(); ++r) {
+    groups[s.readings[r].conditions].insert(g.group[r]);
+    all.insert(s.readings[r].conditions);
+  }
+  if (all.size() == s.readings.size()) return false; // every reading differs, by its time say
+  return std::all_of(groups.begin(), groups.end(), [](const auto& c) { return c.second.size() == 1; });
+}
+
 void find_redone(const Scenario& s, Observations& o) {
   std::vector<std::vector<std::string>> sets = s.trace.redone;
   if (sets.empty()) {
@@ -83,6 +95,7 @@ void find_redone(const Scenario& s, Observations& o) {
                         g.groups.size(), least));
       continue;
     }
+    if (s.trace.redone.empty() && says_conditions(s, g)) continue;
     // One reading each: it cannot be told from the noise of a reading.
     if (g.groups.size() * 5 > s.readings.size() * 4) continue;
     const bool known =
