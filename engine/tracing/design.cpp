@@ -146,7 +146,8 @@ Matrix Whitened::solve_all(const Matrix& extra, const Matrix& y, Matrix* covaria
   const Matrix x = qr.solve(b);
   if (covariance) {
     const Eigen::CompleteOrthogonalDecomposition<Matrix> cod(a.transpose() * a);
-    *covariance = scale.asDiagonal() * Matrix(cod.pseudoInverse()) * scale.asDiagonal();
+    const Matrix full = scale.asDiagonal() * Matrix(cod.pseudoInverse()) * scale.asDiagonal();
+    *covariance = (full + full.transpose()) / 2; // equal to the last bit
   }
   return scale.asDiagonal() * x;
 }
