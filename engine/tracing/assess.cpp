@@ -59,14 +59,18 @@ Assessment assess(const Scan& scan, const Vector& residuals, int draws, std::uin
   for (Index j = 0; j < m; ++j) signature.push_back(null_of(nothing.ratio.row(j).head(sets)));
   for (Index j = 0; j < c; ++j) component.push_back(null_of(nothing.scatter.row(j).head(sets)));
   // The noise's size: a robust scale, lognormal to the eye.
-  const Vector sizes = nothing.scale.array().log() - 0.5 * std::log(out.data.variance_without_scatter[0]);
+  // With few readings the robust scale is blunt: there the mean square serves.
+  const bool few = scan.degrees_of_freedom() < 30;
+  const Vector size = few ? Vector(nothing.variance_without_scatter.cwiseSqrt()) : nothing.scale;
+  const double observed = few ? std::sqrt(out.data.variance_without_scatter[0]) : out.data.scale[0];
+  const Vector sizes = size.array().log() - 0.5 * std::log(out.data.variance_without_scatter[0]);
   const double middle = sizes.head(sets).mean(),
                spread = std::sqrt((sizes.head(sets).array() - middle).square().mean());
   const boost::math::normal normal;
   const auto p_noise = [&](double log_size) {
     return boost::math::cdf(boost::math::complement(normal, (log_size - middle) / spread));
   };
-  const double z = declared > 0 ? std::log(out.data.scale[0] / declared) : 0;
+  const double z = declared > 0 ? std::log(observed / declared) : 0;
   if (declared > 0 && spread > 0) {
     out.p_noise = p_noise(z);
     out.noise_small = 1 - out.p_noise < 1e-3;

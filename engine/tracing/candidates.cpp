@@ -151,7 +151,9 @@ private:
   }
 
   void add(Alternative a, std::vector<Alternative>& family) {
-    if (skip_(a) || !(a.columns.norm() > 0)) return;
+    // What a whole SI unit would move by less than a ten-millionth of the noise is rounding, no signature.
+    const double least = 1e-7 * step_ * std::sqrt(static_cast<double>(a.columns.rows()));
+    if (skip_(a) || !(a.columns.norm() > least)) return;
     for (const Alternative& other : family)
       if (other.name == a.name && other.columns.cols() == 1 && a.columns.cols() == 1 &&
           other.amplitudes[0].scenario_name == a.amplitudes[0].scenario_name &&
