@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include <Eigen/Cholesky>
@@ -83,7 +84,7 @@ void Fitter::local_noise(const Matrix& derivative, JointFit& fit) const {
     covariance[d.moves.front().first] += g * g.transpose();
   }
   Vector mean = Vector::Zero(k);
-  for (std::size_t r = 0; r < o.readings; ++r) {
+  for (const std::size_t r : o.sequence) {
     if (!noise_declared_) covariance[r] = Matrix::Identity(k, k) / e.scenario().readings[r].repeats;
     mean += covariance[r].diagonal() / static_cast<double>(o.readings);
   }
@@ -191,7 +192,12 @@ bool Fitter::linearise(JointFit& fit) const {
   }
   d.random.resize(n, 0);
   d.random_names.clear();
-  for (std::size_t v = 0; v < draws_.size(); ++v) {
+  // By name: draws are numbered as rows of the file ask for them.
+  std::vector<std::size_t> by_name(draws_.size());
+  std::iota(by_name.begin(), by_name.end(), 0);
+  std::stable_sort(by_name.begin(), by_name.end(),
+                   [&](std::size_t a, std::size_t b) { return draws_[a].name < draws_[b].name; });
+  for (const std::size_t v : by_name) {
     const Vector one = in_sequence(o, shared.col(static_cast<Index>(v)));
     if (!used[v] || !(one.norm() > 1e-6 * d.reference[0])) continue;
     d.random.conservativeResize(n, d.random.cols() + 1);
@@ -222,8 +228,9 @@ void Fitter::apply(JointFit& fit, const Vector& change, double share) const {
     }
 }
 
-double Fitter::objective(const JointFit& fit, const Whitened& prior) const {
-  return prior.left(prior.whiten(prior.take(fit.residual)))[0];
+/// Of the residuals as the step saw them, drawn in: an outlier must not hold the fit back.
+double Fitter::objective(const JointFit& fit, const Whitened& prior, const Scan& scan) const {
+  return prior.left(prior.whiten(scan.winsorised(prior.take(fit.residual))))[0];
 }
 
 JointFit Fitter::linearised(double noise) const {
@@ -308,13 +315,13 @@ JointFit Fitter::fit(const std::vector<Term>& terms, double noise, const JointFi
       continue;
     }
     const Whitened prior(fit.design, rows_, {}, fit.structure);
-    const double before = objective(fit, prior);
+    const double before = objective(fit, prior, scan);
     bool better = false;
     for (double share = 1; share > 1e-3 && !better; share /= 2) {
       JointFit next = fit;
       apply(next, change, share);
       if (!linearise(next)) continue;
-      better = objective(next, prior) <= before * (1 + 1e-9);
+      better = objective(next, prior, scan) <= before * (1 + 1e-9);
       if (better) fit = std::move(next);
     }
     if (!better) { // at the floor of what steps can do
@@ -325,6 +332,57 @@ JointFit Fitter::fit(const std::vector<Term>& terms, double noise, const JointFi
     }
   }
   return fit;
+}
+
+void Fitter::settle(JointFit& fit) const {
+  const Index n = fit.design.fixed.rows();
+  std::vector<Index> open, known, rows;
+  for (Index j = 0; j < fit.design.fixed.cols(); ++j) {
+    const bool felt = std::any_of(rows_.begin(), rows_.end(), [&](Index r) { return fit.design.fixed(r, j) != 0; });
+    if (std::isfinite(fit.covariance(j, j)))
+      known.push_back(j);
+    else if (!felt && j < static_cast<Index>(unknowns_.size()))
+      open.push_back(j);
+  }
+  for (Index r = 0; r < n; ++r)
+    if (std::any_of(open.begin(), open.end(), [&](Index j) { return fit.design.fixed(r, j) != 0; })) rows.push_back(r);
+  if (rows.empty()) return;
+  for (int iteration = 0; iteration < 20; ++iteration) {
+    Design own = fit.design;
+    own.fixed = Matrix(fit.design.fixed(Eigen::all, open));
+    const auto use = independent(own, rows);
+    const auto m = static_cast<Index>(use.size());
+    const Scan scan(own, rows, {}, threads_);
+    const Whitened w(own, rows, use, fit.structure);
+    const Vector white = w.whiten(scan.winsorised(scan.whitened(scan.plain()).take(fit.residual)));
+    const Matrix nothing(white.size(), 0);
+    Matrix covariance;
+    const Vector x = w.solve(nothing, white, &covariance);
+    const Matrix own_covariance = fit.variance * covariance.topLeftCorner(m, m);
+    Vector change = Vector::Zero(fit.design.fixed.cols());
+    double largest = 0;
+    for (Index i = 0; i < m; ++i) {
+      change[open[static_cast<std::size_t>(use[static_cast<std::size_t>(i)])]] = x[i];
+      largest = std::max(largest, std::fabs(x[i]) / std::sqrt(own_covariance(i, i)));
+    }
+    if (largest < 1e-3) {
+      // They follow what was fitted: x = ... - S (known - estimate).
+      const Matrix s = w.solve_all(nothing, w.whiten(w.take(fit.design.fixed(Eigen::all, known)))).topRows(m);
+      const Matrix v = fit.covariance(known, known), cross = -s * v, total = own_covariance + s * v * s.transpose();
+      for (Index i = 0; i < m; ++i) {
+        const Index a = open[static_cast<std::size_t>(use[static_cast<std::size_t>(i)])];
+        for (Index j = 0; j < m; ++j)
+          fit.covariance(a, open[static_cast<std::size_t>(use[static_cast<std::size_t>(j)])]) = total(i, j);
+        for (std::size_t j = 0; j < known.size(); ++j)
+          fit.covariance(a, known[j]) = fit.covariance(known[j], a) = cross(i, static_cast<Index>(j));
+      }
+      return;
+    }
+    JointFit next = fit;
+    apply(next, change, 1);
+    if (!linearise(next)) return;
+    fit = std::move(next);
+  }
 }
 
 } // namespace gumshoe::tracing

@@ -137,6 +137,15 @@ void Simulator::vary(const Points& at, const std::vector<Variation>& variations,
     }
 }
 
+namespace {
+
+/// Place of the first that is the same quantity: one may be asked for twice, as declared and as a term's.
+std::size_t first_like(const std::vector<std::size_t>& quantities, std::size_t i) {
+  return static_cast<std::size_t>(std::find(quantities.begin(), quantities.end(), quantities[i]) - quantities.begin());
+}
+
+} // namespace
+
 bool Simulator::derivatives(const Points& at, const std::vector<std::size_t>& quantities, Vector& f, Matrix& derivative,
                             bool* kink) const {
   derivative = Matrix::Zero(static_cast<Index>(rows()), static_cast<Index>(quantities.size()));
@@ -145,6 +154,9 @@ bool Simulator::derivatives(const Points& at, const std::vector<std::size_t>& qu
   if (!experiment_.model().simulate_gradient) return by_differences(at, quantities, f, derivative);
   if (!by_dual_numbers(at, quantities, f, derivative, kink)) return false;
   add_stated(at, quantities, f, &derivative);
+  for (std::size_t i = 0; i < quantities.size(); ++i)
+    if (const std::size_t first = first_like(quantities, i); first < i)
+      derivative.col(static_cast<Index>(i)) = derivative.col(static_cast<Index>(first));
   return true;
 }
 
@@ -155,7 +167,7 @@ bool Simulator::by_dual_numbers(const Points& at, const std::vector<std::size_t>
   const std::size_t mq = e.model_quantities(), eq = e.effect_quantities();
   std::vector<std::size_t> wanted; // positions in `quantities` of what the model reads
   for (std::size_t i = 0; i < quantities.size(); ++i)
-    if (quantities[i] < mq + eq) wanted.push_back(i);
+    if (quantities[i] < mq + eq && first_like(quantities, i) == i) wanted.push_back(i);
   std::vector<std::uint8_t> failed(readings_, 0), bent(readings_, 0);
   const auto one = [&](std::size_t r) {
     std::vector<models::Gradient> point(at[r].begin(), at[r].end()), out(indications_),
