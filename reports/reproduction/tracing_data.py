@@ -358,8 +358,8 @@ while set-up 1 was measured. These five leave the same readings within noise. It
 of B and C or the offsets of their axes: each would bring a wave of more than 2.4 um. The second set says nothing, rightly: a
 part 0.28 mm off lies within what is declared of its place.
 
-**What would tell them apart**, by reasoning (conditions that the scenario knows do not suffice, as none of them moves one of the four
-heights without the others):
+**What would tell them apart**, by reasoning, beside what the program found by trying its conditions (a turn of B takes the seat's
+height along with the table; zero, dz_BR and growth are the same under every condition that the scenario knows):
 
 | measurement | tells |
 |---|---|
@@ -368,7 +368,7 @@ heights without the others):
 | a gauge block on the bed, not on the table, before and after | dz_BR (not seen there) from zero and growth |
 | a dial gauge or probe in the spindle beside the sensor, on the table | zero of the sensor from everything of the machine |
 | a surface that stays normal to the beam at B = 0 and 60 deg, such as a sphere on the table | seat (13.7 um to 6.9 um) from dz_BR |
-| B turned by its own angle in set-up 1, part off the axis | beta_BR from all heights |
+| set-up 1 with the part off C's axis | beta_BR, which then makes a wave, from all heights |
 """
 
 
