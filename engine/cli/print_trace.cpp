@@ -143,7 +143,8 @@ void print_noise(const Noise& n, const Rms& r) {
 
 } // namespace
 
-void print_trace(const Trace& t, const std::string& title, const std::vector<std::string>& written) {
+void print_trace(const Trace& t, const std::string& title, const std::vector<std::string>& written,
+                 const std::string& traced) {
   if (!title.empty()) std::cout << title << '\n';
   print_verdict(t);
   for (const Finding& f : t.findings) print_finding(f);
@@ -154,6 +155,10 @@ void print_trace(const Trace& t, const std::string& title, const std::vector<std
   print_candidates(t.candidates);
   if (t.findings.empty()) print_limits(t.detection_limits);
   for (const std::string& text : t.statements) std::cout << "note: " << text << '\n';
+  if (!traced.empty())
+    std::cout << fmt::format("scenario with what was found: {} (gumshoe run, or trace again)\n", traced);
+  else
+    std::cout << "no scenario is written: nothing is added to it\n";
   if (!written.empty()) std::cout << fmt::format("written: {}\n", fmt::join(written, ", "));
 }
 

@@ -1,7 +1,9 @@
 /// `gumshoe trace`: what is left after the model is fitted, and which effect that the scenario lacks explains it?
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
+#include <iterator>
 #include <memory>
 #include <optional>
 
@@ -11,8 +13,10 @@
 #include "cli/command.h"
 #include "cli/generator.h"
 #include "cli/print_trace.h"
+#include "cli/traced_budgets.h"
 #include "store/result_file.h"
 #include "store/trace_file.h"
+#include "tracing/traced_scenario.h"
 #include "tracing/verdict_json.h"
 
 namespace gumshoe::cli {
@@ -34,12 +38,28 @@ scenario::Scenario asked(const Options& o) {
   return s;
 }
 
+/// A scenario that an earlier trace wrote.
+bool ours(const std::string& path) {
+  std::ifstream file(path);
+  const std::string text((std::istreambuf_iterator<char>(file)), {});
+  return text.find("# Written by gumshoe ") != std::string::npos;
+}
+
+struct Outputs {
+  std::string result, scenario;
+};
+
 /// Every file that will be written, checked before the work and not after it.
-std::string checked_output(const Options& o) {
-  const std::string out =
-      !o.out.empty() ? o.out : "results/" + std::filesystem::path(o.file).stem().string() + ".traced.h5";
+Outputs checked_outputs(const Options& o) {
+  const std::string name = std::filesystem::path(o.file).stem().string();
+  const std::string out = !o.out.empty() ? o.out : "results/" + name + ".traced.h5";
+  const std::string scenario = (std::filesystem::path(out).parent_path() / (name + ".traced.toml")).string();
   if (o.out.empty()) std::filesystem::create_directories("results");
-  for (const std::string& path : {out, o.json, o.report}) {
+  if (std::filesystem::exists(scenario) && !ours(scenario))
+    throw OutputError(scenario + ": exists and was not written by gumshoe", "the traced scenario would replace it");
+  for (const std::string& path : {out, o.json, o.report})
+    if (path == scenario) throw OutputError(path + ": the traced scenario goes there", "two files of one name");
+  for (const std::string& path : {out, o.json, o.report, scenario}) {
     if (path.empty()) continue;
     require_different(path, o.file);
     if (!o.data.empty()) require_different(path, o.data);
@@ -50,7 +70,29 @@ std::string checked_output(const Options& o) {
     if (!path.empty() && !folder.empty() && !std::filesystem::is_directory(folder))
       throw OutputError(path + ": cannot be written", "no folder '" + folder.string() + "'");
   }
-  return out;
+  return {out, scenario};
+}
+
+/// Writes the scenario with what was found, and fills the budgets of both. False if there is none; an older one is
+/// removed, since it would tell of other data.
+bool close_loop(const scenario::Scenario& s, tracing::Trace& found, const std::string& path,
+                store::TracedBudgets& budgets) {
+  const std::string text = tracing::traced_scenario(s, found, std::filesystem::path(path).parent_path().string());
+  if (text.empty()) {
+    std::filesystem::remove(path);
+    return false;
+  }
+  write_text(path, text);
+  try {
+    budgets = traced_budgets(s, scenario::read(path, catalogue()));
+  } catch (const InputError& error) {
+    std::filesystem::remove(path);
+    for (const Problem& p : error.problems())
+      found.statements.push_back("no traced scenario is written, since it would not be read: " + p.what +
+                                 (p.why.empty() ? "" : " (" + p.why + ")"));
+    return false;
+  }
+  return true;
 }
 
 /// One line on stderr, rewritten; silent when stderr is no terminal.
@@ -60,13 +102,13 @@ void show(const std::string& what) {
 
 ExitCode trace(const Options& o) {
   const scenario::Scenario s = asked(o);
-  const std::string out = checked_output(o);
+  const Outputs outputs = checked_outputs(o);
+  const std::string& out = outputs.result;
   const ModelCard& card = s.made ? *s.made->card : *models::find(s.model)->card;
-  const tracing::Trace found = tracing::trace(s, {o.threads, show});
+  tracing::Trace found = tracing::trace(s, {o.threads, show});
   if (isatty(2) != 0) std::cerr << '\n';
-  // Here the scenario with what was found is to be written beside `out`; of it and `s` traced_budgets
-  // (traced_budgets.h).
-  const store::TracedBudgets budgets;
+  store::TracedBudgets budgets;
+  const bool closed = close_loop(s, found, outputs.scenario, budgets);
   std::vector<std::string> written{out};
   store::write_trace(out, s, card, found, budgets);
   if (!o.json.empty()) {
@@ -81,7 +123,7 @@ ExitCode trace(const Options& o) {
   if (o.format == "json")
     std::cout << tracing::verdict_json(found) << '\n';
   else
-    print_trace(found, s.title, written);
+    print_trace(found, s.title, written, closed ? outputs.scenario : "");
   return code;
 }
 

@@ -44,9 +44,10 @@ public:
 private:
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
-  /// The variate named with its cell, "rod_length[rod 1]"; none if the name has no cell.
+  /// The variate named with its cell, "rod_length[rod 1]", "rod_length[rod 1]: seat" of several components; none if the
+  /// name has no cell.
   std::size_t celled(const std::string& name) const {
-    if (!name.ends_with(']')) return none;
+    if (name.find('[') == std::string::npos) return none;
     for (std::size_t v = 0; v < plan_.variates.size(); ++v)
       if (plan_.variates[v].name == name) return v;
     return none;

@@ -55,6 +55,7 @@ public:
     out_.quantities.insert(out_.quantities.end(), noise_.begin(), noise_.end());
     if (auto trace = top.table("trace")) out_.trace = read_trace(*trace, {own, out_.readings, readouts_}, context_);
     if (auto stated = top.table("stated_effects")) read_stated(*stated, own);
+    if (!out_.trace.free.empty()) check_free(top, own);
     if (const auto* items = top.array("correlations"))
       out_.correlations = read_correlations(*items, problems_, out_.quantities);
     if (auto run = top.table("run")) out_.run = read_run(*run);
@@ -83,6 +84,18 @@ private:
     problems_.add(*sensitivity.find("sobol"), sensitivity.path("sobol") + ": the inputs are correlated",
                   "Sobol' indices are defined for independent inputs, Shapley effects for all",
                   "sensitivity = { shapley = 4096 }?");
+  }
+
+  void check_free(Table& top, const ModelCard& model) {
+    std::vector<std::string> names;
+    for (const quantities::InputQuantity& q : out_.quantities)
+      if (std::ranges::none_of(model.indications, [&](const auto& i) { return i.name == q.name; }))
+        names.push_back(q.name);
+    Table trace(*top.find("trace"), "trace", problems_);
+    for (const std::string& name : out_.trace.free)
+      if (std::ranges::find(names, name) == names.end())
+        problems_.add(*trace.find("free"), fmt::format("trace.free: '{}' is no quantity of the scenario", name), "",
+                      did_you_mean(name, names));
   }
 
   const ModelCard* read_model(Table& top) {

@@ -23,6 +23,7 @@ public:
     blocks();
     order();
     redone();
+    out_.free = table_.texts("free");
     if (const auto alpha = table_.number("alpha")) {
       if (!(*alpha > 0 && *alpha < 1))
         problems_.add(*table_.find("alpha"), fmt::format("trace.alpha: {} must lie between 0 and 1", *alpha),

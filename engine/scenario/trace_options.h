@@ -39,6 +39,8 @@ struct TraceOptions {
   /// Sets of labels that stand for one act done anew: { rod, setup } is a clamping. What it leaves behind may scatter.
   /// Empty: every set of one or two labels with at least six combinations.
   std::vector<std::vector<std::string>> redone;
+  /// Quantities whose stated values come from these data: fitted anew without a prior, as if marked estimated.
+  std::vector<std::string> free;
   double alpha = 0.05; ///< chance that anything is found where nothing is
   int draws = 999;     ///< of the parametric bootstrap
   std::uint64_t seed = 1;

@@ -100,6 +100,8 @@ private:
       const EffectCard* effect = nullptr;
       const QuantityCard* card = effect_card(e_, q, &effect);
       if (card->role == Role::shape) continue;
+      // Another insert is another body, solved anew for every size; it does not jump from tooth to tooth.
+      const bool body = effect->stage == "insert";
       const double slope =
           tangents_.col(static_cast<Index>(q)).norm() / std::sqrt(static_cast<double>(simulator_.rows()));
       const double typical = typical_size(*card);
@@ -111,6 +113,7 @@ private:
                               return card->limits.contain(p[q] + signed_size);
                             });
         if (!inside) continue;
+        if (body && slope > 0) continue;
         sizes_[2 * q + i] = signed_size;
         if (slope > 0) {
           variations.push_back({{{q, signed_size, false}}});
@@ -446,10 +449,40 @@ std::vector<std::string> dependence(const Observations& o, const Matrix& columns
   return out;
 }
 
+namespace {
+
+/// Quantities whose values come from these data ([trace] free): no prior, and tied to nothing.
+void free_again(Scenario& s) {
+  const auto freed = [&](const std::string& name) {
+    return std::any_of(s.trace.free.begin(), s.trace.free.end(), [&](const std::string& q) {
+      return name == q || name.starts_with(q + "[") || name.starts_with(q + ".");
+    });
+  };
+  for (InputQuantity& q : s.quantities) {
+    if (!freed(q.name)) continue;
+    q.estimated = true;
+    for (auto& entry : q.entries) entry.components.clear();
+  }
+  for (auto& c : s.correlations) {
+    const std::size_t n = c.quantities.size();
+    quantities::Correlation kept{c.kind, {}, {}};
+    for (std::size_t i = 0; i < n; ++i) {
+      if (freed(c.quantities[i])) continue;
+      kept.quantities.push_back(c.quantities[i]);
+      for (std::size_t j = 0; j < n; ++j)
+        if (!freed(c.quantities[j])) kept.matrix.push_back(c.matrix[i * n + j]);
+    }
+    c = std::move(kept);
+  }
+  std::erase_if(s.correlations, [](const auto& c) { return c.quantities.size() < 2; });
+}
+
+} // namespace
+
 Scenario extended(const Scenario& s) {
   Scenario out = s;
   const models::Model* model = s.made ? s.made.get() : models::find(s.model);
-  const std::size_t indications = model->card->indications.size(), first = model->card->quantities.size();
+  const std::size_t first = model->card->quantities.size();
   std::vector<InputQuantity> effect_quantities;
   for (const EffectCard* card : effects::cards()) {
     if (!effects::applies(*model->card, *card)) continue;
@@ -473,7 +506,7 @@ Scenario extended(const Scenario& s) {
   out.quantities.insert(out.quantities.end(), effect_quantities.begin(), effect_quantities.end());
   out.quantities.insert(out.quantities.end(), s.quantities.begin() + static_cast<std::ptrdiff_t>(noise),
                         s.quantities.end());
-  (void)indications;
+  free_again(out);
   return out;
 }
 

@@ -211,7 +211,10 @@ void collect(const Circumstances& c, const Search& s, Trace& out) {
         Vector u(rival.size.size());
         for (Index j = 0; j < u.size(); ++j) u[j] = std::sqrt(with.covariance(first + j, first + j));
         f.alternatives.push_back(sizes(c, with.terms[step.terms[0]], u, step.threshold, with));
+        for (const Index row : c.fitter.rows())
+          f.spread += (with.residual[row] - fit.residual[row]) * (with.residual[row] - fit.residual[row]);
       }
+      f.spread = std::sqrt(f.spread / static_cast<double>(step.members.size() * c.fitter.rows().size()));
       f.suggestion = splitting_measurement(c, s, step);
       if (f.suggestion.empty()) f.remarks.push_back("no change of a condition that was tried would tell them apart");
     }
@@ -219,7 +222,7 @@ void collect(const Circumstances& c, const Search& s, Trace& out) {
     out.findings.push_back(std::move(f));
   }
   out.outcome = out.findings.empty() ? Outcome::nothing_found : Outcome::found;
-  if (!out.vetoed) estimate_for_scenario(c, s, out);
+  if (!out.vetoed) compose(c, s, out);
 }
 
 void speak(Trace& out) {

@@ -9,8 +9,13 @@ void collect(const Circumstances& circumstances, const Search& search, Trace& ou
 void describe_noise(const Circumstances& circumstances, const Search& search, Trace& out);
 /// Size of a variance component, with the interval of its profile likelihood.
 void describe_scatter(const Circumstances& circumstances, const Search& search, const Step& step, Finding& finding);
-/// Unknowns and sizes with their joint covariance, and the scenario in which they are estimated quantities.
-void estimate_for_scenario(const Circumstances& circumstances, const Search& search, Trace& out);
+/// What goes into the traced scenario: unknowns and sizes with their joint covariance, the scenario in which they are
+/// estimated quantities, and variance components. Nothing if nothing was found.
+void compose(const Circumstances& circumstances, const Search& search, Trace& out);
+/// Variance components: of scatter, and of what is not in the catalogue. `left` by term: what no free unknown absorbs
+/// of it, rows in the order of measurement.
+void add_components(const Circumstances& circumstances, const Search& search, const std::vector<Vector>& left,
+                    Trace& out);
 /// Where a term's columns start among the fit's fixed ones.
 Index first_column(const JointFit& fit, std::size_t term);
 /// Two sentences for a machinist.

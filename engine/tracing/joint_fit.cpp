@@ -334,4 +334,55 @@ JointFit Fitter::fit(const std::vector<Term>& terms, double noise, const JointFi
   return fit;
 }
 
+void Fitter::settle(JointFit& fit) const {
+  const Index n = fit.design.fixed.rows();
+  std::vector<Index> open, known, rows;
+  for (Index j = 0; j < fit.design.fixed.cols(); ++j) {
+    const bool felt = std::any_of(rows_.begin(), rows_.end(), [&](Index r) { return fit.design.fixed(r, j) != 0; });
+    if (std::isfinite(fit.covariance(j, j)))
+      known.push_back(j);
+    else if (!felt && j < static_cast<Index>(unknowns_.size()))
+      open.push_back(j);
+  }
+  for (Index r = 0; r < n; ++r)
+    if (std::any_of(open.begin(), open.end(), [&](Index j) { return fit.design.fixed(r, j) != 0; })) rows.push_back(r);
+  if (rows.empty()) return;
+  for (int iteration = 0; iteration < 20; ++iteration) {
+    Design own = fit.design;
+    own.fixed = Matrix(fit.design.fixed(Eigen::all, open));
+    const auto use = independent(own, rows);
+    const auto m = static_cast<Index>(use.size());
+    const Scan scan(own, rows, {}, threads_);
+    const Whitened w(own, rows, use, fit.structure);
+    const Vector white = w.whiten(scan.winsorised(scan.whitened(scan.plain()).take(fit.residual)));
+    const Matrix nothing(white.size(), 0);
+    Matrix covariance;
+    const Vector x = w.solve(nothing, white, &covariance);
+    const Matrix own_covariance = fit.variance * covariance.topLeftCorner(m, m);
+    Vector change = Vector::Zero(fit.design.fixed.cols());
+    double largest = 0;
+    for (Index i = 0; i < m; ++i) {
+      change[open[static_cast<std::size_t>(use[static_cast<std::size_t>(i)])]] = x[i];
+      largest = std::max(largest, std::fabs(x[i]) / std::sqrt(own_covariance(i, i)));
+    }
+    if (largest < 1e-3) {
+      // They follow what was fitted: x = ... - S (known - estimate).
+      const Matrix s = w.solve_all(nothing, w.whiten(w.take(fit.design.fixed(Eigen::all, known)))).topRows(m);
+      const Matrix v = fit.covariance(known, known), cross = -s * v, total = own_covariance + s * v * s.transpose();
+      for (Index i = 0; i < m; ++i) {
+        const Index a = open[static_cast<std::size_t>(use[static_cast<std::size_t>(i)])];
+        for (Index j = 0; j < m; ++j)
+          fit.covariance(a, open[static_cast<std::size_t>(use[static_cast<std::size_t>(j)])]) = total(i, j);
+        for (std::size_t j = 0; j < known.size(); ++j)
+          fit.covariance(a, known[j]) = fit.covariance(known[j], a) = cross(i, static_cast<Index>(j));
+      }
+      return;
+    }
+    JointFit next = fit;
+    apply(next, change, 1);
+    if (!linearise(next)) return;
+    fit = std::move(next);
+  }
+}
+
 } // namespace gumshoe::tracing

@@ -45,6 +45,9 @@ public:
   JointFit fit(const std::vector<Term>& terms, double noise, const JointFit* start = nullptr) const;
   /// The declared model at its estimates, not fitted.
   JointFit linearised(double noise) const;
+  /// Unknowns that only readings outside the fit feel, such as a constant of a block kept apart: found there with all
+  /// else as fitted. The covariance takes them in.
+  void settle(JointFit& fit) const;
   const std::vector<FreeUnknown>& unknowns() const { return unknowns_; }
   bool noise_declared() const { return noise_declared_; }
   const std::vector<Index>& rows() const { return rows_; }

@@ -49,6 +49,8 @@ struct Finding {
   std::vector<SizedQuantity> quantities;
   /// The same sizes for every member of a class, by member; the first are `quantities`.
   std::vector<std::vector<SizedQuantity>> alternatives;
+  /// Root mean square by which the members' predictions differ over the training data, SI of the first indication.
+  double spread = 0;
   double removed_share = 0;         ///< of the residual's mean square in the training data
   std::vector<Curve> curves;        ///< of what is not in the catalogue
   std::vector<std::string> remarks; ///< implausible size, kept shapes, also described by ...
@@ -113,6 +115,22 @@ struct Noise {
   int outliers = 0;
 };
 
+/// How one parameter of the estimate goes into the traced scenario.
+struct Taken {
+  bool own = false;          ///< the data's own constant: free again when traced anew
+  quantities::Labels labels; ///< of the readings at which it was found off; empty: all
+  std::string source;
+};
+
+/// A variance component that the scenario lacks.
+struct Addition {
+  std::string quantity; ///< "reclamp.shift", or an indication: of its noise
+  std::string unit, si_unit;
+  double u = 0;
+  std::vector<std::string> per;
+  std::string source;
+};
+
 enum class Outcome { found, nothing_found, insufficient_data };
 
 struct Trace {
@@ -129,10 +147,12 @@ struct Trace {
   bool vetoed = false;                 ///< by the final blocks: nothing was added
   std::vector<std::string> statements; ///< what these data cannot tell, and every decision a reader must see
   std::vector<std::string> plain;      ///< two sentences for a machinist
-  /// The scenario with the effects found marked as estimated quantities, and their joint estimate, for
-  /// traced_scenario.h. Empty parameters: nothing to add.
+  /// The scenario with the effects found marked as estimated quantities, and what traced_scenario.h writes: their joint
+  /// estimate with the data's own constants, and how each parameter is taken in. Empty: nothing to add.
   scenario::Scenario extended;
   calibration::Estimate estimate;
+  std::vector<Taken> taken;
+  std::vector<Addition> additions;
 };
 
 struct Settings {

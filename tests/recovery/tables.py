@@ -8,6 +8,7 @@ import numpy as np
 from score import upper_limit
 
 BEGIN, END = "<!-- study: begin -->", "<!-- study: end -->"
+DATA_BEGIN, DATA_END = "<!-- measured data: begin -->", "<!-- measured data: end -->"
 
 
 def machine():
@@ -132,3 +133,13 @@ def into(path, text):
         old += f"\n## Study on made-up readings\n\n{BEGIN}\n{END}\n"
     head, rest = old.split(BEGIN, 1)
     path.write_text(head + BEGIN + "\n" + text + "\n" + END + rest.split(END, 1)[1])
+
+
+def include(path, page):
+    """Puts another page at the report's end, its headings one level down."""
+    text = "\n".join("#" + line if line.startswith("#") else line for line in page.read_text().rstrip().splitlines())
+    old = path.read_text() if path.exists() else "# Tracing a residual to a missing effect\n"
+    if DATA_BEGIN not in old:
+        old = old.rstrip() + f"\n\n{DATA_BEGIN}\n{DATA_END}\n"
+    head, rest = old.split(DATA_BEGIN, 1)
+    path.write_text(head + DATA_BEGIN + "\n" + text + "\n" + DATA_END + rest.split(DATA_END, 1)[1])
