@@ -226,7 +226,10 @@ private:
       out_.extended.quantities[lines_[i].unknown.quantity].estimated = true;
       for (std::size_t j = 0; j < n; ++j) {
         if (lines_[i].column < 0 || lines_[j].column < 0) continue;
-        const double covariance = fit_.covariance(lines_[i].column, lines_[j].column);
+        // Symmetric to the last bit.
+        const double covariance = (fit_.covariance(lines_[i].column, lines_[j].column) +
+                                   fit_.covariance(lines_[j].column, lines_[i].column)) /
+                                  2;
         e.covariance[i * n + j] = covariance;
         e.correlation[i * n + j] = i == j ? 1 : std::clamp(covariance / (u(lines_[i]) * u(lines_[j])), -1.0, 1.0);
       }

@@ -26,7 +26,7 @@ class Rods:
         self.rods, self.own, self.noise = rods, own, u
         self.cells = [(str(s), r, k) for s in range(1, setups + 1) for r in rods for k in range(per_clamp)]
         self.feeds = [feeds[k % len(feeds)] for _, _, k in self.cells]
-        self.directions = [-1 if k // len(feeds) % 2 else 1 for _, _, k in self.cells]
+        self.directions = [-1] * len(self.cells)
         constants = "\n".join(f'"{k}" = {{ value = "-510 mm" }}' for k in range(1, setups + 1))
         laser = f"[quantities.laser_z]\nestimated = true\n[quantities.laser_z.by.setup]\n{constants}" if own else \
             '[quantities.laser_z]\nvalue = "-510 mm"'
@@ -39,7 +39,7 @@ name = "rod_gauging"
 [quantities.rod_length]
 {length or 'value = "150 mm"'}
 [indications.spindle_z]
-readings = {{ file = "r.csv", column = "z", unit = "mm", labels = {{ setup = "setup", rod = "rod" }}, conditions = {{ feed = {{ column = "feed", unit = "mm/min" }}, direction = "direction", time = {{ column = "t", unit = "s" }} }} }}
+readings = {{ file = "r.csv", column = "z", unit = "mm", labels = {{ setup = "setup", rod = "rod" }}, conditions = {{ feed = {{ column = "feed", unit = "mm/min" }}, direction = {{ column = "direction", unit = "1" }}, time = {{ column = "t", unit = "s" }} }} }}
 components = [ {{ distribution = "normal", u = "0.5 um", per = "reading" }} ]
 [run]
 samples = 2000
