@@ -9,6 +9,11 @@
 namespace gumshoe::tracing {
 namespace {
 
+/// Without long double: a tail probability needs no more digits.
+using Gamma =
+    boost::math::gamma_distribution<double,
+                                    boost::math::policies::policy<boost::math::policies::promote_double<false>>>;
+
 Null null_of(const Eigen::Ref<const Matrix>& draws) {
   Null out;
   const double n = static_cast<double>(draws.size());
@@ -26,13 +31,13 @@ double share_at_most(const std::vector<double>& draws, double value) {
 
 double Null::p(double statistic) const {
   if (!(mean > 0) || !(variance > 0)) return 1;
-  const boost::math::gamma_distribution<> gamma(mean * mean / variance, variance / mean);
+  const Gamma gamma(mean * mean / variance, variance / mean);
   return statistic > 0 ? std::max(1e-300, boost::math::cdf(boost::math::complement(gamma, statistic))) : 1;
 }
 
 double Null::quantile(double p) const {
   if (!(mean > 0) || !(variance > 0)) return std::numeric_limits<double>::infinity();
-  const boost::math::gamma_distribution<> gamma(mean * mean / variance, variance / mean);
+  const Gamma gamma(mean * mean / variance, variance / mean);
   return boost::math::quantile(boost::math::complement(gamma, p));
 }
 
@@ -42,18 +47,21 @@ Assessment assess(const Scan& scan, const Vector& residuals, int draws, std::uin
   out.data = scan.run(residuals);
   const auto count = static_cast<std::size_t>(draws);
   const std::size_t k0 = out.data.without_scatter[0], k1 = out.data.structure[0];
+  // Two lots: one tells how each statistic is distributed, the other, as new to that as the data are, how small the
+  // least of all probabilities comes out by chance.
   const auto null_draws = [&](std::size_t k, double variance, std::uint64_t key) {
-    return scan.run(std::sqrt(variance) * scan.whitened(k).draw(count, key));
+    return scan.run(std::sqrt(variance) * scan.whitened(k).draw(2 * count, key));
   };
   // Nothing at all: no variance component either.
   const Statistics nothing = null_draws(k0, out.data.variance_without_scatter[0], seed);
-  const Index m = nothing.ratio.rows(), c = nothing.scatter.rows(), sets = nothing.ratio.cols();
+  const Index m = nothing.ratio.rows(), c = nothing.scatter.rows(), sets = draws;
   std::vector<Null> signature, component;
-  for (Index j = 0; j < m; ++j) signature.push_back(null_of(nothing.ratio.row(j)));
-  for (Index j = 0; j < c; ++j) component.push_back(null_of(nothing.scatter.row(j)));
+  for (Index j = 0; j < m; ++j) signature.push_back(null_of(nothing.ratio.row(j).head(sets)));
+  for (Index j = 0; j < c; ++j) component.push_back(null_of(nothing.scatter.row(j).head(sets)));
   // The noise's size: a robust scale, lognormal to the eye.
   const Vector sizes = nothing.scale.array().log() - 0.5 * std::log(out.data.variance_without_scatter[0]);
-  const double middle = sizes.mean(), spread = std::sqrt((sizes.array() - middle).square().mean());
+  const double middle = sizes.head(sets).mean(),
+               spread = std::sqrt((sizes.head(sets).array() - middle).square().mean());
   const boost::math::normal normal;
   const auto p_noise = [&](double log_size) {
     return boost::math::cdf(boost::math::complement(normal, (log_size - middle) / spread));
@@ -65,9 +73,10 @@ Assessment assess(const Scan& scan, const Vector& residuals, int draws, std::uin
   }
   std::vector<double> least(static_cast<std::size_t>(sets));
   for (Index i = 0; i < sets; ++i) {
-    double p = declared > 0 && spread > 0 ? p_noise(sizes[i]) : 1;
-    for (Index j = 0; j < m; ++j) p = std::min(p, signature[static_cast<std::size_t>(j)].p(nothing.ratio(j, i)));
-    for (Index j = 0; j < c; ++j) p = std::min(p, component[static_cast<std::size_t>(j)].p(nothing.scatter(j, i)));
+    double p = declared > 0 && spread > 0 ? p_noise(sizes[sets + i]) : 1;
+    for (Index j = 0; j < m; ++j) p = std::min(p, signature[static_cast<std::size_t>(j)].p(nothing.ratio(j, sets + i)));
+    for (Index j = 0; j < c; ++j)
+      p = std::min(p, component[static_cast<std::size_t>(j)].p(nothing.scatter(j, sets + i)));
     least[static_cast<std::size_t>(i)] = p;
   }
   double p = out.p_noise;
@@ -82,10 +91,11 @@ Assessment assess(const Scan& scan, const Vector& residuals, int draws, std::uin
   // Signatures beside the noise as it seems to be, with its variance component.
   if (k1 != k0) {
     const Statistics beside = null_draws(k1, out.data.variance[0], seed ^ 0x5ca77e5ull);
-    for (Index j = 0; j < m; ++j) signature[static_cast<std::size_t>(j)] = null_of(beside.ratio.row(j));
+    for (Index j = 0; j < m; ++j) signature[static_cast<std::size_t>(j)] = null_of(beside.ratio.row(j).head(sets));
     for (Index i = 0; i < sets; ++i) {
       double one = 1;
-      for (Index j = 0; j < m; ++j) one = std::min(one, signature[static_cast<std::size_t>(j)].p(beside.ratio(j, i)));
+      for (Index j = 0; j < m; ++j)
+        one = std::min(one, signature[static_cast<std::size_t>(j)].p(beside.ratio(j, sets + i)));
       least[static_cast<std::size_t>(i)] = one;
     }
   }

@@ -88,37 +88,66 @@ public:
   }
 
 private:
-  /// Where the model bends: the change over steps of both signs that move the indications by about `step`.
+  /// Steps of both signs that move the indications by about `step_`, of the quantities of effects. What does not move
+  /// them at all by its derivative takes its typical size; most of that (inserts that the tool does not have) does not
+  /// move them by any, and one trial together tells.
   void secants() {
-    std::vector<Variation> variations;
+    std::vector<Variation> still(2), variations;
+    std::vector<std::size_t> owner;
+    sizes_.assign(2 * all_.size(), 0);
     for (const std::size_t q : all_) {
+      if (q < e_.model_quantities() || e_.scenario().quantities[q].estimated) continue;
+      const EffectCard* effect = nullptr;
+      const QuantityCard* card = effect_card(e_, q, &effect);
+      if (card->role == Role::shape) continue;
+      // Another insert is another body, solved anew for every size; it does not jump from tooth to tooth.
+      const bool body = effect->stage == "insert";
       const double slope =
           tangents_.col(static_cast<Index>(q)).norm() / std::sqrt(static_cast<double>(simulator_.rows()));
-      const EffectCard* effect = nullptr;
-      const QuantityCard* card =
-          q < e_.model_quantities() ? &e_.model().card->quantities[q] : effect_card(e_, q, &effect);
-      double size = slope > 0 ? step_ / slope : 0;
-      const double typical = effect ? typical_size(*card) : 0;
-      if (typical > 0) size = size > 0 ? std::min(size, 3 * typical) : typical;
-      if (e_.scenario().quantities[q].estimated) size = 0;
-      for (const double sign : {1.0, -1.0}) {
-        const bool inside = size > 0 && card->role != Role::shape &&
-                            std::all_of(at_.begin(), at_.end(),
-                                        [&](const auto& p) { return card->limits.contain(p[q] + sign * size); });
-        sizes_.push_back(inside ? sign * size : 0);
-        variations.push_back({{{q, sizes_.back(), false}}});
+      const double typical = typical_size(*card);
+      double size = slope > 0 ? step_ / slope : typical;
+      if (slope > 0 && typical > 0) size = std::min(size, 3 * typical);
+      for (const std::size_t i : {0, 1}) {
+        const double signed_size = i == 0 ? size : -size;
+        const bool inside = size > 0 && std::all_of(at_.begin(), at_.end(), [&](const auto& p) {
+                              return card->limits.contain(p[q] + signed_size);
+                            });
+        if (!inside) continue;
+        if (body && slope > 0) continue;
+        sizes_[2 * q + i] = signed_size;
+        if (slope > 0) {
+          variations.push_back({{{q, signed_size, false}}});
+          owner.push_back(2 * q + i);
+        } else {
+          still[i].changes.push_back({q, signed_size, false});
+        }
       }
     }
     Matrix f;
     std::vector<bool> valid;
+    still.push_back({});
+    simulator_.vary(at_, still, f, valid);
+    for (const Index i : {0, 1}) {
+      const bool moved = !valid[static_cast<std::size_t>(i)] || (f.col(i) - f.col(2)).norm() > 0;
+      for (const auto& c : still[static_cast<std::size_t>(i)].changes) {
+        const std::size_t at = 2 * c.quantity + static_cast<std::size_t>(i);
+        if (moved) {
+          variations.push_back({{c}});
+          owner.push_back(at);
+        } else {
+          sizes_[at] = 0;
+        }
+      }
+    }
     variations.push_back({});
     simulator_.vary(at_, variations, f, valid);
     secants_ = Matrix::Zero(f.rows(), static_cast<Index>(sizes_.size()));
-    for (std::size_t i = 0; i < sizes_.size(); ++i) {
-      if (!valid[i] || sizes_[i] == 0) continue;
-      const auto j = static_cast<Index>(i);
-      secants_.col(j) = (f.col(j) - f.col(f.cols() - 1)) / sizes_[i];
-    }
+    for (std::size_t v = 0; v < owner.size(); ++v)
+      if (valid[v])
+        secants_.col(static_cast<Index>(owner[v])) =
+            (f.col(static_cast<Index>(v)) - f.col(f.cols() - 1)) / sizes_[owner[v]];
+      else
+        sizes_[owner[v]] = 0;
   }
 
   void add(Alternative a, std::vector<Alternative>& family) {
@@ -366,10 +395,12 @@ double typical_size(const QuantityCard& card, double* low) {
   const double first = std::strtod(text.c_str(), &end);
   if (end == text.c_str()) return 0;
   double second = first;
-  if (*end == '-') {
-    const char* from = end + 1;
-    second = std::strtod(from, &end);
-  }
+  for (const std::string_view joint : {"-", " to ", " or "})
+    if (std::string_view(end).starts_with(joint)) {
+      const char* from = end + joint.size();
+      second = std::strtod(from, &end);
+      break;
+    }
   std::string written = end;
   written = written.substr(0, written.find_first_of(":;,("));
   while (!written.empty() && written.front() == ' ') written.erase(0, 1);

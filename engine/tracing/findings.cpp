@@ -216,6 +216,7 @@ void collect(const Circumstances& c, const Search& s, Trace& out) {
       }
       f.spread = std::sqrt(f.spread / static_cast<double>(step.members.size() * c.fitter.rows().size()));
       f.suggestion = splitting_measurement(c, s, step);
+      if (f.suggestion.empty()) f.remarks.push_back("no change of a condition that was tried would tell them apart");
     }
     if (step.kind == Kind::scatter) describe_scatter(c, s, step, f);
     out.findings.push_back(std::move(f));
@@ -227,8 +228,14 @@ void collect(const Circumstances& c, const Search& s, Trace& out) {
 void speak(Trace& out) {
   const Rms& r = out.rms;
   if (out.outcome == Outcome::insufficient_data) {
-    out.plain = {"These data are too few to judge what the model lacks.",
-                 "Measure more readings than there are unknowns."};
+    out.plain = {"These data cannot tell what the model lacks."};
+    if (!out.statements.empty()) out.plain.push_back("Why: " + out.statements.back() + ".");
+    return;
+  }
+  if (out.findings.empty() && out.vetoed) {
+    out.plain = {
+        "Something was found in the data of the search, but readings kept apart are predicted no better with it.",
+        "Nothing is added to the model; measure more blocks to decide."};
     return;
   }
   if (out.findings.empty()) {

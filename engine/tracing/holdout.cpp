@@ -48,8 +48,10 @@ HeldOut hold_out(const Design& d, const Matrix& residual, const Matrix& extra, c
             own.fixed(test[static_cast<std::size_t>(i)], seen[j]) * constant.row(static_cast<Index>(j));
   }
   if (out.count <= 0) return out;
-  out.squares = local.left(white);
-  out.whitened = declared.left(white);
+  // Of what the constants leave, which may be millions of times the noise: no difference of large squares.
+  const Matrix rest = local.whiten(out.residual);
+  out.squares = local.left(rest);
+  out.whitened = declared.left(rest);
   return out;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include <Eigen/Cholesky>
@@ -83,7 +84,7 @@ void Fitter::local_noise(const Matrix& derivative, JointFit& fit) const {
     covariance[d.moves.front().first] += g * g.transpose();
   }
   Vector mean = Vector::Zero(k);
-  for (std::size_t r = 0; r < o.readings; ++r) {
+  for (const std::size_t r : o.sequence) {
     if (!noise_declared_) covariance[r] = Matrix::Identity(k, k) / e.scenario().readings[r].repeats;
     mean += covariance[r].diagonal() / static_cast<double>(o.readings);
   }
@@ -191,7 +192,12 @@ bool Fitter::linearise(JointFit& fit) const {
   }
   d.random.resize(n, 0);
   d.random_names.clear();
-  for (std::size_t v = 0; v < draws_.size(); ++v) {
+  // By name: draws are numbered as rows of the file ask for them.
+  std::vector<std::size_t> by_name(draws_.size());
+  std::iota(by_name.begin(), by_name.end(), 0);
+  std::stable_sort(by_name.begin(), by_name.end(),
+                   [&](std::size_t a, std::size_t b) { return draws_[a].name < draws_[b].name; });
+  for (const std::size_t v : by_name) {
     const Vector one = in_sequence(o, shared.col(static_cast<Index>(v)));
     if (!used[v] || !(one.norm() > 1e-6 * d.reference[0])) continue;
     d.random.conservativeResize(n, d.random.cols() + 1);
@@ -222,8 +228,17 @@ void Fitter::apply(JointFit& fit, const Vector& change, double share) const {
     }
 }
 
-double Fitter::objective(const JointFit& fit, const Whitened& prior) const {
-  return prior.left(prior.whiten(prior.take(fit.residual)))[0];
+/// Of the residuals as the step saw them, drawn in: an outlier must not hold the fit back.
+double Fitter::objective(const JointFit& fit, const Whitened& prior, const Scan& scan) const {
+  return prior.left(prior.whiten(scan.winsorised(prior.take(fit.residual))))[0];
+}
+
+JointFit Fitter::linearised(double noise) const {
+  JointFit fit;
+  fit.at = simulator_.estimates();
+  fit.noise = noise;
+  fit.valid = linearise(fit);
+  return fit;
 }
 
 JointFit Fitter::fit(const std::vector<Term>& terms, double noise, const JointFit* start) const {
@@ -300,13 +315,13 @@ JointFit Fitter::fit(const std::vector<Term>& terms, double noise, const JointFi
       continue;
     }
     const Whitened prior(fit.design, rows_, {}, fit.structure);
-    const double before = objective(fit, prior);
+    const double before = objective(fit, prior, scan);
     bool better = false;
     for (double share = 1; share > 1e-3 && !better; share /= 2) {
       JointFit next = fit;
       apply(next, change, share);
       if (!linearise(next)) continue;
-      better = objective(next, prior) <= before * (1 + 1e-9);
+      better = objective(next, prior, scan) <= before * (1 + 1e-9);
       if (better) fit = std::move(next);
     }
     if (!better) { // at the floor of what steps can do

@@ -43,6 +43,8 @@ public:
 
   /// Gauss-Newton with the winsorised residuals; from `start` where it is given. `noise` 0: found with the fit.
   JointFit fit(const std::vector<Term>& terms, double noise, const JointFit* start = nullptr) const;
+  /// The declared model at its estimates, not fitted.
+  JointFit linearised(double noise) const;
   /// Unknowns that only readings outside the fit feel, such as a constant of a block kept apart: found there with all
   /// else as fitted. The covariance takes them in.
   void settle(JointFit& fit) const;
@@ -54,7 +56,7 @@ private:
   bool linearise(JointFit& fit) const;
   void local_noise(const Matrix& derivative, JointFit& fit) const;
   void apply(JointFit& fit, const Vector& change, double share) const;
-  double objective(const JointFit& fit, const Whitened& prior) const;
+  double objective(const JointFit& fit, const Whitened& prior, const Scan& scan) const;
 
   const propagation::Experiment& experiment_;
   const Simulator& simulator_;

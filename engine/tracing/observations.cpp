@@ -16,23 +16,25 @@ namespace {
 
 using scenario::Scenario;
 
-Grouping grouping(const Scenario& s, const std::vector<std::string>& labels) {
+/// Groups are numbered as they are met in the order of measurement.
+Grouping grouping(const Scenario& s, const std::vector<std::size_t>& sequence, const std::vector<std::string>& labels) {
   Grouping out;
+  out.group.resize(s.readings.size());
   out.labels = labels;
   out.name = fmt::format("{}", fmt::join(labels, ","));
   std::map<std::vector<std::string>, std::size_t> known;
-  for (const auto& reading : s.readings) {
+  for (const std::size_t r : sequence) {
     std::vector<std::string> values;
     std::string name;
     for (const std::string& label : labels) {
-      const std::string* value = quantities::label_value(reading.labels, label);
+      const std::string* value = quantities::label_value(s.readings[r].labels, label);
       values.push_back(value ? *value : "");
       name +=
           (name.empty() ? "" : ", ") + (values.back().starts_with(label) ? values.back() : label + " " + values.back());
     }
     const auto [it, fresh] = known.insert({values, out.groups.size()});
     if (fresh) out.groups.push_back(name);
-    out.group.push_back(it->second);
+    out.group[r] = it->second;
   }
   return out;
 }
@@ -64,6 +66,18 @@ std::vector<std::size_t> sequence_of(const Scenario& s) {
   return out;
 }
 
+/// A label that only says under which conditions a reading was taken stands for no act done anew.
+bool says_conditions(const Scenario& s, const Grouping& g) {
+  std::map<std::vector<double>, std::set<std::size_t>> groups;
+  std::set<std::vector<double>> all;
+  for (std::size_t r = 0; r < s.readings.size(); ++r) {
+    groups[s.readings[r].conditions].insert(g.group[r]);
+    all.insert(s.readings[r].conditions);
+  }
+  if (all.size() == s.readings.size()) return false; // every reading differs, by its time say
+  return std::all_of(groups.begin(), groups.end(), [](const auto& c) { return c.second.size() == 1; });
+}
+
 void find_redone(const Scenario& s, Observations& o) {
   std::vector<std::vector<std::string>> sets = s.trace.redone;
   if (sets.empty()) {
@@ -75,7 +89,7 @@ void find_redone(const Scenario& s, Observations& o) {
   }
   const std::size_t least = s.trace.redone.empty() ? 6 : 5;
   for (const auto& set : sets) {
-    Grouping g = grouping(s, set);
+    Grouping g = grouping(s, o.sequence, set);
     if (g.groups.size() < least) {
       if (!s.trace.redone.empty())
         o.statements.push_back(
@@ -83,6 +97,7 @@ void find_redone(const Scenario& s, Observations& o) {
                         g.groups.size(), least));
       continue;
     }
+    if (s.trace.redone.empty() && says_conditions(s, g)) continue;
     // One reading each: it cannot be told from the noise of a reading.
     if (g.groups.size() * 5 > s.readings.size() * 4) continue;
     const bool known =
@@ -98,7 +113,7 @@ void find_blocks(const Scenario& s, Observations& o) {
                            "found is not confirmed on data that the search has not seen");
     return;
   }
-  o.blocks = grouping(s, {s.trace.blocks});
+  o.blocks = grouping(s, o.sequence, {s.trace.blocks});
   const std::size_t count = o.blocks.groups.size();
   const auto value_of = [&](std::size_t group) {
     for (std::size_t r = 0; r < o.readings; ++r)
@@ -121,7 +136,7 @@ void find_blocks(const Scenario& s, Observations& o) {
     for (std::size_t i = count - std::max<std::size_t>(1, count / 4); i < count; ++i)
       chosen.push_back(value_of(met[i]));
   }
-  if (chosen.size() + 2 > count) {
+  if (chosen.empty() || chosen.size() + 2 > count) {
     o.statements.push_back(fmt::format("{} blocks are too few to keep some apart to the end: each is left out in turn "
                                        "instead, and the figures are of data that the search has seen in part",
                                        count));
@@ -166,7 +181,7 @@ Observations observe(const propagation::Experiment& e) {
     add_covariate(o, "order", "1", "1", rank);
   }
   for (const std::string& label : label_names(s)) {
-    Grouping g = grouping(s, {label});
+    Grouping g = grouping(s, o.sequence, {label});
     if (g.groups.size() >= 2 && g.groups.size() < o.readings) o.labels.push_back(std::move(g));
   }
   find_redone(s, o);

@@ -17,9 +17,14 @@ namespace {
 constexpr double wide = 3.5;
 
 double robust_scale(std::vector<double>& sizes) {
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  return *middle / 0.6744897501960817;
+  const auto at = [&](double share) {
+    const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(sizes.size()));
+    std::nth_element(sizes.begin(), sizes.begin() + rank, sizes.end());
+    return sizes[static_cast<std::size_t>(rank)];
+  };
+  const double half = at(0.5) / 0.6744897501960817, most = at(0.9) / 1.6448536269514722;
+  // Half the residuals equal but for rounding, as readouts in steps may be: those that differ tell the scale.
+  return half > 1e-8 * most ? half : most;
 }
 
 /// Orthonormal columns that span the projected signature; empty if next to nothing is left.
@@ -117,24 +122,33 @@ double Scan::criterion(double left, std::size_t k) const {
 Matrix Scan::winsorised(const Matrix& residuals, Vector* scale, Matrix* weight) const {
   const Whitened& w = whitened_[plain_];
   Matrix white = w.whiten(residuals);
-  const Matrix left = w.project(white);
+  const Matrix projected = w.project(white);
   const double lost = static_cast<double>(freedom_) / static_cast<double>(residuals.rows());
   if (scale) scale->resize(residuals.cols());
   if (weight) *weight = Matrix::Ones(residuals.rows(), residuals.cols());
   std::vector<double> sizes(static_cast<std::size_t>(residuals.rows()));
   const auto k = static_cast<Index>(design_.indications);
   for (Index j = 0; j < residuals.cols(); ++j) {
-    for (Index i = 0; i < residuals.rows(); ++i) sizes[static_cast<std::size_t>(i)] = std::fabs(left(i, j));
-    const double s = robust_scale(sizes) / std::sqrt(lost);
-    const double rms = std::sqrt(left.col(j).squaredNorm() / static_cast<double>(freedom_));
-    // Half the residuals equal, as rounded readings may be: no robust scale.
-    const double used = s > 0.2 * rms ? s : rms;
-    if (scale) (*scale)[j] = used;
-    for (Index i = 0; i < residuals.rows(); ++i) {
-      const double size = std::fabs(left(i, j)), bound = wide * used;
-      if (size <= bound) continue;
-      white(i, j) -= left(i, j) * (1 - bound / size);
-      if (weight) (*weight)(i, j) = bound / size;
+    const Vector raw = white.col(j);
+    Vector left = projected.col(j);
+    // Least squares smear an outlier over its neighbours: in turns with the fit, until what is drawn in stands.
+    for (int pass = 0; pass < 30; ++pass) {
+      for (Index i = 0; i < left.size(); ++i) sizes[static_cast<std::size_t>(i)] = std::fabs(left[i]);
+      const double s = robust_scale(sizes) / std::sqrt(lost);
+      const double rms = std::sqrt(left.squaredNorm() / static_cast<double>(freedom_));
+      // Nearly all equal: no robust scale.
+      const double used = s > 1e-9 * rms ? s : rms, bound = wide * used;
+      if (scale) (*scale)[j] = used;
+      double moved = 0;
+      for (Index i = 0; i < left.size(); ++i) {
+        const double size = std::fabs(left[i]), share = size > bound ? bound / size : 1;
+        const double drawn = share < 1 ? raw[i] - left[i] * (1 - share) : raw[i];
+        moved = std::max(moved, std::fabs(drawn - white(i, j)));
+        white(i, j) = drawn;
+        if (weight) (*weight)(i, j) = share;
+      }
+      if (moved < 0.01 * used) break;
+      left = raw - white.col(j) + w.project(white.col(j));
     }
   }
   // Back to the readings' own units.

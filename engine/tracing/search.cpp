@@ -264,7 +264,7 @@ private:
       const Finalist& rival = finalists[i];
       const double lead = best.score - rival.score;
       const double correlation = scan_->correlation(best.alternative, rival.alternative, k);
-      const bool same = correlation > alike;
+      const bool same = correlation > alike && lead <= decisive; // by the whole model too
       if (!same && (lead > beyond_doubt ||
                     (lead > decisive && chance_of_lead(best.alternative, rival.alternative, lead) < 0.05))) {
         refused_[rival.alternative] = "refused: " + alternatives_[best.alternative].name + " fits better";

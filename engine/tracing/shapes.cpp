@@ -37,9 +37,17 @@ public:
     for (std::size_t i = 0; i < o_.covariates.size(); ++i)
       for (std::size_t j = i + 1; j < o_.covariates.size(); ++j) product(o_.covariates[i], o_.covariates[j]);
     for (const Covariate& c : o_.covariates)
-      if (c.levels.size() > 2) add(Family::omnibus, "omnibus:" + c.name, smooth_basis(o_, c, 5), {c.name});
+      if (c.levels.size() > 2) {
+        add(Family::omnibus, "omnibus:" + c.name, smooth_basis(o_, c, 5), {c.name});
+        // What rises and falls within a tenth of the range.
+        if (c.levels.size() > 30) add(Family::omnibus, "omnibus:" + c.name, smooth_basis(o_, c, 12), {c.name}, "fine");
+      }
+    // What scatters by a label is a variance component; any pattern of few groups is a shape.
+    const auto scatters = [&](const Grouping& g) {
+      return std::any_of(o_.redone.begin(), o_.redone.end(), [&](const Grouping& r) { return r.group == g.group; });
+    };
     for (const Grouping& g : o_.labels)
-      if (g.groups.size() > 2 && g.groups.size() <= 30) {
+      if (g.groups.size() > 2 && g.groups.size() <= 12 && !scatters(g)) {
         Matrix m = Matrix::Zero(static_cast<Index>(o_.readings), static_cast<Index>(g.groups.size()) - 1);
         for (std::size_t i = 0; i < o_.readings; ++i)
           if (const std::size_t at = g.group[o_.sequence[i]]; at > 0)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include "propagation/propagate.h"
 
@@ -36,6 +37,16 @@ void Simulator::add_stated(const Points& at, const std::vector<std::size_t>& qua
   }
 }
 
+std::vector<std::size_t> Simulator::alike_together(const Points& at) const {
+  std::vector<std::size_t> out(readings_);
+  std::iota(out.begin(), out.end(), 0);
+  const auto end = static_cast<std::ptrdiff_t>(experiment_.model_quantities());
+  std::stable_sort(out.begin(), out.end(), [&](std::size_t a, std::size_t b) {
+    return std::lexicographical_compare(at[a].begin(), at[a].begin() + end, at[b].begin(), at[b].begin() + end);
+  });
+  return out;
+}
+
 bool Simulator::simulate(const Points& at, Vector& f) const {
   Matrix all;
   std::vector<bool> valid;
@@ -59,6 +70,7 @@ void Simulator::vary(const Points& at, const std::vector<Variation>& variations,
   constexpr std::size_t part = 32;
   const std::size_t parts = (readings_ + part - 1) / part;
   std::vector<std::vector<std::uint8_t>> status(parts, std::vector<std::uint8_t>(samples, 0));
+  const auto order = alike_together(at);
   const auto one = [&](std::size_t p) {
     const std::size_t first = p * part, last = std::min(readings_, first + part), here = last - first;
     std::vector<double> values, out(here * indications_ * samples),
@@ -67,8 +79,9 @@ void Simulator::vary(const Points& at, const std::vector<Variation>& variations,
     std::vector<models::Column> q, effects, conditions, indications;
     std::vector<double*> simulated, measurands;
     std::vector<std::size_t> own(here);
-    for (std::size_t r = first; r < last; ++r) {
-      own[r - first] = r - first;
+    for (std::size_t place = first; place < last; ++place) {
+      const std::size_t r = order[place];
+      own[place - first] = place - first;
       for (std::size_t i = 0; i < used; ++i) {
         models::Column column{&at[r][i], 0};
         if (const auto it = changed.find(i); it != changed.end()) {
@@ -99,9 +112,10 @@ void Simulator::vary(const Points& at, const std::vector<Variation>& variations,
     call.evaluation = static_cast<int>(e.evaluation());
     call.context = e.model().context;
     e.model().kernels()->simulate(call);
-    for (std::size_t i = 0; i < here * indications_; ++i)
-      for (std::size_t v = 0; v < count; ++v)
-        f(static_cast<Index>(first * indications_ + i), static_cast<Index>(v)) = out[i * samples + v];
+    for (std::size_t i = 0; i < here * indications_; ++i) {
+      const std::size_t row = order[first + i / indications_] * indications_ + i % indications_;
+      for (std::size_t v = 0; v < count; ++v) f(static_cast<Index>(row), static_cast<Index>(v)) = out[i * samples + v];
+    }
   };
   // What a user wrote may not be safe to call from several threads.
   if (e.scenario().made || parts == 1)
@@ -123,6 +137,15 @@ void Simulator::vary(const Points& at, const std::vector<Variation>& variations,
     }
 }
 
+namespace {
+
+/// Place of the first that is the same quantity: one may be asked for twice, as declared and as a term's.
+std::size_t first_like(const std::vector<std::size_t>& quantities, std::size_t i) {
+  return static_cast<std::size_t>(std::find(quantities.begin(), quantities.end(), quantities[i]) - quantities.begin());
+}
+
+} // namespace
+
 bool Simulator::derivatives(const Points& at, const std::vector<std::size_t>& quantities, Vector& f, Matrix& derivative,
                             bool* kink) const {
   derivative = Matrix::Zero(static_cast<Index>(rows()), static_cast<Index>(quantities.size()));
@@ -131,6 +154,9 @@ bool Simulator::derivatives(const Points& at, const std::vector<std::size_t>& qu
   if (!experiment_.model().simulate_gradient) return by_differences(at, quantities, f, derivative);
   if (!by_dual_numbers(at, quantities, f, derivative, kink)) return false;
   add_stated(at, quantities, f, &derivative);
+  for (std::size_t i = 0; i < quantities.size(); ++i)
+    if (const std::size_t first = first_like(quantities, i); first < i)
+      derivative.col(static_cast<Index>(i)) = derivative.col(static_cast<Index>(first));
   return true;
 }
 
@@ -141,7 +167,7 @@ bool Simulator::by_dual_numbers(const Points& at, const std::vector<std::size_t>
   const std::size_t mq = e.model_quantities(), eq = e.effect_quantities();
   std::vector<std::size_t> wanted; // positions in `quantities` of what the model reads
   for (std::size_t i = 0; i < quantities.size(); ++i)
-    if (quantities[i] < mq + eq) wanted.push_back(i);
+    if (quantities[i] < mq + eq && first_like(quantities, i) == i) wanted.push_back(i);
   std::vector<std::uint8_t> failed(readings_, 0), bent(readings_, 0);
   const auto one = [&](std::size_t r) {
     std::vector<models::Gradient> point(at[r].begin(), at[r].end()), out(indications_),
@@ -179,10 +205,11 @@ bool Simulator::by_dual_numbers(const Points& at, const std::vector<std::size_t>
       from = to;
     } while (from < wanted.size());
   };
-  if (readings_ < 64)
-    for (std::size_t r = 0; r < readings_; ++r) one(r);
-  else
-    propagation::parallel_for(readings_, threads_, one);
+  const auto order = alike_together(at);
+  constexpr std::size_t part = 16;
+  propagation::parallel_for((readings_ + part - 1) / part, threads_, [&](std::size_t p) {
+    for (std::size_t i = p * part; i < std::min(readings_, (p + 1) * part); ++i) one(order[i]);
+  });
   if (kink) *kink = std::find(bent.begin(), bent.end(), 1) != bent.end();
   return std::all_of(failed.begin(), failed.end(), [](std::uint8_t s) { return s == 0; });
 }

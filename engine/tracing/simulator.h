@@ -47,6 +47,8 @@ private:
                        bool* kink) const;
   bool by_differences(const Points& at, const std::vector<std::size_t>& quantities, Vector& f,
                       Matrix& derivative) const;
+  /// Readings of equal quantities next to each other: a model may remember what it computed for the one before.
+  std::vector<std::size_t> alike_together(const Points& at) const;
   double step(std::size_t quantity, const Points& at) const;
   /// What a stated effect adds: size times loading. Not the model's.
   void add_stated(const Points& at, const std::vector<std::size_t>& quantities, Vector& f, Matrix* derivative) const;

@@ -35,12 +35,23 @@ bool enough(const Circumstances& c, Trace& out) {
   const auto& rows = c.fitter.rows();
   const JointFit fit = c.fitter.fit({}, 1);
   const std::size_t unknowns = independent(fit.design, rows).size();
-  if (rows.size() >= unknowns + 4) return true;
-  out.outcome = Outcome::insufficient_data;
+  if (rows.size() < unknowns + 4) {
+    const auto& readings = c.experiment.scenario().readings;
+    const bool repeated = std::any_of(readings.begin(), readings.end(), [](const auto& r) { return r.repeats > 1; });
+    out.statements.push_back(
+        fmt::format("{} readings{} are left to {} unknowns: what remains beside them cannot be judged; it takes "
+                    "four readings more than unknowns at the least",
+                    rows.size(), repeated ? " (readouts of equal labels and conditions count as one)" : "", unknowns));
+    out.outcome = Outcome::insufficient_data;
+    return false;
+  }
+  const double size = std::fabs(*std::max_element(c.observations.measured.begin(), c.observations.measured.end(),
+                                                  [](double a, double b) { return std::fabs(a) < std::fabs(b); }));
+  if (fit.residual(rows).cwiseAbs().maxCoeff() > 1e-12 * size) return true;
   out.statements.push_back(
-      fmt::format("{} readings are left to {} unknowns: what remains beside them cannot be judged; it takes "
-                  "four readings more than unknowns at the least",
-                  rows.size(), unknowns));
+      "the readings agree with the model to their last digit: they do not scatter, so that nothing "
+      "can be told from chance (a readout in steps too wide, or copied rows?)");
+  out.outcome = Outcome::insufficient_data;
   return false;
 }
 
@@ -77,6 +88,8 @@ Trace trace(const scenario::Scenario& scenario, const Settings& settings) {
   const Circumstances c{
       experiment,           simulator,           observations,     fitter,           scenario.trace.alpha,
       scenario.trace.draws, scenario.trace.seed, settings.threads, settings.progress};
+  out.rms.unit = model.card->indications[0].unit;
+  out.rms.si_unit = model.card->indications[0].si_unit;
   out.alpha = c.alpha;
   out.draws = c.draws;
   state_what_cannot_be_told(c, scenario, out);

@@ -169,9 +169,9 @@ class Trace(unittest.TestCase):
         return score(verdict, truth), verdict
 
     def test_silent_on_nulls(self):
-        # At 0.05 each, three or more of nine come once in a hundred such studies.
-        alarms = [(s.MODEL, seed) for s in (rods, mills, spheres) for seed in (11, 12, 13) if self.judged(s, "null", "", 0, seed)[0]["found"]]
-        self.assertLessEqual(len(alarms), 2, alarms)
+        # At 0.05 each, two or more of six come in three of a hundred such selections.
+        alarms = [(s.MODEL, seed) for s in (rods, mills, spheres) for seed in (11, 12) if self.judged(s, "null", "", 0, seed)[0]["found"]]
+        self.assertLessEqual(len(alarms), 1, alarms)
 
     def test_names_what_is_plain_to_see(self):
         for system, what in ((rods, "trigger_latency"), (mills, "spindle_axial_shift"), (spheres, "c_axis_reversal")):
@@ -266,7 +266,7 @@ class Trace(unittest.TestCase):
 
     def test_one_block_only(self):
         d = rods.design(sets.stream(11), setups=1)
-        y = rods.simulate(GUMSHOE, d, [d.values()])[0] + noise("white", sets.stream(12), d.time, 1, d.noise)
+        y = rods.simulate(GUMSHOE, d, [d.values()])[0] + noise("white", sets.stream(13), d.time, 1, d.noise)
         self.says(sets.write(self.path, self.path / "truth", "set", d, y, {}, rods), "block")
 
     def test_all_one_feed(self):

@@ -43,11 +43,12 @@ def score(verdict, truth):
     findings = verdict.get("findings", [])
     out = dict(system=truth["system"], kind=truth["kind"], noise=truth["noise"], strength=truth["nominal_strength"], seed=truth["seed"],
                expected=truth["expected"], verdict=verdict["verdict"], what="+".join(e["name"] for e in truth["effects"]) or truth["kind"],
-               found=bool(findings), names=[f["name"] for f in findings], intervals=[])
+               found=bool(findings), names=[f["name"] for f in findings], intervals=[], right_intervals=[])
     out["false_alarm"] = (truth["expected"] == "nothing_found" and bool(findings)
                           or truth["expected"] == "scatter" and any(f["kind"] != "scatter" for f in findings))
     out["naming"] = {"nothing_found": nothing, "scatter": scatter, "not_in_catalogue": outside}.get(truth["expected"], named)(
         findings, truth, out)
+    out["intervals"] = out["intervals"] + out["right_intervals"]
     out["wrong_name"] = out["naming"] < 0
     out["oracle"] = max([e.get("power_catalogue", 0) for e in truth["effects"]], default=math.nan)
     rms = verdict.get("rms", {})
@@ -102,7 +103,7 @@ def named(findings, truth, out):
         if best:
             effect = left.pop(best[1])
             total += best[0]
-            out["intervals"] += covered(f, effect)
+            out["right_intervals"] += covered(f, effect)
         elif f["kind"] in ("class", "scatter") or f["kind"] == "named" and not is_shape(f["name"]):
             wrong += 1
             out["intervals"] += [False for _ in f.get("quantities", [])]

@@ -8,6 +8,7 @@ import numpy as np
 from score import upper_limit
 
 BEGIN, END = "<!-- study: begin -->", "<!-- study: end -->"
+DATA_BEGIN, DATA_END = "<!-- measured data: begin -->", "<!-- measured data: end -->"
 
 
 def machine():
@@ -68,9 +69,11 @@ def summary(rows):
         there = [r for r in group if r["kind"] in ("single", "pair", "alias")]
         plain = [r for r in there if r["strength"] >= 8]
         outside = [r for r in group if r["kind"] == "outside" and r["strength"] >= 8]
+        right = [hit for r in group for hit in r["right_intervals"]]
         intervals = [hit for r in group for hit in r["intervals"]]
         changed = [r for r in group if not math.isnan(r["after_over_noise"])]
         out.append((system, show(mean([r["naming"] for r in plain])), show(mean([r["wrong_name"] for r in there])),
+                    f"{show(mean(right))} of {len(right)}",
                     f"{show(mean(intervals))} of {len(intervals)}", show(median([r["after_over_noise"] for r in there if r["found"]]), 3),
                     show(mean([r["verdict"] == "not_in_catalogue" for r in outside])), show(mean([r["naming"] == 1 for r in outside])),
                     show(mean([r["wrong_name"] for r in outside])), show(mean([r["harm"] for r in changed]), 3)))
@@ -80,7 +83,7 @@ def summary(rows):
 HEAD_NULL = ["system", "noise", "sets", "false alarms", "share", "upper 95 % limit", "which"]
 HEAD_EFFECT = ["system", "what is there", "strength", "sets", "something found", "oracle finds", "naming", "right", "wrong name", "after / noise",
                "before / noise"]
-HEAD_SUMMARY = ["system", "naming at 8 and more", "wrong names", "coverage of 95 % intervals", "held-out after / noise, median", "outside: not in the catalogue",
+HEAD_SUMMARY = ["system", "naming at 8 and more", "wrong names", "coverage, right names", "coverage, all intervals", "held-out after / noise, median", "outside: not in the catalogue",
                 "outside: right", "outside: wrong name", "harm"]
 
 
@@ -114,7 +117,7 @@ def report(rows, run):
         "declared model absorbs all of it, silence is right and naming is 0.\n\n" + table(HEAD_EFFECT, effect_rows(rows, ("alias",))),
         "### In no catalogue\n\nA bump or a jump in time, a wave over temperature, a cubic of a condition, a product of two. Right: described by the conditions it "
         "depends on.\n\n" + table(HEAD_EFFECT, effect_rows(rows, ("outside",))),
-        "### All together\n\nHarm: the held-out error rose by more than 5 %. Coverage counts the intervals of wrong names as misses.\n\n"
+        "### All together\n\nHarm: the held-out error rose by more than 5 %. Coverage of 95 % intervals: of all, those of wrong names are misses.\n\n"
         + table(HEAD_SUMMARY, summary(rows)),
     ]
     if failed:
@@ -130,3 +133,13 @@ def into(path, text):
         old += f"\n## Study on made-up readings\n\n{BEGIN}\n{END}\n"
     head, rest = old.split(BEGIN, 1)
     path.write_text(head + BEGIN + "\n" + text + "\n" + END + rest.split(END, 1)[1])
+
+
+def include(path, page):
+    """Puts another page at the report's end, its headings one level down."""
+    text = "\n".join("#" + line if line.startswith("#") else line for line in page.read_text().rstrip().splitlines())
+    old = path.read_text() if path.exists() else "# Tracing a residual to a missing effect\n"
+    if DATA_BEGIN not in old:
+        old = old.rstrip() + f"\n\n{DATA_BEGIN}\n{DATA_END}\n"
+    head, rest = old.split(DATA_BEGIN, 1)
+    path.write_text(head + DATA_BEGIN + "\n" + text + "\n" + DATA_END + rest.split(DATA_END, 1)[1])

@@ -189,10 +189,10 @@ std::string check(const PointCall<double>& call) {
     return "closed_form holds at B = 0 (pattern 1) or at C = 90 deg (pattern 2) only";
   if (call.evaluation == sphere::closed_form && !call.active.empty()) return "closed_form has no place for effects";
   if (call.conditions[sphere::feed] < 0) return "feed is negative";
-  for (const auto [name, value] : {std::pair{"B_direction", call.conditions[sphere::B_direction]},
-                                   {"C_direction", call.conditions[sphere::C_direction]}})
+  for (const auto& [name, value] : {std::pair{"B_direction", call.conditions[sphere::B_direction]},
+                                    {"C_direction", call.conditions[sphere::C_direction]}})
     if (value != 1 && value != -1 && value != 0) return std::string(name) + " is none of 1, -1, 0";
-  for (const auto [name, value] :
+  for (const auto& [name, value] :
        {std::pair{"B_clamped", call.conditions[sphere::B_clamped]}, {"C_clamped", call.conditions[sphere::C_clamped]}})
     if (value != 1 && value != 0) return std::string(name) + " is neither 0 nor 1";
   return {};

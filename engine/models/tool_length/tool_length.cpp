@@ -106,7 +106,7 @@ constexpr ModelCard card{
 #undef GUMSHOE_ONCE
 
 template <class T> PointOutcome evaluate_point(const PointCall<T>& call) {
-  chain::TriggerSolver solver;
+  thread_local chain::TriggerSolver solver; // remembers the geometry from reading to reading
   const auto o = mill::evaluate(solver, call);
   call.measurands[mill::trigger_height_row] = o.trigger.height.value;
   call.measurands[mill::length_row] = o.length;
@@ -115,7 +115,7 @@ template <class T> PointOutcome evaluate_point(const PointCall<T>& call) {
 }
 
 template <class T> PointOutcome simulate_point(const PointCall<T>& call) {
-  chain::TriggerSolver solver;
+  thread_local chain::TriggerSolver solver; // remembers the geometry from reading to reading
   const auto o = mill::simulate(solver, call);
   call.simulated[0] = o.spindle_z;
   return {static_cast<std::uint8_t>(o.trigger.height.status), o.trigger.height.kink};
@@ -123,7 +123,7 @@ template <class T> PointOutcome simulate_point(const PointCall<T>& call) {
 
 std::vector<Intermediate> explain(const PointCall<double>& call) {
   const double* q = call.quantities;
-  chain::TriggerSolver solver;
+  thread_local chain::TriggerSolver solver; // remembers the geometry from reading to reading
   const auto o = mill::evaluate(solver, call);
   const auto& event = o.event;
   const auto m = mill::motion(q, event, call.conditions);

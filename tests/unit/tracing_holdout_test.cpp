@@ -1,0 +1,143 @@
+/// Readings that a fit has not seen, and sizes that were reported because they were large.
+#include <catch2/catch.hpp>
+
+#include <boost/math/distributions/normal.hpp>
+
+#include "tracing/holdout.h"
+#include "tracing/interval.h"
+#include "unit/tracing_dense.h"
+
+using namespace tracing_dense;
+
+namespace {
+
+/// Four blocks of seven readings: a slope common to all, and a constant of each block's own.
+Design blocks_of_seven() {
+  Design d = random_design(28, 1, 5, 2, 7, 21);
+  for (Index i = 0; i < 28; ++i)
+    for (Index b = 0; b < 4; ++b) d.fixed(i, 1 + b) = i / 7 == b ? 1 : 0;
+  return d;
+}
+
+std::vector<Index> range(Index first, Index last) {
+  std::vector<Index> out;
+  for (Index i = first; i < last; ++i) out.push_back(i);
+  return out;
+}
+
+} // namespace
+
+TEST_CASE("a block is predicted from the others, its own constant projected out", "[tracing]") {
+  const Design d = blocks_of_seven();
+  const std::vector<Index> train = range(0, 21), test = range(21, 28);
+  std::mt19937_64 chance(2);
+  const Matrix residual = 1e-6 * normal_matrix(28, 3, chance), none(28, 0);
+  for (const Structure& s : {Structure{}, Structure{0.4, -1, 0}, Structure{0.2, 0, 1.4}}) {
+    const HeldOut held = hold_out(d, residual, none, train, test, s);
+    CHECK(held.count == 6); // seven readings, one constant
+    // By dense matrices: coefficients of the training rows, without the column that none of them feels.
+    const Matrix f = chosen(d.fixed, train).leftCols(4),
+                 local = local_factor(d, test) * local_factor(d, test).transpose();
+    const Matrix own = chosen(d.fixed, test).col(4);
+    for (Index j = 0; j < residual.cols(); ++j) {
+      const Gls fit = gls(covariance(d, train, s), f, chosen(residual.col(j), train));
+      const Vector rest = chosen(residual.col(j), test) - chosen(d.fixed, test).leftCols(4) * fit.size;
+      const Gls constant = gls(local, own, rest);
+      CHECK((held.residual.col(j) - (rest - own * constant.size)).norm() < 1e-9 * rest.norm());
+      CHECK(held.squares[j] == Approx(constant.squares).epsilon(1e-9));
+      CHECK(held.whitened[j] ==
+            Approx(gls(covariance(d, test, {0, s.scatter, s.ratio}), own, rest).squares).epsilon(1e-9));
+    }
+    // The block's own constant may be anything.
+    Matrix shifted = residual;
+    // A metre: 1e6 times the noise, of which double precision leaves 1e-10.
+    shifted.bottomRows(7).array() += 1;
+    const HeldOut again = hold_out(d, shifted, none, train, test, s);
+    CHECK((again.residual - held.residual).norm() < 1e-9 * held.residual.norm());
+    CHECK((again.squares - held.squares).norm() < 1e-8 * held.squares.norm());
+    CHECK((again.whitened - held.whitened).norm() < 1e-8 * held.whitened.norm());
+  }
+}
+
+TEST_CASE("an extra signature is fitted to the training rows only", "[tracing]") {
+  const Design d = blocks_of_seven();
+  const std::vector<Index> train = range(0, 21), test = range(21, 28);
+  std::mt19937_64 chance(3);
+  const Matrix extra = normal_matrix(28, 1, chance);
+  // A residual that is the signature is predicted in full; without it nothing is.
+  const HeldOut with = hold_out(d, 2e-6 * extra, extra, train, test, {}),
+                without = hold_out(d, 2e-6 * extra, Matrix(28, 0), train, test, {});
+  CHECK(with.squares[0] < 1e-15 * without.squares[0]);
+}
+
+TEST_CASE("a block with no more readings than constants of its own is not scored", "[tracing]") {
+  Design d = blocks_of_seven();
+  const HeldOut one = hold_out(d, Matrix::Ones(28, 1), Matrix(28, 0), range(0, 21), {24}, {});
+  CHECK(one.count == 0);
+  CHECK(one.squares[0] == 0);
+  // Two constants of their own, two readings; three readings leave one.
+  d.fixed.conservativeResize(28, 6);
+  d.fixed.col(5).setZero();
+  d.fixed(22, 5) = 1;
+  d.fixed(25, 5) = 1;
+  CHECK(hold_out(d, Matrix::Ones(28, 1), Matrix(28, 0), range(0, 21), {21, 22}, {}).count == 0);
+  CHECK(hold_out(d, Matrix::Ones(28, 1), Matrix(28, 0), range(0, 21), {21, 22, 23}, {}).count == 1);
+  // Constants that these readings cannot tell apart count once.
+  d.fixed.col(5) = d.fixed.col(4);
+  CHECK(hold_out(d, Matrix::Ones(28, 1), Matrix(28, 0), range(0, 21), {21, 22, 23}, {}).count == 2);
+}
+
+TEST_CASE("the interval after selection covers 95 % of what passes the threshold", "[tracing]") {
+  const boost::math::normal normal;
+  const auto phi = [&](double x) { return boost::math::cdf(normal, x); };
+  for (const double c : {0.0, 1.0, 2.0, 3.0, 4.0})
+    for (const double mean : {-5.0, -2.0, -0.5, 0.0, 1.0, 2.5, 3.0, 4.0, 8.0}) {
+      // Both ends rise with x > 0, so the x whose interval holds m are all between two edges; -x mirrors x.
+      const auto edge = [&](double m, bool upper) {
+        double low = c, high = c + std::fabs(m) + 12;
+        for (int i = 0; i < 40; ++i) {
+          const double x = (low + high) / 2;
+          const auto [a, b] = gumshoe::tracing::interval_after_selection(x, 1, c);
+          ((upper ? a <= m : b < m) ? low : high) = x;
+        }
+        return (low + high) / 2;
+      };
+      const double covered = std::max(0.0, phi(edge(mean, true) - mean) - phi(edge(mean, false) - mean)) +
+                             std::max(0.0, phi(edge(-mean, true) + mean) - phi(edge(-mean, false) + mean));
+      const double passed = phi(mean - c) + phi(-c - mean);
+      CAPTURE(c, mean);
+      CHECK(covered / passed == Approx(0.95).margin(1e-6));
+    }
+}
+
+TEST_CASE("the interval after selection: limits and symmetries", "[tracing]") {
+  using gumshoe::tracing::interval_after_selection;
+  constexpr double z = 1.959963984540054;
+  for (const double x : {-3.0, 0.0, 0.5, 7.0}) {
+    const auto [low, high] = interval_after_selection(x, 0.5, 0);
+    CHECK(low == Approx(x - 0.5 * z));
+    CHECK(high == Approx(x + 0.5 * z));
+  }
+  // Far above the threshold selection does not matter.
+  const auto far = interval_after_selection(20, 1, 3);
+  CHECK(far.first == Approx(20 - z).epsilon(1e-9));
+  CHECK(far.second == Approx(20 + z).epsilon(1e-9));
+  // Both ends rise with the observation, and the estimate is drawn towards zero near the threshold.
+  double low = -1e300, high = -1e300;
+  for (double x = 3.0; x < 12; x += 0.25) {
+    const auto [a, b] = interval_after_selection(x, 1, 3);
+    CHECK(a > low);
+    CHECK(b > high);
+    CHECK(a < b);
+    CHECK(b <= x + z + 1e-9);
+    low = a;
+    high = b;
+  }
+  CHECK(interval_after_selection(3.05, 1, 3).first < 0); // might be nothing
+  const auto plus = interval_after_selection(4, 1, 3), minus = interval_after_selection(-4, 1, 3);
+  CHECK(plus.first == -minus.second);
+  CHECK(plus.second == -minus.first);
+  const auto scaled = interval_after_selection(4e-6, 1e-6, 3e-6);
+  CHECK(scaled.first == Approx(1e-6 * plus.first));
+  CHECK(interval_after_selection(4, 0, 3) == std::pair{4.0, 4.0});
+}

@@ -1,0 +1,203 @@
+/// The scan of many signatures is generalised least squares with and without each of them.
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+
+#include "unit/tracing_dense.h"
+
+using namespace tracing_dense;
+
+namespace {
+
+/// Double precision over condition numbers of some thousands.
+constexpr double rounding = 1e-9;
+
+struct Case {
+  std::size_t readings, indications;
+  Index fixed, random;
+  std::size_t groups;
+};
+const Case cases[] = {{30, 1, 3, 0, 0}, {30, 1, 3, 4, 6}, {15, 2, 2, 3, 6}, {10, 3, 2, 2, 0}, {28, 1, 0, 2, 7}};
+
+/// ln |V| but for the own noise's part, and ln |F'V^-1 F| with F in units of the noise and columns of length one.
+double dense_determinant(const Design& d, const std::vector<Index>& rows, const Structure& s) {
+  const Matrix v = covariance(d, rows, s);
+  double out = ln_determinant(v) - 2 * local_factor(d, rows).diagonal().array().log().sum();
+  if (d.fixed.cols() == 0) return out;
+  Matrix f = chosen(d.fixed, rows);
+  for (Index j = 0; j < f.cols(); ++j) {
+    double square = 0;
+    for (Index i = 0; i < f.rows(); ++i)
+      square += std::pow(
+          f(i, j) / d.reference[static_cast<std::size_t>(rows[static_cast<std::size_t>(i)]) % d.indications], 2);
+    f.col(j) /= std::sqrt(square);
+  }
+  return out + ln_determinant(f.transpose() * v.llt().solve(f));
+}
+
+/// Residuals that nothing needs to be drawn in of.
+Vector tame(const Scan& scan, const Design& d, const std::vector<Index>& rows, std::uint64_t seed) {
+  for (;; ++seed) {
+    std::mt19937_64 chance(seed);
+    const Vector e = local_factor(d, rows) * normal_matrix(static_cast<Index>(rows.size()), 1, chance) +
+                     chosen(d.random, rows) * normal_matrix(d.random.cols(), 1, chance);
+    Matrix weight;
+    scan.winsorised(e, nullptr, &weight);
+    if (weight.minCoeff() == 1) return e;
+  }
+}
+
+} // namespace
+
+TEST_CASE("likelihood, sizes and information are those of dense generalised least squares", "[tracing]") {
+  for (const Case& c : cases)
+    for (const std::uint64_t seed : {1, 2}) {
+      const Design d = random_design(c.readings, c.indications, c.fixed, c.random, c.groups, seed);
+      std::vector<Index> rows = all_rows(d);
+      if (seed == 2) // not all readings: the last two left out, whole
+        rows.resize(rows.size() - 2 * c.indications);
+      const auto n = static_cast<Index>(rows.size());
+      std::mt19937_64 chance(seed + 100);
+      const Alternative one = alternative(normal_matrix(d.fixed.rows(), 1, chance)),
+                        pair = alternative(normal_matrix(d.fixed.rows(), 2, chance));
+      const std::vector<const Alternative*> alternatives{&one, &pair};
+      const Scan scan(d, rows, alternatives, 1);
+      const Vector y = tame(scan, d, rows, seed + 10);
+      const Matrix f = chosen(d.fixed, rows);
+      const double freedom = static_cast<double>(n - c.fixed);
+      REQUIRE(scan.degrees_of_freedom() == static_cast<std::size_t>(n - c.fixed));
+      double base = 1e300, with[2] = {1e300, 1e300};
+      std::size_t best = 0, best_with[2] = {0, 0};
+      for (std::size_t k = 0; k < scan.all_structures().size(); ++k) {
+        const Structure& s = scan.all_structures()[k];
+        CAPTURE(c.readings, c.indications, seed, s.correlation, s.scatter, s.ratio);
+        const Matrix v = covariance(d, rows, s);
+        const double determinant = dense_determinant(d, rows, s);
+        CHECK(scan.whitened(k).log_determinant() == Approx(determinant).margin(1e-9 * static_cast<double>(n)));
+        const Whitened& w = scan.whitened(k);
+        const Gls without = gls(v, f, y);
+        CHECK(w.left(w.whiten(y))[0] == Approx(without.squares).epsilon(rounding));
+        if (const double x = freedom * std::log(without.squares) + determinant; x < base) base = x, best = k;
+        for (std::size_t a = 0; a < 2; ++a) {
+          const Matrix g = chosen(alternatives[a]->columns, rows);
+          const Gls both = gls(v, joined(f, g), y);
+          if (const double x = freedom * std::log(both.squares) + determinant; x < with[a])
+            with[a] = x, best_with[a] = k;
+          // Whitened::solve, beside the declared and scattering parts.
+          Matrix covariance_of_all;
+          const Vector x = w.solve(w.whiten(g), w.whiten(y), &covariance_of_all);
+          const Index m = g.cols(), p = f.cols();
+          for (Index j = 0; j < m; ++j) {
+            const double u = std::sqrt(both.covariance(p + j, p + j));
+            CHECK(x[x.size() - m + j] == Approx(both.size[p + j]).margin(1e-8 * u));
+            CHECK(std::sqrt(covariance_of_all(x.size() - m + j, x.size() - m + j)) == Approx(u).epsilon(1e-7));
+          }
+          for (Index j = 0; j < p; ++j)
+            CHECK(x[j] == Approx(both.size[j]).margin(1e-8 * std::sqrt(both.covariance(j, j))));
+          // g'WMg of one column: one over the variance of its size beside nothing but the fixed columns.
+          const Gls alone = gls(v, joined(f, g.col(0)), y);
+          CHECK(scan.information(a, 0, k) == Approx(1 / alone.covariance(p, p)).epsilon(1e-8));
+        }
+      }
+      const Statistics found = scan.run(y);
+      CHECK(found.structure[0] == best);
+      CHECK(found.criterion[0] == Approx(base).epsilon(rounding));
+      CHECK(found.variance[0] ==
+            Approx(gls(covariance(d, rows, scan.all_structures()[best]), f, y).squares / freedom).epsilon(1e-8));
+      const Matrix local = local_factor(d, rows), plain = covariance(d, rows, {});
+      for (std::size_t a = 0; a < 2; ++a) {
+        const Matrix g = chosen(alternatives[a]->columns, rows);
+        const auto row = static_cast<Index>(a);
+        CHECK(found.ratio(row, 0) == Approx(std::max(0.0, base - with[a])).margin(1e-7));
+        const Fit fit = scan.fit(a, y);
+        const Gls dense = gls(covariance(d, rows, scan.all_structures()[best_with[a]]), joined(f, g), y);
+        CHECK(fit.structure == best_with[a]);
+        CHECK(fit.ratio == Approx(found.ratio(row, 0)).margin(1e-7));
+        for (Index j = 0; j < g.cols(); ++j) {
+          const Index at = f.cols() + j;
+          const double u =
+              std::sqrt(dense.squares / (freedom - static_cast<double>(g.cols())) * dense.covariance(at, at));
+          CHECK(fit.size[j] == Approx(dense.size[at]).margin(1e-8 * u));
+          CHECK(fit.u[j] == Approx(u).epsilon(1e-7));
+        }
+        // Share of the signature, in units of the own noise, that fixed and declared columns leave.
+        const Matrix x = local.triangularView<Eigen::Lower>().solve(g);
+        double left = 0;
+        for (Index j = 0; j < g.cols(); ++j) left += gls(plain, f, g.col(j)).squares;
+        CHECK(scan.identifiable(a) == Approx(left / x.squaredNorm()).epsilon(1e-8));
+      }
+      // Both together, and a signature that is a fixed column: nothing is left to see.
+      const Gls all = gls(covariance(d, rows, scan.all_structures()[best]),
+                          joined(f, joined(chosen(one.columns, rows), chosen(pair.columns, rows))), y);
+      const double alone = gls(covariance(d, rows, scan.all_structures()[best]), f, y).squares;
+      CHECK(scan.pair_ratio(0, 1, y, best) == Approx(freedom * std::log(alone / all.squares)).margin(1e-7));
+      if (c.fixed > 0) {
+        const Alternative absorbed = alternative(d.fixed.col(0) * 3);
+        const Scan nothing(d, rows, {&absorbed}, 1);
+        CHECK(nothing.identifiable(0) < 1e-12);
+        CHECK(nothing.run(y).ratio(0, 0) == 0);
+        CHECK(nothing.absorbed_by(0) == 0);
+      }
+    }
+}
+
+TEST_CASE("draws of the noise have the dense covariance", "[tracing]") {
+  constexpr Index draws = 20000;
+  for (const Case& c : {cases[1], cases[2]}) {
+    const Design d = random_design(c.readings, c.indications, c.fixed, c.random, c.groups, 3);
+    const std::vector<Index> rows = all_rows(d);
+    std::vector<Index> use;
+    for (Index j = 0; j < d.fixed.cols(); ++j) use.push_back(j);
+    const Structure s{0.6, 0, 2.8};
+    const Whitened w(d, rows, use, s);
+    const Matrix e = w.draw(draws, 17), v = covariance(d, rows, s);
+    std::mt19937_64 chance(5);
+    // Variance of a mean square of normal numbers is 2 / draws of its square; five standard deviations.
+    const double tolerance = 5 * std::sqrt(2.0 / static_cast<double>(draws));
+    for (int i = 0; i < 20; ++i) {
+      const Vector direction = normal_matrix(e.rows(), 1, chance);
+      const double expected = direction.dot(v * direction);
+      CHECK((e.transpose() * direction).squaredNorm() / static_cast<double>(draws) ==
+            Approx(expected).epsilon(tolerance));
+    }
+    // What is left of it is chi-squared: its mean is the degrees of freedom.
+    const double freedom = static_cast<double>(e.rows() - d.fixed.cols());
+    CHECK(w.left(w.whiten(e)).mean() ==
+          Approx(freedom).margin(5 * std::sqrt(2 * freedom / static_cast<double>(draws))));
+  }
+}
+
+TEST_CASE("residuals far out are drawn in to 3.5 robust standard deviations", "[tracing]") {
+  const Design d = random_design(60, 1, 2, 0, 0, 4);
+  const std::vector<Index> rows = all_rows(d);
+  const Scan scan(d, rows, {}, 1);
+  Vector y = tame(scan, d, rows, 8);
+  CHECK((scan.winsorised(y) - y).norm() < 1e-12 * y.norm());
+  const double own = d.local[20](0, 0);
+  y[20] += 400 * own;
+  Vector scale;
+  Matrix weight;
+  const Vector drawn = scan.winsorised(y, &scale, &weight);
+  CHECK(weight(20, 0) < 0.1);
+  // Nothing else is: least squares would smear the outlier over the others, so scale and bound are found in turns with
+  // the fit of what has been drawn in. The logarithm of a median of 60 scatters by 1.17 / sqrt(60); three of them.
+  CHECK((weight.array() < 1).count() <= 2);
+  CHECK(std::fabs(std::log(scale[0])) < 3 * 1.17 / std::sqrt(60.0));
+  const Vector fitted = d.fixed * gls(covariance(d, rows, {}), d.fixed, drawn).size;
+  CHECK(std::fabs(drawn[20] - fitted[20]) == Approx(3.5 * scale[0] * own).epsilon(0.01));
+  for (Index i = 0; i < 60; ++i)
+    if (weight(i, 0) == 1) CHECK(drawn[i] == Approx(y[i]).epsilon(1e-12));
+}
+
+TEST_CASE("rounded readings, most of them equal, still have a scale", "[tracing]") {
+  Design d = random_design(40, 1, 0, 0, 0, 6);
+  for (Matrix& l : d.local) l(0, 0) = 1e-6;
+  Vector y = Vector::Zero(40);
+  for (Index i = 0; i < 40; i += 3) y[i] = 1e-6; // a third of them one step off
+  Vector scale;
+  Matrix weight;
+  const Scan scan(d, all_rows(d), {}, 1);
+  CHECK((scan.winsorised(y, &scale, &weight) - y).norm() < 1e-18);
+  CHECK(weight.minCoeff() == 1);
+  CHECK(scale[0] > 0.1);
+}

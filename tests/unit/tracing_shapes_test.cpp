@@ -1,0 +1,194 @@
+/// Shapes without a cause span what their names say; cards' typical sizes; what a signature depends on.
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cctype>
+#include <numbers>
+#include <set>
+
+#include <Eigen/QR>
+
+#include "base/units.h"
+#include "unit/tracing_case.h"
+#include "unit/tracing_dense.h"
+
+using namespace tracing_case;
+
+namespace {
+
+constexpr std::size_t count = 48;
+
+Covariate covariate(const std::string& name, const std::string& si, std::vector<double> value) {
+  const std::set<double> levels(value.begin(), value.end());
+  return {name, si, si, std::move(value), {levels.begin(), levels.end()}, si == "rad"};
+}
+
+/// Feed up and down, an angle all round, load on two levels, time; order reversed, to tell sequence and rows apart.
+Observations made() {
+  Observations o;
+  o.readings = count;
+  o.indications = 1;
+  o.names = {"z"};
+  std::vector<double> feed, angle, load, time;
+  Grouping setup{"setup", {"setup"}, {}, {"setup 1", "setup 2", "setup 3"}};
+  for (std::size_t r = 0; r < count; ++r) {
+    o.sequence.push_back(count - 1 - r);
+    const auto i = static_cast<double>(r);
+    feed.push_back(1 + std::fmod(3 * i, 8));
+    angle.push_back(2 * std::numbers::pi * std::fmod(5 * i, 48) / 48);
+    load.push_back(static_cast<int>(i * i) % 7 < 3 ? 10 : 20);
+    time.push_back(100 - i);
+    setup.group.push_back(r % 3);
+  }
+  o.covariates = {covariate("feed", "m/s", feed), covariate("angle", "rad", angle), covariate("load", "N", load),
+                  covariate("time", "s", time)};
+  o.labels = {setup};
+  return o;
+}
+
+const Alternative& named(const std::vector<Alternative>& all, const std::string& name, const std::string& shape = "") {
+  for (const Alternative& a : all)
+    if (a.name == name && (shape.empty() || a.shape == shape)) return a;
+  throw InputError("no shape " + name);
+}
+
+/// What a function of a covariate has outside a span, as a share of it.
+double outside(const Matrix& basis, const Observations& o, std::size_t covariate,
+               const std::function<double(double)>& function) {
+  Vector y(static_cast<Index>(count));
+  for (std::size_t i = 0; i < count; ++i)
+    y[static_cast<Index>(i)] = function(o.covariates[covariate].value[o.sequence[i]]);
+  return (y - basis * basis.colPivHouseholderQr().solve(y)).norm() / y.norm();
+}
+
+Matrix with_constant(const Matrix& basis) { return tracing_dense::joined(Matrix::Ones(basis.rows(), 1), basis); }
+
+} // namespace
+
+TEST_CASE("shapes span what they say", "[tracing]") {
+  const Observations o = made();
+  const auto all = shapes(o);
+  for (const Alternative& a : all) {
+    CHECK(a.columns.rows() == static_cast<Index>(count));
+    CHECK(a.columns.allFinite());
+    CHECK(a.amplitudes.size() == static_cast<std::size_t>(a.columns.cols()));
+    CHECK(!a.depends_on.empty());
+    CHECK(!a.physical());
+  }
+  const auto spans = [&](const std::string& name, std::size_t c, auto f, const std::string& shape = "") {
+    INFO(name);
+    CHECK(outside(with_constant(named(all, name, shape).columns), o, c, f) < 1e-12);
+  };
+  spans("polynomial:feed", 0, [](double x) { return 3 - 2 * x; });
+  spans("polynomial:feed^2", 0, [](double x) { return 1 + 4 * x * x; });
+  spans("polynomial:feed^3", 0, [](double x) { return x * x * x; });
+  spans("polynomial:1/feed", 0, [](double x) { return 5 / x; });
+  spans(
+      "polynomial:feed", 0, [](double x) { return (x - 4.5) * (x - 4.5); }, "square about the middle");
+  spans("polynomial:load", 2, [](double x) { return x; });
+  for (int h = 1; h <= 4; ++h) // any phase
+    spans("harmonic:" + std::to_string(h) + "xangle", 1, [&](double x) { return std::cos(h * x + 0.7); });
+  spans(
+      "drift:time", 3, [](double x) { return std::exp(-(x - 53) / (0.25 * 47)); }, "saturating, 0.25 of the range");
+  spans(
+      "step:time", 3, [](double x) { return x > 53 + 0.5 * 47 ? 1 : -1; }, "after 0.5 of the range");
+  // A step of a label: one there, nought elsewhere, by sequence.
+  const Matrix step = named(all, "step:setup 2").columns;
+  for (std::size_t i = 0; i < count; ++i) CHECK(step(static_cast<Index>(i), 0) == (o.sequence[i] % 3 == 1 ? 1 : 0));
+  // The direction of motion: feed rises or falls from one reading to the next, as they were taken.
+  const Matrix way = named(all, "hysteresis:feed").columns;
+  for (std::size_t i = 1; i < count; ++i)
+    CHECK(way(static_cast<Index>(i), 0) ==
+          (o.covariates[0].value[o.sequence[i]] > o.covariates[0].value[o.sequence[i - 1]] ? 1 : -1));
+  // A product is that of the centred factors.
+  const Matrix product = named(all, "product:feed*load").columns;
+  Matrix basis(static_cast<Index>(count), 4);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double x = o.covariates[0].value[o.sequence[i]], y = o.covariates[2].value[o.sequence[i]];
+    basis.row(static_cast<Index>(i)) << 1, x, y, x * y;
+  }
+  CHECK((product - basis * basis.colPivHouseholderQr().solve(product)).norm() < 1e-12 * product.norm());
+}
+
+TEST_CASE("the omnibus bases hold any smooth dependence", "[tracing]") {
+  const Observations o = made();
+  // Two levels: any function of them. Thirteen: every cubic. An angle all round: waves of any phase.
+  const Matrix load = with_constant(smooth_basis(o, o.covariates[2], 5));
+  CHECK(outside(load, o, 2, [](double x) { return std::sin(x); }) < 1e-12);
+  const Matrix feed = with_constant(smooth_basis(o, o.covariates[0], 5));
+  CHECK(feed.cols() == 6);
+  CHECK(outside(feed, o, 0, [](double x) { return 2 - x + 0.3 * x * x - 0.1 * x * x * x; }) < 1e-10);
+  CHECK(outside(feed, o, 0, [](double x) { return std::exp(-x / 5); }) < 0.01);
+  const Matrix angle = with_constant(smooth_basis(o, o.covariates[1], 5));
+  for (int h = 1; h <= 3; ++h) CHECK(outside(angle, o, 1, [&](double x) { return std::sin(h * x - 0.3); }) < 1e-12);
+  // No column is a combination of the others and the constant.
+  for (const Matrix& basis : {load, feed, angle})
+    CHECK(Eigen::ColPivHouseholderQR<Matrix>(basis).rank() == basis.cols());
+  // A label's omnibus: any value per group.
+  const auto all = shapes(o);
+  const Matrix setups = with_constant(named(all, "omnibus:setup").columns);
+  Vector y(static_cast<Index>(count));
+  for (std::size_t i = 0; i < count; ++i)
+    y[static_cast<Index>(i)] = std::sqrt(2.0 + static_cast<double>(o.sequence[i] % 3));
+  CHECK((y - setups * setups.colPivHouseholderQr().solve(y)).norm() < 1e-12);
+}
+
+TEST_CASE("a shape is that of one indication", "[tracing]") {
+  Observations o = made();
+  o.indications = 2;
+  o.names = {"X", "Y"};
+  for (const Alternative& a : shapes(o)) {
+    REQUIRE(a.columns.rows() == static_cast<Index>(2 * count));
+    const bool x = a.name.ends_with(" of X");
+    CHECK((x || a.name.ends_with(" of Y")));
+    CHECK(a.columns(Eigen::seq(x ? 1 : 0, Eigen::last, 2), Eigen::all).norm() == 0);
+  }
+}
+
+TEST_CASE("a signature is told by the conditions on which it depends", "[tracing]") {
+  const Observations o = made();
+  const auto depends = [&](const std::function<double(std::size_t)>& f) {
+    Matrix column(static_cast<Index>(count), 1);
+    for (std::size_t i = 0; i < count; ++i) column(static_cast<Index>(i), 0) = f(o.sequence[i]);
+    return dependence(o, column);
+  };
+  using Names = std::vector<std::string>;
+  const auto& c = o.covariates;
+  CHECK(depends([&](std::size_t r) { return c[0].value[r] * c[0].value[r]; }) == Names{"feed"});
+  CHECK(depends([&](std::size_t r) { return std::sin(c[1].value[r]); }) == Names{"angle"});
+  CHECK(depends([&](std::size_t r) { return c[2].value[r]; }) == Names{"load"});
+  CHECK(depends([&](std::size_t r) { return r % 3 == 1 ? 1.0 : 0.0; }) == Names{"setup"});
+  CHECK(depends([&](std::size_t) { return 4.0; }).empty());
+  const Names both = depends([&](std::size_t r) { return c[0].value[r] + 3 * std::sin(c[1].value[r]); });
+  CHECK(both == Names{"feed", "angle"});
+}
+
+TEST_CASE("typical sizes of the effects' cards are read", "[tracing]") {
+  int read = 0;
+  for (const EffectCard* effect : effects::cards())
+    for (const QuantityCard& q : effect->quantities) {
+      const std::string text(q.typical);
+      if (std::none_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c); })) continue;
+      CAPTURE(effect->name, q.name, text);
+      double low = -1;
+      const double high = typical_size(q, &low);
+      CHECK(high > 0);
+      CHECK(low >= 0);
+      CHECK(low <= high);
+      CHECK(q.limits.contain(high));
+      ++read;
+    }
+  CHECK(read > 30);
+  const auto size = [](const char* text, const char* unit, const char* si) {
+    double low = 0;
+    const double high = typical_size({"x", unit, si, 0, {-1, 1}, "", "", Role::amplitude, text}, &low);
+    return std::pair{low, high};
+  };
+  CHECK(size("1-10 um", "um", "m").first == Approx(1e-6));
+  CHECK(size("1-10 um", "um", "m").second == Approx(1e-5));
+  CHECK(size("0.1-5 ms: of a control", "s", "s").second == Approx(5e-3));
+  CHECK(size("2 um", "mm", "m").second == Approx(2e-6));
+  CHECK(size("0-2", "1", "1").second == 2);
+  CHECK(size("none is known", "um", "m").second == 0);
+  CHECK(size("", "um", "m").second == 0);
+}
