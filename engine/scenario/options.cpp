@@ -186,8 +186,14 @@ std::vector<quantities::Correlation> read_correlations(const std::vector<Node>& 
   for (const auto& q : quantities) {
     names.push_back(q.name);
     for (const auto& entry : q.entries) {
-      if (!entry.labels.empty()) names.push_back(q.name + '[' + quantities::text_of(entry.labels) + ']');
-      for (const auto& c : entry.components) names.push_back(q.name + '.' + c.name);
+      auto labels = entry.labels;
+      std::sort(labels.begin(), labels.end()); // as draws are named
+      const std::string cell = q.name + '[' + quantities::text_of(labels) + ']';
+      if (!labels.empty()) names.push_back(cell);
+      for (const auto& c : entry.components) {
+        names.push_back(q.name + '.' + c.name);
+        if (!labels.empty() && entry.components.size() > 1) names.push_back(cell + ": " + c.name);
+      }
     }
   }
   std::vector<quantities::Correlation> out;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "analysis/rounding.h"
 #include "base/units.h"
 #include "quantities/cells.h"
 #include "tracing/findings.h"
@@ -24,8 +25,10 @@ struct Line {
   Taken taken;
 };
 
-std::string number(double si, const std::string& unit, const std::string& si_unit, units::Kind kind) {
-  return fmt::format("{:.4g}", units::from_si(si, unit, si_unit, kind));
+/// To the place that `u` asks for.
+std::string number(double si, double u, const std::string& unit, const std::string& si_unit, units::Kind kind) {
+  const double shown = units::from_si(u, unit, si_unit, units::Kind::difference);
+  return analysis::fixed(units::from_si(si, unit, si_unit, kind), shown > 0 ? analysis::decimals_for(shown) : 6);
 }
 
 class Composer {
@@ -118,7 +121,7 @@ private:
     for (std::size_t j = 0; j < one.alternative.amplitudes.size(); ++j) {
       const Amplitude& a = one.alternative.amplitudes[j];
       const Index column = first_column(fit_, t) + static_cast<Index>(j);
-      const std::string source = f ? source_of(*f, a, column) : "";
+      const std::string source = f ? source_of(*f, a) : "";
       if (f && f->spread > 0) widen(*f, t, static_cast<Index>(j), column);
       if (a.quantity == Amplitude::npos)
         lines_.push_back({unknown(stated(a), 0), one.size[static_cast<Index>(j)], column, {false, {}, source}});
@@ -137,7 +140,7 @@ private:
     fit_.covariance(column, column) += f.spread * f.spread * static_cast<double>(c_.fitter.rows().size()) / square;
   }
 
-  std::string source_of(const Finding& f, const Amplitude& a, Index) const {
+  std::string source_of(const Finding& f, const Amplitude& a) const {
     std::string out = fmt::format("{}, p = {:.2g}", name(f.kind), f.p_value);
     if (f.kind == Kind::equivalence_class)
       out += fmt::format(" of {}, which these data cannot tell apart: the first is written, u widened by how much they "
@@ -151,8 +154,8 @@ private:
               ? units::Kind::difference
               : units::Kind::point;
       out += fmt::format("; 95 % interval{} [{}, {}]{}, which allows for the search as u, of the fit, does not",
-                         shift ? " of the shift" : "", number(q.low95, q.unit, q.si_unit, kind),
-                         number(q.high95, q.unit, q.si_unit, kind), q.unit == "1" ? "" : " " + q.unit);
+                         shift ? " of the shift" : "", number(q.low95, q.u, q.unit, q.si_unit, kind),
+                         number(q.high95, q.u, q.unit, q.si_unit, kind), q.unit == "1" ? "" : " " + q.unit);
     }
     return out;
   }
@@ -226,7 +229,10 @@ private:
       out_.extended.quantities[lines_[i].unknown.quantity].estimated = true;
       for (std::size_t j = 0; j < n; ++j) {
         if (lines_[i].column < 0 || lines_[j].column < 0) continue;
-        const double covariance = fit_.covariance(lines_[i].column, lines_[j].column);
+        // Symmetric to the last bit.
+        const double covariance = (fit_.covariance(lines_[i].column, lines_[j].column) +
+                                   fit_.covariance(lines_[j].column, lines_[i].column)) /
+                                  2;
         e.covariance[i * n + j] = covariance;
         e.correlation[i * n + j] = i == j ? 1 : std::clamp(covariance / (u(lines_[i]) * u(lines_[j])), -1.0, 1.0);
       }

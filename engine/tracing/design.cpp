@@ -131,6 +131,10 @@ Vector Whitened::left(const Matrix& whitened) const {
 
 Matrix Whitened::solve_all(const Matrix& extra, const Matrix& y, Matrix* covariance) const {
   const Index top = stacked_.rows(), p = stacked_.cols(), m = extra.cols(), n = y.rows();
+  if (p + m == 0) { // nothing is free and nothing shared
+    if (covariance) covariance->resize(0, 0);
+    return Matrix(0, y.cols());
+  }
   Matrix a = Matrix::Zero(top, p + m);
   a.leftCols(p) = stacked_;
   if (m > 0) a.topRightCorner(n, m) = extra;

@@ -102,10 +102,16 @@ bool Fitter::linearise(JointFit& fit) const {
   const auto& o = observations_;
   const auto& plan = experiment_.plan();
   const auto k = static_cast<Index>(o.indications), n = static_cast<Index>(o.readings) * k;
+  // Each once: a quantity that is declared and found to be off is asked for twice.
   auto wanted = needed_;
+  const auto column_of = [&](std::size_t quantity) {
+    const auto known = std::find(wanted.begin(), wanted.end(), quantity);
+    if (known == wanted.end()) wanted.push_back(quantity);
+    return static_cast<Index>(std::find(wanted.begin(), wanted.end(), quantity) - wanted.begin());
+  };
   for (const Term& t : fit.terms)
     for (const Amplitude& a : t.alternative.amplitudes)
-      if (a.quantity != Amplitude::npos) wanted.push_back(a.quantity);
+      if (a.quantity != Amplitude::npos) column_of(a.quantity);
   Vector f;
   Matrix derivative;
   if (!simulator_.derivatives(fit.at, wanted, f, derivative, &fit.kink)) return false;
@@ -132,13 +138,12 @@ bool Fitter::linearise(JointFit& fit) const {
     d.fixed_names.push_back(unknowns_[u].name);
   }
   d.fixed = in_sequence(o, fixed);
-  auto column = static_cast<Index>(needed_.size());
   for (Term& t : fit.terms) {
     for (std::size_t j = 0; j < t.alternative.amplitudes.size(); ++j) {
       const Amplitude& a = t.alternative.amplitudes[j];
       Vector signature = t.alternative.columns.col(static_cast<Index>(j));
       if (a.quantity != Amplitude::npos) {
-        Matrix moved = derivative.col(column++);
+        Matrix moved = derivative.col(column_of(a.quantity));
         for (std::size_t r = 0; r < o.readings; ++r)
           if (!quantities::holds_for(a.labels, experiment_.scenario().readings[r].labels))
             moved.col(0).segment(static_cast<Index>(r) * k, k).setZero();
