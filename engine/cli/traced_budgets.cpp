@@ -1,5 +1,8 @@
 #include "cli/traced_budgets.h"
 
+#include <algorithm>
+#include <set>
+
 #include "analysis/gum.h"
 
 namespace gumshoe::cli {
@@ -9,13 +12,20 @@ store::TracedBudgets traced_budgets(const scenario::Scenario& before, const scen
   store::TracedBudgets found;
   if (before.method != scenario::Method::propagation || after.method != scenario::Method::propagation) return found;
   const propagation::Experiment was(before), is(after);
-  for (std::size_t o = 0; o < was.outputs().size() && found.before.size() < most; ++o)
-    for (std::size_t p = 0; p < is.outputs().size(); ++p) {
-      if (was.outputs()[o].name != is.outputs()[p].name) continue;
-      found.before.push_back(analysis::budget(was, o, before.analysis.coverage_probability));
-      found.after.push_back(analysis::budget(is, p, after.analysis.coverage_probability));
-      break;
-    }
+  // Readings of equal labels have outputs of equal names: the first stands for them.
+  std::set<std::string> seen;
+  for (std::size_t o = 0; o < was.outputs().size() && found.before.size() < most; ++o) {
+    const auto same = [&](const auto& output) { return output.name == was.outputs()[o].name; };
+    const auto p = std::ranges::find_if(is.outputs(), same);
+    if (p == is.outputs().end() || !seen.insert(p->name).second) continue;
+    analysis::Budget a = analysis::budget(was, o, before.analysis.coverage_probability);
+    analysis::Budget b =
+        analysis::budget(is, static_cast<std::size_t>(p - is.outputs().begin()), after.analysis.coverage_probability);
+    if (a.combined_standard_uncertainty == 0 && b.combined_standard_uncertainty == 0)
+      continue; // exact, before and after
+    found.before.push_back(std::move(a));
+    found.after.push_back(std::move(b));
+  }
   return found;
 }
 

@@ -4,7 +4,7 @@
 
 namespace gumshoe::cli {
 
-/// By the law of propagation (analysis/gum.h), of the first eight outputs that both have; none where a scenario
+/// By the law of propagation (analysis/gum.h), of the first eight outputs that both have and that are not exact; none where a scenario
 /// measures nothing or is a virtual experiment, which has no budget.
 store::TracedBudgets traced_budgets(const scenario::Scenario& before, const scenario::Scenario& after);
 
