@@ -26,7 +26,7 @@ void result(const std::string& word) {
 void trace(const std::string& name, const std::string& word) {
   const made::Traced made = made::trace(name);
   if (word == "--text")
-    cli::print_trace(made.trace, made.scenario.title, {"made_up.traced.h5"});
+    cli::print_trace(made.trace, made.scenario.title, {"made_up.traced.h5"}, "");
   else if (word == "--json")
     std::cout << tracing::verdict_json(made.trace) << '\n';
   else
