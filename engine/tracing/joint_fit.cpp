@@ -287,9 +287,9 @@ JointFit Fitter::fit(const std::vector<Term>& terms, double noise, const JointFi
     const Whitened& plain = scan.whitened(scan.plain());
     const Matrix chosen = plain.take(fit.residual);
     const Statistics now = scan.run(chosen);
-    fit.structure = scan.all_structures()[now.structure[0]];
-    fit.variance = now.variance[0];
-    const Whitened& w = scan.whitened(now.structure[0]);
+    fit.structure = scan.all_structures()[now.cautious[0]];
+    fit.variance = now.variance_cautious[0];
+    const Whitened& w = scan.whitened(now.cautious[0]);
     fit.criterion = static_cast<double>(scan.degrees_of_freedom()) * std::log(fit.variance) + w.log_determinant();
     const Vector white = w.whiten(scan.winsorised(chosen));
     Matrix covariance;

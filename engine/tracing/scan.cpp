@@ -186,6 +186,8 @@ Statistics Scan::run(const Matrix& residuals) const {
   out.scatter = Matrix::Zero(static_cast<Index>(design_.scatter.size()), sets);
   out.structure.resize(static_cast<std::size_t>(sets));
   out.without_scatter.resize(static_cast<std::size_t>(sets));
+  out.cautious.resize(static_cast<std::size_t>(sets));
+  out.variance_cautious.resize(sets);
   out.criterion.resize(sets);
   out.variance.resize(sets);
   out.variance_without_scatter.resize(sets);
@@ -196,8 +198,11 @@ Statistics Scan::run(const Matrix& residuals) const {
     out.criterion[j] = base;
     double plain = none;
     Vector component = Vector::Constant(out.scatter.rows(), none);
+    double white = none;
+    std::size_t uncorrelated = 0;
     for (std::size_t i = 0; i < count; ++i) {
       const double c = without(static_cast<Index>(i), j);
+      if (structures_[i].correlation == 0 && c < white) white = c, uncorrelated = i;
       if (structures_[i].scatter < 0) {
         if (c < plain) plain = c, out.without_scatter[static_cast<std::size_t>(j)] = i;
       } else {
@@ -210,6 +215,9 @@ Statistics Scan::run(const Matrix& residuals) const {
                       static_cast<double>(freedom_)) /
              static_cast<double>(freedom_);
     };
+    // A correlation that chance gives would make u of alternating signatures too small.
+    out.cautious[static_cast<std::size_t>(j)] = white - base < 3.84 ? uncorrelated : static_cast<std::size_t>(k);
+    out.variance_cautious[j] = variance(out.cautious[static_cast<std::size_t>(j)]);
     out.variance[j] = variance(static_cast<std::size_t>(k));
     out.variance_without_scatter[j] = variance(out.without_scatter[static_cast<std::size_t>(j)]);
     for (Index a = 0; a < candidates; ++a) {

@@ -19,9 +19,11 @@ struct Statistics {
   Matrix scatter;                           ///< [variance component][set]: the same for it
   Vector scale;                             ///< [set]: of the noise, robust, relative to the design's
   std::vector<std::size_t> structure;       ///< [set]: best without a signature
+  std::vector<std::size_t> cautious;        ///< [set]: serial correlation only where the data insist on it
   std::vector<std::size_t> without_scatter; ///< [set]: the best of those without a variance component
   Vector criterion;                         ///< [set]: minus 2 ln likelihood under `structure`, but for a constant
   Vector variance;                          ///< [set]: s^2 under `structure`
+  Vector variance_cautious;
   Vector variance_without_scatter;
 };
 
