@@ -15,6 +15,8 @@ namespace gumshoe::tracing {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+/// A smooth model takes three or four; one that jumps from tooth to tooth gains nothing by more.
+constexpr int most_iterations = 14;
 
 } // namespace
 
@@ -58,6 +60,33 @@ Fitter::Fitter(const propagation::Experiment& e, const Simulator& simulator, con
     d.local =
         std::all_of(d.moves.begin(), d.moves.end(), [&](const auto& m) { return m.first == d.moves.front().first; });
   needed_.assign(needed.begin(), needed.end());
+  find_finite_steps();
+}
+
+void Fitter::find_finite_steps() {
+  finite_.assign(needed_.size(), {});
+  std::vector<Variation> variations;
+  std::vector<std::size_t> column;
+  const std::size_t first = experiment_.model_quantities(), end = first + experiment_.effect_quantities();
+  for (std::size_t i = 0; i < needed_.size(); ++i) {
+    if (needed_[i] < first || needed_[i] >= end) continue;
+    double u = 0;
+    for (const Draw& d : draws_)
+      if (!d.moves.empty() && d.moves.front().second == needed_[i]) u = std::max(u, d.u);
+    if (!(u > 0)) continue;
+    variations.push_back({{{needed_[i], u, false}}});
+    variations.push_back({{{needed_[i], -u, false}}});
+    column.push_back(i);
+  }
+  if (column.empty()) return;
+  Matrix f;
+  std::vector<bool> valid;
+  simulator_.vary(simulator_.estimates(), variations, f, valid);
+  for (std::size_t i = 0; i < column.size(); ++i) {
+    const auto up = static_cast<Index>(2 * i);
+    if (valid[2 * i] && valid[2 * i + 1])
+      finite_[column[i]] = (f.col(up) - f.col(up + 1)) / (2 * variations[2 * i].changes[0].value);
+  }
 }
 
 /// Noise of each reading by itself: its own draws.
@@ -115,6 +144,10 @@ bool Fitter::linearise(JointFit& fit) const {
   Vector f;
   Matrix derivative;
   if (!simulator_.derivatives(fit.at, wanted, f, derivative, &fit.kink)) return false;
+  // Of declared draws: over the steps that they take.
+  Matrix drawn = derivative;
+  for (std::size_t i = 0; i < finite_.size(); ++i)
+    if (finite_[i].size() > 0) drawn.col(static_cast<Index>(i)) = finite_[i];
   Vector measured(n);
   for (Index i = 0; i < n; ++i) measured[i] = o.measured[static_cast<std::size_t>(i)];
   fit.residual = in_sequence(o, measured - f);
@@ -157,7 +190,7 @@ bool Fitter::linearise(JointFit& fit) const {
       t.alternative.columns.col(static_cast<Index>(j)) = signature;
     }
   }
-  local_noise(derivative, fit);
+  local_noise(drawn, fit);
   // Draws shared by readings, tied ones through the factor of their copula's matrix.
   Matrix shared = Matrix::Zero(n, static_cast<Index>(draws_.size()));
   std::vector<bool> used(draws_.size(), false);
@@ -180,7 +213,7 @@ bool Fitter::linearise(JointFit& fit) const {
       if (q >= first_noise && q < first_noise + o.indications)
         shared(static_cast<Index>(r) * k + static_cast<Index>(q - first_noise), static_cast<Index>(v)) += draws_[v].u;
       else
-        shared(rows, static_cast<Index>(v)) += derivative(rows, at(q)) * draws_[v].u;
+        shared(rows, static_cast<Index>(v)) += drawn(rows, at(q)) * draws_[v].u;
     }
     used[v] = true;
   }
@@ -282,7 +315,7 @@ JointFit Fitter::fit(const std::vector<Term>& terms, double noise, const JointFi
     linearise(fit);
   }
   fit.converged = false;
-  for (fit.iterations = 1; fit.iterations <= 40; ++fit.iterations) {
+  for (fit.iterations = 1; fit.iterations <= most_iterations; ++fit.iterations) {
     const Scan scan(fit.design, rows_, {}, threads_);
     const Whitened& plain = scan.whitened(scan.plain());
     const Matrix chosen = plain.take(fit.residual);
@@ -308,12 +341,12 @@ JointFit Fitter::fit(const std::vector<Term>& terms, double noise, const JointFi
     }
     fit.converged = largest < 1e-3;
     // The noise's scale once the fit stands, as far as the readings know it.
-    if (fit.converged || fit.iterations == 40) {
+    if (fit.converged || fit.iterations == most_iterations) {
       if (noise > 0) break;
       const auto freedom = static_cast<double>(scan.degrees_of_freedom());
       const double prior = noise_declared_ ? 4 : 0,
                    factor = (freedom * fit.variance + prior / (fit.noise * fit.noise)) / (freedom + prior);
-      if (std::fabs(std::log(factor)) < 0.02 || fit.iterations > 30) break;
+      if (std::fabs(std::log(factor)) < 0.02 || fit.iterations > most_iterations - 4) break;
       fit.noise *= std::sqrt(factor);
       fit.converged = false;
       linearise(fit);
@@ -322,7 +355,7 @@ JointFit Fitter::fit(const std::vector<Term>& terms, double noise, const JointFi
     const Whitened prior(fit.design, rows_, {}, fit.structure);
     const double before = objective(fit, prior, scan);
     bool better = false;
-    for (double share = 1; share > 1e-3 && !better; share /= 2) {
+    for (double share = 1; share > 0.05 && !better; share /= 2) {
       JointFit next = fit;
       apply(next, change, share);
       if (!linearise(next)) continue;

@@ -45,7 +45,7 @@ def one(job):
     program, folder, name, point, draws, keep = job
     system = sets.SYSTEMS[name]
     kind, what, strength, seed, noise = point
-    row = dict(system=name, kind=kind, noise=noise, strength=strength, seed=seed, case="+".join(what) if isinstance(what, tuple) else str(what))
+    row = dict(system=name, kind=kind, noise=noise, strength=strength, seed=seed, case=case_of(what))
     try:
         d, y, truth = sets.make(program, system, *point)
         title = sets.title(*point)
@@ -61,6 +61,14 @@ def one(job):
         return row
     except Exception as problem:  # one bad set must not end a study of thousands
         return {**row, "failed": f"{type(problem).__name__}: {problem}"[:300]}
+
+
+def case_of(what):
+    return "+".join(what) if isinstance(what, tuple) else str(what)
+
+
+def identity(row):
+    return tuple(str(row[k]) for k in ("system", "kind", "case", "noise", "seed")) + (float(row["strength"]),)
 
 
 def jobs(a):
@@ -87,6 +95,7 @@ def arguments(words):
     parser.add_argument("--kinds", nargs="+", help="null single pair alias outside scatter; all by default")
     parser.add_argument("--first-seed", type=int, default=1, help="of development")
     parser.add_argument("--judgement", action="store_true", help="fresh seeds, counted; writes the report")
+    parser.add_argument("--resume", action="store_true", help="go on with the run in OUT: its seeds, and what it has not traced yet")
     parser.add_argument("--processes", type=int, default=2)
     parser.add_argument("--keep", action="store_true", help="keep every set's folder")
     parser.add_argument("--out", type=Path, default=ROOT / "results" / "tracing-study")
@@ -117,12 +126,17 @@ def count_judgement(a, version):
 def main(words):
     a = arguments(words)
     version = subprocess.run([a.program, "--version"], capture_output=True, text=True).stdout.strip()
-    if a.judgement:
+    log_file = a.out / "rows.jsonl"
+    rows = [json.loads(line) for line in log_file.open()] if a.resume else []
+    if a.judgement and a.resume:
+        a.first_seed = int(judgements()[-1]["first_seed"])
+    elif a.judgement:
         count_judgement(a, version)
     a.out.mkdir(parents=True, exist_ok=True)
-    todo = list(jobs(a))
-    begun, rows = time.monotonic(), []
-    with multiprocessing.Pool(a.processes) as pool, (a.out / "rows.jsonl").open("w") as log:
+    known = {identity(r) for r in rows}
+    todo = [job for job in jobs(a) if identity(dict(system=job[2], kind=job[3][0], case=case_of(job[3][1]), strength=job[3][2], seed=job[3][3], noise=job[3][4])) not in known]
+    begun = time.monotonic()
+    with multiprocessing.Pool(a.processes) as pool, log_file.open("a" if a.resume else "w") as log:
         for i, row in enumerate(pool.imap_unordered(one, todo), 1):
             rows.append(row)
             log.write(json.dumps(row) + "\n")

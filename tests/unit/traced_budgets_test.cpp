@@ -16,6 +16,8 @@ const std::string rod = R"(schema = 1
 name = "rod_gauging"
 [conditions]
 feed = "60 mm/min"
+[quantities.beam_pitch]
+value = "0.3 deg"
 [quantities.rod_length]
 value = "150 mm"
 u = "1 um"
