@@ -252,7 +252,11 @@ void speak(Trace& out) {
                        shown(f.quantities[0].value, f.quantities[0].unit, f.quantities[0].si_unit));
   switch (f.kind) {
   case Kind::named:
-    out.plain.push_back(fmt::format("The machine does something that the model leaves out: {}{}.", f.name, size));
+    if (f.name.starts_with("declared:"))
+      out.plain.push_back(fmt::format("What the scenario declares is not what the readings show: {}{}.",
+                                      f.name.substr(std::string("declared:").size()), size));
+    else
+      out.plain.push_back(fmt::format("The machine does something that the model leaves out: {}{}.", f.name, size));
     break;
   case Kind::equivalence_class:
     out.plain.push_back(
