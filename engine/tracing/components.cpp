@@ -45,8 +45,10 @@ public:
       out_.additions.push_back({"reclamp.shift", "um", "m", u / loading, f.depends_on, source});
       return;
     }
+    const bool one = fit_.structure.scatter == step.component && fit_.structure.indication >= 0;
+    const auto only = one ? static_cast<std::size_t>(fit_.structure.indication) : 0;
     for (std::size_t i = 0; i < d.indications; ++i)
-      of_noise(i, u * d.reference[i] / d.reference[0], f.depends_on, source);
+      if (!one || i == only) of_noise(i, u * d.reference[i] / d.reference[only], f.depends_on, source);
   }
 
   void not_in_catalogue(const Step& step, const Finding& f, const std::vector<Vector>& left) {

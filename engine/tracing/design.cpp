@@ -19,7 +19,11 @@ std::vector<Structure> structures(const Design& d, std::size_t rows) {
   for (const double r : rho) out.push_back({r, -1, 0});
   for (std::size_t c = 0; c < d.scatter.size(); ++c)
     for (const double ratio : {0.35, 0.7, 1.4, 2.8, 6.0, 15.0, 50.0})
-      for (const double r : rho) out.push_back({r, static_cast<int>(c), ratio});
+      for (const double r : rho) {
+        out.push_back({r, static_cast<int>(c), ratio});
+        for (int i = 0; i < static_cast<int>(d.indications) && d.indications > 1 && ratio > 0.5 && ratio < 10; ++i)
+          out.push_back({r, static_cast<int>(c), ratio, i});
+      }
   return out;
 }
 
@@ -92,12 +96,17 @@ Matrix Whitened::scatter_matrix() const {
     const auto r = static_cast<std::size_t>(row);
     return g.group[design_.reading[r]] * design_.indications + r % design_.indications;
   };
+  const auto moved = [&](Index row) {
+    return structure_.indication < 0 ||
+           static_cast<std::size_t>(row) % design_.indications == static_cast<std::size_t>(structure_.indication);
+  };
   for (const Index row : rows_)
-    if (column[at(row)] < 0) column[at(row)] = count++;
+    if (moved(row) && column[at(row)] < 0) column[at(row)] = count++;
   Matrix out = Matrix::Zero(static_cast<Index>(rows_.size()), count);
   for (std::size_t i = 0; i < rows_.size(); ++i)
-    out(static_cast<Index>(i), column[at(rows_[i])]) =
-        structure_.ratio * design_.reference[static_cast<std::size_t>(rows_[i]) % design_.indications];
+    if (moved(rows_[i]))
+      out(static_cast<Index>(i), column[at(rows_[i])]) =
+          structure_.ratio * design_.reference[static_cast<std::size_t>(rows_[i]) % design_.indications];
   return out;
 }
 

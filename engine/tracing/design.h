@@ -24,8 +24,9 @@ struct Design {
 /// Noise beside what is declared: serial correlation along the sequence, and a variance component.
 struct Structure {
   double correlation = 0;
-  int scatter = -1; ///< of Design::scatter; -1: none
-  double ratio = 0; ///< u of the component over the noise's
+  int scatter = -1;    ///< of Design::scatter; -1: none
+  double ratio = 0;    ///< u of the component over the noise's
+  int indication = -1; ///< the only one that the component moves; -1: each by itself
 };
 
 /// rho over a grid, alone and with each variance component over a grid of ratios.

@@ -157,7 +157,10 @@ void describe_noise(const Circumstances& c, const Search& s, Trace& out) {
   out.noise.correlation = s.found.structure.correlation;
   if (s.found.structure.scatter >= 0) {
     out.noise.scatter = c.observations.redone[static_cast<std::size_t>(s.found.structure.scatter)].name;
-    out.noise.scatter_u = s.found.structure.ratio * s.found.design.reference[0] * std::sqrt(s.found.variance);
+    out.noise.scatter_u =
+        s.found.structure.ratio *
+        s.found.design.reference[static_cast<std::size_t>(std::max(0, s.found.structure.indication))] *
+        std::sqrt(s.found.variance);
   }
   out.noise.chi_squared_p = s.first.p_noise;
   if (s.last.noise_small && out.noise.declared)

@@ -36,7 +36,7 @@ HeldOut hold_out(const Design& d, const Matrix& residual, const Matrix& extra, c
   out.count = static_cast<double>(test.size() - seen.size());
   out.squares = out.whitened = Vector::Zero(residual.cols());
   // Beside declared draws and scatter, as they are expected of readings not seen.
-  const Whitened declared(own, test, seen, {0, structure.scatter, structure.ratio});
+  const Whitened declared(own, test, seen, {0, structure.scatter, structure.ratio, structure.indication});
   own.random.resize(own.random.rows(), 0);
   const Whitened local(own, test, seen, Structure{});
   const Matrix white = local.whiten(out.residual);

@@ -25,6 +25,7 @@ void describe_scatter(const Circumstances& c, const Search& s, const Step& step,
   }
   // Profile likelihood over the ratio, the other structure as fitted.
   const auto& rows = c.fitter.rows();
+  const int indication = fit.structure.scatter == step.component ? fit.structure.indication : -1;
   const auto use = independent(fit.design, rows);
   const Scan scan(fit.design, rows, {}, c.threads);
   const Matrix data = scan.winsorised(scan.whitened(scan.plain()).take(fit.residual));
@@ -32,13 +33,16 @@ void describe_scatter(const Circumstances& c, const Search& s, const Step& step,
   const double freedom = static_cast<double>(rows.size() - use.size());
   for (int i = 0; i <= 60; ++i) {
     const double ratio = 0.05 * std::pow(4000.0, i / 60.0);
-    const Whitened w(fit.design, rows, use, {fit.structure.correlation, step.component, ratio});
+    const Whitened w(fit.design, rows, use, {fit.structure.correlation, step.component, ratio, indication});
     const double left = w.left(w.whiten(data))[0];
     profile.push_back({ratio, freedom * std::log(left) + w.log_determinant(), std::sqrt(left / freedom)});
   }
   const auto best =
       std::min_element(profile.begin(), profile.end(), [](const auto& a, const auto& b) { return a[1] < b[1]; });
-  const auto size = [&](const auto& p) { return p[0] * p[2] * fit.design.reference[0]; };
+  const double reference = fit.design.reference[indication < 0 ? 0 : static_cast<std::size_t>(indication)];
+  const auto size = [&](const auto& p) { return p[0] * p[2] * reference; };
+  if (indication >= 0)
+    finding.remarks.push_back("of " + c.observations.names[static_cast<std::size_t>(indication)] + " alone");
   q.value = size(*best);
   q.low95 = q.high95 = q.value;
   for (const auto& p : profile)

@@ -95,7 +95,8 @@ inline Matrix covariance(const Design& d, const std::vector<Index>& rows, const 
       for (Index j = 0; j < n; ++j) {
         const auto a = static_cast<std::size_t>(rows[static_cast<std::size_t>(i)]),
                    b = static_cast<std::size_t>(rows[static_cast<std::size_t>(j)]);
-        if (a % d.indications == b % d.indications && g.group[d.reading[a]] == g.group[d.reading[b]])
+        const bool moved = s.indication < 0 || a % d.indications == static_cast<std::size_t>(s.indication);
+        if (moved && a % d.indications == b % d.indications && g.group[d.reading[a]] == g.group[d.reading[b]])
           v(i, j) += std::pow(s.ratio * d.reference[a % d.indications], 2);
       }
   }
