@@ -158,7 +158,7 @@ def rod_section(program):
                        ('2 = { value = "0.00 deg"', '2 = { value = "0.5729 deg"'))
     exchanged = program.trace("trace_rods", change=exchange)
     chi, freedom, by_setup, names = chi_squared(program.path)
-    blunt = (" The program says nothing of it: it tests the noise's size by a robust scale, which eight degrees of freedom leave blunt."
+    blunt = (" The program says nothing of it: its own test of the noise's size, by data drawn in and among all that is tried at once, is weaker with eight degrees of freedom."
              if whole["verdict"] == "nothing_found" else "")
     heights = [(s, *(f"{x:+.1f}" for x in r), f"{np.ptp(r):.1f}") for s, r in by_setup.items()]
     return f"""## Rods of Tables 2.4 to 2.7
