@@ -138,16 +138,19 @@ HeightNode InsertHeight::at(double angle, double hint) const {
   return node;
 }
 
-HeightNode hump(const InsertHeight& heights, HeightNode a, HeightNode b, double drift) {
-  HeightNode best = a.height + drift * a.angle > b.height + drift * b.angle ? a : b;
+HeightNode hump(const InsertHeight& heights, HeightNode a, HeightNode b, double drift, double wanted) {
+  const auto value = [&](const HeightNode& n) { return n.height + drift * n.angle; };
+  HeightNode best = value(a) > value(b) ? a : b;
   for (int i = 0; i < 100 && b.angle - a.angle > 1e-12; ++i) {
     const double fa = a.slope + drift, fb = b.slope + drift, width = b.angle - a.angle;
+    // one hump: its top lies below both tangents
+    if (value(best) >= wanted || value(a) + fa * width < wanted || value(b) - fb * width < wanted) break;
     // regula falsi kept away from the ends, with a halving every third step
     double share = std::clamp(fa / (fa - fb), 1e-4, 1 - 1e-4);
     if (i % 3 == 2) share = 0.5;
-    const HeightNode middle = heights.at(a.angle + share * width, best.height);
+    const HeightNode middle = heights.at(a.angle + share * width, guess(a.angle + share * width, best));
     if (!middle.covered) break;
-    if (middle.height + drift * middle.angle > best.height + drift * best.angle) best = middle;
+    if (value(middle) > value(best)) best = middle;
     const double f = middle.slope + drift;
     if (std::fabs(f) < 1e-15) break;
     (f > 0 ? a : b) = middle;

@@ -42,7 +42,13 @@ private:
   HeightNode highest_, widest_;
 };
 
-/// Where d(height + drift angle)/d(angle) changes from + to -, between two nodes where it does.
-HeightNode hump(const InsertHeight& heights, HeightNode a, HeightNode b, double drift);
+/// The height at another angle along the tangent, a hint for InsertHeight::at; NaN if there is no cover.
+inline double guess(double angle, const HeightNode& n) {
+  return n.covered ? n.height + n.slope * (angle - n.angle) : std::nan("");
+}
+
+/// Where d(height + drift angle)/d(angle) changes from + to -, between two nodes where it does. Given `wanted`, no
+/// further than it takes to know whether height + drift angle comes up to it.
+HeightNode hump(const InsertHeight& heights, HeightNode a, HeightNode b, double drift, double wanted = std::nan(""));
 
 } // namespace gumshoe::chain

@@ -47,9 +47,8 @@ public:
 
 private:
   double excess(const HeightNode& n) const { return n.height + drop_ * (n.angle - start_) - height_; }
-  HeightNode node(double angle) const {
-    return angle == last_.angle ? last_ : heights_.at(angle, last_.covered ? last_.height : std::nan(""));
-  }
+  HeightNode near(double angle, const HeightNode& n) const { return heights_.at(angle, guess(angle, n)); }
+  HeightNode node(double angle) const { return angle == last_.angle ? last_ : near(angle, last_); }
 
   bool between(double from, double to) {
     const double cosine = heights_.body().cos_pitch;
@@ -58,11 +57,11 @@ private:
       const double middle = 0.5 * (from + to);
       return between(from, middle) || between(middle, to);
     }
-    const HeightNode a = node(from), b = heights_.at(to, a.covered ? a.height : std::nan(""));
+    const HeightNode a = node(from), b = near(to, a);
     last_ = b;
     if (b.covered && excess(b) >= 0) return root(a, b);
     if (a.covered && b.covered && a.slope + drop_ > 0 && b.slope + drop_ < 0) {
-      const HeightNode top = hump(heights_, a, b, drop_);
+      const HeightNode top = hump(heights_, a, b, drop_, height_ + drop_ * start_);
       if (top.covered && excess(top) >= 0) return root(a, top);
     }
     return false;
@@ -74,8 +73,9 @@ private:
     for (int i = 0; i < 100 && b.angle - a.angle > 1e-14; ++i) {
       double next = x.covered ? x.angle - excess(x) / (x.slope + drop_) : std::nan("");
       if (!(next > a.angle && next < b.angle) || i % 8 == 7) next = 0.5 * (a.angle + b.angle);
-      const bool close = std::fabs(next - x.angle) < 1e-14;
-      x = heights_.at(next, b.height);
+      // What is left after a step that short is of second order.
+      const bool close = drop_ * std::fabs(next - x.angle) < 1e-14;
+      x = near(next, b);
       (x.covered && excess(x) >= 0 ? b : a) = x;
       if (close) { // Newton's limit, from whichever side
         b = x;
@@ -94,8 +94,8 @@ private:
 } // namespace
 
 const InsertHeight& TriggerSolver::heights(const Insert<double>& insert, const Beam<double>& beam) {
-  const auto known = std::ranges::find_if(
-      remembered_, [&](const Remembered& r) { return r.insert == insert && r.beam == beam; });
+  const auto known =
+      std::ranges::find_if(remembered_, [&](const Remembered& r) { return r.insert == insert && r.beam == beam; });
   if (known == remembered_.end()) {
     if (remembered_.size() >= most_inserts) remembered_.pop_back();
     remembered_.push_front({insert, beam, InsertHeight(insert, beam)});
@@ -103,6 +103,24 @@ const InsertHeight& TriggerSolver::heights(const Insert<double>& insert, const B
     remembered_.splice(remembered_.begin(), remembered_, known);
   }
   return remembered_.front().heights;
+}
+
+InsertTrigger TriggerSolver::searched(std::span<const Flute<double>> flutes, const Beam<double>& beam,
+                                      const InsertMotion& motion) {
+  // Asked again by every lot of derivatives, and by every variation of what acts after the trigger only.
+  std::vector<double> question{motion.start_angle, motion.start_height, motion.drop, motion.not_before};
+  const auto add = [&](std::initializer_list<double> more) { question.insert(question.end(), more); };
+  add({beam.yaw, beam.pitch, beam.radius, beam.fraction});
+  for (const Flute<double>& f : flutes) {
+    const Insert<double>& i = f.insert;
+    add({i.tool_radius, i.radius, i.thickness, i.clearance, i.radial_angle, i.axial_angle, i.axis_x, i.axis_y, i.seat});
+    add({f.azimuth, f.raise});
+  }
+  // NaN has no place in an order.
+  if (!std::ranges::all_of(question, [](double x) { return std::isfinite(x); })) return search(flutes, beam, motion);
+  if (const auto known = answers_.find(question); known != answers_.end()) return known->second;
+  if (answers_.size() >= most_answers) answers_.clear();
+  return answers_.emplace(std::move(question), search(flutes, beam, motion)).first->second;
 }
 
 InsertTrigger TriggerSolver::search(std::span<const Flute<double>> flutes, const Beam<double>& beam,

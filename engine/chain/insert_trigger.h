@@ -6,8 +6,10 @@
 /// No time steps: revolutions above the highest Zc are passed at once, then humps of Zc + drop angle are isolated.
 #include <array>
 #include <list>
+#include <map>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "chain/insert_height.h"
 #include "chain/insert_pass.h"
@@ -79,6 +81,10 @@ private:
     InsertHeight heights;
   };
   std::list<Remembered> remembered_; ///< the last used first
+  /// search(), with its answers to whole questions remembered: it takes a hundred times the walk's time.
+  InsertTrigger searched(std::span<const Flute<double>> flutes, const Beam<double>& beam, const InsertMotion& motion);
+  static constexpr std::size_t most_answers = 4096;
+  std::map<std::vector<double>, InsertTrigger> answers_;
   struct Pass {
     Insert<double> insert;
     Beam<double> beam;

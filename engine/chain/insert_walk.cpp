@@ -23,7 +23,7 @@ struct Opening {
 InsertTrigger TriggerSolver::solve(std::span<const Flute<double>> flutes, const Beam<double>& beam,
                                    const InsertMotion& motion) {
   if (const auto found = walk(flutes, beam, motion)) return *found;
-  return search(flutes, beam, motion);
+  return searched(flutes, beam, motion);
 }
 
 std::optional<InsertTrigger> TriggerSolver::walk(std::span<const Flute<double>> flutes, const Beam<double>& beam,

@@ -50,7 +50,7 @@ Assessment assess(const Scan& scan, const Vector& residuals, int draws, std::uin
   // Two lots: one tells how each statistic is distributed, the other, as new to that as the data are, how small the
   // least of all probabilities comes out by chance.
   const auto null_draws = [&](std::size_t k, double variance, std::uint64_t key) {
-    return scan.run(std::sqrt(variance) * scan.whitened(k).draw(2 * count, key));
+    return scan.run(std::sqrt(variance) * scan.whitened(k).draw(2 * count, key), beyond_chance);
   };
   // Nothing at all: no variance component either.
   const Statistics nothing = null_draws(k0, out.data.variance_without_scatter[0], seed);

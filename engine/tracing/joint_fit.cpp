@@ -8,6 +8,7 @@
 #include <set>
 
 #include <Eigen/Cholesky>
+#include <boost/math/special_functions/erf.hpp>
 
 #include "quantities/cells.h"
 
@@ -65,8 +66,13 @@ Fitter::Fitter(const propagation::Experiment& e, const Simulator& simulator, con
 
 void Fitter::find_finite_steps() {
   finite_.assign(needed_.size(), {});
+  bends_ = Vector::Zero(static_cast<Index>(simulator_.rows()));
+  constexpr Index nodes = 16; // equally likely values of a normal draw
+  Vector z(nodes);
+  for (Index j = 0; j < nodes; ++j)
+    z[j] = -std::sqrt(2.0) * boost::math::erfc_inv((2.0 * static_cast<double>(j) + 1) / nodes);
   std::vector<Variation> variations;
-  std::vector<std::size_t> column;
+  std::vector<std::pair<std::size_t, double>> moved; // column of needed_, u
   const std::size_t first = experiment_.model_quantities(), end = first + experiment_.effect_quantities();
   for (std::size_t i = 0; i < needed_.size(); ++i) {
     if (needed_[i] < first || needed_[i] >= end) continue;
@@ -74,18 +80,21 @@ void Fitter::find_finite_steps() {
     for (const Draw& d : draws_)
       if (!d.moves.empty() && d.moves.front().second == needed_[i]) u = std::max(u, d.u);
     if (!(u > 0)) continue;
-    variations.push_back({{{needed_[i], u, false}}});
-    variations.push_back({{{needed_[i], -u, false}}});
-    column.push_back(i);
+    for (const double node : z) variations.push_back({{{needed_[i], u * node, false}}});
+    moved.push_back({i, u});
   }
-  if (column.empty()) return;
+  if (moved.empty()) return;
   Matrix f;
   std::vector<bool> valid;
   simulator_.vary(simulator_.estimates(), variations, f, valid);
-  for (std::size_t i = 0; i < column.size(); ++i) {
-    const auto up = static_cast<Index>(2 * i);
-    if (valid[2 * i] && valid[2 * i + 1])
-      finite_[column[i]] = (f.col(up) - f.col(up + 1)) / (2 * variations[2 * i].changes[0].value);
+  if (std::find(valid.begin(), valid.end(), false) != valid.end()) return; // the derivative serves
+  const double square = z.squaredNorm();
+  for (std::size_t m = 0; m < moved.size(); ++m) {
+    const Matrix here = f.middleCols(static_cast<Index>(m) * nodes, nodes);
+    const Vector slope = here * z / square;
+    const Matrix line = slope * z.transpose(), off = (here - line).colwise() - (here - line).rowwise().mean();
+    finite_[moved[m].first] = slope / moved[m].second;
+    bends_ += off.array().square().matrix().rowwise().sum() / static_cast<double>(nodes - 2);
   }
 }
 
@@ -115,6 +124,8 @@ void Fitter::local_noise(const Matrix& derivative, JointFit& fit) const {
   Vector mean = Vector::Zero(k);
   for (const std::size_t r : o.sequence) {
     if (!noise_declared_) covariance[r] = Matrix::Identity(k, k) / e.scenario().readings[r].repeats;
+    const double unit = noise_declared_ ? 1 : fit.noise * fit.noise;
+    covariance[r].diagonal() += bends_.segment(static_cast<Index>(r) * k, k) / unit;
     mean += covariance[r].diagonal() / static_cast<double>(o.readings);
   }
   fit.design.reference.assign(static_cast<std::size_t>(k), 0);

@@ -65,10 +65,12 @@ private:
   int threads_;
   std::vector<FreeUnknown> unknowns_;
   bool noise_declared_ = false;
-  /// Over steps of plus and minus the declared u of an effect's quantity, at the estimates: a turning mill hardly moves
-  /// by the derivative while it stays on one tooth. By column of `needed_`; empty where the derivative serves.
+  /// The straight line through the readings over an effect's quantity as it is declared to scatter, at the estimates: a
+  /// turning mill hardly moves by the derivative while it stays on one tooth. By column of `needed_`; empty where the
+  /// derivative serves.
   void find_finite_steps();
   std::vector<Vector> finite_;
+  Vector bends_; ///< variance about these lines, by row of the simulator: noise of each reading by itself
   std::vector<std::size_t> needed_; ///< quantities whose derivatives are used
   /// Draws with all that they move: by reading of the scenario, quantity.
   struct Draw {

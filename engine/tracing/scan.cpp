@@ -151,7 +151,7 @@ Matrix Scan::winsorised(const Matrix& residuals, Vector* scale, Matrix* weight) 
   return out;
 }
 
-Statistics Scan::run(const Matrix& residuals) const {
+Statistics Scan::run(const Matrix& residuals, double reach) const {
   Statistics out;
   const Matrix data = winsorised(residuals, &out.scale);
   const Index sets = data.cols();
@@ -159,24 +159,32 @@ Statistics Scan::run(const Matrix& residuals) const {
   const std::size_t count = structures_.size();
   Matrix without(static_cast<Index>(count), sets);
   constexpr double none = std::numeric_limits<double>::infinity();
+  propagation::parallel_for(count, threads_, [&](std::size_t k) {
+    const Vector left = whitened_[k].left(whitened_[k].whiten(data));
+    for (Index j = 0; j < sets; ++j) without(static_cast<Index>(k), j) = criterion(left[j], k);
+  });
+  const Vector least = without.colwise().minCoeff();
   // In parts by structure, each thread with its own best; minima do not depend on the order.
-  const std::size_t parts = std::min<std::size_t>(count, 8);
+  const std::size_t parts = candidates > 0 ? std::min<std::size_t>(count, 8) : 0;
   std::vector<Matrix> best(parts);
   propagation::parallel_for(parts, threads_, [&](std::size_t part) {
     best[part] = Matrix::Constant(candidates, sets, none);
     for (std::size_t k = part; k < count; k += parts) {
-      const Whitened& w = whitened_[k];
-      const Matrix white = w.whiten(data);
-      const Vector left = w.left(white);
+      std::vector<Index> chosen;
+      for (Index j = 0; j < sets; ++j)
+        if (without(static_cast<Index>(k), j) - least[j] <= reach) chosen.push_back(j);
+      if (chosen.empty()) continue;
+      const Matrix white = whitened_[k].whiten(data(Eigen::all, chosen));
       const Matrix explained = (prepared_[k].signatures.transpose() * white).array().square();
-      for (Index j = 0; j < sets; ++j) {
-        without(static_cast<Index>(k), j) = criterion(left[j], k);
-        const double shift = w.log_determinant(), n = static_cast<double>(freedom_);
+      for (std::size_t i = 0; i < chosen.size(); ++i) {
+        const Index j = chosen[i];
+        const double n = static_cast<double>(freedom_), shift = whitened_[k].log_determinant(),
+                     left = std::exp((without(static_cast<Index>(k), j) - shift) / n);
         for (Index a = 0; a < candidates; ++a) {
           const Block& b = prepared_[k].blocks[static_cast<std::size_t>(a)];
           if (b.count == 0) continue;
-          const double rest = left[j] - explained.col(j).segment(b.first, b.count).sum();
-          const double c = n * std::log(std::max(rest, 1e-12 * left[j])) + shift;
+          const double rest = left - explained.col(static_cast<Index>(i)).segment(b.first, b.count).sum();
+          const double c = n * std::log(std::max(rest, 1e-12 * left)) + shift;
           if (c < best[part](a, j)) best[part](a, j) = c;
         }
       }

@@ -1,6 +1,7 @@
 #pragma once
 /// Every signature against many data sets at once: likelihood ratios, with the structure of the noise fitted anew each
 /// time, beside the model without and with the signature.
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -12,6 +13,9 @@ namespace gumshoe::tracing {
 /// Below this share of a signature nothing is said of it: what is left is of the size of what a linearised model
 /// neglects.
 inline constexpr double absorbed_share = 1e-5;
+
+/// What no signature gains on noise by chance: twelve columns of pure noise do so once in 10 000 sets.
+inline constexpr double beyond_chance = 40;
 
 /// Of one data set or many (columns).
 struct Statistics {
@@ -40,7 +44,9 @@ public:
        int threads);
 
   /// @param residuals over the chosen rows, SI, a column per data set. Winsorised here.
-  Statistics run(const Matrix& residuals) const;
+  /// @param reach     structures whose criterion is further above the best one's are not tried with a signature: for
+  ///                  noise alone, where no signature makes up for so much. Without it all are.
+  Statistics run(const Matrix& residuals, double reach = std::numeric_limits<double>::infinity()) const;
   /// Sizes of one alternative in one data set.
   Fit fit(std::size_t alternative, const Vector& residuals) const;
   /// Two alternatives together, under a given structure: 2 ln of the likelihood ratio against neither.
