@@ -8,6 +8,7 @@
 #include <optional>
 
 #include <fmt/format.h>
+#include <malloc.h>
 #include <unistd.h>
 
 #include "cli/command.h"
@@ -101,6 +102,9 @@ void show(const std::string& what) {
 }
 
 ExitCode trace(const Options& o) {
+  // Matrices of megabytes come and go by the thousand: their pages are kept.
+  mallopt(M_MMAP_THRESHOLD, 1 << 30);
+  mallopt(M_TRIM_THRESHOLD, 1 << 30);
   const scenario::Scenario s = asked(o);
   const Outputs outputs = checked_outputs(o);
   const std::string& out = outputs.result;

@@ -14,8 +14,8 @@ namespace gumshoe::tracing {
 /// neglects.
 inline constexpr double absorbed_share = 1e-5;
 
-/// What no signature gains on noise by chance: twelve columns of pure noise do so once in 10 000 sets.
-inline constexpr double beyond_chance = 40;
+/// By how much no signature's gain on pure noise differs between two structures of it.
+inline constexpr double beyond_chance = 20;
 
 /// Of one data set or many (columns).
 struct Statistics {
@@ -45,7 +45,7 @@ public:
 
   /// @param residuals over the chosen rows, SI, a column per data set. Winsorised here.
   /// @param reach     structures whose criterion is further above the best one's are not tried with a signature: for
-  ///                  noise alone, where no signature makes up for so much. Without it all are.
+  ///                  noise alone, where none makes up for so much. Without it all are.
   Statistics run(const Matrix& residuals, double reach = std::numeric_limits<double>::infinity()) const;
   /// Sizes of one alternative in one data set.
   Fit fit(std::size_t alternative, const Vector& residuals) const;
