@@ -115,6 +115,8 @@ ExitCode run(const Options& o) {
                                  propagation::design_hash(experiment)};
   store::ResultFile file(out, identity, experiment.outputs(), experiment.place_names());
 
+  if (!file.remark().empty()) std::cerr << file.remark() << '\n';
+
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
   propagation::RunSettings settings;

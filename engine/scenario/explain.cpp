@@ -184,9 +184,12 @@ void explain(const TraceOptions& t, Lines out) {
                  t.final_blocks.empty() ? std::string("the last quarter")
                                         : fmt::format("{}", fmt::join(t.final_blocks, ", ")),
                  t.order_name.empty() ? "as the readings stand" : t.order_name);
-  if (t.redone.empty())
+  if (!t.redone)
     fmt::format_to(out, "  redone: every set of one or two labels with at least six combinations\n");
-  for (const auto& labels : t.redone) fmt::format_to(out, "  redone: {}\n", fmt::join(labels, " with "));
+  else if (t.redone->empty())
+    fmt::format_to(out, "  redone: no act\n");
+  for (const auto& labels : t.redone.value_or(std::vector<std::vector<std::string>>{}))
+    fmt::format_to(out, "  redone: {}\n", fmt::join(labels, " with "));
   fmt::format_to(out, "  alpha {}, draws {}, seed {}\n", t.alpha, t.draws, t.seed);
   for (const TraceColumn& c : t.columns) {
     const auto [low, high] = std::minmax_element(c.values.begin(), c.values.end());

@@ -107,7 +107,8 @@ private:
         const expression::Program& program = static_cast<const expression::Expression*>(made->context)->evaluate;
         std::vector<double> known = conditions;
         known.insert(known.end(), columns.begin(), columns.end());
-        return expression::interpret<double>(program, {nullptr, known.data(), nullptr}).steps[program.outputs[0]];
+        const double none = 0; // the formula reads no quantity and no indication
+        return expression::interpret<double>(program, {&none, known.data(), &none}).steps[program.outputs[0]];
       };
       if (std::ranges::all_of(scope_.columns, [&](const auto& c) { return c.values.size() == scope_.readings.size(); }))
         load(e);

@@ -175,9 +175,7 @@ private:
   void redone() {
     const auto* sets = table_.array("redone");
     if (!sets) return;
-    if (sets->empty())
-      problems_.add(*table_.find("redone"), "trace.redone: empty",
-                    "without it every label and pair of labels may be one act", "leave it out?");
+    out_.redone.emplace();
     for (std::size_t i = 0; i < sets->size(); ++i) {
       const Node& node = (*sets)[i];
       const std::string path = fmt::format("trace.redone[{}]", i + 1);
@@ -191,7 +189,7 @@ private:
           labels.push_back(*label);
         }
       if (listed && node.items.empty()) problems_.add(node, path + ": empty", "an act has labels");
-      out_.redone.push_back(std::move(labels));
+      out_.redone->push_back(std::move(labels));
     }
   }
 

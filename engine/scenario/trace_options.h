@@ -2,6 +2,7 @@
 /// What [trace] says of the data in which an undeclared effect is sought, and effects stated as formulas.
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,8 +38,8 @@ struct TraceOptions {
   std::string order_name;                ///< condition or column that gives it
   std::vector<TraceColumn> columns;
   /// Sets of labels that stand for one act done anew: { rod, setup } is a clamping. What it leaves behind may scatter.
-  /// Empty: every set of one or two labels with at least six combinations.
-  std::vector<std::vector<std::string>> redone;
+  /// Not stated: every set of one or two labels with at least six combinations. Empty: no act was done anew.
+  std::optional<std::vector<std::vector<std::string>>> redone;
   /// Quantities whose stated values come from these data: fitted anew without a prior, as if marked estimated.
   std::vector<std::string> free;
   double alpha = 0.05; ///< chance that anything is found where nothing is

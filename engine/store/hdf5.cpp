@@ -68,12 +68,7 @@ Handle open_group(hid_t parent, const std::string& name) {
 
 bool has(hid_t parent, const std::string& name) { return H5Lexists(parent, name.c_str(), H5P_DEFAULT) > 0; }
 
-void drop(hid_t parent, const std::string& name) {
-  if (has(parent, name)) require(H5Ldelete(parent, name.c_str(), H5P_DEFAULT), "remove an object");
-}
-
 Handle create_group(hid_t parent, const std::string& name) {
-  drop(parent, name);
   return own(H5Gcreate2(parent, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, "create a group");
 }
 

@@ -44,10 +44,8 @@ void require(herr_t result, const char* action);
 Handle own(hid_t id, Handle::Close close, const char* action);
 
 Handle open_group(hid_t parent, const std::string& name);
-/// A new group; one of that name left by an interrupted run is dropped.
 Handle create_group(hid_t parent, const std::string& name);
 bool has(hid_t parent, const std::string& name);
-void drop(hid_t parent, const std::string& name);
 
 /// HDF5's native type of a C++ number, and the portable little-endian one it is stored as.
 template <class T> hid_t memory_type();

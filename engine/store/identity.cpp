@@ -1,9 +1,9 @@
 #include "store/identity.h"
 
 #include <filesystem>
+#include <fstream>
 #include <tuple>
 
-#include "base/error.h"
 #include "base/version.h"
 
 namespace gumshoe::store {
@@ -48,8 +48,8 @@ void write_identity(hid_t file, const Identity& i) {
 Stored read_stored(hid_t file) {
   Stored s;
   Identity& i = s.identity;
-  if (hdf5::read_text(file, "program") != "gumshoe") throw OutputError("another program made it");
-  if (hdf5::read_integer(file, "format_version") != format_version) throw OutputError("another format version");
+  if (hdf5::read_text(file, "program") != "gumshoe") throw NoResult("another program made it");
+  if (hdf5::read_integer(file, "format_version") != format_version) throw NoResult("another format version");
   const std::pair<const char*, std::string*> texts[] = {{"version", &i.version},
                                                         {"instruction_set", &i.instruction_set},
                                                         {"model", &i.model},
@@ -84,6 +84,15 @@ hdf5::Handle open_file(const std::string& path, unsigned flags) {
   if (flags & H5F_ACC_TRUNC)
     return hdf5::own(H5Fcreate(path.c_str(), flags, H5P_DEFAULT, access), H5Fclose, "create the file");
   return hdf5::own(H5Fopen(path.c_str(), flags, access), H5Fclose, "open the file");
+}
+
+bool was_ours(const std::string& path) {
+  std::string head(std::size_t{1} << 20, '\0');
+  std::ifstream in(path, std::ios::binary);
+  in.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(in.gcount()));
+  const auto stands = [&](const char* text) { return head.find(text) != std::string::npos; };
+  return stands("gumshoe") && stands("scenario_hash") && stands("format_version");
 }
 
 bool is_hdf5(const std::string& path) { return H5Fis_hdf5(path.c_str()) > 0; }

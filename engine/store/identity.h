@@ -3,6 +3,7 @@
 #include <mutex>
 #include <string>
 
+#include "base/error.h"
 #include "store/hdf5.h"
 #include "store/result_file.h"
 
@@ -15,9 +16,17 @@ using Lock = std::lock_guard<std::recursive_mutex>;
 /// that an adaptive run has.
 bool same_numbers(const Identity& a, const Identity& b);
 
+/// Readable, and no result of ours.
+struct NoResult : OutputError {
+  using OutputError::OutputError;
+};
+
 void write_identity(hid_t file, const Identity& identity);
-/// Throws OutputError saying why the open file is no result of ours.
+/// Throws OutputError saying why the open file is no result of ours: NoResult, or that it cannot be read.
 Stored read_stored(hid_t file);
+
+/// Whether what cannot be read as a result was written as one of this format: our root attributes stand in its head.
+bool was_ours(const std::string& path);
 
 bool is_hdf5(const std::string& path);
 /// Opens, or with H5F_ACC_TRUNC creates.

@@ -31,7 +31,6 @@ void write_region(hid_t group, const JointRegion& region) {
 }
 
 void write_circular(hid_t file, const std::vector<CircularSummary>& rows) {
-  hdf5::drop(file, "circular");
   if (rows.empty()) return;
   const hdf5::Handle group = hdf5::create_group(file, "circular");
   Table table(group, "output", rows.size());
@@ -52,7 +51,6 @@ void write_circular(hid_t file, const std::vector<CircularSummary>& rows) {
 }
 
 void write_conformity(hid_t file, const std::vector<ConformityResult>& rows) {
-  hdf5::drop(file, "conformity");
   if (rows.empty()) return;
   const hdf5::Handle group = hdf5::create_group(file, "conformity");
   Table table(group, "test", rows.size());

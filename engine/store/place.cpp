@@ -8,6 +8,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <sys/statvfs.h>
 #include <unistd.h>
@@ -37,6 +38,28 @@ std::string destination(const std::string& path) {
 }
 
 std::string temporary_name(const std::string& path) { return path + '.' + std::to_string(getpid()) + ".new"; }
+
+bool held_by_another(const std::string& path) {
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return false;
+  const bool held = flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  close(file);
+  return held;
+}
+
+void remove_leftovers(const std::string& path) {
+  const fs::path target = path;
+  const std::string head = target.filename().string() + '.', tail = ".new";
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(target.parent_path(), error)) {
+    const std::string name = entry.path().filename().string();
+    if (name.size() <= head.size() + tail.size() || !name.starts_with(head) || !name.ends_with(tail)) continue;
+    const std::string number = name.substr(head.size(), name.size() - head.size() - tail.size());
+    if (number.size() > 9 || number.find_first_not_of("0123456789") != std::string::npos) continue;
+    const bool gone = kill(std::stoi(number), 0) != 0 && errno == ESRCH;
+    if (gone && !held_by_another(entry.path().string())) fs::remove(entry.path(), error);
+  }
+}
 
 namespace {
 std::string bytes_text(double size) {

@@ -12,6 +12,12 @@ std::string destination(const std::string& path);
 /// A name beside `path` under which a new file is built before it takes its place.
 std::string temporary_name(const std::string& path);
 
+/// Removes what processes that were killed left under such names of theirs.
+void remove_leftovers(const std::string& path);
+
+/// Whether another process holds the file locked, as HDF5 does with what it has open.
+bool held_by_another(const std::string& path);
+
 /// Throws OutputError unless the disk of `path` has that many bytes free.
 void require_space(const std::string& path, double bytes);
 

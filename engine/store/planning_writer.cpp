@@ -31,7 +31,6 @@ void write_target(hid_t group, const TargetResult& target) {
 }
 
 void write_stopping(hid_t file, const Results& r) {
-  hdf5::drop(file, "stopping");
   const StoppingRecord& stopping = r.stopping;
   if (stopping.rule.empty()) return;
   const hdf5::Handle group = hdf5::create_group(file, "stopping");

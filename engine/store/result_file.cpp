@@ -7,6 +7,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include <fmt/format.h>
+
 #include "base/error.h"
 #include "store/identity.h"
 #include "store/place.h"
@@ -55,11 +57,16 @@ struct ResultFile::Impl {
   std::uint64_t done = 0, marked = 0;
   std::chrono::steady_clock::time_point marked_at = std::chrono::steady_clock::now();
   bool finished = false;
+  std::string remark;
 
   void plan();
-  /// A new file; `before`: the samples so far, which it takes over.
-  void create(Impl* before = nullptr);
+  /// A new file; `before`: the samples so far, which it takes over; `results`: complete with these. HDF5 changes a file
+  /// in many writes, between which it is no file to read: so none that stands at the path is changed but in its samples
+  /// and its marker, which have their place from the start.
+  void create(Impl* before = nullptr, const analysis::Results* results = nullptr);
   bool resume();
+  /// Of the same run, with another number of samples, and no file yet.
+  std::unique_ptr<Impl> successor(std::uint64_t samples) const;
   void take_over(Impl& before);
   void open_datasets(hid_t from);
   void mark();
@@ -76,13 +83,15 @@ void ResultFile::Impl::plan() {
   }
 }
 
-void ResultFile::Impl::create(Impl* before) {
+void ResultFile::Impl::create(Impl* before, const analysis::Results* results) {
   const std::string temporary = temporary_name(path);
   const std::uint64_t reserve = (1u << 20) + 65536 * rows.size(); // for what comes last
-  if (identity.store_samples)
-    require_space(path, static_cast<double>(identity.samples) *
-                                (8.0 * static_cast<double>(measurands.size() * labels.size()) + 1) +
-                            static_cast<double>(reserve));
+  if (identity.store_samples) { // once while they are drawn, and once more in the complete file
+    const double once =
+        static_cast<double>(identity.samples) * (8.0 * static_cast<double>(measurands.size() * labels.size()) + 1);
+    require_space(path, (before ? 1 : 2) * once + static_cast<double>(reserve));
+  }
+  remove_leftovers(path);
   try {
     file = open_file(temporary, H5F_ACC_TRUNC);
     write_identity(file, identity);
@@ -130,6 +139,12 @@ void ResultFile::Impl::create(Impl* before) {
     claim_space(temporary, reserve);
     open_datasets(file);
     if (before) take_over(*before);
+    if (results) {
+      write_results(file, *results);
+      hdf5::write_attribute(file, "complete", 1);
+      hdf5::require(H5Fflush(file, H5F_SCOPE_GLOBAL), "write results");
+      finished = true;
+    }
     // Only now does it take the place of an older result.
     if (std::rename(temporary.c_str(), path.c_str()) != 0) throw OutputError("cannot take its place");
   } catch (...) {
@@ -211,6 +226,18 @@ void ResultFile::Impl::open_datasets(hid_t from) {
   status = open(group, "status");
 }
 
+std::unique_ptr<ResultFile::Impl> ResultFile::Impl::successor(std::uint64_t samples) const {
+  auto next = std::make_unique<Impl>();
+  next->path = path;
+  next->identity = identity;
+  next->identity.samples = samples;
+  next->outputs = outputs;
+  next->labels = labels;
+  next->remark = remark;
+  next->plan();
+  return next;
+}
+
 /// The marker follows the data: both reach the operating system, in this order.
 void ResultFile::Impl::mark() {
   marked_at = std::chrono::steady_clock::now();
@@ -251,10 +278,15 @@ ResultFile::ResultFile(const std::string& path, const Identity& identity,
       try {
         resumed = impl_->resume();
       } catch (const OutputError& error) {
-        throw OutputError("not overwritten",
-                          "it is no result of ours: " + error.problems().front().what +
-                              (error.problems().front().why.empty() ? "" : ", " + error.problems().front().why),
-                          remedy);
+        const Problem& p = error.problems().front();
+        const std::string reason = p.what + (p.why.empty() ? "" : ", " + p.why);
+        if (held_by_another(impl_->path))
+          throw OutputError("not overwritten", "another program has it open: " + reason, "wait for it?");
+        if (dynamic_cast<const NoResult*>(&error) || !was_ours(impl_->path))
+          throw OutputError("not overwritten", "it is no result of ours: " + reason, remedy);
+        impl_ = impl_->successor(identity.samples);
+        impl_->remark = fmt::format("'{}' is a result of ours that cannot be read ({}): the run begins from the start",
+                                    path, reason);
       }
     }
     if (!resumed) impl_->create();
@@ -273,22 +305,23 @@ ResultFile::~ResultFile() {
   impl_->file.close();
 }
 
+std::string ResultFile::remark() const { return impl_->remark; }
+
 std::uint64_t ResultFile::samples_done() const { return impl_->done; }
 
 std::uint64_t ResultFile::samples() const { return impl_->identity.samples; }
 
 void ResultFile::resize(std::uint64_t samples) {
-  if (samples == impl_->identity.samples) return;
+  Impl& f = *impl_;
+  if (samples == f.identity.samples) return;
+  if (samples <= f.done && f.identity.store_samples) { // the file keeps more; the complete one will not
+    f.identity.samples = f.done = samples;
+    return;
+  }
   const Lock lock(hdf5::library());
-  naming(impl_->path, [&] {
-    auto next = std::make_unique<Impl>();
-    next->path = impl_->path;
-    next->identity = impl_->identity;
-    next->identity.samples = samples;
-    next->outputs = impl_->outputs;
-    next->labels = impl_->labels;
-    next->plan();
-    next->create(impl_.get());
+  naming(f.path, [&] {
+    auto next = f.successor(samples);
+    next->create(&f);
     std::swap(impl_, next);
   });
 }
@@ -356,12 +389,9 @@ void ResultFile::finish(const analysis::Results& results) {
   const Lock lock(hdf5::library());
   naming(f.path, [&] {
     f.mark();
-    write_results(f.file, results);
-    hdf5::require(H5Dwrite(f.marker, H5T_NATIVE_UINT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, &f.done), "write the marker");
-    hdf5::require(H5Fflush(f.file, H5F_SCOPE_GLOBAL), "write results");
-    hdf5::write_attribute(f.file, "complete", 1);
-    hdf5::require(H5Fflush(f.file, H5F_SCOPE_GLOBAL), "complete the file");
-    f.finished = true;
+    auto next = f.successor(f.done);
+    next->create(&f, &results);
+    std::swap(impl_, next);
   });
 }
 

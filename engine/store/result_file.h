@@ -30,15 +30,17 @@ public:
   ResultFile(const std::string& path, const Identity& identity, const std::vector<propagation::Output>& outputs,
              const std::vector<std::string>& reading_labels);
   ~ResultFile() override;
+  /// Said of what stood there: a result of ours that cannot be read, so that the run begins anew. Empty: no such thing.
+  std::string remark() const;
   /// Samples already there, 0 for a new file.
   std::uint64_t samples_done() const override;
   std::uint64_t samples() const override;
-  /// A new file with the samples so far takes the place of the old one.
+  /// Where there is no room for so many: a new file with the samples so far takes the place of the old one.
   void resize(std::uint64_t samples) override;
   void write(const propagation::ResultBlock& block) override;
   std::vector<double> read(std::size_t output, std::uint64_t first, std::uint64_t count) const override;
   std::vector<std::uint8_t> read_status(std::uint64_t first, std::uint64_t count) const override;
-  /// Writes everything but the samples and marks the file complete.
+  /// A new file with the samples and everything else, complete, takes the place of the old one.
   void finish(const analysis::Results& results);
 
 private:

@@ -224,7 +224,6 @@ void write_printed(hid_t file, const std::vector<PrintedResult>& rows) {
 } // namespace
 
 void write_list(hid_t file, const std::string& name, const std::vector<std::string>& texts, const char* long_name) {
-  hdf5::drop(file, name);
   if (texts.empty()) return;
   const hdf5::Handle dataset = hdf5::create_dataset(file, name, hdf5::text_type(), {texts.size()}, "1", long_name);
   hdf5::write_texts(dataset, texts);

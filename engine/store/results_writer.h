@@ -5,7 +5,7 @@
 
 namespace gumshoe::store {
 
-/// Replaces whatever of it an interrupted run left in `file`.
+/// `file` holds none of it yet.
 void write_results(hid_t file, const analysis::Results& results);
 
 /// The parts of it that have a file of their own; groups without rows are not made.

@@ -63,7 +63,6 @@ void write_output(hid_t group, const propagation::Output& output);
 /// A group `name` of sub-groups 000, 001, ..., one per item; none if there are no items.
 template <class Item, class Write>
 void write_numbered(hid_t file, const std::string& name, const std::vector<Item>& items, Write write) {
-  hdf5::drop(file, name);
   if (items.empty()) return;
   const hdf5::Handle group = hdf5::create_group(file, name);
   for (std::size_t k = 0; k < items.size(); ++k) {

@@ -79,25 +79,25 @@ bool says_conditions(const Scenario& s, const Grouping& g) {
 }
 
 void find_redone(const Scenario& s, Observations& o) {
-  std::vector<std::vector<std::string>> sets = s.trace.redone;
-  if (sets.empty()) {
+  auto sets = s.trace.redone.value_or(std::vector<std::vector<std::string>>{});
+  if (!s.trace.redone) {
     const auto names = label_names(s);
     for (std::size_t i = 0; i < names.size(); ++i) {
       sets.push_back({names[i]});
       for (std::size_t j = i + 1; j < names.size(); ++j) sets.push_back({names[i], names[j]});
     }
   }
-  const std::size_t least = s.trace.redone.empty() ? 6 : 5;
+  const std::size_t least = s.trace.redone ? 5 : 6;
   for (const auto& set : sets) {
     Grouping g = grouping(s, o.sequence, set);
     if (g.groups.size() < least) {
-      if (!s.trace.redone.empty())
+      if (s.trace.redone)
         o.statements.push_back(
             fmt::format("{} was done {} times only: whether it scatters cannot be told (it takes {})", g.name,
                         g.groups.size(), least));
       continue;
     }
-    if (s.trace.redone.empty() && says_conditions(s, g)) continue;
+    if (!s.trace.redone && says_conditions(s, g)) continue;
     // One reading each: it cannot be told from the noise of a reading.
     if (g.groups.size() * 5 > s.readings.size() * 4) continue;
     const bool known =

@@ -79,6 +79,19 @@ class Adaptive(unittest.TestCase):
         self.assertEqual(self.samples(part)[0], self.samples(self.folder / "whole.h5")[0])
         np.testing.assert_array_equal(self.samples(part)[1], self.samples(self.folder / "whole.h5")[1])
 
+    def test_a_result_cut_short_is_said_and_made_anew(self):
+        scenario = adaptive(self.folder, '{ rule = "stein", digits = 2 }')
+        whole, part = self.folder / "whole.h5", self.folder / "part.h5"
+        run(scenario, whole)
+        content = whole.read_bytes()
+        for share in (0.2, 0.5, 0.9, 0.999):
+            with self.subTest(share):
+                part.write_bytes(content[:int(share * len(content))])
+                again = run(scenario, part)
+                self.assertEqual(again.returncode, 0, again.stderr)
+                self.assertRegex(again.stderr, r"cannot be read .*truncated.*from the start\n$")
+                self.assertEqual(part.read_bytes(), content)
+
     def test_giving_up_is_said(self):
         scenario = adaptive(self.folder, '{ rule = "stein", digits = 4, max_samples = 2e5 }')
         done = run(scenario, self.folder / "a.h5")

@@ -85,6 +85,7 @@ class Schema(unittest.TestCase):
         film = {"formula": "1 / feed", "unit": "um*mm/min"}
         for trace, effect, fine in (
                 ({"blocks": "setup", "final": ["1"], "redone": [["rod", "setup"]], "columns": {"T": {"column": "T"}}}, film, True),
+                ({"redone": []}, film, True), ({"redone": [[]]}, film, False),
                 ({}, film | {"size": {"value": "1 um*mm/min", "u": "1 um*mm/min"}}, True), ({"final": ["1"]}, film, False),
                 ({"draws": 98}, film, False), ({"alpha": 1}, film, False), ({"blocks": "setup", "final": [7]}, film, False),
                 ({"columns": {"T": {"unit": "degC"}}}, film, False), ({"colums": {}}, film, False),

@@ -219,6 +219,18 @@ class Closing(unittest.TestCase):
             self.assertTrue(any(n.startswith(b"reclamp.shift") for n in file["budget/000/name"]))
         self.traced_again()
 
+    def test_no_act_done_anew_scatters_nothing(self):
+        """The same readings: stated that nothing was clamped anew, no label is a variance component."""
+        for redone, tried in (('redone = []', False), ("", True)):
+            rods = Rods(rods=("1", "2", "3"), per_clamp=4, redone=redone)
+            chance = random.Random(5)
+            seat = {c[:2]: chance.gauss(0, 0.003) for c in rods.cells}
+            rods.write(self.folder, lambda i: seat[rods.cells[i][:2]])
+            run = gumshoe("trace", self.folder / "s.toml", "--out", self.folder / "t.h5", "--format", "json")
+            self.assertEqual(run.returncode, 0, run.stderr)
+            named = [f["name"] for f in json.loads(run.stdout)["findings"]]
+            self.assertEqual(any(n.startswith("scatter:") and n != "scatter:reading" for n in named), tried, named)
+
     def test_noise_larger_than_declared(self):
         rods = Rods(u=3 * NOISE)
         rods.write(self.folder, lambda i: 0)
