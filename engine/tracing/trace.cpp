@@ -8,6 +8,7 @@
 
 #include "base/units.h"
 #include "quantities/cells.h"
+#include "tracing/extended_scenario.h"
 #include "tracing/findings.h"
 #include "tracing/report_rows.h"
 #include "tracing/search.h"

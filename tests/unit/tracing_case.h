@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "effects/catalogue.h"
+#include "tracing/extended_scenario.h"
 #include "tracing/joint_fit.h"
 #include "tracing/shapes.h"
 #include "unit/scenario_fixture.h"
