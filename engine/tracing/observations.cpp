@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "base/units.h"
 #include "calibration/data.h"
 #include "quantities/cells.h"
 
