@@ -26,20 +26,16 @@
 #include "effects/rod_expansion/rod_expansion.h"
 #include "effects/rod_runout/rod_runout.h"
 #include "effects/sampling_rate/sampling_rate.h"
+#include "effects/scale/scale.h"
 #include "effects/servo_lag/servo_lag.h"
 #include "effects/spindle_axial_shift/spindle_axial_shift.h"
 #include "effects/spindle_speed_error/spindle_speed_error.h"
+#include "effects/straightness/straightness.h"
 #include "effects/thermal_drift/thermal_drift.h"
 #include "effects/thermal_growth/thermal_growth.h"
 #include "effects/tool_runout/tool_runout.h"
 #include "effects/trigger_latency/trigger_latency.h"
-#include "effects/x_scale/x_scale.h"
-#include "effects/x_straightness/x_straightness.h"
-#include "effects/y_scale/y_scale.h"
-#include "effects/y_straightness/y_straightness.h"
 #include "effects/z_reversal/z_reversal.h"
-#include "effects/z_scale/z_scale.h"
-#include "effects/z_straightness/z_straightness.h"
 
 namespace gumshoe::effects {
 

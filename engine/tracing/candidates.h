@@ -41,20 +41,11 @@ struct Alternative {
   bool physical() const { return family == Family::effect || family == Family::declared || family == Family::stated; }
 };
 
-/// The scenario with every effect of the model's stages in it, those it does not free at null, stated effects too.
-scenario::Scenario extended(const scenario::Scenario& scenario);
-
 /// Signatures of all physical candidates at a point, from exact derivatives and, where the model bends within
 /// `step` of the indications (SI), over finite steps. `skip` names what is in the model already.
 std::vector<Alternative> physical_candidates(const propagation::Experiment& experiment, const Simulator& simulator,
                                              const Points& at, const Observations& observations, double step,
                                              const std::function<bool(const Alternative&)>& skip);
-
-/// Rows of the scenario, [reading][indication], in the order of measurement.
-Matrix in_sequence(const Observations& observations, const Matrix& rows);
-
-/// Upper end of "1-10 um: ..." in SI; 0 if it tells no range. `low` its lower end.
-double typical_size(const QuantityCard& card, double* low = nullptr);
 
 /// Covariates and labels on which a signature depends.
 std::vector<std::string> dependence(const Observations& observations, const Matrix& columns);

@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "base/units.h"
 #include "calibration/data.h"
 #include "quantities/cells.h"
 
@@ -148,6 +147,14 @@ void find_blocks(const Scenario& s, Observations& o) {
 }
 
 } // namespace
+
+Matrix in_sequence(const Observations& o, const Matrix& rows) {
+  Matrix out(rows.rows(), rows.cols());
+  const auto k = static_cast<Index>(o.indications);
+  for (std::size_t i = 0; i < o.sequence.size(); ++i)
+    out.middleRows(static_cast<Index>(i) * k, k) = rows.middleRows(static_cast<Index>(o.sequence[i]) * k, k);
+  return out;
+}
 
 Observations observe(const propagation::Experiment& e) {
   const Scenario& s = e.scenario();

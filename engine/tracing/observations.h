@@ -40,6 +40,9 @@ struct Observations {
   std::vector<std::string> names; ///< of the indications
 };
 
+/// Rows of the scenario, [reading][indication], in the order of measurement.
+Matrix in_sequence(const Observations& observations, const Matrix& rows);
+
 /// Throws InputError: nothing was read, a block that is not there.
 Observations observe(const propagation::Experiment& experiment);
 

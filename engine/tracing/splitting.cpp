@@ -1,7 +1,6 @@
 #include "tracing/splitting.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <set>
 

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
 #include "base/units.h"
 #include "quantities/cells.h"
+#include "tracing/extended_scenario.h"
 #include "tracing/findings.h"
 #include "tracing/report_rows.h"
 #include "tracing/search.h"

@@ -8,7 +8,7 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator
 
 from .choice import axis_label
 from .figures import BLUE, GREY, GRID, INK, ORANGE, PALE, svg
-from .rounding import finer, unit_text
+from .rounding import finer
 
 BAND = "#eef0f3"
 SIDES = (("before", ORANGE), ("after", BLUE))

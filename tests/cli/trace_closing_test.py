@@ -22,7 +22,7 @@ NOISE = 5e-4  # mm
 class Rods:
     """Made-up readings of rods in set-ups, each set-up with its own height of the beam, or none of its own."""
 
-    def __init__(self, rods=("1",), setups=8, per_clamp=12, own=True, u=NOISE, redone="", length="", feeds=FEEDS, more="", trace=""):
+    def __init__(self, rods=("1",), setups=8, per_clamp=12, own=True, u=NOISE, redone="", length="", feeds=FEEDS, more=""):
         self.rods, self.own, self.noise = rods, own, u
         self.cells = [(str(s), r, k) for s in range(1, setups + 1) for r in rods for k in range(per_clamp)]
         self.feeds = [feeds[k % len(feeds)] for _, _, k in self.cells]

@@ -37,12 +37,13 @@ class TraceSphere(unittest.TestCase):
 
     def test_data_are_as_their_note_says(self):
         made = subprocess.run([sys.executable, ROOT / "tests/cli/plain_grinder.py"], capture_output=True, text=True)
+        self.assertEqual((made.returncode, made.stderr), (0, ""))
         def numbers(text):
             return [[float(v) for v in row.split(",")] for row in text.split()[1:]]
         shipped = numbers((ROOT / "scenarios/data/trace_sphere.csv").read_text())
         self.assertEqual(len(shipped), PASSES * len(POSES))
-        for ours, theirs in zip(numbers(made.stdout), shipped):
-            for a, b in zip(ours, theirs):
+        for ours, theirs in zip(numbers(made.stdout), shipped, strict=True):
+            for a, b in zip(ours, theirs, strict=True):
                 self.assertAlmostEqual(a, b, delta=1.01e-4)  # the last digit printed
 
     def test_effect_is_what_the_scenario_lacks(self):
@@ -65,4 +66,4 @@ class TraceSphere(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=[sys.argv[0]] + sys.argv[2:])
+    unittest.main()

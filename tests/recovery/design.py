@@ -84,6 +84,17 @@ class Design:
         return replace(self, labels=cut(self.labels), conditions=cut(self.conditions), columns=cut(self.columns))
 
 
+def room_temperature(rng, time):
+    """degC: the air conditioning's swing, and a walk beside it."""
+    hours = time / 3600
+    return 21 + 0.6 * np.sin(2 * np.pi * hours / 0.83 + rng.uniform(0, 6)) + 0.25 * np.cumsum(rng.standard_normal(len(time))) / 4
+
+
+def final_blocks(rng, blocks):
+    """Two of them, not the first; none of three."""
+    return tuple(sorted(rng.choice([str(b) for b in range(2, blocks + 1)], 2, replace=False))) if blocks > 3 else ()
+
+
 def evaluate(program, model, columns, outputs):
     """Indications in mm by `gumshoe evaluate` at the points of a table: {"name (unit)": array} -> (n, len(outputs))."""
     names = list(columns)

@@ -7,7 +7,9 @@ from dataclasses import replace
 import numpy as np
 
 import shapes
-from design import Cell, Design, by_program
+from design import Cell, Design, by_program, final_blocks, room_temperature
+from scenario_text import reclamp as scatter_toml
+from shapes import along
 
 MODEL = "tool_length"
 OUTPUTS = ("spindle_z",)
@@ -25,8 +27,7 @@ def design(rng, setups=8, feeds=FEEDS, speeds=SPEEDS, **more):
             t += rng.uniform(60, 200)
         t += rng.uniform(200, 900)
     setup, clamp, feed, speed, angle, time = map(np.array, zip(*rows))
-    n, hours = len(time), time / 3600
-    room = 21 + 0.6 * np.sin(2 * np.pi * hours / 0.83 + rng.uniform(0, 6)) + 0.25 * np.cumsum(rng.standard_normal(n)) / 4
+    room = room_temperature(rng, time)
     cells = [Cell("tool_length", "mm", round(176.6 + rng.uniform(-0.1, 0.1), 3), label="setup", level=str(s), free=True, step=0.01)
              for s in range(1, setups + 1)]
     cells += [Cell("laser_z", "mm", -1172.015, 0.001), Cell("holder_angle", "deg", 140.0, 0.05), Cell("offset", "mm", 4.0, 0.01),
@@ -35,10 +36,10 @@ def design(rng, setups=8, feeds=FEEDS, speeds=SPEEDS, **more):
     cells += [Cell(f"wear_{k}", "mm", w, 0.00002) for k, w in ((2, 0.0004), (3, 0.0001), (4, 0.0003))]
     cells += [Cell("inserts", "1", 4.0), Cell("insert_radius", "mm", 5.0), Cell("insert_thickness", "mm", 3.2),
               Cell("insert_radial_angle", "deg", -12.0), Cell("insert_axial_angle", "deg", 6.0)]
-    final = tuple(sorted(rng.choice([str(s) for s in range(2, setups + 1)], 2, replace=False))) if setups > 3 else ()
+    final = final_blocks(rng, setups)
     return Design(MODEL, {"setup": setup, "clamp": clamp},
                   {"feed": (feed, "mm/min"), "spindle_speed": (speed, "rpm"), "start_angle": (angle, "deg"),
-                   "start_height": (np.full(n, 2.0), "mm"), "time": (time.round(1), "s")},
+                   "start_height": (np.full(len(time), 2.0), "mm"), "time": (time.round(1), "s")},
                   {"temperature": (room.round(2), "degC")}, cells, "setup", final, (("setup", "clamp"),), **more)
 
 
@@ -64,13 +65,15 @@ def moving(profile):
     return of
 
 
+@along(1.0)
 def latency(d, rng):
-    return (-d.value("feed") / 60 * (1 - 0.03 * rng.random(d.readings)))[:, None]
+    return -d.value("feed") / 60 * shapes.gaining(d, rng)
 
 
+@along(1.0)
 def confirmation(d, rng):
     """Further revolutions until the receiver believes; um a revolution."""
-    return (-1e3 * d.value("feed") / d.value("spindle_speed"))[:, None]
+    return -1e3 * d.value("feed") / d.value("spindle_speed")
 
 
 @moving
@@ -79,56 +82,18 @@ def nose(d, rng):
     return (d.value("spindle_speed") / 1e4) ** 1.95
 
 
-@moving
-def warming(d, rng):
-    return shapes.slow(d.time / 60, rng.uniform(0.3, 0.7), rng.uniform(20, 40), rng.uniform(90, 200))
-
-
-@moving
-def drift(d, rng):
-    hours = d.time / 3600
-    return hours * (1 - 0.02 * hours)
-
-
-def room(d, rng):
-    return shapes.unit(d.value("temperature"))[:, None]
-
-
-def bump(d, rng):
-    day = d.time[d.training()]
-    return shapes.bump(d.time, rng.uniform(np.quantile(day, 0.25), np.quantile(day, 0.75)), rng.uniform(500, 1000))[:, None]
-
-
-def jump(d, rng):
-    setup = rng.choice(sorted(set(d.block()[d.training()])))
-    return shapes.jump(d.time, np.median(d.time[d.block() == setup]), 60)[:, None]
-
-
-def wave(d, rng):
-    return np.sin(2.2 * np.pi * shapes.unit(d.value("temperature")) + rng.uniform(0, 6))[:, None]
-
-
-def cubic(d, rng):
-    x = shapes.unit(np.log(d.value("spindle_speed")))
-    return (4 * x**3 - 3 * x)[:, None]
-
-
-def product(d, rng):
-    return (shapes.unit(d.value("temperature")) * shapes.unit(np.log(d.value("feed"))))[:, None]
-
-
 ADDED = {
     "trigger_latency": (latency, "delay", "ms", ("feed",), "+"),
     "revolution_confirm": (confirmation, "revolutions", "1", ("feed", "spindle_speed"), "+"),
     "spindle_axial_shift": (nose, "at_once", "um", ("spindle_speed",), "+"),
-    "thermal_growth": (drift, "rate", "um/h", ("time",)),
-    "thermal_growth:warming": (warming, None, None, ("time",), "+"),
-    "room": (room, None, None, ("temperature",)),
-    "bump": (bump, None, None, ("time",)),
-    "jump": (jump, None, None, ("time",)),
-    "wave": (wave, None, None, ("temperature",)),
-    "cubic": (cubic, None, None, ("spindle_speed",)),
-    "product": (product, None, None, ("feed", "temperature")),
+    "thermal_growth": (moving(shapes.drift), "rate", "um/h", ("time",)),
+    "thermal_growth:warming": (moving(shapes.warming), None, None, ("time",), "+"),
+    "room": (along(1.0)(shapes.room), None, None, ("temperature",)),
+    "bump": (along(1.0)(shapes.passing(500, 1000)), None, None, ("time",)),
+    "jump": (along(1.0)(shapes.giving_way), None, None, ("time",)),
+    "wave": (along(1.0)(shapes.wave), None, None, ("temperature",)),
+    "cubic": (along(1.0)(shapes.cubic("spindle_speed")), None, None, ("spindle_speed",)),
+    "product": (along(1.0)(shapes.room_by_feed), None, None, ("feed", "temperature")),
 }
 SINGLES = ("trigger_latency", "revolution_confirm", "spindle_axial_shift", "thermal_growth", "thermal_growth:warming")
 PAIRS = (("trigger_latency", "thermal_growth"), ("spindle_axial_shift", "trigger_latency"))
@@ -157,11 +122,6 @@ title  = "a mill on a laser tool setter, eight set-ups"
 name   = "tool_length"
 method = "propagation"
 """
-
-
-def scatter_toml(d):
-    per = ", ".join(f'"{l}"' for l in d.redone[0])
-    return f'[effects.reclamp]\nshift = {{ value = "0 um", u = "{d.scatter:g} um", per = [{per}] }}\n'
 
 
 def leave(program, d, q, left):

@@ -25,7 +25,7 @@ from design import evaluate
 from noise import noise
 from oracle import Oracle
 from program import GUMSHOE, complaint, gumshoe
-from score import credit, score, upper_limit
+from score import score, upper_limit
 from units import factor
 
 
@@ -253,33 +253,35 @@ class Trace(unittest.TestCase):
         file.write_text("\n".join(change(file.read_text().splitlines())) + "\n")
         return scenario
 
-    def says(self, scenario, *words):
-        """No crash, no finding, and a sentence with one of the words."""
-        run, verdict = self.run_trace(scenario)
-        if run.returncode:
-            self.assertIsNone(complaint(run), run.stderr)
-        else:
-            self.assertEqual(verdict["findings"], [])
-        said = run.stdout + run.stderr
-        self.assertTrue(any(w in said for w in words), said)
-        return run, verdict
+    def says(self, scenario, verdict, words):
+        """An answer without a finding, and a statement in these words."""
+        run, said = self.run_trace(scenario)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual((said["verdict"], said["findings"]), (verdict, []))
+        self.assertTrue(any(words in s for s in said["statements"]), said["statements"])
+        return said
 
     def test_one_block_only(self):
         d = rods.design(sets.stream(11), setups=1)
         y = rods.simulate(GUMSHOE, d, [d.values()])[0] + noise("white", sets.stream(13), d.time, 1, d.noise)
-        self.says(sets.write(self.path, self.path / "truth", "set", d, y, {}, rods), "block")
+        said = self.says(sets.write(self.path, self.path / "truth", "set", d, y, {}, rods), "nothing_found", "all readings are of one block (setup 1)")
+        self.assertIsNone(said["rms"]["holdout_after"])
 
     def test_all_one_feed(self):
         scenario, _ = self.made(rods, "alias", 1, 15, 11)
-        self.says(scenario, "feed", "trigger_latency")
+        said = self.says(scenario, "nothing_found", "feed is 30 mm/min in every reading")
+        self.assertEqual([d["value"] for d in said["detection_limits"] if d["effect"] == "trigger_latency"], [None])
 
     def test_fewer_readings_than_unknowns(self):
-        scenario = self.cut(lambda lines: lines[:1] + lines[1::14])
-        run, verdict = self.run_trace(scenario)
-        if run.returncode:
-            self.assertIsNone(complaint(run), run.stderr)
-        else:
-            self.assertEqual(verdict["verdict"], "insufficient_data")
+        def every_label_once(lines):
+            kept, seen = lines[:1], set()
+            for line in lines[1:]:
+                labels = set(enumerate(line.split(",")[1:4]))
+                kept += [line] * (not labels <= seen)
+                seen |= labels
+            self.assertLess(len(kept) - 1, 8 + 4)  # eight heights of the beam
+            return kept
+        self.says(self.cut(every_label_once), "insufficient_data", "four readings more than unknowns")
 
     def test_not_a_number(self):
         def change(lines):

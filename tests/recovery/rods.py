@@ -2,7 +2,9 @@
 import numpy as np
 
 import shapes
-from design import Cell, Design, by_program
+from design import Cell, Design, by_program, final_blocks, room_temperature
+from scenario_text import reclamp as scatter_toml
+from shapes import along
 
 MODEL = "rod_gauging"
 OUTPUTS = ("spindle_z",)
@@ -22,8 +24,7 @@ def design(rng, setups=8, feeds=FEEDS, directions=(-1.0, 1.0), **more):
             t += rng.uniform(120, 300)
         t += rng.uniform(300, 1200)
     setup, rod, feed, direction, holder, time = map(np.array, zip(*rows))
-    hours = time / 3600
-    room = 21 + 0.6 * np.sin(2 * np.pi * hours / 0.83 + rng.uniform(0, 6)) + 0.25 * np.cumsum(rng.standard_normal(len(time))) / 4
+    room = room_temperature(rng, time)
     cells = [Cell("laser_z", "mm", round(-510 + rng.uniform(-1, 1), 3), label="setup", level=str(s), free=True, step=0.01)
              for s in range(1, setups + 1)]
     for level, (elevation, azimuth, length) in RODS.items():
@@ -35,7 +36,7 @@ def design(rng, setups=8, feeds=FEEDS, directions=(-1.0, 1.0), **more):
                   Cell("beam_yaw", "deg", round(rng.uniform(-1, 1), 4), 0.01, "setup", str(s))]
     cells += [Cell("beam_radius", "mm", 0.2, 0.003), Cell("trigger_fraction", "1", 0.5, 0.01)]
     cells += [Cell("holder_angle", "deg", float(h), 0.1, "holder", h) for h in sorted(set(holder), key=int)]
-    final = tuple(sorted(rng.choice([str(s) for s in range(2, setups + 1)], 2, replace=False))) if setups > 3 else ()
+    final = final_blocks(rng, setups)
     return Design(MODEL, {"rod": rod, "setup": setup, "holder": holder},
                   {"feed": (feed.astype(float), "mm/min"), "direction": (direction.astype(float), "1"),
                    "time": (time.astype(float).round(1), "s")},
@@ -48,83 +49,44 @@ def simulate(program, d, vectors, extra=()):
 
 # Effects: (design, rng) -> (shift of the indication in um at size 1, (n, 1)); sizes as catalogued, where they are.
 
+@along(1.0)
 def latency(d, rng):
-    """An approach that is still gaining on its feed: the last per cents come with the travel."""
-    gaining = 1 - 0.03 * rng.random(d.readings)
-    return (d.value("direction") * d.value("feed") / 60 * gaining)[:, None]  # mm/s times ms
+    return d.value("direction") * d.value("feed") / 60 * shapes.gaining(d, rng)  # mm/s times ms
 
 
+@along(1.0)
 def reversal(d, rng):
-    play = shapes.hysteresis(d.value("direction"), rng.uniform(1, 5, d.readings), 1.0)
-    return (0.5 * play)[:, None]
+    return 0.5 * shapes.hysteresis(d.value("direction"), rng.uniform(1, 5, d.readings), 1.0)
 
 
-def warming(d, rng):
-    hot = shapes.slow(d.time / 60, rng.uniform(0.3, 0.7), rng.uniform(20, 40), rng.uniform(90, 200))
-    return hot[:, None]
-
-
-def drift(d, rng):
-    """Micrometres an hour, slackening a little."""
-    hours = d.time / 3600
-    return (hours * (1 - 0.02 * hours))[:, None]
-
-
-def room(d, rng):
-    return shapes.unit(d.value("temperature"))[:, None]
-
-
+@along(1.0)
 def film(d, rng):
     """A film of coolant that the rod wipes off slowly: thicker at low feed."""
-    return (1 / d.value("feed"))[:, None]
+    return 1 / d.value("feed")
 
 
-def bump(d, rng):
-    day = d.time[d.training()]
-    centre = rng.uniform(np.quantile(day, 0.25), np.quantile(day, 0.75))
-    return shapes.bump(d.time, centre, rng.uniform(700, 1500))[:, None]
-
-
-def jump(d, rng):
-    """Something gave way in the middle of a set-up."""
-    setup = rng.choice(sorted(set(d.block()[d.training()])))
-    return shapes.jump(d.time, np.median(d.time[d.block() == setup]), 60)[:, None]
-
-
-def wave(d, rng):
-    return np.sin(2.2 * np.pi * shapes.unit(d.value("temperature")) + rng.uniform(0, 6))[:, None]
-
-
-def cubic(d, rng):
-    x = shapes.unit(np.log(d.value("feed")))
-    return (4 * x**3 - 3 * x)[:, None]
-
-
-def product(d, rng):
-    return (shapes.unit(d.value("temperature")) * shapes.unit(np.log(d.value("feed"))))[:, None]
-
-
+@along(1.0)
 def scale(d, rng):
     """um/m; the screw's pitch shows in it."""
     z = d.gather(d.values())
     height = z["laser_z", "mm"] + z["rod_length", "mm"]
-    return (-height / 1e3 + 0.02 * np.sin(2 * np.pi * height / 10))[:, None]
+    return -height / 1e3 + 0.02 * np.sin(2 * np.pi * height / 10)
 
 
 # name in the catalogue, quantity and unit there (None: none that compares), what it depends on, sign
 ADDED = {
     "trigger_latency": (latency, "delay", "ms", ("feed", "direction"), "+"),
     "z_reversal": (reversal, "backlash", "um", ("direction",), "+"),
-    "thermal_growth": (drift, "rate", "um/h", ("time",)),
-    "thermal_growth:warming": (warming, None, None, ("time",), "+"),
+    "thermal_growth": (along(1.0)(shapes.drift), "rate", "um/h", ("time",)),
+    "thermal_growth:warming": (along(1.0)(shapes.warming), None, None, ("time",), "+"),
     "z_scale": (scale, "E_ZZ", "um/m", ("rod",)),
     "stated:coolant_film": (film, "size", "um*mm/min", ("feed",), "+"),
-    "room": (room, None, None, ("temperature",)),
-    "bump": (bump, None, None, ("time",)),
-    "jump": (jump, None, None, ("time",)),
-    "wave": (wave, None, None, ("temperature",)),
-    "cubic": (cubic, None, None, ("feed",)),
-    "product": (product, None, None, ("feed", "temperature")),
+    "room": (along(1.0)(shapes.room), None, None, ("temperature",)),
+    "bump": (along(1.0)(shapes.passing(700, 1500)), None, None, ("time",)),
+    "jump": (along(1.0)(shapes.giving_way), None, None, ("time",)),
+    "wave": (along(1.0)(shapes.wave), None, None, ("temperature",)),
+    "cubic": (along(1.0)(shapes.cubic("feed")), None, None, ("feed",)),
+    "product": (along(1.0)(shapes.room_by_feed), None, None, ("feed", "temperature")),
 }
 
 SINGLES = ("trigger_latency", "z_reversal", "thermal_growth", "thermal_growth:warming", "stated:coolant_film",
@@ -163,11 +125,6 @@ formula    = "1 / feed"
 unit       = "um*mm/min"
 meaning    = "coolant that a slow rod does not wipe off"
 """
-
-
-def scatter_toml(d):
-    per = ", ".join(f'"{l}"' for l in d.redone[0])
-    return f'[effects.reclamp]\nshift = {{ value = "0 um", u = "{d.scatter:g} um", per = [{per}] }}\n'
 
 
 def leave(program, d, q, left):

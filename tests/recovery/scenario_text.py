@@ -52,3 +52,9 @@ def quantity(cells):
                    for c in cells)
     head = f"[quantities.{first.name}]\n{estimated}" if estimated else ""
     return f"{head}[quantities.{first.name}.by.{first.label}]\n{rows}"
+
+
+def reclamp(d):
+    """Declares that clampings scatter."""
+    per = ", ".join(f'"{l}"' for l in d.redone[0])
+    return f'[effects.reclamp]\nshift = {{ value = "0 um", u = "{d.scatter:g} um", per = [{per}] }}\n'

@@ -79,7 +79,7 @@ def make(program, system, kind, what, strength, seed, noise_kind="white"):
         y = d.resolution * np.round(y / d.resolution)
     truth = dict(system=system.MODEL, kind=kind, noise=noise_kind, seed=seed, nominal_strength=strength, readings=int(d.readings),
                  final=list(d.final), expected=expected(kind, alias, noise_kind), scatter=list(d.redone[0]), noise_um=float(d.noise))
-    truth["effects"] = [judged(d0, t, shift, strength, alias, rng) for t, shift in effects]
+    truth["effects"] = [judged(d0, t, shift, rng) for t, shift in effects]
     return d, y, truth
 
 
@@ -140,7 +140,7 @@ def scaled(one, base, q, oracle, strength, alias):
     return size, one(size, q, base)
 
 
-def judged(oracle, truth, shift, strength, alias, rng):
+def judged(oracle, truth, shift, rng):
     """What an oracle could say: its power alone and among the catalogue, and the rivals it could not refuse."""
     seen = truth["strength"]
     if seen < 1e-3:

@@ -3,7 +3,8 @@ here anew, with rotation matrices."""
 import numpy as np
 
 import shapes
-from design import Cell, Design
+from design import Cell, Design, final_blocks, room_temperature
+from shapes import along
 
 MODEL = "sphere_calibration"
 OUTPUTS = ("X", "Y", "Z")
@@ -31,14 +32,13 @@ def design(rng, sessions=8, feeds=FEEDS, one_way=False, clamped_upwards=False, *
             t += rng.uniform(60, 150)
         t += rng.uniform(300, 1500)
     session, b, c, feed, b_up, c_up, clamp, time = map(np.array, zip(*rows))
-    n, hours = len(time), time / 3600
-    room = 21 + 0.6 * np.sin(2 * np.pi * hours / 0.83 + rng.uniform(0, 6)) + 0.25 * np.cumsum(rng.standard_normal(n)) / 4
+    room = room_temperature(rng, time)
     known = lambda name: round(MACHINE[name] + rng.uniform(-0.004, 0.004), 3)
     cells = [Cell(name, "deg" if name[:3] in ("E_A", "E_B", "E_C") else "mm", known(name), free=True, step=0.002) for name in MACHINE]
     cells += [Cell(f"S_{plane}", "um/m", 0.0, 4.0) for plane in ("XY", "XZ", "YZ")]
     cells += [Cell("sphere_distance", "mm", 184.183, 0.003), Cell("sphere_radius", "mm", 12.5, 0.0005), Cell("tip_radius", "mm", 3.0, 0.0005)]
     cells += [Cell(name, "mm", value) for name, value in LINKS.items()]
-    final = tuple(sorted(rng.choice([str(s) for s in range(2, sessions + 1)], 2, replace=False))) if sessions > 3 else ()
+    final = final_blocks(rng, sessions)
     more = {"noise": 2.0, **more}
     return Design(MODEL, {"session": session},
                   {"B": (b, "deg"), "C": (c, "deg"), "feed": (feed, "mm/min"), "B_direction": (b_up, "1"), "C_direction": (c_up, "1"),
@@ -55,7 +55,7 @@ def turn(axis, angle):
     return np.eye(3) + s * k + (1 - c) * (k @ k)
 
 
-def commands(q, B, C, tilt_shift=None):
+def commands(q, B, C):
     """Commands X, Y, Z in mm; q: name -> array or number in mm, deg, um/m; B, C in rad, as the axes truly stand."""
     g = {name: np.broadcast_to(np.asarray(v, float), B.shape) for name, v in q.items()}
     unit = lambda *v: np.stack(np.broadcast_arrays(*v), -1) / np.linalg.norm(np.stack(np.broadcast_arrays(*v), -1), axis=-1, keepdims=True)
@@ -92,15 +92,6 @@ def turning(profile):
     return of
 
 
-def along(**axes):
-    """Shapes that move single indications: profile times the axis' share."""
-    share = np.array([axes.get(k, 0.0) for k in OUTPUTS])
-
-    def wrap(profile):
-        return lambda d, rng: profile(d, rng)[:, None] * share
-    return wrap
-
-
 @turning
 def eccentric(d, rng):
     """A graduated disc off its centre, seen through the tangent, so not quite one harmonic."""
@@ -123,22 +114,15 @@ def brake(d, rng):
     return d.value("C_clamped") * (1 - 0.04 * rng.random(d.readings))
 
 
-@along(Z=1.0)
+@along(0.0, 0.0, 1.0)
 def latency(d, rng):
-    return -d.value("feed") / 60 * (1 - 0.03 * rng.random(d.readings))
-
-
-@along(Z=1.0)
-def growth(d, rng):
-    hours = d.time / 3600
-    return hours * (1 - 0.02 * hours)
+    return -d.value("feed") / 60 * shapes.gaining(d, rng)
 
 
 def drift(d, rng):
     """The column bends away as it warms up, with two time constants."""
     where = rng.uniform(0, 2 * np.pi)
-    hot = shapes.slow(d.time / 60, rng.uniform(0.3, 0.7), rng.uniform(20, 40), rng.uniform(90, 200))
-    return hot[:, None] * np.array([np.cos(where), np.sin(where), 0.0])
+    return shapes.warming(d, rng)[:, None] * np.array([np.cos(where), np.sin(where), 0.0])
 
 
 def approach(d):
@@ -148,34 +132,15 @@ def approach(d):
     return np.arctan2(towards[:, 1], towards[:, 0]), np.abs(np.sin(b))
 
 
-def room(d, rng):
-    return shapes.unit(d.value("temperature"))[:, None] * np.array([0.0, 0.0, 1.0])
-
-
-def bump(d, rng):
-    day = d.time[d.training()]
-    one = shapes.bump(d.time, rng.uniform(np.quantile(day, 0.25), np.quantile(day, 0.75)), rng.uniform(1200, 2400))
-    return one[:, None] * np.array([0.6, 0.8, 0.0])
-
-
+@along(0.0, 1.0, 0.0)
 def jump(d, rng):
     day = d.time[d.training()]
-    one = shapes.jump(d.time, rng.uniform(np.quantile(day, 0.3), np.quantile(day, 0.7)), 60)
-    return one[:, None] * np.array([0.0, 1.0, 0.0])
+    return shapes.jump(d.time, rng.uniform(np.quantile(day, 0.3), np.quantile(day, 0.7)), 60)
 
 
-def wave(d, rng):
-    one = np.sin(2.2 * np.pi * shapes.unit(d.value("temperature")) + rng.uniform(0, 6))
-    return one[:, None] * np.array([0.0, 0.6, 0.8])
-
-
-def cubic(d, rng):
-    x = shapes.unit(np.log(d.value("feed")))
-    return (4 * x**3 - 3 * x)[:, None] * np.array([1.0, 0.0, 0.0])
-
-
+@along(0.0, 1.0, 0.0)
 def product(d, rng):
-    return (shapes.unit(d.value("temperature")) * shapes.unit(d.value("B")))[:, None] * np.array([0.0, 1.0, 0.0])
+    return shapes.room(d, rng) * shapes.unit(d.value("B"))
 
 
 ADDED = {
@@ -184,13 +149,13 @@ ADDED = {
     "c_axis_reversal": (play, "backlash", "arcsec", ("C_direction",), "+"),
     "c_brake_shift": (brake, "angle", "arcsec", ("C_clamped",)),
     "trigger_latency": (latency, "delay", "ms", ("feed",), "+"),
-    "thermal_growth": (growth, "rate", "um/h", ("time",)),
+    "thermal_growth": (along(0.0, 0.0, 1.0)(shapes.drift), "rate", "um/h", ("time",)),
     "thermal_drift": (drift, None, None, ("time",)),
-    "room": (room, None, None, ("temperature",)),
-    "bump": (bump, None, None, ("time",)),
+    "room": (along(0.0, 0.0, 1.0)(shapes.room), None, None, ("temperature",)),
+    "bump": (along(0.6, 0.8, 0.0)(shapes.passing(1200, 2400)), None, None, ("time",)),
     "jump": (jump, None, None, ("time",)),
-    "wave": (wave, None, None, ("temperature",)),
-    "cubic": (cubic, None, None, ("feed",)),
+    "wave": (along(0.0, 0.6, 0.8)(shapes.wave), None, None, ("temperature",)),
+    "cubic": (along(1.0, 0.0, 0.0)(shapes.cubic("feed")), None, None, ("feed",)),
     "product": (product, None, None, ("temperature", "B")),
 }
 SINGLES = ("c_encoder_eccentricity", "c_encoder_ovality", "c_axis_reversal", "c_brake_shift", "trigger_latency", "thermal_growth",

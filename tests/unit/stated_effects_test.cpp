@@ -1,6 +1,5 @@
-/// Stated effects with a size are input quantities like any other. Trigger latency moves the readout by direction *
-/// feed
-/// * delay: stated as that formula it must give the figures of the catalogue's effect.
+/// Stated effects with a size are input quantities like any other. Trigger latency moves the readout by direction times
+/// feed times delay: stated as that formula it must give the figures of the catalogue's effect.
 #include <catch2/catch.hpp>
 
 #include <cmath>
@@ -14,30 +13,14 @@
 #include "base/text_file.h"
 #include "calibration/estimated_scenario.h"
 #include "choice/setup.h"
-#include "effects/catalogue.h"
-#include "models/model.h"
 #include "places.h"
-#include "unit/scenario_fixture.h"
+#include "unit/known_case.h"
 
 using namespace gumshoe;
+using known_case::Case;
+using known_case::known;
 
 namespace {
-
-scenario::Catalogue known() {
-  scenario::Catalogue c;
-  for (const models::Model* m : models::catalogue()) c.models.push_back(m->card);
-  for (const EffectCard* e : effects::cards()) c.effects.push_back(e);
-  c.applies = &effects::applies;
-  return c;
-}
-
-struct Case {
-  scenario_fixture::Folder folder;
-  scenario::Scenario scenario;
-  propagation::Experiment experiment;
-  explicit Case(const std::string& text)
-      : scenario(scenario::read(folder.write("s.toml", text), known())), experiment(scenario) {}
-};
 
 const std::string propagation_head = "schema = 1\nmodel = { name = \"rod_gauging\" }\n";
 const std::string virtual_head = "schema = 1\nmodel = { name = \"rod_gauging\", method = \"virtual_experiment\" }\n";

@@ -35,29 +35,41 @@ std::vector<Alternative> signatures(const Design& d) {
   return out;
 }
 
+/// 24 readings about one constant, what is tried on them, and draws of their noise.
+struct Made {
+  Design design;
+  std::vector<Alternative> tried;
+  Scan scan;
+  Whitened truth;
+
+  Made(Index random, std::size_t groups, std::uint64_t seed)
+      : design(about_a_constant(random, groups, seed)), tried(signatures(design)),
+        scan(design, all_rows(design), pointers_to(tried), 1), truth(design, all_rows(design), {0}, {}) {}
+
+private:
+  static Design about_a_constant(Index random, std::size_t groups, std::uint64_t seed) {
+    Design d = random_design(24, 1, 1, random, groups, seed);
+    d.fixed.setOnes();
+    return d;
+  }
+  static std::vector<const Alternative*> pointers_to(const std::vector<Alternative>& all) {
+    std::vector<const Alternative*> out;
+    for (const Alternative& a : all) out.push_back(&a);
+    return out;
+  }
+};
+
 } // namespace
 
 TEST_CASE("p values of noise alone are uniform", "[tracing]") {
   constexpr int sets = 400, draws = 99;
-  struct Kind {
-    double rho;
-    std::size_t groups;
-    double ratio;
-  };
-  for (const Kind& kind : {Kind{0, 0, 0}, Kind{0, 6, 0}}) {
-    Design d = random_design(24, 1, 1, 1, kind.groups, 11);
-    d.fixed.setOnes();
-    const std::vector<Index> rows = all_rows(d);
-    const auto made = signatures(d);
-    std::vector<const Alternative*> pointers;
-    for (const Alternative& a : made) pointers.push_back(&a);
-    const Scan scan(d, rows, pointers, 1);
-    const Whitened truth(d, rows, {0}, {});
-    const Matrix noise = truth.draw(sets, 999);
+  for (const std::size_t groups : {0, 6}) {
+    const Made made(1, groups, 11);
+    const Matrix noise = made.truth.draw(sets, 999);
     std::vector<double> anything;
     int signature = 0, single = 0, declared = 0, scatter = 0;
     for (Index j = 0; j < sets; ++j) {
-      const Assessment a = assess(scan, noise.col(j), draws, static_cast<std::uint64_t>(j + 1), 0.05, 1);
+      const Assessment a = assess(made.scan, noise.col(j), draws, static_cast<std::uint64_t>(j + 1), 0.05, 1);
       anything.push_back(a.p_anything);
       // A single signature below the threshold is what the search would take for significant.
       signature += *std::min_element(a.p.begin(), a.p.end()) <= a.threshold;
@@ -66,7 +78,7 @@ TEST_CASE("p values of noise alone are uniform", "[tracing]") {
       for (const double p : a.p_component) scatter += p <= 0.05;
       CHECK(a.p_anything <= a.p_noise_overall);
     }
-    CAPTURE(kind.groups);
+    CAPTURE(groups);
     for (const double p : {0.05, 0.1, 0.25, 0.5, 0.75}) {
       const auto below = std::count_if(anything.begin(), anything.end(), [&](double x) { return x <= p; });
       CHECK(static_cast<double>(below) / sets == Approx(p).margin(tolerance(p, sets, draws)));
@@ -80,18 +92,12 @@ TEST_CASE("p values of noise alone are uniform", "[tracing]") {
 }
 
 TEST_CASE("what is there is found by the same p values", "[tracing]") {
-  Design d = random_design(24, 1, 1, 0, 6, 12);
-  d.fixed.setOnes();
-  const std::vector<Index> rows = all_rows(d);
-  const auto made = signatures(d);
-  std::vector<const Alternative*> pointers;
-  for (const Alternative& a : made) pointers.push_back(&a);
-  const Scan scan(d, rows, pointers, 1);
-  const Whitened truth(d, rows, {0}, {});
-  const Vector noise = truth.draw(1, 5);
+  const Made made(0, 6, 12);
+  const Scan& scan = made.scan;
+  const Vector noise = made.truth.draw(1, 5);
   // Ten standard deviations by its information: nothing else comes near it.
   const double size = 10 / std::sqrt(scan.information(0, 0, scan.plain()));
-  const Assessment a = assess(scan, noise + size * made[0].columns, 99, 1, 0.05, 1);
+  const Assessment a = assess(scan, noise + size * made.tried[0].columns, 99, 1, 0.05, 1);
   CHECK(a.p_anything == Approx(0.01)); // none of 99
   CHECK(a.p_signature == Approx(0.01));
   CHECK(std::min_element(a.p.begin(), a.p.end()) - a.p.begin() == 0);

@@ -2,25 +2,18 @@
 /// Scenarios made ready for tracing, with readings that the model itself gives under an effect: free of noise.
 #include <fmt/format.h>
 
-#include "effects/catalogue.h"
+#include "tracing/extended_scenario.h"
 #include "tracing/joint_fit.h"
 #include "tracing/shapes.h"
-#include "unit/scenario_fixture.h"
+#include "unit/known_case.h"
 
 namespace tracing_case {
 
 using namespace gumshoe;
 using namespace gumshoe::tracing;
+using known_case::known;
 
-inline scenario::Catalogue known() {
-  scenario::Catalogue c;
-  for (const models::Model* m : models::catalogue()) c.models.push_back(m->card);
-  for (const EffectCard* e : effects::cards()) c.effects.push_back(e);
-  c.applies = &effects::applies;
-  return c;
-}
-
-/// The text's scenario, extended by all effects at null. `shuffle` is applied to the readings first.
+/// The text's scenario, extended by all effects at null.
 struct Case {
   scenario_fixture::Folder folder;
   scenario::Scenario scenario;

@@ -9,6 +9,7 @@
 #include <Eigen/QR>
 
 #include "base/units.h"
+#include "tracing/typical_size.h"
 #include "unit/tracing_case.h"
 #include "unit/tracing_dense.h"
 

@@ -1,0 +1,18 @@
+#pragma once
+/// What a unit of each quantity moves in the indications, at a point.
+#include "tracing/simulator.h"
+
+namespace gumshoe::tracing {
+
+/// Of every quantity of the model and of its effects; rows as the simulator's.
+struct Signatures {
+  Matrix tangents;           ///< [row][quantity]: exact derivatives
+  Matrix secants;            ///< [row][2 quantity + i]: slopes over sizes[2 quantity + i], i = 0 upwards, 1 downwards
+  std::vector<double> sizes; ///< SI; 0: no secant
+};
+
+/// Secants are of amplitudes of effects, over steps that move the indications by about `step` (SI).
+Signatures signatures(const propagation::Experiment& experiment, const Simulator& simulator, const Points& at,
+                      double step);
+
+} // namespace gumshoe::tracing
