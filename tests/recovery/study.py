@@ -71,11 +71,20 @@ def identity(row):
     return tuple(str(row[k]) for k in ("system", "kind", "case", "noise", "seed")) + (float(row["strength"]),)
 
 
+def identity_of(job):
+    kind, what, strength, seed, noise = job[3]
+    return identity(dict(system=job[2], kind=kind, case=case_of(what), strength=strength, seed=seed, noise=noise))
+
+
 def jobs(a):
     for name in a.systems:
         system = sets.SYSTEMS[name]
+        silent = [n for n in sets.NULLS if n != "clamp_undeclared"]
         for kinds, noises, strengths, count, draws in (
-                (["null"], sets.NULLS, (0,), a.sets, a.null_draws), (["single", "pair", "alias", "outside", "scatter"], (), a.strengths, a.effect_sets, a.draws)):
+                (["null"], silent, (0,), a.sets, a.null_draws),
+                # Not silence but scatter is right there: a fifth of the sets.
+                (["null"], ["clamp_undeclared"], (0,), -(-a.sets // 5), a.null_draws),
+                (["single", "pair", "alias", "outside", "scatter"], (), a.strengths, a.effect_sets, a.draws)):
             kinds = [k for k in kinds if not a.kinds or k in a.kinds]
             for point in plan(system, kinds, noises, strengths, range(a.first_seed, a.first_seed + count)):
                 # What is aliased or outside is asked at strengths that are plain to see.
@@ -134,7 +143,8 @@ def main(words):
         count_judgement(a, version)
     a.out.mkdir(parents=True, exist_ok=True)
     known = {identity(r) for r in rows}
-    todo = [job for job in jobs(a) if identity(dict(system=job[2], kind=job[3][0], case=case_of(job[3][1]), strength=job[3][2], seed=job[3][3], noise=job[3][4])) not in known]
+    # By seeds: broken off at any time, all kinds have had about as many.
+    todo = sorted((job for job in jobs(a) if identity_of(job) not in known), key=lambda job: job[3][3])
     begun = time.monotonic()
     with multiprocessing.Pool(a.processes) as pool, log_file.open("a" if a.resume else "w") as log:
         for i, row in enumerate(pool.imap_unordered(one, todo), 1):
