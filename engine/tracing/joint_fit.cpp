@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numeric>
 #include <set>
 
@@ -325,6 +324,12 @@ JointFit Fitter::fit(const std::vector<Term>& terms, double noise, const JointFi
     fit.noise *= scan.run(scan.whitened(scan.plain()).take(fit.residual)).scale[0];
     linearise(fit);
   }
+  converge(fit, noise);
+  for (int lesser = 0; lesser < 4 && explore(fit); ++lesser) converge(fit, noise);
+  return fit;
+}
+
+void Fitter::converge(JointFit& fit, double noise) const {
   fit.converged = false;
   for (fit.iterations = 1; fit.iterations <= most_iterations; ++fit.iterations) {
     const Scan scan(fit.design, rows_, {}, threads_);
@@ -380,7 +385,6 @@ JointFit Fitter::fit(const std::vector<Term>& terms, double noise, const JointFi
       break;
     }
   }
-  return fit;
 }
 
 void Fitter::settle(JointFit& fit) const {

@@ -14,16 +14,15 @@ struct Term {
 
 struct JointFit {
   std::vector<Term> terms;
-  Points at;                           ///< all quantities, sizes of terms included
-  Vector residual;                     ///< measured minus simulated, rows in the order of measurement, all readings
-  Design design;                       ///< linearised there; the terms' columns are its last fixed ones
-  std::vector<std::string> free_names; ///< unknowns, then terms' amplitudes
-  Matrix covariance;                   ///< of all fixed columns in use, SI; NaN for those that the readings do not see
-  double noise = 1;                    ///< scale of the declared noise that the design holds
-  Structure structure;                 ///< of the noise
-  double variance = 1;                 ///< left over by the design's noise
-  double criterion = 0;                ///< minus two ln likelihood, comparable between fits of equal noise
-  bool valid = true;                   ///< false: the model has no value there
+  Points at;            ///< all quantities, sizes of terms included
+  Vector residual;      ///< measured minus simulated, rows in the order of measurement, all readings
+  Design design;        ///< linearised there; the terms' columns are its last fixed ones
+  Matrix covariance;    ///< of all fixed columns in use, SI; NaN for those that the readings do not see
+  double noise = 1;     ///< scale of the declared noise that the design holds
+  Structure structure;  ///< of the noise
+  double variance = 1;  ///< left over by the design's noise
+  double criterion = 0; ///< minus two ln likelihood, comparable between fits of equal noise
+  bool valid = true;    ///< false: the model has no value there
   bool converged = true, kink = false;
   int iterations = 0;
 };
@@ -54,6 +53,11 @@ public:
 
 private:
   bool linearise(JointFit& fit) const;
+  /// Gauss-Newton from a fit's point.
+  void converge(JointFit& fit, double noise) const;
+  /// Gauss-Newton ends in the next best optimum where readings jump: takes a size of the last term, near the one found,
+  /// that fits better, all else as good as can be. False if there is none or nothing jumps.
+  bool explore(JointFit& fit) const;
   void local_noise(const Matrix& derivative, JointFit& fit) const;
   void apply(JointFit& fit, const Vector& change, double share) const;
   double objective(const JointFit& fit, const Whitened& prior, const Scan& scan) const;
