@@ -140,11 +140,6 @@ TEST_CASE("derivatives by the mill's quantities and effects agree with differenc
     x.insert(x.end(), m.effects.begin(), m.effects.end());
     for (std::size_t i = 0; i < x.size(); ++i) {
       if (i == mill::inserts || i == mill::length) continue;
-      if (i >= nq) { // whole revolutions have differences, but no small ones
-        const auto owner =
-            std::find_if(m.active.rbegin(), m.active.rend(), [&](const auto& a) { return a.first <= i - nq; });
-        if (effects::cards()[owner->effect]->name == "revolution_confirm") continue;
-      }
       const std::size_t other = i == 0 ? 1 : i - 1;
       const auto here = at(x, {i, other});
       // Steps small against the beam and the descent of a turn; lengths are good to 1e-16 m.
@@ -220,7 +215,7 @@ TEST_CASE("what a mill's effects make impossible is said", "[effects][tool_lengt
            {m.with("spindle_speed_error", {-1.5}), "spindle_speed"},
            {m.with("servo_lag", {-1e-3}), "servo_lag"},
            {m.with("sampling_rate", {-1e-3}), "sampling_rate"},
-           {m.with("revolution_confirm", {0.5}), "revolution_confirm"},
+           {m.with("revolution_confirm", {-1.0}), "revolution_confirm"},
            {m.with("trigger_latency", {std::nan("")}).with("feed_start_delay", {std::nan("")}), "finite"},
            {m.under(mill::feed, 0), "feed"},
            {m.under(mill::speed, 0), "spindle_speed"},

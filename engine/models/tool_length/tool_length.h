@@ -110,7 +110,8 @@ template <class T> const char* impossible(const T* q, const double* condition, c
   if (!(num::value(event.axis_scale) > -1)) return "z_scale turns the axis round";
   if (!(num::value(tool.servo_lag) >= 0)) return "servo_lag.time_constant is negative";
   if (!(num::value(tool.sampling_period) >= 0)) return "sampling_rate.period is negative";
-  if (!whole(num::value(tool.confirmations))) return "revolution_confirm.revolutions is not a whole number from 0";
+  // Whole in a receiver; between whole numbers for fits.
+  if (!(num::value(tool.confirmations) >= 0)) return "revolution_confirm.revolutions is negative";
   const auto m = motion(q, event, condition);
   if (!std::isfinite(num::value(m.angle) + num::value(m.height) + num::value(m.drop)))
     return "a quantity of an effect is not finite";
