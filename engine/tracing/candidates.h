@@ -24,7 +24,8 @@ struct Amplitude {
   std::string name, unit, si_unit, scenario_name;
   std::vector<std::pair<std::string, std::string>> labels; ///< only where readings have these
   double low = -1e300, high = 1e300;                       ///< limits of its card, SI
-  double typical = 0; ///< upper end of the card's typical magnitude, SI; 0: not told
+  double typical = 0;  ///< upper end of the card's typical magnitude, SI; 0: not told
+  double declared = 0; ///< standard uncertainty that is declared of a quantity found off, SI
   static constexpr std::size_t npos = ~std::size_t{0};
 };
 

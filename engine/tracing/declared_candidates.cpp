@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "quantities/cells.h"
@@ -47,6 +48,14 @@ std::set<Cell> cells_of(const scenario::Scenario& s, const std::vector<std::stri
   return out;
 }
 
+double declared_uncertainty(const InputQuantity& q, const quantities::Labels& labels) {
+  double variance = 0;
+  for (const auto& entry : q.entries)
+    if (quantities::holds_for(entry.labels, labels))
+      for (const auto& c : entry.components) variance += c.distribution.variance();
+  return std::sqrt(variance);
+}
+
 void add_cell(const CandidateMaker& make, std::size_t q, const Cell& cell, std::vector<Alternative>& found) {
   const auto& s = make.experiment.scenario();
   const QuantityCard& card = make.experiment.model().card->quantities[q];
@@ -63,6 +72,10 @@ void add_cell(const CandidateMaker& make, std::size_t q, const Cell& cell, std::
   one.name = "declared:" + s.quantities[q].name + (cell.empty() ? "" : "[" + quantities::text_of(cell) + "]");
   one.amplitudes = {make.amplitude(q, card)};
   one.amplitudes[0].labels = cell;
+  const auto first = std::find(mask.begin(), mask.end(), true);
+  if (first != mask.end())
+    one.amplitudes[0].declared =
+        declared_uncertainty(s.quantities[q], s.readings[static_cast<std::size_t>(first - mask.begin())].labels);
   one.amplitudes[0].low = card.limits.low - low; // of the shift
   one.amplitudes[0].high = card.limits.high - high;
   make.add_single(std::move(one), q, cell.empty() ? nullptr : &mask, found);

@@ -59,9 +59,6 @@ public:
   Matrix solve_all(const Matrix& whitened_extra, const Matrix& whitened, Matrix* covariance = nullptr) const;
   /// n draws of the noise, declared draws included, in the chosen rows' own units. `seed` keys the stream.
   Matrix draw(std::size_t n, std::uint64_t seed) const;
-  std::size_t fixed_columns() const { return fixed_; }
-  std::size_t random_columns() const { return random_; }
-  std::size_t scatter_columns() const { return scatter_; }
   const std::vector<Index>& rows() const { return rows_; }
 
 private:

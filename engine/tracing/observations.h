@@ -36,8 +36,7 @@ struct Observations {
   std::vector<std::string> final_blocks;
   std::vector<double> measured;        ///< [reading][indication], SI
   std::vector<std::string> statements; ///< what these data cannot tell, by their design
-  std::string indication_name(std::size_t k) const { return names[k]; }
-  std::vector<std::string> names; ///< of the indications
+  std::vector<std::string> names;      ///< of the indications
 };
 
 /// Rows of the scenario, [reading][indication], in the order of measurement.

@@ -6,8 +6,7 @@
 #include <map>
 #include <set>
 
-#include <fmt/format.h>
-
+#include "tracing/ranking.h"
 #include "tracing/shapes.h"
 
 namespace gumshoe::tracing {
@@ -77,12 +76,12 @@ private:
       out_.first = assessment_;
       out_.alternatives = alternatives_;
       out_.tried = static_cast<int>(alternatives_.size()) + static_cast<int>(c_.observations.redone.size());
-      limits();
+      out_.limits = detection_limits(*scan_, assessment_, alternatives_);
     }
     out_.last = assessment_;
     bool more = false;
     if (assessment_.p_anything <= c_.alpha && assessment_.p_signature <= c_.alpha) more = take_signature();
-    if (first) rank();
+    if (first) out_.candidates = ranking(*scan_, assessment_, alternatives_, out_.base.design, refused_);
     if (!more && assessment_.p_anything <= c_.alpha) take_component();
     return more;
   }
@@ -176,7 +175,7 @@ private:
         if (predicts_better(best.fit)) return take(finalists);
         refused_[best.alternative] = "refused: blocks held out are predicted no better with it";
       } else {
-        if (take_pair(physical, plain)) return true;
+        if (take_pair(plain)) return true;
         for (const Finalist& f : finalists)
           refused_[f.alternative] = "refused: " + better + " fits better, as simple as it is";
       }
@@ -198,7 +197,7 @@ private:
   }
 
   /// One masks the other: two effects together that explain more than any shape alone.
-  bool take_pair(const std::vector<std::size_t>&, const std::vector<std::size_t>& plain) {
+  bool take_pair(const std::vector<std::size_t>& plain) {
     const auto many = best_of([](const Alternative& a) { return a.physical(); }, 60);
     const std::size_t k = assessment_.data.structure[0];
     double best = 0;
@@ -354,63 +353,6 @@ private:
       s.depends_on = {"reading"};
       s.members = {"scatter:reading"};
       out_.steps.push_back(std::move(s));
-    }
-  }
-
-  void limits() {
-    const std::size_t k = assessment_.data.structure[0];
-    const double s = std::sqrt(assessment_.data.variance[0]);
-    std::set<std::string> seen;
-    for (std::size_t a = 0; a < alternatives_.size(); ++a) {
-      const Alternative& one = alternatives_[a];
-      if (!one.physical() || one.finite != 0) continue;
-      for (std::size_t j = 0; j < one.amplitudes.size(); ++j) {
-        const Amplitude& amplitude = one.amplitudes[j];
-        if (!seen.insert(one.name + "/" + amplitude.name).second) continue;
-        const bool told = scan_->identifiable(a) > absorbed_share;
-        const double ratio = assessment_.null[a].quantile(std::max(assessment_.threshold, 1e-12));
-        const double information = told ? scan_->information(a, static_cast<Index>(j), k) : 0;
-        // Above the threshold in nine cases of ten.
-        const double limit = information > 0 ? (std::sqrt(ratio) + 1.2816) * s / std::sqrt(information)
-                                             : std::numeric_limits<double>::infinity();
-        out_.limits.push_back({one.name, amplitude.name, amplitude.unit, amplitude.si_unit, limit});
-      }
-    }
-  }
-
-  void rank() {
-    const std::size_t k = assessment_.data.structure[0];
-    std::vector<std::size_t> order(alternatives_.size());
-    for (std::size_t a = 0; a < order.size(); ++a) order[a] = a;
-    std::sort(order.begin(), order.end(),
-              [&](std::size_t a, std::size_t b) { return assessment_.p[a] < assessment_.p[b]; });
-    const Design& design = out_.base.design;
-    int shown = 0;
-    for (const std::size_t a : order) {
-      const Alternative& one = alternatives_[a];
-      Candidate line;
-      line.name = one.name;
-      line.shape = one.shape;
-      line.family = name(one.family);
-      line.parameters = static_cast<int>(one.columns.cols());
-      line.statistic = assessment_.data.ratio(static_cast<Index>(a), 0);
-      line.p_single = assessment_.p[a];
-      line.identifiable = scan_->identifiable(a);
-      if (line.identifiable < 0.1 && scan_->absorbed_by(a) >= 0) {
-        const auto by = static_cast<std::size_t>(scan_->absorbed_by(a)), fixed = design.fixed_names.size();
-        line.absorbed_by = by < fixed ? design.fixed_names[by] : design.random_names[by - fixed];
-      }
-      if (shown++ < 40) line.correlation = scan_->correlation(order[0], a, k);
-      if (const auto it = refused_.find(a); it != refused_.end())
-        line.outcome = it->second;
-      else if (line.identifiable <= absorbed_share)
-        line.outcome =
-            "not testable: absorbed by " + (line.absorbed_by.empty() ? std::string("the fit") : line.absorbed_by);
-      else if (assessment_.p[a] > assessment_.threshold)
-        line.outcome = "refused: no more than chance";
-      else
-        line.outcome = "refused: another explains it better";
-      out_.candidates.push_back(std::move(line));
     }
   }
 
