@@ -180,6 +180,19 @@ class Trace(unittest.TestCase):
                 self.assertEqual(found["naming"], 1, verdict["findings"])
                 self.assertLess(verdict["rms"]["holdout_after"], verdict["rms"]["holdout_before"])
 
+    def test_growth_of_a_mill_that_jumps_from_tooth_to_tooth(self):
+        found, verdict = self.judged(mills, "single", "thermal_growth", 15, 11)
+        self.assertEqual(found["naming"], 1, verdict["findings"])
+
+    def test_a_revolution_of_confirmation(self):
+        d = mills.design(sets.stream(11))
+        y = mills.simulate(GUMSHOE, d, [d.values()])[0] + mills.confirmation(d, None) + noise("white", sets.stream(13), d.time, 1, d.noise)
+        first = self.verdict(sets.write(self.path, self.path / "truth", "set", d, y, {}, mills))["findings"][0]
+        self.assertEqual(first["name"], "revolution_confirm")
+        # Not an interval: one in twenty would miss.
+        q = first["quantities"][0]
+        self.assertLess(abs(q["value"] - 1), 4 * q["u"])
+
     def test_a_class_where_the_data_cannot_tell(self):
         found, verdict = self.judged(rods, "alias", 0, 15, 11)  # one feed: latency and reversal are one
         self.assertEqual(found["verdict"], "class", verdict["findings"])
