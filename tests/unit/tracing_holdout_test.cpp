@@ -134,6 +134,10 @@ TEST_CASE("the interval after selection: limits and symmetries", "[tracing]") {
     high = b;
   }
   CHECK(interval_after_selection(3.05, 1, 3).first < 0); // might be nothing
+  // A size that would not have passed holds its plain interval, and zero.
+  const auto short_of = interval_after_selection(2.5, 1, 3);
+  CHECK(short_of.first < 0);
+  CHECK(short_of.second == Approx(2.5 + z));
   const auto plus = interval_after_selection(4, 1, 3), minus = interval_after_selection(-4, 1, 3);
   CHECK(plus.first == -minus.second);
   CHECK(plus.second == -minus.first);
