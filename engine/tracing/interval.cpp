@@ -32,9 +32,9 @@ double mean_at(double x, double c, double p) {
 
 std::pair<double, double> interval_after_selection(double x, double u, double least) {
   if (!(u > 0)) return {x, x};
-  const double sign = x < 0 ? -1 : 1, z = std::fabs(x) / u, c = std::min(std::fabs(least) / u, z);
+  const double sign = x < 0 ? -1 : 1, z = std::fabs(x) / u, passes = std::fabs(least) / u, c = std::min(passes, z);
   double a = mean_at(z, c, 0.975), b = mean_at(z, c, 0.025);
-  if (z == c && c > 0) { // found by another size: both what chance lets pass and what the fit says
+  if (passes > z) { // found by another size: both what chance lets pass and what the fit says
     constexpr double quantile = 1.959963984540054;
     a = std::min(a, z - quantile), b = std::max(b, z + quantile);
   }
