@@ -165,6 +165,21 @@ Matrix Whitened::solve_all(const Matrix& extra, const Matrix& y, Matrix* covaria
   return scale.asDiagonal() * x;
 }
 
+/// What declared draws do beyond their straight lines, as a turning mill's readings that jump from tooth to tooth.
+void Whitened::add_bends(const Matrix& z, Matrix& out) const {
+  for (std::size_t c = 0; c < design_.bent.size(); ++c) {
+    if (design_.bent[c] < 0) continue;
+    const Matrix& table = design_.bends[static_cast<std::size_t>(design_.bent[c])];
+    const auto column = static_cast<Index>(c);
+    for (Index j = 0; j < out.cols(); ++j) {
+      const double place = std::round((z(column, j) - bend_node(0)) / (bend_node(1) - bend_node(0)));
+      const auto node = static_cast<Index>(std::clamp(place, 0.0, static_cast<double>(bend_nodes - 1)));
+      for (std::size_t i = 0; i < rows_.size(); ++i)
+        if (design_.random(rows_[i], column) != 0) out(static_cast<Index>(i), j) += table(rows_[i], node);
+    }
+  }
+}
+
 Matrix Whitened::draw(std::size_t n, std::uint64_t seed) const {
   const auto k = static_cast<Index>(design_.indications);
   Matrix out = normals(rows_.size(), n, seed, 1);
@@ -173,9 +188,14 @@ Matrix Whitened::draw(std::size_t n, std::uint64_t seed) const {
     for (Index i = k; i < out.rows(); ++i) out.row(i) = rho * out.row(i - k) + factor * out.row(i);
   for (Index i = 0; i < out.rows(); i += k) {
     const auto place = static_cast<std::size_t>(rows_[static_cast<std::size_t>(i)]) / design_.indications;
-    out.middleRows(i, k) = (design_.local[place].triangularView<Eigen::Lower>() * out.middleRows(i, k)).eval();
+    const Matrix& local = design_.straight.empty() ? design_.local[place] : design_.straight[place];
+    out.middleRows(i, k) = (local.triangularView<Eigen::Lower>() * out.middleRows(i, k)).eval();
   }
-  if (random_ > 0) out += take(design_.random) * normals(random_, n, seed, 2);
+  if (random_ > 0) {
+    const Matrix z = normals(random_, n, seed, 2);
+    out += take(design_.random) * z;
+    add_bends(z, out);
+  }
   if (scatter_ > 0) out += scatter_matrix() * normals(scatter_, n, seed, 3);
   return out;
 }

@@ -15,11 +15,19 @@ struct Design {
   std::vector<std::string> fixed_names;
   Matrix random; ///< U, rows x declared draws shared by readings, each of unit variance
   std::vector<std::string> random_names;
-  /// By reading of the sequence: lower Cholesky factor of its own noise, indications x indications.
+  /// By reading of the sequence: lower Cholesky factor of its own noise, indications x indications. What declared draws
+  /// do beyond U, as jumps, is in it as if it were noise.
   std::vector<Matrix> local;
+  std::vector<Matrix> straight;  ///< the same without that; empty: nothing bends
+  std::vector<Matrix> bends;     ///< rows x nodes: what a draw of bend_node(j) does beyond U
+  std::vector<int> bent;         ///< by column of U: its table of `bends`, or -1
   std::vector<double> reference; ///< by indication: typical standard uncertainty of its noise
   std::vector<Grouping> scatter; ///< what may scatter; group by reading of the scenario
 };
+
+/// Draws at which bends are tabled, in standard deviations.
+inline constexpr Index bend_nodes = 101;
+inline double bend_node(Index j) { return 0.1 * static_cast<double>(j - bend_nodes / 2); }
 
 /// Noise beside what is declared: serial correlation along the sequence, and a variance component.
 struct Structure {
@@ -63,6 +71,7 @@ public:
 
 private:
   Matrix scatter_matrix() const;
+  void add_bends(const Matrix& z, Matrix& out) const;
 
   const Design& design_;
   std::vector<Index> rows_, use_;

@@ -143,7 +143,7 @@ void remark_on_size(const Term& term, Finding& finding) {
                                             "up to " + shown(a.typical, a.unit, a.si_unit)));
     if (const double times = std::fabs(term.size[j]) / a.declared; a.declared > 0 && times > 10)
       finding.remarks.push_back(
-          fmt::format("{:.2g} times its declared standard uncertainty off: something else may stand behind it", times));
+          fmt::format("{:.0f} times its declared standard uncertainty off: something else may stand behind it", times));
     if (term.size[j] == a.low || term.size[j] == a.high)
       finding.remarks.push_back(a.name + " is held by a limit of its card: something else may stand behind it");
   }

@@ -74,7 +74,10 @@ private:
   /// derivative serves.
   void find_finite_steps();
   std::vector<Vector> finite_;
-  Vector bends_; ///< variance about these lines, by row of the simulator: noise of each reading by itself
+  Vector bends_;                    ///< variance about these lines, by row of the simulator
+  Vector expected_;                 ///< mean of the readings over those draws less the readings at the estimates
+  std::vector<Matrix> bend_tables_; ///< rows of the simulator x bend_nodes, about line and mean
+  std::vector<int> table_of_;       ///< by column of `needed_`; -1: nothing bends
   std::vector<std::size_t> needed_; ///< quantities whose derivatives are used
   /// Draws with all that they move: by reading of the scenario, quantity.
   struct Draw {

@@ -10,10 +10,17 @@
 #include "tracing/joint_fit.h"
 
 namespace gumshoe::tracing {
+namespace {
+
+/// What bends by less than this share of its movement is taken for straight.
+constexpr double straight = 0.02;
+
+} // namespace
 
 void Fitter::find_finite_steps() {
   finite_.assign(needed_.size(), {});
-  bends_ = Vector::Zero(static_cast<Index>(simulator_.rows()));
+  bends_ = expected_ = Vector::Zero(static_cast<Index>(simulator_.rows()));
+  table_of_.assign(needed_.size(), -1);
   constexpr Index nodes = 16; // equally likely values of a normal draw
   Vector z(nodes);
   for (Index j = 0; j < nodes; ++j)
@@ -36,12 +43,26 @@ void Fitter::find_finite_steps() {
   simulator_.vary(simulator_.estimates(), variations, f, valid);
   if (std::find(valid.begin(), valid.end(), false) != valid.end()) return; // the derivative serves
   const double square = z.squaredNorm();
+  Vector at_estimates;
+  if (!simulator_.simulate(simulator_.estimates(), at_estimates)) return;
   for (std::size_t m = 0; m < moved.size(); ++m) {
     const Matrix here = f.middleCols(static_cast<Index>(m) * nodes, nodes);
     const Vector slope = here * z / square;
     const Matrix line = slope * z.transpose(), off = (here - line).colwise() - (here - line).rowwise().mean();
     finite_[moved[m].first] = slope / moved[m].second;
+    if (off.norm() < straight * line.norm()) continue;
+    variations.clear();
+    for (Index j = 0; j < bend_nodes; ++j)
+      variations.push_back({{{needed_[moved[m].first], moved[m].second * bend_node(j), false}}});
+    Matrix table;
+    simulator_.vary(simulator_.estimates(), variations, table, valid);
+    if (std::find(valid.begin(), valid.end(), false) != valid.end()) continue;
+    const Vector mean = here.rowwise().mean();
+    for (Index j = 0; j < bend_nodes; ++j) table.col(j) -= mean + slope * bend_node(j);
+    table_of_[moved[m].first] = static_cast<int>(bend_tables_.size());
+    bend_tables_.push_back(std::move(table));
     bends_ += off.array().square().matrix().rowwise().sum() / static_cast<double>(nodes - 2);
+    expected_ += mean - at_estimates;
   }
 }
 
@@ -69,20 +90,28 @@ void Fitter::local_noise(const Matrix& derivative, JointFit& fit) const {
     covariance[d.moves.front().first] += g * g.transpose();
   }
   Vector mean = Vector::Zero(k);
+  auto without = covariance;
   for (const std::size_t r : o.sequence) {
     if (!noise_declared_) covariance[r] = Matrix::Identity(k, k) / e.scenario().readings[r].repeats;
     const double unit = noise_declared_ ? 1 : fit.noise * fit.noise;
+    without[r] = covariance[r];
     covariance[r].diagonal() += bends_.segment(static_cast<Index>(r) * k, k) / unit;
     mean += covariance[r].diagonal() / static_cast<double>(o.readings);
   }
   fit.design.reference.assign(static_cast<std::size_t>(k), 0);
   for (Index i = 0; i < k; ++i) fit.design.reference[static_cast<std::size_t>(i)] = fit.noise * std::sqrt(mean[i]);
-  fit.design.local.clear();
-  for (const std::size_t r : o.sequence) {
-    // An indication that declares nothing of its own here: a small share keeps it from being exact.
-    for (Index i = 0; i < k; ++i) covariance[r](i, i) += 1e-8 * mean[i] + 1e-30;
-    fit.design.local.push_back(fit.noise * Matrix(covariance[r].llt().matrixL()));
-  }
+  // An indication that declares nothing of its own here: a small share keeps it from being exact.
+  const auto factors = [&](std::vector<Matrix>& of) {
+    std::vector<Matrix> out;
+    for (const std::size_t r : o.sequence) {
+      for (Index i = 0; i < k; ++i) of[r](i, i) += 1e-8 * mean[i] + 1e-30;
+      out.push_back(fit.noise * Matrix(of[r].llt().matrixL()));
+    }
+    return out;
+  };
+  fit.design.local = factors(covariance);
+  fit.design.straight.clear();
+  if (!bend_tables_.empty()) fit.design.straight = factors(without);
 }
 
 bool Fitter::linearise(JointFit& fit) const {
@@ -108,7 +137,7 @@ bool Fitter::linearise(JointFit& fit) const {
     if (finite_[i].size() > 0) drawn.col(static_cast<Index>(i)) = finite_[i];
   Vector measured(n);
   for (Index i = 0; i < n; ++i) measured[i] = o.measured[static_cast<std::size_t>(i)];
-  fit.residual = in_sequence(o, measured - f);
+  fit.residual = in_sequence(o, measured - f - expected_);
   Design& d = fit.design;
   d.indications = o.indications;
   d.reading.clear();
@@ -188,6 +217,9 @@ bool Fitter::linearise(JointFit& fit) const {
   }
   d.random.resize(n, 0);
   d.random_names.clear();
+  d.bent.clear();
+  d.bends.clear();
+  for (const Matrix& table : bend_tables_) d.bends.push_back(in_sequence(o, table));
   // By name: draws are numbered as rows of the file ask for them.
   std::vector<std::size_t> by_name(draws_.size());
   std::iota(by_name.begin(), by_name.end(), 0);
@@ -199,6 +231,9 @@ bool Fitter::linearise(JointFit& fit) const {
     d.random.conservativeResize(n, d.random.cols() + 1);
     d.random.rightCols(1) = one;
     d.random_names.push_back(draws_[v].name);
+    const std::size_t moved = draws_[v].moves.front().second;
+    const bool may_bend = std::binary_search(needed_.begin(), needed_.end(), moved);
+    d.bent.push_back(may_bend ? table_of_[static_cast<std::size_t>(at(moved))] : -1);
   }
   return fit.residual.allFinite() && d.fixed.allFinite() && d.random.allFinite();
 }
