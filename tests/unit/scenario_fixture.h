@@ -1,12 +1,10 @@
 #pragma once
 /// A small catalogue for the tests of the parser, and scenarios written to files on the fly.
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <string>
-#include <unistd.h>
 
 #include "base/error.h"
+#include "folder.h"
 #include "scenario/scenario.h"
 
 namespace scenario_fixture {
@@ -43,24 +41,7 @@ inline scenario::Catalogue catalogue() {
           }};
 }
 
-/// A folder for one test's files, removed at its end.
-class Folder {
-public:
-  Folder() {
-    std::string name = (std::filesystem::temp_directory_path() / "gumshoe_XXXXXX").string();
-    path_ = mkdtemp(name.data());
-  }
-  ~Folder() { std::filesystem::remove_all(path_); }
-  std::string write(const std::string& name, const std::string& text) const {
-    const std::string file = path_ + '/' + name;
-    std::ofstream(file, std::ios::binary) << text;
-    return file;
-  }
-  const std::string& path() const { return path_; }
-
-private:
-  std::string path_;
-};
+using fixture::Folder;
 
 inline const std::string head = "schema = 1\nmodel = { name = \"rod\" }\n";
 inline const std::string one_reading = "[indications.spindle_z]\nreadings = [\"-329.932 mm\"]\n";

@@ -11,10 +11,12 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "folder.h"
 #include "made/full_results.h"
 #include "store/result_file.h"
 
 using namespace gumshoe;
+using fixture::Folder;
 using propagation::ResultBlock;
 using store::ResultFile;
 namespace fs = std::filesystem;
@@ -98,16 +100,6 @@ std::string bytes(const fs::path& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-struct Folder {
-  fs::path path;
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "gumshoe_kill_XXXXXX").string();
-    REQUIRE(mkdtemp(name.data()) != nullptr);
-    path = name;
-  }
-  ~Folder() { fs::remove_all(path); }
-};
-
 /// Whether a run in a process of its own, killed at its n-th call, was through before.
 bool killed_at(int n, const std::string& path) {
   const pid_t child = fork();
@@ -130,11 +122,11 @@ bool killed_at(int n, const std::string& path) {
 
 TEST_CASE("a run killed at any moment goes on to the same bytes", "[store]") {
   const Folder folder;
-  run(folder.path / "whole.h5");
-  const std::string whole = bytes(folder.path / "whole.h5");
+  run(folder / "whole.h5");
+  const std::string whole = bytes(folder / "whole.h5");
   int n = 1;
   for (bool killed = true; killed; ++n) {
-    const fs::path path = folder.path / "run.h5";
+    const fs::path path = folder / "run.h5";
     fs::remove(path);
     killed = killed_at(n, path);
     INFO("killed at call " << n);
@@ -143,14 +135,14 @@ TEST_CASE("a run killed at any moment goes on to the same bytes", "[store]") {
     CHECK_NOTHROW(run(path, &remark));
     CHECK(remark.empty());
     CHECK((bytes(path) == whole));                                      // bracketed: not to be printed
-    CHECK(std::distance(fs::directory_iterator(folder.path), {}) == 2); // what was half made is gone
+    CHECK(std::distance(fs::directory_iterator(folder.path()), {}) == 2); // what was half made is gone
   }
   CHECK(n > 100); // it was about something
 }
 
 TEST_CASE("a result of ours that cannot be read gives way to a run from the start", "[store]") {
   const Folder folder;
-  const fs::path path = folder.path / "run.h5";
+  const fs::path path = folder / "run.h5";
   run(path);
   const std::string whole = bytes(path);
   for (int part = 15; part > 1; --part) {

@@ -12,10 +12,12 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "folder.h"
 #include "made/full_results.h"
 #include "store/result_file.h"
 
 using namespace gumshoe;
+using fixture::Folder;
 using propagation::Output;
 using propagation::ResultBlock;
 using store::Identity;
@@ -25,18 +27,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::uint64_t block_samples = 640, blocks = 3, samples = block_samples * blocks;
-
-/// A folder of its own that disappears with the test.
-struct Folder {
-  fs::path path;
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "gumshoe_store_XXXXXX").string();
-    REQUIRE(mkdtemp(name.data()) != nullptr);
-    path = name;
-  }
-  ~Folder() { fs::remove_all(path); }
-  std::string operator/(const char* name) const { return (path / name).string(); }
-};
 
 Identity identity() {
   return {"0123456789abcdef",
@@ -210,13 +200,13 @@ TEST_CASE("nothing that is not ours is overwritten", "[store][errors]") {
   CHECK(message(path, identity()).find(path) != std::string::npos);
   CHECK(bytes(path) == before);
   CHECK_THROWS_AS(store::read_identity(path), InputError);
-  CHECK(std::distance(fs::directory_iterator(folder.path), {}) == 1); // no litter
+  CHECK(std::distance(fs::directory_iterator(folder.path()), {}) == 1); // no litter
 }
 
 TEST_CASE("relative names, links and empty files are good places", "[store]") {
   const Folder folder;
   const fs::path before = fs::current_path();
-  fs::current_path(folder.path);
+  fs::current_path(folder.path());
   { CHECK_NOTHROW(ResultFile("bare.h5", identity(), outputs, labels)); }
   std::ofstream("empty.h5").close();
   { CHECK_NOTHROW(ResultFile("empty.h5", identity(), outputs, labels)); }
@@ -229,16 +219,16 @@ TEST_CASE("relative names, links and empty files are good places", "[store]") {
 
 TEST_CASE("a place that cannot hold a file is an error with its reason", "[store][errors]") {
   const Folder folder;
-  CHECK(message(folder.path.string(), identity()).find("directory") != std::string::npos);
+  CHECK(message(folder.path(), identity()).find("directory") != std::string::npos);
   CHECK(message(folder / "missing/run.h5", identity()).find("does not exist") != std::string::npos);
   CHECK(message("/dev/full", identity()).find("no regular file") != std::string::npos);
   CHECK(message("", identity()).find("no name") != std::string::npos);
-  CHECK_THROWS_AS(store::read_identity(folder.path.string()), InputError);
+  CHECK_THROWS_AS(store::read_identity(folder.path()), InputError);
   CHECK_THROWS_AS(store::read_identity(folder / "missing.h5"), InputError);
   if (geteuid() != 0) { // root may write anywhere
-    fs::permissions(folder.path, fs::perms::owner_read | fs::perms::owner_exec);
+    fs::permissions(folder.path(), fs::perms::owner_read | fs::perms::owner_exec);
     CHECK(message(folder / "run.h5", identity()).find("Permission denied") != std::string::npos);
-    fs::permissions(folder.path, fs::perms::owner_all);
+    fs::permissions(folder.path(), fs::perms::owner_all);
   }
 }
 
@@ -254,7 +244,7 @@ TEST_CASE("a disk too small is an error before the run, and the older result sta
   huge.samples = std::uint64_t(1) << 46; // a petabyte
   CHECK(message(path, huge).find("cannot allocate") != std::string::npos);
   CHECK(store::read_identity(path).complete);
-  CHECK(std::distance(fs::directory_iterator(folder.path), {}) == 1);
+  CHECK(std::distance(fs::directory_iterator(folder.path()), {}) == 1);
 }
 
 TEST_CASE("a limit on file sizes is an error, not a signal", "[store][errors]") {
