@@ -50,8 +50,9 @@ bool Fitter::explore(JointFit& fit) const {
       return steps.size() > 3 && std::find(valid.begin(), valid.end(), false) == valid.end();
     };
     if (!try_each(coarse) || !jumps(f, steps, fit.design.reference[0]) || !try_each(spacing)) continue;
-    Vector here;
-    if (!simulator_.simulate(fit.at, here)) return false;
+    const auto found = std::find(steps.begin(), steps.end(), 0.0);
+    if (found == steps.end()) continue;
+    const Index here = found - steps.begin();
     // Beside all other unknowns.
     Design rest = fit.design;
     std::vector<Index> others;
@@ -60,12 +61,12 @@ bool Fitter::explore(JointFit& fit) const {
     rest.fixed = Matrix(fit.design.fixed(Eigen::all, others));
     const Scan scan(rest, rows_, {}, threads_);
     const Whitened prior(rest, rows_, scan.used(), fit.structure);
-    Matrix residual = in_sequence(observations_, (-f).colwise() + here).colwise() + fit.residual;
+    const Matrix residual =
+        in_sequence(observations_, (-f).colwise() + f.col(here).eval()).colwise() + fit.residual;
     const Matrix white = prior.whiten(scan.winsorised(prior.take(residual)));
     const Vector left = prior.left(white);
-    const double now = prior.left(prior.whiten(scan.winsorised(prior.take(fit.residual))))[0];
     Index best = 0;
-    if (!(left.minCoeff(&best) < now * (1 - 1e-6))) continue;
+    if (!(left.minCoeff(&best) < left[here] * (1 - 1e-6))) continue;
     const Vector x = prior.solve(Matrix(white.rows(), 0), white.col(best));
     Vector change = Vector::Zero(fit.design.fixed.cols());
     for (std::size_t j = 0; j < scan.used().size(); ++j)

@@ -7,7 +7,7 @@ namespace gumshoe::effects {
 /// A trigger is accepted only after further revolutions with an interruption each.
 struct RevolutionConfirm {
   static constexpr QuantityCard quantities[] = {
-      {"revolutions", "1", "1", 0.0, {0.0, 1000.0}, "n", "further revolutions; a whole number", Role::amplitude, "0-2"},
+      {"revolutions", "1", "1", 0.0, {0.0, 1000.0}, "n", "further revolutions; whole in a receiver, any number in a fit", Role::amplitude, "0-2"},
   };
   static constexpr EffectCard card{
       "revolution_confirm",
