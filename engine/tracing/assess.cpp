@@ -42,15 +42,17 @@ double Null::quantile(double p) const {
 }
 
 Assessment assess(const Scan& scan, const Vector& residuals, int draws, std::uint64_t seed, double alpha,
-                  double declared) {
+                  double declared, const ScatterResponse& response) {
   Assessment out;
   out.data = scan.run(residuals);
   const auto count = static_cast<std::size_t>(draws);
   const std::size_t k0 = out.data.without_scatter[0], k1 = out.data.structure[0];
   // Two lots: one tells how each statistic is distributed, the other, as new to that as the data are, how small the
   // least of all probabilities comes out by chance.
+  Departures& departures = out.departures;
+  departures = scan.departures(residuals);
   const auto null_draws = [&](std::size_t k, double variance, std::uint64_t key) {
-    return scan.run(std::sqrt(variance) * scan.whitened(k).draw(2 * count, key), beyond_chance);
+    return scan.run(std::sqrt(variance) * scan.whitened(k).draw(2 * count, key, departures), beyond_chance);
   };
   // Nothing at all: no variance component either.
   const Statistics nothing = null_draws(k0, out.data.variance_without_scatter[0], seed);
@@ -63,7 +65,8 @@ Assessment assess(const Scan& scan, const Vector& residuals, int draws, std::uin
   const bool few = scan.degrees_of_freedom() < 30;
   const Vector size = few ? Vector(nothing.variance_without_scatter.cwiseSqrt()) : nothing.scale;
   const double observed = few ? std::sqrt(out.data.variance_without_scatter[0]) : out.data.scale[0];
-  const Vector sizes = size.array().log() - 0.5 * std::log(out.data.variance_without_scatter[0]);
+  const Vector sizes =
+      size.array().log() - 0.5 * std::log(out.data.variance_without_scatter[0]) - std::log(departures.core());
   const double middle = sizes.head(sets).mean(),
                spread = std::sqrt((sizes.head(sets).array() - middle).square().mean());
   const boost::math::normal normal;
@@ -94,6 +97,7 @@ Assessment assess(const Scan& scan, const Vector& residuals, int draws, std::uin
   out.p_noise_overall = share_at_most(least, out.p_noise);
   // Signatures beside the noise as it seems to be, with its variance component.
   if (k1 != k0) {
+    if (response) departures.scatter = response(scan.all_structures()[k1], out.data.variance[0]);
     const Statistics beside = null_draws(k1, out.data.variance[0], seed ^ 0x5ca77e5ull);
     for (Index j = 0; j < m; ++j) signature[static_cast<std::size_t>(j)] = null_of(beside.ratio.row(j).head(sets));
     for (Index i = 0; i < sets; ++i) {

@@ -1,6 +1,7 @@
 #pragma once
 /// How unusual is the largest of all statistics, were nothing there? By parametric bootstrap.
 #include <cstdint>
+#include <functional>
 
 #include "tracing/scan.h"
 
@@ -24,10 +25,15 @@ struct Assessment {
   double p_noise_overall = 1;      ///< the same over all that was tried
   bool noise_small = false;        ///< smaller than declared, 1 in 1000
   double threshold = 0;            ///< p below which a single signature counts
+  Departures departures;           ///< of the draws from normal ones
 };
+
+/// What draws of a variance component do to the readings, tabled as in Departures, the noise's variance given; empty:
+/// what the structure says.
+using ScatterResponse = std::function<Matrix(const Structure&, double variance)>;
 
 /// @param declared  true standard deviation over the design's, were the declared noise true; 0: none is declared
 Assessment assess(const Scan& scan, const Vector& residuals, int draws, std::uint64_t seed, double alpha,
-                  double declared);
+                  double declared, const ScatterResponse& response = {});
 
 } // namespace gumshoe::tracing

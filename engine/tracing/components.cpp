@@ -36,7 +36,8 @@ public:
         of_noise(i, d.reference[i] / fit_.noise * std::sqrt(std::max(0.0, scale * scale - 1)), {"reading"}, source);
       return;
     }
-    const double u = f.quantities.empty() ? 0 : f.quantities[0].value;
+    if (f.quantities.empty()) return;
+    const double u = f.quantities[0].value;
     if (f.quantities[0].low95 < f.quantities[0].high95)
       source += fmt::format("; 95 % interval of u in the indication [{:.3g}, {:.3g}] {}", f.quantities[0].low95,
                             f.quantities[0].high95, f.quantities[0].si_unit);
@@ -74,18 +75,11 @@ public:
 private:
   /// Change of the indication with the seat of a clamping, if the scenario lacks that effect; else 0.
   double reclamp() const {
-    const auto& declared = c_.experiment.scenario();
-    for (std::size_t q = 0; q < declared.quantities.size(); ++q) {
-      const auto& one = declared.quantities[q];
-      if (one.name != "reclamp.shift") continue;
-      if (one.estimated || one.entries.size() > 1 || !one.entries[0].components.empty() || one.entries[0].value != 0)
-        return 0;
-      Vector f;
-      Matrix derivative;
-      if (!c_.simulator.derivatives(fit_.at, {q}, f, derivative)) return 0;
-      return std::sqrt(derivative.squaredNorm() / static_cast<double>(derivative.rows()));
-    }
-    return 0;
+    const auto seat = seat_at_null(c_.experiment);
+    Vector f;
+    Matrix derivative;
+    if (!seat || !c_.simulator.derivatives(fit_.at, {*seat}, f, derivative)) return 0;
+    return std::sqrt(derivative.squaredNorm() / static_cast<double>(derivative.rows()));
   }
 
   const Circumstances& c_;

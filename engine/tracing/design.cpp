@@ -10,6 +10,24 @@
 #include "random/streams.h"
 
 namespace gumshoe::tracing {
+namespace {
+
+/// Some readings far out, of either sign, in the place of normal ones.
+void put_outliers(const Departures& d, std::uint64_t seed, Matrix& out) {
+  const double core = d.core();
+  const auto columns = static_cast<std::size_t>(out.cols());
+  std::vector<double> u(2 * columns);
+  for (Index i = 0; i < out.rows(); ++i) {
+    random::uniforms({seed, static_cast<std::uint32_t>(i + 1), 4, 0}, 0, u.size(), u.data());
+    for (std::size_t j = 0; j < columns; ++j) {
+      double& x = out(i, static_cast<Index>(j));
+      const auto which = static_cast<std::size_t>(u[columns + j] * static_cast<double>(d.sizes.size()));
+      x = core * (u[j] < d.share ? std::copysign(d.sizes[std::min(which, d.sizes.size() - 1)], x) : x);
+    }
+  }
+}
+
+} // namespace
 
 std::vector<Structure> structures(const Design& d, std::size_t rows) {
   std::vector<double> rho{0.0};
@@ -39,31 +57,31 @@ Matrix normals(std::size_t rows, std::size_t columns, std::uint64_t seed, std::u
   return out;
 }
 
+double Departures::core() const {
+  double square = 0;
+  for (const double size : sizes) square += std::pow(std::min(size, far_out), 2) / static_cast<double>(sizes.size());
+  return sizes.empty() ? 1 : 1 / std::sqrt(1 + share * (square - 1));
+}
+
 Whitened::Whitened(const Design& d, std::vector<Index> rows, const std::vector<Index>& use, const Structure& s)
     : design_(d), rows_(std::move(rows)), use_(use), structure_(s) {
   const auto n = static_cast<Index>(rows_.size());
   fixed_ = use_.size();
-  // Draws that none of these readings feels cost nothing and are left out.
-  Matrix random(n, d.random.cols());
-  for (Index i = 0; i < n; ++i) random.row(i) = d.random.row(rows_[static_cast<std::size_t>(i)]);
-  random_ = static_cast<std::size_t>(random.cols());
-  const Matrix scatter = scatter_matrix();
-  scatter_ = static_cast<std::size_t>(scatter.cols());
-  const auto p = static_cast<Index>(fixed_), q = static_cast<Index>(random_ + scatter_);
+  random_ = static_cast<std::size_t>(d.random.cols());
+  const auto k = static_cast<double>(rows_.size()) / static_cast<double>(d.indications);
+  log_determinant_ = static_cast<double>(d.indications) * (k - 1) * std::log(1 - s.correlation * s.correlation);
+  if (const auto group = scattered(); !group.empty()) filter_scatter(group);
+  const auto p = static_cast<Index>(fixed_), q = static_cast<Index>(random_);
   Matrix top(n, p + q);
   for (Index j = 0; j < p; ++j)
     for (Index i = 0; i < n; ++i)
       top(i, j) = d.fixed(rows_[static_cast<std::size_t>(i)], use_[static_cast<std::size_t>(j)]);
-  if (random.cols() > 0) top.middleCols(p, random.cols()) = random;
-  if (scatter.cols() > 0) top.rightCols(scatter.cols()) = scatter;
+  for (Index i = 0; i < n; ++i) top.row(i).tail(q) = d.random.row(rows_[static_cast<std::size_t>(i)]);
   stacked_ = Matrix::Zero(n + q, p + q);
   stacked_.topRows(n) = whiten(std::move(top));
-  for (Index j = 0; j < q; ++j) stacked_(n + j, p + j) = 1;
+  stacked_.bottomRightCorner(q, q).setIdentity();
   // Columns of length one: the determinant below is of the data, not of the unknowns' units.
-  Vector scale = Vector::Ones(p + q);
   Matrix scaled = stacked_;
-  const auto k = static_cast<double>(rows_.size()) / static_cast<double>(d.indications);
-  log_determinant_ = static_cast<double>(d.indications) * (k - 1) * std::log(1 - s.correlation * s.correlation);
   if (p + q == 0) {
     basis_ = Matrix::Zero(n, 0);
     return;
@@ -77,8 +95,7 @@ Whitened::Whitened(const Design& d, std::vector<Index> rows, const std::vector<I
           d.fixed(row, use_[static_cast<std::size_t>(j)]) / d.reference[static_cast<std::size_t>(row) % d.indications];
       square += x * x;
     }
-    scale[j] = square > 0 ? 1 / std::sqrt(square) : 1;
-    scaled.col(j) *= scale[j];
+    if (square > 0) scaled.col(j) /= std::sqrt(square);
   }
   const Eigen::HouseholderQR<Matrix> qr(scaled);
   for (Index j = 0; j < p + q; ++j) log_determinant_ += 2 * std::log(std::fabs(qr.matrixQR()(j, j)));
@@ -87,27 +104,57 @@ Whitened::Whitened(const Design& d, std::vector<Index> rows, const std::vector<I
   basis_ = thin.topRows(n);
 }
 
-Matrix Whitened::scatter_matrix() const {
-  if (structure_.scatter < 0 || !(structure_.ratio > 0)) return Matrix(static_cast<Index>(rows_.size()), 0);
+std::vector<int> Whitened::scattered() const {
+  if (structure_.scatter < 0 || !(structure_.ratio > 0)) return {};
   const Grouping& g = design_.scatter[static_cast<std::size_t>(structure_.scatter)];
-  std::vector<int> column(g.groups.size() * design_.indications, -1);
+  std::vector<int> number(g.groups.size() * design_.indications, -1), out;
   int count = 0;
-  const auto at = [&](Index row) {
-    const auto r = static_cast<std::size_t>(row);
-    return g.group[design_.reading[r]] * design_.indications + r % design_.indications;
-  };
-  const auto moved = [&](Index row) {
-    return structure_.indication < 0 ||
-           static_cast<std::size_t>(row) % design_.indications == static_cast<std::size_t>(structure_.indication);
-  };
-  for (const Index row : rows_)
-    if (moved(row) && column[at(row)] < 0) column[at(row)] = count++;
-  Matrix out = Matrix::Zero(static_cast<Index>(rows_.size()), count);
-  for (std::size_t i = 0; i < rows_.size(); ++i)
-    if (moved(rows_[i]))
-      out(static_cast<Index>(i), column[at(rows_[i])]) =
-          structure_.ratio * design_.reference[static_cast<std::size_t>(rows_[i]) % design_.indications];
+  for (const Index row : rows_) {
+    const auto r = static_cast<std::size_t>(row), indication = r % design_.indications;
+    const bool moved = structure_.indication < 0 || indication == static_cast<std::size_t>(structure_.indication);
+    int& own = number[g.group[design_.reading[r]] * design_.indications + indication];
+    if (moved && own < 0) own = count++;
+    out.push_back(moved ? own : -1);
+  }
   return out;
+}
+
+double Whitened::scatter_unit(std::size_t row) const {
+  return structure_.ratio * design_.reference[static_cast<std::size_t>(rows_[row]) % design_.indications];
+}
+
+/// Z of the variance component, its rows whitened as all are.
+void Whitened::filter_scatter(const std::vector<int>& group) {
+  const std::size_t k = design_.indications;
+  const double rho = structure_.correlation, factor = 1 / std::sqrt(1 - rho * rho);
+  Innovations::Rows z(rows_.size());
+  Matrix before;
+  for (std::size_t i = 0; i < rows_.size(); i += k) {
+    Matrix own = Matrix::Zero(static_cast<Index>(k), static_cast<Index>(k));
+    for (std::size_t a = 0; a < k; ++a)
+      if (group[i + a] >= 0) own(static_cast<Index>(a), static_cast<Index>(a)) = scatter_unit(i + a);
+    design_.local[static_cast<std::size_t>(rows_[i]) / k].triangularView<Eigen::Lower>().solveInPlace(own);
+    const auto add = [&](std::size_t row, std::size_t from, const Matrix& w, double times) {
+      for (std::size_t b = 0; b < k; ++b) {
+        const double x = times * w(static_cast<Index>(row % k), static_cast<Index>(b));
+        if (x == 0) continue;
+        const auto effect = static_cast<std::size_t>(group[from + b]);
+        auto& here = z[row];
+        const auto same = std::find_if(here.begin(), here.end(), [&](const auto& e) { return e.first == effect; });
+        if (same == here.end())
+          here.push_back({effect, x});
+        else
+          same->second += x;
+      }
+    };
+    for (std::size_t row = i; row < i + k; ++row) {
+      add(row, i, own, rho != 0 && i > 0 ? factor : 1);
+      if (rho != 0 && i > 0) add(row, i - k, before, -rho * factor);
+    }
+    before = std::move(own);
+  }
+  scatter_.emplace(z);
+  log_determinant_ += scatter_->log_determinant();
 }
 
 Matrix Whitened::take(const Matrix& all) const {
@@ -118,18 +165,21 @@ Matrix Whitened::take(const Matrix& all) const {
 
 Matrix Whitened::whiten(Matrix x) const {
   const auto k = static_cast<Index>(design_.indications), n = x.rows();
+  Matrix t = x.transpose(); // a reading's values side by side
   for (Index i = 0; i < n; i += k) {
     const auto place = static_cast<std::size_t>(rows_[static_cast<std::size_t>(i)]) / design_.indications;
     const Matrix& local = design_.local[place];
     if (k == 1)
-      x.row(i) /= local(0, 0);
+      t.col(i) /= local(0, 0);
     else
-      x.middleRows(i, k) = local.triangularView<Eigen::Lower>().solve(x.middleRows(i, k)).eval();
+      local.transpose().triangularView<Eigen::Upper>().solveInPlace<Eigen::OnTheRight>(t.middleCols(i, k));
   }
-  const double rho = structure_.correlation;
-  if (rho == 0) return x;
-  const double factor = 1 / std::sqrt(1 - rho * rho);
-  for (Index i = n - 1; i >= k; --i) x.row(i) = factor * (x.row(i) - rho * x.row(i - k));
+  if (const double rho = structure_.correlation; rho != 0) {
+    const double factor = 1 / std::sqrt(1 - rho * rho);
+    for (Index i = n - 1; i >= k; --i) t.col(i) = factor * (t.col(i) - rho * t.col(i - k));
+  }
+  if (scatter_) scatter_->whiten(t);
+  x = t.transpose();
   return x;
 }
 
@@ -172,20 +222,20 @@ void Whitened::add_bends(const Matrix& z, Matrix& out) const {
     const Matrix& table = design_.bends[static_cast<std::size_t>(design_.bent[c])];
     const auto column = static_cast<Index>(c);
     for (Index j = 0; j < out.cols(); ++j) {
-      const double place = std::round((z(column, j) - bend_node(0)) / (bend_node(1) - bend_node(0)));
-      const auto node = static_cast<Index>(std::clamp(place, 0.0, static_cast<double>(bend_nodes - 1)));
+      const Index node = nearest_bend_node(z(column, j));
       for (std::size_t i = 0; i < rows_.size(); ++i)
         if (design_.random(rows_[i], column) != 0) out(static_cast<Index>(i), j) += table(rows_[i], node);
     }
   }
 }
 
-Matrix Whitened::draw(std::size_t n, std::uint64_t seed) const {
+Matrix Whitened::draw(std::size_t n, std::uint64_t seed, const Departures& departures) const {
   const auto k = static_cast<Index>(design_.indications);
   Matrix out = normals(rows_.size(), n, seed, 1);
   const double rho = structure_.correlation, factor = std::sqrt(1 - rho * rho);
   if (rho != 0)
     for (Index i = k; i < out.rows(); ++i) out.row(i) = rho * out.row(i - k) + factor * out.row(i);
+  if (departures.share > 0) put_outliers(departures, seed, out);
   for (Index i = 0; i < out.rows(); i += k) {
     const auto place = static_cast<std::size_t>(rows_[static_cast<std::size_t>(i)]) / design_.indications;
     const Matrix& local = design_.straight.empty() ? design_.local[place] : design_.straight[place];
@@ -196,7 +246,18 @@ Matrix Whitened::draw(std::size_t n, std::uint64_t seed) const {
     out += take(design_.random) * z;
     add_bends(z, out);
   }
-  if (scatter_ > 0) out += scatter_matrix() * normals(scatter_, n, seed, 3);
+  if (const auto group = scattered(); !group.empty()) {
+    const int groups = *std::max_element(group.begin(), group.end()) + 1;
+    const Matrix z = normals(static_cast<std::size_t>(groups), n, seed, 3);
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      if (group[i] < 0) continue;
+      const auto row = static_cast<Index>(i);
+      if (departures.scatter.size() == 0)
+        out.row(row) += scatter_unit(i) * z.row(group[i]);
+      else
+        for (Index j = 0; j < out.cols(); ++j) out(row, j) += departures.scatter(rows_[i], nearest_bend_node(z(group[i], j)));
+    }
+  }
   return out;
 }
 

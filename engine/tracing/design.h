@@ -1,8 +1,11 @@
 #pragma once
 /// The fitted model linearised: residuals, what the fit absorbs, what is declared of the rest, and structures of noise.
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "tracing/declared_response.h"
+#include "tracing/innovations.h"
 #include "tracing/observations.h"
 
 namespace gumshoe::tracing {
@@ -18,16 +21,15 @@ struct Design {
   /// By reading of the sequence: lower Cholesky factor of its own noise, indications x indications. What declared draws
   /// do beyond U, as jumps, is in it as if it were noise.
   std::vector<Matrix> local;
-  std::vector<Matrix> straight;  ///< the same without that; empty: nothing bends
+  std::vector<Matrix> straight;  ///< the same without what `bends` draw; empty: they draw nothing
   std::vector<Matrix> bends;     ///< rows x nodes: what a draw of bend_node(j) does beyond U
   std::vector<int> bent;         ///< by column of U: its table of `bends`, or -1
   std::vector<double> reference; ///< by indication: typical standard uncertainty of its noise
   std::vector<Grouping> scatter; ///< what may scatter; group by reading of the scenario
 };
 
-/// Draws at which bends are tabled, in standard deviations.
-inline constexpr Index bend_nodes = 101;
-inline double bend_node(Index j) { return 0.1 * static_cast<double>(j - bend_nodes / 2); }
+/// What lies beyond so many robust standard deviations is far out.
+inline constexpr double far_out = 3.5;
 
 /// Noise beside what is declared: serial correlation along the sequence, and a variance component.
 struct Structure {
@@ -39,6 +41,18 @@ struct Structure {
 
 /// rho over a grid, alone and with each variance component over a grid of ratios.
 std::vector<Structure> structures(const Design& design, std::size_t rows);
+
+/// How the noise of draws departs from normal numbers.
+struct Departures {
+  double share = 0;          ///< of readings far out
+  std::vector<double> sizes; ///< of those, in standard deviations of the others
+  /// Rows x nodes: what a draw bend_node(j) of the variance component does to each reading, in the readings' units at
+  /// scale 1; empty: what Z says.
+  Matrix scatter;
+
+  /// Standard deviation of what is not far out over that of all, drawn in as data are.
+  double core() const;
+};
 
 /// Some rows of a design (whole readings, in order) under one structure: whitening and projection.
 class Whitened {
@@ -58,26 +72,29 @@ public:
   const Matrix& basis() const { return basis_; }
   /// Minus two ln of the density's factor that does not depend on the data.
   double log_determinant() const { return log_determinant_; }
-  /// Best fixed and random coefficients and those of `extra` for a whitened column: x = (fixed, random, scatter,
-  /// extra).
+  /// Best fixed and random coefficients and those of `extra` for a whitened column: x = (fixed, random, extra).
   Vector solve(const Matrix& whitened_extra, const Vector& whitened, Matrix* covariance = nullptr) const {
     return solve_all(whitened_extra, whitened, covariance);
   }
   /// The same for many columns.
   Matrix solve_all(const Matrix& whitened_extra, const Matrix& whitened, Matrix* covariance = nullptr) const;
   /// n draws of the noise, declared draws included, in the chosen rows' own units. `seed` keys the stream.
-  Matrix draw(std::size_t n, std::uint64_t seed) const;
+  Matrix draw(std::size_t n, std::uint64_t seed, const Departures& departures = {}) const;
   const std::vector<Index>& rows() const { return rows_; }
 
 private:
-  Matrix scatter_matrix() const;
+  /// Of the variance component: by chosen row the group that moves it, or -1.
+  std::vector<int> scattered() const;
+  double scatter_unit(std::size_t row) const; ///< u of the component in a chosen row
+  void filter_scatter(const std::vector<int>& group);
   void add_bends(const Matrix& z, Matrix& out) const;
 
   const Design& design_;
   std::vector<Index> rows_, use_;
   Structure structure_;
-  std::size_t fixed_ = 0, random_ = 0, scatter_ = 0;
-  Matrix stacked_; ///< whitened fixed, random and scatter columns, over the unit rows of the latter two
+  std::size_t fixed_ = 0, random_ = 0;
+  std::optional<Innovations> scatter_;
+  Matrix stacked_; ///< whitened fixed and random columns, over the unit rows of the latter
   Matrix basis_;
   double log_determinant_ = 0;
 };

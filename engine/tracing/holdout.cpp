@@ -49,9 +49,8 @@ HeldOut hold_out(const Design& d, const Matrix& residual, const Matrix& extra, c
   }
   if (out.count <= 0) return out;
   // Of what the constants leave, which may be millions of times the noise: no difference of large squares.
-  const Matrix rest = local.whiten(out.residual);
-  out.squares = local.left(rest);
-  out.whitened = declared.left(rest);
+  out.squares = local.left(local.whiten(out.residual));
+  out.whitened = declared.left(declared.whiten(out.residual));
   return out;
 }
 

@@ -13,6 +13,8 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 /// A smooth model takes three or four; one that jumps from tooth to tooth gains nothing by more.
 constexpr int most_iterations = 14;
+/// Optima that are left for a better one, where readings jump.
+constexpr int most_optima = 4;
 
 } // namespace
 
@@ -56,7 +58,7 @@ Fitter::Fitter(const propagation::Experiment& e, const Simulator& simulator, con
     d.local =
         std::all_of(d.moves.begin(), d.moves.end(), [&](const auto& m) { return m.first == d.moves.front().first; });
   needed_.assign(needed.begin(), needed.end());
-  find_finite_steps();
+  find_responses();
 }
 
 void Fitter::apply(JointFit& fit, const Vector& change, double share) const {
@@ -129,7 +131,7 @@ JointFit Fitter::fit(const std::vector<Term>& terms, double noise, const JointFi
     linearise(fit);
   }
   converge(fit, noise);
-  for (int lesser = 0; lesser < 4 && explore(fit); ++lesser) converge(fit, noise);
+  for (int lesser = 0; lesser < most_optima && explore(fit); ++lesser) converge(fit, noise);
   return fit;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 /// The declared model and the effects found so far, fitted to some of the readings with the full non-linear model.
 #include "tracing/candidates.h"
+#include "tracing/declared_response.h"
 #include "tracing/design.h"
 #include "tracing/scan.h"
 
@@ -69,15 +70,10 @@ private:
   int threads_;
   std::vector<FreeUnknown> unknowns_;
   bool noise_declared_ = false;
-  /// The straight line through the readings over an effect's quantity as it is declared to scatter, at the estimates: a
-  /// turning mill hardly moves by the derivative while it stays on one tooth. By column of `needed_`; empty where the
-  /// derivative serves.
-  void find_finite_steps();
-  std::vector<Vector> finite_;
-  Vector bends_;                    ///< variance about these lines, by row of the simulator
-  Vector expected_;                 ///< mean of the readings over those draws less the readings at the estimates
-  std::vector<Matrix> bend_tables_; ///< rows of the simulator x bend_nodes, about line and mean
-  std::vector<int> table_of_;       ///< by column of `needed_`; -1: nothing bends
+  /// What declared draws of effects do over the values they take, at the estimates.
+  void find_responses();
+  std::vector<DeclaredResponse> responses_; ///< by column of `needed_`
+  Vector offset_;                           ///< of the readings' mean over these draws, by row of the simulator
   std::vector<std::size_t> needed_; ///< quantities whose derivatives are used
   /// Draws with all that they move: by reading of the scenario, quantity.
   struct Draw {

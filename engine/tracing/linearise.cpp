@@ -4,65 +4,34 @@
 #include <numeric>
 
 #include <Eigen/Cholesky>
-#include <boost/math/special_functions/erf.hpp>
 
 #include "quantities/cells.h"
 #include "tracing/joint_fit.h"
 
 namespace gumshoe::tracing {
-namespace {
 
-/// What bends by less than this share of its movement is taken for straight.
-constexpr double straight = 0.02;
-
-} // namespace
-
-void Fitter::find_finite_steps() {
-  finite_.assign(needed_.size(), {});
-  bends_ = expected_ = Vector::Zero(static_cast<Index>(simulator_.rows()));
-  table_of_.assign(needed_.size(), -1);
-  constexpr Index nodes = 16; // equally likely values of a normal draw
-  Vector z(nodes);
-  for (Index j = 0; j < nodes; ++j)
-    z[j] = -std::sqrt(2.0) * boost::math::erfc_inv((2.0 * static_cast<double>(j) + 1) / nodes);
-  std::vector<Variation> variations;
-  std::vector<std::pair<std::size_t, double>> moved; // column of needed_, u
+void Fitter::find_responses() {
+  responses_.assign(needed_.size(), {});
+  offset_ = Vector::Zero(static_cast<Index>(simulator_.rows()));
   const std::size_t first = experiment_.model_quantities(), end = first + experiment_.effect_quantities();
   for (std::size_t i = 0; i < needed_.size(); ++i) {
     if (needed_[i] < first || needed_[i] >= end) continue;
     double u = 0;
-    for (const Draw& d : draws_)
-      if (!d.moves.empty() && d.moves.front().second == needed_[i]) u = std::max(u, d.u);
+    // A table holds where each draw is by itself all that moves its readings by the quantity.
+    bool alone = true;
+    std::vector<int> moved(observations_.readings, 0);
+    for (std::size_t v = 0; v < draws_.size(); ++v) {
+      const Draw& d = draws_[v];
+      if (d.moves.empty() || d.moves.front().second != needed_[i]) continue;
+      alone = alone && !d.local && (u == 0 || d.u == u);
+      for (const auto& group : experiment_.plan().copulas)
+        alone = alone && std::find(group.variates.begin(), group.variates.end(), v) == group.variates.end();
+      for (const auto& [r, q] : d.moves) alone = alone && ++moved[r] == 1;
+      u = std::max(u, d.u);
+    }
     if (!(u > 0)) continue;
-    for (const double node : z) variations.push_back({{{needed_[i], u * node, false}}});
-    moved.push_back({i, u});
-  }
-  if (moved.empty()) return;
-  Matrix f;
-  std::vector<bool> valid;
-  simulator_.vary(simulator_.estimates(), variations, f, valid);
-  if (std::find(valid.begin(), valid.end(), false) != valid.end()) return; // the derivative serves
-  const double square = z.squaredNorm();
-  Vector at_estimates;
-  if (!simulator_.simulate(simulator_.estimates(), at_estimates)) return;
-  for (std::size_t m = 0; m < moved.size(); ++m) {
-    const Matrix here = f.middleCols(static_cast<Index>(m) * nodes, nodes);
-    const Vector slope = here * z / square;
-    const Matrix line = slope * z.transpose(), off = (here - line).colwise() - (here - line).rowwise().mean();
-    finite_[moved[m].first] = slope / moved[m].second;
-    if (off.norm() < straight * line.norm()) continue;
-    variations.clear();
-    for (Index j = 0; j < bend_nodes; ++j)
-      variations.push_back({{{needed_[moved[m].first], moved[m].second * bend_node(j), false}}});
-    Matrix table;
-    simulator_.vary(simulator_.estimates(), variations, table, valid);
-    if (std::find(valid.begin(), valid.end(), false) != valid.end()) continue;
-    const Vector mean = here.rowwise().mean();
-    for (Index j = 0; j < bend_nodes; ++j) table.col(j) -= mean + slope * bend_node(j);
-    table_of_[moved[m].first] = static_cast<int>(bend_tables_.size());
-    bend_tables_.push_back(std::move(table));
-    bends_ += off.array().square().matrix().rowwise().sum() / static_cast<double>(nodes - 2);
-    expected_ += mean - at_estimates;
+    responses_[i] = declared_response(simulator_, simulator_.estimates(), needed_[i], u, alone);
+    if (!responses_[i].straight()) offset_ += responses_[i].offset;
   }
 }
 
@@ -95,7 +64,12 @@ void Fitter::local_noise(const Matrix& derivative, JointFit& fit) const {
     if (!noise_declared_) covariance[r] = Matrix::Identity(k, k) / e.scenario().readings[r].repeats;
     const double unit = noise_declared_ ? 1 : fit.noise * fit.noise;
     without[r] = covariance[r];
-    covariance[r].diagonal() += bends_.segment(static_cast<Index>(r) * k, k) / unit;
+    for (const DeclaredResponse& response : responses_) {
+      if (response.straight()) continue;
+      const Vector bends = response.variance.segment(static_cast<Index>(r) * k, k) / unit;
+      covariance[r].diagonal() += bends;
+      if (response.table.size() == 0) without[r].diagonal() += bends;
+    }
     mean += covariance[r].diagonal() / static_cast<double>(o.readings);
   }
   fit.design.reference.assign(static_cast<std::size_t>(k), 0);
@@ -111,7 +85,8 @@ void Fitter::local_noise(const Matrix& derivative, JointFit& fit) const {
   };
   fit.design.local = factors(covariance);
   fit.design.straight.clear();
-  if (!bend_tables_.empty()) fit.design.straight = factors(without);
+  if (std::any_of(responses_.begin(), responses_.end(), [](const auto& r) { return r.table.size() > 0; }))
+    fit.design.straight = factors(without);
 }
 
 bool Fitter::linearise(JointFit& fit) const {
@@ -133,11 +108,11 @@ bool Fitter::linearise(JointFit& fit) const {
   if (!simulator_.derivatives(fit.at, wanted, f, derivative, &fit.kink)) return false;
   // Of declared draws: over the steps that they take.
   Matrix drawn = derivative;
-  for (std::size_t i = 0; i < finite_.size(); ++i)
-    if (finite_[i].size() > 0) drawn.col(static_cast<Index>(i)) = finite_[i];
+  for (std::size_t i = 0; i < responses_.size(); ++i)
+    if (responses_[i].slope.size() > 0) drawn.col(static_cast<Index>(i)) = responses_[i].slope;
   Vector measured(n);
   for (Index i = 0; i < n; ++i) measured[i] = o.measured[static_cast<std::size_t>(i)];
-  fit.residual = in_sequence(o, measured - f - expected_);
+  fit.residual = in_sequence(o, measured - f - offset_);
   Design& d = fit.design;
   d.indications = o.indications;
   d.reading.clear();
@@ -219,7 +194,12 @@ bool Fitter::linearise(JointFit& fit) const {
   d.random_names.clear();
   d.bent.clear();
   d.bends.clear();
-  for (const Matrix& table : bend_tables_) d.bends.push_back(in_sequence(o, table));
+  std::vector<int> table_of(responses_.size(), -1);
+  for (std::size_t i = 0; i < responses_.size(); ++i) {
+    if (responses_[i].table.size() == 0) continue;
+    table_of[i] = static_cast<int>(d.bends.size());
+    d.bends.push_back(in_sequence(o, responses_[i].table));
+  }
   // By name: draws are numbered as rows of the file ask for them.
   std::vector<std::size_t> by_name(draws_.size());
   std::iota(by_name.begin(), by_name.end(), 0);
@@ -233,7 +213,7 @@ bool Fitter::linearise(JointFit& fit) const {
     d.random_names.push_back(draws_[v].name);
     const std::size_t moved = draws_[v].moves.front().second;
     const bool may_bend = std::binary_search(needed_.begin(), needed_.end(), moved);
-    d.bent.push_back(may_bend ? table_of_[static_cast<std::size_t>(at(moved))] : -1);
+    d.bent.push_back(may_bend ? table_of[static_cast<std::size_t>(at(moved))] : -1);
   }
   return fit.residual.allFinite() && d.fixed.allFinite() && d.random.allFinite();
 }

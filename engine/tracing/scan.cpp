@@ -13,9 +13,6 @@
 namespace gumshoe::tracing {
 namespace {
 
-/// Residuals are drawn in to so many robust standard deviations.
-constexpr double wide = 3.5;
-
 double robust_scale(std::vector<double>& sizes) {
   const auto at = [&](double share) {
     const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(sizes.size()));
@@ -136,7 +133,7 @@ Matrix Scan::winsorised(const Matrix& residuals, Vector* scale, Matrix* weight) 
     const double used = s > 1e-9 * rms ? s : rms;
     if (scale) (*scale)[j] = used;
     for (Index i = 0; i < residuals.rows(); ++i) {
-      const double size = std::fabs(left(i, j)), bound = wide * used;
+      const double size = std::fabs(left(i, j)), bound = far_out * used;
       if (size <= bound) continue;
       white(i, j) -= left(i, j) * (1 - bound / size);
       if (weight) (*weight)(i, j) = bound / size;
@@ -148,6 +145,19 @@ Matrix Scan::winsorised(const Matrix& residuals, Vector* scale, Matrix* weight) 
     const auto place = static_cast<std::size_t>(rows_[static_cast<std::size_t>(i)]) / design_.indications;
     out.middleRows(i, k) = (design_.local[place].triangularView<Eigen::Lower>() * white.middleRows(i, k)).eval();
   }
+  return out;
+}
+
+Departures Scan::departures(const Vector& residuals) const {
+  // Of normal numbers so many would be far out.
+  const double chance = std::erfc(far_out / std::sqrt(2.0)), n = static_cast<double>(residuals.size());
+  Departures out;
+  Matrix weight;
+  winsorised(residuals, nullptr, &weight);
+  // Least squares hide of each residual what they fit to it.
+  for (Index i = 0; i < weight.rows(); ++i)
+    if (weight(i, 0) < 1) out.sizes.push_back(far_out / weight(i, 0) * n / static_cast<double>(freedom_));
+  out.share = std::max(0.0, static_cast<double>(out.sizes.size()) / n - chance);
   return out;
 }
 

@@ -27,8 +27,8 @@ struct Statistics {
   std::vector<std::size_t> without_scatter; ///< [set]: the best of those without a variance component
   Vector criterion;                         ///< [set]: minus 2 ln likelihood under `structure`, but for a constant
   Vector variance;                          ///< [set]: s^2 under `structure`
-  Vector variance_cautious;
-  Vector variance_without_scatter;
+  Vector variance_cautious;                 ///< [set]: the same under `cautious`
+  Vector variance_without_scatter;          ///< [set]: and under `without_scatter`
 };
 
 struct Fit {
@@ -54,6 +54,8 @@ public:
 
   /// Residuals with what lies beyond 3.5 robust standard deviations drawn in; `weight` 1 where it was left alone.
   Matrix winsorised(const Matrix& residuals, Vector* scale = nullptr, Matrix* weight = nullptr) const;
+  /// How one data set's noise departs from normal numbers: the readings that are drawn in.
+  Departures departures(const Vector& residuals) const;
   /// Share of the signature that fixed and declared parts leave, under the plainest structure.
   double identifiable(std::size_t alternative) const { return share_[alternative]; }
   /// The declared or estimated part that takes most of it away: index into fixed, then random columns.

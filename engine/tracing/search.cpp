@@ -70,7 +70,8 @@ private:
     say(out_.steps.empty() ? "looks for what the declared model lacks" : "looks for more");
     prepare();
     const double declared = c_.fitter.noise_declared() ? 1 / out_.found.noise : 0;
-    assessment_ = assess(*scan_, data_, c_.draws, c_.seed + out_.steps.size(), c_.alpha, declared);
+    assessment_ = assess(*scan_, data_, c_.draws, c_.seed + out_.steps.size(), c_.alpha, declared,
+                         [&](const Structure& s, double variance) { return scatter_response(s, variance); });
     const bool first = out_.steps.empty() && out_.first.p.empty();
     if (first) {
       out_.first = assessment_;
@@ -84,6 +85,25 @@ private:
     if (first) out_.candidates = ranking(*scan_, assessment_, alternatives_, out_.base.design, refused_);
     if (!more && assessment_.p_anything <= c_.alpha) take_component();
     return more;
+  }
+
+  /// Where a clamping's seat makes readings jump, its draws must jump, too.
+  Matrix scatter_response(const Structure& structure, double variance) const {
+    const JointFit& fit = out_.found;
+    const auto seat = seat_at_null(c_.experiment);
+    if (!seat || structure.scatter < 0 || fit.design.indications > 1) return {};
+    const double u = structure.ratio * fit.design.reference[0] * std::sqrt(variance);
+    const auto loading = [&](double shift) {
+      const Vector slope = declared_response(c_.simulator, fit.at, *seat, shift, false).slope;
+      return slope.size() > 0 ? std::sqrt(slope.squaredNorm() / static_cast<double>(slope.size())) : 0;
+    };
+    const double moved = loading(u);
+    if (!(moved > 0)) return {};
+    const DeclaredResponse of = declared_response(c_.simulator, fit.at, *seat, u / moved, true);
+    if (of.table.size() == 0) return {};
+    Matrix all = of.table.colwise() + of.offset;
+    for (Index j = 0; j < bend_nodes; ++j) all.col(j) += of.slope * (u / moved * bend_node(j));
+    return in_sequence(c_.observations, all) / std::sqrt(variance);
   }
 
   double score(std::size_t a) const {
@@ -141,7 +161,9 @@ private:
     const Fit truth = scan_->fit(than, data_);
     const Whitened& w = scan_->whitened(truth.structure);
     const Vector signal = w.take(alternatives_[than].columns) * truth.size;
-    Matrix drawn = w.draw(sets, c_.seed ^ 0x41a7ull);
+    Departures departures = assessment_.departures;
+    departures.scatter = scatter_response(scan_->all_structures()[truth.structure], out_.found.variance);
+    Matrix drawn = w.draw(sets, c_.seed ^ 0x41a7ull, departures);
     const double s = std::sqrt(out_.found.variance);
     drawn = (s * drawn).colwise() + signal;
     const Scan both(out_.found.design, c_.fitter.rows(), {&alternatives_[better], &alternatives_[than]}, c_.threads);

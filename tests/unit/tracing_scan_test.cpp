@@ -53,7 +53,12 @@ Vector tame(const Scan& scan, const Design& d, const std::vector<Index>& rows, s
 TEST_CASE("likelihood, sizes and information are those of dense generalised least squares", "[tracing]") {
   for (const Case& c : cases)
     for (const std::uint64_t seed : {1, 2}) {
-      const Design d = random_design(c.readings, c.indications, c.fixed, c.random, c.groups, seed);
+      Design d = random_design(c.readings, c.indications, c.fixed, c.random, c.groups, seed);
+      if (c.groups > 0) { // beside groups that come back, some of neighbours
+        Grouping neighbours = d.scatter[0];
+        for (std::size_t r = 0; r < c.readings; ++r) neighbours.group[r] = r * c.groups / c.readings;
+        d.scatter.push_back(std::move(neighbours));
+      }
       std::vector<Index> rows = all_rows(d);
       if (seed == 2) // not all readings: the last two left out, whole
         rows.resize(rows.size() - 2 * c.indications);
@@ -201,6 +206,48 @@ TEST_CASE("rounded readings, most of them equal, still have a scale", "[tracing]
   CHECK((scan.winsorised(y, &scale, &weight) - y).norm() < 1e-18);
   CHECK(weight.minCoeff() == 1);
   CHECK(scale[0] > 0.1);
+}
+
+TEST_CASE("readings far out are put among the draws in their share", "[tracing]") {
+  Design d = random_design(60, 1, 2, 0, 0, 4);
+  const std::vector<Index> rows = all_rows(d);
+  Vector y = tame(Scan(d, rows, {}, 1), d, rows, 8);
+  for (const Index i : {20, 41}) y[i] += 15 * d.local[static_cast<std::size_t>(i)](0, 0);
+  const auto found = Scan(d, rows, {}, 1).departures(y);
+  REQUIRE(found.sizes.size() == 2);
+  CHECK(found.share == Approx(2.0 / 60 - std::erfc(3.5 / std::sqrt(2.0))));
+  // Of four values one in ten far out: the rest are normal, and smaller by what those take of the variance.
+  d = {};
+  d.reading = {0, 1, 2, 3};
+  d.fixed = Matrix(4, 0);
+  d.random = Matrix(4, 0);
+  d.local.assign(4, Matrix::Constant(1, 1, 2.0));
+  d.reference = {2.0};
+  const gumshoe::tracing::Departures one_in_ten{0.1, {8.0}, {}};
+  CHECK(one_in_ten.core() == Approx(1 / std::sqrt(1 + 0.1 * (3.5 * 3.5 - 1))));
+  constexpr std::size_t sets = 20000;
+  const Matrix drawn =
+      gumshoe::tracing::Whitened(d, all_rows(d), {}, {}).draw(sets, 7, one_in_ten) / (2 * one_in_ten.core());
+  const double out = static_cast<double>((drawn.array().abs() > 7.9).count()) / (4 * sets);
+  CHECK(out == Approx(0.1).margin(5 * std::sqrt(0.09 / (4 * sets))));
+  const double within = (drawn.array().abs() > 7.9).select(0, drawn).squaredNorm() / (4 * sets * 0.9);
+  CHECK(within == Approx(1).margin(5 * std::sqrt(2 / (4 * sets * 0.9))));
+}
+
+TEST_CASE("a variance component is drawn as the readings jump with it", "[tracing]") {
+  // Two readings of one group, the second of which knows only the sign.
+  Design d = random_design(2, 1, 0, 0, 1, 4);
+  d.local.assign(2, Matrix::Constant(1, 1, 1e-9));
+  Matrix table(2, gumshoe::tracing::bend_nodes);
+  for (Index j = 0; j < gumshoe::tracing::bend_nodes; ++j) {
+    const double z = gumshoe::tracing::bend_node(j);
+    table.col(j) << z, (z > 0 ? 3 : -3);
+  }
+  const gumshoe::tracing::Departures jumping{0, {}, table};
+  const Matrix drawn = gumshoe::tracing::Whitened(d, {0, 1}, {}, {0, 0, 1.0}).draw(1000, 7, jumping);
+  for (Index j = 0; j < drawn.cols(); ++j)
+    if (std::fabs(drawn(0, j)) > 0.06) CHECK(drawn(1, j) == Approx(std::copysign(3, drawn(0, j))).margin(1e-6));
+  CHECK(drawn.row(0).squaredNorm() / 1000 == Approx(1).margin(5 * std::sqrt(2.0 / 1000)));
 }
 
 TEST_CASE("a declared draw that bends is drawn as it bends", "[tracing]") {

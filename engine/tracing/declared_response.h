@@ -1,0 +1,37 @@
+#pragma once
+/// What a quantity that scatters does to the readings over the values it takes, not by its derivative alone: a turning
+/// mill hardly moves by that while it stays on one tooth.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "tracing/simulator.h"
+
+namespace gumshoe::tracing {
+
+/// Rows of the simulator.
+struct DeclaredResponse {
+  Vector slope;    ///< straight line through the readings, per unit of the quantity; empty: the derivative serves
+  Vector variance; ///< about that line
+  Vector offset;   ///< mean of the readings over the draws less the readings at the point itself
+  Matrix table;    ///< rows x nodes: what bend_node(j) standard deviations do beside line and mean; empty: no bend, or
+                   ///< not asked for
+  bool straight() const { return variance.size() == 0; }
+};
+
+/// Over equally likely values of a normal draw of standard deviation `u` about `at`. What bends by less than 2 % of its
+/// movement is straight.
+DeclaredResponse declared_response(const Simulator& simulator, const Points& at, std::size_t quantity, double u,
+                                   bool tabled);
+
+/// Draws at which bends are tabled, in standard deviations.
+inline constexpr Index bend_nodes = 101;
+inline double bend_node(Index j) { return 0.1 * static_cast<double>(j - bend_nodes / 2); }
+inline Index nearest_bend_node(double z) {
+  return std::clamp<Index>(std::lround((z - bend_node(0)) / 0.1), 0, bend_nodes - 1);
+}
+
+/// The seat of a clamping, where the model has it and the scenario leaves it at null.
+std::optional<std::size_t> seat_at_null(const propagation::Experiment& experiment);
+
+} // namespace gumshoe::tracing
