@@ -184,7 +184,18 @@ void collect(const Circumstances& c, const Search& s, Trace& out) {
         out.statements.push_back(
             fmt::format("refused by the final blocks: {} (p = {:.2g})", fmt::join(step.members, ", "), step.p_value));
   }
-  for (const Step& step : s.steps) {
+  for (const Step& found : s.steps) {
+    Step step = found;
+    const bool told = std::any_of(s.steps.begin(), s.steps.end(), [&](const Step& other) {
+      return other.kind == Kind::scatter && other.component == step.component;
+    });
+    if (out.vetoed && step.kind == Kind::equivalence_class && step.component >= 0 && !told) { // the scatter remains
+      const Grouping& redone = c.observations.redone[static_cast<std::size_t>(step.component)];
+      step.kind = Kind::scatter;
+      step.members = {"scatter:" + redone.name};
+      step.depends_on = redone.labels;
+      step.terms.clear();
+    }
     if (out.vetoed && (step.kind == Kind::named || step.kind == Kind::equivalence_class)) continue;
     Finding f;
     f.kind = step.kind;
@@ -221,9 +232,14 @@ void collect(const Circumstances& c, const Search& s, Trace& out) {
       }
       f.spread = std::sqrt(f.spread / static_cast<double>(step.members.size() * c.fitter.rows().size()));
       f.suggestion = splitting_measurement(c, s, step);
+      if (step.component >= 0)
+        f.suggestion += fmt::format(
+            "{}vary {} within one {} as much as from one to the next", f.suggestion.empty() ? "" : "; and ",
+            fmt::join(step.depends_on, " and "),
+            fmt::join(c.observations.redone[static_cast<std::size_t>(step.component)].labels, " and "));
       if (f.suggestion.empty()) f.remarks.push_back("no change of a condition that was tried would tell them apart");
     }
-    if (step.kind == Kind::scatter) describe_scatter(c, s, step, f);
+    if (step.kind == Kind::scatter) describe_scatter(c, out.vetoed ? s.base : fit, step, f);
     out.findings.push_back(std::move(f));
   }
   out.outcome = out.findings.empty() ? Outcome::nothing_found : Outcome::found;

@@ -8,7 +8,7 @@ namespace gumshoe::tracing {
 void collect(const Circumstances& circumstances, const Search& search, Trace& out);
 void describe_noise(const Circumstances& circumstances, const Search& search, Trace& out);
 /// Size of a variance component, with the interval of its profile likelihood.
-void describe_scatter(const Circumstances& circumstances, const Search& search, const Step& step, Finding& finding);
+void describe_scatter(const Circumstances& circumstances, const JointFit& fit, const Step& step, Finding& finding);
 /// What goes into the traced scenario: unknowns and sizes with their joint covariance, the scenario in which they are
 /// estimated quantities, and variance components. Nothing if nothing was found.
 void compose(const Circumstances& circumstances, const Search& search, Trace& out);

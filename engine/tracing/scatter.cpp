@@ -6,8 +6,7 @@
 
 namespace gumshoe::tracing {
 
-void describe_scatter(const Circumstances& c, const Search& s, const Step& step, Finding& finding) {
-  const JointFit& fit = s.found;
+void describe_scatter(const Circumstances& c, const JointFit& fit, const Step& step, Finding& finding) {
   const auto& card = c.experiment.model().card->indications[0];
   SizedQuantity q;
   q.name = "standard deviation";

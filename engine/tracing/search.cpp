@@ -83,7 +83,7 @@ private:
     bool more = false;
     if (assessment_.p_anything <= c_.alpha && assessment_.p_signature <= c_.alpha) more = take_signature();
     if (first) out_.candidates = ranking(*scan_, assessment_, alternatives_, out_.base.design, refused_);
-    if (!more && assessment_.p_anything <= c_.alpha) take_component();
+    if (!more && assessment_.p_anything <= c_.alpha) more = take_component();
     return more;
   }
 
@@ -351,7 +351,8 @@ private:
     out_.found = c_.fitter.fit(fit.terms, 0, &fit);
   }
 
-  void take_component() {
+  /// A variance component, or an effect that these data cannot tell from it. True if an effect was taken in.
+  bool take_component() {
     for (std::size_t c = 0; c < assessment_.p_component.size(); ++c) {
       const bool largest =
           assessment_.data.scatter(static_cast<Index>(c), 0) == assessment_.data.scatter.col(0).maxCoeff();
@@ -362,13 +363,14 @@ private:
       s.p_value = assessment_.p_component[c];
       s.depends_on = c_.observations.redone[c].labels;
       s.members = {"scatter:" + c_.observations.redone[c].name};
+      if (take_instead(s)) return true;
       out_.steps.push_back(std::move(s));
-      return;
+      return false;
     }
     if (assessment_.p_noise_overall <= c_.alpha && assessment_.p_signature > c_.alpha && out_.steps.empty()) {
       const bool scatters = std::any_of(assessment_.p_component.begin(), assessment_.p_component.end(),
                                         [&](double p) { return p <= c_.alpha; });
-      if (scatters) return;
+      if (scatters) return false;
       Step s;
       s.kind = Kind::scatter;
       s.p_value = assessment_.p_noise_overall;
@@ -376,6 +378,56 @@ private:
       s.members = {"scatter:reading"};
       out_.steps.push_back(std::move(s));
     }
+    return false;
+  }
+
+  /// A slow drift looks like scatter from one clamping to the next: beside the scatter it is not worth its name. Effects
+  /// that explain as much without the component, and predict what is left out, make a class with it.
+  bool take_instead(const Step& scatter) {
+    Design alone = out_.found.design;
+    alone.scatter.clear();
+    const Scan scan(alone, c_.fitter.rows(), pointers_, c_.threads);
+    const Statistics without = scan.run(data_);
+    const double gain = assessment_.data.scatter(scatter.component, 0);
+    const auto more = [&](std::size_t a) {
+      return without.ratio(static_cast<Index>(a), 0) - 2 * assessment_.null[a].mean;
+    };
+    std::map<std::string, std::size_t> best;
+    for (const std::size_t a : physical_all()) {
+      if (!(more(a) >= gain)) continue;
+      const auto [at, first] = best.try_emplace(alternatives_[a].name, a);
+      if (!first && more(a) > more(at->second)) at->second = a;
+    }
+    Step s = scatter;
+    s.kind = Kind::equivalence_class;
+    s.members.clear();
+    std::vector<std::size_t> order;
+    for (const auto& [name, a] : best) order.push_back(a);
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return more(a) > more(b); });
+    JointFit taken;
+    for (const std::size_t a : order) {
+      const Fit linear = scan.fit(a, data_);
+      auto terms = out_.found.terms;
+      terms.push_back({alternatives_[a], linear.size});
+      JointFit fit = c_.fitter.fit(terms, out_.found.noise, &out_.found);
+      const Structure& structure = scan.all_structures()[linear.structure];
+      if (!fit.valid || cross_validated(c_, fit, structure) >= cross_validated(c_, out_.found, structure)) continue;
+      refused_[a] = "in the class";
+      s.members.push_back(alternatives_[a].name);
+      if (s.terms.empty()) {
+        s.terms = {out_.found.terms.size()};
+        s.threshold = assessment_.null[a].quantile(assessment_.threshold);
+        s.depends_on = alternatives_[a].depends_on;
+        taken = std::move(fit);
+      } else {
+        s.rivals.push_back(fit.terms.back());
+      }
+    }
+    if (s.terms.empty()) return false;
+    s.members.push_back(scatter.members[0]);
+    out_.steps.push_back(std::move(s));
+    out_.found = c_.fitter.fit(taken.terms, 0, &taken);
+    return true;
   }
 
   const Circumstances& c_;

@@ -18,7 +18,7 @@ struct Step {
   double removed_share = 0; ///< of the mean square of what the declared model leaves
   std::vector<std::string> remarks;
   std::vector<std::string> depends_on;
-  int component = -1; ///< of Design::scatter
+  int component = -1; ///< of Design::scatter: what was found, or a member of the class
 };
 
 struct Search {
