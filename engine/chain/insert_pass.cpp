@@ -108,37 +108,45 @@ void InsertPass::add(double from, double to, bool rises) {
     w.highest = std::min(highest_, top + tilt_ * (spread_ + rho * nz * normal_spread_ / std::sqrt(1 - nz * nz)) * half);
 }
 
-int InsertPass::only_edge(double from, double to) const {
+InsertPass::Shows InsertPass::shows(double from, double to) const {
   const double half = 0.5 * (to - from), beam = disc_.radius, rho = body_.radius, curl = 0.5 * half * half;
   const RakeView v(body_, from + half);
   const double ny_range = std::fabs(v.ny1) * half + normal_spread_ * curl, ny = std::fabs(v.ny) + ny_range;
   const double along = std::fabs(v.ny1) - std::fabs(v.ny) * half - normal_spread_ * curl;
   const double nx = body_.cos_pitch * along - tilt_ * std::fabs(body_.normal.z);
-  if (nx > 0.05) {
-    const double nz = std::max(std::fabs(nz_low_), std::fabs(nz_high_));
-    // the lowest point, and the slopes of the edge over |y| <= beam as seen from there: y - y_lowest is at least
-    // rho nx^2 t / sqrt(1 + t^2)
-    const double y = v.cy + rho * point_ * v.ny, y1 = v.cy1 + rho * point_ * v.ny1;
-    const double y_range = std::fabs(y1) * half + amplitude_ * curl + point_error_, stiff = rho * nx * nx;
-    const double right = std::max(0.0, beam - y + y_range) / stiff, left = std::max(0.0, beam + y + y_range) / stiff;
-    if (right < 0.9 && left < 0.9) {
-      const double up = right / std::sqrt(1 - right * right), down = -left / std::sqrt(1 - left * left);
-      const double low = v.ny - ny_range, high = v.ny + ny_range;
-      const double most = std::max({up * low, up * high, down * low, down * high});
-      const double steep = std::max(std::fabs(up), std::fabs(down)), lean = (steep + ny * nz / (nx * nx)) / nx;
-      const bool flank_hides = most - nz_low_ < shrink_share_;
-      const bool upper_edge_out = nx * rho > beam * (1 + 2 * steep) * std::sqrt(1 + lean * lean);
-      if (flank_hides && upper_edge_out) return v.ny1 > 0 ? 1 : -1;
-    }
-  }
-  return 0;
+  if (!(nx > 0.05)) return {};
+  const double nz = std::max(std::fabs(nz_low_), std::fabs(nz_high_));
+  // the lowest point, and the slopes of the edge over |y| <= beam as seen from there: y - y_lowest is at least
+  // rho nx^2 t / sqrt(1 + t^2)
+  const double y = v.cy + rho * point_ * v.ny, y1 = v.cy1 + rho * point_ * v.ny1;
+  const double y_range = std::fabs(y1) * half + amplitude_ * curl + point_error_, stiff = rho * nx * nx;
+  const double right = std::max(0.0, beam - y + y_range) / stiff, left = std::max(0.0, beam + y + y_range) / stiff;
+  if (!(right < 0.9 && left < 0.9)) return {};
+  const double up = right / std::sqrt(1 - right * right), down = left / std::sqrt(1 - left * left);
+  const double steep = std::max(up, down), lean = (steep + ny * nz / (nx * nx)) / nx;
+  const bool upper_edge_out = nx * rho > beam * (1 + 2 * steep) * std::sqrt(1 + lean * lean);
+  const double room = shrink_share_ + nz_low_; // the flank hides where t n_y stays below it
+  if (!(upper_edge_out && room > 0)) return {};
+  Shows result{v.ny1 > 0 ? 1 : -1, 0};
+  // Beyond the slope up to which the flank hides it lies above the cutting edge's tangent there, the edge above that by
+  // no more than a parabola.
+  const double bent = (1 + steep * steep) * std::sqrt(1 + steep * steep) / stiff;
+  const auto beyond = [&](double slope, double reach, double lean_most) {
+    if (slope * lean_most < room) return;
+    const double hides = room / lean_most, length = stiff * (reach - hides / std::sqrt(1 + hides * hides));
+    result.flank += bent * length * length * length / 6;
+  };
+  beyond(up, right, v.ny + ny_range);
+  beyond(down, left, ny_range - v.ny);
+  return result;
 }
 
 /// Everywhere from `from` to `to` Phi holds, or tangents alone prove k + fall (angle - from) < limit.
 bool InsertPass::cleared(double from, double to, int facing, double fall, double limit) const {
   if (to - from < 0.4) { // wider ones are hardly ever proved at once
-    if (facing != 0 && only_edge(from, to) == facing) return true;
-    if (lines_.below(from, to, fall, limit)) return true;
+    if (facing != 0)
+      if (const Shows s = shows(from, to); s.facing == facing && s.flank == 0) return true;
+    if (below(from, to, fall, limit)) return true;
     if (to - from < 0.01) return false;
   }
   const double middle = 0.5 * (from + to);
@@ -175,10 +183,14 @@ bool InsertPass::below(double from, double to, double fall, double limit) const 
   if (lines_.below(from, to, fall, limit)) return true;
   const double half = 0.5 * (to - from);
   if (half > 0.1) return false;
-  const RakeChord c = rake_chord(RakeView(body_, from + half), body_.radius, disc_);
-  if (!c.solved || !(c.k < limit)) return false;
-  const double bound = c.k + fall * half + half * (std::fabs(c.slope + fall) + 0.5 * half * curve(c));
-  return bound < limit && only_edge(from, to) != 0;
+  const RakeView v(body_, from + half);
+  const auto proves = [&](const RakeChord& c) {
+    return c.solved && c.k + fall * half + half * (std::fabs(c.slope + fall) + 0.5 * half * curve(c)) < limit;
+  };
+  if (!proves(rake_chord(v, body_.radius, disc_))) return false;
+  const Shows s = shows(from, to);
+  // What the flank adds to the area covered it adds at most at every height.
+  return s.facing != 0 && (s.flank == 0 || proves(rake_chord(v, body_.radius, disc_, s.flank)));
 }
 
 InsertPass::Crossing InsertPass::walk(const Window& w, double level, double fall, double shift, double first,

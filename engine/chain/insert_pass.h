@@ -45,7 +45,7 @@ public:
     Found found = Found::none;
     double turned = 0;
     double slope = 0; ///< dk / d(angle) there
-    int facing = 0;   ///< as only_edge()
+    int facing = 0;   ///< as shows()
   };
   /// The first angle turned from `first` to `last` with k(angle) >= level - fall turned in a window, where the angle is
   /// turned - shift; `inside` if that holds at `first` itself.
@@ -59,9 +59,12 @@ private:
   /// Bound on the second derivative of Phi by the angle, in a turn; infinite where there is none.
   double curve(const RakeChord& c) const;
   Crossing walk(const Window& w, double level, double fall, double shift, double first, double last) const;
-  /// Only the cutting edge shows within the beam's width, at all angles of the interval inside a window.
-  /// 1 or -1 as the cutting edge's normal points along the beam or against it; 0 where that is not proved.
-  int only_edge(double from, double to) const;
+  /// What shows within the beam's width below the insert, at all angles of an interval.
+  struct Shows {
+    int facing = 0;   ///< 1 or -1 as the cutting edge's normal points along the beam or against it; 0: nothing proved
+    double flank = 0; ///< area between the cutting edge and the flank below it, at most; 0: only the edge shows
+  };
+  Shows shows(double from, double to) const;
   bool cleared(double from, double to, int facing, double fall, double limit) const;
   void add(double from, double to, bool rises);
   Crest crest_at(double angle, bool rises) const;
