@@ -141,17 +141,19 @@ InsertPass::Shows InsertPass::shows(double from, double to) const {
   return result;
 }
 
-/// Everywhere from `from` to `to` Phi holds, or tangents alone prove k + fall (angle - from) < limit.
-bool InsertPass::cleared(double from, double to, int facing, double fall, double limit) const {
+/// Everywhere from `from` to `to` Phi holds, or it is proved that k + fall (angle - from) < limit.
+bool InsertPass::cleared(const Window& w, double from, double to, int facing, double fall, double limit) const {
   if (to - from < 0.4) { // wider ones are hardly ever proved at once
-    if (facing != 0)
-      if (const Shows s = shows(from, to); s.facing == facing && s.flank == 0) return true;
-    if (below(from, to, fall, limit)) return true;
+    const Shows s = facing != 0 ? shows(from, to) : Shows{};
+    if (s.facing == facing && facing != 0 && s.flank == 0) return true;
+    if (lines_.below(from, to, fall, limit)) return true;
+    // What the flank adds to the area covered it adds at most at every angle.
+    if (s.flank > 0 && walk(w, limit + fall * from, fall, 0, from, to, s.flank).found == Found::none) return true;
     if (to - from < 0.01) return false;
   }
   const double middle = 0.5 * (from + to);
-  return cleared(from, middle, facing, fall, limit) &&
-         cleared(middle, to, facing, fall, limit - fall * (middle - from));
+  return cleared(w, from, middle, facing, fall, limit) &&
+         cleared(w, middle, to, facing, fall, limit - fall * (middle - from));
 }
 
 void InsertPass::lower(double margin) {
@@ -166,7 +168,7 @@ InsertPass::Crossing InsertPass::first_crossing(const Window& w, double level, d
                                                 double last) const {
   Crossing found = walk(w, level, fall, shift, first, last);
   const double to = found.found == Found::none ? last : found.turned;
-  if (found.found != Found::unproved && !cleared(first - shift, to - shift, found.facing, fall, level - fall * first))
+  if (found.found != Found::unproved && !cleared(w, first - shift, to - shift, found.facing, fall, level - fall * first))
     found.found = Found::unproved;
   return found;
 }
@@ -189,12 +191,11 @@ bool InsertPass::below(double from, double to, double fall, double limit) const 
   };
   if (!proves(rake_chord(v, body_.radius, disc_))) return false;
   const Shows s = shows(from, to);
-  // What the flank adds to the area covered it adds at most at every height.
   return s.facing != 0 && (s.flank == 0 || proves(rake_chord(v, body_.radius, disc_, s.flank)));
 }
 
 InsertPass::Crossing InsertPass::walk(const Window& w, double level, double fall, double shift, double first,
-                                      double last) const {
+                                      double last, double more) const {
   int facing = 0;
   double clear = first; // no crossing before it
   // Start before the crest, as on a parabola.
@@ -209,7 +210,7 @@ InsertPass::Crossing InsertPass::walk(const Window& w, double level, double fall
   double old_s = s, old_excess = 0, old_rate = 0;
   for (int i = 0; i < 80; ++i) {
     const RakeView v(body_, s - shift);
-    const RakeChord c = rake_chord(v, body_.radius, disc_);
+    const RakeChord c = rake_chord(v, body_.radius, disc_, more);
     const double curve = this->curve(c);
     if (!(c.solved && curve < HUGE_VAL)) {
       // another shape shows here: tangents may lead past

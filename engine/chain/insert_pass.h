@@ -58,14 +58,16 @@ public:
 private:
   /// Bound on the second derivative of Phi by the angle, in a turn; infinite where there is none.
   double curve(const RakeChord& c) const;
-  Crossing walk(const Window& w, double level, double fall, double shift, double first, double last) const;
+  /// By Phi alone, of the share less an area `more`.
+  Crossing walk(const Window& w, double level, double fall, double shift, double first, double last,
+                double more = 0) const;
   /// What shows within the beam's width below the insert, at all angles of an interval.
   struct Shows {
     int facing = 0;   ///< 1 or -1 as the cutting edge's normal points along the beam or against it; 0: nothing proved
     double flank = 0; ///< area between the cutting edge and the flank below it, at most; 0: only the edge shows
   };
   Shows shows(double from, double to) const;
-  bool cleared(double from, double to, int facing, double fall, double limit) const;
+  bool cleared(const Window& w, double from, double to, int facing, double fall, double limit) const;
   void add(double from, double to, bool rises);
   Crest crest_at(double angle, bool rises) const;
   InsertLines lines_;
