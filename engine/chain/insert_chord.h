@@ -79,8 +79,8 @@ struct RakeChord {
 };
 
 /// Absolute error below 1e-15 m, times the insert's size in metres if that is more. Not solved where the chord is long
-/// against the insert, or the beam beside it.
-inline RakeChord rake_chord(const RakeView& v, double rho, const DiscShare& disc) {
+/// against the insert, or the beam beside it. With `more`, an area: the height at which the share less that is covered.
+inline RakeChord rake_chord(const RakeView& v, double rho, const DiscShare& disc, double more = 0) {
   RakeChord chord;
   const double beam = disc.radius, alpha = 1 - v.ny * v.ny, extent = rho * std::sqrt(alpha),
                shear = -v.ny * v.nz / alpha;
@@ -104,7 +104,7 @@ inline RakeChord rake_chord(const RakeView& v, double rho, const DiscShare& disc
          s2 * (1.0 / 5 + s2 * (3.0 / 28 + s2 * (5.0 / 72 + s2 * (35.0 / 704 +
                                                                  s2 * (63.0 / 1664 +
                                                                        s2 * (231.0 / 7680 + s2 * (429.0 / 17408))))))));
-    const double x = disc.rise(rho * reach * segment / (beam * beam));
+    const double x = disc.rise((rho * reach * segment + more) / (beam * beam));
     const double before = p;
     p = beam * (disc.depth + x);
     const double r = std::sqrt(1 - s2), normal_y = (alpha * t + v.ny * v.nz) * by_g;

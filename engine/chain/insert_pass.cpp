@@ -108,42 +108,52 @@ void InsertPass::add(double from, double to, bool rises) {
     w.highest = std::min(highest_, top + tilt_ * (spread_ + rho * nz * normal_spread_ / std::sqrt(1 - nz * nz)) * half);
 }
 
-int InsertPass::only_edge(double from, double to) const {
+InsertPass::Shows InsertPass::shows(double from, double to) const {
   const double half = 0.5 * (to - from), beam = disc_.radius, rho = body_.radius, curl = 0.5 * half * half;
   const RakeView v(body_, from + half);
   const double ny_range = std::fabs(v.ny1) * half + normal_spread_ * curl, ny = std::fabs(v.ny) + ny_range;
   const double along = std::fabs(v.ny1) - std::fabs(v.ny) * half - normal_spread_ * curl;
   const double nx = body_.cos_pitch * along - tilt_ * std::fabs(body_.normal.z);
-  if (nx > 0.05) {
-    const double nz = std::max(std::fabs(nz_low_), std::fabs(nz_high_));
-    // the lowest point, and the slopes of the edge over |y| <= beam as seen from there: y - y_lowest is at least
-    // rho nx^2 t / sqrt(1 + t^2)
-    const double y = v.cy + rho * point_ * v.ny, y1 = v.cy1 + rho * point_ * v.ny1;
-    const double y_range = std::fabs(y1) * half + amplitude_ * curl + point_error_, stiff = rho * nx * nx;
-    const double right = std::max(0.0, beam - y + y_range) / stiff, left = std::max(0.0, beam + y + y_range) / stiff;
-    if (right < 0.9 && left < 0.9) {
-      const double up = right / std::sqrt(1 - right * right), down = -left / std::sqrt(1 - left * left);
-      const double low = v.ny - ny_range, high = v.ny + ny_range;
-      const double most = std::max({up * low, up * high, down * low, down * high});
-      const double steep = std::max(std::fabs(up), std::fabs(down)), lean = (steep + ny * nz / (nx * nx)) / nx;
-      const bool flank_hides = most - nz_low_ < shrink_share_;
-      const bool upper_edge_out = nx * rho > beam * (1 + 2 * steep) * std::sqrt(1 + lean * lean);
-      if (flank_hides && upper_edge_out) return v.ny1 > 0 ? 1 : -1;
-    }
-  }
-  return 0;
+  if (!(nx > 0.05)) return {};
+  const double nz = std::max(std::fabs(nz_low_), std::fabs(nz_high_));
+  // the lowest point, and the slopes of the edge over |y| <= beam as seen from there: y - y_lowest is at least
+  // rho nx^2 t / sqrt(1 + t^2)
+  const double y = v.cy + rho * point_ * v.ny, y1 = v.cy1 + rho * point_ * v.ny1;
+  const double y_range = std::fabs(y1) * half + amplitude_ * curl + point_error_, stiff = rho * nx * nx;
+  const double right = std::max(0.0, beam - y + y_range) / stiff, left = std::max(0.0, beam + y + y_range) / stiff;
+  if (!(right < 0.9 && left < 0.9)) return {};
+  const double up = right / std::sqrt(1 - right * right), down = left / std::sqrt(1 - left * left);
+  const double steep = std::max(up, down), lean = (steep + ny * nz / (nx * nx)) / nx;
+  const bool upper_edge_out = nx * rho > beam * (1 + 2 * steep) * std::sqrt(1 + lean * lean);
+  const double room = shrink_share_ + nz_low_; // the flank hides where t n_y stays below it
+  if (!(upper_edge_out && room > 0)) return {};
+  Shows result{v.ny1 > 0 ? 1 : -1, 0};
+  // Beyond the slope up to which the flank hides it lies above the cutting edge's tangent there, the edge above that by
+  // no more than a parabola.
+  const double bent = (1 + steep * steep) * std::sqrt(1 + steep * steep) / stiff;
+  const auto beyond = [&](double slope, double reach, double lean_most) {
+    if (slope * lean_most < room) return;
+    const double hides = room / lean_most, length = stiff * (reach - hides / std::sqrt(1 + hides * hides));
+    result.flank += bent * length * length * length / 6;
+  };
+  beyond(up, right, v.ny + ny_range);
+  beyond(down, left, ny_range - v.ny);
+  return result;
 }
 
-/// Everywhere from `from` to `to` Phi holds, or tangents alone prove k + fall (angle - from) < limit.
-bool InsertPass::cleared(double from, double to, int facing, double fall, double limit) const {
+/// Everywhere from `from` to `to` Phi holds, or it is proved that k + fall (angle - from) < limit.
+bool InsertPass::cleared(const Window& w, double from, double to, int facing, double fall, double limit) const {
   if (to - from < 0.4) { // wider ones are hardly ever proved at once
-    if (facing != 0 && only_edge(from, to) == facing) return true;
+    const Shows s = facing != 0 ? shows(from, to) : Shows{};
+    if (s.facing == facing && facing != 0 && s.flank == 0) return true;
     if (lines_.below(from, to, fall, limit)) return true;
+    // What the flank adds to the area covered it adds at most at every angle.
+    if (s.flank > 0 && walk(w, limit + fall * from, fall, 0, from, to, s.flank).found == Found::none) return true;
     if (to - from < 0.01) return false;
   }
   const double middle = 0.5 * (from + to);
-  return cleared(from, middle, facing, fall, limit) &&
-         cleared(middle, to, facing, fall, limit - fall * (middle - from));
+  return cleared(w, from, middle, facing, fall, limit) &&
+         cleared(w, middle, to, facing, fall, limit - fall * (middle - from));
 }
 
 void InsertPass::lower(double margin) {
@@ -154,11 +164,35 @@ void InsertPass::lower(double margin) {
   }
 }
 
+void InsertPass::lower_far(double far) {
+  for (int i = 0; i < size_; ++i) {
+    Window& w = window_[static_cast<std::size_t>(i)];
+    if (!(w.crest.k < highest_ - far)) continue;
+    Top& top = top_[w.crest.rises ? 0 : 1];
+    if (!top.tried) top = top_of(w.crest);
+    if (top.from <= w.from && w.to <= top.to) w.highest = std::min(w.highest, top.highest);
+  }
+}
+
+InsertPass::Top InsertPass::top_of(const Crest& crest) const {
+  const double deep = highest_ - crest.k;
+  Top top{true};
+  InsertPass wide(*this); // of no question: what is remembered depends on the geometry alone
+  if (!(deep < HUGE_VAL && wide.open(2.2 * deep))) return top;
+  for (int i = 0; i < wide.size(); ++i) {
+    const Window& w = wide.window(i);
+    const double to = crest.k + 0.1 * deep;
+    if (w.crest.rises == crest.rises && wide.first_crossing(w, to, 0, 0, w.from, w.to).found == Found::none)
+      top.from = w.from, top.to = w.to, top.highest = to;
+  }
+  return top;
+}
+
 InsertPass::Crossing InsertPass::first_crossing(const Window& w, double level, double fall, double shift, double first,
                                                 double last) const {
   Crossing found = walk(w, level, fall, shift, first, last);
   const double to = found.found == Found::none ? last : found.turned;
-  if (found.found != Found::unproved && !cleared(first - shift, to - shift, found.facing, fall, level - fall * first))
+  if (found.found != Found::unproved && !cleared(w, first - shift, to - shift, found.facing, fall, level - fall * first))
     found.found = Found::unproved;
   return found;
 }
@@ -175,14 +209,17 @@ bool InsertPass::below(double from, double to, double fall, double limit) const 
   if (lines_.below(from, to, fall, limit)) return true;
   const double half = 0.5 * (to - from);
   if (half > 0.1) return false;
-  const RakeChord c = rake_chord(RakeView(body_, from + half), body_.radius, disc_);
-  if (!c.solved || !(c.k < limit)) return false;
-  const double bound = c.k + fall * half + half * (std::fabs(c.slope + fall) + 0.5 * half * curve(c));
-  return bound < limit && only_edge(from, to) != 0;
+  const RakeView v(body_, from + half);
+  const auto proves = [&](const RakeChord& c) {
+    return c.solved && c.k + fall * half + half * (std::fabs(c.slope + fall) + 0.5 * half * curve(c)) < limit;
+  };
+  if (!proves(rake_chord(v, body_.radius, disc_))) return false;
+  const Shows s = shows(from, to);
+  return s.facing != 0 && (s.flank == 0 || proves(rake_chord(v, body_.radius, disc_, s.flank)));
 }
 
 InsertPass::Crossing InsertPass::walk(const Window& w, double level, double fall, double shift, double first,
-                                      double last) const {
+                                      double last, double more) const {
   int facing = 0;
   double clear = first; // no crossing before it
   // Start before the crest, as on a parabola.
@@ -197,7 +234,7 @@ InsertPass::Crossing InsertPass::walk(const Window& w, double level, double fall
   double old_s = s, old_excess = 0, old_rate = 0;
   for (int i = 0; i < 80; ++i) {
     const RakeView v(body_, s - shift);
-    const RakeChord c = rake_chord(v, body_.radius, disc_);
+    const RakeChord c = rake_chord(v, body_.radius, disc_, more);
     const double curve = this->curve(c);
     if (!(c.solved && curve < HUGE_VAL)) {
       // another shape shows here: tangents may lead past
@@ -238,7 +275,7 @@ InsertPass::Crossing InsertPass::walk(const Window& w, double level, double fall
           step -= (excess + step * (rate + step * (second + step * third))) /
                   (rate + step * (2 * second + step * 3 * third));
         const double both = step * (std::fabs(gap) + std::fabs(step));
-        error = body_.radius * both * both * fall / rate;
+        if (fall > 0) error = body_.radius * both * both * fall / rate; // of the level where it is crossed
       }
     }
     old_s = s, old_excess = excess, old_rate = rate;

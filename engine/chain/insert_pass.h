@@ -32,6 +32,9 @@ public:
   bool open(double below);
   /// Lowers the windows' own `highest` to about `margin` above their crests where that can be proved.
   void lower(double margin);
+  /// Lowers windows whose crests lie further than `far` below `highest()` to near their crests where that is proved:
+  /// once for a geometry, whatever the windows.
+  void lower_far(double far);
   /// No height k at any angle is above it.
   double highest() const { return highest_; }
   double below() const { return below_; }
@@ -45,7 +48,7 @@ public:
     Found found = Found::none;
     double turned = 0;
     double slope = 0; ///< dk / d(angle) there
-    int facing = 0;   ///< as only_edge()
+    int facing = 0;   ///< as shows()
   };
   /// The first angle turned from `first` to `last` with k(angle) >= level - fall turned in a window, where the angle is
   /// turned - shift; `inside` if that holds at `first` itself.
@@ -58,13 +61,24 @@ public:
 private:
   /// Bound on the second derivative of Phi by the angle, in a turn; infinite where there is none.
   double curve(const RakeChord& c) const;
-  Crossing walk(const Window& w, double level, double fall, double shift, double first, double last) const;
-  /// Only the cutting edge shows within the beam's width, at all angles of the interval inside a window.
-  /// 1 or -1 as the cutting edge's normal points along the beam or against it; 0 where that is not proved.
-  int only_edge(double from, double to) const;
-  bool cleared(double from, double to, int facing, double fall, double limit) const;
+  /// By Phi alone, of the share less an area `more`.
+  Crossing walk(const Window& w, double level, double fall, double shift, double first, double last,
+                double more = 0) const;
+  /// What shows within the beam's width below the insert, at all angles of an interval.
+  struct Shows {
+    int facing = 0;   ///< 1 or -1 as the cutting edge's normal points along the beam or against it; 0: nothing proved
+    double flank = 0; ///< area between the cutting edge and the flank below it, at most; 0: only the edge shows
+  };
+  Shows shows(double from, double to) const;
+  bool cleared(const Window& w, double from, double to, int facing, double fall, double limit) const;
   void add(double from, double to, bool rises);
   Crest crest_at(double angle, bool rises) const;
+  /// No height k from `from` to `to` is above `highest`.
+  struct Top {
+    bool tried = false;
+    double from = 0, to = -1, highest = 0;
+  };
+  Top top_of(const Crest& crest) const;
   InsertLines lines_;
   RakeBody body_;
   DiscShare disc_;
@@ -74,6 +88,7 @@ private:
   double amplitude_, phase_, point_, point_error_;
   std::array<Crest, 2> crest_;
   std::array<Window, 2> window_;
+  std::array<Top, 2> top_;
   int size_ = 0;
 };
 

@@ -123,6 +123,119 @@ TEST_CASE("no height is above its bound over an interval", "[laws][tool_length]"
   REQUIRE(sharp > 60); // and the bound is good for something
 }
 
+namespace {
+
+/// Four-flute mills with positive axial angles and the axis well beside the beam, so that flanks show.
+Tool leaning_mill(Draw& u) {
+  const double r = u(8, 16) * mm, radius = u(4, 6) * mm;
+  const Insert<double> insert{r,
+                              radius,
+                              u(2, 4) * mm,
+                              u(11, 18) * deg,
+                              u(-15, 5) * deg,
+                              u(2, 9) * deg,
+                              0,
+                              -(r - radius) * u(0.5, 0.95)};
+  Tool t;
+  for (int k = 0; k < 4; ++k) t.flutes.push_back({insert, 0.5 * pi * k, u(0, 1) * 1e-6});
+  t.beam.radius = u(0.1, 0.3) * mm;
+  t.motion = {u(0, 2 * pi), u(0.05, 2) * mm, std::pow(10, u(-7.5, -5.5)), 0};
+  return t;
+}
+
+} // namespace
+
+TEST_CASE("no height is above its bound where the flank shows", "[laws][tool_length]") {
+  Draw draw;
+  int shown = 0, sharp = 0;
+  for (int n = 0; n < 1500; ++n) {
+    const Tool t = leaning_mill(draw);
+    const InsertBody<double> body = insert_body(t.flutes[0].insert, t.beam);
+    const DiscShare disc(t.beam.radius, t.beam.fraction);
+    InsertPass pass(body, disc);
+    if (!pass.open(4 * pass.slack())) continue;
+    const InsertHeight heights(t.flutes[0].insert, t.beam);
+    for (int i = 0; i < pass.size(); ++i) {
+      const double half = std::pow(10, draw(-4, -1.8)), fall = n % 2 ? t.motion.drop : 0;
+      const double middle = draw(pass.window(i).from, pass.window(i).to), from = middle - half;
+      const RakeChord chord = rake_chord(RakeView(RakeBody(body), middle), body.rake_radius, disc);
+      const HeightNode seen = heights.at(middle, std::nan(""));
+      if (!chord.solved || !seen.covered || chord.k > seen.height - 1e-11) continue;
+      ++shown;
+      double most = -HUGE_VAL;
+      for (int j = 0; j <= 40; ++j) {
+        const double angle = from + 2 * half * j / 40;
+        const HeightNode node = heights.at(angle, std::nan(""));
+        if (node.covered) most = std::max(most, node.height + fall * (angle - from));
+      }
+      INFO("mill " << n << " window " << i << " from " << from << " width " << 2 * half);
+      REQUIRE_FALSE(pass.below(from, from + 2 * half, fall, most - 1e-13));
+      sharp += pass.below(from, from + 2 * half, fall, most + 0.5e-6) &&
+               !pass.lines().below(from, from + 2 * half, fall, most + 0.5e-6);
+    }
+  }
+  REQUIRE(shown > 200);
+  REQUIRE(sharp > 50);
+}
+
+TEST_CASE("no height in a window is above the highest said of it", "[laws][tool_length]") {
+  Draw draw;
+  int lowered = 0, sharp = 0;
+  for (int n = 0; n < 600; ++n) {
+    const Tool t = n % 3 ? leaning_mill(draw) : draw.tool(n);
+    InsertPass pass(insert_body(t.flutes[0].insert, t.beam), DiscShare(t.beam.radius, t.beam.fraction));
+    if (!pass.open(draw(0.5, 2) * pass.slack())) continue;
+    const double cosine = std::cos(t.beam.pitch);
+    pass.lower_far(0);
+    if (n % 2) pass.lower(0.1e-6);
+    const InsertHeight heights(t.flutes[0].insert, t.beam);
+    for (int i = 0; i < pass.size(); ++i) {
+      const InsertPass::Window& w = pass.window(i);
+      double most = -HUGE_VAL;
+      for (int j = 0; j <= 60; ++j) {
+        const HeightNode node = heights.at(w.from + (w.to - w.from) * j / 60, std::nan(""));
+        if (node.covered) most = std::max(most, node.height * cosine);
+      }
+      INFO("tool " << n << " window " << i);
+      REQUIRE(most < w.highest + 1e-13);
+      if (!(w.highest < pass.highest() - 1e-6)) continue;
+      ++lowered;
+      sharp += most > w.highest - 0.3 * (pass.highest() - w.highest);
+    }
+  }
+  REQUIRE(lowered > 300);
+  REQUIRE(sharp > 150);
+}
+
+TEST_CASE("the walk serves mills whose flanks show", "[references][tool_length]") {
+  Draw draw;
+  int walked = 0;
+  for (int n = 0; n < 150; ++n) {
+    const Tool t = leaning_mill(draw);
+    TriggerSolver solver;
+    const InsertTrigger search = solver.search(t.flutes, t.beam, t.motion),
+                        found = solver.solve(t.flutes, t.beam, t.motion);
+    INFO("mill " << n);
+    REQUIRE(found.status == SolveStatus::ok);
+    REQUIRE(found.status == search.status);
+    REQUIRE(found.insert == search.insert);
+    REQUIRE(std::fabs(found.height - search.height) < agreed);
+    walked += solver.walk(t.flutes, t.beam, t.motion).has_value();
+    // The search shares the bounds; heights alone, in the turn before the trigger, do not.
+    if (n % 10 != 0) continue;
+    const InsertHeight heights(t.flutes[0].insert, t.beam);
+    for (const auto& f : t.flutes)
+      for (int j = 1; j <= 2000; ++j) {
+        const double turned = found.turned - 2 * pi * j / 2000;
+        if (turned < 0) break;
+        const HeightNode node = heights.at(t.motion.start_angle + f.azimuth + turned, std::nan(""));
+        const double level = t.motion.start_height + f.raise - t.motion.drop * turned;
+        if (node.covered) REQUIRE(node.height < level + agreed);
+      }
+  }
+  REQUIRE(walked > 100); // without a bound on what the flank adds, half of them
+}
+
 TEST_CASE("where only the cutting edge shows its height is the insert's", "[references][tool_length]") {
   Draw draw;
   int compared = 0;
