@@ -79,11 +79,8 @@ def identity_of(job):
 def jobs(a):
     for name in a.systems:
         system = sets.SYSTEMS[name]
-        silent = [n for n in sets.NULLS if n != "clamp_undeclared"]
         for kinds, noises, strengths, count, draws in (
-                (["null"], silent, (0,), a.sets, a.null_draws),
-                # Not silence but scatter is right there: a fifth of the sets.
-                (["null"], ["clamp_undeclared"], (0,), -(-a.sets // 5), a.null_draws),
+                (["null"], sets.NULLS, (0,), a.sets, a.null_draws),
                 (["single", "pair", "alias", "outside", "scatter"], (), a.strengths, a.effect_sets, a.draws)):
             kinds = [k for k in kinds if not a.kinds or k in a.kinds]
             for point in plan(system, kinds, noises, strengths, range(a.first_seed, a.first_seed + count)):
