@@ -164,6 +164,30 @@ void InsertPass::lower(double margin) {
   }
 }
 
+void InsertPass::lower_far(double far) {
+  for (int i = 0; i < size_; ++i) {
+    Window& w = window_[static_cast<std::size_t>(i)];
+    if (!(w.crest.k < highest_ - far)) continue;
+    Top& top = top_[w.crest.rises ? 0 : 1];
+    if (!top.tried) top = top_of(w.crest);
+    if (top.from <= w.from && w.to <= top.to) w.highest = std::min(w.highest, top.highest);
+  }
+}
+
+InsertPass::Top InsertPass::top_of(const Crest& crest) const {
+  const double deep = highest_ - crest.k;
+  Top top{true};
+  InsertPass wide(*this); // of no question: what is remembered depends on the geometry alone
+  if (!(deep < HUGE_VAL && wide.open(2.2 * deep))) return top;
+  for (int i = 0; i < wide.size(); ++i) {
+    const Window& w = wide.window(i);
+    const double to = crest.k + 0.1 * deep;
+    if (w.crest.rises == crest.rises && wide.first_crossing(w, to, 0, 0, w.from, w.to).found == Found::none)
+      top.from = w.from, top.to = w.to, top.highest = to;
+  }
+  return top;
+}
+
 InsertPass::Crossing InsertPass::first_crossing(const Window& w, double level, double fall, double shift, double first,
                                                 double last) const {
   Crossing found = walk(w, level, fall, shift, first, last);
@@ -251,7 +275,7 @@ InsertPass::Crossing InsertPass::walk(const Window& w, double level, double fall
           step -= (excess + step * (rate + step * (second + step * third))) /
                   (rate + step * (2 * second + step * 3 * third));
         const double both = step * (std::fabs(gap) + std::fabs(step));
-        error = body_.radius * both * both * fall / rate;
+        if (fall > 0) error = body_.radius * both * both * fall / rate; // of the level where it is crossed
       }
     }
     old_s = s, old_excess = excess, old_rate = rate;

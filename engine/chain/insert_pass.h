@@ -32,6 +32,9 @@ public:
   bool open(double below);
   /// Lowers the windows' own `highest` to about `margin` above their crests where that can be proved.
   void lower(double margin);
+  /// Lowers windows whose crests lie further than `far` below `highest()` to near their crests where that is proved:
+  /// once for a geometry, whatever the windows.
+  void lower_far(double far);
   /// No height k at any angle is above it.
   double highest() const { return highest_; }
   double below() const { return below_; }
@@ -70,6 +73,12 @@ private:
   bool cleared(const Window& w, double from, double to, int facing, double fall, double limit) const;
   void add(double from, double to, bool rises);
   Crest crest_at(double angle, bool rises) const;
+  /// No height k from `from` to `to` is above `highest`.
+  struct Top {
+    bool tried = false;
+    double from = 0, to = -1, highest = 0;
+  };
+  Top top_of(const Crest& crest) const;
   InsertLines lines_;
   RakeBody body_;
   DiscShare disc_;
@@ -79,6 +88,7 @@ private:
   double amplitude_, phase_, point_, point_error_;
   std::array<Crest, 2> crest_;
   std::array<Window, 2> window_;
+  std::array<Top, 2> top_;
   int size_ = 0;
 };
 

@@ -56,6 +56,7 @@ std::optional<InsertTrigger> TriggerSolver::walk(std::span<const Flute<double>> 
       if (p.below != below || p.whole != whole) {
         p.below = below, p.whole = whole;
         p.open = p.pass->open(below);
+        if (p.open) p.pass->lower_far(share * whole);
         // turns that no insert reaches are better passed at once
         if (p.open && p.pass->slack() > whole) p.pass->lower(0.1 * whole);
       }

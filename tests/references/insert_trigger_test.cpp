@@ -178,6 +178,35 @@ TEST_CASE("no height is above its bound where the flank shows", "[laws][tool_len
   REQUIRE(sharp > 50);
 }
 
+TEST_CASE("no height in a window is above the highest said of it", "[laws][tool_length]") {
+  Draw draw;
+  int lowered = 0, sharp = 0;
+  for (int n = 0; n < 600; ++n) {
+    const Tool t = n % 3 ? leaning_mill(draw) : draw.tool(n);
+    InsertPass pass(insert_body(t.flutes[0].insert, t.beam), DiscShare(t.beam.radius, t.beam.fraction));
+    if (!pass.open(draw(0.5, 2) * pass.slack())) continue;
+    const double cosine = std::cos(t.beam.pitch);
+    pass.lower_far(0);
+    if (n % 2) pass.lower(0.1e-6);
+    const InsertHeight heights(t.flutes[0].insert, t.beam);
+    for (int i = 0; i < pass.size(); ++i) {
+      const InsertPass::Window& w = pass.window(i);
+      double most = -HUGE_VAL;
+      for (int j = 0; j <= 60; ++j) {
+        const HeightNode node = heights.at(w.from + (w.to - w.from) * j / 60, std::nan(""));
+        if (node.covered) most = std::max(most, node.height * cosine);
+      }
+      INFO("tool " << n << " window " << i);
+      REQUIRE(most < w.highest + 1e-13);
+      if (!(w.highest < pass.highest() - 1e-6)) continue;
+      ++lowered;
+      sharp += most > w.highest - 0.3 * (pass.highest() - w.highest);
+    }
+  }
+  REQUIRE(lowered > 300);
+  REQUIRE(sharp > 150);
+}
+
 TEST_CASE("the walk serves mills whose flanks show", "[references][tool_length]") {
   Draw draw;
   int walked = 0;
