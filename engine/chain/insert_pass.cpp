@@ -222,6 +222,7 @@ InsertPass::Crossing InsertPass::walk(const Window& w, double level, double fall
                                       double last, double more) const {
   int facing = 0;
   double clear = first; // no crossing before it
+  double ahead = last - first;
   // Start before the crest, as on a parabola.
   const double below = w.crest.k - (level - fall * (w.crest.angle + shift));
   double s = w.crest.angle + shift;
@@ -238,10 +239,14 @@ InsertPass::Crossing InsertPass::walk(const Window& w, double level, double fall
     const double curve = this->curve(c);
     if (!(c.solved && curve < HUGE_VAL)) {
       // another shape shows here: tangents may lead past
-      const double ahead = std::min(0.05, last - clear);
-      if (s <= clear && !lines_.below(clear - shift, clear + ahead - shift, fall, level - fall * clear))
-        return {Found::unproved};
-      if (s <= clear) clear += ahead;
+      if (s <= clear) {
+        ahead = std::min(2 * ahead, last - clear);
+        while (!lines_.below(clear - shift, clear + ahead - shift, fall, level - fall * clear)) {
+          if (ahead <= 0.05) return {Found::unproved};
+          ahead = std::max(0.5 * ahead, 0.05);
+        }
+        clear += ahead;
+      }
       if (clear >= last) return {Found::none, 0, 0, facing};
       s = clear;
       continue;

@@ -10,6 +10,7 @@ namespace gumshoe::chain {
 namespace {
 
 constexpr double turn = 2 * 3.14159265358979323846;
+constexpr int most_windows = 100;
 
 /// A window in the turn that comes next: angles turned `first` to `last`, angle = turned - shift.
 struct Opening {
@@ -78,6 +79,14 @@ std::optional<InsertTrigger> TriggerSolver::walk(std::span<const Flute<double>> 
         advance(openings[size++], m.not_before);
       }
     if (size == 0) return std::nullopt;
+    // Turn by turn from where a window might begin down to the crests: of too many the search passes most at once.
+    double top = -HUGE_VAL, crest = -HUGE_VAL;
+    for (std::size_t i = 0; i < size; ++i) {
+      const InsertPass::Window& w = passes_[geometry[openings[i].flute]].pass->window(openings[i].window);
+      top = std::max(top, w.highest);
+      crest = std::max(crest, w.crest.k);
+    }
+    if ((top - crest) * static_cast<double>(size) > most_windows * whole) return std::nullopt;
     // Levels below those for which a window holds prove nothing.
     double valid = HUGE_VAL;
     for (std::size_t k = 0; k < flutes.size(); ++k) {
@@ -87,7 +96,7 @@ std::optional<InsertTrigger> TriggerSolver::walk(std::span<const Flute<double>> 
     InsertTrigger result;
     double least = HUGE_VAL;
     bool started = false, done = false;
-    for (int n = 0; n < 100 && !started && !done; ++n) {
+    for (int n = 0; n < most_windows && !started && !done; ++n) {
       Opening* next = &openings[0];
       for (std::size_t i = 1; i < size; ++i)
         if (openings[i].first < next->first) next = &openings[i];
