@@ -23,16 +23,6 @@ std::string length(double si, const Rms& rms) {
   return rms.si_unit == "m" ? fmt::format("{:.2g} um", si * 1e6) : shown(si, rms.unit, rms.si_unit);
 }
 
-} // namespace
-
-Index first_column(const JointFit& fit, std::size_t term) {
-  Index at = fit.design.fixed.cols();
-  for (std::size_t t = fit.terms.size(); t-- > term;) at -= fit.terms[t].size.size();
-  return at;
-}
-
-namespace {
-
 std::vector<SizedQuantity> sizes(const Circumstances& c, const Term& term, const Vector& u, double threshold,
                                  const JointFit& fit) {
   std::vector<SizedQuantity> out;
@@ -222,7 +212,8 @@ void collect(const Circumstances& c, const Search& s, Trace& out) {
       for (const Term& rival : step.rivals) {
         auto terms = fit.terms;
         terms[step.terms[0]] = rival;
-        const JointFit with = c.fitter.fit(terms, fit.noise, &fit);
+        JointFit with = c.fitter.fit(terms, fit.noise, &fit);
+        c.fitter.widen_jumping(with);
         const Index first = first_column(with, step.terms[0]);
         Vector u(rival.size.size());
         for (Index j = 0; j < u.size(); ++j) u[j] = std::sqrt(with.covariance(first + j, first + j));

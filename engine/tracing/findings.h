@@ -16,8 +16,6 @@ void compose(const Circumstances& circumstances, const Search& search, Trace& ou
 /// of it, rows in the order of measurement.
 void add_components(const Circumstances& circumstances, const Search& search, const std::vector<Vector>& left,
                     Trace& out);
-/// Where a term's columns start among the fit's fixed ones.
-Index first_column(const JointFit& fit, std::size_t term);
 /// Two sentences for a machinist.
 void speak(Trace& out);
 

@@ -18,6 +18,12 @@ constexpr int most_optima = 4;
 
 } // namespace
 
+Index first_column(const JointFit& fit, std::size_t term) {
+  Index at = fit.design.fixed.cols();
+  for (std::size_t t = fit.terms.size(); t-- > term;) at -= fit.terms[t].size.size();
+  return at;
+}
+
 Fitter::Fitter(const propagation::Experiment& e, const Simulator& simulator, const Observations& o,
                std::vector<Index> rows, int threads)
     : experiment_(e), simulator_(simulator), observations_(o), rows_(std::move(rows)), threads_(threads) {

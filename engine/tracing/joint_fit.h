@@ -1,5 +1,7 @@
 #pragma once
 /// The declared model and the effects found so far, fitted to some of the readings with the full non-linear model.
+#include <optional>
+
 #include "tracing/candidates.h"
 #include "tracing/declared_response.h"
 #include "tracing/design.h"
@@ -28,6 +30,9 @@ struct JointFit {
   int iterations = 0;
 };
 
+/// Where a term's columns start among the fit's fixed ones.
+Index first_column(const JointFit& fit, std::size_t term);
+
 /// A free unknown: a quantity marked estimated that has no prior, or one of its entries.
 struct FreeUnknown {
   std::string name;
@@ -48,6 +53,9 @@ public:
   /// Unknowns that only readings outside the fit feel, such as a constant of a block kept apart: found there with all
   /// else as fitted. The covariance takes them in.
   void settle(JointFit& fit) const;
+  /// Where readings jump with a term's size, the tangent tells nothing of its uncertainty. In its place in the covariance
+  /// comes that of the likelihood along the size, or by the straight line through the jumps, whichever is larger.
+  void widen_jumping(JointFit& fit) const;
   const std::vector<FreeUnknown>& unknowns() const { return unknowns_; }
   bool noise_declared() const { return noise_declared_; }
   const std::vector<Index>& rows() const { return rows_; }
@@ -59,6 +67,9 @@ private:
   /// Gauss-Newton ends in the next best optimum where readings jump: takes a size of the last term, near the one found,
   /// that fits better, all else as good as can be. False if there is none or nothing jumps.
   bool explore(JointFit& fit) const;
+  struct Profile;
+  /// Nothing where the readings do not jump with that size. `unit` is what it may be uncertain by.
+  std::optional<Profile> profile(const JointFit& fit, std::size_t term, Index amplitude, double unit) const;
   void local_noise(const Matrix& derivative, JointFit& fit) const;
   void apply(JointFit& fit, const Vector& change, double share) const;
   double objective(const JointFit& fit, const Whitened& prior, const Scan& scan) const;

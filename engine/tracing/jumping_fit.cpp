@@ -1,4 +1,4 @@
-/// Fits of a model that jumps, as a turning mill's readings do from tooth to tooth.
+/// Fits of a model that jumps, as a turning mill's readings do from tooth to tooth: its likelihood along one size.
 #include <algorithm>
 #include <cmath>
 
@@ -24,54 +24,76 @@ bool jumps(const Matrix& f, const std::vector<double>& steps, double noise) {
 
 } // namespace
 
+/// The likelihood along one size, all else as good as can be.
+struct Fitter::Profile {
+  std::vector<double> steps; ///< from the size found, SI
+  Index here = 0;            ///< the step of none
+  Vector left;               ///< squares, by step
+  double freedom = 0;
+  double u = 0;  ///< by the straight line through the readings over the steps
+  Matrix others; ///< changes of the other columns that go with each step
+  std::vector<Index> columns;
+};
+
+std::optional<Fitter::Profile> Fitter::profile(const JointFit& fit, std::size_t term, Index amplitude,
+                                               double unit) const {
+  const Term& t = fit.terms[term];
+  const Amplitude& a = t.alternative.amplitudes[static_cast<std::size_t>(amplitude)];
+  // The tool itself is solved anew for every size: there no more than Gauss-Newton.
+  if (a.quantity == Amplitude::npos || a.quantity < experiment_.model_quantities() || !(unit > 0)) return std::nullopt;
+  Profile out;
+  Matrix f;
+  const auto try_each = [&](double by) {
+    std::vector<Variation> variations;
+    out.steps.clear();
+    for (double step = -reach; step <= reach; step += by)
+      if (const double to = t.size[amplitude] + step * unit; to >= a.low && to <= a.high) {
+        out.steps.push_back(step * unit);
+        variations.push_back({{{a.quantity, step * unit, false}}});
+      }
+    std::vector<bool> valid;
+    simulator_.vary(fit.at, variations, f, valid);
+    return out.steps.size() > 3 && std::find(valid.begin(), valid.end(), false) == valid.end();
+  };
+  if (!try_each(coarse) || !jumps(f, out.steps, fit.design.reference[0]) || !try_each(spacing)) return std::nullopt;
+  const auto found = std::find(out.steps.begin(), out.steps.end(), 0.0);
+  if (found == out.steps.end()) return std::nullopt;
+  out.here = found - out.steps.begin();
+  // Beside all other unknowns.
+  const Index own = first_column(fit, term) + amplitude;
+  Design rest = fit.design;
+  std::vector<Index> others;
+  for (Index j = 0; j < rest.fixed.cols(); ++j)
+    if (j != own) others.push_back(j);
+  rest.fixed = Matrix(fit.design.fixed(Eigen::all, others));
+  const Scan scan(rest, rows_, {}, threads_);
+  const Whitened prior(rest, rows_, scan.used(), fit.structure);
+  const Matrix residual =
+      in_sequence(observations_, (-f).colwise() + f.col(out.here).eval()).colwise() + fit.residual;
+  const Matrix white = prior.whiten(scan.winsorised(prior.take(residual)));
+  out.left = prior.left(white);
+  const Eigen::Map<const Vector> x(out.steps.data(), f.cols());
+  const Vector centred = x.array() - x.mean();
+  const Matrix line = prior.whiten(prior.take(in_sequence(observations_, f * centred / centred.squaredNorm())));
+  out.u = std::sqrt(fit.variance / line.cwiseProduct(prior.project(line)).sum());
+  out.freedom = static_cast<double>(scan.degrees_of_freedom());
+  for (const Index j : scan.used()) out.columns.push_back(others[static_cast<std::size_t>(j)]);
+  out.others = prior.solve_all(Matrix(white.rows(), 0), white).topRows(static_cast<Index>(out.columns.size()));
+  return out;
+}
+
 bool Fitter::explore(JointFit& fit) const {
   if (fit.terms.empty()) return false;
   // The others were tried when they came.
-  const Term& t = fit.terms.back();
-  const auto count = static_cast<Index>(t.alternative.amplitudes.size());
-  for (Index i = 0; i < count; ++i) {
-    const Index own = fit.design.fixed.cols() - count + i;
-    const Amplitude& a = t.alternative.amplitudes[static_cast<std::size_t>(i)];
-    const double u = std::sqrt(fit.covariance(own, own)), size = t.size[i];
-    // The tool itself is solved anew for every size: there no more than Gauss-Newton.
-    if (a.quantity == Amplitude::npos || a.quantity < experiment_.model_quantities() || !(u > 0)) continue;
-    std::vector<double> steps;
-    Matrix f;
-    const auto try_each = [&](double by) {
-      std::vector<Variation> variations;
-      steps.clear();
-      for (double step = -reach; step <= reach; step += by)
-        if (size + step * u >= a.low && size + step * u <= a.high) {
-          steps.push_back(step * u);
-          variations.push_back({{{a.quantity, step * u, false}}});
-        }
-      std::vector<bool> valid;
-      simulator_.vary(fit.at, variations, f, valid);
-      return steps.size() > 3 && std::find(valid.begin(), valid.end(), false) == valid.end();
-    };
-    if (!try_each(coarse) || !jumps(f, steps, fit.design.reference[0]) || !try_each(spacing)) continue;
-    const auto found = std::find(steps.begin(), steps.end(), 0.0);
-    if (found == steps.end()) continue;
-    const Index here = found - steps.begin();
-    // Beside all other unknowns.
-    Design rest = fit.design;
-    std::vector<Index> others;
-    for (Index j = 0; j < rest.fixed.cols(); ++j)
-      if (j != own) others.push_back(j);
-    rest.fixed = Matrix(fit.design.fixed(Eigen::all, others));
-    const Scan scan(rest, rows_, {}, threads_);
-    const Whitened prior(rest, rows_, scan.used(), fit.structure);
-    const Matrix residual =
-        in_sequence(observations_, (-f).colwise() + f.col(here).eval()).colwise() + fit.residual;
-    const Matrix white = prior.whiten(scan.winsorised(prior.take(residual)));
-    const Vector left = prior.left(white);
+  const std::size_t term = fit.terms.size() - 1;
+  for (Index i = 0; i < fit.terms[term].size.size(); ++i) {
+    const Index own = first_column(fit, term) + i;
+    const auto p = profile(fit, term, i, std::sqrt(fit.covariance(own, own)));
     Index best = 0;
-    if (!(left.minCoeff(&best) < left[here] * (1 - 1e-6))) continue;
-    const Vector x = prior.solve(Matrix(white.rows(), 0), white.col(best));
+    if (!p || !(p->left.minCoeff(&best) < p->left[p->here] * (1 - 1e-6))) continue;
     Vector change = Vector::Zero(fit.design.fixed.cols());
-    for (std::size_t j = 0; j < scan.used().size(); ++j)
-      change[others[static_cast<std::size_t>(scan.used()[j])]] = x[static_cast<Index>(j)];
-    change[own] = steps[static_cast<std::size_t>(best)];
+    for (std::size_t j = 0; j < p->columns.size(); ++j) change[p->columns[j]] = p->others(static_cast<Index>(j), best);
+    change[own] = p->steps[static_cast<std::size_t>(best)];
     JointFit next = fit;
     apply(next, change, 1);
     if (!linearise(next)) continue;
@@ -79,6 +101,36 @@ bool Fitter::explore(JointFit& fit) const {
     return true;
   }
   return false;
+}
+
+void Fitter::widen_jumping(JointFit& fit) const {
+  for (std::size_t term = 0; term < fit.terms.size(); ++term)
+    for (Index i = 0; i < fit.terms[term].size.size(); ++i) {
+      const Index own = first_column(fit, term) + i;
+      const double u = std::sqrt(fit.covariance(own, own));
+      double unit = u, spread = 0, straight = 0;
+      for (int tries = 0; tries < 4; ++tries) {
+        const auto p = profile(fit, term, i, unit);
+        if (!p) break;
+        const Eigen::Map<const Vector> x(p->steps.data(), p->left.size());
+        const Vector weight = (-0.5 * p->freedom * (p->left.array() / p->left.minCoeff()).log()).exp();
+        const double mean = weight.dot(x) / weight.sum();
+        spread = std::sqrt(weight.dot((x.array() - mean).square().matrix()) / weight.sum());
+        straight = p->u;
+        const double ends = std::max(weight[0], weight[weight.size() - 1]);
+        if (ends > 0.05 && tries < 3)
+          unit *= 4;
+        else if (spread < spacing * unit && tries < 3)
+          unit /= 4;
+        else
+          break;
+      }
+      if (!(spread > 0)) continue;
+      // A pattern of jumps that fits pins the size, were all else of the model exact: the line does not rely on that.
+      const double widened = std::max(spread, straight);
+      fit.covariance.row(own) *= widened / u;
+      fit.covariance.col(own) *= widened / u;
+    }
 }
 
 } // namespace gumshoe::tracing

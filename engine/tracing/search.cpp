@@ -36,6 +36,7 @@ public:
         out_.steps[i].removed_share = (before - mean_square(out_.found)) / mean_square(out_.base) /
                                       static_cast<double>(out_.steps.size() - known);
     }
+    c_.fitter.widen_jumping(out_.found);
     return std::move(out_);
   }
 
