@@ -192,7 +192,8 @@ InsertPass::Crossing InsertPass::first_crossing(const Window& w, double level, d
                                                 double last) const {
   Crossing found = walk(w, level, fall, shift, first, last);
   const double to = found.found == Found::none ? last : found.turned;
-  if (found.found != Found::unproved && !cleared(w, first - shift, to - shift, found.facing, fall, level - fall * first))
+  if (found.found != Found::unproved &&
+      !cleared(w, first - shift, to - shift, found.facing, fall, level - fall * first))
     found.found = Found::unproved;
   return found;
 }

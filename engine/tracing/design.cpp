@@ -255,7 +255,8 @@ Matrix Whitened::draw(std::size_t n, std::uint64_t seed, const Departures& depar
       if (departures.scatter.size() == 0)
         out.row(row) += scatter_unit(i) * z.row(group[i]);
       else
-        for (Index j = 0; j < out.cols(); ++j) out(row, j) += departures.scatter(rows_[i], nearest_bend_node(z(group[i], j)));
+        for (Index j = 0; j < out.cols(); ++j)
+          out(row, j) += departures.scatter(rows_[i], nearest_bend_node(z(group[i], j)));
     }
   }
   return out;

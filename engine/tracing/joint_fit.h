@@ -53,8 +53,9 @@ public:
   /// Unknowns that only readings outside the fit feel, such as a constant of a block kept apart: found there with all
   /// else as fitted. The covariance takes them in.
   void settle(JointFit& fit) const;
-  /// Where readings jump with a term's size, the tangent tells nothing of its uncertainty. In its place in the covariance
-  /// comes that of the likelihood along the size, or by the straight line through the jumps, whichever is larger.
+  /// Where readings jump with a term's size, the tangent tells nothing of its uncertainty. In its place in the
+  /// covariance comes that of the likelihood along the size, or by the straight line through the jumps, whichever is
+  /// larger.
   void widen_jumping(JointFit& fit) const;
   const std::vector<FreeUnknown>& unknowns() const { return unknowns_; }
   bool noise_declared() const { return noise_declared_; }
@@ -85,7 +86,7 @@ private:
   void find_responses();
   std::vector<DeclaredResponse> responses_; ///< by column of `needed_`
   Vector offset_;                           ///< of the readings' mean over these draws, by row of the simulator
-  std::vector<std::size_t> needed_; ///< quantities whose derivatives are used
+  std::vector<std::size_t> needed_;         ///< quantities whose derivatives are used
   /// Draws with all that they move: by reading of the scenario, quantity.
   struct Draw {
     std::string name;

@@ -68,8 +68,7 @@ std::optional<Fitter::Profile> Fitter::profile(const JointFit& fit, std::size_t 
   rest.fixed = Matrix(fit.design.fixed(Eigen::all, others));
   const Scan scan(rest, rows_, {}, threads_);
   const Whitened prior(rest, rows_, scan.used(), fit.structure);
-  const Matrix residual =
-      in_sequence(observations_, (-f).colwise() + f.col(out.here).eval()).colwise() + fit.residual;
+  const Matrix residual = in_sequence(observations_, (-f).colwise() + f.col(out.here).eval()).colwise() + fit.residual;
   const Matrix white = prior.whiten(scan.winsorised(prior.take(residual)));
   out.left = prior.left(white);
   const Eigen::Map<const Vector> x(out.steps.data(), f.cols());

@@ -382,8 +382,8 @@ private:
     return false;
   }
 
-  /// A slow drift looks like scatter from one clamping to the next: beside the scatter it is not worth its name. Effects
-  /// that explain as much without the component, and predict what is left out, make a class with it.
+  /// A slow drift looks like scatter from one clamping to the next: beside the scatter it is not worth its name.
+  /// Effects that explain as much without the component, and predict what is left out, make a class with it.
   bool take_instead(const Step& scatter) {
     Design alone = out_.found.design;
     alone.scatter.clear();

@@ -128,14 +128,8 @@ namespace {
 /// Four-flute mills with positive axial angles and the axis well beside the beam, so that flanks show.
 Tool leaning_mill(Draw& u) {
   const double r = u(8, 16) * mm, radius = u(4, 6) * mm;
-  const Insert<double> insert{r,
-                              radius,
-                              u(2, 4) * mm,
-                              u(11, 18) * deg,
-                              u(-15, 5) * deg,
-                              u(2, 9) * deg,
-                              0,
-                              -(r - radius) * u(0.5, 0.95)};
+  const Insert<double> insert{
+      r, radius, u(2, 4) * mm, u(11, 18) * deg, u(-15, 5) * deg, u(2, 9) * deg, 0, -(r - radius) * u(0.5, 0.95)};
   Tool t;
   for (int k = 0; k < 4; ++k) t.flutes.push_back({insert, 0.5 * pi * k, u(0, 1) * 1e-6});
   t.beam.radius = u(0.1, 0.3) * mm;

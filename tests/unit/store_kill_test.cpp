@@ -134,7 +134,7 @@ TEST_CASE("a run killed at any moment goes on to the same bytes", "[store]") {
     std::string remark;
     CHECK_NOTHROW(run(path, &remark));
     CHECK(remark.empty());
-    CHECK((bytes(path) == whole));                                      // bracketed: not to be printed
+    CHECK((bytes(path) == whole));                                        // bracketed: not to be printed
     CHECK(std::distance(fs::directory_iterator(folder.path()), {}) == 2); // what was half made is gone
   }
   CHECK(n > 100); // it was about something

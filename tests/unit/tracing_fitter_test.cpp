@@ -13,8 +13,8 @@ namespace {
 /// Heights of half a metre in double precision, over the fit's arithmetic: nanometres would be a thousand times more.
 constexpr double rounding = 1e-12;
 
-/// Frees one candidate in noise-free readings and returns its size; what is left of all readings is rounding. (Steps are
-/// judged beside the noise, and there is none: `converged` says nothing here.)
+/// Frees one candidate in noise-free readings and returns its size; what is left of all readings is rounding. (Steps
+/// are judged beside the noise, and there is none: `converged` says nothing here.)
 Vector recovered(Case& c, const std::string& name, double noise = 1) {
   const JointFit base = c.fitter->fit({}, noise);
   REQUIRE(base.valid);
