@@ -164,22 +164,26 @@ Matrix Whitened::take(const Matrix& all) const {
 }
 
 Matrix Whitened::whiten(Matrix x) const {
+  constexpr Index together = 32; // columns that stay in the cache, a row's values side by side
   const auto k = static_cast<Index>(design_.indications), n = x.rows();
-  Matrix t = x.transpose(); // a reading's values side by side
-  for (Index i = 0; i < n; i += k) {
-    const auto place = static_cast<std::size_t>(rows_[static_cast<std::size_t>(i)]) / design_.indications;
-    const Matrix& local = design_.local[place];
-    if (k == 1)
-      t.col(i) /= local(0, 0);
-    else
-      local.transpose().triangularView<Eigen::Upper>().solveInPlace<Eigen::OnTheRight>(t.middleCols(i, k));
+  const double rho = structure_.correlation, factor = 1 / std::sqrt(1 - rho * rho);
+  Matrix t;
+  for (Index from = 0; from < x.cols(); from += together) {
+    const Index count = std::min(together, x.cols() - from);
+    t = x.middleCols(from, count).transpose();
+    for (Index i = 0; i < n; i += k) {
+      const Matrix& local =
+          design_.local[static_cast<std::size_t>(rows_[static_cast<std::size_t>(i)]) / design_.indications];
+      for (Index a = 0; a < k; ++a) {
+        for (Index b = 0; b < a; ++b) t.col(i + a) -= local(a, b) * t.col(i + b);
+        t.col(i + a) /= local(a, a);
+      }
+    }
+    if (rho != 0)
+      for (Index i = n - 1; i >= k; --i) t.col(i) = factor * (t.col(i) - rho * t.col(i - k));
+    if (scatter_) scatter_->whiten(t);
+    x.middleCols(from, count) = t.transpose();
   }
-  if (const double rho = structure_.correlation; rho != 0) {
-    const double factor = 1 / std::sqrt(1 - rho * rho);
-    for (Index i = n - 1; i >= k; --i) t.col(i) = factor * (t.col(i) - rho * t.col(i - k));
-  }
-  if (scatter_) scatter_->whiten(t);
-  x = t.transpose();
   return x;
 }
 
