@@ -382,8 +382,9 @@ private:
     return false;
   }
 
-  /// A slow drift looks like scatter from one clamping to the next: beside the scatter it is not worth its name.
-  /// Effects that explain as much without the component, and predict what is left out, make a class with it.
+  /// A slow drift looks like scatter from one clamping to the next: beside the scatter it is not worth its name. Effects
+  /// that explain as much without the component, and predict what is left out, make a class with it. Not what is
+  /// declared of one label or another: of so many, some look like scatter by chance.
   bool take_instead(const Step& scatter) {
     Design alone = out_.found.design;
     alone.scatter.clear();
@@ -395,7 +396,7 @@ private:
     };
     std::map<std::string, std::size_t> best;
     for (const std::size_t a : physical_all()) {
-      if (!(more(a) >= gain)) continue;
+      if (alternatives_[a].family == Family::declared || !(more(a) >= gain)) continue;
       const auto [at, first] = best.try_emplace(alternatives_[a].name, a);
       if (!first && more(a) > more(at->second)) at->second = a;
     }
