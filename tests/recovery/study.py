@@ -80,7 +80,7 @@ def jobs(a):
     for name in a.systems:
         system = sets.SYSTEMS[name]
         for kinds, noises, strengths, count, draws in (
-                (["null"], sets.NULLS, (0,), a.sets, a.null_draws),
+                (["null"], a.noises, (0,), a.sets, a.null_draws),
                 (["single", "pair", "alias", "outside", "scatter"], (), a.strengths, a.effect_sets, a.draws)):
             kinds = [k for k in kinds if not a.kinds or k in a.kinds]
             for point in plan(system, kinds, noises, strengths, range(a.first_seed, a.first_seed + count)):
@@ -99,6 +99,7 @@ def arguments(words):
     parser.add_argument("--strengths", type=float, nargs="+", default=list(sets.STRENGTHS))
     parser.add_argument("--systems", nargs="+", choices=sets.SYSTEMS, default=list(sets.SYSTEMS))
     parser.add_argument("--kinds", nargs="+", help="null single pair alias outside scatter; all by default")
+    parser.add_argument("--noises", nargs="+", choices=sets.NULLS, default=list(sets.NULLS), help="of the nulls; all by default")
     parser.add_argument("--first-seed", type=int, default=1, help="of development")
     parser.add_argument("--judgement", action="store_true", help="fresh seeds, counted; writes the report")
     parser.add_argument("--resume", action="store_true", help="go on with the run in OUT: its seeds, and what it has not traced yet")
