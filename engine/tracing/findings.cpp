@@ -223,11 +223,16 @@ void collect(const Circumstances& c, const Search& s, Trace& out) {
       }
       f.spread = std::sqrt(f.spread / static_cast<double>(step.members.size() * c.fitter.rows().size()));
       f.suggestion = splitting_measurement(c, s, step);
-      if (step.component >= 0)
+      if (step.component >= 0) {
+        const auto group = fmt::format(
+            "{}", fmt::join(c.observations.redone[static_cast<std::size_t>(step.component)].labels, " and "));
+        if (!f.suggestion.empty()) f.suggestion += "; and ";
         f.suggestion +=
-            fmt::format("{}vary {} within one {} as much as from one to the next", f.suggestion.empty() ? "" : "; and ",
-                        fmt::join(step.depends_on, " and "),
-                        fmt::join(c.observations.redone[static_cast<std::size_t>(step.component)].labels, " and "));
+            step.depends_on == std::vector<std::string>{"time"}
+                ? fmt::format("measure the same again within one {}, as much later as the next one is", group)
+                : fmt::format("within one {} vary {} as much as from one to the next", group,
+                              fmt::join(step.depends_on, " and "));
+      }
       if (f.suggestion.empty()) f.remarks.push_back("no change of a condition that was tried would tell them apart");
     }
     if (step.kind == Kind::scatter) describe_scatter(c, out.vetoed ? s.base : fit, step, f);

@@ -83,8 +83,8 @@ private:
     out_.last = assessment_;
     bool more = false;
     if (assessment_.p_anything <= c_.alpha && assessment_.p_signature <= c_.alpha) more = take_signature();
-    if (first) out_.candidates = ranking(*scan_, assessment_, alternatives_, out_.base.design, refused_);
     if (!more && assessment_.p_anything <= c_.alpha) more = take_component();
+    if (first) out_.candidates = ranking(*scan_, assessment_, alternatives_, out_.base.design, refused_);
     return more;
   }
 
