@@ -41,6 +41,17 @@ DeclaredResponse declared_response(const Simulator& simulator, const Points& at,
   return out;
 }
 
+Matrix bent_response(const Simulator& simulator, const Points& at, std::size_t quantity, double u) {
+  const Vector slope = declared_response(simulator, at, quantity, u, false).slope;
+  if (!(slope.norm() > 0)) return {};
+  const double unit = u / (slope.norm() / std::sqrt(static_cast<double>(slope.size())));
+  const DeclaredResponse response = declared_response(simulator, at, quantity, unit, true);
+  if (response.table.size() == 0) return {};
+  Matrix out = response.table.colwise() + response.offset;
+  for (Index j = 0; j < bend_nodes; ++j) out.col(j) += response.slope * (unit * bend_node(j));
+  return out;
+}
+
 std::optional<std::size_t> seat_at_null(const propagation::Experiment& experiment) {
   const auto& all = experiment.scenario().quantities;
   for (std::size_t q = 0; q < all.size(); ++q)

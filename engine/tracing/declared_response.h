@@ -24,6 +24,10 @@ struct DeclaredResponse {
 DeclaredResponse declared_response(const Simulator& simulator, const Points& at, std::size_t quantity, double u,
                                    bool tabled);
 
+/// Rows x nodes: what draws do to the readings of which the typical one, along the straight line, moves by `u`. Empty
+/// if that line says it all.
+Matrix bent_response(const Simulator& simulator, const Points& at, std::size_t quantity, double u);
+
 /// Draws at which bends are tabled, in standard deviations.
 inline constexpr Index bend_nodes = 101;
 inline double bend_node(Index j) { return 0.1 * static_cast<double>(j - bend_nodes / 2); }

@@ -66,6 +66,9 @@ public:
   Matrix whiten(Matrix chosen) const;
   /// What is left beside fixed and random parts: x - Q Q'x, of whitened x.
   Matrix project(const Matrix& whitened) const { return whitened - basis_ * (basis_.transpose() * whitened); }
+  /// Residuals (not whitened) with what lies beyond 3.5 robust standard deviations drawn in; `scale` of those to the
+  /// design's, `weight` 1 where a residual was left alone. Of a structure without correlation or component.
+  Matrix winsorised(const Matrix& residuals, Vector* scale = nullptr, Matrix* weight = nullptr) const;
   /// Squares left of each whitened column, with what the random parts cost.
   Vector left(const Matrix& whitened) const;
   /// Q, the data's part.
@@ -81,6 +84,7 @@ public:
   /// n draws of the noise, declared draws included, in the chosen rows' own units. `seed` keys the stream.
   Matrix draw(std::size_t n, std::uint64_t seed, const Departures& departures = {}) const;
   const std::vector<Index>& rows() const { return rows_; }
+  std::size_t degrees_of_freedom() const { return rows_.size() - fixed_; }
 
 private:
   /// Of the variance component: by chosen row the group that moves it, or -1.

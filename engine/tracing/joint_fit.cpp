@@ -217,9 +217,9 @@ void Fitter::settle(JointFit& fit) const {
     own.fixed = Matrix(fit.design.fixed(Eigen::all, open));
     const auto use = independent(own, rows);
     const auto m = static_cast<Index>(use.size());
-    const Scan scan(own, rows, {}, threads_);
+    const Whitened plain(own, rows, use, {});
     const Whitened w(own, rows, use, fit.structure);
-    const Vector white = w.whiten(scan.winsorised(scan.whitened(scan.plain()).take(fit.residual)));
+    const Vector white = w.whiten(plain.winsorised(plain.take(fit.residual)));
     const Matrix nothing(white.size(), 0);
     Matrix covariance;
     const Vector x = w.solve(nothing, white, &covariance);

@@ -66,17 +66,17 @@ std::optional<Fitter::Profile> Fitter::profile(const JointFit& fit, std::size_t 
   for (Index j = 0; j < rest.fixed.cols(); ++j)
     if (j != own) others.push_back(j);
   rest.fixed = Matrix(fit.design.fixed(Eigen::all, others));
-  const Scan scan(rest, rows_, {}, threads_);
-  const Whitened prior(rest, rows_, scan.used(), fit.structure);
+  const auto use = independent(rest, rows_);
+  const Whitened plain(rest, rows_, use, {}), prior(rest, rows_, use, fit.structure);
   const Matrix residual = in_sequence(observations_, (-f).colwise() + f.col(out.here).eval()).colwise() + fit.residual;
-  const Matrix white = prior.whiten(scan.winsorised(prior.take(residual)));
+  const Matrix white = prior.whiten(plain.winsorised(plain.take(residual)));
   out.left = prior.left(white);
   const Eigen::Map<const Vector> x(out.steps.data(), f.cols());
   const Vector centred = x.array() - x.mean();
   const Matrix line = prior.whiten(prior.take(in_sequence(observations_, f * centred / centred.squaredNorm())));
   out.u = std::sqrt(fit.variance / line.cwiseProduct(prior.project(line)).sum());
-  out.freedom = static_cast<double>(scan.degrees_of_freedom());
-  for (const Index j : scan.used()) out.columns.push_back(others[static_cast<std::size_t>(j)]);
+  out.freedom = static_cast<double>(prior.degrees_of_freedom());
+  for (const Index j : use) out.columns.push_back(others[static_cast<std::size_t>(j)]);
   out.others = prior.solve_all(Matrix(white.rows(), 0), white).topRows(static_cast<Index>(out.columns.size()));
   return out;
 }

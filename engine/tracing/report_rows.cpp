@@ -206,8 +206,8 @@ bool compare(const Circumstances& c, const Search& s, Trace& out) {
   }
   // Rows: training residuals in sample, final ones as predicted.
   Matrix weight;
-  const Scan scan(after.design, rows, {}, c.threads);
-  scan.winsorised(scan.whitened(scan.plain()).take(vetoed ? before.residual : after.residual), nullptr, &weight);
+  const Whitened plain(after.design, rows, independent(after.design, rows), {});
+  plain.winsorised(plain.take(vetoed ? before.residual : after.residual), nullptr, &weight);
   std::vector<Row> by_row(static_cast<std::size_t>(after.residual.size()));
   for (std::size_t i = 0; i < by_row.size(); ++i) {
     Row& row = by_row[i];

@@ -53,7 +53,9 @@ public:
   double pair_ratio(std::size_t a, std::size_t b, const Vector& residuals, std::size_t structure) const;
 
   /// Residuals with what lies beyond 3.5 robust standard deviations drawn in; `weight` 1 where it was left alone.
-  Matrix winsorised(const Matrix& residuals, Vector* scale = nullptr, Matrix* weight = nullptr) const;
+  Matrix winsorised(const Matrix& residuals, Vector* scale = nullptr, Matrix* weight = nullptr) const {
+    return whitened_[plain_].winsorised(residuals, scale, weight);
+  }
   /// How one data set's noise departs from normal numbers: the readings that are drawn in.
   Departures departures(const Vector& residuals) const;
   /// Share of the signature that fixed and declared parts leave, under the plainest structure.

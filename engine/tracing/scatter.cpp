@@ -26,8 +26,8 @@ void describe_scatter(const Circumstances& c, const JointFit& fit, const Step& s
   const auto& rows = c.fitter.rows();
   const int indication = fit.structure.scatter == step.component ? fit.structure.indication : -1;
   const auto use = independent(fit.design, rows);
-  const Scan scan(fit.design, rows, {}, c.threads);
-  const Matrix data = scan.winsorised(scan.whitened(scan.plain()).take(fit.residual));
+  const Whitened plain(fit.design, rows, use, {});
+  const Matrix data = plain.winsorised(plain.take(fit.residual));
   std::vector<std::array<double, 3>> profile; // ratio, criterion, s
   const double freedom = static_cast<double>(rows.size() - use.size());
   for (int i = 0; i <= 60; ++i) {

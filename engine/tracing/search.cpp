@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "tracing/cross_validation.h"
 #include "tracing/ranking.h"
 #include "tracing/shapes.h"
 
@@ -93,18 +94,9 @@ private:
     const JointFit& fit = out_.found;
     const auto seat = seat_at_null(c_.experiment);
     if (!seat || structure.scatter < 0 || fit.design.indications > 1) return {};
-    const double u = structure.ratio * fit.design.reference[0] * std::sqrt(variance);
-    const auto loading = [&](double shift) {
-      const Vector slope = declared_response(c_.simulator, fit.at, *seat, shift, false).slope;
-      return slope.size() > 0 ? std::sqrt(slope.squaredNorm() / static_cast<double>(slope.size())) : 0;
-    };
-    const double moved = loading(u);
-    if (!(moved > 0)) return {};
-    const DeclaredResponse of = declared_response(c_.simulator, fit.at, *seat, u / moved, true);
-    if (of.table.size() == 0) return {};
-    Matrix all = of.table.colwise() + of.offset;
-    for (Index j = 0; j < bend_nodes; ++j) all.col(j) += of.slope * (u / moved * bend_node(j));
-    return in_sequence(c_.observations, all) / std::sqrt(variance);
+    const double s = std::sqrt(variance), u = structure.ratio * fit.design.reference[0] * s;
+    const Matrix bent = bent_response(c_.simulator, fit.at, *seat, u);
+    return bent.size() > 0 ? Matrix(in_sequence(c_.observations, bent) / s) : bent;
   }
 
   double score(std::size_t a) const {
@@ -136,9 +128,13 @@ private:
     return out;
   }
 
+  double left_out(const JointFit& fit, const Structure& structure) const {
+    return cross_validated(c_.observations, c_.fitter.rows(), fit, structure);
+  }
+
   /// Parts of the training readings that are left out in turn: does the fit predict them better than without its term?
   bool predicts_better(const JointFit& fit) const {
-    return cross_validated(c_, fit, fit.structure) < cross_validated(c_, out_.found, fit.structure);
+    return left_out(fit, fit.structure) < left_out(out_.found, fit.structure);
   }
 
   /// The best alternatives of different names among those that `fits`, best first.
@@ -382,9 +378,9 @@ private:
     return false;
   }
 
-  /// A slow drift looks like scatter from one clamping to the next: beside the scatter it is not worth its name. Effects
-  /// that explain as much without the component, and predict what is left out, make a class with it. Not what is
-  /// declared of one label or another: of so many, some look like scatter by chance.
+  /// A slow drift looks like scatter from one clamping to the next: beside the scatter it is not worth its name.
+  /// Effects that explain as much without the component, and predict what is left out, make a class with it. Not what
+  /// is declared of one label or another: of so many, some look like scatter by chance.
   bool take_instead(const Step& scatter) {
     Design alone = out_.found.design;
     alone.scatter.clear();
@@ -413,7 +409,7 @@ private:
       terms.push_back({alternatives_[a], linear.size});
       JointFit fit = c_.fitter.fit(terms, out_.found.noise, &out_.found);
       const Structure& structure = scan.all_structures()[linear.structure];
-      if (!fit.valid || cross_validated(c_, fit, structure) >= cross_validated(c_, out_.found, structure)) continue;
+      if (!fit.valid || left_out(fit, structure) >= left_out(out_.found, structure)) continue;
       refused_[a] = "in the class";
       s.members.push_back(alternatives_[a].name);
       if (s.terms.empty()) {
@@ -443,23 +439,6 @@ private:
 };
 
 } // namespace
-
-double cross_validated(const Circumstances& c, const JointFit& fit, const Structure& structure) {
-  double squares = 0;
-  const Scan scan(fit.design, c.fitter.rows(), {}, c.threads);
-  Matrix clean = fit.residual;
-  const Vector chosen = scan.winsorised(scan.whitened(scan.plain()).take(fit.residual));
-  for (std::size_t i = 0; i < c.fitter.rows().size(); ++i) clean(c.fitter.rows()[i], 0) = chosen[static_cast<Index>(i)];
-  for (const auto& fold : folds(c.observations, c.fitter.rows())) {
-    std::vector<Index> train;
-    std::set_difference(c.fitter.rows().begin(), c.fitter.rows().end(), fold.begin(), fold.end(),
-                        std::back_inserter(train));
-    // Sizes of terms are found anew without the fold: they are fixed columns of the design.
-    const HeldOut held = hold_out(fit.design, clean, Matrix(clean.rows(), 0), train, fold, structure);
-    if (held.count > 0) squares += held.whitened[0];
-  }
-  return squares;
-}
 
 Search search(const Circumstances& circumstances) { return Searcher(circumstances).run(); }
 

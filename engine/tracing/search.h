@@ -47,8 +47,4 @@ struct Circumstances {
 
 Search search(const Circumstances& circumstances);
 
-/// Sum of squares of every part of the training readings predicted from the others, whitened by what is declared and
-/// the given structure of noise. Fits are compared under one structure.
-double cross_validated(const Circumstances& circumstances, const JointFit& fit, const Structure& structure);
-
 } // namespace gumshoe::tracing
