@@ -69,8 +69,11 @@ private:
   /// that fits better, all else as good as can be. False if there is none or nothing jumps.
   bool explore(JointFit& fit) const;
   struct Profile;
-  /// Nothing where the readings do not jump with that size. `unit` is what it may be uncertain by.
-  std::optional<Profile> profile(const JointFit& fit, std::size_t term, Index amplitude, double unit) const;
+  /// Where it is worth the simulations: readings jump with the size, or do not follow its tangent.
+  enum class Worth { jumps, tangent_wrong };
+  /// `unit` is what the size may be uncertain by.
+  std::optional<Profile> profile(const JointFit& fit, std::size_t term, Index amplitude, double unit,
+                                 Worth worth) const;
   void local_noise(const Matrix& derivative, JointFit& fit) const;
   void apply(JointFit& fit, const Vector& change, double share) const;
   double objective(const JointFit& fit, const Whitened& prior, const Scan& scan) const;

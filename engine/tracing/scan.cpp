@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include <Eigen/Cholesky>
@@ -12,6 +13,9 @@
 
 namespace gumshoe::tracing {
 namespace {
+
+/// In twice the log likelihood: rounding of large determinants is far less, what tells structures apart far more.
+constexpr double as_good = 1e-6;
 
 /// Orthonormal columns that span the projected signature; empty if next to nothing is left.
 Matrix orthonormal(const Matrix& whitened, const Matrix& projected) {
@@ -167,23 +171,29 @@ Statistics Scan::run(const Matrix& residuals, double reach) const {
   out.variance.resize(sets);
   out.variance_without_scatter.resize(sets);
   for (Index j = 0; j < sets; ++j) {
-    Index k = 0;
-    const double base = without.col(j).minCoeff(&k);
-    out.structure[static_cast<std::size_t>(j)] = static_cast<std::size_t>(k);
+    // The first, hence simplest, of those that are as good: where each group has a constant, its scatter changes
+    // nothing.
+    const auto best_of = [&](const std::function<bool(const Structure&)>& wanted) {
+      std::size_t found = count;
+      for (std::size_t i = 0; i < count; ++i)
+        if (wanted(structures_[i]) &&
+            (found == count || without(static_cast<Index>(i), j) < without(static_cast<Index>(found), j) - as_good))
+          found = i;
+      return found;
+    };
+    const std::size_t k = best_of([](const Structure&) { return true; }),
+                      uncorrelated = best_of([](const Structure&s) { return s.correlation == 0; }),
+                      single = best_of([](const Structure&s) { return s.scatter < 0; });
+    const double base = without.col(j).minCoeff(), white = without(static_cast<Index>(uncorrelated), j),
+                 plain = without(static_cast<Index>(single), j);
+    out.structure[static_cast<std::size_t>(j)] = k;
+    out.without_scatter[static_cast<std::size_t>(j)] = single;
     out.criterion[j] = base;
-    double plain = none;
     Vector component = Vector::Constant(out.scatter.rows(), none);
-    double white = none;
-    std::size_t uncorrelated = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      const double c = without(static_cast<Index>(i), j);
-      if (structures_[i].correlation == 0 && c < white) white = c, uncorrelated = i;
-      if (structures_[i].scatter < 0) {
-        if (c < plain) plain = c, out.without_scatter[static_cast<std::size_t>(j)] = i;
-      } else {
-        component[structures_[i].scatter] = std::min(component[structures_[i].scatter], c);
-      }
-    }
+    for (std::size_t i = 0; i < count; ++i)
+      if (structures_[i].scatter >= 0)
+        component[structures_[i].scatter] =
+            std::min(component[structures_[i].scatter], without(static_cast<Index>(i), j));
     for (Index c = 0; c < out.scatter.rows(); ++c) out.scatter(c, j) = std::max(0.0, plain - component[c]);
     const auto variance = [&](std::size_t i) {
       return std::exp((without(static_cast<Index>(i), j) - whitened_[i].log_determinant()) /
@@ -191,9 +201,9 @@ Statistics Scan::run(const Matrix& residuals, double reach) const {
              static_cast<double>(freedom_);
     };
     // A correlation that chance gives would make u of alternating signatures too small.
-    out.cautious[static_cast<std::size_t>(j)] = white - base < 3.84 ? uncorrelated : static_cast<std::size_t>(k);
+    out.cautious[static_cast<std::size_t>(j)] = white - base < 3.84 ? uncorrelated : k;
     out.variance_cautious[j] = variance(out.cautious[static_cast<std::size_t>(j)]);
-    out.variance[j] = variance(static_cast<std::size_t>(k));
+    out.variance[j] = variance(k);
     out.variance_without_scatter[j] = variance(out.without_scatter[static_cast<std::size_t>(j)]);
     for (Index a = 0; a < candidates; ++a) {
       double with = none;
@@ -215,7 +225,7 @@ Fit Scan::fit(std::size_t a, const Vector& residuals) const {
     const Block& b = prepared_[k].blocks[a];
     const double rest = left - (prepared_[k].signatures.middleCols(b.first, b.count).transpose() * white).squaredNorm();
     const double c = criterion(std::max(rest, 1e-12 * left), k);
-    if (c < best) best = c, out.structure = k;
+    if (c < best - as_good) best = c, out.structure = k;
   }
   out.ratio = std::max(0.0, base - best);
   const Whitened& w = whitened_[out.structure];

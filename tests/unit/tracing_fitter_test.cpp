@@ -109,6 +109,44 @@ TEST_CASE("a flute's wear is found where the model bends", "[tracing]") {
   CHECK(recovered(c, "declared:wear_2")[0] == Approx(8e-6).epsilon(1e-6));
 }
 
+TEST_CASE("where readings jump with a size its u is that of a straight line or more", "[tracing]") {
+  // Two inserts, 0.8 um of feed from one to the other: a reading jumps by so much where the tool has grown by a part of
+  // it, and hardly moves between. Over many angles and grown by t it is one line of slope t.
+  constexpr int readings = 60;
+  constexpr double u_reading = 2e-6;
+  std::string rows;
+  double squares = 0;
+  for (int i = 0; i < readings; ++i) {
+    rows += fmt::format("{{ start_angle = \"{} deg\", time = \"{} s\", values = [\"-990 mm\"] }},\n", (i * 137) % 360,
+                        100 * i);
+    squares += std::pow(100.0 * i - 50.0 * (readings - 1), 2);
+  }
+  Case c("schema = 1\nmodel = { name = \"tool_length\" }\n"
+         "[conditions]\nspindle_speed = \"6000 rpm\"\nfeed = \"10 mm/min\"\nstart_height = \"5 mm\"\n"
+         "[quantities]\ntool_length = { estimated = true, value = \"176.6 mm\" }\nlaser_z = \"-1172.015 mm\"\n"
+         "[indications.spindle_z]\nrows = [\n" +
+         rows + "]\ncomponents = [ { distribution = \"normal\", u = \"2 um\", per = \"reading\" } ]\n");
+  const double line = u_reading / std::sqrt(squares);
+  int plain = 0;
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6}) {
+    const Vector noise = u_reading * gumshoe::tracing::normals(readings, 1, seed, 9).col(0);
+    c.measure(with(c, "thermal_growth.rate", 12e-6 / 3600), noise);
+    const JointFit base = c.fitter->fit({}, 1);
+    JointFit fit = c.fitter->fit({c.term(base, "thermal_growth")}, 1, &base);
+    REQUIRE(fit.valid);
+    c.fitter->widen_jumping(fit);
+    const Index last = fit.design.fixed.cols() - 1;
+    const double u = std::sqrt(fit.covariance(last, last)), s = std::sqrt(fit.variance);
+    CAPTURE(seed, s, fit.structure.correlation, fit.terms[0].size[0] * 3600e6);
+    CHECK(std::fabs(fit.terms[0].size[0] - 12e-6 / 3600) < 4 * u);
+    if (fit.structure.correlation != 0) continue; // by chance: another noise, another u
+    ++plain;
+    CHECK(u > 0.98 * s * line); // the line's slope is t but for jumps at both ends of the steps
+    CHECK(u < 1.5 * s * line);
+  }
+  CHECK(plain > 3);
+}
+
 TEST_CASE("columns of the linearised fit are differences of the simulation", "[tracing]") {
   Case c(rods());
   c.measure(with(c, "trigger_latency.delay", 1e-3));
