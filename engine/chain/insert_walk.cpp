@@ -63,7 +63,7 @@ std::optional<InsertTrigger> TriggerSolver::walk(std::span<const Flute<double>> 
       }
       if (!p.open) return std::nullopt;
     }
-    std::array<Opening, 2 * most_inserts> openings;
+    std::array<Opening, std::size_t{2} * most_inserts> openings;
     std::size_t size = 0;
     const auto advance = [&](Opening& o, double not_before) {
       const InsertPass::Window& w = passes_[geometry[o.flute]].pass->window(o.window);

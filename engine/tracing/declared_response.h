@@ -29,8 +29,8 @@ DeclaredResponse declared_response(const Simulator& simulator, const Points& at,
 Matrix bent_response(const Simulator& simulator, const Points& at, std::size_t quantity, double u);
 
 /// Draws at which bends are tabled, in standard deviations.
-inline constexpr Index bend_nodes = 101;
-inline double bend_node(Index j) { return 0.1 * static_cast<double>(j - bend_nodes / 2); }
+inline constexpr Index bend_middle = 50, bend_nodes = 2 * bend_middle + 1;
+inline double bend_node(Index j) { return 0.1 * static_cast<double>(j - bend_middle); }
 inline Index nearest_bend_node(double z) {
   return std::clamp<Index>(std::lround((z - bend_node(0)) / 0.1), 0, bend_nodes - 1);
 }

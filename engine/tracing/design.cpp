@@ -130,13 +130,14 @@ void Whitened::filter_scatter(const std::vector<int>& group) {
   Innovations::Rows z(rows_.size());
   Matrix before;
   for (std::size_t i = 0; i < rows_.size(); i += k) {
+    const Matrix& local = design_.local[static_cast<std::size_t>(rows_[i]) / k];
     Matrix own = Matrix::Zero(static_cast<Index>(k), static_cast<Index>(k));
     for (std::size_t a = 0; a < k; ++a)
       if (group[i + a] >= 0) own(static_cast<Index>(a), static_cast<Index>(a)) = scatter_unit(i + a);
-    design_.local[static_cast<std::size_t>(rows_[i]) / k].triangularView<Eigen::Lower>().solveInPlace(own);
+    local.triangularView<Eigen::Lower>().solveInPlace(own);
     const auto add = [&](std::size_t row, std::size_t from, const Matrix& w, double times) {
       for (std::size_t b = 0; b < k; ++b) {
-        const double x = times * w(static_cast<Index>(row % k), static_cast<Index>(b));
+        const double x = times * w(static_cast<Index>(row - i), static_cast<Index>(b));
         if (x == 0) continue;
         const auto effect = static_cast<std::size_t>(group[from + b]);
         auto& here = z[row];
