@@ -213,8 +213,9 @@ class Trace(unittest.TestCase):
         self.assertGreater(sum(naming), 0, naming)
 
     def test_scatter_of_a_mill_that_jumps_with_it_from_tooth_to_tooth(self):
-        # Nothing beside the scatter: at 0.05 each, two or more of three come in less than one of a hundred selections.
-        alarms = [seed for seed in (600, 601, 602) if self.judged(mills, "null", "", 0, seed, "clamp_undeclared")[0]["false_alarm"]]
+        # Sets in which draws that do not jump leave something beside the scatter; at 0.05 each, two or more of three come in
+        # less than one of a hundred selections.
+        alarms = [seed for seed in (605, 610, 611) if self.judged(mills, "null", "", 0, seed, "clamp_undeclared")[0]["false_alarm"]]
         self.assertLessEqual(len(alarms), 1, alarms)
 
     def test_silent_where_the_declared_model_absorbs_it(self):
