@@ -138,8 +138,10 @@ class Trace:
 
     def findings(self):
         for f in self.t.findings:
+            # Sizes found together, and scatter, are not corrected for having been the largest.
+            alone = len({q.member for q in f.quantities}) == len(f.quantities)
             yield types.SimpleNamespace(
-                kind=f.kind, title=self.title(f), what=KINDS[f.kind], members=f.members,
+                corrected=f.kind in ("named", "class") and alone, kind=f.kind, title=self.title(f), what=KINDS[f.kind], members=f.members,
                 p=self.p(f.p_value), depends_on=joined(f.depends_on) if f.depends_on else "",
                 suggestion=f.suggestion, remarks=f.remarks, sizes=self.sizes(f),
                 removed=f"{fixed(100 * f.removed_share, 0)}{SPACE}%" if f.removed_share > 0 else "", curves=f.curves)
