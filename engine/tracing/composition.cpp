@@ -153,9 +153,11 @@ private:
           shift || a.quantity == Amplitude::npos || c_.experiment.scenario().quantities[a.quantity].unit != q.unit
               ? units::Kind::difference
               : units::Kind::point;
-      out += fmt::format("; 95 % interval{} [{}, {}]{}, which allows for the search as u, of the fit, does not",
-                         shift ? " of the shift" : "", number(q.low95, q.u, q.unit, q.si_unit, kind),
-                         number(q.high95, q.u, q.unit, q.si_unit, kind), q.unit == "1" ? "" : " " + q.unit);
+      out += fmt::format("; 95 % interval{} [{}, {}]{}, {}", shift ? " of the shift" : "",
+                         number(q.low95, q.u, q.unit, q.si_unit, kind), number(q.high95, q.u, q.unit, q.si_unit, kind),
+                         q.unit == "1" ? "" : " " + q.unit,
+                         f.quantities.size() == 1 ? "which allows for the search as u, of the fit, does not"
+                                                  : "of the fit as u is");
     }
     return out;
   }
