@@ -131,7 +131,7 @@ void count_failures(Results& r, const std::vector<std::uint8_t>& status) {
     if (count[k] > 0) {
       r.failed += count[k];
       r.failures.push_back(fmt::format("{}: {} samples, the first is sample {} (gumshoe replay FILE --sample {})",
-                                       propagation::status_name(static_cast<propagation::Status>(k)), count[k],
+                                       status_name(static_cast<Status>(k)), count[k],
                                        first[k], first[k]));
     }
 }

@@ -57,7 +57,7 @@ public:
 
   struct Failure {
     std::size_t reading = 0;
-    propagation::Status status = propagation::Status::ok;
+    Status status = Status::ok;
   };
   /// Of the last call that returned false.
   Failure failure() const { return failure_; }

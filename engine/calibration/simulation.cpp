@@ -87,7 +87,7 @@ bool Simulation::by_dual_numbers(const double* x, double* simulated, double* jac
     propagation::parallel_for(readings, threads_, one);
   for (std::size_t r = 0; r < readings; ++r) {
     if (status[r] == 0) continue;
-    failure_ = {r, static_cast<propagation::Status>(status[r])};
+    failure_ = {r, static_cast<Status>(status[r])};
     return false;
   }
   return true;
@@ -153,7 +153,7 @@ bool Simulation::by_differences(const double* x, double* simulated, double* jaco
     }
   for (std::size_t i = 0; i < points; ++i) {
     if (status[i] == 0) continue;
-    failure_ = {0, static_cast<propagation::Status>(status[i])};
+    failure_ = {0, static_cast<Status>(status[i])};
     return false;
   }
   for (std::size_t i = 0; i < rows_; ++i) {

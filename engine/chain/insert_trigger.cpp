@@ -139,12 +139,12 @@ InsertTrigger TriggerSolver::search(std::span<const Flute<double>> flutes, const
     least = turned;
     result.insert = static_cast<int>(k);
     if (inside) {
-      result.status = SolveStatus::already_covered;
+      result.status = Status::already_covered;
       return result;
     }
   }
   if (!ever_covered || least == 1e300) {
-    result.status = ever_covered ? SolveStatus::not_converged : SolveStatus::never_covered;
+    result.status = ever_covered ? Status::not_converged : Status::never_covered;
     return result;
   }
   result.turned = least;

@@ -47,7 +47,7 @@ struct InsertMotion {
 };
 
 struct InsertTrigger {
-  SolveStatus status = SolveStatus::ok;
+  Status status = Status::ok;
   int insert = 0;    ///< from 0
   double turned = 0; ///< spindle angle from the start to the trigger, rad
   double height = 0; ///< of the tool's centre at the trigger

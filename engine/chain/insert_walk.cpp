@@ -118,7 +118,7 @@ std::optional<InsertTrigger> TriggerSolver::walk(std::span<const Flute<double>> 
       advance(*next, next->last + 1e-9);
     }
     if (started) {
-      result.status = SolveStatus::already_covered;
+      result.status = Status::already_covered;
       return result;
     }
     if (done && least <= valid) {

@@ -8,7 +8,7 @@ namespace gumshoe::chain {
 InsertTrigger lagging_trigger(TriggerSolver& solver, std::span<const Flute<double>> flutes, const Beam<double>& beam,
                               const InsertMotion& motion, double lag) {
   InsertTrigger low = solver.solve(flutes, beam, motion); // without lag the tool stands lower
-  if (lag == 0 || low.status != SolveStatus::ok) return low;
+  if (lag == 0 || low.status != Status::ok) return low;
   const auto on = [&](double through, double height, double drop) { // a straight feed through one point
     return solver.solve(flutes, beam, {motion.start_angle, height + drop * through, drop, through});
   };
@@ -29,7 +29,7 @@ InsertTrigger lagging_trigger(TriggerSolver& solver, std::span<const Flute<doubl
     const InsertTrigger tangent = on(low.turned, height(low.turned), fall);
     if (tangent.turned < high.turned) high = tangent;
   }
-  low.status = SolveStatus::not_converged;
+  low.status = Status::not_converged;
   return low;
 }
 

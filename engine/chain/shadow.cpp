@@ -5,9 +5,9 @@
 namespace gumshoe::chain {
 
 Solved<double> trigger_height(const Rod<double>& rod, const Beam<double>& beam) {
-  if (!in_domain(rod, beam)) return {std::nan(""), SolveStatus::out_of_domain};
+  if (!in_domain(rod, beam)) return {std::nan(""), Status::out_of_domain};
   const auto fast = solve_chord<double>(shadow_edge(rod, beam), beam.radius, beam.fraction);
-  if (fast.failed == 0) return {bottom_height_of(fast.k, rod, beam), SolveStatus::ok};
+  if (fast.failed == 0) return {bottom_height_of(fast.k, rod, beam), Status::ok};
   return general_height(rod, beam);
 }
 

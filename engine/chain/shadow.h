@@ -9,17 +9,14 @@
 /// and the rod's lower edge is P + fillet * N with the outward unit normal N.
 ///
 /// Source: Fang 2022, section 2.4 (eqs 2.3 to 2.32), derived anew; chain/README.md has the mathematics.
-#include <cstdint>
-
+#include "base/status.h"
 #include "math/scalar.h"
 
 namespace gumshoe::chain {
 
-enum class SolveStatus : std::uint8_t { ok = 0, never_covered = 1, not_converged = 2, out_of_domain = 3, already_covered = 7 };
-
 template <class T> struct Solved {
   T value;
-  SolveStatus status = SolveStatus::ok;
+  Status status = Status::ok;
   bool kink = false; ///< the value has no derivative here (an aligned square rod at pitch 0)
 };
 

@@ -187,7 +187,7 @@ BoundarySolve solve_boundary(const ShadowEdge<double>& edge, double beam_radius,
   BoundarySolve result;
   const double target = pi * beam_radius * beam_radius * fraction;
   if (!(target < boundary.most())) {
-    result.status = SolveStatus::never_covered;
+    result.status = Status::never_covered;
     return result;
   }
   // The covered area falls with k, from `most` to nothing: Newton, kept inside a shrinking bracket.
@@ -218,7 +218,7 @@ BoundarySolve solve_boundary(const ShadowEdge<double>& edge, double beam_radius,
       return result;
     }
   }
-  result.status = SolveStatus::not_converged;
+  result.status = Status::not_converged;
   return result;
 }
 

@@ -25,7 +25,7 @@ struct Crossing {
 struct BoundarySolve {
   double k = 0;
   std::vector<Crossing> crossings; ///< entering and leaving in turn; empty if the beam is never covered that much
-  SolveStatus status = SolveStatus::ok;
+  Status status = Status::ok;
 };
 
 BoundarySolve solve_boundary(const ShadowEdge<double>& edge, double beam_radius, double fraction);

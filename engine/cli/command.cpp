@@ -6,7 +6,7 @@
 #include <cstring>
 #include <filesystem>
 
-#include "effects/catalogue.h"
+#include "effects/effect.h"
 
 namespace gumshoe::cli {
 

@@ -114,7 +114,7 @@ void add_replay(CLI::App& app, Action& action) {
         std::cout << fmt::format("  {:<44} {:.17g} {}\n", out.name,
                                  units::from_si(outputs[i * 8], out.unit, out.si_unit), out.unit);
       }
-      std::cout << "status " << propagation::status_name(static_cast<propagation::Status>(status[0])) << '\n';
+      std::cout << "status " << status_name(static_cast<Status>(status[0])) << '\n';
       return ExitCode::done;
     };
   });

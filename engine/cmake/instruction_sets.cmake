@@ -12,7 +12,7 @@ set(GUMSHOE_ISA_FLAGS_avx512 -mavx512f -Wno-uninitialized -Wno-maybe-uninitializ
 if(GUMSHOE_SANITIZE)
   set(GUMSHOE_ISAS sse2) # the sanitizers' own symbols do not survive being made local
 else()
-  set(GUMSHOE_ISAS sse2 avx2 avx512)
+  set(GUMSHOE_ISAS sse2 avx2 avx512 CACHE STRING "instruction sets of the kernels; one alone builds faster")
 endif()
 
 function(gumshoe_add_kernels library)

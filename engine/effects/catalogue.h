@@ -3,6 +3,7 @@
 /// include here, and its line in catalogue.def.
 #include <array>
 
+#include "effects/effect.h"
 #include "effects/axis_reversal/axis_reversal.h"
 #include "effects/beam_offset/beam_offset.h"
 #include "effects/brake_shift/brake_shift.h"
@@ -55,12 +56,6 @@ template <class T> const std::array<Apply<T>, count>& functions() {
 #undef GUMSHOE_EFFECT
   return table;
 }
-
-/// A freed effect: which one, and where its quantities start in the row of effect quantities.
-struct Active {
-  std::size_t effect = 0;
-  std::size_t first = 0;
-};
 
 /// Lets the active effects act on an event that is filled in as commanded.
 template <class T> void act(std::span<const Active> active, const T* quantities, chain::ProbingEvent<T>& event) {

@@ -14,4 +14,10 @@ const EffectCard* find(std::string_view name);
 /// True if a model has the stage at which the effect acts.
 bool applies(const ModelCard& model, const EffectCard& effect);
 
+/// A freed effect: which one, and where its quantities start in the row of effect quantities.
+struct Active {
+  std::size_t effect = 0;
+  std::size_t first = 0;
+};
+
 } // namespace gumshoe::effects

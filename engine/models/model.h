@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "base/card.h"
-#include "effects/catalogue.h"
+#include "base/status.h"
+#include "effects/effect.h"
 #include "math/dual.h"
 
 namespace gumshoe::models {
@@ -36,8 +37,6 @@ struct Declared {
 
 /// BlockCall::first_sample of points that are not samples of the run (the estimates, an analysis).
 inline constexpr std::uint64_t unnumbered = ~std::uint64_t{0};
-/// propagation::Status of a sample that a plugin or a command gives no value for.
-inline constexpr std::uint8_t model_failed = 6;
 
 /// A block of samples for all readings. Rows of pointers are [reading][variable].
 struct BlockCall {
@@ -53,7 +52,7 @@ struct BlockCall {
   /// [reading][measurand] -> samples, of a joint evaluation [measurand] -> samples (simulate: the true values).
   double* const* measurands = nullptr;
   const std::size_t* solved_as = nullptr; ///< [reading]: earlier reading with the same columns for the solve, or itself
-  std::uint8_t* status = nullptr;         ///< [sample], propagation::Status; 0 on entry
+  std::uint8_t* status = nullptr;         ///< [sample], Status; 0 on entry
   int evaluation = 0;
   const void* context = nullptr;           ///< Model::context
   const Declared* declared = nullptr;      ///< of a joint evaluation in a scenario
@@ -66,9 +65,6 @@ struct Kernels {
   void (*simulate)(const BlockCall&);
   void (*evaluate)(const BlockCall&);
 };
-
-/// Status of a sample whose formula has no finite value: a division by zero, the logarithm of a negative number.
-inline constexpr std::uint8_t not_finite = 5;
 
 /// One reading at one point, for derivatives and replay.
 template <class T> struct PointCall {

@@ -43,7 +43,7 @@ void take_shown(const VariableCard& variable, double* values, std::size_t n, std
   if (variable.unit != variable.si_unit)
     units::to_si({values, n}, std::string(variable.unit), std::string(variable.si_unit));
   for (std::size_t i = 0; i < n; ++i)
-    if (!std::isfinite(values[i]) && status[i] == 0) status[i] = model_failed;
+    if (!std::isfinite(values[i]) && status[i] == 0) status[i] = code(Status::model_failed);
 }
 
 PointValues evaluate_at(const ModelCard& card, const PointCall<double>& point, void (*kernel)(const BlockCall&)) {

@@ -365,7 +365,7 @@ void Experiment::run_model(std::size_t n, Workspace& w, double* outputs, std::ui
     if (!perhaps_nan(outputs + row * n, n)) continue;
     for (std::size_t i = 0; i < n; ++i)
       if (status[i] == 0 && std::isnan(outputs[row * n + i]))
-        status[i] = static_cast<std::uint8_t>(Status::no_solution);
+        status[i] = code(Status::no_solution);
   }
   if (none_failed(status, n)) return;
   for (std::size_t i = 0; i < n; ++i)

@@ -188,7 +188,7 @@ void evaluate_together(const models::Model& model, int evaluation, const std::ve
   if (problem.empty() && possible)
     model.kernels()->evaluate(call);
   else
-    status[0] = static_cast<std::uint8_t>(Status::out_of_domain);
+    status[0] = code(Status::out_of_domain);
   result.joint = true;
   for (std::size_t m = 0; m < measurands.size(); ++m) {
     const VariableCard& v = measurands[m];
@@ -307,7 +307,7 @@ PointTable evaluate_points(const models::Model& model, const Csv& table, const s
       result.impossible.push_back(
           {table.rows[r].empty() ? Location{table.file} : Location{table.file, table.rows[r][0].line, 1}, problem,
            "physically impossible", ""});
-    if (!problem.empty() || bad_row[r]) status[r] = static_cast<std::uint8_t>(Status::out_of_domain);
+    if (!problem.empty() || bad_row[r]) status[r] = code(Status::out_of_domain);
   }
   for (std::size_t i = 0; i < m; ++i) {
     bool is_quantity = false; // simulation repeats its input, the true measurand

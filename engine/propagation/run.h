@@ -4,27 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "base/status.h"
 #include "quantities/input_quantity.h"
 
 namespace gumshoe::propagation {
-
-/// Why a sample has no value. Kept by index, written to the file as CF flags, never dropped silently.
-enum class Status : std::uint8_t {
-  ok = 0,
-  never_covered = 1, ///< the beam can never be covered that much
-  not_converged = 2,
-  out_of_domain = 3,   ///< a drawn value that the solve reads is impossible: a fillet larger than the rod
-  no_solution = 4,     ///< the geometry or the data admit no answer
-  not_finite = 5,      ///< the formula has no finite value: a division by zero, the logarithm of a negative number
-  model_failed = 6,    ///< a plugin or a command gives no value for it
-  already_covered = 7, ///< the tool stands in the beam before it moves
-};
-
-/// Every status there is, from 0.
-inline constexpr int statuses = 8;
-
-/// "never_covered" and so on, as in files and tables.
-const char* status_name(Status status);
 
 /// Model outputs of one block of samples, rows in output order: outputs[row * samples + i], SI.
 /// A failed sample has a status and the canonical NaN in every row.

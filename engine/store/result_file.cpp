@@ -127,9 +127,9 @@ void ResultFile::Impl::create(Impl* before, const analysis::Results* results) {
           hdf5::create_dataset(group, "status", H5T_STD_U8LE, {identity.samples}, "1", "why a sample has no value");
       std::vector<std::uint8_t> flag_values;
       std::string flag_meanings;
-      for (int k = 0; k < propagation::statuses; ++k) {
+      for (int k = 0; k < statuses; ++k) {
         flag_values.push_back(static_cast<std::uint8_t>(k));
-        flag_meanings += (k ? " " : "") + std::string(status_name(static_cast<propagation::Status>(k)));
+        flag_meanings += (k ? " " : "") + std::string(status_name(static_cast<Status>(k)));
       }
       hdf5::write_attribute(flags, "flag_values", flag_values);
       hdf5::write_attribute(flags, "flag_meanings", flag_meanings);

@@ -1,7 +1,7 @@
 /// Each effect against the size and sign that its card and the literature state.
 #include <catch2/catch.hpp>
 
-#include "effects/catalogue.h"
+#include "effects/effect.h"
 #include "models/rod_gauging/rod_gauging.h"
 
 using namespace gumshoe;

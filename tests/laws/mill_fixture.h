@@ -91,7 +91,7 @@ struct Mill {
   }
   double reading() const { return simulated().spindle_z; }
   double height() const { return simulated().trigger.height.value; }
-  bool triggers() const { return simulated().trigger.height.status == chain::SolveStatus::ok; }
+  bool triggers() const { return simulated().trigger.height.status == Status::ok; }
   mill::Event<double> event() const {
     return mill::probing_event<double>(q.data(), condition.data(), effects.data(), active);
   }

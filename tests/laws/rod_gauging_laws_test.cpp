@@ -156,7 +156,7 @@ TEST_CASE("the fast and the general solve agree", "[laws][shadow]") {
     if (chord.failed != 0) continue;
     ++fast;
     const auto general = chain::general_height(r, b);
-    REQUIRE(general.status == chain::SolveStatus::ok);
+    REQUIRE(general.status == Status::ok);
     // The stated error of the solver is 1e-12 m; the two share no quadrature and no iteration.
     REQUIRE(std::fabs(chain::bottom_height_of(chord.k, r, b) - general.value) < 1e-13);
   }
@@ -173,7 +173,7 @@ TEST_CASE("symmetries of the shadow", "[laws][shadow]") {
     const auto same = [&](const chain::Rod<double>& r2, const chain::Beam<double>& b2) {
       const auto other = chain::trigger_height(r2, b2);
       REQUIRE(other.status == at.status);
-      if (at.status == chain::SolveStatus::ok) REQUIRE(std::fabs(other.value - at.value) < 1e-14);
+      if (at.status == Status::ok) REQUIRE(std::fabs(other.value - at.value) < 1e-14);
     };
     auto turned = r;
     turned.bottom_azimuth += 0.7;
@@ -198,7 +198,7 @@ TEST_CASE("a larger share needs a lower rod", "[laws][shadow]") {
     const chain::Rod<double> r{q[0], q[1], q[2], q[3]};
     const auto low = chain::trigger_height(r, {q[6], q[7], q[8], 0.2}),
                high = chain::trigger_height(r, {q[6], q[7], q[8], 0.25});
-    if (low.status == chain::SolveStatus::ok && high.status == chain::SolveStatus::ok) REQUIRE(high.value < low.value);
+    if (low.status == Status::ok && high.status == Status::ok) REQUIRE(high.value < low.value);
   }
 }
 
@@ -217,9 +217,9 @@ TEST_CASE("wide pins and ball ends in closed form", "[references][shadow]") {
   REQUIRE(std::fabs(pin.value - h) < 1e-15);
   // The strip holds 0.609 of the disc: less is reached, more never.
   const double most = 2 * area / (chain::pi * R * R);
-  REQUIRE(chain::trigger_height({a, 0, chain::pi / 2, 0}, {0, 0, R, most - 1e-6}).status == chain::SolveStatus::ok);
+  REQUIRE(chain::trigger_height({a, 0, chain::pi / 2, 0}, {0, 0, R, most - 1e-6}).status == Status::ok);
   REQUIRE(chain::trigger_height({a, 0, chain::pi / 2, 0}, {0, 0, R, most + 1e-6}).status ==
-          chain::SolveStatus::never_covered);
+          Status::never_covered);
 }
 
 TEST_CASE("derivatives agree with differences, second ones with differences of first", "[laws][rod_gauging]") {

@@ -235,7 +235,7 @@ TEST_CASE("slides in one plane are out of reach", "[laws][sphere_probing]") {
   block.simulated = out.data(), block.measurands = out.data() + 3, block.status = status.data();
   block.context = c.model->context;
   c.model->kernels()->simulate(block);
-  for (const auto s : status) CHECK(s == static_cast<std::uint8_t>(chain::SolveStatus::out_of_domain));
+  for (const auto s : status) CHECK(s == code(Status::out_of_domain));
   c.conditions = {30 * deg};
   CHECK(c.model->check(call).empty());
   REQUIRE_THROWS_AS(probing::make({"", Axes{{"C"}}, Axes{{"X"}, {"Z"}}}), InputError);

@@ -198,7 +198,7 @@ TEST_CASE("a lagging feed from a low start, against all angles one after another
     const double tau = draw(5, 200) * ms, speed = m.condition[mill::speed], feed = m.condition[mill::feed];
     m = m.under(mill::start_height, highest + draw(0, 2) * feed * tau + 1 * um).with("servo_lag", {tau});
     const auto o = m.simulated();
-    if (o.trigger.height.status != chain::SolveStatus::ok) continue;
+    if (o.trigger.height.status != Status::ok) continue;
     ++solved;
     const double t = o.trigger.turned / speed;
     transient += std::exp(-t / tau) > 0.01;
@@ -232,7 +232,7 @@ TEST_CASE("latency within the transient of a lag", "[effects][tool_length]") {
   // 40 ms after the feed began, with a time constant of 60 ms; latched 25 ms later.
   const Mill slow = Mill().under(mill::start_height, 0.005 * mm).with("servo_lag", {60 * ms});
   const auto o = slow.simulated();
-  REQUIRE(o.trigger.height.status == chain::SolveStatus::ok);
+  REQUIRE(o.trigger.height.status == Status::ok);
   const double v = 30 * mm / 60, tau = 60 * ms, t = o.trigger.turned / (1000 * rpm), d = 25 * ms;
   const auto behind = [&](double at) { return v * tau * (1 - std::exp(-at / tau)); };
   REQUIRE(slow.with("trigger_latency", {d}).reading() - o.spindle_z ==
@@ -280,7 +280,7 @@ TEST_CASE("confirmation over n revolutions lowers by n times the descent", "[eff
     const auto again = solver.solve(flutes, mill::beam(m.q.data()),
                                     {m.q[mill::holder_angle] + m.condition[mill::start_angle],
                                      m.condition[mill::start_height], v / speed, accepted});
-    REQUIRE(again.status == chain::SolveStatus::ok);
+    REQUIRE(again.status == Status::ok);
     REQUIRE(std::fabs(again.turned - accepted) < 1e-9);
   }
 }

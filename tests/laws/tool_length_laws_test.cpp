@@ -89,10 +89,10 @@ TEST_CASE("the mill's evaluation undoes its simulation, each effect alone and al
   int compared = 0;
   const auto check = [&](const Mill& m) {
     const auto there = m.simulated();
-    if (there.trigger.height.status != chain::SolveStatus::ok) return;
+    if (there.trigger.height.status != Status::ok) return;
     // The evaluation does not read the length, not even for what grows with it.
     const auto back = m.where(mill::length, 0.04).evaluated(there.spindle_z);
-    REQUIRE(back.trigger.height.status == chain::SolveStatus::ok);
+    REQUIRE(back.trigger.height.status == Status::ok);
     // Sums of numbers below 1 m.
     REQUIRE(std::fabs(back.length - m.q[mill::length]) < 1e-15);
     REQUIRE(std::fabs(back.trigger.height.value - there.trigger.height.value) < 1e-15);
@@ -225,8 +225,8 @@ TEST_CASE("what a mill's effects make impossible is said", "[effects][tool_lengt
            {m.where(mill::wear, 7e-3), "wear"}}) {
     INFO(words);
     CHECK_THAT(says(bad), Catch::Contains(words));
-    CHECK(status(bad) == chain::SolveStatus::out_of_domain);
-    CHECK(bad.evaluated(-0.35).trigger.height.status == chain::SolveStatus::out_of_domain);
+    CHECK(status(bad) == Status::out_of_domain);
+    CHECK(bad.evaluated(-0.35).trigger.height.status == Status::out_of_domain);
   }
   // Errors of inserts that are not there do not matter.
   REQUIRE(says(m.with("insert_radius_error", {0, 0, -7e-3})).empty());

@@ -248,7 +248,7 @@ TEST_CASE("readings that no curve goes through are refused", "[tool_length][proc
   REQUIRE(says(problem([](auto& c) { c[1][mill::start_height] = -1e-3; }), "start_height of reading 2"));
   Procedure far(thesis().where(mill::offset, 30e-3), 6);
   REQUIRE(says(far.problem(), "no flute ever covers"));
-  REQUIRE(far.evaluate().status == static_cast<int>(propagation::Status::never_covered));
+  REQUIRE(far.evaluate().status == static_cast<int>(Status::never_covered));
   // Heights may differ: they turn the phase by what is known.
   Procedure p(thesis(), 6);
   for (std::size_t r = 0; r < 6; ++r) p.conditions[r][mill::start_height] += 1e-5 * static_cast<double>(r * r);

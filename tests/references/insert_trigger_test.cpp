@@ -77,8 +77,8 @@ TEST_CASE("the walk through the windows finds what the general search finds", "[
     INFO("tool " << n);
     REQUIRE(walk->status == search.status);
     REQUIRE(walk->insert == search.insert);
-    if (walk->status == SolveStatus::already_covered) ++covered;
-    if (walk->status != SolveStatus::ok) continue;
+    if (walk->status == Status::already_covered) ++covered;
+    if (walk->status != Status::ok) continue;
     REQUIRE(std::fabs(walk->height - search.height) < agreed);
     const Flute<double>& f = t.flutes[static_cast<std::size_t>(walk->insert)];
     const RakeView v(RakeBody(insert_body(f.insert, t.beam)), t.motion.start_angle + f.azimuth + walk->turned);
@@ -210,7 +210,7 @@ TEST_CASE("the walk serves mills whose flanks show", "[references][tool_length]"
     const InsertTrigger search = solver.search(t.flutes, t.beam, t.motion),
                         found = solver.solve(t.flutes, t.beam, t.motion);
     INFO("mill " << n);
-    REQUIRE(found.status == SolveStatus::ok);
+    REQUIRE(found.status == Status::ok);
     REQUIRE(found.status == search.status);
     REQUIRE(found.insert == search.insert);
     REQUIRE(std::fabs(found.height - search.height) < agreed);
@@ -267,13 +267,13 @@ TEST_CASE("a trigger depends on the line, not on where it starts", "[laws][tool_
     t.motion.start_height = 0.3 * mm, t.motion.not_before = 0;
     TriggerSolver solver;
     const InsertTrigger base = solver.solve(t.flutes, t.beam, t.motion);
-    if (base.status != SolveStatus::ok) continue;
+    if (base.status != Status::ok) continue;
     ++compared;
     INFO("tool " << n);
     // Angles of thousands of radians times the drop, and roots to 1e-14 m.
     const auto same_height = [&](const std::vector<Flute<double>>& flutes, const InsertMotion& m, double more) {
       const InsertTrigger other = solver.solve(flutes, t.beam, m);
-      REQUIRE(other.status == SolveStatus::ok);
+      REQUIRE(other.status == Status::ok);
       REQUIRE(std::fabs(other.height - base.height - more) < agreed);
     };
     InsertMotion m = t.motion;
@@ -299,14 +299,14 @@ TEST_CASE("a tool triggers at the highest of its flutes' own heights", "[laws][t
     t.motion.start_height = 0.3 * mm, t.motion.not_before = 0;
     TriggerSolver solver;
     const InsertTrigger all = solver.solve(t.flutes, t.beam, t.motion);
-    if (all.status != SolveStatus::ok) continue;
+    if (all.status != Status::ok) continue;
     ++compared;
     INFO("tool " << n);
     const double level = t.motion.start_height + t.motion.drop * t.motion.start_angle, turn = 2 * pi * t.motion.drop;
     double highest = -HUGE_VAL;
     for (const auto& f : t.flutes) {
       const InsertTrigger one = solver.alone(f, t.beam, level, t.motion.drop);
-      REQUIRE(one.status == SolveStatus::ok);
+      REQUIRE(one.status == Status::ok);
       REQUIRE(one.height == Approx(level - t.motion.drop * one.turned).epsilon(0).margin(1e-14));
       highest = std::max(highest, one.height);
       for (const int turns : {-3, 1, 40}) {
@@ -386,7 +386,7 @@ TEST_CASE("inserts that differ, and drops large and tiny, agree with the twin", 
     }
     t.motion.start_height = highest + 2 * pi * t.motion.drop * draw(0.1, 0.6);
     const InsertTrigger found = solver.solve(t.flutes, t.beam, t.motion);
-    if (found.status != SolveStatus::ok) continue;
+    if (found.status != Status::ok) continue;
     ++solved;
     INFO("tool " << n);
     std::vector<std::vector<double>> q;

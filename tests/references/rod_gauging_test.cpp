@@ -17,7 +17,7 @@ namespace {
 
 using gumshoe::chain::Beam;
 using gumshoe::chain::Rod;
-using gumshoe::chain::SolveStatus;
+using gumshoe::Status;
 using gumshoe::references::brute_force_bottom_height;
 using gumshoe::references::Construction;
 using gumshoe::references::RodCase;
@@ -74,11 +74,11 @@ TEST_CASE("trigger heights match 30-digit references", "[references][rod_gauging
     CAPTURE(row.text);
     const auto solved = engine_height(row.rod);
     if (!row.covered) {
-      CHECK(solved.status == SolveStatus::never_covered);
+      CHECK(solved.status == Status::never_covered);
       continue;
     }
     ++covered;
-    CHECK(solved.status == SolveStatus::ok);
+    CHECK(solved.status == Status::ok);
     CHECK(std::abs(solved.value - row.height) < tolerance);
   }
   CHECK(covered >= 150);
@@ -97,7 +97,7 @@ TEST_CASE("trigger heights match the brute-force twin", "[references][rod_gaugin
     const auto twin = brute_force_bottom_height(row.rod, samples);
     const auto solved = engine_height(row.rod);
     CHECK(std::isnan(twin.height) == !row.covered);
-    CHECK((solved.status == SolveStatus::never_covered) == !row.covered);
+    CHECK((solved.status == Status::never_covered) == !row.covered);
     if (!row.covered) continue;
     CHECK(twin.error < 3e-8);
     CHECK(twin.height - solved.value < rounding);

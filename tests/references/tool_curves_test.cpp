@@ -38,7 +38,7 @@ std::vector<Readout> readouts(const Tool& tool, double height, const std::vector
   std::vector<Readout> found;
   for (const double angle : angles) {
     const auto trigger = solver.solve(flutes, tool.beam, {angle, height, tool.drop(), 0});
-    REQUIRE(trigger.status == chain::SolveStatus::ok);
+    REQUIRE(trigger.status == Status::ok);
     found.push_back({trigger.height, trigger.insert});
   }
   return found;

@@ -106,7 +106,7 @@ TEST_CASE("the trigger is the first moment at which the twin sees the share cove
     const Outcome ours = trigger_si(q, speed, feed, angle, start);
     INFO("case " << n);
     if (ours.status != 0) {
-      REQUIRE(ours.status == static_cast<int>(chain::SolveStatus::already_covered));
+      REQUIRE(ours.status == static_cast<int>(Status::already_covered));
       continue;
     }
     ++solved, ++inserts[static_cast<int>(q[mill::inserts])];
@@ -238,23 +238,23 @@ TEST_CASE("a trigger curve follows the laws of turning and wear", "[laws][tool_l
 
 TEST_CASE("the tool's impossible settings have statuses", "[tool_length]") {
   Values q = defaults();
-  const auto status = [](chain::SolveStatus s) { return static_cast<int>(s); };
-  REQUIRE(trigger(q, 0, 0.5, 0).status == status(chain::SolveStatus::out_of_domain));
-  REQUIRE(trigger(q, 0, 0.5, 30, 0).status == status(chain::SolveStatus::out_of_domain));
+  const auto status = [](Status s) { return static_cast<int>(s); };
+  REQUIRE(trigger(q, 0, 0.5, 0).status == status(Status::out_of_domain));
+  REQUIRE(trigger(q, 0, 0.5, 30, 0).status == status(Status::out_of_domain));
   Values far = q;
   far[mill::offset] = 30 * mm;
-  REQUIRE(trigger(far, 0, 0.5).status == status(chain::SolveStatus::never_covered));
+  REQUIRE(trigger(far, 0, 0.5).status == status(Status::never_covered));
   Values half = q;
   half[mill::inserts] = 2.5;
-  REQUIRE(trigger(half, 0, 0.5).status == status(chain::SolveStatus::out_of_domain));
+  REQUIRE(trigger(half, 0, 0.5).status == status(Status::out_of_domain));
   Values worn = q;
   worn[mill::wear] = 7 * mm;
-  REQUIRE(trigger(worn, 0, 0.5).status == status(chain::SolveStatus::out_of_domain));
+  REQUIRE(trigger(worn, 0, 0.5).status == status(Status::out_of_domain));
   Values pointed = q;
   pointed[mill::clearance] = 80 * deg;
-  REQUIRE(trigger(pointed, 0, 0.5).status == status(chain::SolveStatus::out_of_domain));
+  REQUIRE(trigger(pointed, 0, 0.5).status == status(Status::out_of_domain));
   int inside = 0;
-  for (int i = 0; i < 360; ++i) inside += trigger(q, i, -0.5).status == status(chain::SolveStatus::already_covered);
+  for (int i = 0; i < 360; ++i) inside += trigger(q, i, -0.5).status == status(Status::already_covered);
   REQUIRE(inside > 0);
   REQUIRE(inside < 360);
 }

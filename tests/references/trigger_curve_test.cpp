@@ -28,7 +28,7 @@ TEST_CASE("a tabulated trigger curve agrees with the search along each line", "[
     for (int i = 0; i < 30; ++i) {
       const double angle = draw(0, 6), above = heights.highest().height + draw(0, 3) * curve.period();
       const auto found = solver.search({&flute, 1}, beam, {angle, above, drop});
-      REQUIRE(found.status == chain::SolveStatus::ok);
+      REQUIRE(found.status == Status::ok);
       const double x = above + drop * angle;
       const auto at = curve.at(x);
       // 1e-12 m in Zc at a fixed angle, and more of the height where the line runs along Zc.

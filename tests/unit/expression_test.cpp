@@ -239,7 +239,7 @@ TEST_CASE("every instruction set gives the same bits, equal to those of a point"
   const auto same = [](double a, double b) {
     return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b) || (std::isnan(a) && std::isnan(b));
   };
-  for (std::size_t i = 0; i < n; ++i) CHECK(status[i] == not_finite); // 1 / (b - b)
+  for (std::size_t i = 0; i < n; ++i) CHECK(status[i] == code(Status::not_finite)); // 1 / (b - b)
   for (const InstructionSet set : {InstructionSet::avx2, InstructionSet::avx512}) {
     if (best_instruction_set() < set) continue;
     const auto other =
@@ -277,7 +277,7 @@ TEST_CASE("a sample without a finite value is marked, the others are not", "[exp
   call.status = status.data();
   call.context = model->context;
   model->kernels()->evaluate(call);
-  CHECK(status == std::vector<std::uint8_t>{0, not_finite, not_finite, 0, 0, 0, 0, not_finite});
+  CHECK(status == std::vector<std::uint8_t>{0, code(Status::not_finite), code(Status::not_finite), 0, 0, 0, 0, code(Status::not_finite)});
 }
 
 TEST_CASE("readouts simulated from conditions, with exact derivatives, and no measurand", "[expression]") {

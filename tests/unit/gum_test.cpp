@@ -9,7 +9,7 @@
 #include "analysis/sobol.h"
 #include "analysis/summary.h"
 #include "base/error.h"
-#include "effects/catalogue.h"
+#include "effects/effect.h"
 #include "propagation/propagate.h"
 
 using namespace gumshoe;

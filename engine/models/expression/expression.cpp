@@ -30,7 +30,7 @@ template <class T> PointOutcome evaluate_point(const PointCall<T>& call) {
   PointOutcome outcome{0, values.kink};
   for (std::size_t m = 0; m < program.outputs.size(); ++m) {
     call.measurands[m] = values.steps[program.outputs[m]];
-    if (!std::isfinite(num::value(call.measurands[m]))) outcome.status = not_finite;
+    if (!std::isfinite(num::value(call.measurands[m]))) outcome.status = code(Status::not_finite);
   }
   return outcome;
 }
@@ -41,7 +41,7 @@ template <class T> PointOutcome simulate_point(const PointCall<T>& call) {
   PointOutcome outcome{0, values.kink};
   for (std::size_t k = 0; k < expression.model.card->indications.size(); ++k) {
     call.simulated[k] = values.steps[expression.simulate.outputs[k]];
-    if (!std::isfinite(num::value(call.simulated[k]))) outcome.status = not_finite;
+    if (!std::isfinite(num::value(call.simulated[k]))) outcome.status = code(Status::not_finite);
   }
   return outcome;
 }

@@ -102,7 +102,7 @@ void finish_output(const Place& place, double* row, std::size_t at, std::size_t 
     bad = xsimd::select(xsimd::abs(Lanes::load_unaligned(row + at + i)) <= largest, bad, Lanes(1.0));
   if (!xsimd::any(bad > Lanes(0.5))) return;
   for (std::size_t i = 0; i < n; ++i)
-    if (!(std::fabs(row[at + i]) <= std::numeric_limits<double>::max())) status[at + i] = not_finite;
+    if (!(std::fabs(row[at + i]) <= std::numeric_limits<double>::max())) status[at + i] = code(Status::not_finite);
 }
 
 void run(const Program& program, const BlockCall& call, const ModelCard& card, std::size_t reading,

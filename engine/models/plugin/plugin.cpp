@@ -69,7 +69,7 @@ void call_plugin(const BlockCall& call, bool simulating) {
              error, sizeof error},
             call.first_sample);
     for (std::size_t i = 0; i < call.samples; ++i)
-      if (failed[i] != 0 && call.status[i] == 0) call.status[i] = model_failed;
+      if (failed[i] != 0 && call.status[i] == 0) call.status[i] = code(Status::model_failed);
     for (std::size_t m = 0; m < measurands; ++m)
       take_shown(card.measurands[m], call.measurands[r * measurands + m], call.samples, call.status);
     for (std::size_t i = 0; simulating && i < indications; ++i)

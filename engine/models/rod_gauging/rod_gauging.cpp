@@ -102,7 +102,7 @@ template <class T> PointOutcome evaluate_point(const PointCall<T>& call) {
     height = chain::differentiable_height(rod::rod(call.quantities, event), rod::beam(call.quantities));
   call.measurands[rod::bottom_height_row] = height.value;
   call.measurands[rod::laser_z_row] = rod::evaluate(call.indications[0], call.quantities, height.value, event);
-  return {static_cast<std::uint8_t>(height.status), height.kink};
+  return {code(height.status), height.kink};
 }
 
 template <class T> PointOutcome simulate_point(const PointCall<T>& call) {
@@ -111,7 +111,7 @@ template <class T> PointOutcome simulate_point(const PointCall<T>& call) {
   const auto event = rod::probing_event<T>(call.quantities, condition, call.effects, call.active);
   const auto height = chain::differentiable_height(rod::rod(call.quantities, event), rod::beam(call.quantities));
   call.simulated[0] = rod::simulate(call.quantities, height.value, event);
-  return {static_cast<std::uint8_t>(height.status), height.kink};
+  return {code(height.status), height.kink};
 }
 
 std::vector<Intermediate> explain(const PointCall<double>& call) {

@@ -6,6 +6,7 @@
 /// the beam's axis at that moment, the axis lies at laser_z = Z'_s - L_r - Z'_d.
 /// Source: Fang 2022, chapter 2 (eq 2.38), solved anew: chain/shadow.h.
 #include "chain/trigger_height.h"
+#include "effects/catalogue.h"
 #include "models/laser_setter.h"
 
 namespace gumshoe::models::rod {

@@ -35,7 +35,7 @@ void solve_group(const Lanes* q, const chain::ProbingEvent<Lanes>& event, double
                                rod.bottom_azimuth.get(l), rod.axis_x.get(l), rod.axis_y.get(l)},
                               {beam.yaw.get(l), beam.pitch.get(l), beam.radius.get(l), beam.fraction.get(l)});
     height[l] = solved.value;
-    if (solved.status != chain::SolveStatus::ok) status[l] = static_cast<std::uint8_t>(solved.status);
+    if (solved.status != Status::ok) status[l] = code(solved.status);
   }
 }
 

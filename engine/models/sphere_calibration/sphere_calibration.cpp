@@ -123,7 +123,7 @@ template <class T> Point<T> point(const PointCall<T>& call) {
   Point<T> p{sphere::contact(variant, call.quantities, links, condition, sphere::is_pattern_II(call.conditions), true,
                              {call.active, call.effects})};
   if (variant == sphere::closed_form && !sphere::has_closed_form(call.conditions))
-    p.status = static_cast<std::uint8_t>(chain::SolveStatus::out_of_domain);
+    p.status = code(Status::out_of_domain);
   return p;
 }
 

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "chain/rotary_probing.h"
+#include "effects/catalogue.h"
 #include "models/model.h"
 #include "models/sphere_calibration/closed_form.h"
 

@@ -29,7 +29,7 @@ void load_effects(const BlockCall& call, std::size_t r, std::size_t i, std::vect
 void mark_without_closed_form(const BlockCall& call, std::size_t i, const Lanes* condition) {
   const auto fine = sphere::has_closed_form(condition);
   for (std::size_t l = 0; l < width; ++l)
-    if (!fine.get(l)) call.status[i + l] = static_cast<std::uint8_t>(chain::SolveStatus::out_of_domain);
+    if (!fine.get(l)) call.status[i + l] = code(Status::out_of_domain);
 }
 
 template <class Finish> void for_each_group(const BlockCall& call, const Finish& finish) {
@@ -137,9 +137,9 @@ void identify(const BlockCall& call) {
     for (std::size_t l = 0; l < width; ++l) {
       std::uint8_t& status = call.status[i + l];
       if (status != 0) continue;
-      const auto failed = !found.finite.get(l)      ? chain::SolveStatus::out_of_domain
-                          : !found.converged.get(l) ? chain::SolveStatus::not_converged
-                                                    : chain::SolveStatus::ok;
+      const auto failed = !found.finite.get(l)      ? Status::out_of_domain
+                          : !found.converged.get(l) ? Status::not_converged
+                                                    : Status::ok;
       status = static_cast<std::uint8_t>(failed);
     }
   }

@@ -18,7 +18,7 @@ namespace {
 constexpr double mm = 1e-3, deg = 3.14159265358979323846 / 180;
 constexpr Limits below_90{-90 * deg, 90 * deg, true, true}, any{-1e3, 1e3};
 constexpr char letters[] = "XYZ";
-constexpr auto out_of_domain = static_cast<std::uint8_t>(chain::SolveStatus::out_of_domain);
+constexpr auto out_of_domain = code(Status::out_of_domain);
 
 const SphereProbing& of(const void* context) { return *static_cast<const SphereProbing*>(context); }
 

@@ -76,7 +76,7 @@ void simulate(const BlockCall& call) {
       store({Lanes(0.0), Lanes(0.0), Lanes(0.0)}, call.measurands + r * measurands, i); // the true deviation
       const auto spans = num::abs(span_of(c.slides)) >= Lanes(least_span);
       for (std::size_t l = 0; l < width; ++l)
-        if (!spans.get(l)) call.status[i + l] = static_cast<std::uint8_t>(chain::SolveStatus::out_of_domain);
+        if (!spans.get(l)) call.status[i + l] = code(Status::out_of_domain);
     }
   }
 }

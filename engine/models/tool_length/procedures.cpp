@@ -140,8 +140,8 @@ struct Results {
     set(first + flute_rows * k + wear_difference_row, longest - length);
     set(first + flute_rows * k + seen_row, seen);
   }
-  void fail(chain::SolveStatus status) const {
-    call.status[sample] = static_cast<std::uint8_t>(status);
+  void fail(Status status) const {
+    call.status[sample] = code(status);
     const std::size_t rows = measurands_in_use(call.evaluation, inserts_.data());
     for (std::size_t m = 0; m < rows; ++m) call.measurands[m][sample] = std::nan("");
   }
@@ -172,7 +172,7 @@ void write_curve(const Results& results, const Reading& reading, const double* l
 
 void evaluate_curve(const Results& results, const std::vector<Reading>& all, const CurveReadings& data) {
   const CurveFit fit = fit_curve(data);
-  if (!fit.converged) return results.fail(chain::SolveStatus::not_converged);
+  if (!fit.converged) return results.fail(Status::not_converged);
   double lengths[chain::most_inserts], effective = -1e300;
   for (int k = 0; k < flutes_of(all[0]); ++k) {
     const auto at = static_cast<std::size_t>(k);
@@ -257,20 +257,20 @@ void simulate_together(const BlockCall& call) {
   for (std::size_t i = 0; i < call.samples; ++i) {
     auto& all = readings.load(i);
     bool seen[chain::most_inserts] = {};
-    auto status = chain::SolveStatus::ok;
+    auto status = Status::ok;
     for (std::size_t r = 0; r < all.size(); ++r) {
       call.simulated[r][i] = std::nan("");
-      if (status != chain::SolveStatus::ok) continue;
+      if (status != Status::ok) continue;
       const auto o = mill::simulate(solver, all[r].point);
       all[r].event = o.event;
       status = o.trigger.height.status;
-      if (status != chain::SolveStatus::ok) continue;
+      if (status != Status::ok) continue;
       seen[o.trigger.insert] = true;
       call.simulated[r][i] = o.spindle_z;
     }
-    if (all[0].q[inserts] != all.back().q[inserts]) status = chain::SolveStatus::out_of_domain;
+    if (all[0].q[inserts] != all.back().q[inserts]) status = Status::out_of_domain;
     const Results results{call, i, {all[0].q, all[0].q + count}};
-    if (status == chain::SolveStatus::ok)
+    if (status == Status::ok)
       write_truth(results, all[0], seen);
     else
       results.fail(status);
@@ -285,8 +285,8 @@ void evaluate_together(const BlockCall& call) {
     const auto& all = readings.load(i);
     const Results results{call, i, {all[0].q, all[0].q + count}};
     if (call.status[i] != 0 || !possible(all)) {
-      results.fail(call.status[i] != 0 ? static_cast<chain::SolveStatus>(call.status[i])
-                                       : chain::SolveStatus::out_of_domain);
+      results.fail(call.status[i] != 0 ? static_cast<Status>(call.status[i])
+                                       : Status::out_of_domain);
     } else if (call.evaluation == peaks) {
       evaluate_peaks(results, all);
     } else if (call.evaluation == characteristic_curve) {
@@ -294,7 +294,7 @@ void evaluate_together(const BlockCall& call) {
       if (prepare(all, curves, data))
         evaluate_curve(results, all, data);
       else
-        results.fail(chain::SolveStatus::never_covered);
+        results.fail(Status::never_covered);
     } else {
       results.set(joint_length_row, all[0].height + least_raise(all[0]));
       results.set(joint_effective_row, all[0].height);

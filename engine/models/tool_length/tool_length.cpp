@@ -111,14 +111,14 @@ template <class T> PointOutcome evaluate_point(const PointCall<T>& call) {
   call.measurands[mill::trigger_height_row] = o.trigger.height.value;
   call.measurands[mill::length_row] = o.length;
   call.measurands[mill::effective_row] = o.effective_length;
-  return {static_cast<std::uint8_t>(o.trigger.height.status), o.trigger.height.kink};
+  return {code(o.trigger.height.status), o.trigger.height.kink};
 }
 
 template <class T> PointOutcome simulate_point(const PointCall<T>& call) {
   thread_local chain::TriggerSolver solver; // remembers the geometry from reading to reading
   const auto o = mill::simulate(solver, call);
   call.simulated[0] = o.spindle_z;
-  return {static_cast<std::uint8_t>(o.trigger.height.status), o.trigger.height.kink};
+  return {code(o.trigger.height.status), o.trigger.height.kink};
 }
 
 std::vector<Intermediate> explain(const PointCall<double>& call) {
@@ -138,7 +138,7 @@ std::vector<Intermediate> explain(const PointCall<double>& call) {
       {"descent per revolution", "mm", 2 * std::numbers::pi * m.drop / mm},
       {"delay from the trigger to the latch", "s", event.latch_delay},
   };
-  if (call.evaluation == mill::full && o.trigger.height.status == chain::SolveStatus::ok) {
+  if (call.evaluation == mill::full && o.trigger.height.status == Status::ok) {
     const auto flute = mill::flute(q, event, o.trigger.insert);
     const double highest = solver.heights(flute.insert, mill::beam(q)).highest().height;
     out.insert(out.end(), {{"highest trigger height of this insert, unworn", "mm", highest / mm},

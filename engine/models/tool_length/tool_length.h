@@ -9,6 +9,7 @@
 
 #include "chain/lagging_feed.h"
 #include "chain/latch.h"
+#include "effects/catalogue.h"
 #include "models/laser_setter.h"
 
 namespace gumshoe::models::mill {
@@ -138,7 +139,7 @@ Trigger<T> trigger(chain::TriggerSolver& solver, const T* q, const double* condi
                              {num::value(m.angle), num::value(m.height), num::value(m.drop)}, num::value(m.lag));
   result.height.status = solved.status;
   result.insert = solved.insert;
-  if (solved.status != chain::SolveStatus::ok) return result;
+  if (solved.status != Status::ok) return result;
   result.turned = chain::differentiable_turned<T>(flute(q, event, solved.insert), beam(q), m, solved);
   result.height.value = m.height_at(result.turned);
   event.latch_delay = chain::delay_of_latch<T>(event.tool, event.latch_delay, &result.turned);
@@ -159,7 +160,7 @@ Outcome<T> outcome_at(chain::TriggerSolver& solver, const T* q, const PointCall<
   for (int i = 0; i < conditions; ++i) condition[i] = T(call.conditions[i]);
   Outcome<T> o{probing_event<T>(q, condition, call.effects, call.active), {}};
   if (impossible(q, call.conditions, o.event))
-    o.trigger.height = {T(std::nan("")), chain::SolveStatus::out_of_domain};
+    o.trigger.height = {T(std::nan("")), Status::out_of_domain};
   else if (with_solve)
     o.trigger = trigger(solver, q, call.conditions, o.event);
   else
@@ -197,7 +198,7 @@ template <class T> Outcome<T> evaluate(chain::TriggerSolver& solver, const Point
   for (int pass = 0, settled = 0; pass < 20; ++pass) {
     o = outcome_at(solver, q, call, call.evaluation == full);
     o.length = chain::actual_of<T>(z, o.event) - q[laser_z] - o.event.tool_growth - o.trigger.height.value;
-    if (call.active.empty() || o.trigger.height.status != chain::SolveStatus::ok) break;
+    if (call.active.empty() || o.trigger.height.status != Status::ok) break;
     const double height = num::value(motion(q, o.event, call.conditions).height);
     q[length] = o.length;
     const Event<T> next = outcome_at(solver, q, call, false).event;

@@ -28,8 +28,8 @@ void for_each_sample(const BlockCall& call, const Solve& solve, const Finish& fi
       double z = call.indications && call.indications[r].data ? load(call.indications[r], i) : 0;
       point.indications = &z;
       const mill::Outcome<double> o = solve(solver, point);
-      if (o.trigger.height.status != chain::SolveStatus::ok)
-        call.status[i] = static_cast<std::uint8_t>(o.trigger.height.status);
+      if (o.trigger.height.status != Status::ok)
+        call.status[i] = code(o.trigger.height.status);
       double* const* rows = call.measurands + r * mill::measurands;
       rows[mill::trigger_height_row][i] = o.trigger.height.value;
       rows[mill::length_row][i] = o.length;

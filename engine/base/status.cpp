@@ -1,10 +1,6 @@
-#include "propagation/run.h"
+#include "base/status.h"
 
-#include "models/model.h"
-
-namespace gumshoe::propagation {
-
-static_assert(static_cast<std::uint8_t>(Status::not_finite) == models::not_finite);
+namespace gumshoe {
 
 const char* status_name(Status status) {
   switch (status) {
@@ -27,4 +23,4 @@ const char* status_name(Status status) {
   }
 }
 
-} // namespace gumshoe::propagation
+} // namespace gumshoe
