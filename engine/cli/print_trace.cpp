@@ -9,7 +9,7 @@
 
 #include "analysis/rounding.h"
 #include "base/units.h"
-#include "tracing/verdict_json.h"
+#include "tracing/findings/verdict_json.h"
 
 namespace gumshoe::cli {
 

@@ -17,8 +17,8 @@
 #include "cli/traced_budgets.h"
 #include "store/result_file.h"
 #include "store/trace_file.h"
-#include "tracing/traced_scenario.h"
-#include "tracing/verdict_json.h"
+#include "tracing/findings/verdict_json.h"
+#include "tracing/scenario_out/traced_scenario.h"
 
 namespace gumshoe::cli {
 

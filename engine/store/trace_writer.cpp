@@ -4,7 +4,7 @@
 
 #include "store/results_writer.h"
 #include "store/table.h"
-#include "tracing/verdict_json.h"
+#include "tracing/findings/verdict_json.h"
 
 namespace gumshoe::store {
 

@@ -7,10 +7,11 @@
 
 #include "base/units.h"
 #include "quantities/cells.h"
-#include "tracing/extended_scenario.h"
-#include "tracing/findings.h"
-#include "tracing/report_rows.h"
-#include "tracing/search.h"
+#include "tracing/candidates/extended_scenario.h"
+#include "tracing/findings/findings.h"
+#include "tracing/findings/report_rows.h"
+#include "tracing/judgement/search.h"
+#include "tracing/scenario_out/composition.h"
 
 namespace gumshoe::tracing {
 namespace {
@@ -110,6 +111,7 @@ Trace trace(const scenario::Scenario& scenario, const Settings& settings) {
   out.vetoed = compare(c, found, out);
   describe_noise(c, found, out);
   collect(c, found, out);
+  if (!out.vetoed) compose(c, found, out);
   speak(out);
   return out;
 }

@@ -8,7 +8,7 @@
 #include "cli/print_trace.h"
 #include "made/full_results.h"
 #include "made/traces.h"
-#include "tracing/verdict_json.h"
+#include "tracing/findings/verdict_json.h"
 
 namespace {
 

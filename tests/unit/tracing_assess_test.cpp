@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "tracing/assess.h"
+#include "tracing/judgement/assess.h"
 #include "unit/tracing_dense.h"
 
 using namespace tracing_dense;

@@ -2,9 +2,9 @@
 /// Scenarios made ready for tracing, with readings that the model itself gives under an effect: free of noise.
 #include <fmt/format.h>
 
-#include "tracing/extended_scenario.h"
-#include "tracing/joint_fit.h"
-#include "tracing/shapes.h"
+#include "tracing/candidates/extended_scenario.h"
+#include "tracing/candidates/shapes.h"
+#include "tracing/fit/joint_fit.h"
 #include "unit/known_case.h"
 
 namespace tracing_case {

@@ -6,7 +6,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
-#include "tracing/scan.h"
+#include "tracing/fit/scan.h"
 
 namespace tracing_dense {
 

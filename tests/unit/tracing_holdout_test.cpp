@@ -3,8 +3,8 @@
 
 #include <boost/math/distributions/normal.hpp>
 
-#include "tracing/holdout.h"
-#include "tracing/interval.h"
+#include "tracing/findings/interval.h"
+#include "tracing/judgement/holdout.h"
 #include "unit/tracing_dense.h"
 
 using namespace tracing_dense;

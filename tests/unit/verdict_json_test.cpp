@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "made/traces.h"
-#include "tracing/verdict_json.h"
+#include "tracing/findings/verdict_json.h"
 
 using namespace gumshoe;
 using namespace gumshoe::tracing;

@@ -1,0 +1,111 @@
+#include "tracing/candidates/candidates.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/units.h"
+#include "tracing/candidates/candidate_families.h"
+#include "tracing/typical_size.h"
+
+namespace gumshoe::tracing {
+namespace {
+
+double alike(const Vector& a, const Vector& b) {
+  const double lengths = a.norm() * b.norm();
+  return lengths > 0 ? a.dot(b) / lengths : 0;
+}
+
+/// One column, in the order of measurement, zero at readings outside the mask.
+Matrix masked(const Observations& o, Matrix one, const std::vector<bool>* mask) {
+  if (mask)
+    for (Index i = 0; i < one.rows(); ++i)
+      if (!(*mask)[static_cast<std::size_t>(i) / o.indications]) one(i, 0) = 0;
+  return in_sequence(o, one);
+}
+
+} // namespace
+
+CandidateMaker::CandidateMaker(const propagation::Experiment& e, const Simulator& s, const Points& p,
+                               const Observations& o, double step, const std::function<bool(const Alternative&)>& skip)
+    : experiment(e), simulator(s), at(p), observations(o), moved(signatures(e, s, p, step)), step_(step), skip_(skip) {}
+
+void CandidateMaker::add(Alternative a, std::vector<Alternative>& family) const {
+  // What a whole SI unit would move by less than a ten-millionth of the noise is rounding, no signature.
+  const double least = 1e-7 * step_ * std::sqrt(static_cast<double>(a.columns.rows()));
+  if (skip_(a) || !(a.columns.norm() > least)) return;
+  for (const Alternative& other : family)
+    if (other.name == a.name && other.columns.cols() == 1 && a.columns.cols() == 1 &&
+        other.amplitudes[0].scenario_name == a.amplitudes[0].scenario_name &&
+        std::fabs(alike(other.columns.col(0), a.columns.col(0))) > 0.9995)
+      return;
+  for (const auto& [label, value] : a.amplitudes[0].labels) a.depends_on.push_back(label);
+  if (a.depends_on.empty()) a.depends_on = dependence(observations, a.columns);
+  family.push_back(std::move(a));
+}
+
+void CandidateMaker::add_single(Alternative a, std::size_t quantity, const std::vector<bool>* mask,
+                                std::vector<Alternative>& family) const {
+  a.columns = masked(observations, moved.tangents.col(static_cast<Index>(quantity)), mask);
+  add(a, family);
+  for (const std::size_t i : {2 * quantity, 2 * quantity + 1}) {
+    if (moved.sizes[i] == 0) continue;
+    Alternative finite = a;
+    finite.columns = masked(observations, moved.secants.col(static_cast<Index>(i)), mask);
+    finite.finite = moved.sizes[i];
+    const Amplitude& s = a.amplitudes[0];
+    finite.shape =
+        fmt::format("over {:+.3g} {}", units::from_si(moved.sizes[i], s.unit, s.si_unit, units::Kind::difference),
+                    s.unit == "1" ? "" : s.unit);
+    add(std::move(finite), family);
+  }
+}
+
+Amplitude CandidateMaker::amplitude(std::size_t quantity, const QuantityCard& card) const {
+  const auto& q = experiment.scenario().quantities[quantity];
+  return {quantity, std::string(card.name), q.unit,           q.si_unit,         q.name,
+          {},       card.limits.low,        card.limits.high, typical_size(card)};
+}
+
+std::vector<Alternative> stated_candidates(const CandidateMaker& make) {
+  const Observations& o = make.observations;
+  std::vector<Alternative> out;
+  for (const auto& effect : make.experiment.scenario().stated_effects) {
+    if (effect.freed) continue;
+    Amplitude size;
+    size.quantity = Amplitude::npos;
+    size.name = "size";
+    size.unit = effect.unit;
+    size.si_unit = effect.si_unit;
+    size.scenario_name = effect.name + ".size";
+    Matrix column = Matrix::Zero(static_cast<Index>(make.simulator.rows()), 1);
+    for (std::size_t r = 0; r < o.readings; ++r)
+      column(static_cast<Index>(r * o.indications + effect.indication), 0) = effect.loading[r];
+    Alternative one;
+    one.family = Family::stated;
+    one.name = effect.name;
+    one.amplitudes = {size};
+    one.columns = in_sequence(o, column);
+    make.add(std::move(one), out);
+  }
+  return out;
+}
+
+const char* name(Family family) {
+  static constexpr const char* names[] = {"effect", "declared", "stated", "shape", "omnibus"};
+  return names[static_cast<int>(family)];
+}
+
+std::vector<Alternative> physical_candidates(const propagation::Experiment& experiment, const Simulator& simulator,
+                                             const Points& at, const Observations& observations, double step,
+                                             const std::function<bool(const Alternative&)>& skip) {
+  const CandidateMaker make(experiment, simulator, at, observations, step, skip);
+  std::vector<Alternative> out = effect_candidates(make);
+  for (const auto family : {declared_candidates, stated_candidates}) {
+    const std::vector<Alternative> more = family(make);
+    out.insert(out.end(), more.begin(), more.end());
+  }
+  return out;
+}
+
+} // namespace gumshoe::tracing

@@ -1,0 +1,103 @@
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "quantities/cells.h"
+#include "tracing/candidates/candidate_families.h"
+
+namespace gumshoe::tracing {
+namespace {
+
+using quantities::InputQuantity;
+using Cell = std::vector<std::pair<std::string, std::string>>;
+
+/// Sets of labels by which a quantity may be off: all readings, then what its entries and scopes tell apart.
+std::vector<std::vector<std::string>> label_sets(const InputQuantity& q) {
+  std::set<std::vector<std::string>> out;
+  const auto add = [&](std::vector<std::string> labels) {
+    std::erase(labels, quantities::reading_label);
+    if (labels.empty()) return;
+    std::sort(labels.begin(), labels.end());
+    for (const std::string& l : labels) out.insert({l});
+    out.insert(labels);
+  };
+  for (const auto& entry : q.entries) {
+    std::vector<std::string> names;
+    for (const auto& [label, value] : entry.labels) names.push_back(label);
+    add(names);
+    for (const auto& c : entry.components) {
+      auto all = names;
+      all.insert(all.end(), c.per.begin(), c.per.end());
+      add(all);
+    }
+  }
+  std::vector<std::vector<std::string>> sets{{}};
+  sets.insert(sets.end(), out.begin(), out.end());
+  return sets;
+}
+
+/// The values that readings have of these labels, together.
+std::set<Cell> cells_of(const scenario::Scenario& s, const std::vector<std::string>& labels) {
+  std::set<Cell> out;
+  for (const auto& reading : s.readings) {
+    Cell cell;
+    for (const std::string& l : labels)
+      if (const std::string* v = quantities::label_value(reading.labels, l)) cell.emplace_back(l, *v);
+    if (cell.size() == labels.size()) out.insert(cell);
+  }
+  return out;
+}
+
+double declared_uncertainty(const InputQuantity& q, const quantities::Labels& labels) {
+  double variance = 0;
+  for (const auto& entry : q.entries)
+    if (quantities::holds_for(entry.labels, labels))
+      for (const auto& c : entry.components) variance += c.distribution.variance();
+  return std::sqrt(variance);
+}
+
+void add_cell(const CandidateMaker& make, std::size_t q, const Cell& cell, std::vector<Alternative>& found) {
+  const auto& s = make.experiment.scenario();
+  const QuantityCard& card = make.experiment.model().card->quantities[q];
+  std::vector<bool> mask;
+  double low = 1e300, high = -1e300;
+  for (std::size_t r = 0; r < s.readings.size(); ++r) {
+    mask.push_back(quantities::holds_for(cell, s.readings[r].labels));
+    if (!mask.back()) continue;
+    low = std::min(low, make.at[r][q]);
+    high = std::max(high, make.at[r][q]);
+  }
+  Alternative one;
+  one.family = Family::declared;
+  one.name = "declared:" + s.quantities[q].name + (cell.empty() ? "" : "[" + quantities::text_of(cell) + "]");
+  one.amplitudes = {make.amplitude(q, card)};
+  one.amplitudes[0].labels = cell;
+  const auto first = std::find(mask.begin(), mask.end(), true);
+  if (first != mask.end())
+    one.amplitudes[0].declared =
+        declared_uncertainty(s.quantities[q], s.readings[static_cast<std::size_t>(first - mask.begin())].labels);
+  one.amplitudes[0].low = card.limits.low - low; // of the shift
+  one.amplitudes[0].high = card.limits.high - high;
+  make.add_single(std::move(one), q, cell.empty() ? nullptr : &mask, found);
+}
+
+} // namespace
+
+std::vector<Alternative> declared_candidates(const CandidateMaker& make) {
+  const auto& s = make.experiment.scenario();
+  std::vector<Alternative> out;
+  for (std::size_t q = 0; q < make.experiment.model_quantities(); ++q) {
+    const InputQuantity& quantity = s.quantities[q];
+    if (quantity.estimated && quantity.entries.front().components.empty()) continue; // free: absorbs itself
+    std::vector<Alternative> found;
+    for (const auto& labels : label_sets(quantity)) {
+      const std::set<Cell> cells = cells_of(s, labels);
+      if (!labels.empty() && (cells.size() < 2 || cells.size() > 60)) continue;
+      for (const Cell& cell : cells) add_cell(make, q, cell, found);
+    }
+    out.insert(out.end(), found.begin(), found.end());
+  }
+  return out;
+}
+
+} // namespace gumshoe::tracing

@@ -1,0 +1,130 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "base/units.h"
+#include "tracing/candidates/candidate_families.h"
+#include "tracing/typical_size.h"
+
+namespace gumshoe::tracing {
+namespace {
+
+/// What is tried together: an amplitude, or both components of a pair.
+struct Group {
+  const EffectCard* effect;
+  std::size_t in_card, first, count; ///< where it starts in the card and among the scenario's quantities
+};
+
+std::vector<Group> groups_of(const propagation::Experiment& e, const effects::Active& active) {
+  const EffectCard& card = *effects::cards()[active.effect];
+  const auto paired = [&](std::size_t i) {
+    return i < card.quantities.size() && card.quantities[i].role == Role::pair;
+  };
+  std::vector<Group> out;
+  for (std::size_t i = 0; i < card.quantities.size(); ++i) {
+    const std::size_t first = e.model_quantities() + active.first + i;
+    if (card.quantities[i].role == Role::amplitude) out.push_back({&card, i, first, 1});
+    if (paired(i) && paired(i + 1)) out.push_back({&card, i++, first, 2});
+  }
+  return out;
+}
+
+/// Without columns yet.
+Alternative alternative(const CandidateMaker& make, const Group& group) {
+  Alternative out;
+  out.name = group.effect->name;
+  for (std::size_t i = 0; i < group.count; ++i)
+    out.amplitudes.push_back(make.amplitude(group.first + i, group.effect->quantities[group.in_card + i]));
+  return out;
+}
+
+/// A component of a pair that moves nothing here is no parameter.
+void drop_still(Alternative& a) {
+  for (Index j = a.columns.cols() - 1; j >= 0 && a.columns.cols() > 1; --j) {
+    if (a.columns.col(j).norm() > 0) continue;
+    const Matrix kept = a.columns.col(1 - j);
+    a.columns = kept;
+    a.amplitudes.erase(a.amplitudes.begin() + j);
+  }
+}
+
+void with_default_shapes(const CandidateMaker& make, std::vector<Alternative>& found) {
+  for (const effects::Active& active : make.experiment.active())
+    for (const Group& group : groups_of(make.experiment, active)) {
+      Alternative one = alternative(make, group);
+      if (group.count == 1) {
+        make.add_single(std::move(one), group.first, nullptr, found);
+        continue;
+      }
+      one.columns = in_sequence(make.observations, make.moved.tangents.middleCols(static_cast<Index>(group.first), 2));
+      drop_still(one);
+      make.add(std::move(one), found);
+    }
+}
+
+/// A shape quantity, the values it is tried at, and what has that shape.
+struct Grid {
+  std::size_t shape;
+  std::vector<double> values;
+  std::vector<Group> groups;
+};
+
+std::vector<Grid> grids_of(const propagation::Experiment& e) {
+  std::vector<Grid> out;
+  for (const effects::Active& active : e.active()) {
+    const auto& card = effects::cards()[active.effect]->quantities;
+    for (std::size_t i = 0; i < card.size(); ++i)
+      if (card[i].role == Role::shape)
+        out.push_back({e.model_quantities() + active.first + i, grid_of(card[i]), groups_of(e, active)});
+  }
+  return out;
+}
+
+/// Amplitudes again with every shape quantity at the other values of its grid; the amplitudes are at null, so all
+/// effects can stand at their next grid value together.
+void with_other_shapes(const CandidateMaker& make, std::vector<Alternative>& found) {
+  const std::vector<Grid> grids = grids_of(make.experiment);
+  std::size_t longest = 0;
+  for (const Grid& grid : grids) longest = std::max(longest, grid.values.size());
+  for (std::size_t g = 1; g < longest; ++g) {
+    Points at = make.at;
+    std::vector<std::size_t> moved;
+    for (const Grid& grid : grids) {
+      if (g >= grid.values.size()) continue;
+      for (auto& p : at) p[grid.shape] = grid.values[g];
+      for (const Group& group : grid.groups)
+        for (std::size_t i = 0; i < group.count; ++i) moved.push_back(group.first + i);
+    }
+    Vector f;
+    Matrix derivative;
+    if (moved.empty() || !make.simulator.derivatives(at, moved, f, derivative)) continue;
+    Index column = 0;
+    for (const Grid& grid : grids) {
+      if (g >= grid.values.size()) continue;
+      const auto& shape = make.experiment.scenario().quantities[grid.shape];
+      for (const Group& group : grid.groups) {
+        Alternative one = alternative(make, group);
+        one.held = {{grid.shape, grid.values[g]}};
+        one.shape =
+            fmt::format("{} {:.3g} {}", shape.name.substr(shape.name.find('.') + 1),
+                        units::from_si(grid.values[g], shape.unit, shape.si_unit), shape.unit == "1" ? "" : shape.unit);
+        const auto count = static_cast<Index>(group.count);
+        one.columns = in_sequence(make.observations, derivative.middleCols(column, count));
+        column += count;
+        drop_still(one);
+        make.add(std::move(one), found);
+      }
+    }
+  }
+}
+
+} // namespace
+
+std::vector<Alternative> effect_candidates(const CandidateMaker& make) {
+  std::vector<Alternative> found;
+  with_default_shapes(make, found);
+  with_other_shapes(make, found);
+  return found;
+}
+
+} // namespace gumshoe::tracing

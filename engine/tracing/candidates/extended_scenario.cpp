@@ -1,0 +1,72 @@
+#include "tracing/candidates/extended_scenario.h"
+
+#include <algorithm>
+
+#include "effects/effect.h"
+
+namespace gumshoe::tracing {
+namespace {
+
+using quantities::InputQuantity;
+using scenario::Scenario;
+
+/// Quantities whose values come from these data ([trace] free): no prior, and tied to nothing.
+void free_again(Scenario& s) {
+  const auto freed = [&](const std::string& name) {
+    return std::any_of(s.trace.free.begin(), s.trace.free.end(), [&](const std::string& q) {
+      return name == q || name.starts_with(q + "[") || name.starts_with(q + ".");
+    });
+  };
+  for (InputQuantity& q : s.quantities) {
+    if (!freed(q.name)) continue;
+    q.estimated = true;
+    for (auto& entry : q.entries) entry.components.clear();
+  }
+  for (auto& c : s.correlations) {
+    const std::size_t n = c.quantities.size();
+    quantities::Correlation kept{c.kind, {}, {}};
+    for (std::size_t i = 0; i < n; ++i) {
+      if (freed(c.quantities[i])) continue;
+      kept.quantities.push_back(c.quantities[i]);
+      for (std::size_t j = 0; j < n; ++j)
+        if (!freed(c.quantities[j])) kept.matrix.push_back(c.matrix[i * n + j]);
+    }
+    c = std::move(kept);
+  }
+  std::erase_if(s.correlations, [](const auto& c) { return c.quantities.size() < 2; });
+}
+
+} // namespace
+
+Scenario extended(const Scenario& s) {
+  Scenario out = s;
+  const models::Model* model = s.made ? s.made.get() : models::find(s.model);
+  const std::size_t first = model->card->quantities.size();
+  std::vector<InputQuantity> effect_quantities;
+  for (const EffectCard* card : effects::cards()) {
+    if (!effects::applies(*model->card, *card)) continue;
+    for (const QuantityCard& q : card->quantities) {
+      const std::string name = std::string(card->name) + "." + std::string(q.name);
+      const auto known =
+          std::find_if(s.quantities.begin(), s.quantities.end(), [&](const auto& x) { return x.name == name; });
+      if (known != s.quantities.end()) {
+        effect_quantities.push_back(*known);
+        continue;
+      }
+      quantities::Entry entry;
+      entry.value = q.default_value;
+      effect_quantities.push_back({name, std::string(q.unit), std::string(q.si_unit), {entry}, false});
+    }
+  }
+  // Model's, effects', noise, sizes of stated effects.
+  std::size_t noise = first;
+  while (noise < s.quantities.size() && s.quantities[noise].name != model->card->indications[0].name) ++noise;
+  out.quantities.assign(s.quantities.begin(), s.quantities.begin() + static_cast<std::ptrdiff_t>(first));
+  out.quantities.insert(out.quantities.end(), effect_quantities.begin(), effect_quantities.end());
+  out.quantities.insert(out.quantities.end(), s.quantities.begin() + static_cast<std::ptrdiff_t>(noise),
+                        s.quantities.end());
+  free_again(out);
+  return out;
+}
+
+} // namespace gumshoe::tracing

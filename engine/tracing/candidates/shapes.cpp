@@ -1,0 +1,199 @@
+#include "tracing/candidates/shapes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+namespace gumshoe::tracing {
+namespace {
+
+/// By reading of the sequence, scaled to [-1, 1].
+Vector scaled(const Observations& o, const Covariate& c) {
+  const double low = c.levels.front(), high = c.levels.back();
+  Vector x(static_cast<Index>(o.readings));
+  for (std::size_t i = 0; i < o.readings; ++i)
+    x[static_cast<Index>(i)] = 2 * (c.value[o.sequence[i]] - low) / (high - low) - 1;
+  return x;
+}
+Vector plain(const Observations& o, const Covariate& c) {
+  Vector x(static_cast<Index>(o.readings));
+  for (std::size_t i = 0; i < o.readings; ++i) x[static_cast<Index>(i)] = c.value[o.sequence[i]];
+  return x;
+}
+
+class Shapes {
+public:
+  explicit Shapes(const Observations& o) : o_(o) {}
+
+  std::vector<Alternative> all() {
+    for (const Covariate& c : o_.covariates) {
+      c.angle ? harmonics(c) : polynomials(c);
+      if (c.name == "time" || c.name == "order") drift(c);
+      if (c.levels.size() > 2 && c.name != "time" && c.name != "order") hysteresis(c);
+    }
+    for (const Grouping& g : o_.labels) steps(g);
+    for (std::size_t i = 0; i < o_.covariates.size(); ++i)
+      for (std::size_t j = i + 1; j < o_.covariates.size(); ++j) product(o_.covariates[i], o_.covariates[j]);
+    for (const Covariate& c : o_.covariates)
+      if (c.levels.size() > 2) {
+        add(Family::omnibus, "omnibus:" + c.name, smooth_basis(o_, c, 5), {c.name});
+        // What rises and falls within a tenth of the range.
+        if (c.levels.size() > 30) add(Family::omnibus, "omnibus:" + c.name, smooth_basis(o_, c, 12), {c.name}, "fine");
+      }
+    // What scatters by a label is a variance component; any pattern of few groups is a shape.
+    const auto scatters = [&](const Grouping& g) {
+      return std::any_of(o_.redone.begin(), o_.redone.end(), [&](const Grouping& r) { return r.group == g.group; });
+    };
+    for (const Grouping& g : o_.labels)
+      if (g.groups.size() > 2 && g.groups.size() <= 12 && !scatters(g)) {
+        Matrix m = Matrix::Zero(static_cast<Index>(o_.readings), static_cast<Index>(g.groups.size()) - 1);
+        for (std::size_t i = 0; i < o_.readings; ++i)
+          if (const std::size_t at = g.group[o_.sequence[i]]; at > 0)
+            m(static_cast<Index>(i), static_cast<Index>(at) - 1) = 1;
+        add(Family::omnibus, "omnibus:" + g.name, m, {g.name});
+      }
+    return std::move(out_);
+  }
+
+private:
+  /// One alternative per indication.
+  void add(Family family, const std::string& name, const Matrix& by_reading, std::vector<std::string> depends_on,
+           const std::string& shape = "") {
+    const auto k = static_cast<Index>(o_.indications);
+    for (Index i = 0; i < k; ++i) {
+      Alternative a;
+      a.family = family;
+      a.name = name + (k > 1 ? " of " + o_.names[static_cast<std::size_t>(i)] : "");
+      a.shape = shape;
+      a.columns = Matrix::Zero(by_reading.rows() * k, by_reading.cols());
+      for (Index r = 0; r < by_reading.rows(); ++r) a.columns.row(r * k + i) = by_reading.row(r);
+      for (Index j = 0; j < by_reading.cols(); ++j) {
+        Amplitude size;
+        size.quantity = Amplitude::npos;
+        size.name = "size";
+        a.amplitudes.push_back(size);
+      }
+      a.depends_on = depends_on;
+      out_.push_back(std::move(a));
+    }
+  }
+
+  void polynomials(const Covariate& c) {
+    const Vector x = scaled(o_, c), raw = plain(o_, c);
+    add(Family::shape, "polynomial:" + c.name, x, {c.name});
+    if (c.levels.size() < 3) return;
+    const double size = std::max(std::fabs(c.levels.front()), std::fabs(c.levels.back()));
+    const Vector y = raw / size;
+    add(Family::shape, "polynomial:" + c.name + "^2", y.array().square(), {c.name});
+    add(Family::shape, "polynomial:" + c.name + "^3", y.array().cube(), {c.name});
+    if (c.levels.front() > 0)
+      add(Family::shape, "polynomial:1/" + c.name, y.array().inverse() * (c.levels.front() / size), {c.name});
+    if (c.levels.size() < 4) return;
+    // About the middle: what is left of a curve when a line is absorbed.
+    add(Family::shape, "polynomial:" + c.name, x.array().square(), {c.name}, "square about the middle");
+  }
+
+  void harmonics(const Covariate& c) {
+    const Vector x = plain(o_, c);
+    const auto most = std::min<std::size_t>(6, (c.levels.size() - 1) / 2);
+    for (std::size_t h = 1; h <= most; ++h) {
+      Matrix pair(x.size(), 2);
+      pair << (x.array() * static_cast<double>(h)).cos(), (x.array() * static_cast<double>(h)).sin();
+      add(Family::shape, fmt::format("harmonic:{}x{}", h, c.name), pair, {c.name});
+    }
+    add(Family::shape, "polynomial:" + c.name, scaled(o_, c), {c.name});
+    if (c.levels.size() > 2)
+      add(Family::shape, "polynomial:" + c.name + "^2", scaled(o_, c).array().square(), {c.name});
+  }
+
+  void drift(const Covariate& c) {
+    const double range = c.levels.back() - c.levels.front();
+    const Vector t = plain(o_, c).array() - c.levels.front();
+    for (const double share : {0.04, 0.1, 0.25, 0.6})
+      add(Family::shape, "drift:" + c.name, 1 - (-t.array() / (share * range)).exp(), {c.name},
+          fmt::format("saturating, {:.3g} of the range", share));
+    for (int i = 1; i < 10; ++i) {
+      const double at = 0.1 * i * range;
+      const Vector step = (t.array() > at).cast<double>();
+      if (step.sum() >= 2 && step.sum() <= static_cast<double>(step.size()) - 2)
+        add(Family::shape, "step:" + c.name, step, {c.name}, fmt::format("after {:.2g} of the range", 0.1 * i));
+    }
+  }
+
+  void hysteresis(const Covariate& c) {
+    const Vector x = plain(o_, c);
+    Vector sign = Vector::Zero(x.size());
+    for (Index i = 1; i < x.size(); ++i) sign[i] = x[i] > x[i - 1] ? 1 : x[i] < x[i - 1] ? -1 : sign[i - 1];
+    // Both ways, more than to start anew.
+    const auto up = (sign.array() > 0).count(), down = (sign.array() < 0).count();
+    if (8 * std::min(up, down) >= std::max(up, down) && std::min(up, down) >= 3)
+      add(Family::shape, "hysteresis:" + c.name, sign, {c.name});
+  }
+
+  void steps(const Grouping& g) {
+    if (g.groups.size() > 30) return;
+    for (std::size_t i = g.groups.size() == 2 ? 1 : 0; i < g.groups.size(); ++i) {
+      Vector one(static_cast<Index>(o_.readings));
+      for (std::size_t r = 0; r < o_.readings; ++r) one[static_cast<Index>(r)] = g.group[o_.sequence[r]] == i ? 1 : 0;
+      add(Family::shape, "step:" + g.groups[i], one, {g.name});
+    }
+  }
+
+  void product(const Covariate& a, const Covariate& b) {
+    const Vector x = scaled(o_, a), y = scaled(o_, b);
+    const Vector cx = x.array() - x.mean(), cy = y.array() - y.mean();
+    if (std::fabs(cx.dot(cy)) > 0.98 * cx.norm() * cy.norm()) return; // one and the same, confounded
+    add(Family::shape, "product:" + a.name + "*" + b.name, cx.cwiseProduct(cy), {a.name, b.name});
+    Matrix surface(x.size(), 0);
+    const Matrix first = smooth_basis(o_, a, 2), second = smooth_basis(o_, b, 2);
+    for (Index i = 0; i < first.cols(); ++i)
+      for (Index j = 0; j < second.cols(); ++j) {
+        surface.conservativeResize(Eigen::NoChange, surface.cols() + 1);
+        surface.rightCols(1) = first.col(i).cwiseProduct(second.col(j));
+      }
+    if (surface.cols() > 1) add(Family::omnibus, "omnibus:" + a.name + "*" + b.name, surface, {a.name, b.name});
+  }
+
+  const Observations& o_;
+  std::vector<Alternative> out_;
+};
+
+} // namespace
+
+Matrix smooth_basis(const Observations& o, const Covariate& c, int most) {
+  const auto n = static_cast<Index>(o.readings);
+  const Vector raw = plain(o, c), x = scaled(o, c);
+  if (static_cast<int>(c.levels.size()) <= most + 1) {
+    Matrix out = Matrix::Zero(n, static_cast<Index>(c.levels.size()) - 1);
+    for (Index i = 0; i < n; ++i)
+      for (std::size_t l = 1; l < c.levels.size(); ++l)
+        if (raw[i] == c.levels[l]) out(i, static_cast<Index>(l) - 1) = 1;
+    return out;
+  }
+  if (c.angle && c.levels.back() - c.levels.front() > 1.5 * std::numbers::pi) {
+    Matrix out(n, 2 * ((most + 1) / 2));
+    for (Index h = 0; h < out.cols() / 2; ++h) {
+      out.col(2 * h) = (raw.array() * static_cast<double>(h + 1)).cos();
+      out.col(2 * h + 1) = (raw.array() * static_cast<double>(h + 1)).sin();
+    }
+    return out;
+  }
+  // Truncated powers: x, x^2, x^3, then (x - knot)^3 at even shares of the levels.
+  Matrix out(n, most);
+  for (Index j = 0; j < most; ++j) {
+    if (j < 3) {
+      out.col(j) = x.array().pow(static_cast<int>(j) + 1);
+      continue;
+    }
+    const std::size_t at = c.levels.size() * static_cast<std::size_t>(j - 2) / static_cast<std::size_t>(most - 2);
+    const double knot = 2 * (c.levels[at] - c.levels.front()) / (c.levels.back() - c.levels.front()) - 1;
+    out.col(j) = (x.array() - knot).max(0).cube();
+  }
+  return out;
+}
+
+std::vector<Alternative> shapes(const Observations& observations) { return Shapes(observations).all(); }
+
+} // namespace gumshoe::tracing

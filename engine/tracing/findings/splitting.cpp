@@ -1,0 +1,148 @@
+#include "tracing/findings/splitting.h"
+
+#include <algorithm>
+#include <numbers>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "base/units.h"
+
+namespace gumshoe::tracing {
+namespace {
+
+using scenario::Scenario;
+
+/// Readings like those of one block, with one condition changed.
+struct Proposal {
+  std::size_t condition = 0;
+  double value = 0; ///< SI; of an angle and of the direction: added, or -1 for "the other way"
+  enum { set, add, reverse } how = set;
+  std::string words;
+};
+
+std::string shown(double si, const VariableCard& card) {
+  const std::string unit(card.unit);
+  return fmt::format("{:.4g}{}", units::from_si(si, unit, std::string(card.si_unit)), unit == "1" ? "" : " " + unit);
+}
+
+std::vector<Proposal> proposals(const ModelCard& card, const Scenario& s) {
+  std::vector<Proposal> out;
+  for (std::size_t c = 0; c < card.conditions.size(); ++c) {
+    const VariableCard& v = card.conditions[c];
+    std::set<double> levels;
+    for (const auto& r : s.readings) levels.insert(r.conditions[c]);
+    const std::string all =
+        levels.size() == 1 ? fmt::format(" (all readings are at {})", shown(*levels.begin(), v)) : "";
+    if (v.name == "direction" || v.name.ends_with("_direction")) {
+      if (levels.size() == 1)
+        out.push_back({c, 0, Proposal::reverse, fmt::format("measure with the other {} too{}", v.name, all)});
+    } else if (v.si_unit == "rad") {
+      for (const double turn : {0.5 * std::numbers::pi, std::numbers::pi})
+        out.push_back({c, turn, Proposal::add,
+                       fmt::format("measure with {} turned by {:.0f} deg too", v.name, turn * 180 / std::numbers::pi)});
+    } else if (v.name == "time") {
+      const double range = *levels.rbegin() - *levels.begin();
+      if (range > 0)
+        out.push_back({c, range, Proposal::add, fmt::format("measure the same again {} later", shown(range, v))});
+    } else if (v.si_unit != "1" && *levels.begin() > 0) {
+      for (const double factor : {0.5, 2.0, 4.0}) {
+        const double value = factor < 1 ? factor * *levels.begin() : factor * *levels.rbegin();
+        out.push_back({c, value, Proposal::set, fmt::format("measure at {} {} too{}", v.name, shown(value, v), all)});
+      }
+    }
+  }
+  return out;
+}
+
+/// The scenario with the readings of one block once more, changed.
+Scenario with(const Scenario& s, const Observations& o, const Proposal& p) {
+  Scenario out = s;
+  const std::size_t first = o.sequence.front();
+  std::size_t added = 0;
+  for (const std::size_t r : o.sequence) {
+    if (o.final[r] || (!o.blocks.groups.empty() && o.blocks.group[r] != o.blocks.group[first])) continue;
+    if (++added > 24) break;
+    auto reading = s.readings[r];
+    double& x = reading.conditions[p.condition];
+    x = p.how == Proposal::set ? p.value : p.how == Proposal::add ? x + p.value : -x;
+    out.readings.push_back(reading);
+    for (auto& column : out.trace.columns) column.values.push_back(column.values[r]);
+    if (!out.trace.order.empty())
+      out.trace.order.push_back(*std::max_element(out.trace.order.begin(), out.trace.order.end()) + 1);
+    for (auto& effect : out.stated_effects) {
+      std::vector<double> columns;
+      for (const auto& column : s.trace.columns) columns.push_back(column.values[r]);
+      effect.loading.push_back(effect.loading_at ? effect.loading_at(reading.conditions, columns) : effect.loading[r]);
+    }
+  }
+  return out;
+}
+
+/// How far apart the members' predictions are in twice the log likelihood, the least of all pairs with the best.
+double apart(const Circumstances& c, const Scenario& scenario, const Search& search, const Step& step) {
+  const propagation::Experiment experiment(scenario);
+  const Observations observations = observe(experiment);
+  const Simulator simulator(experiment, c.threads);
+  std::vector<Index> rows;
+  for (std::size_t i = 0; i < observations.sequence.size(); ++i)
+    if (!observations.final[observations.sequence[i]])
+      for (std::size_t k = 0; k < observations.indications; ++k)
+        rows.push_back(static_cast<Index>(i * observations.indications + k));
+  const Fitter fitter(experiment, simulator, observations, rows, c.threads);
+  const JointFit fit = fitter.linearised(search.found.noise);
+  if (!fit.valid) return 0;
+  std::vector<Term> members{search.found.terms[step.terms[0]]};
+  members.insert(members.end(), step.rivals.begin(), step.rivals.end());
+  const auto wanted = [&](const Alternative& a) {
+    return std::none_of(members.begin(), members.end(), [&](const Term& t) {
+      return t.alternative.name == a.name && t.alternative.shape == a.shape &&
+             t.alternative.amplitudes[0].scenario_name == a.amplitudes[0].scenario_name;
+    });
+  };
+  const auto found =
+      physical_candidates(experiment, simulator, fit.at, observations, 3 * fit.design.reference[0], wanted);
+  std::vector<const Alternative*> pointers;
+  for (const Term& t : members)
+    for (const Alternative& a : found)
+      if (t.alternative.name == a.name && t.alternative.held == a.held && t.alternative.finite == a.finite) {
+        pointers.push_back(&a);
+        break;
+      }
+  if (pointers.size() < 2 || pointers[0]->name != members[0].alternative.name) return 0;
+  const Scan scan(fit.design, rows, pointers, c.threads);
+  double least = 1e300;
+  const Vector signal = pointers[0]->columns * members[0].size;
+  const Whitened& w = scan.whitened(scan.plain());
+  const Vector white = w.whiten(w.take(signal));
+  const double whole = w.left(white)[0];
+  for (std::size_t i = 1; i < pointers.size(); ++i) {
+    const double cosine = scan.correlation(0, i, scan.plain());
+    least = std::min(least, whole * (1 - cosine * cosine));
+  }
+  return least / search.found.variance;
+}
+
+} // namespace
+
+std::string splitting_measurement(const Circumstances& c, const Search& search, const Step& step) {
+  if (step.terms.empty() || step.rivals.empty()) return {};
+  const Scenario& s = c.experiment.scenario();
+  const double now = apart(c, s, search, step);
+  double best = 0;
+  std::string words;
+  for (const Proposal& p : proposals(*c.experiment.model().card, s)) {
+    double d = 0;
+    try {
+      d = apart(c, with(s, c.observations, p), search, step);
+    } catch (const InputError&) { // impossible there
+      continue;
+    }
+    if (d > best) best = d, words = p.words;
+  }
+  // Nine: three standard deviations between the two.
+  if (best < 9 || best < 1.5 * now) return {};
+  return words;
+}
+
+} // namespace gumshoe::tracing

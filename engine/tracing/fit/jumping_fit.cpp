@@ -1,0 +1,147 @@
+/// Fits of a model that jumps, as a turning mill's readings do from tooth to tooth: its likelihood along one size.
+#include <algorithm>
+#include <cmath>
+
+#include "quantities/cells.h"
+#include "tracing/fit/joint_fit.h"
+
+namespace gumshoe::tracing {
+namespace {
+
+/// Sizes tried about the one found, in its standard uncertainty.
+constexpr double reach = 6, spacing = 0.25, coarse = 1.5;
+/// What bends less about straight lines over the sizes jumps by nothing to speak of: in standard deviations of the
+/// noise. What bends more than this share of its movement is mostly jumps: some size would fit anything.
+constexpr double least = 0.1, most = 0.25;
+/// A tangent that differs from the line through the steps by no more than this share of it serves.
+constexpr double straight = 0.1;
+
+bool jumps(const Matrix& f, const std::vector<double>& steps, double noise) {
+  const Eigen::Map<const Vector> x(steps.data(), f.cols());
+  const Vector sizes = x.array() - x.mean();
+  const Matrix moved = f.colwise() - f.rowwise().mean(), line = moved * sizes / sizes.squaredNorm() * sizes.transpose();
+  const double bend = (moved - line).norm();
+  return bend > least * noise * std::sqrt(static_cast<double>(f.size())) && bend < most * line.norm();
+}
+
+} // namespace
+
+/// The likelihood along one size, all else as good as can be.
+struct Fitter::Profile {
+  std::vector<double> steps; ///< from the size found, SI
+  Index here = 0;            ///< the step of none
+  Vector left;               ///< squares, by step
+  double freedom = 0;
+  double u = 0;  ///< by the straight line through the readings over the steps
+  Matrix others; ///< changes of the other columns that go with each step
+  std::vector<Index> columns;
+
+  /// Standard deviation of the likelihood over the steps.
+  double spread() const {
+    const Eigen::Map<const Vector> x(steps.data(), left.size());
+    const Vector weight = (-0.5 * freedom * (left.array() / left.minCoeff()).log()).exp();
+    const double mean = weight.dot(x) / weight.sum();
+    return std::sqrt(weight.dot((x.array() - mean).square().matrix()) / weight.sum());
+  }
+};
+
+std::optional<Fitter::Profile> Fitter::profile(const JointFit& fit, std::size_t term, Index amplitude, double unit,
+                                               Worth worth) const {
+  const Term& t = fit.terms[term];
+  const Amplitude& a = t.alternative.amplitudes[static_cast<std::size_t>(amplitude)];
+  // The tool itself is solved anew for every size: there no more than Gauss-Newton.
+  if (a.quantity == Amplitude::npos || a.quantity < experiment_.model_quantities() || !(unit > 0)) return std::nullopt;
+  Profile out;
+  Matrix f;
+  const auto try_each = [&](double by) {
+    std::vector<Variation> variations;
+    out.steps.clear();
+    for (double step = -reach; step <= reach; step += by)
+      if (const double to = t.size[amplitude] + step * unit; to >= a.low && to <= a.high) {
+        out.steps.push_back(step * unit);
+        variations.push_back({{{a.quantity, step * unit, false}}});
+      }
+    std::vector<bool> valid;
+    simulator_.vary(fit.at, variations, f, valid);
+    return out.steps.size() > 3 && std::find(valid.begin(), valid.end(), false) == valid.end();
+  };
+  const auto line_through = [&] {
+    const Eigen::Map<const Vector> x(out.steps.data(), f.cols());
+    const Vector centred = x.array() - x.mean();
+    return in_sequence(observations_, f * centred / centred.squaredNorm());
+  };
+  const Index own = first_column(fit, term) + amplitude;
+  if (!try_each(coarse)) return std::nullopt;
+  const Matrix line = line_through();
+  if (worth == Worth::jumps ? !jumps(f, out.steps, fit.design.reference[0])
+                            : (line - fit.design.fixed.col(own)).norm() < straight * line.norm())
+    return std::nullopt;
+  if (!try_each(spacing)) return std::nullopt;
+  const auto found = std::find(out.steps.begin(), out.steps.end(), 0.0);
+  if (found == out.steps.end()) return std::nullopt;
+  out.here = found - out.steps.begin();
+  // Beside all other unknowns.
+  Design rest = fit.design;
+  std::vector<Index> others;
+  for (Index j = 0; j < rest.fixed.cols(); ++j)
+    if (j != own) others.push_back(j);
+  rest.fixed = Matrix(fit.design.fixed(Eigen::all, others));
+  const auto use = independent(rest, rows_);
+  const Whitened plain(rest, rows_, use, {}), prior(rest, rows_, use, fit.structure);
+  const Matrix residual = in_sequence(observations_, (-f).colwise() + f.col(out.here).eval()).colwise() + fit.residual;
+  const Matrix white = prior.whiten(plain.winsorised(plain.take(residual)));
+  out.left = prior.left(white);
+  const Matrix through = prior.whiten(prior.take(line_through()));
+  out.u = std::sqrt(fit.variance / through.cwiseProduct(prior.project(through)).sum());
+  out.freedom = static_cast<double>(prior.degrees_of_freedom());
+  for (const Index j : use) out.columns.push_back(others[static_cast<std::size_t>(j)]);
+  out.others = prior.solve_all(Matrix(white.rows(), 0), white).topRows(static_cast<Index>(out.columns.size()));
+  return out;
+}
+
+bool Fitter::explore(JointFit& fit) const {
+  if (fit.terms.empty()) return false;
+  // The others were tried when they came.
+  const std::size_t term = fit.terms.size() - 1;
+  for (Index i = 0; i < fit.terms[term].size.size(); ++i) {
+    const Index own = first_column(fit, term) + i;
+    const auto p = profile(fit, term, i, std::sqrt(fit.covariance(own, own)), Worth::jumps);
+    Index best = 0;
+    if (!p || !(p->left.minCoeff(&best) < p->left[p->here] * (1 - 1e-6))) continue;
+    Vector change = Vector::Zero(fit.design.fixed.cols());
+    for (std::size_t j = 0; j < p->columns.size(); ++j) change[p->columns[j]] = p->others(static_cast<Index>(j), best);
+    change[own] = p->steps[static_cast<std::size_t>(best)];
+    JointFit next = fit;
+    apply(next, change, 1);
+    if (!linearise(next)) continue;
+    fit = std::move(next);
+    return true;
+  }
+  return false;
+}
+
+void Fitter::widen_jumping(JointFit& fit) const {
+  for (std::size_t term = 0; term < fit.terms.size(); ++term)
+    for (Index i = 0; i < fit.terms[term].size.size(); ++i) {
+      const Index own = first_column(fit, term) + i;
+      const double u = std::sqrt(fit.covariance(own, own));
+      // A pattern of jumps that fits pins the size, were all else of the model exact: the line does not rely on that.
+      double unit = u, widened = 0;
+      for (int tries = 0; tries < 6; ++tries) {
+        const auto p = profile(fit, term, i, unit, Worth::tangent_wrong);
+        if (!p) break;
+        widened = std::max(p->u, p->spread());
+        if (p->u > 2 * unit || p->u < 0.5 * unit)
+          unit = p->u; // the tangent's was of another size
+        else if (p->spread() > 0.4 * reach * unit)
+          unit *= 2; // the likelihood reaches beyond
+        else
+          break;
+      }
+      if (!(widened > 0)) continue;
+      fit.covariance.row(own) *= widened / u;
+      fit.covariance.col(own) *= widened / u;
+    }
+}
+
+} // namespace gumshoe::tracing

@@ -1,0 +1,199 @@
+#include "tracing/noise/observations.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "calibration/data.h"
+#include "quantities/cells.h"
+
+namespace gumshoe::tracing {
+namespace {
+
+using scenario::Scenario;
+
+/// Groups are numbered as they are met in the order of measurement.
+Grouping grouping(const Scenario& s, const std::vector<std::size_t>& sequence, const std::vector<std::string>& labels) {
+  Grouping out;
+  out.group.resize(s.readings.size());
+  out.labels = labels;
+  out.name = fmt::format("{}", fmt::join(labels, ","));
+  std::map<std::vector<std::string>, std::size_t> known;
+  for (const std::size_t r : sequence) {
+    std::vector<std::string> values;
+    std::string name;
+    for (const std::string& label : labels) {
+      const std::string* value = quantities::label_value(s.readings[r].labels, label);
+      values.push_back(value ? *value : "");
+      name +=
+          (name.empty() ? "" : ", ") + (values.back().starts_with(label) ? values.back() : label + " " + values.back());
+    }
+    const auto [it, fresh] = known.insert({values, out.groups.size()});
+    if (fresh) out.groups.push_back(name);
+    out.group[r] = it->second;
+  }
+  return out;
+}
+
+std::vector<std::string> label_names(const Scenario& s) {
+  std::vector<std::string> out;
+  for (const auto& [label, value] : s.readings.front().labels) out.push_back(label);
+  return out;
+}
+
+void add_covariate(Observations& o, const std::string& name, const std::string& unit, const std::string& si,
+                   const std::vector<double>& value) {
+  const std::set<double> levels(value.begin(), value.end());
+  if (levels.size() < 2) return;
+  o.covariates.push_back({name, unit, si, value, {levels.begin(), levels.end()}, si == "rad"});
+}
+
+/// Readings in the order of measurement; ties, and data without an order, by what they are and not by where they stand.
+std::vector<std::size_t> sequence_of(const Scenario& s) {
+  std::vector<std::size_t> out(s.readings.size());
+  std::iota(out.begin(), out.end(), 0);
+  if (s.trace.order.empty()) return out;
+  std::sort(out.begin(), out.end(), [&](std::size_t a, std::size_t b) {
+    const auto& x = s.readings[a];
+    const auto& y = s.readings[b];
+    return std::tie(s.trace.order[a], x.labels, x.conditions, x.indications) <
+           std::tie(s.trace.order[b], y.labels, y.conditions, y.indications);
+  });
+  return out;
+}
+
+/// A label that only says under which conditions a reading was taken stands for no act done anew.
+bool says_conditions(const Scenario& s, const Grouping& g) {
+  std::map<std::vector<double>, std::set<std::size_t>> groups;
+  std::set<std::vector<double>> all;
+  for (std::size_t r = 0; r < s.readings.size(); ++r) {
+    groups[s.readings[r].conditions].insert(g.group[r]);
+    all.insert(s.readings[r].conditions);
+  }
+  if (all.size() == s.readings.size()) return false; // every reading differs, by its time say
+  return std::all_of(groups.begin(), groups.end(), [](const auto& c) { return c.second.size() == 1; });
+}
+
+void find_redone(const Scenario& s, Observations& o) {
+  auto sets = s.trace.redone.value_or(std::vector<std::vector<std::string>>{});
+  if (!s.trace.redone) {
+    const auto names = label_names(s);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      sets.push_back({names[i]});
+      for (std::size_t j = i + 1; j < names.size(); ++j) sets.push_back({names[i], names[j]});
+    }
+  }
+  const std::size_t least = s.trace.redone ? 5 : 6;
+  for (const auto& set : sets) {
+    Grouping g = grouping(s, o.sequence, set);
+    if (g.groups.size() < least) {
+      if (s.trace.redone)
+        o.statements.push_back(
+            fmt::format("{} was done {} times only: whether it scatters cannot be told (it takes {})", g.name,
+                        g.groups.size(), least));
+      continue;
+    }
+    if (!s.trace.redone && says_conditions(s, g)) continue;
+    // One reading each: it cannot be told from the noise of a reading.
+    if (g.groups.size() * 5 > s.readings.size() * 4) continue;
+    const bool known =
+        std::any_of(o.redone.begin(), o.redone.end(), [&](const Grouping& h) { return h.group == g.group; });
+    if (!known && o.redone.size() < 3) o.redone.push_back(std::move(g));
+  }
+}
+
+void find_blocks(const Scenario& s, Observations& o) {
+  o.final.assign(o.readings, false);
+  if (s.trace.blocks.empty()) {
+    o.statements.push_back("no label of blocks is stated ([trace] blocks): nothing is held out to the end, and what is "
+                           "found is not confirmed on data that the search has not seen");
+    return;
+  }
+  o.blocks = grouping(s, o.sequence, {s.trace.blocks});
+  const std::size_t count = o.blocks.groups.size();
+  const auto value_of = [&](std::size_t group) {
+    for (std::size_t r = 0; r < o.readings; ++r)
+      if (o.blocks.group[r] == group) return *quantities::label_value(s.readings[r].labels, s.trace.blocks);
+    return std::string();
+  };
+  if (count == 1) {
+    o.statements.push_back(
+        fmt::format("all readings are of one block ({}): nothing can be held out, and whether an effect "
+                    "comes back in another {} cannot be known from these data",
+                    o.blocks.groups[0], s.trace.blocks));
+    return;
+  }
+  std::vector<std::string> chosen = s.trace.final_blocks;
+  if (chosen.empty() && count >= 4) {
+    // The last quarter in the order of measurement.
+    std::vector<std::size_t> met;
+    for (const std::size_t r : o.sequence)
+      if (std::find(met.begin(), met.end(), o.blocks.group[r]) == met.end()) met.push_back(o.blocks.group[r]);
+    for (std::size_t i = count - std::max<std::size_t>(1, count / 4); i < count; ++i)
+      chosen.push_back(value_of(met[i]));
+  }
+  if (chosen.empty() || chosen.size() + 2 > count) {
+    o.statements.push_back(fmt::format("{} blocks are too few to keep some apart to the end: each is left out in turn "
+                                       "instead, and the figures are of data that the search has seen in part",
+                                       count));
+    return;
+  }
+  for (std::size_t r = 0; r < o.readings; ++r)
+    o.final[r] = std::find(chosen.begin(), chosen.end(), value_of(o.blocks.group[r])) != chosen.end();
+  o.final_blocks = chosen;
+}
+
+} // namespace
+
+Matrix in_sequence(const Observations& o, const Matrix& rows) {
+  Matrix out(rows.rows(), rows.cols());
+  const auto k = static_cast<Index>(o.indications);
+  for (std::size_t i = 0; i < o.sequence.size(); ++i)
+    out.middleRows(static_cast<Index>(i) * k, k) = rows.middleRows(static_cast<Index>(o.sequence[i]) * k, k);
+  return out;
+}
+
+Observations observe(const propagation::Experiment& e) {
+  const Scenario& s = e.scenario();
+  const ModelCard& card = *e.model().card;
+  Observations o;
+  o.readings = s.readings.size();
+  o.indications = card.indications.size();
+  for (const auto& i : card.indications) o.names.emplace_back(i.name);
+  for (const auto& r : s.readings) {
+    if (r.indications.size() != o.indications)
+      calibration::refuse(s.file, "there are no readings to trace", "nothing was read",
+                          "[indications.NAME] with readings, or --data?");
+    o.measured.insert(o.measured.end(), r.indications.begin(), r.indications.end());
+  }
+  o.sequence = sequence_of(s);
+  for (std::size_t r = 0; r < o.readings; ++r)
+    o.order.push_back(s.trace.order.empty() ? static_cast<double>(r + 1) : s.trace.order[r]);
+  std::vector<double> one(o.readings);
+  for (std::size_t c = 0; c < card.conditions.size(); ++c) {
+    for (std::size_t r = 0; r < o.readings; ++r) one[r] = s.readings[r].conditions[c];
+    add_covariate(o, std::string(card.conditions[c].name), std::string(card.conditions[c].unit),
+                  std::string(card.conditions[c].si_unit), one);
+  }
+  for (const auto& c : s.trace.columns) add_covariate(o, c.name, c.unit, c.si_unit, c.values);
+  const bool ordered = std::any_of(o.covariates.begin(), o.covariates.end(), [&](const Covariate& c) {
+    return c.name == s.trace.order_name || c.name == "time";
+  });
+  if (!ordered && o.readings > 2) {
+    std::vector<double> rank(o.readings);
+    for (std::size_t i = 0; i < o.readings; ++i) rank[o.sequence[i]] = static_cast<double>(i + 1);
+    add_covariate(o, "order", "1", "1", rank);
+  }
+  for (const std::string& label : label_names(s)) {
+    Grouping g = grouping(s, o.sequence, {label});
+    if (g.groups.size() >= 2 && g.groups.size() < o.readings) o.labels.push_back(std::move(g));
+  }
+  find_redone(s, o);
+  find_blocks(s, o);
+  return o;
+}
+
+} // namespace gumshoe::tracing

@@ -1,0 +1,55 @@
+/// Residuals far out are drawn in, so that an outlier does not decide.
+#include <algorithm>
+#include <cmath>
+
+#include "tracing/noise/design.h"
+
+namespace gumshoe::tracing {
+namespace {
+
+double robust_scale(std::vector<double>& sizes) {
+  const auto at = [&](double share) {
+    const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(sizes.size()));
+    std::nth_element(sizes.begin(), sizes.begin() + rank, sizes.end());
+    return sizes[static_cast<std::size_t>(rank)];
+  };
+  const double half = at(0.5) / 0.6744897501960817, most = at(0.9) / 1.6448536269514722;
+  // Half the residuals equal but for rounding, as readouts in steps may be: those that differ tell the scale.
+  return half > 1e-8 * most ? half : most;
+}
+
+} // namespace
+
+Matrix Whitened::winsorised(const Matrix& residuals, Vector* scale, Matrix* weight) const {
+  Matrix white = whiten(residuals);
+  const Matrix left = project(white);
+  const auto freedom = static_cast<double>(degrees_of_freedom());
+  const double lost = freedom / static_cast<double>(residuals.rows());
+  if (scale) scale->resize(residuals.cols());
+  if (weight) *weight = Matrix::Ones(residuals.rows(), residuals.cols());
+  std::vector<double> sizes(static_cast<std::size_t>(residuals.rows()));
+  const auto k = static_cast<Index>(design_.indications);
+  for (Index j = 0; j < residuals.cols(); ++j) {
+    for (Index i = 0; i < residuals.rows(); ++i) sizes[static_cast<std::size_t>(i)] = std::fabs(left(i, j));
+    const double s = robust_scale(sizes) / std::sqrt(lost);
+    const double rms = std::sqrt(left.col(j).squaredNorm() / freedom);
+    // Nearly all equal: no robust scale.
+    const double used = s > 1e-9 * rms ? s : rms;
+    if (scale) (*scale)[j] = used;
+    for (Index i = 0; i < residuals.rows(); ++i) {
+      const double size = std::fabs(left(i, j)), bound = far_out * used;
+      if (size <= bound) continue;
+      white(i, j) -= left(i, j) * (1 - bound / size);
+      if (weight) (*weight)(i, j) = bound / size;
+    }
+  }
+  // Back to the readings' own units.
+  Matrix out = white;
+  for (Index i = 0; i < out.rows(); i += k) {
+    const auto place = static_cast<std::size_t>(rows_[static_cast<std::size_t>(i)]) / design_.indications;
+    out.middleRows(i, k) = (design_.local[place].triangularView<Eigen::Lower>() * white.middleRows(i, k)).eval();
+  }
+  return out;
+}
+
+} // namespace gumshoe::tracing

@@ -1,0 +1,100 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "tracing/scenario_out/composition.h"
+
+namespace gumshoe::tracing {
+namespace {
+
+class Components {
+public:
+  Components(const Circumstances& c, const Search& s, Trace& out) : c_(c), fit_(s.found), out_(out) {}
+
+  /// Of an indication's noise. Readings of different noise share no draw: there it is drawn for each.
+  void of_noise(std::size_t indication, double u, std::vector<std::string> per, std::string source) {
+    const auto& card = c_.experiment.model().card->indications[indication];
+    if (!(u > 0)) return;
+    for (const auto& q : out_.extended.quantities)
+      if (q.name == card.name && q.entries.size() > 1 && per != std::vector<std::string>{"reading"}) {
+        per = {"reading"};
+        source += "; drawn for each reading, since their declared noise differs";
+      }
+    out_.additions.push_back({std::string(card.name), card.si_unit == "m" ? "um" : std::string(card.unit),
+                              std::string(card.si_unit), u, std::move(per), std::move(source)});
+  }
+
+  void scatter(const Step& step, const Finding& f) {
+    const auto& d = fit_.design;
+    std::string source = fmt::format("scatter by {}, p = {:.2g}", fmt::join(f.depends_on, " and "), f.p_value);
+    if (step.component < 0) {
+      // The noise is larger than declared: what is missing in its square.
+      const double scale = fit_.noise * std::sqrt(fit_.variance);
+      for (std::size_t i = 0; i < d.indications; ++i)
+        of_noise(i, d.reference[i] / fit_.noise * std::sqrt(std::max(0.0, scale * scale - 1)), {"reading"}, source);
+      return;
+    }
+    if (f.quantities.empty()) return;
+    const double u = f.quantities[0].value;
+    if (f.quantities[0].low95 < f.quantities[0].high95)
+      source += fmt::format("; 95 % interval of u in the indication [{:.3g}, {:.3g}] {}", f.quantities[0].low95,
+                            f.quantities[0].high95, f.quantities[0].si_unit);
+    if (const double loading = d.indications == 1 ? reclamp() : 0; loading > 0) {
+      out_.additions.push_back({"reclamp.shift", "um", "m", u / loading, f.depends_on, source});
+      return;
+    }
+    const bool one = fit_.structure.scatter == step.component && fit_.structure.indication >= 0;
+    const auto only = one ? static_cast<std::size_t>(fit_.structure.indication) : 0;
+    for (std::size_t i = 0; i < d.indications; ++i)
+      if (!one || i == only) of_noise(i, u * d.reference[i] / d.reference[only], f.depends_on, source);
+  }
+
+  void not_in_catalogue(const Step& step, const Finding& f, const std::vector<Vector>& left) {
+    std::vector<std::string> per{"reading"};
+    for (const Grouping& g : c_.observations.labels)
+      if (f.depends_on == std::vector<std::string>{g.name}) per = {g.name};
+    for (std::size_t i = 0; i < fit_.design.indications; ++i) {
+      double square = 0, count = 0;
+      for (const Index row : c_.fitter.rows()) {
+        if (static_cast<std::size_t>(row) % fit_.design.indications != i) continue;
+        double sum = 0;
+        for (const std::size_t t : step.terms) sum += left[t][row];
+        square += sum * sum;
+        ++count;
+      }
+      of_noise(
+          i, std::sqrt(square / count), per,
+          fmt::format("not in the catalogue, p = {:.2g}: depends on {}; not corrected (JCGM 100:2008, F.2.4.5), u is "
+                      "the root mean square of what was found",
+                      f.p_value, fmt::join(f.depends_on, " and ")));
+    }
+  }
+
+private:
+  /// Change of the indication with the seat of a clamping, if the scenario lacks that effect; else 0.
+  double reclamp() const {
+    const auto seat = seat_at_null(c_.experiment);
+    Vector f;
+    Matrix derivative;
+    if (!seat || !c_.simulator.derivatives(fit_.at, {*seat}, f, derivative)) return 0;
+    return std::sqrt(derivative.squaredNorm() / static_cast<double>(derivative.rows()));
+  }
+
+  const Circumstances& c_;
+  const JointFit& fit_;
+  Trace& out_;
+};
+
+} // namespace
+
+void add_components(const Circumstances& c, const Search& s, const std::vector<Vector>& left, Trace& out) {
+  Components components(c, s, out);
+  for (std::size_t i = 0; i < s.steps.size() && i < out.findings.size(); ++i) {
+    if (s.steps[i].kind == Kind::scatter) components.scatter(s.steps[i], out.findings[i]);
+    if (s.steps[i].kind == Kind::not_in_catalogue) components.not_in_catalogue(s.steps[i], out.findings[i], left);
+  }
+}
+
+} // namespace gumshoe::tracing

@@ -1,0 +1,259 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+#include <Eigen/QR>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "analysis/rounding.h"
+#include "base/units.h"
+#include "quantities/cells.h"
+#include "tracing/scenario_out/composition.h"
+
+namespace gumshoe::tracing {
+namespace {
+
+using quantities::Labels;
+
+/// A parameter with its column among the fit's fixed ones; -1: held, exact.
+struct Line {
+  calibration::Unknown unknown;
+  double value = 0;
+  Index column = -1;
+  Taken taken;
+};
+
+/// To the place that `u` asks for.
+std::string number(double si, double u, const std::string& unit, const std::string& si_unit, units::Kind kind) {
+  const double shown = units::from_si(u, unit, si_unit, units::Kind::difference);
+  return analysis::fixed(units::from_si(si, unit, si_unit, kind), shown > 0 ? analysis::decimals_for(shown) : 6);
+}
+
+class Composer {
+public:
+  Composer(const Circumstances& c, const Search& s, Trace& out) : c_(c), s_(s), out_(out), fit_(s.found) {}
+
+  void compose() {
+    c_.fitter.settle(fit_);
+    absorb_shapes();
+    constants();
+    bool any = false;
+    for (std::size_t t = 0; t < fit_.terms.size(); ++t) any = term(t) || any;
+    add_components(c_, s_, left_, out_);
+    if (any || !out_.additions.empty()) write();
+  }
+
+private:
+  /// What is not in the catalogue is not corrected: as far as free unknowns can follow it they do.
+  void absorb_shapes() {
+    const auto n = fit_.design.fixed.rows(), p = static_cast<Index>(c_.fitter.unknowns().size());
+    absorbed_ = Vector::Zero(p);
+    std::vector<Index> all(static_cast<std::size_t>(n));
+    for (Index i = 0; i < n; ++i) all[static_cast<std::size_t>(i)] = i;
+    Design own = fit_.design;
+    own.fixed = Matrix(fit_.design.fixed.leftCols(p));
+    const auto use = independent(own, all);
+    Vector scale(n);
+    for (Index i = 0; i < n; ++i) scale[i] = 1 / own.reference[static_cast<std::size_t>(i) % own.indications];
+    const Matrix free = own.fixed(Eigen::all, use);
+    const Whitened plain(own, all, use, Structure{});
+    for (const Term& t : fit_.terms) {
+      left_.emplace_back(Vector::Zero(n));
+      if (!t.alternative.amplitudes[0].scenario_name.empty()) continue;
+      left_.back() = t.alternative.columns * t.size;
+      if (use.empty()) continue;
+      const Vector x = (scale.asDiagonal() * free).colPivHouseholderQr().solve(scale.asDiagonal() * left_.back());
+      left_.back() -= free * x;
+      for (std::size_t i = 0; i < use.size(); ++i) absorbed_[use[i]] += x[static_cast<Index>(i)];
+    }
+  }
+
+  calibration::Unknown unknown(std::size_t quantity, std::size_t entry) const {
+    const auto& q = out_.extended.quantities[quantity];
+    Labels labels = q.entries[entry].labels;
+    std::sort(labels.begin(), labels.end()); // as draws are named
+    calibration::Unknown u;
+    u.name = q.name + (labels.empty() ? "" : "[" + quantities::text_of(labels) + "]");
+    u.quantity = quantity;
+    u.entry = entry;
+    u.unit = q.unit;
+    u.si_unit = q.si_unit;
+    return u;
+  }
+
+  /// At the first reading for which an entry holds.
+  double value_at(std::size_t quantity, const Labels& labels) const {
+    for (std::size_t r = 0; r < fit_.at.size(); ++r)
+      if (quantities::holds_for(labels, c_.experiment.scenario().readings[r].labels)) return fit_.at[r][quantity];
+    return 0;
+  }
+
+  /// The data's own constants.
+  void constants() {
+    for (std::size_t u = 0; u < c_.fitter.unknowns().size(); ++u) {
+      const FreeUnknown& free = c_.fitter.unknowns()[u];
+      const auto column = static_cast<Index>(u);
+      if (!std::isfinite(fit_.covariance(column, column))) continue;
+      const auto& entry = out_.extended.quantities[free.quantity].entries[free.entry];
+      lines_.push_back({unknown(free.quantity, free.entry),
+                        value_at(free.quantity, entry.labels) + absorbed_[column],
+                        column,
+                        {true, entry.labels, "fitted to these readings beside what was found"}});
+    }
+  }
+
+  const Finding* finding_of(std::size_t term) const {
+    for (std::size_t i = 0; i < s_.steps.size() && i < out_.findings.size(); ++i)
+      if (std::find(s_.steps[i].terms.begin(), s_.steps[i].terms.end(), term) != s_.steps[i].terms.end())
+        return &out_.findings[i];
+    return nullptr;
+  }
+
+  /// False if it is a description only.
+  bool term(std::size_t t) {
+    const Term& one = fit_.terms[t];
+    if (one.alternative.amplitudes[0].scenario_name.empty()) return false;
+    const Finding* f = finding_of(t);
+    for (const auto& [shape, value] : one.alternative.held)
+      lines_.push_back({unknown(shape, 0), value, -1, {false, {}, "held: of the values tried the best"}});
+    for (std::size_t j = 0; j < one.alternative.amplitudes.size(); ++j) {
+      const Amplitude& a = one.alternative.amplitudes[j];
+      const Index column = first_column(fit_, t) + static_cast<Index>(j);
+      const std::string source = f ? source_of(*f, a) : "";
+      if (f && f->spread > 0) widen(*f, t, static_cast<Index>(j), column);
+      if (a.quantity == Amplitude::npos)
+        lines_.push_back({unknown(stated(a), 0), one.size[static_cast<Index>(j)], column, {false, {}, source}});
+      else
+        shifted(a, column, source);
+    }
+    return true;
+  }
+
+  /// The members' predictions differ: the size is no better known than that (JCGM 100, F.2.4.5, in its spirit).
+  void widen(const Finding& f, std::size_t t, Index j, Index column) {
+    double square = 0;
+    for (const Index row : c_.fitter.rows())
+      square += fit_.terms[t].alternative.columns(row, j) * fit_.terms[t].alternative.columns(row, j);
+    if (!(square > 0)) return;
+    fit_.covariance(column, column) += f.spread * f.spread * static_cast<double>(c_.fitter.rows().size()) / square;
+  }
+
+  std::string source_of(const Finding& f, const Amplitude& a) const {
+    std::string out = fmt::format("{}, p = {:.2g}", name(f.kind), f.p_value);
+    if (f.kind == Kind::equivalence_class)
+      out += fmt::format(" of {}, which these data cannot tell apart: the first is written, u widened by how much they "
+                         "differ",
+                         fmt::join(f.members, ", "));
+    for (const SizedQuantity& q : f.quantities) {
+      if (q.scenario_name != a.scenario_name) continue;
+      const bool shift = q.name.starts_with("shift of ");
+      const auto kind =
+          shift || a.quantity == Amplitude::npos || c_.experiment.scenario().quantities[a.quantity].unit != q.unit
+              ? units::Kind::difference
+              : units::Kind::point;
+      out += fmt::format("; 95 % interval{} [{}, {}]{}, {}", shift ? " of the shift" : "",
+                         number(q.low95, q.u, q.unit, q.si_unit, kind), number(q.high95, q.u, q.unit, q.si_unit, kind),
+                         q.unit == "1" ? "" : " " + q.unit,
+                         f.quantities.size() == 1 ? "which allows for the search as u, of the fit, does not"
+                                                  : "of the fit as u is");
+    }
+    return out;
+  }
+
+  /// The size of a stated effect, which a scenario without it does not count among its quantities.
+  std::size_t stated(const Amplitude& a) {
+    auto& quantities = out_.extended.quantities;
+    for (std::size_t q = 0; q < quantities.size(); ++q)
+      if (quantities[q].name == a.scenario_name) return q;
+    quantities.push_back({a.scenario_name, a.unit, a.si_unit, {quantities::Entry{}}, true});
+    return quantities.size() - 1;
+  }
+
+  /// A quantity of model or effect: every entry that the shift moves. One that holds for more readings is taken apart.
+  void shifted(const Amplitude& a, Index column, const std::string& source) {
+    auto& entries = out_.extended.quantities[a.quantity].entries;
+    std::vector<quantities::Entry> apart;
+    for (const auto& entry : entries) {
+      Labels missing;
+      for (const auto& label : a.labels)
+        if (!quantities::label_value(entry.labels, label.first)) missing.push_back(label);
+      if (missing.empty()) {
+        apart.push_back(entry);
+        continue;
+      }
+      for (const auto& component : entry.components)
+        if (std::any_of(missing.begin(), missing.end(), [&](const auto& l) {
+              return std::find(component.per.begin(), component.per.end(), l.first) == component.per.end();
+            }))
+          out_.statements.push_back(
+              fmt::format("in the traced scenario {} has values by label, and what is declared of "
+                          "all at once counts for each apart",
+                          out_.extended.quantities[a.quantity].name));
+      std::set<Labels> seen;
+      for (const auto& reading : c_.experiment.scenario().readings) {
+        if (!quantities::holds_for(entry.labels, reading.labels)) continue;
+        quantities::Entry own = entry;
+        for (const auto& [label, value] : missing)
+          if (const std::string* here = quantities::label_value(reading.labels, label))
+            own.labels.emplace_back(label, *here);
+        if (seen.insert(own.labels).second) apart.push_back(std::move(own));
+      }
+    }
+    entries = std::move(apart);
+    for (std::size_t e = 0; e < entries.size(); ++e) {
+      if (!quantities::holds_for(a.labels, entries[e].labels)) continue;
+      const double value = value_at(a.quantity, entries[e].labels);
+      const Line line{unknown(a.quantity, e), value, column, {false, a.labels, source}};
+      // Found off twice, for all and for some: the later shift comes on top, and the value holds both.
+      const auto known =
+          std::ranges::find_if(lines_, [&](const Line& l) { return l.unknown.name == line.unknown.name; });
+      if (known != lines_.end()) {
+        known->column = column;
+        known->taken = line.taken;
+      } else {
+        lines_.push_back(line);
+      }
+    }
+  }
+
+  void write() {
+    const std::size_t n = lines_.size();
+    calibration::Estimate& e = out_.estimate;
+    e.noise_declared = true; // u as found, no degrees of freedom
+    e.covariance.assign(n * n, 0);
+    e.correlation.assign(n * n, 0);
+    const auto u = [&](const Line& l) { return l.column < 0 ? 0 : std::sqrt(fit_.covariance(l.column, l.column)); };
+    for (std::size_t i = 0; i < n; ++i) {
+      e.parameters.push_back({lines_[i].unknown, lines_[i].value, u(lines_[i]), false});
+      out_.taken.push_back(lines_[i].taken);
+      out_.extended.quantities[lines_[i].unknown.quantity].estimated = true;
+      for (std::size_t j = 0; j < n; ++j) {
+        if (lines_[i].column < 0 || lines_[j].column < 0) continue;
+        // Symmetric to the last bit.
+        const double covariance = (fit_.covariance(lines_[i].column, lines_[j].column) +
+                                   fit_.covariance(lines_[j].column, lines_[i].column)) /
+                                  2;
+        e.covariance[i * n + j] = covariance;
+        e.correlation[i * n + j] = i == j ? 1 : std::clamp(covariance / (u(lines_[i]) * u(lines_[j])), -1.0, 1.0);
+      }
+    }
+    for (const Row& row : out_.rows)
+      if (!row.final) e.rows.push_back({row.reading, row.indication});
+  }
+
+  const Circumstances& c_;
+  const Search& s_;
+  Trace& out_;
+  JointFit fit_;
+  Vector absorbed_;          ///< by unknown: what it takes of shapes
+  std::vector<Vector> left_; ///< by term: what no unknown takes
+  std::vector<Line> lines_;
+};
+
+} // namespace
+
+void compose(const Circumstances& c, const Search& s, Trace& out) { Composer(c, s, out).compose(); }
+
+} // namespace gumshoe::tracing

@@ -1,0 +1,193 @@
+#include "tracing/scenario_out/traced_scenario.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "calibration/scenario_text.h"
+
+namespace gumshoe::tracing {
+namespace {
+
+using calibration::find_member;
+using calibration::measure_node;
+using calibration::member;
+using calibration::text_node;
+using scenario::Member;
+using scenario::Node;
+
+/// Draws of equal size that are one and the same are tied this closely: a factor of their matrix must exist.
+constexpr double almost_one = 1 - 1e-9;
+
+std::set<std::string> names(const quantities::Labels& labels) {
+  std::set<std::string> out;
+  for (const auto& [label, value] : labels) out.insert(label);
+  return out;
+}
+
+/// Whether a component of an entry is drawn for just the readings that the shift moves: that is what was found off.
+bool replaced(Node& component, const quantities::Labels& entry, const quantities::Labels& shift) {
+  std::set<std::string> cell = names(entry);
+  if (Node* per = find_member(component, "per")) {
+    if (per->kind == Node::Kind::text) cell.insert(per->text);
+    for (const Node& item : per->items) cell.insert(item.text);
+  }
+  return cell == names(shift);
+}
+
+/// What is declared beside it stays.
+std::vector<Node> kept(Node& leaf, const quantities::Labels& entry, const quantities::Labels& shift) {
+  std::vector<Node> all;
+  if (Node* components = find_member(leaf, "components")) {
+    all = components->items;
+  } else if (leaf.kind == Node::Kind::table) {
+    Node one = leaf;
+    for (const char* key : {"value", "unit", "estimated"}) calibration::erase_member(one, key);
+    const bool uncertain =
+        std::ranges::any_of(one.members, [](const Member& m) { return m.key != "source" && m.key != "evaluation"; });
+    if (uncertain) all.push_back(std::move(one));
+  }
+  std::erase_if(all, [&](Node& component) { return replaced(component, entry, shift); });
+  return all;
+}
+
+std::string free_name(const std::vector<Node>& components) {
+  const auto taken = [&](const std::string& name) {
+    return std::ranges::any_of(components, [&](Node c) {
+      const Node* own = find_member(c, "name");
+      return own && own->text == name;
+    });
+  };
+  std::string name = "trace";
+  for (int i = 2; taken(name); ++i) name = fmt::format("trace_{}", i);
+  return name;
+}
+
+class Writer {
+public:
+  Writer(const scenario::Scenario& s, const Trace& t, const std::string& folder)
+      : s_(s), t_(t), text_(s, folder),
+        origin_(fmt::format("gumshoe trace of {}, {} readings, hash of scenario and data {}",
+                            std::filesystem::path(s.file).filename().string(), training(), s.hash)) {}
+
+  std::string write() {
+    for (std::size_t i = 0; i < t_.estimate.parameters.size(); ++i) parameter(i);
+    finish_constants();
+    tie();
+    for (const Addition& a : t_.additions) add(a);
+    return text_.text(origin_);
+  }
+
+private:
+  std::size_t training() const {
+    std::set<std::size_t> readings;
+    for (const Row& row : t_.rows)
+      if (!row.final) readings.insert(row.reading);
+    return readings.size();
+  }
+
+  std::string source(const std::string& what) const { return what + "; " + origin_; }
+
+  void parameter(std::size_t i) {
+    const calibration::Parameter& p = t_.estimate.parameters[i];
+    const Taken& taken = t_.taken[i];
+    const auto& quantity = t_.extended.quantities[p.unknown.quantity];
+    const auto& labels = quantity.entries[p.unknown.entry].labels;
+    Node& place = text_.entry(quantity.name, labels);
+    auto components = kept(place, labels, taken.labels);
+    if (taken.own) constants_.insert(quantity.name);
+    Node own;
+    const Node u = measure_node(p.standard_uncertainty, p.unknown.unit, p.unknown.si_unit, true);
+    own.members = {
+        {"u", 0, 0, u}, {"evaluation", 0, 0, text_node("A")}, {"source", 0, 0, text_node(source(taken.source))}};
+    Node known;
+    known.members = {{"value", 0, 0, measure_node(p.value, p.unknown.unit, p.unknown.si_unit, false)}};
+    std::string draw = p.unknown.name;
+    if (!(p.standard_uncertainty > 0)) {
+      known.members.push_back(own.members.back());
+    } else if (components.empty()) {
+      known.members.insert(known.members.end(), own.members.begin(), own.members.end());
+    } else {
+      const std::string name = free_name(components);
+      own.members.insert(own.members.begin(), {"name", 0, 0, text_node(name)});
+      components.push_back(std::move(own));
+      known.members.push_back({"components", 0, 0, calibration::list_node(std::move(components))});
+      draw += (labels.empty() ? "." : ": ") + name;
+    }
+    place = std::move(known);
+    if (p.standard_uncertainty > 0) {
+      uncertain_.push_back(i);
+      draws_.push_back(draw);
+    }
+  }
+
+  /// Known now, and free again when traced. A quantity with a value left that the data do not determine stays marked.
+  void finish_constants() {
+    if (constants_.empty()) return;
+    Node& free = member(member(text_.document(), "trace"), "free");
+    if (free.kind == Node::Kind::text) free = calibration::list_node({free});
+    free.kind = Node::Kind::array;
+    for (const std::string& name : constants_) {
+      if (std::ranges::none_of(free.items, [&](const Node& n) { return n.text == name; }))
+        free.items.push_back(text_node(name));
+      std::size_t entries = 0, known = 0;
+      for (std::size_t q = 0; q < t_.extended.quantities.size(); ++q) {
+        if (t_.extended.quantities[q].name != name) continue;
+        entries = t_.extended.quantities[q].entries.size();
+        for (const auto& p : t_.estimate.parameters) known += p.unknown.quantity == q;
+      }
+      if (known == entries) calibration::erase_member(text_.quantity(name), "estimated");
+    }
+  }
+
+  void tie() {
+    const std::size_t n = uncertain_.size(), all = t_.estimate.parameters.size();
+    if (n < 2) return;
+    std::vector<double> matrix;
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j) {
+        const double r = t_.estimate.correlation[uncertain_[i] * all + uncertain_[j]];
+        matrix.push_back(i == j ? 1 : almost_one * r);
+      }
+    text_.tie(draws_, matrix, source("estimated together"));
+  }
+
+  void add(const Addition& a) {
+    const bool noise = a.quantity.find('.') == std::string::npos;
+    std::vector<Node> per;
+    for (const std::string& label : a.per) per.push_back(text_node(label));
+    Node one;
+    one.members = {{"u", 0, 0, measure_node(a.u, a.unit, a.si_unit, true)},
+                   {"per", 0, 0, per.size() == 1 ? per[0] : calibration::list_node(per)},
+                   {"evaluation", 0, 0, text_node("A")},
+                   {"source", 0, 0, text_node(source(a.source))}};
+    if (!noise) {
+      one.members.insert(one.members.begin(), {"value", 0, 0, measure_node(0, a.unit, a.si_unit, false)});
+      text_.quantity(a.quantity) = std::move(one);
+      return;
+    }
+    Node& components = member(member(member(text_.document(), "indications"), a.quantity), "components");
+    components.kind = Node::Kind::array;
+    one.members.insert(one.members.begin(), {"name", 0, 0, text_node(free_name(components.items))});
+    components.items.push_back(std::move(one));
+  }
+
+  const scenario::Scenario& s_;
+  const Trace& t_;
+  calibration::ScenarioText text_;
+  std::string origin_;
+  std::set<std::string> constants_;
+  std::vector<std::size_t> uncertain_; ///< parameters
+  std::vector<std::string> draws_;
+};
+
+} // namespace
+
+std::string traced_scenario(const scenario::Scenario& scenario, const Trace& trace, const std::string& folder) {
+  if (trace.vetoed || (trace.estimate.parameters.empty() && trace.additions.empty())) return {};
+  return Writer(scenario, trace, folder).write();
+}
+
+} // namespace gumshoe::tracing
