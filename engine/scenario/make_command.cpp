@@ -2,7 +2,7 @@
 
 #include "models/command/command.h"
 #include "scenario/declared.h"
-#include "scenario/made_model.h"
+#include "scenario/made_models.h"
 
 namespace gumshoe::scenario {
 namespace {
@@ -58,7 +58,8 @@ void require_plain(const std::vector<Symbol>& symbols, const Table& model) {
 
 } // namespace
 
-models::MadeModel make_command(Table& model, Table& top, const std::string& folder, Context& context) {
+models::MadeModel make_command(const MadeModelSource& source) {
+  auto& [model, top, folder, context] = source;
   const std::size_t before = context.problems.size();
   models::CommandSpec spec;
   spec.folder = folder;

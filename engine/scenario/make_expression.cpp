@@ -5,7 +5,7 @@
 
 #include "models/expression/expression.h"
 #include "scenario/declared.h"
-#include "scenario/made_model.h"
+#include "scenario/made_models.h"
 
 namespace gumshoe::scenario {
 namespace {
@@ -48,7 +48,8 @@ std::vector<formula::Stated> read_formulas(Table& model, const char* key, bool w
 
 } // namespace
 
-models::MadeModel make_expression(Table& model, Table& top, Context& context) {
+models::MadeModel make_expression(const MadeModelSource& source) {
+  auto& [model, top, folder, context] = source;
   const std::size_t before = context.problems.size();
   formula::Statement s;
   s.intermediates = read_formulas(model, "intermediates", false);
