@@ -9,7 +9,7 @@
 #include "base/units.h"
 #include "cli/command.h"
 #include "effects/effect.h"
-#include "scenario/made_model.h"
+#include "scenario/made_models.h"
 
 namespace gumshoe::cli {
 
@@ -163,14 +163,15 @@ template <class Body> void add(CLI::App& app, const char* name, const char* help
 void add_models(CLI::App& app, Action& action) {
   add(app, "models", "lists the models, or one model's card: quantities, units, defaults, limits, meaning, source",
       action, [](const Options& o) {
-        if (std::ranges::find(scenario::made_models, o.name) != std::end(scenario::made_models))
+        const auto made = scenario::made_models();
+        if (std::ranges::find(made, o.name, &scenario::MadeModelRow::name) != made.end())
           throw InputError("'" + o.name + "' has no card of its own", "its quantities follow from the scenario",
                            "see engine/models/" + o.name + "/README.md?");
         const ExitCode code = show(catalogue().models, "model", o.name, o.format);
-        if (o.name.empty() && o.format == "text")
-          std::cout << "A scenario can also state its model: name = \"expression\" (formulas), \"plugin\" (a shared "
-                       "library), \"command\" (a program) or \"sphere_probing\" (a sphere on the machine of "
-                       "[machine]); see scenarios/README.md.\n";
+        if (o.name.empty() && o.format == "text") {
+          std::cout << "A scenario can also state its model (see scenarios/README.md):\n";
+          for (const auto& row : made) std::cout << fmt::format("  {:<15} {}\n", row.name, row.what);
+        }
         return code;
       });
 }

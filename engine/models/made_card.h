@@ -4,19 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "base/card.h"
+#include "base/symbol.h"
 
 namespace gumshoe::models {
-
-/// A name with its unit, as a scenario or a plugin declares it.
-struct Symbol {
-  std::string name;
-  std::string unit;    ///< shown to people
-  std::string si_unit; ///< used inside
-  std::string meaning;
-  double default_value = 0; ///< SI
-  Limits limits{-1e300, 1e300};
-};
 
 struct CardTexts {
   std::string name, title, summary, source;

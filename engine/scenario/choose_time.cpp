@@ -4,17 +4,11 @@
 
 #include <fmt/format.h>
 
-#include "models/expression/interpreter.h"
+#include "formula/interpreter.h"
 
 namespace gumshoe::scenario {
 
-namespace expression = models::expression;
-
 namespace {
-
-const expression::Expression& of(const models::MadeModel& model) {
-  return *static_cast<const expression::Expression*>(model->context);
-}
 
 /// A formula as text, and where it stands; from the card: nowhere.
 struct Written {
@@ -30,8 +24,8 @@ double TimeModel::value(std::size_t formula, const std::vector<double>& quantiti
   for (const std::size_t i : quantities_) q.push_back(quantities[i]);
   q.insert(q.end(), constants_.begin(), constants_.end());
   q.push_back(static_cast<double>(readings));
-  const expression::Program& program = of(formulas_).evaluate;
-  const auto values = expression::interpret<double>(program, {q.data(), reading.conditions.data(), nullptr});
+  const formula::Program& program = formulas_.evaluate;
+  const auto values = formula::interpret<double>(program, {q.data(), reading.conditions.data(), nullptr});
   return values.steps[program.outputs[formula]];
 }
 
@@ -73,7 +67,7 @@ private:
   void names() {
     for (std::size_t i = 0; i < model_.quantities.size(); ++i) {
       const QuantityCard& q = model_.quantities[i];
-      if (!expression::is_name(q.name)) continue;
+      if (!formula::is_name(q.name)) continue;
       named_.push_back(i);
       symbols_.push_back({std::string(q.name), std::string(q.unit), std::string(q.si_unit), ""});
     }
@@ -99,10 +93,10 @@ private:
     if (m.key == "per_reading" || m.key == "once" || std::ranges::any_of(model_.timing, is_it)) return;
     const std::string path = "choose.time." + m.key;
     if (m.key == "readings" || std::ranges::any_of(model_.conditions, is_it) ||
-        std::ranges::any_of(model_.quantities, is_it) || !expression::is_name(m.key)) {
+        std::ranges::any_of(model_.quantities, is_it) || !formula::is_name(m.key)) {
       problems_.add(m.line, m.column,
                     fmt::format("{}: {}", path,
-                                expression::is_name(m.key) ? "the name has a meaning already"
+                                formula::is_name(m.key) ? "the name has a meaning already"
                                                            : "no name that a formula can write"));
       return;
     }
@@ -127,11 +121,11 @@ private:
 
   std::shared_ptr<const TimeModel> of_evaluation(const EvaluationCard& card) {
     auto out = std::make_shared<TimeModel>();
-    expression::Statement statement;
+    formula::Statement statement;
     const auto add = [&](const char* name, Written formula, std::string_view from_card) {
       if (formula.text.empty()) formula.text = from_card;
       if (formula.text.empty()) return -1;
-      expression::Stated stated;
+      formula::Stated stated;
       stated.formula.name = std::string("choose.time.") + name;
       stated.formula.text = formula.text;
       stated.formula.where = formula.where;
@@ -150,8 +144,8 @@ private:
       statement.conditions.push_back({std::string(c.name), std::string(c.unit), std::string(c.si_unit), ""});
     try {
       std::vector<std::string> ignored; // what no formula uses
-      out->formulas_ = expression::make(std::move(statement), ignored);
-      require_times(of(out->formulas_));
+      out->formulas_ = formula::compile(std::move(statement), ignored);
+      require_times(out->formulas_);
     } catch (const InputError& error) {
       for (Problem p : error.problems()) {
         if (p.where.file.empty()) p.where = {problems_.file(), choose_.line, choose_.column};
@@ -165,7 +159,7 @@ private:
     return out;
   }
 
-  static void require_times(const expression::Expression& e) {
+  static void require_times(const formula::Compiled& e) {
     for (std::size_t i = 0; i < e.explained.size(); ++i)
       if (!units::convertible(e.explained[i].unit, "s"))
         throw InputError({e.formulas[i].problem(
@@ -178,7 +172,7 @@ private:
   const ModelCard& model_;
   Problems& problems_;
   Written per_reading_, once_;
-  std::vector<models::Symbol> symbols_;
+  std::vector<Symbol> symbols_;
   std::vector<std::size_t> named_;
   std::vector<double> constants_;
 };

@@ -1,6 +1,6 @@
 #pragma once
 /// How long measuring takes: formulas of the expression language, from the model's card or from [choose.time].
-#include "models/expression/expression.h"
+#include "formula/compile.h"
 #include "scenario/choose_options.h"
 #include "scenario/context.h"
 #include "scenario/scenario.h"
@@ -20,7 +20,7 @@ private:
   friend class TimeReader;
   double value(std::size_t formula, const std::vector<double>& quantities, const quantities::Reading& reading,
                std::size_t readings) const;
-  models::MadeModel formulas_;          ///< null: none
+  formula::Compiled formulas_;
   std::vector<std::size_t> quantities_; ///< positions of those that formulas can name
   std::vector<double> constants_;       ///< SI, after them
   int per_reading_ = -1, once_ = -1;    ///< of the formulas; -1: none

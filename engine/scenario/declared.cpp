@@ -33,8 +33,8 @@ std::string first_unit(const Node& node) {
   return "";
 }
 
-std::vector<models::Symbol> symbols(Table& top, const char* key, Problems& problems) {
-  std::vector<models::Symbol> out;
+std::vector<Symbol> symbols(Table& top, const char* key, Problems& problems) {
+  std::vector<Symbol> out;
   auto table = top.table(key);
   if (!table) return out;
   for (const Member& m : table->members()) {
@@ -51,7 +51,7 @@ std::vector<models::Symbol> symbols(Table& top, const char* key, Problems& probl
 }
 
 /// Conditions that only readouts name: readings = { file, ..., conditions.x = { column, unit } }.
-void add_conditions_of_files(Table& top, std::vector<models::Symbol>& conditions, Problems& problems) {
+void add_conditions_of_files(Table& top, std::vector<Symbol>& conditions, Problems& problems) {
   const auto member = [](const Node& node, std::string_view key) -> const Node* {
     for (const Member& m : node.members)
       if (m.key == key) return &m.value;
@@ -64,7 +64,7 @@ void add_conditions_of_files(Table& top, std::vector<models::Symbol>& conditions
     const Node* named = readings ? member(*readings, "conditions") : nullptr;
     if (!named) continue;
     for (const Member& m : named->members) {
-      if (std::ranges::find(conditions, m.key, &models::Symbol::name) != conditions.end()) continue;
+      if (std::ranges::find(conditions, m.key, &Symbol::name) != conditions.end()) continue;
       const std::string unit = declared_unit(m.value);
       try {
         conditions.push_back({m.key, unit, units::si_unit_of(unit), ""});

@@ -2,13 +2,13 @@
 /// Names and units that a scenario itself declares, for models that have no card of their own (expressions, commands).
 #include <vector>
 
-#include "models/made_card.h"
+#include "base/symbol.h"
 #include "scenario/context.h"
 
 namespace gumshoe::scenario {
 
 struct Declared {
-  std::vector<models::Symbol> quantities, conditions, indications;
+  std::vector<Symbol> quantities, conditions, indications;
 };
 
 /// The keys of [quantities], [conditions] (and conditions that are columns of data files) and [indications]. A unit is the key `unit` of the entry, or the first

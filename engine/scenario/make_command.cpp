@@ -2,7 +2,7 @@
 
 #include "models/command/command.h"
 #include "scenario/declared.h"
-#include "scenario/made_model.h"
+#include "scenario/made_models.h"
 
 namespace gumshoe::scenario {
 namespace {
@@ -21,13 +21,13 @@ std::vector<std::string> read_words(Table& model, Problems& problems) {
 }
 
 /// y = "mm", or y = { unit = "mm", meaning = "..." }
-std::vector<models::Symbol> read_measurands(Table& model, Problems& problems) {
-  std::vector<models::Symbol> out;
+std::vector<Symbol> read_measurands(Table& model, Problems& problems) {
+  std::vector<Symbol> out;
   if (!model.require("measurands", "[model.measurands] with name = unit?")) return out;
   auto table = model.table("measurands");
   if (!table) return out;
   for (const Member& m : table->members()) {
-    models::Symbol s{m.key, "1", "1", ""};
+    Symbol s{m.key, "1", "1", ""};
     if (m.value.kind == Node::Kind::table) {
       Table own(m.value, table->path(m.key), problems);
       s.unit = own.text("unit").value_or("1");
@@ -49,8 +49,8 @@ std::vector<models::Symbol> read_measurands(Table& model, Problems& problems) {
 }
 
 /// The name of a column in the tables that go and come.
-void require_plain(const std::vector<models::Symbol>& symbols, const Table& model) {
-  for (const models::Symbol& s : symbols)
+void require_plain(const std::vector<Symbol>& symbols, const Table& model) {
+  for (const Symbol& s : symbols)
     if (s.name.find_first_of("(),\"\n\r") != std::string::npos)
       model.add(fmt::format("model: '{}' cannot be a column's name", s.name),
                 "brackets, commas and quotes part columns");
@@ -58,7 +58,8 @@ void require_plain(const std::vector<models::Symbol>& symbols, const Table& mode
 
 } // namespace
 
-models::MadeModel make_command(Table& model, Table& top, const std::string& folder, Context& context) {
+models::MadeModel make_command(const MadeModelSource& source) {
+  auto& [model, top, folder, context] = source;
   const std::size_t before = context.problems.size();
   models::CommandSpec spec;
   spec.folder = folder;

@@ -5,18 +5,16 @@
 
 #include "models/expression/expression.h"
 #include "scenario/declared.h"
-#include "scenario/made_model.h"
+#include "scenario/made_models.h"
 
 namespace gumshoe::scenario {
 namespace {
 
-namespace expression = models::expression;
-
 /// Of the text's first character; the node lies at its quote.
 Location place_of(const Node& node, const std::string& file) { return {file, node.line, node.column + 1}; }
 
-expression::Stated read_formula(const Node& node, const std::string& path, bool with_unit, Problems& problems) {
-  expression::Stated out;
+formula::Stated read_formula(const Node& node, const std::string& path, bool with_unit, Problems& problems) {
+  formula::Stated out;
   out.formula.name = path;
   if (node.kind == Node::Kind::table && with_unit) {
     Table table(node, path, problems);
@@ -40,8 +38,8 @@ expression::Stated read_formula(const Node& node, const std::string& path, bool 
   return out;
 }
 
-std::vector<expression::Stated> read_formulas(Table& model, const char* key, bool with_unit) {
-  std::vector<expression::Stated> out;
+std::vector<formula::Stated> read_formulas(Table& model, const char* key, bool with_unit) {
+  std::vector<formula::Stated> out;
   if (auto table = model.table(key))
     for (const Member& m : table->members())
       out.push_back(read_formula(m.value, table->path(m.key), with_unit, model.problems()));
@@ -50,9 +48,10 @@ std::vector<expression::Stated> read_formulas(Table& model, const char* key, boo
 
 } // namespace
 
-models::MadeModel make_expression(Table& model, Table& top, Context& context) {
+models::MadeModel make_expression(const MadeModelSource& source) {
+  auto& [model, top, folder, context] = source;
   const std::size_t before = context.problems.size();
-  expression::Statement s;
+  formula::Statement s;
   s.intermediates = read_formulas(model, "intermediates", false);
   s.measurands = read_formulas(model, "measurands", true);
   s.simulated = read_formulas(model, "indications", false);
@@ -62,16 +61,16 @@ models::MadeModel make_expression(Table& model, Table& top, Context& context) {
   s.indications = std::move(declared.indications);
   for (const auto& f : s.simulated) { // readouts may be missing, in a virtual experiment
     const std::string name = f.formula.name.substr(f.formula.name.rfind('.') + 1);
-    if (std::ranges::find(s.indications, name, &models::Symbol::name) == s.indications.end())
+    if (std::ranges::find(s.indications, name, &Symbol::name) == s.indications.end())
       s.indications.push_back({name, "", "", ""});
   }
   const Node* method = model.find("method");
-  s.virtual_experiment = method && method->text == "virtual_experiment";
   if (s.measurands.empty() && s.simulated.empty())
     model.add("model: no formula", "an expression states what is measured", "[model.measurands] y = \"a + b\"?");
   if (context.problems.size() != before) return nullptr;
   try {
-    return expression::make(std::move(s), context.notes);
+    return models::expression::make(std::move(s), context.notes,
+                                    method && method->text == "virtual_experiment");
   } catch (const InputError& error) {
     for (Problem p : error.problems()) {
       if (p.where.file.empty()) p.where = {context.problems.file(), model.node().line, model.node().column};

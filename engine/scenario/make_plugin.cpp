@@ -1,11 +1,12 @@
 #include <filesystem>
 
 #include "models/plugin/plugin.h"
-#include "scenario/made_model.h"
+#include "scenario/made_models.h"
 
 namespace gumshoe::scenario {
 
-models::MadeModel make_plugin(Table& model, const std::string& folder, Context& context) {
+models::MadeModel make_plugin(const MadeModelSource& source) {
+  auto& [model, top, folder, context] = source;
   const Node* node = model.require("library", "library = \"libmine.so\"?");
   const auto library = model.text("library");
   if (!library) return nullptr;

@@ -2,11 +2,12 @@
 
 #include "models/sphere_probing/sphere_probing.h"
 #include "scenario/machine.h"
-#include "scenario/made_model.h"
+#include "scenario/made_models.h"
 
 namespace gumshoe::scenario {
 
-models::MadeModel make_sphere_probing(Table& top, Context& context) {
+models::MadeModel make_sphere_probing(const MadeModelSource& source) {
+  auto& [model, top, folder, context] = source;
   const auto machine = read_machine(top, context.problems);
   if (!machine) return nullptr;
   if (const std::string why = models::probing::unreachable(*machine); !why.empty()) {

@@ -10,7 +10,7 @@
 #include "scenario/choose.h"
 #include "scenario/conditions.h"
 #include "scenario/expected.h"
-#include "scenario/made_model.h"
+#include "scenario/made_models.h"
 #include "scenario/noise.h"
 #include "scenario/options.h"
 #include "scenario/quantity.h"
@@ -102,17 +102,16 @@ private:
     if (!top.require("model", "[model] with a name?")) return nullptr;
     auto table = top.table("model");
     if (!table) return nullptr;
-    std::vector<std::string> names;
-    for (const ModelCard* m : catalogue_.models) names.emplace_back(m->name);
-    names.insert(names.end(), std::begin(made_models), std::end(made_models));
-    const auto index = table->require("name") ? table->choice("name", names) : std::nullopt;
+    const auto index =
+        table->require("name") ? table->choice("name", model_names(catalogue_.models)) : std::nullopt;
     if (const auto method = table->choice("method", {"propagation", "virtual_experiment"}))
       out_.method = static_cast<Method>(*method);
     const ModelCard* model = nullptr;
     if (index && *index < catalogue_.models.size()) {
       model = catalogue_.models[*index];
     } else if (index) {
-      out_.made = make(names[*index], *table, top);
+      const std::string folder = std::filesystem::path(out_.file).parent_path().string();
+      out_.made = made_models()[*index - catalogue_.models.size()].make({*table, top, folder, context_});
       if (!out_.made) { // nothing below has a meaning without its model
         table->refuse_unknown();
         problems_.raise();
@@ -130,14 +129,6 @@ private:
       out_.evaluation = evaluations[*e];
     table->refuse_unknown();
     return model;
-  }
-
-  models::MadeModel make(const std::string& name, Table& table, Table& top) {
-    const std::string folder = std::filesystem::path(out_.file).parent_path().string();
-    if (name == "expression") return make_expression(table, top, context_);
-    if (name == "plugin") return make_plugin(table, folder, context_);
-    if (name == "sphere_probing") return make_sphere_probing(top, context_);
-    return make_command(table, top, folder, context_);
   }
 
   void read_readings(Table& top, const ModelCard& model) {

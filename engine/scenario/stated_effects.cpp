@@ -6,13 +6,11 @@
 #include <fmt/format.h>
 
 #include "base/dimension.h"
-#include "models/expression/expression.h"
-#include "models/expression/interpreter.h"
+#include "formula/compile.h"
+#include "formula/interpreter.h"
 #include "scenario/quantity.h"
 
 namespace gumshoe::scenario {
-
-namespace expression = models::expression;
 
 namespace {
 
@@ -57,7 +55,7 @@ private:
     if (std::ranges::any_of(scope_.model.quantities, is_it)) owner = "a quantity of the model";
     if (!owner.empty())
       table_.add(fmt::format("{}: {} has this name", table_.path(), owner), "a name means one thing", "another name?");
-    else if (!expression::is_name(out_.name))
+    else if (!formula::is_name(out_.name))
       table_.add(table_.path() + ": no name for an effect", "letters, digits and _, no digit first");
   }
 
@@ -88,27 +86,28 @@ private:
 
   void compute() {
     const Node& node = *table_.find("formula");
-    expression::Stated stated;
+    formula::Stated stated;
     stated.formula = {table_.path(), out_.formula, {problems_.file(), node.line, node.column + 1}, {}};
     try {
-      expression::parse(stated.formula);
+      formula::parse(stated.formula);
       names(stated.formula);
       stated.formula.nodes.clear();
-      expression::Statement statement;
+      formula::Statement statement;
       for (const VariableCard& c : scope_.model.conditions)
         statement.conditions.push_back({std::string(c.name), std::string(c.unit), std::string(c.si_unit), ""});
       for (const TraceColumn& c : scope_.columns) statement.conditions.push_back({c.name, c.unit, c.si_unit, ""});
       statement.measurands.push_back(std::move(stated));
       std::vector<std::string> ignored;
-      const models::MadeModel made = expression::make(std::move(statement), ignored);
-      const auto& e = *static_cast<const expression::Expression*>(made->context);
+      const auto compiled =
+          std::make_shared<const formula::Compiled>(formula::compile(std::move(statement), ignored));
+      const formula::Compiled& e = *compiled;
       fits(e);
-      out_.loading_at = [made](const std::vector<double>& conditions, const std::vector<double>& columns) {
-        const expression::Program& program = static_cast<const expression::Expression*>(made->context)->evaluate;
+      out_.loading_at = [compiled](const std::vector<double>& conditions, const std::vector<double>& columns) {
+        const formula::Program& program = compiled->evaluate;
         std::vector<double> known = conditions;
         known.insert(known.end(), columns.begin(), columns.end());
         const double none = 0; // the formula reads no quantity and no indication
-        return expression::interpret<double>(program, {&none, known.data(), &none}).steps[program.outputs[0]];
+        return formula::interpret<double>(program, {&none, known.data(), &none}).steps[program.outputs[0]];
       };
       if (std::ranges::all_of(scope_.columns, [&](const auto& c) { return c.values.size() == scope_.readings.size(); }))
         load(e);
@@ -121,16 +120,16 @@ private:
   }
 
   /// Only what was commanded or recorded beside the readings.
-  void names(const expression::Formula& f) {
+  void names(const formula::Formula& f) {
     std::vector<Problem> found;
     std::vector<std::string> known;
     for (const VariableCard& c : scope_.model.conditions) known.emplace_back(c.name);
     for (const TraceColumn& c : scope_.columns) known.push_back(c.name);
-    for (const expression::Node& n : f.nodes) {
+    for (const formula::Node& n : f.nodes) {
       const auto is_it = [&](const auto& card) { return card.name == n.name; };
-      out_.of_columns |= n.operation == expression::Operation::name && std::ranges::any_of(scope_.columns, is_it);
-      if (n.operation != expression::Operation::name || std::ranges::find(known, n.name) != known.end() ||
-          expression::find_constant(n.name))
+      out_.of_columns |= n.operation == formula::Operation::name && std::ranges::any_of(scope_.columns, is_it);
+      if (n.operation != formula::Operation::name || std::ranges::find(known, n.name) != known.end() ||
+          formula::find_constant(n.name))
         continue;
       if (std::ranges::any_of(scope_.model.indications, is_it))
         found.push_back(f.problem(n.at, fmt::format("'{}' is an indication", n.name),
@@ -148,7 +147,7 @@ private:
   }
 
   /// Size times formula is what the indication is.
-  void fits(const expression::Expression& e) const {
+  void fits(const formula::Compiled& e) const {
     const VariableCard& card = scope_.model.indications[out_.indication];
     const gumshoe::Dimension formula = gumshoe::Dimension::of(e.explained[0].unit),
                              size = gumshoe::Dimension::of(out_.unit),
@@ -162,7 +161,7 @@ private:
         right.has_unit() ? fmt::format("unit = \"{}\"?", right.si_unit()) : "")});
   }
 
-  void load(const expression::Expression& e) {
+  void load(const formula::Compiled& e) {
     bool any = false;
     for (std::size_t r = 0; r < scope_.readings.size(); ++r) {
       std::vector<double> columns;

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "models/expression/formula.h"
+#include "formula/formula.h"
 
 namespace gumshoe::scenario {
 namespace {
@@ -43,7 +43,7 @@ private:
 
   bool writable(const Member& m) {
     const auto is_it = [&](const auto& card) { return card.name == m.key; };
-    if (!models::expression::is_name(m.key))
+    if (!formula::is_name(m.key))
       refuse(m, "no name that a formula can write", "letters, digits and _, no digit first");
     else if (std::ranges::any_of(scope_.model.conditions, is_it) ||
              std::ranges::any_of(scope_.model.indications, is_it) ||

@@ -12,9 +12,9 @@ using namespace gumshoe;
 constexpr std::size_t block = 4096;
 
 models::MadeModel model_of(const std::vector<std::string>& names, const std::string& text) {
-  models::expression::Statement s;
+  formula::Statement s;
   for (const auto& name : names) s.quantities.push_back({name, "1", "1", ""});
-  models::expression::Stated f;
+  formula::Stated f;
   f.formula.name = "y";
   f.formula.text = text;
   s.measurands.push_back(f);

@@ -34,10 +34,10 @@ std::string at(int column, const std::string& rest) {
 }
 
 MadeModel model_of(const std::vector<std::string>& names, const std::vector<std::string>& formulas) {
-  expression::Statement s;
+  formula::Statement s;
   for (const auto& name : names) s.quantities.push_back({name, "1", "1", ""});
   for (const auto& text : formulas) {
-    expression::Stated f;
+    formula::Stated f;
     f.formula.name = "y" + std::to_string(s.measurands.size());
     f.formula.text = text;
     s.measurands.push_back(f);

@@ -2,11 +2,13 @@
 #include <algorithm>
 #include <limits>
 
+#include "formula/interpreter.h"
 #include "models/expression/expression.h"
-#include "models/expression/interpreter.h"
 
 namespace gumshoe::models::expression {
 namespace {
+
+using formula::Program, formula::Source, formula::Step;
 
 constexpr std::size_t width = Lanes::size, widest = 8;
 constexpr std::size_t first_cache = 24 * 1024; ///< bytes for registers, leaving room for columns
@@ -39,7 +41,7 @@ void loop(const F& f, double* out, const double* a, std::size_t sa, const double
 void compute(const Step& s, double* out, const Place& a, const Place& b, std::size_t at, std::size_t n) {
   const double* pa = a.data + (a.follows_block ? at : 0);
   const double* pb = b.data + (b.follows_block ? at : 0);
-  with_function<Lanes>(s.operation, [&](const auto& f) { loop(f, out, pa, a.stride, pb, b.stride, n); });
+  formula::with_function<Lanes>(s.operation, [&](const auto& f) { loop(f, out, pa, a.stride, pb, b.stride, n); });
 }
 
 Column column_of(const BlockCall& call, const ModelCard& card, std::size_t reading, const Step& s) {
@@ -127,7 +129,7 @@ void evaluate(const BlockCall& call) {
   const auto& expression = *static_cast<const Expression*>(call.context);
   const ModelCard& card = *expression.model.card;
   for (std::size_t r = 0; r < call.readings; ++r)
-    run(expression.evaluate, call, card, r, call.measurands + r * card.measurands.size());
+    run(expression.formulas.evaluate, call, card, r, call.measurands + r * card.measurands.size());
 }
 
 void simulate(const BlockCall& call) {
@@ -139,7 +141,7 @@ void simulate(const BlockCall& call) {
   for (std::size_t r = 0; r < call.readings; ++r) {
     std::copy_n(call.simulated + r * k, k, rows.begin());
     std::copy_n(call.measurands + r * m, m, rows.begin() + static_cast<std::ptrdiff_t>(k));
-    run(expression.simulate, call, card, r, rows.data());
+    run(expression.formulas.simulate, call, card, r, rows.data());
   }
 }
 

@@ -1,9 +1,9 @@
 #pragma once
 /// Do the formulas' dimensions fit together, and which do the results have?
 #include "base/dimension.h"
-#include "models/expression/resolve.h"
+#include "formula/resolve.h"
 
-namespace gumshoe::models::expression {
+namespace gumshoe::formula {
 
 /// What is known of a formula's value before any number is drawn.
 struct Kind {
@@ -17,4 +17,4 @@ struct Kind {
 std::vector<Kind> kinds_of(const std::vector<Formula>& formulas, const std::vector<std::size_t>& order,
                            const Names& names, bool simulating, std::vector<Problem>& problems);
 
-} // namespace gumshoe::models::expression
+} // namespace gumshoe::formula

@@ -1,8 +1,8 @@
-#include "models/expression/resolve.h"
+#include "formula/resolve.h"
 
 #include <fmt/format.h>
 
-namespace gumshoe::models::expression {
+namespace gumshoe::formula {
 
 Names::Names(const Statement& s, const std::vector<Formula>& formulas, std::vector<Problem>& problems)
     : formulas_(formulas) {
@@ -23,7 +23,7 @@ Names::Names(const Statement& s, const std::vector<Formula>& formulas, std::vect
   columns(s.indications, Source::indication, "an indication");
   const std::size_t measurands = s.intermediates.size(), simulated = measurands + s.measurands.size();
   for (std::size_t i = 0; i < formulas.size(); ++i) {
-    const std::string name = formulas[i].name.substr(formulas[i].name.rfind('.') + 1);
+    const std::string name = formulas[i].short_name();
     if (!is_name(name))
       problems.push_back({formulas[i].where, fmt::format("{}: '{}' is no name for a formula", formulas[i].name, name),
                           "letters, digits and _, no digit first", ""});
@@ -97,8 +97,7 @@ std::vector<std::size_t> Names::order(const std::vector<std::size_t>& roots, boo
         while (stack[--from].formula != m->index) {
         }
         for (; from < stack.size(); ++from) {
-          const std::string& name = formulas_[stack[from].formula].name;
-          circle += name.substr(name.rfind('.') + 1) + " -> ";
+          circle += formulas_[stack[from].formula].short_name() + " -> ";
         }
         problems.push_back(f.problem(n.at, fmt::format("'{}' needs itself", n.name), circle + n.name,
                                      "formulas must not go round in a circle"));
@@ -111,4 +110,4 @@ std::vector<std::size_t> Names::order(const std::vector<std::size_t>& roots, boo
   return out;
 }
 
-} // namespace gumshoe::models::expression
+} // namespace gumshoe::formula

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace gumshoe::models::expression {
+namespace gumshoe::formula {
 
 enum class Operation : std::uint8_t {
   number,
@@ -72,4 +72,4 @@ constexpr bool is_binary(Operation o) {
 }
 constexpr bool is_leaf(Operation o) { return o == Operation::number || o == Operation::name; }
 
-} // namespace gumshoe::models::expression
+} // namespace gumshoe::formula

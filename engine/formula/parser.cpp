@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "models/expression/lexer.h"
+#include "formula/lexer.h"
 
-namespace gumshoe::models::expression {
+namespace gumshoe::formula {
 namespace {
 
 constexpr int deepest = 200; ///< far more than a person writes, far less than the stack holds
@@ -162,4 +162,4 @@ Problem Formula::problem(std::size_t at, std::string what, std::string why, std:
   return {place(at), fmt::format("{}: {}", name, what), std::move(why), std::move(remedy)};
 }
 
-} // namespace gumshoe::models::expression
+} // namespace gumshoe::formula

@@ -1,12 +1,12 @@
-#include "models/expression/program.h"
+#include "formula/program.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 
-#include "models/expression/interpreter.h"
+#include "formula/interpreter.h"
 
-namespace gumshoe::models::expression {
+namespace gumshoe::formula {
 namespace {
 constexpr int largest_product_power = 16;
 constexpr std::uint32_t nowhere = 0xffffffff;
@@ -102,4 +102,4 @@ Program Builder::finish(std::span<const Value> outputs) const {
   return program;
 }
 
-} // namespace gumshoe::models::expression
+} // namespace gumshoe::formula

@@ -1,8 +1,8 @@
 #pragma once
 /// Words of a formula.
-#include "models/expression/formula.h"
+#include "formula/formula.h"
 
-namespace gumshoe::models::expression {
+namespace gumshoe::formula {
 
 struct Token {
   enum class Kind { end, number, name, sign } kind = Kind::end;
@@ -30,4 +30,4 @@ private:
   Token next_;
 };
 
-} // namespace gumshoe::models::expression
+} // namespace gumshoe::formula

@@ -1,10 +1,10 @@
-#include "models/expression/operation.h"
+#include "formula/operation.h"
 
 #include <algorithm>
 #include <array>
 #include <numbers>
 
-namespace gumshoe::models::expression {
+namespace gumshoe::formula {
 namespace {
 
 constexpr std::array list{
@@ -61,4 +61,4 @@ std::string_view word(Operation operation) {
   }
 }
 
-} // namespace gumshoe::models::expression
+} // namespace gumshoe::formula

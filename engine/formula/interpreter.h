@@ -2,10 +2,10 @@
 /// What each operation computes, for every scalar: double, lanes, dual numbers. The only place.
 #include <cmath>
 
+#include "formula/program.h"
 #include "math/elementary.h"
-#include "models/expression/program.h"
 
-namespace gumshoe::models::expression {
+namespace gumshoe::formula {
 
 /// Calls `use` with the operation as a function of two values (of which a function of one ignores the second).
 template <class T, class Use> void with_function(Operation operation, const Use& use) {
@@ -131,4 +131,4 @@ template <class T> Values<T> interpret(const Program& program, const Inputs<T>& 
   return out;
 }
 
-} // namespace gumshoe::models::expression
+} // namespace gumshoe::formula

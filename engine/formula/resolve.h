@@ -3,9 +3,10 @@
 #include <map>
 #include <optional>
 
-#include "models/expression/expression.h"
+#include "formula/program.h"
+#include "formula/statement.h"
 
-namespace gumshoe::models::expression {
+namespace gumshoe::formula {
 
 /// A column of the model, or another formula.
 struct Meaning {
@@ -16,7 +17,7 @@ struct Meaning {
 
 class Names {
 public:
-  /// Problems: names taken twice, names that formulas cannot write. `formulas` in the order of Expression::formulas.
+  /// Problems: names taken twice, names that formulas cannot write. `formulas` in the order of Compiled::formulas.
   Names(const Statement& statement, const std::vector<Formula>& formulas, std::vector<Problem>& problems);
   /// Null if unknown or a constant. Where an indication has a formula, `simulating` chooses it over the readout.
   const Meaning* find(const std::string& name, bool simulating) const;
@@ -32,4 +33,4 @@ private:
   std::map<std::string, Meaning> meanings_, simulated_;
 };
 
-} // namespace gumshoe::models::expression
+} // namespace gumshoe::formula

@@ -6,9 +6,9 @@
 #include <tuple>
 #include <vector>
 
-#include "models/expression/formula.h"
+#include "formula/formula.h"
 
-namespace gumshoe::models::expression {
+namespace gumshoe::formula {
 
 enum class Source : std::uint8_t { step, constant, quantity, condition, indication };
 
@@ -53,4 +53,4 @@ private:
   std::map<Key, Value> known_;
 };
 
-} // namespace gumshoe::models::expression
+} // namespace gumshoe::formula

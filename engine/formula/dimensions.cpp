@@ -1,13 +1,13 @@
-#include "models/expression/dimensions.h"
+#include "formula/dimensions.h"
 
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "base/units.h"
-#include "models/expression/interpreter.h"
+#include "formula/interpreter.h"
 
-namespace gumshoe::models::expression {
+namespace gumshoe::formula {
 namespace {
 
 /// Of one node: its kind, and its value if that is fixed.
@@ -178,4 +178,4 @@ std::vector<Kind> kinds_of(const std::vector<Formula>& formulas, const std::vect
   return checker.results();
 }
 
-} // namespace gumshoe::models::expression
+} // namespace gumshoe::formula

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "base/error.h"
-#include "models/expression/operation.h"
+#include "formula/operation.h"
 
-namespace gumshoe::models::expression {
+namespace gumshoe::formula {
 
 /// Operands are indices of earlier nodes: the order of the nodes is an order of computation, and no walk recurses.
 struct Node {
@@ -29,6 +29,8 @@ struct Formula {
   Location where;          ///< of the text's first character
   std::vector<Node> nodes; ///< the last one is the result
 
+  /// The name without the path before it: "y" of "model.measurands.y".
+  std::string short_name() const { return name.substr(name.rfind('.') + 1); }
   /// The place of a byte of the text. A text of several lines is placed as a whole.
   Location place(std::size_t at) const;
   /// The text that node `n` stands for starts here: a sum's place is its operator, its start the first operand.
@@ -42,4 +44,4 @@ void parse(Formula& formula);
 /// True if formulas can call it: letters, digits and _, no digit first.
 bool is_name(std::string_view word);
 
-} // namespace gumshoe::models::expression
+} // namespace gumshoe::formula

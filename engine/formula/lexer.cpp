@@ -1,11 +1,11 @@
-#include "models/expression/lexer.h"
+#include "formula/lexer.h"
 
 #include <charconv>
 #include <cmath>
 
 #include <fmt/format.h>
 
-namespace gumshoe::models::expression {
+namespace gumshoe::formula {
 namespace {
 
 bool digit(char c) { return c >= '0' && c <= '9'; }
@@ -71,4 +71,4 @@ void Lexer::advance() {
   at_ += length;
 }
 
-} // namespace gumshoe::models::expression
+} // namespace gumshoe::formula
