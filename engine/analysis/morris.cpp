@@ -54,7 +54,7 @@ std::vector<Morris> morris_screening(const propagation::Experiment& e, std::uint
   if (!plan.copulas.empty())
     throw InputError("analysis.sensitivity.morris: the inputs are correlated",
                      "an elementary effect moves one input alone",
-                     "take the correlation out, or use given_data or shapley?");
+                     "remove the correlation, or use given_data or shapley");
   const std::size_t d = plan.variates.size(), outputs = e.outputs().size(), block = screening_block(e, trajectories);
   std::vector<quantities::QuantileFunction> quantile;
   std::vector<double> scale;

@@ -133,7 +133,7 @@ std::vector<Sensitivity> sobol_indices(const propagation::Experiment& e, std::ui
   if (!plan.copulas.empty())
     throw InputError("analysis.sensitivity: the inputs are correlated",
                      "Sobol' indices are defined for independent inputs, Shapley effects for all",
-                     "sensitivity = { shapley = 4096 }?");
+                     "sensitivity = { shapley = 4096 }");
   const bool second_order = e.scenario().analysis.sensitivity.second_order;
   const auto groups = factors(e);
   PickFreezeSums sums = run_pick_freeze(e, groups, n, second_order, threads);

@@ -50,7 +50,7 @@ private:
       const std::size_t after = at_;
       while (at_ < text_.size() && !ends_cell(text_[at_])) ++at_;
       if (!trimmed(std::string(text_.substr(after, at_ - after))).empty())
-        throw InputError({{{file_, cell.line, cell.column}, "text after a closing quote", "", ""}});
+        throw InputError({{{file_, cell.line, cell.column}, "text follows a closing quote", "", ""}});
     } else {
       const std::size_t begin = at_;
       while (at_ < text_.size() && !ends_cell(text_[at_])) ++at_;
@@ -125,7 +125,7 @@ Csv parse_csv(std::string_view text, const std::string& file) {
   csv.file = file;
   Reader reader(text, csv.file);
   std::vector<Problem> problems;
-  if (!reader.next(csv.header)) throw InputError({{{file, 0, 0}, "the file is empty", "", "a header and rows?"}});
+  if (!reader.next(csv.header)) throw InputError({{{file, 0, 0}, "the file is empty", "", "write a header and rows"}});
   for (std::size_t i = 0; i < csv.header.size(); ++i) {
     const CsvCell& cell = csv.header[i];
     if (cell.text.empty())

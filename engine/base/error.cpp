@@ -2,10 +2,31 @@
 
 #include <algorithm>
 #include <numeric>
+#include <string_view>
 
 #include <fmt/format.h>
 
 namespace gumshoe {
+namespace {
+
+std::string ended(std::string sentence) {
+  if (sentence.empty() || std::string_view(".?!").find(sentence.back()) == std::string_view::npos) sentence += '.';
+  return sentence;
+}
+
+std::string capitalised(std::string sentence) {
+  if (sentence[0] >= 'a' && sentence[0] <= 'z') sentence[0] = static_cast<char>(sentence[0] - 'a' + 'A');
+  return sentence;
+}
+
+/// True for something to write into a file, which keeps its letters and takes no full stop: `u = "1 um"`, `[model]`.
+bool is_code(std::string_view remedy) {
+  const std::size_t key = remedy.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.");
+  return key != remedy.npos &&
+         (remedy.substr(key).starts_with(" = ") || std::string_view("[{\"").find(remedy[0]) != remedy.npos);
+}
+
+} // namespace
 
 std::string format(const Problem& p) {
   std::string text;
@@ -14,9 +35,9 @@ std::string format(const Problem& p) {
     if (p.where.line > 0) text += fmt::format("{}:{}:", p.where.line, p.where.column);
     text += ' ';
   }
-  text += "error: " + p.what;
-  if (!p.why.empty()) text += " (" + p.why + ')';
-  if (!p.remedy.empty()) text += ' ' + p.remedy;
+  text += "error: " + ended(p.why.empty() ? p.what : p.what + " (" + p.why + ')');
+  if (is_code(p.remedy)) return text + " Try: " + p.remedy;
+  if (!p.remedy.empty()) text += ' ' + ended(capitalised(p.remedy));
   return text;
 }
 

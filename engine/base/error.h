@@ -1,14 +1,14 @@
 #pragma once
 /// Errors a user can act on, and the exit codes of the program.
 ///
-/// Grammar of every message: `file:line:column: error: what is wrong (why) what would be right?`
+/// Form of every message: `file:line:column: error: what is wrong (why). What to do?` or `... Try: u = "1 um"`.
 #include <exception>
 #include <string>
 #include <vector>
 
 namespace gumshoe {
 
-/// Where in a file something stands; line and column count from 1, 0 means unknown.
+/// A place in a file. Line and column count from 1; 0 means unknown.
 struct Location {
   std::string file;
   int line = 0;
@@ -17,15 +17,15 @@ struct Location {
 
 struct Problem {
   Location where;
-  std::string what;   ///< what is wrong: "quantities.rod_radius: '5 N' is not a length"
+  std::string what;   ///< what is wrong, without a full stop: "quantities.rod_radius: '5 N' is not a length"
   std::string why;    ///< the reason, shown in parentheses; may be empty
-  std::string remedy; ///< what would be right; may be empty
+  std::string remedy; ///< what to do: "use mm or um", "did you mean 'mm'?", or code: `u = "1 um"`; may be empty
 };
 
-/// One line in the grammar above, without a trailing newline.
+/// One line in the form above, without a trailing newline: full stops and the remedy's capital are added here.
 std::string format(const Problem& problem);
 
-/// Thrown with every problem found, so that a user mends a file in one pass. Exit code 2.
+/// Thrown with every problem found, so that a user corrects a file in one pass. Exit code 2.
 class InputError : public std::exception {
 public:
   explicit InputError(std::vector<Problem> problems);
@@ -40,7 +40,7 @@ private:
   std::string text_;
 };
 
-/// The machine failed us, not the input: an unwritable file, a full disk. Exit code 2.
+/// Thrown when the output cannot be written: no permission, a full disk. Exit code 2.
 class OutputError : public InputError {
 public:
   using InputError::InputError;
@@ -48,7 +48,7 @@ public:
 
 enum class ExitCode : int {
   done = 0,
-  different = 1, ///< `gauge`: ours is not the published figure
+  different = 1, ///< `gauge`: a computed figure differs from the published one
   bad_input = 2,
   too_many_failures = 3,
   interrupted = 130,

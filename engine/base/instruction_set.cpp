@@ -17,7 +17,7 @@ InstructionSet choose() {
     for (const InstructionSet set : all_sets)
       if (std::string_view(wish) == name(set)) limit = set, known = true;
     if (!known)
-      throw InputError("GUMSHOE_ISA: '" + std::string(wish) + "' is no instruction set", "", "sse2, avx2 or avx512?");
+      throw InputError("GUMSHOE_ISA: '" + std::string(wish) + "' is not an instruction set", "", "use sse2, avx2 or avx512");
   }
   InstructionSet best = InstructionSet::sse2;
   for (const InstructionSet set : all_sets)

@@ -17,7 +17,7 @@ std::string read_text_file(const std::string& path, std::size_t limit) {
   };
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
-  if (status.type() == std::filesystem::file_type::not_found) refuse("there is no such file");
+  if (status.type() == std::filesystem::file_type::not_found) refuse("the file does not exist");
   if (std::filesystem::is_directory(status)) refuse("this is a directory, not a file");
   errno = 0;
   std::ifstream in(path, std::ios::binary);

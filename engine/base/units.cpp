@@ -97,7 +97,7 @@ private:
     if (!system_) {
       ut_set_error_message_handler(ut_ignore);
       system_ = ut_read_xml(nullptr);
-      if (!system_) throw InputError("the unit database of udunits2 cannot be read", "package libudunits2-data");
+      if (!system_) throw InputError("the unit database of udunits2 cannot be read", "it belongs to the package libudunits2-data");
     }
     if (name.empty() || !plain_grammar(name)) return std::nullopt;
     const std::unique_ptr<ut_unit, Free> unit(ut_parse(system_, with_known_names(name).c_str(), UT_UTF8));
@@ -174,30 +174,30 @@ struct Row {
   std::string_view si_unit, name, remedy;
 };
 constexpr Row kinds[] = {
-    {"m", "a length", "use mm or um?"},
-    {"rad", "an angle", "use deg or mrad?"},
-    {"s", "a time", "use s or ms?"},
-    {"1", "a plain number", "use a number, % or um/m?"},
-    {"m/s", "a speed", "use mm/min or m/s?"},
-    {"m/s2", "an acceleration", "use m/s2?"},
-    {"rad/s", "an angular speed", "use rpm or rad/s?"},
-    {"K", "a temperature", "use K or degC?"},
-    {"1/K", "a relative change per temperature", "use um/m/K or 1/K?"},
-    {"m/K", "a length per temperature", "use um/K?"},
-    {"1/s", "a frequency", "use Hz?"},
-    {"kg", "a mass", "use kg?"},
-    {"N", "a force", "use N?"},
-    {"m2", "an area", "use mm2?"},
-    {"m3", "a volume", "use mm3?"},
-    {"m-1", "a curvature", "use 1/mm?"},
-    {"kg/m3", "a density", "use kg/m3?"},
-    {"Pa", "a pressure", "use Pa or bar?"},
-    {"J", "an energy", "use J?"},
-    {"W", "a power", "use W?"},
-    {"A", "an electric current", "use A or mA?"},
-    {"V", "a voltage", "use V or mV?"},
-    {"ohm", "an electric resistance", "use ohm?"},
-    {"mol", "an amount of substance", "use mol?"},
+    {"m", "a length", "use mm or um"},
+    {"rad", "an angle", "use deg or mrad"},
+    {"s", "a time", "use s or ms"},
+    {"1", "a plain number", "use a number, % or um/m"},
+    {"m/s", "a speed", "use mm/min or m/s"},
+    {"m/s2", "an acceleration", "use m/s2"},
+    {"rad/s", "an angular speed", "use rpm or rad/s"},
+    {"K", "a temperature", "use K or degC"},
+    {"1/K", "a relative change per temperature", "use um/m/K or 1/K"},
+    {"m/K", "a length per temperature", "use um/K"},
+    {"1/s", "a frequency", "use Hz"},
+    {"kg", "a mass", "use kg"},
+    {"N", "a force", "use N"},
+    {"m2", "an area", "use mm2"},
+    {"m3", "a volume", "use mm3"},
+    {"m-1", "a curvature", "use 1/mm"},
+    {"kg/m3", "a density", "use kg/m3"},
+    {"Pa", "a pressure", "use Pa or bar"},
+    {"J", "an energy", "use J"},
+    {"W", "a power", "use W"},
+    {"A", "an electric current", "use A or mA"},
+    {"V", "a voltage", "use V or mV"},
+    {"ohm", "an electric resistance", "use ohm"},
+    {"mol", "an amount of substance", "use mol"},
 };
 
 const Row* row(const std::string& si_unit) {
@@ -253,13 +253,13 @@ Measure parse(std::string_view text) {
   const auto [stop, error] = std::from_chars(begin, end, measure.number);
   const auto refuse = [&](std::string why) {
     throw InputError(fmt::format("'{}' is not a number with a unit", text), std::move(why),
-                     "write it like \"0.6 um\"?");
+                     "write it with a unit, such as \"0.6 um\"");
   };
-  if (error == std::errc::result_out_of_range) refuse("too large or too small for a number");
-  if (error != std::errc() || stop == begin) refuse("no number in front");
-  if (!std::isfinite(measure.number)) refuse("not finite");
-  if (stop != end && *stop == ',') refuse("the decimal sign is a point");
-  if (stop != end && (*stop == '_' || *stop == '.')) refuse("one number only");
+  if (error == std::errc::result_out_of_range) refuse("it is too large or too small for a floating-point number");
+  if (error != std::errc() || stop == begin) refuse("it does not begin with a number");
+  if (!std::isfinite(measure.number)) refuse("it is not finite");
+  if (stop != end && *stop == ',') refuse("the decimal sign must be a point");
+  if (stop != end && (*stop == '_' || *stop == '.')) refuse("only one number may stand here");
   measure.unit = trim({stop, static_cast<std::size_t>(end - stop)});
   if (measure.unit.empty()) measure.unit = "1";
   return measure;

@@ -80,7 +80,7 @@ std::vector<Unknown> unknowns_of(const Experiment& e) {
         squares += variance(e.plan().variates[v].distribution, finite);
         if (!finite)
           refuse(s.file, u.name + ": its distribution has no standard uncertainty", "a prior needs one",
-                 "u with more than 2 degrees of freedom?");
+                 "give u with more than 2 degrees of freedom");
       }
       u.prior_u = std::sqrt(squares);
       u.low = card.limits.low;
@@ -93,7 +93,7 @@ std::vector<Unknown> unknowns_of(const Experiment& e) {
   }
   if (out.empty())
     refuse(s.file, "no quantity is marked estimated", "there is nothing to fit",
-           "estimated = true in a [quantities.NAME]?");
+           "write estimated = true in a [quantities.NAME]");
   return out;
 }
 
@@ -109,7 +109,7 @@ Data data_of(const Experiment& e) {
   for (std::size_t r = 0; r < s.readings.size(); ++r) {
     if (s.readings[r].indications.size() != indications)
       refuse(s.file, "there are no readings to fit", "nothing was read",
-             "[indications.NAME] with readings, method = \"propagation\"?");
+             "add [indications.NAME] with readings and method = \"propagation\"");
     const auto point = e.reading_point(r);
     for (std::size_t k = 0; k < indications; ++k) {
       const std::size_t row = out.measured.size();
@@ -136,13 +136,13 @@ Data data_of(const Experiment& e) {
   out.noise_declared = !loud.empty();
   if (!loud.empty() && !quiet.empty())
     refuse(s.file, fmt::format("indications.{}: no noise is declared, but {} has some", quiet, loud),
-           "the readings cannot be weighed against each other", "repeatability = { s = \"...\" }?");
+           "the readings cannot be weighed against each other", "repeatability = { s = \"...\" }");
   bool shared = false;
   for (const auto& [v, rows] : rows_of) shared |= rows.size() > 1;
   if (!shared) return out;
   if (n > 5000)
     refuse(s.file, fmt::format("{} readings share draws of their noise", n),
-           "the covariance matrix of more than 5000 is not made", "per = \"reading\"?");
+           "the covariance matrix of more than 5000 is not made", "per = \"reading\"");
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(n));
   for (const auto& [v, rows] : rows_of) {
     bool unused = true;
@@ -155,7 +155,7 @@ Data data_of(const Experiment& e) {
   const double least = factor.diagonal().minCoeff() / factor.diagonal().maxCoeff();
   if (llt.info() != Eigen::Success || !(least > 1e-7))
     refuse(s.file, "indications: the noise of readings is shared by them", "each needs some of its own",
-           "per = \"reading\" for resolution or repeatability?");
+           "write per = \"reading\" for resolution or repeatability");
   for (Eigen::Index a = 0; a < factor.rows(); ++a)
     for (Eigen::Index b = 0; b < factor.cols(); ++b) out.cholesky.push_back(factor(a, b));
   out.notes.push_back("readings share part of their noise: they are weighed by its full covariance matrix");

@@ -72,16 +72,16 @@ private:
       refuse(s.file,
              fmt::format("{} readings{} cannot determine {} estimated quantities", n_,
                          m > 0 ? fmt::format(" and {} priors", m) : "", p_),
-             "each unknown needs a reading or a prior", "more readings, or u for some of them?");
+             "each unknown needs a reading or a prior", "add readings, or give some of them a prior (u)");
     if (data_.noise_declared) return;
     const auto& indications = experiment_.model().card->indications;
     for (const auto& i : indications)
       if (i.si_unit != indications[0].si_unit)
         refuse(s.file, fmt::format("indications {} and {} have no declared noise", indications[0].name, i.name),
-               "what is measured in different units cannot be weighed without it", "repeatability = { s = \"...\" }?");
+               "what is measured in different units cannot be weighed without it", "repeatability = { s = \"...\" }");
     if (m > 0 && n_ <= p_ && !(data_.pure_freedom > 0))
       refuse(s.file, fmt::format("{} readings cannot tell their own noise beside {} unknowns", n_, p_),
-             "priors are weighed against it", "repeatability = { s = \"...\" }?");
+             "priors are weighed against it", "repeatability = { s = \"...\" }");
   }
 
   /// Whitened residuals over `sigma`, and their Jacobian.

@@ -17,10 +17,10 @@ std::string estimated_scenario(const propagation::Experiment& experiment, const 
   for (const Parameter& p : estimate.parameters) {
     if (std::isinf(p.standard_uncertainty))
       refuse(s.file, p.unknown.name + ": the data do not determine it", "it has no distribution to be written",
-             "a prior (u), another reading, or leave it out of the fit?");
+             "give it a prior (u), add readings, or leave it out of the fit");
     if (!std::isfinite(p.standard_uncertainty))
       refuse(s.file, p.unknown.name + ": nothing says how uncertain it is",
-             "no reading is left over and no noise declared", "repeatability = { s = \"...\" }?");
+             "no reading is left over and no noise declared", "repeatability = { s = \"...\" }");
   }
   ScenarioText out(s, folder);
   const std::string source =

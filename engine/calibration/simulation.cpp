@@ -19,7 +19,7 @@ Simulation::Simulation(const propagation::Experiment& e, std::vector<Unknown> un
   if (!e.model().simulate_gradient && !(e.model().kernels && e.model().kernels() && e.model().kernels()->simulate))
     refuse(s.file, fmt::format("model {}: it cannot simulate its indications", s.model),
            "residuals are measured minus simulated indications",
-           e.scenario().made ? "[model.indications] with a formula for each?" : "");
+           e.scenario().made ? "add [model.indications] with a formula for each" : "");
   rows_ = s.readings.size() * indications_;
   for (std::size_t r = 0; r < s.readings.size(); ++r) {
     points_.push_back(e.reading_point(r));

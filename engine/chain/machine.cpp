@@ -51,7 +51,7 @@ void check_axis(const AxisDescription& a, const std::string& place, std::vector<
     return;
   }
   if (std::ranges::find(seen, a.name) != seen.end())
-    out.push_back({place, "axis " + a.name + " stands twice", "", "name the second one " + a.name + "2?"});
+    out.push_back({place, "axis " + a.name + " stands twice", "", "name the second one " + a.name + "2"});
   seen.push_back(a.name);
   const bool rotary = rotary_by_letter(a.name);
   const std::string_view kind = rotary ? "rotary" : "linear";
@@ -59,7 +59,7 @@ void check_axis(const AxisDescription& a, const std::string& place, std::vector<
     out.push_back({place + ".kind", "axis " + a.name + " is " + std::string(kind) + ", not '" + a.kind + "'",
                    "X, Y, Z, U, V, W are linear, A, B, C rotary (ISO 841)", ""});
   if (a.sense < -1 || a.sense > 1)
-    out.push_back({place + ".sense", "sense is 1 or -1", "", "leave it out for ISO 841?"});
+    out.push_back({place + ".sense", "sense is 1 or -1", "", "leave it out to follow ISO 841"});
   if (!std::ranges::all_of(a.point, [](double x) { return std::isfinite(x); }))
     out.push_back({place + ".point", "a coordinate is not finite", "", ""});
 }
@@ -115,7 +115,7 @@ std::vector<DescriptionProblem> problems(const MachineDescription& d) {
     if (!side) {
       out.push_back({name, fmt::format("the machine has no {}", name),
                      fmt::format("it lists the axes from the bed to the {}", carried),
-                     "write [] if nothing moves there?"});
+                     "write [] if nothing moves there"});
       return;
     }
     for (std::size_t i = 0; i < side->size(); ++i) check_axis((*side)[i], fmt::format("{}[{}]", name, i), seen, out);
@@ -133,7 +133,7 @@ std::vector<DescriptionProblem> problems(const MachineDescription& d) {
     }
     if (!std::isfinite(value)) out.push_back({"errors." + name, "the value is not finite", "", ""});
     for (std::size_t j = 0; j < i; ++j)
-      if (d.errors[j].first == name) out.push_back({"errors." + name, name + " stands twice", "", "take one out?"});
+      if (d.errors[j].first == name) out.push_back({"errors." + name, name + " stands twice", "", "remove one of them"});
   }
   return out;
 }

@@ -26,7 +26,7 @@ std::vector<Place> Places::coarse() const {
     count *= v.values.size();
     if (count > most_candidates)
       throw InputError(fmt::format("choose.variables: more than {} combinations", most_candidates), "",
-                       "fewer steps, or shorter lists?");
+                       "use fewer steps or shorter lists");
   }
   std::vector<Place> out{{}};
   for (std::size_t v = 0; v < choose_.variables.size(); ++v) {

@@ -25,14 +25,14 @@ struct Options {
 
 void refuse_unusable(const store::Stored& stored, const std::string& file) {
   if (!stored.made_by.empty())
-    throw InputError(file + ": holds no samples", "gumshoe " + stored.made_by + " made it", "gumshoe run?");
+    throw InputError(file + ": holds no samples", "gumshoe " + stored.made_by + " made it", "use gumshoe run");
   if (!stored.identity.store_samples)
-    throw InputError(file + ": holds no samples", "its scenario says store_samples = false", "run again with them?");
+    throw InputError(file + ": holds no samples", "its scenario says store_samples = false", "run again with store_samples = true");
   if (!stored.complete)
     throw InputError(file + ": the run is not finished", "it was interrupted",
-                     "run the same command again to resume it?");
+                     "run the same command again to resume it");
   if (stored.identity.design_hash.empty())
-    throw InputError(file + ": does not say which design its samples are of", "an older version made it", "run again?");
+    throw InputError(file + ": does not say which design its samples are of", "an older version made it", "run again");
 }
 
 /// The design hash knows a model by name only: the first samples, run again, must come out as they are stored, but
@@ -61,7 +61,7 @@ void refuse_other_model(const propagation::Experiment& e, const store::StoredSam
         throw InputError(file + ": samples of another model",
                          fmt::format("{} of sample {} is {:.17g} in the file and {:.17g} now", e.outputs()[o].name, i,
                                      before[i], now),
-                         "run the scenario again?");
+                         "run the scenario again");
     }
   }
 }
@@ -77,7 +77,7 @@ ExitCode analyse(const Options& o) {
   if (hash != stored.identity.design_hash)
     throw InputError(o.file + ": samples of another design than " + s.file,
                      "design hash " + stored.identity.design_hash + ", the scenario has " + hash,
-                     "only [analysis] may differ; run the scenario again?");
+                     "only [analysis] may differ. Run the scenario again");
   const std::string out =
       !o.out.empty() ? o.out : std::filesystem::path(o.file).replace_extension(".analysed.h5").string();
   require_different(out, o.file);

@@ -37,7 +37,7 @@ ExitCode choose(const Options& o) {
     throw InputError({{{s.file},
                        "choose: missing",
                        "it says what may be chosen and what is to be reached",
-                       "[choose] target = \"...\"?"}});
+                       "[choose] target = \"...\""}});
   if (o.samples) s.choose->samples = whole_number(*o.samples, "--samples", 200);
   if (o.seed) s.run.seed = whole_number(*o.seed, "--seed", 0);
   const std::string out = !o.out.empty() ? o.out : "results/" + std::filesystem::path(o.file).stem().string() + ".h5";

@@ -28,14 +28,14 @@ std::uint64_t whole_number(const std::string& text, const std::string& option, s
   }
   if (used == 0 || used != text.size() || !(x >= static_cast<double>(least)) || x > 1e15 || x != std::floor(x))
     throw InputError(option + ": '" + text + "' is not a whole number of at least " + std::to_string(least), "",
-                     "1e6, say?");
+                     "write a number such as 1e6");
   return static_cast<std::uint64_t>(x);
 }
 
 void require_different(const std::string& out, const std::string& in) {
   std::error_code ignored;
   if (std::filesystem::equivalent(out, in, ignored))
-    throw OutputError(out + ": is the file that is read", "it would be lost", "another name for the output?");
+    throw OutputError(out + ": is the file that is read", "it would be lost", "choose another name for the output");
 }
 
 void write_text(const std::string& path, const std::string& text) {

@@ -203,7 +203,7 @@ ExitCode estimate(const Options& o) {
   else
     print_text(experiment, result, written);
   if (result.solver.converged) return ExitCode::done;
-  std::cerr << "error: the fit did not converge (" << result.solver.reason << ") other start values?\n";
+  std::cerr << "error: the fit did not converge (" << result.solver.reason << "). Use other start values.\n";
   return ExitCode::too_many_failures;
 }
 

@@ -120,7 +120,7 @@ std::vector<Line> run_example(const std::string& file, int threads) {
   scenario::Scenario s = scenario::read(file, catalogue());
   const std::string example = fs::path(file).stem().string();
   if (s.expected.empty())
-    throw InputError({{{file}, "nothing to compare with", "no [[expected]]", "gumshoe run " + file + "?"}});
+    throw InputError({{{file}, "nothing to compare with", "no [[expected]]", "use gumshoe run " + file}});
   const propagation::Experiment experiment(s);
   if (s.expected.front().figure.starts_with("fit.")) {
     const auto fit = calibration::estimate(experiment, {threads});

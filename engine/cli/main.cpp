@@ -5,6 +5,8 @@
 #include <iostream>
 #include <new>
 
+#include <fmt/format.h>
+
 #include "base/version.h"
 #include "cli/command.h"
 
@@ -33,7 +35,7 @@ int main(int argc, char** argv) {
     const ExitCode code = action ? action() : ExitCode::done;
     std::cout.flush();
     if (!std::cout || std::fflush(stdout) != 0) {
-      std::cerr << "error: standard output cannot be written\n";
+      std::cerr << "error: standard output cannot be written.\n";
       return static_cast<int>(ExitCode::bad_input);
     }
     return static_cast<int>(code);
@@ -44,18 +46,21 @@ int main(int argc, char** argv) {
     for (const auto* command : app.get_subcommands({})) names.push_back(command->get_name());
     if (argc > 1 && argv[1][0] != '-' && std::ranges::find(names, argv[1]) == names.end()) {
       const std::string meant = nearest(argv[1], names);
-      std::cerr << "error: unknown command '" << argv[1] << "'"
-                << (meant.empty() ? " (gumshoe --help lists them)" : " did you mean '" + meant + "'?") << '\n';
+      std::cerr << format({{},
+                           fmt::format("unknown command '{}'", argv[1]),
+                           meant.empty() ? "gumshoe --help lists them" : "",
+                           meant.empty() ? "" : "did you mean '" + meant + "'?"})
+                << '\n';
     } else {
-      std::cerr << "error: " << error.what() << " (--help lists the options)\n";
+      std::cerr << format({{}, error.what(), "--help lists the options", ""}) << '\n';
     }
     return static_cast<int>(ExitCode::bad_input);
   } catch (const std::bad_alloc&) {
-    std::cerr << "error: out of memory (the run needs more than there is) fewer samples?\n";
+    std::cerr << "error: out of memory. Use fewer samples.\n";
   } catch (const InputError& error) {
     std::cerr << error.what() << '\n';
   } catch (const std::exception& error) {
-    std::cerr << "error: " << error.what() << '\n';
+    std::cerr << format({{}, error.what(), "", ""}) << '\n';
   }
   return static_cast<int>(ExitCode::bad_input);
 }

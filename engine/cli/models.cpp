@@ -166,7 +166,7 @@ void add_models(CLI::App& app, Action& action) {
         const auto made = scenario::made_models();
         if (std::ranges::find(made, o.name, &scenario::MadeModelRow::name) != made.end())
           throw InputError("'" + o.name + "' has no card of its own", "its quantities follow from the scenario",
-                           "see engine/models/" + o.name + "/README.md?");
+                           "see engine/models/" + o.name + "/README.md");
         const ExitCode code = show(catalogue().models, "model", o.name, o.format);
         if (o.name.empty() && o.format == "text") {
           std::cout << "A scenario can also state its model (see scenarios/README.md):\n";

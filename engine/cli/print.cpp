@@ -92,7 +92,7 @@ ExitCode print_results(const analysis::Results& r, const std::string& file, cons
   else
     print_table(r, format == "json");
   if (static_cast<double>(r.failed) > max_failed_share * static_cast<double>(r.samples)) {
-    std::cerr << fmt::format("error: {} of {} samples failed (more than max_failed_share = {})\n", r.failed, r.samples,
+    std::cerr << fmt::format("error: {} of {} samples failed (more than max_failed_share = {}).\n", r.failed, r.samples,
                              max_failed_share);
     return ExitCode::too_many_failures;
   }

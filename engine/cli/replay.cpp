@@ -18,7 +18,7 @@ scenario::Scenario scenario_of(const store::Identity& identity, const std::strin
   if (s.hash != identity.scenario_hash)
     throw InputError(result + ": " + identity.scenario_file + " is no longer the scenario of this result",
                      "hash " + s.hash + ", the result says " + identity.scenario_hash,
-                     "bring back the scenario and its data, or run again?");
+                     "restore the scenario and its data, or run again");
   s.run.samples = identity.samples;
   s.run.seed = identity.seed;
   return s;
@@ -79,7 +79,7 @@ void add_replay(CLI::App& app, Action& action) {
     action = [=] {
       const store::Stored stored = store::read_identity(o->file);
       if (!stored.made_by.empty())
-        throw InputError(o->file + ": holds no run", "gumshoe " + stored.made_by + " made it", "gumshoe run?");
+        throw InputError(o->file + ": holds no run", "gumshoe " + stored.made_by + " made it", "use gumshoe run");
       const std::uint64_t sample = whole_number(o->sample, "--sample", 0);
       if (sample >= stored.identity.samples)
         throw InputError(fmt::format("--sample: {} is beyond the run", sample),

@@ -21,7 +21,7 @@ void add_report(CLI::App& app, Action& action) {
       require_different(o->out, o->file);
       if (!store::read_identity(o->file).complete)
         throw InputError(o->file + ": the run is not finished", "it was interrupted",
-                         "run the same command again to resume it?");
+                         "run the same command again to resume it");
       std::vector<std::string> words{o->file};
       if (!o->out.empty()) words.insert(words.end(), {"--out", o->out});
       if (!o->csv.empty()) words.insert(words.end(), {"--csv", o->csv});

@@ -78,8 +78,8 @@ bool sample(scenario::Scenario& s, const propagation::Experiment& e, store::Resu
     auto problems = error.problems();
     if (s.run.store_samples)
       problems.back().remedy +=
-          fmt::format("{}{} of {} samples are kept in {}; the same command resumes",
-                      problems.back().remedy.empty() ? "" : " ", file.samples_done(), file.samples(), out);
+          fmt::format("{}{} of {} samples are kept in {}. Repeat the command to resume",
+                      problems.back().remedy.empty() ? "" : ". ", file.samples_done(), file.samples(), out);
     throw InputError(problems);
   }
 }
@@ -96,7 +96,7 @@ ExitCode run(const Options& o) {
   const propagation::Experiment experiment(s);
   const std::string out = !o.out.empty() ? o.out : "results/" + std::filesystem::path(o.file).stem().string() + ".h5";
   if (experiment.outputs().empty())
-    throw InputError({{{s.file}, "model: nothing is measured", "a run evaluates measurands", "[model.measurands]?"}});
+    throw InputError({{{s.file}, "model: nothing is measured", "a run evaluates measurands", "add [model.measurands]"}});
   if (o.out.empty()) std::filesystem::create_directories("results");
 
   const store::Identity identity{s.hash,

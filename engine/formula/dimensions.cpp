@@ -119,7 +119,7 @@ private:
     if (n.operation != Operation::atan2 && n.operation != Operation::hypot &&
         ((a.literal && b.dimension.is_angle()) || (b.literal && a.dimension.is_angle())))
       problem(formula_->start(a.literal ? n.a : n.b), "a bare number beside an angle", "1 deg or 1 rad?",
-              "a quantity with a unit, or pi?");
+              "use a quantity with a unit, or pi");
     return a.dimension.joined(b.dimension);
   }
 
@@ -132,7 +132,7 @@ private:
     if (a.dimension.plain() && !(b.value && a.dimension.has_angle())) return {};
     if (!b.value) {
       problem(formula_->start(n.b), fmt::format("the exponent of {} varies", a.dimension.words()),
-              "the result would have no fixed dimension", "divide the base by a reference value?");
+              "the result would have no fixed dimension", "divide the base by a reference value");
       return {};
     }
     return a.dimension.power(*b.value);
@@ -143,7 +143,7 @@ private:
     const bool angle = n.operation == Operation::sin || n.operation == Operation::cos || n.operation == Operation::tan;
     problem(formula_->start(n.a), fmt::format("{} of {}", word(n.operation), a.dimension.words()),
             angle ? "it takes an angle or a plain number" : "it takes a plain number",
-            "divide it by another of its kind?");
+            "divide it by another quantity of its kind");
   }
 
   /// The unit of the first operand of this dimension. A scale with its own zero (degC) shows no differences.

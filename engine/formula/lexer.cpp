@@ -49,7 +49,7 @@ void Lexer::advance() {
   const std::string_view rest = text.substr(at_);
   if (const Misread* m = find_misread(rest))
     throw InputError({formula_.problem(at_, fmt::format("'{}' is no sign of a formula", m->sign), "",
-                                       fmt::format("use {}?", m->meant))});
+                                       fmt::format("use {}", m->meant))});
   std::size_t length = 1;
   if (digit(rest[0]) || (rest[0] == '.' && rest.size() > 1 && digit(rest[1]))) {
     const auto [stop, error] = std::from_chars(rest.data(), rest.data() + rest.size(), next_.value);
@@ -65,7 +65,7 @@ void Lexer::advance() {
     next_.kind = Token::Kind::sign;
   } else {
     throw InputError(
-        {formula_.problem(at_, fmt::format("'{}' is no sign of a formula", rest[0]), "", "+ - * / ^ and ( ) are?")});
+        {formula_.problem(at_, fmt::format("'{}' is no sign of a formula", rest[0]), "", "use + - * / ^ and parentheses")});
   }
   next_.text = rest.substr(0, length);
   at_ += length;

@@ -14,14 +14,14 @@ public:
   explicit Parser(Formula& formula) : formula_(formula), lexer_(formula) {}
 
   void parse() {
-    if (lexer_.next().kind == Token::Kind::end) fail("the formula is empty", "", "\"a + b\", say?");
+    if (lexer_.next().kind == Token::Kind::end) fail("the formula is empty", "", "\"a + b\"");
     sum();
     if (lexer_.next().kind == Token::Kind::end) return;
-    if (is(")")) fail("')' closes nothing", "", "one '(' more or one ')' less?");
-    if (is(",")) fail("',' stands outside a function", "", "the decimal sign is a point?");
+    if (is(")")) fail("')' closes nothing", "", "add a '(' or remove the ')'");
+    if (is(",")) fail("',' stands outside a function", "", "use a point as the decimal sign");
     fail(fmt::format("an operator is missing before {}", lexer_.shown()),
          lexer_.next().kind == Token::Kind::name ? "a unit belongs to a quantity, not into a formula" : "",
-         "write '*' to multiply?");
+         "write '*' to multiply");
   }
 
 private:
@@ -101,7 +101,7 @@ private:
     if (!function) {
       const std::string meant = nearest(name.text, function_names());
       throw InputError({formula_.problem(name.at, fmt::format("'{}' is no function", name.text), "",
-                                         meant.empty() ? fmt::format("one of {}?", fmt::join(function_names(), ", "))
+                                         meant.empty() ? fmt::format("use one of {}", fmt::join(function_names(), ", "))
                                                        : fmt::format("did you mean '{}'?", meant))});
     }
     const std::size_t open = lexer_.take().at;
@@ -127,7 +127,7 @@ private:
       return;
     }
     if (lexer_.next().kind == Token::Kind::end)
-      throw InputError({formula_.problem(open, "this '(' is never closed", "", "one ')' more?")});
+      throw InputError({formula_.problem(open, "this '(' is never closed", "", "add a ')'")});
     fail(fmt::format("an operator or ')' is missing before {}", lexer_.shown()));
   }
 

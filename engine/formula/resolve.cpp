@@ -14,7 +14,7 @@ Names::Names(const Statement& s, const std::vector<Formula>& formulas, std::vect
         problems.push_back({{},
                             fmt::format("'{}' is {} and {}", symbols[i].name, it->second, what),
                             "a name means one thing",
-                            "rename one of them?"});
+                            "rename one of them"});
       meanings_[symbols[i].name] = {source, i, &symbols[i]};
     }
   };
@@ -38,7 +38,7 @@ Names::Names(const Statement& s, const std::vector<Formula>& formulas, std::vect
     const auto [it, fresh] = taken.try_emplace(name, what);
     if (!fresh)
       problems.push_back({formulas[i].where, fmt::format("{}: '{}' is {} already", formulas[i].name, name, it->second),
-                          "a name means one thing", "rename one of them?"});
+                          "a name means one thing", "rename one of them"});
     else
       meanings_[name] = {Source::step, i, nullptr};
   }
@@ -58,10 +58,10 @@ void Names::check(const Formula& f, std::vector<Problem>& problems) const {
     for (const auto& [name, meaning] : meanings_) candidates.push_back(name);
     const std::string meant = nearest(n.name, candidates);
     const std::string remedy = !meant.empty()          ? fmt::format("did you mean '{}'?", meant)
-                               : find_function(n.name) ? fmt::format("{}(...)?", n.name)
+                               : find_function(n.name) ? fmt::format("write {}(...)", n.name)
                                : candidates.size() <= 8 && !candidates.empty()
-                                   ? fmt::format("one of {}?", fmt::join(candidates, ", "))
-                                   : fmt::format("[quantities.{}]?", n.name);
+                                   ? fmt::format("use one of {}", fmt::join(candidates, ", "))
+                                   : fmt::format("[quantities.{}]", n.name);
     problems.push_back(f.problem(n.at,
                                  fmt::format("'{}' is no quantity, condition, indication or intermediate", n.name),
                                  find_function(n.name) ? "it is a function" : "", remedy));

@@ -50,7 +50,7 @@ private:
       if (wanted.like(is) && (wanted.has_angle() || !is.has_angle() || is.is_angle())) return true;
       problems_.push_back({stated.unit_place,
                            fmt::format("{}.unit: '{}' is not {}", stated.formula.name, stated.unit, is.words()),
-                           "what the formula gives", is.has_unit() ? fmt::format("{}?", is.si_unit()) : ""});
+                           "what the formula gives", is.has_unit() ? fmt::format("use {}", is.si_unit()) : ""});
     } catch (const InputError& error) {
       for (Problem p : error.problems()) {
         p.where = stated.unit_place;

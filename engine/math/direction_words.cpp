@@ -51,7 +51,7 @@ std::string in_words(const Direction& direction, const std::vector<Parameter>& p
     changes.push_back(fmt::format("{} {:+.4g}{}", u.name, change, u.unit == "1" ? "" : " " + u.unit));
     if (j != who[0]) others.push_back(u.name);
   }
-  return fmt::format("{} is indistinguishable from {}{} ({} leave every indication as it is)", first.name,
+  return fmt::format("{} is indistinguishable from {}{} ({} leave every indication unchanged)", first.name,
                      joined(others), others.size() > 1 ? " together" : "", joined(changes));
 }
 

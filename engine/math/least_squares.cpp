@@ -125,10 +125,10 @@ bool better(const Attempt& a, const Attempt& b) {
 }
 
 std::string why(const Attempt& a, const Options& options, const Report& r) {
-  if (!a.vanished.empty()) return "a parameter has run to where the residuals no longer depend on it";
-  if (a.rank_lost) return "the parameters have run to where the residuals tell fewer of them apart than at the start";
+  if (!a.vanished.empty()) return "a parameter has reached a region where the residuals no longer depend on it";
+  if (a.rank_lost) return "the parameters have reached a region where the residuals determine fewer of them than at the start";
   if (a.converged && r.relative_offset <= options.offset_tolerance)
-    return fmt::format("relative offset {:.1e}: no step is left beside the residuals", r.relative_offset);
+    return fmt::format("relative offset {:.1e}: the remaining step is negligible compared with the residuals", r.relative_offset);
   if (a.converged) return fmt::format("the next step is {:.1e} of the parameters", r.step);
   if (a.iterations >= options.iterations) return fmt::format("no minimum after {} iterations", a.iterations);
   return fmt::format("no minimum: relative offset {:.1e}, next step {:.1e}, and no step lowers the cost",
@@ -199,7 +199,7 @@ Solution solve(const Problem& problem, const Options& options) {
   out.jacobian.assign(problem.residuals * problem.parameters, std::numeric_limits<double>::quiet_NaN());
   out.weights.assign(problem.residuals, 1);
   if (!rows.evaluate(start, r, nullptr)) {
-    report.reason = "the residuals are not defined at the start values";
+    report.reason = "the residuals are undefined at the start values";
     report.evaluations = rows.evaluations();
     report.cost_before = report.cost_after = report.relative_offset = std::numeric_limits<double>::quiet_NaN();
     return out;
@@ -215,7 +215,7 @@ Solution solve(const Problem& problem, const Options& options) {
   }
   report.evaluations = rows.evaluations();
   if (!best) {
-    report.reason = "the derivatives are not defined at the start values";
+    report.reason = "the derivatives are undefined at the start values";
     return out;
   }
   const Vector x = rows.parameters_of(best->z);

@@ -62,7 +62,7 @@ Experiment::Experiment(const scenario::Scenario& s)
   if (!model_) throw InputError(fmt::format("model: unknown model '{}'", s.model));
   if (s.method == scenario::Method::virtual_experiment && !model_->kernels()->simulate)
     throw InputError({{find_line(s, "[model]"), "model: it does not say what the readouts would be",
-                       "a virtual experiment simulates every indication", "method = \"propagation\"?"}});
+                       "a virtual experiment simulates every indication", "method = \"propagation\""}});
   plan_ = located_plan(s);
   const ModelCard& card = *model_->card;
   indications_ = card.indications.size();

@@ -71,7 +71,7 @@ void read_columns(std::vector<Slot>& slots, const Csv& table, std::vector<Proble
       continue;
     }
     if (slot->given_column >= 0) {
-      problems.push_back({table.at(table.header[c]), "column '" + name + "' stands twice", "", "take one out?"});
+      problems.push_back({table.at(table.header[c]), "column '" + name + "' stands twice", "", "remove one of them"});
       continue;
     }
     slot->given_column = static_cast<int>(c);
@@ -225,7 +225,7 @@ PointTable evaluate_points(const models::Model& model, const Csv& table, const s
     if (const Slot* s = given(m.name); s && indicated)
       problems.push_back({table.at(table.header[static_cast<std::size_t>(s->given_column)]),
                           "column '" + s->name + "' is what the indications are evaluated for", "it is an output here",
-                          "take one of them out?"});
+                          "remove one of them"});
   std::size_t chosen = card.evaluations.size();
   for (std::size_t i = 0; i < card.evaluations.size(); ++i)
     if (evaluation.empty() ? i == 0 : card.evaluations[i].name == evaluation) chosen = i;
@@ -239,7 +239,7 @@ PointTable evaluate_points(const models::Model& model, const Csv& table, const s
     problems.push_back({{table.file},
                         "no column of readings: '" + evaluation + "' evaluates them together",
                         "",
-                        fmt::format("a column '{} ({})'?", card.indications[0].name, card.indications[0].unit)});
+                        fmt::format("add a column '{} ({})'", card.indications[0].name, card.indications[0].unit)});
   }
   if (!problems.empty()) throw InputError(problems);
 

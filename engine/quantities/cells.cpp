@@ -31,8 +31,8 @@ Labels cell_of(const Labels& entry, const std::vector<std::string>& scope, const
       cell.emplace_back(label, *value);
     } else {
       throw InputError(what + ": per = '" + label + "', but reading " + std::to_string(index + 1) +
-                           " has no such label",
-                       "", "a label of the readings, or 'reading'?");
+                           " does not have this label",
+                       "", "use a label of the readings, or 'reading'");
     }
   }
   std::sort(cell.begin(), cell.end());

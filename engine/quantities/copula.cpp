@@ -75,14 +75,14 @@ double from_pearson(double r, const Distribution& a, const Distribution& b, cons
   if (a.family == Family::rectangular && b.family == Family::rectangular) return 2 * std::sin(std::numbers::pi * r / 6);
   for (const Distribution* d : {&a, &b})
     if (!finite_variance(*d))
-      throw InputError(fmt::format("correlation of {}: no Pearson coefficient exists", pair),
-                       "one of them has no finite, positive variance", "state a copula or spearman coefficient?");
+      throw InputError(fmt::format("correlation of {}: a Pearson coefficient does not exist", pair),
+                       "one of them has no finite, positive variance", "state a copula or spearman coefficient");
   const auto ca = hermite_coefficients(a), cb = hermite_coefficients(b);
   double low = -1, high = 1;
   const double least = pearson_of(low, ca, cb), greatest = pearson_of(high, ca, cb);
   if (r < least || r > greatest)
-    throw InputError(fmt::format("correlation of {}: no Gaussian copula has the Pearson coefficient {}", pair, r),
-                     fmt::format("their distributions allow {:.4f} to {:.4f}", least, greatest));
+    throw InputError(fmt::format("correlation of {}: a Gaussian copula cannot reach the Pearson coefficient {}", pair, r),
+                     fmt::format("these distributions allow {:.4f} to {:.4f}", least, greatest));
   while (high - low > 1e-14) {
     const double middle = (low + high) / 2;
     if (middle <= low || middle >= high) break;
@@ -109,8 +109,8 @@ double copula_coefficient(Correlation::Kind kind, double r, const Distribution& 
     return r;
   case Correlation::Kind::spearman:
     if (has_steps(a) || has_steps(b))
-      throw InputError(fmt::format("correlation of {}: spearman is defined here for continuous distributions", pair),
-                       "ranks of discrete values tie", "state a copula or pearson coefficient?");
+      throw InputError(fmt::format("correlation of {}: a spearman coefficient needs continuous distributions", pair),
+                       "discrete values have tied ranks", "state a copula or pearson coefficient");
     return 2 * std::sin(std::numbers::pi * r / 6);
   case Correlation::Kind::pearson:
     return from_pearson(r, a, b, pair);

@@ -73,7 +73,7 @@ std::string invalid_numbers(const Distribution& d) {
   case Family::curvilinear_trapezoid:
     if (!(p[0] < p[1])) return "low must be below high";
     if (!(p[2] > 0)) return "inexactness must be positive";
-    return p[2] <= (p[1] - p[0]) / 2 ? "" : "inexactness must not exceed half the distance of the limits";
+    return p[2] <= (p[1] - p[0]) / 2 ? "" : "inexactness must not exceed half the distance between the limits";
   case Family::trapezoid:
     if (!(p[0] < p[1])) return "low must be below high";
     return p[2] >= 0 && p[2] <= 1 ? "" : "top_ratio must lie between 0 and 1";
@@ -93,7 +93,7 @@ std::string invalid_numbers(const Distribution& d) {
     if (!(p[1] > 0)) return "u must be positive";
     if (!(p[2] < p[3])) return "low must be below high";
     const double nearest = p[2] > p[0] ? p[2] - p[0] : p[3] < p[0] ? p[0] - p[3] : 0;
-    return nearest <= 37 * p[1] ? "" : "the limits lie more than 37 u from the mean, where a normal quantity never is";
+    return nearest <= 37 * p[1] ? "" : "both limits lie more than 37 u from the mean, where a normal distribution has practically no probability";
   }
   default:
     return {};

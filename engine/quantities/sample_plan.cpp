@@ -51,8 +51,8 @@ private:
           for (const std::string& label : component.per)
             if (!labels_.contains(label) && !label_value(entry.labels, label)) {
               const std::string near = nearest(label, known);
-              problem(fmt::format("{}: per = '{}' names no label of the readings", quantity.name, label), "",
-                      near.empty() ? fmt::format("one of {}?", fmt::join(known, ", ")) : fmt::format("'{}'?", near));
+              problem(fmt::format("{}: per = '{}' is not a label of the readings", quantity.name, label), "",
+                      near.empty() ? fmt::format("use one of {}", fmt::join(known, ", ")) : fmt::format("did you mean '{}'?", near));
             }
         }
       }
@@ -76,7 +76,7 @@ private:
     if (e == quantity.entries.size()) {
       const std::string labels = text_of(readings_[r].labels);
       problem(fmt::format("{}: no value for {}", quantity.name, labels.empty() ? "readings without labels" : labels),
-              fmt::format("reading {} needs one", r + 1), "a value for this label, or one value for all?");
+              fmt::format("reading {} needs one", r + 1), "give a value for this label, or one value for all");
       return 0;
     }
     const Entry& entry = quantity.entries[e];

@@ -36,7 +36,7 @@ public:
       for (std::size_t i = 0; i < n_; ++i)
         if (variates[i] == none)
           fail(fmt::format("{} has no draw{}", correlation_.quantities[i], cell.empty() ? "" : " for " + text_of(cell)),
-               "correlated quantities are tied draw by draw", "the same labels and the same scope ('per') for all?");
+               "correlated quantities need matching draws", "give all of them the same labels and the same scope ('per')");
       tie_cell(variates);
     }
   }
@@ -60,8 +60,8 @@ private:
       const std::size_t named = celled(name);
       const auto all = named == none ? members(name) : std::vector<std::size_t>{named};
       if (all.size() > 1)
-        fail(fmt::format("{} has several draws", name), "beside a name with a label each must be one draw",
-             fmt::format("'{}'?", plan_.variates[all.front()].name));
+        fail(fmt::format("{} has several draws", name), "next to a name with a label, each quantity must have a single draw",
+             fmt::format("did you mean '{}'?", plan_.variates[all.front()].name));
       variates.push_back(all.front());
     }
     tie_cell(variates);
@@ -78,7 +78,7 @@ private:
     for (std::size_t i = 0; i < n_; ++i)
       for (std::size_t j = 0; j < n_; ++j) {
         const double r = m[i * n_ + j];
-        if (!(std::abs(r) <= 1)) fail(fmt::format("the coefficient {} does not lie between -1 and 1", r));
+        if (!(std::abs(r) <= 1)) fail(fmt::format("the coefficient {} is not between -1 and 1", r));
         if (i == j && r != 1) fail("the matrix has a diagonal element that is not 1");
         if (r != m[j * n_ + i]) fail("the matrix is not symmetric");
       }
@@ -97,7 +97,7 @@ private:
       std::vector<std::string> known;
       for (const InputQuantity& q : quantities_) known.push_back(q.name);
       const std::string near = nearest(name, known);
-      fail(fmt::format("'{}' is no quantity", name), "", near.empty() ? "" : "'" + near + "'?");
+      fail(fmt::format("'{}' is not a quantity", name), "", near.empty() ? "" : "did you mean '" + near + "'?");
     }
     std::vector<std::size_t> result;
     for (std::size_t v = 0; v < plan_.variates.size(); ++v) {
@@ -105,11 +105,11 @@ private:
       if (variate.quantity != found) continue;
       const auto& components = quantities_[found].entries[variate.entry].components;
       if (component.empty() && components.size() > 1)
-        fail(fmt::format("{} has several components", quantity), "only one of them can be meant",
-             fmt::format("'{}.{}'?", quantity, components.front().name));
+        fail(fmt::format("{} has several components", quantity), "the name must select one of them",
+             fmt::format("did you mean '{}.{}'?", quantity, components.front().name));
       if (component.empty() || components[variate.component].name == component) result.push_back(v);
     }
-    if (result.empty()) fail(fmt::format("'{}' is not drawn", name), "it has no such component, or is a constant");
+    if (result.empty()) fail(fmt::format("'{}' is not drawn", name), "it has no such component, or it is a constant");
     return result;
   }
 
@@ -125,8 +125,8 @@ private:
         fail(fmt::format("{} is named twice", correlation_.quantities[i]));
       for (const CopulaGroup& other : plan_.copulas)
         if (std::count(other.variates.begin(), other.variates.end(), variates[i]) > 0)
-          fail(fmt::format("{} is tied by another correlation already", correlation_.quantities[i]), "",
-               "one matrix for all of them?");
+          fail(fmt::format("{} is already part of another correlation", correlation_.quantities[i]), "",
+               "use one matrix for all of them");
     }
     CopulaGroup group{variates, {}, correlation_.matrix};
     for (std::size_t i = 0; i < n_; ++i)

@@ -23,8 +23,8 @@ public:
   Choose read() {
     if (scope_.scenario.method != Method::virtual_experiment)
       table_.add("choose: needs method = \"virtual_experiment\"",
-                 "the error of a setting is what is stated less the truth", "in [model]?");
-    if (table_.require("variables", "[choose.variables] feed = [\"10 mm/min\", \"100 mm/min\"]?"))
+                 "the error of a setting is what is stated less the truth", "add it to [model]");
+    if (table_.require("variables", "[choose.variables] feed = [\"10 mm/min\", \"100 mm/min\"]"))
       if (auto variables = table_.table("variables")) read_variables(*variables);
     list("cases", [&](Table& t) { out_.cases.push_back(read_case(t)); });
     list("compare", [&](Table& t) { out_.compare.push_back(read_compare(t)); });
@@ -73,7 +73,7 @@ private:
       known = chosen.has_value();
       index = chosen.value_or(0);
     }
-    table_.require("target", "target = \"3 um\"?");
+    table_.require("target", "target = \"3 um\"");
     if (!known) { // no dimension to judge the others by
       table_.find("target"), table_.find("bias");
     } else {
@@ -88,7 +88,7 @@ private:
     }
     if (const auto of = table_.choice("target_of", {"average", "worst_case"})) out_.worst_case = *of == 1;
     if (out_.worst_case && out_.cases.empty())
-      problems_.add(*table_.find("target_of"), "choose.target_of: there are no cases", "", "[[choose.cases]]?");
+      problems_.add(*table_.find("target_of"), "choose.target_of: there are no cases", "", "[[choose.cases]]");
     if (const auto d = table_.choice("definition", {"corrected", "uncorrected"}))
       out_.definition = static_cast<Choose::Definition>(*d);
   }
@@ -165,7 +165,7 @@ private:
   /// { low, high, steps, scale }
   void range(Table table, Variable& v) {
     if (v.knob.kind == Kind::evaluation) {
-      table.add(table.path() + ": evaluations are listed", "", "evaluation = [\"...\"]?");
+      table.add(table.path() + ": evaluations are listed", "", "evaluation = [\"...\"]");
       table.members();
       return;
     }
@@ -180,7 +180,7 @@ private:
       table.add(table.path() + ": low is not below high");
     } else if (v.logarithmic && *a <= 0) {
       problems_.add(*low, table.path("low") + ": not above 0", "a logarithmic scale has no zero",
-                    "scale = \"linear\"?");
+                    "scale = \"linear\"");
     } else {
       v.range = true;
       v.steps = static_cast<int>(steps);
@@ -198,7 +198,7 @@ private:
     ChooseCase out;
     if (table.require("name")) out.name = table.text("name").value_or("");
     out.source = table.rendered("source");
-    if (table.require("values", "values = { wear_1 = \"20 um\" }?"))
+    if (table.require("values", "values = { wear_1 = \"20 um\" }"))
       if (auto values = table.table("values")) out.values = read_settings(*values, true);
     return out;
   }
@@ -207,7 +207,7 @@ private:
     ChooseCompare out;
     if (table.require("name")) out.name = table.text("name").value_or("");
     out.source = table.rendered("source");
-    if (table.require("settings", "settings = { feed = \"3 mm/min\" }?"))
+    if (table.require("settings", "settings = { feed = \"3 mm/min\" }"))
       if (auto settings = table.table("settings")) out.settings = read_settings(*settings, false);
     return out;
   }

@@ -136,7 +136,7 @@ private:
     out->once_ = add("once", once_, card.time_once);
     if (statement.measurands.empty()) {
       problems_.add(choose_, fmt::format("choose: nothing says how long '{}' takes", card.name),
-                    "the least time is asked for", "[choose.time] per_reading = \"...\"?");
+                    "the least time is asked for", "[choose.time] per_reading = \"...\"");
       return nullptr;
     }
     statement.quantities = symbols_;
@@ -149,7 +149,7 @@ private:
     } catch (const InputError& error) {
       for (Problem p : error.problems()) {
         if (p.where.file.empty()) p.where = {problems_.file(), choose_.line, choose_.column};
-        if (p.remedy.starts_with("[quantities.")) p.remedy = "a constant of [choose.time]?";
+        if (p.remedy.starts_with("[quantities.")) p.remedy = "define it as a constant in [choose.time]";
         problems_.add(InputError(std::vector<Problem>{std::move(p)}));
       }
       return nullptr;

@@ -74,14 +74,14 @@ private:
   }
 
   void spread(std::size_t c, Table table, const Dimension& dimension, const Node& node) {
-    const Node* const between = table.require("spread", "spread = [\"0 deg\", \"360 deg\"]?");
-    const Node* const count = table.require("readings", "readings = 12?");
+    const Node* const between = table.require("spread", "spread = [\"0 deg\", \"360 deg\"]");
+    const Node* const count = table.require("readings", "readings = 12");
     const auto* ends = table.array("spread");
     const auto n = table.integer("readings", 1, most_readings);
     table.refuse_unknown();
     if (!between || !count || !ends || !n) return;
     if (ends->size() != 2) {
-      table.add(table.path("spread") + ": needs a first and a last value", "", "spread = [\"0 deg\", \"360 deg\"]?");
+      table.add(table.path("spread") + ": a first and a last value are needed", "", "spread = [\"0 deg\", \"360 deg\"]");
       return;
     }
     const auto first = read_measure((*ends)[0], table.path("spread"), dimension, table.problems());
@@ -98,10 +98,10 @@ private:
     if (list.values.empty()) return;
     if (length_ != 0 && length_ != list.values.size()) {
       table_->problems().add(node,
-                             fmt::format("conditions: {} values of {} beside {} of {}", list.values.size(),
+                             fmt::format("conditions: {} values of {} but {} of {}", list.values.size(),
                                          model_.conditions[list.condition].name, length_,
                                          model_.conditions[lists_.front().condition].name),
-                             "lists stand side by side, one value a reading");
+                             "lists need equal lengths, one value per reading");
       return;
     }
     length_ = list.values.size();

@@ -87,7 +87,7 @@ std::optional<DataColumn> read_data_column(Table& table, const std::string& si_u
     out.csv = of_readings ? files.open_readings(*file, table.path("file"), table.problems())
                           : files.open(*file, table.path("file"), table.problems());
   if (!table.has("unit") && si_unit != "1")
-    table.add(fmt::format("{}: missing", table.path("unit")), "the column's numbers carry none", "unit = \"mm\"?");
+    table.add(fmt::format("{} is missing", table.path("unit")), "numbers in a column carry no unit", "unit = \"mm\"");
   out.unit = unit.value_or("1");
   const bool known = table.has("unit") ? unit && units::convertible(out.unit, si_unit) : si_unit == "1";
   if (unit && !known) {

@@ -19,7 +19,7 @@ std::string figure_text(Table& table, const std::string& key) {
 Expected read_one(Table table, const ModelCard& model, Context& context) {
   Expected out;
   out.where = {context.problems.file(), table.node().line, table.node().column};
-  table.require("figure", "figure = \"standard_uncertainty\"?");
+  table.require("figure", "figure = \"standard_uncertainty\"");
   table.require("value");
   out.figure = table.text("figure").value_or("");
   std::vector<std::string> names;
@@ -33,7 +33,7 @@ Expected read_one(Table table, const ModelCard& model, Context& context) {
   out.note = table.text("note").value_or("");
   if (!out.tolerance.empty() && out.why.empty())
     table.add(table.path() + ": a tolerance without a reason", "half a unit of the last digit is the rule",
-              "why = \"...\"?");
+              "why = \"...\"");
   table.refuse_unknown();
   return out;
 }

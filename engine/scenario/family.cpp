@@ -64,7 +64,7 @@ private:
   Dimension difference() const { return {form_.si_unit, units::Kind::difference}; }
   Dimension location() const { return {form_.si_unit, form_.absolute ? units::Kind::point : units::Kind::difference}; }
   void missing(const std::string& what, const std::string& remedy = {}) {
-    table_.add(fmt::format("{}: missing", table_.path(what)), std::string(card_.name), remedy);
+    table_.add(fmt::format("{} is missing", table_.path(what)), std::string(card_.name), remedy);
   }
   double needed(const std::string& key, std::optional<double> value) {
     if (!table_.has(key)) missing(key);
@@ -77,23 +77,23 @@ private:
     const auto half = table_.measure("half_width", difference());
     const bool ends = table_.has("low") || table_.has("high");
     if (table_.has("half_width") && ends) {
-      table_.add(table_.path() + ": half_width beside low or high", "both say how wide it is", "leave one out?");
+      table_.add(table_.path() + ": half_width is given together with low or high", "both state the width", "leave one out");
     } else if (table_.has("half_width")) {
       if (half && *half <= 0) {
         context_.problems.add(*table_.find("half_width"), table_.path("half_width") + ": must be above 0", "",
-                              "leave the distribution out for an exact value?");
+                              "leave the distribution out for an exact value");
       }
       parameter(0) = -half.value_or(1);
       parameter(1) = half.value_or(1);
     } else if (!ends) {
-      missing("half_width", "or low and high?");
+      missing("half_width", "give half_width, or low and high");
     } else {
       const double a = needed("low", low), b = needed("high", high);
       if (low && high && a >= b)
         context_.problems.add(*table_.find("low"), table_.path("low") + ": low must be below high");
       if (form_.absolute && form_.value) {
-        table_.add(table_.path() + ": value beside low and high", "the value is their middle",
-                   "value with half_width, or low and high alone?");
+        table_.add(table_.path() + ": value is given together with low and high", "the value is the middle of the limits",
+                   "give value with half_width, or low and high alone");
       }
       const double middle = form_.absolute ? a + (b - a) / 2 : 0;
       if (form_.absolute) out_.value = middle;
@@ -196,7 +196,7 @@ private:
     std::vector<double> shares;
     const auto* items = table_.array("probabilities");
     if (!items) {
-      if (!table_.has("probabilities")) missing("probabilities", "or distribution = \"empirical\" for equal ones?");
+      if (!table_.has("probabilities")) missing("probabilities", "give them, or use distribution = \"empirical\" for equal ones");
       return shares;
     }
     for (const Node& item : *items)
@@ -204,7 +204,7 @@ private:
     const Node& node = *table_.find("probabilities");
     const double sum = std::accumulate(shares.begin(), shares.end(), 0.0);
     if (shares.size() != n) {
-      context_.problems.add(node, fmt::format("{}: {} probabilities for {} values", table_.path(), shares.size(), n));
+      context_.problems.add(node, fmt::format("{}: there are {} probabilities for {} values", table_.path(), shares.size(), n));
     } else if (std::abs(sum - 1) > 1e-6) {
       context_.problems.add(node, fmt::format("{}: the probabilities add up to {}, not 1", table_.path(), sum));
     } else {
@@ -214,7 +214,7 @@ private:
   }
 
   double standard_uncertainty() {
-    if (!table_.has("u") && !table_.has("U")) missing("u", "or U with k?");
+    if (!table_.has("u") && !table_.has("U")) missing("u", "give u, or U with k");
     return read_standard_uncertainty(table_, form_.si_unit).value_or(1);
   }
 
@@ -233,24 +233,24 @@ std::optional<double> read_standard_uncertainty(Table& table, const std::string&
   const auto k = table.positive("k");
   const bool has_u = table.has("u"), has_expanded = table.has("U"), has_k = table.has("k");
   if (has_u && has_expanded) {
-    table.add(table.path() + ": u beside U", "both say how uncertain it is", "leave one out?");
+    table.add(table.path() + ": both u and U are given", "both state the uncertainty", "leave one out");
     return std::nullopt;
   }
   if (has_expanded && !has_k) {
     table.problems().add(*table.find("U"), table.path("U") + ": the coverage factor is missing",
-                         "an expanded uncertainty without k says nothing", "k = 2?");
+                         "an expanded uncertainty is meaningless without k", "k = 2");
     return std::nullopt;
   }
   if (!has_expanded && has_k) {
     table.problems().add(*table.find("k"), table.path("k") + ": k belongs to an expanded uncertainty U", "",
-                         "U, not u?");
+                         "write U instead of u");
     return std::nullopt;
   }
   const auto given = has_u ? u : expanded;
   const std::string key = has_u ? "u" : "U";
   if (given && *given <= 0) {
     table.problems().add(*table.find(key), table.path(key) + ": must be above 0", "",
-                         *given == 0 ? "leave it out for an exact value?" : "");
+                         *given == 0 ? "leave it out for an exact value" : "");
     return std::nullopt;
   }
   if (!given || (has_expanded && !k)) return std::nullopt;

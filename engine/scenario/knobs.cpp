@@ -29,7 +29,7 @@ std::optional<double> KnobReader::value(const Node& node, const std::string& pat
   if (knob.kind == Kind::readings) {
     const auto n = read_number(node, path, problems_);
     if (!n || (*n == std::floor(*n) && *n >= 1 && *n <= most_readings)) return n;
-    problems_.add(node, fmt::format("{}: {} is no number of readings", path, *n), "", "a whole number from 1?");
+    problems_.add(node, fmt::format("{}: {} is no number of readings", path, *n), "", "use a whole number of at least 1");
     return std::nullopt;
   }
   const auto x = read_measure(node, path, {knob.si_unit}, problems_);

@@ -25,8 +25,8 @@ public:
     else if (const auto* known = named(name))
       out = *known;
     if (sides && name && chain::find_machine(*name))
-      problems_.add(*table_.find("name"), fmt::format("machine.name: '{}' is a known machine", *name),
-                    "its axes need not be listed", "leave out the sides, or name it otherwise?");
+      problems_.add(*table_.find("name"), fmt::format("machine.name: '{}' is a predefined machine", *name),
+                    "its axes are already known", "leave out the sides, or choose another name");
     if (auto errors = table_.table("errors")) read_errors(*errors, out);
     const std::size_t so_far = problems_.size();
     table_.refuse_unknown();
@@ -54,8 +54,8 @@ private:
       return chain::find_machine(*name);
     }
     if (!table_.has("name"))
-      table_.add("machine: neither a name nor sides", "",
-                 fmt::format("name = one of {}, or workpiece_side = [\"A\"] and tool_side = [\"X\", \"Y\", \"Z\"]?",
+      table_.add("machine: neither a name nor the two sides are given", "",
+                 fmt::format("name one of {}, or give workpiece_side = [\"A\"] and tool_side = [\"X\", \"Y\", \"Z\"]",
                              fmt::join(names, ", ")));
     return nullptr;
   }
@@ -82,7 +82,7 @@ private:
 
   AxisDescription axis(Table& row, const std::string& place) {
     AxisDescription out;
-    const Node* name = row.require("axis", "axis = \"C\"?");
+    const Node* name = row.require("axis", "axis = \"C\"");
     const auto text = row.text("axis");
     if (name) places_[place] = {name, row.path()};
     if (!text) unreadable_.insert(place);
@@ -94,14 +94,14 @@ private:
       const auto sense = row.number("sense");
       if (sense && *sense != 1 && *sense != -1)
         problems_.add(*row.find("sense"), fmt::format("{}: {} is neither 1 nor -1", row.path("sense"), *sense),
-                      "of the component's motion at a positive command", "leave it out for ISO 841?");
+                      "the sense of the component's motion at a positive command", "leave it out to follow ISO 841");
       else if (sense)
         out.sense = static_cast<int>(*sense);
     }
     if (const auto* point = row.array("point")) {
       if (point->size() != 3)
-        problems_.add(*row.find("point"), row.path("point") + ": needs X, Y and Z", "",
-                      "point = [\"0 mm\", \"0 mm\", \"-50 mm\"]?");
+        problems_.add(*row.find("point"), row.path("point") + ": X, Y and Z are needed", "",
+                      "point = [\"0 mm\", \"0 mm\", \"-50 mm\"]");
       for (std::size_t i = 0; i < point->size() && point->size() == 3; ++i)
         out.point[i] = read_measure((*point)[i], row.path("point"), {"m"}, problems_).value_or(0);
     }
@@ -149,7 +149,7 @@ private:
 } // namespace
 
 std::optional<MachineDescription> read_machine(Table& top, Problems& problems) {
-  if (!top.require("machine", "[machine] name = \"TTTRR\"?")) return std::nullopt;
+  if (!top.require("machine", "[machine] name = \"TTTRR\"")) return std::nullopt;
   auto table = top.table("machine");
   return table ? MachineReader(*table, problems).read() : std::nullopt;
 }

@@ -9,21 +9,21 @@ namespace {
 
 std::vector<std::string> read_words(Table& model, Problems& problems) {
   std::vector<std::string> words;
-  const Node* node = model.require("command", "command = [\"python3\", \"model.py\"]?");
+  const Node* node = model.require("command", "command = [\"python3\", \"model.py\"]");
   if (!node) return words;
   const auto* items = model.array("command");
   if (!items) return words;
   for (const Node& item : *items)
     if (const auto word = read_text(item, "model.command", problems)) words.push_back(*word);
   if (items->empty() || (!words.empty() && words.front().empty()))
-    problems.add(*node, "model.command: no program", "", "command = [\"python3\", \"model.py\"]?");
+    problems.add(*node, "model.command: no program", "", "command = [\"python3\", \"model.py\"]");
   return words;
 }
 
 /// y = "mm", or y = { unit = "mm", meaning = "..." }
 std::vector<Symbol> read_measurands(Table& model, Problems& problems) {
   std::vector<Symbol> out;
-  if (!model.require("measurands", "[model.measurands] with name = unit?")) return out;
+  if (!model.require("measurands", "[model.measurands] y = \"mm\"")) return out;
   auto table = model.table("measurands");
   if (!table) return out;
   for (const Member& m : table->members()) {
@@ -44,7 +44,7 @@ std::vector<Symbol> read_measurands(Table& model, Problems& problems) {
     }
     out.push_back(s);
   }
-  if (out.empty()) table->add("model.measurands: none", "there is nothing to evaluate", "name = \"unit\"?");
+  if (out.empty()) table->add("model.measurands: none", "there is nothing to evaluate", "y = \"mm\"");
   return out;
 }
 

@@ -18,7 +18,7 @@ formula::Stated read_formula(const Node& node, const std::string& path, bool wit
   out.formula.name = path;
   if (node.kind == Node::Kind::table && with_unit) {
     Table table(node, path, problems);
-    if (const Node* formula = table.require("formula", "formula = \"...\"?")) {
+    if (const Node* formula = table.require("formula", "formula = \"...\"")) {
       if (const auto text = table.text("formula")) out.formula.text = *text;
       out.formula.where = place_of(*formula, problems.file());
     }
@@ -66,7 +66,7 @@ models::MadeModel make_expression(const MadeModelSource& source) {
   }
   const Node* method = model.find("method");
   if (s.measurands.empty() && s.simulated.empty())
-    model.add("model: no formula", "an expression states what is measured", "[model.measurands] y = \"a + b\"?");
+    model.add("model: no formula", "an expression states what is measured", "[model.measurands] y = \"a + b\"");
   if (context.problems.size() != before) return nullptr;
   try {
     return models::expression::make(std::move(s), context.notes,

@@ -7,7 +7,7 @@ namespace gumshoe::scenario {
 
 models::MadeModel make_plugin(const MadeModelSource& source) {
   auto& [model, top, folder, context] = source;
-  const Node* node = model.require("library", "library = \"libmine.so\"?");
+  const Node* node = model.require("library", "library = \"libmine.so\"");
   const auto library = model.text("library");
   if (!library) return nullptr;
   try {

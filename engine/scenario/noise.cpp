@@ -43,8 +43,8 @@ public:
     const auto further = read_components(table_, std::string(card_.si_unit), true, unused, context_);
     for (const Component& c : further) {
       if (c.name == "resolution" || c.name == "repeatability")
-        table_.add(fmt::format("{}.components: the name '{}' is taken", table_.path(), c.name), "",
-                   "choose another name?");
+        table_.add(fmt::format("{}.components: the name '{}' is already used", table_.path(), c.name), "",
+                   "choose another name");
     }
     std::vector<Entry> entries;
     for (const Readouts& reading : readouts_.used) add(entries, reading, choose(reading, step, repeatability));
@@ -57,7 +57,7 @@ public:
     }
     for (Entry& e : entries) e.components.insert(e.components.end(), further.begin(), further.end());
     if (entries.front().components.empty()) {
-      note("no component of uncertainty is stated: the readouts count as exact");
+      note("no component of uncertainty is stated: the readings are treated as exact");
     }
     out.entries = std::move(entries);
     return out;
@@ -95,7 +95,7 @@ private:
     }
     if (node->kind != Node::Kind::table) {
       context_.problems.add(*node, path + ": not understood", "",
-                            "\"readings\", { s = \"...\" } or { pooled = true }?");
+                            "use \"readings\", { s = \"...\" } or { pooled = true }");
       return {};
     }
     Table table(*node, path, context_.problems);
@@ -112,8 +112,8 @@ private:
       if (r.values.size() > 1) continue;
       const std::string of = r.labels.empty() ? "" : fmt::format(" (reading {})", text_of(r.labels));
       context_.problems.add(node,
-                            fmt::format("{}: {} readout(s){} say nothing of their scatter", path, r.values.size(), of),
-                            "", "repeat, or declare or pool s?");
+                            fmt::format("{}: {} readout(s){} cannot show any scatter", path, r.values.size(), of),
+                            "", "repeat the reading, declare s, or pool it");
       return;
     }
   }
@@ -121,11 +121,11 @@ private:
   Repeatability pooled(Table& table) {
     for (const char* key : {"s", "degrees_of_freedom"})
       if (table.has(key))
-        table.add(fmt::format("{}: {} beside pooled", table.path(), key), "the data say it", "leave it out?");
+        table.add(fmt::format("{}: {} is given together with pooled", table.path(), key), "pooling takes it from the data", "leave it out");
     const Scatter scatter = pooled_scatter(readouts_.all);
     if (!(scatter.degrees_of_freedom > 0)) {
       if (context_.readings_known)
-        table.add(table.path() + ": nothing to pool", "no reading was repeated", "declare s?");
+        table.add(table.path() + ": there is nothing to pool", "no reading is repeated", "declare s");
       return {};
     }
     return {Repeatability::Kind::declared, scatter, 'A',
@@ -135,7 +135,7 @@ private:
 
   Repeatability declared(Table& table) {
     Repeatability out{Repeatability::Kind::declared, {}, 'A', {}};
-    const Node* node = table.require("s", "s = \"...\", or pooled = true?");
+    const Node* node = table.require("s", "write s = \"...\" or pooled = true");
     const auto s = table.measure("s", {std::string(card_.si_unit), units::Kind::difference});
     out.scatter.degrees_of_freedom = table.positive("degrees_of_freedom").value_or(0);
     if (!table.has("degrees_of_freedom")) out.evaluation = 'B';
@@ -154,7 +154,7 @@ private:
       scatter.degrees_of_freedom = static_cast<double>(reading.values.size()) - 1;
       scatter.s = std::sqrt(sum_of_squares(reading.values) / scatter.degrees_of_freedom);
       if (!(scatter.s > 0))
-        note(fmt::format("{} identical readouts: their Type A evaluation is zero", reading.repeats));
+        note(fmt::format("{} identical readouts: their Type A uncertainty is zero", reading.repeats));
     }
     if (!(scatter.s > 0)) return std::nullopt;
     const double scale = scatter.s / std::sqrt(static_cast<double>(reading.repeats));
@@ -189,7 +189,7 @@ private:
     if (resolution) resolution->source = fmt::format("step {}, {}", shown(*step), resolution->source);
     if (!repeatability && !resolution) return {};
     if (!repeatability) {
-      if (r.kind != Repeatability::Kind::none) note("resolution used, not repeatability, which is zero");
+      if (r.kind != Repeatability::Kind::none) note("the resolution is used, because the repeatability is zero");
       return {*resolution};
     }
     const double scale = repeatability->distribution.parameters[1];
@@ -210,7 +210,7 @@ private:
   std::vector<Component> warned(const Component& repeatability, const Readouts& reading) {
     if (repeatability.distribution.family == Family::t && repeatability.degrees_of_freedom <= 2) {
       note(fmt::format("{} readouts give a t distribution with {} degree(s) of freedom, which has no standard "
-                       "uncertainty: only quantiles are stated",
+                       "uncertainty: only quantiles are given",
                        reading.repeats, repeatability.degrees_of_freedom));
     }
     return {repeatability};
@@ -236,7 +236,7 @@ private:
     for (Entry& e : entries) {
       if (e.labels != entry.labels) continue;
       if (!alike(e, entry)) {
-        note(fmt::format("readings with equal labels ({}) differ in noise: the largest is used for all",
+        note(fmt::format("readings with equal labels ({}) differ in noise: the largest noise is used for all of them",
                          text_of(e.labels)));
         if (spread(entry) > spread(e)) e = std::move(entry);
       }
@@ -253,8 +253,8 @@ private:
       if (scoped("reading")) continue;
       for (const auto& [label, value] : entries.front().labels) {
         if (scoped(label)) continue;
-        table_.add(fmt::format("{}.components: '{}' is shared by readings of different noise", table_.path(), c.name),
-                   "its draws would no longer be shared", "per = \"reading\", or an equal number of repeats?");
+        table_.add(fmt::format("{}.components: '{}' is shared by readings with different noise", table_.path(), c.name),
+                   "they cannot share its draws", "write per = \"reading\", or give all of them equal numbers of repeats");
         return;
       }
     }

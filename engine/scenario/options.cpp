@@ -32,7 +32,7 @@ void check_label(Table& table, const char* key, const std::string& name, Context
 Comparison read_comparison(Table table, const ModelCard& model, Context& context) {
   Comparison out;
   if (const auto* m = read_measurand(table, model)) out.measurand = m->name;
-  table.require("between", "between = \"rod\"?");
+  table.require("between", "between = \"rod\"");
   out.between = table.text("between").value_or("");
   out.within = table.text("within").value_or("");
   if (!out.between.empty()) check_label(table, "between", out.between, context);
@@ -68,10 +68,10 @@ RunOptions read_run(Table table) {
   if (out.adaptive.rule != StoppingRule::fixed) {
     if (table.has("samples"))
       table.problems().add(*table.find("samples"), table.path("samples") + ": samples beside adaptive",
-                           "an adaptive run finds their number", "leave one out?");
+                           "an adaptive run finds their number", "leave one out");
     if (out.design != Design::monte_carlo)
       table.problems().add(*table.find("design"), table.path("design") + ": adaptive runs need independent samples", "",
-                           "design = \"monte_carlo\"?");
+                           "design = \"monte_carlo\"");
   }
   out.store_samples = table.boolean("store_samples").value_or(out.store_samples);
   table.refuse_unknown();
@@ -140,7 +140,7 @@ quantities::Correlation read_correlation(Table table, const std::vector<std::str
       problems.add(node, fmt::format("{}: '{}' is named twice", table.path("quantities"), name));
     seen.push_back(name);
   }
-  table.require("kind", "copula, pearson or spearman?");
+  table.require("kind", "use copula, pearson or spearman");
   using Kind = quantities::Correlation::Kind;
   if (const auto kind = table.choice("kind", {"copula", "pearson", "spearman"}))
     out.kind = *kind == 0 ? Kind::copula : *kind == 1 ? Kind::pearson : Kind::spearman;
@@ -149,9 +149,9 @@ quantities::Correlation read_correlation(Table table, const std::vector<std::str
   const auto coefficient = table.number("coefficient");
   if (n < 2 && table.has("quantities")) table.add(table.path() + ": needs two quantities or more");
   if (table.has("coefficient") == table.has("matrix")) {
-    table.add(table.path() + ": give either coefficient or matrix", "", "coefficient = 0.5 for two quantities?");
+    table.add(table.path() + ": give either coefficient or matrix", "", "write coefficient = 0.5 for two quantities");
   } else if (coefficient && n != 2) {
-    table.add(fmt::format("{}: one coefficient for {} quantities", table.path(), n), "", "a matrix?");
+    table.add(fmt::format("{}: one coefficient for {} quantities", table.path(), n), "", "give a matrix");
   } else if (coefficient && std::abs(*coefficient) > 1) {
     problems.add(*table.find("coefficient"),
                  fmt::format("{}: {} must lie between -1 and 1", table.path("coefficient"), *coefficient));
@@ -173,7 +173,7 @@ EstimateOptions read_estimate(Table table) {
   if (const auto width = table.positive("width")) out.width = *width;
   if (table.has("width") && out.loss == Loss::squared)
     table.problems().add(*table.find("width"), table.path("width") + ": the squared loss has no width", "",
-                         "loss = \"huber\"?");
+                         "loss = \"huber\"");
   if (const auto n = table.integer("iterations", 1, 1'000'000)) out.iterations = static_cast<int>(*n);
   if (const auto posterior = table.choice("posterior", {"normal", "t"})) out.t = *posterior == 1;
   table.refuse_unknown();

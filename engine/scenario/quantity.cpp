@@ -59,8 +59,8 @@ private:
     if (table.has("components")) {
       for (const char* key : {"distribution", "u", "U", "observations", "half_width", "low", "high", "per"}) {
         if (!table.has(key)) continue;
-        context_.problems.add(*table.find(key), fmt::format("{}: '{}' beside components", table.path(), key),
-                              "each component says its own", "move it into a component?");
+        context_.problems.add(*table.find(key), fmt::format("{}: '{}' is given together with components", table.path(), key),
+                              "each component states its own", "move it into a component");
       }
       e.components = read_components(table, std::string(card_.si_unit), given, e.value, context_);
     } else if (uncertain(table)) {
@@ -71,17 +71,17 @@ private:
         if (!uncertainty->exact) e.components.push_back(std::move(uncertainty->component));
       }
     } else if (!given && !out_.estimated) {
-      table.add(table.path() + ": neither a value nor an uncertainty", "", "value = \"...\"?");
+      table.add(table.path() + ": neither a value nor an uncertainty is given", "", "value = \"...\"");
     }
     if (given && !value) return;
     for (const Component& c : e.components) {
       if (!out_.estimated || c.per.empty()) continue;
-      table.add(table.path() + ": estimated beside per", "a fit finds one value per label, not a draw per label",
-                fmt::format("a value per label: by.{}?", c.per.front()));
+      table.add(table.path() + ": estimated is given together with per", "a fit finds one value per label, not one draw per label",
+                fmt::format("give a value per label: by.{}", c.per.front()));
       return;
     }
     if (out_.estimated && e.components.empty()) {
-      const std::string note = out_.name + ": estimated, without a distribution: exact at its start value until "
+      const std::string note = out_.name + ": estimated, without a distribution; treated as exact at its start value until "
                                            "gumshoe estimate has fitted it";
       if (std::find(context_.notes.begin(), context_.notes.end(), note) == context_.notes.end())
         context_.notes.push_back(note);
@@ -104,8 +104,8 @@ private:
     auto by = table.table("by");
     if (!by) return;
     if (by->members().size() != 1) {
-      by->add(fmt::format("{}: {} labels", by->path(), by->members().size()), "one label per by-table; tables nest",
-              "by.rod.\"rod 1\".by.setup...?");
+      by->add(fmt::format("{}: there are {} labels", by->path(), by->members().size()), "a by-table has one label; tables can be nested",
+              "nest them: by.rod.\"rod 1\".by.setup");
       return;
     }
     const Member& label = by->members().front();
@@ -123,7 +123,7 @@ private:
       Labels here = labels;
       if (find_label(here, label.key)) {
         context_.problems.add(row.line, row.column,
-                              fmt::format("{}: the label '{}' is nested in itself", by->path(), label.key));
+                              fmt::format("{}: the label '{}' is nested within itself", by->path(), label.key));
         return;
       }
       here.emplace_back(label.key, row.key);
@@ -163,7 +163,7 @@ private:
     const auto uses = [&](const Labels& reading) { return matches(reading, entry.labels); };
     if (context_.readings_known && !entry.labels.empty() &&
         std::none_of(context_.readings.begin(), context_.readings.end(), uses)) {
-      context_.notes.push_back(fmt::format("{}: not used, no reading has {}", path, text_of(entry.labels)));
+      context_.notes.push_back(fmt::format("{}: not used, because no reading has {}", path, text_of(entry.labels)));
       return;
     }
     out_.entries.push_back(std::move(entry));
@@ -205,8 +205,8 @@ void check_limits(const Entry& entry, const QuantityCard& card, const Node& node
   const bool low = std::isfinite(least) && least < limits.low - rounding;
   const bool high = std::isfinite(most) && most > limits.high + rounding;
   if (low || high) {
-    problems.add(node, fmt::format("{}: can become {}", path, shown(low ? least : most, card)),
-                 limit_text(limits, low, card), "narrow the distribution?");
+    problems.add(node, fmt::format("{}: the distribution reaches {}", path, shown(low ? least : most, card)),
+                 limit_text(limits, low, card), "narrow the distribution");
   }
 }
 
@@ -223,15 +223,15 @@ std::vector<Component> read_components(Table& table, const std::string& si_unit,
     Table component = *row;
     const std::string name = component.text("name").value_or(fmt::format("c{}", i + 1));
     if (name.empty() || !names.insert(name).second) {
-      component.add(fmt::format("{}: the name '{}' {}", component.path(), name, name.empty() ? "is empty" : "is taken"),
-                    "names of components differ");
+      component.add(fmt::format("{}: the name '{}' {}", component.path(), name, name.empty() ? "is empty" : "is already used"),
+                    "components need different names");
     }
     Form form{si_unit, false, 0.0, 0.0};
     const bool mean_counts = component.has("observations") && !value_given;
     if (mean_counts) form.value.reset();
     if (mean_counts && replaced) {
-      component.add(component.path() + ": observations twice without a value", "which mean is the value?",
-                    "give value?");
+      component.add(component.path() + ": two components have observations, but there is no value", "either mean could be the value",
+                    "state the value");
     }
     replaced |= mean_counts;
     auto uncertainty = read_uncertainty(component, form, context);

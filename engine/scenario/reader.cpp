@@ -33,7 +33,7 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
   const std::string near = nearest(word, candidates);
   if (!near.empty()) return fmt::format("did you mean '{}'?", near);
   if (candidates.empty() || candidates.size() > 12) return {};
-  const std::string all = fmt::format("one of {}?", fmt::join(candidates, ", "));
+  const std::string all = fmt::format("use one of {}", fmt::join(candidates, ", "));
   return all.size() <= 500 ? all : std::string{}; // a list that nobody would read
 }
 
@@ -42,19 +42,19 @@ std::optional<double> read_measure(const Node& node, const std::string& path, co
   const std::string kind = units::kind_name(dimension.si_unit);
   if (node.kind == Node::Kind::integer || node.kind == Node::Kind::real) {
     if (!std::isfinite(node.number)) {
-      problems.add(node, fmt::format("{}: not a finite number", path));
+      problems.add(node, fmt::format("{}: the number is not finite", path));
     } else if (dimension.si_unit == "1") {
       return node.number;
     } else {
       problems.add(node, fmt::format("{}: {} is not {}", path, node.number, kind),
-                   "a number with a dimension carries its unit",
-                   fmt::format("write it as text with a unit, like \"{} ...\"?", node.number));
+                   "a number with a dimension needs a unit",
+                   fmt::format("write it as text with a unit, such as \"{} ...\"", node.number));
     }
     return std::nullopt;
   }
   if (node.kind != Node::Kind::text) {
     problems.add(node, fmt::format("{}: {} is not {}", path, describe(node.kind), kind), "",
-                 "write it as text with a unit, like \"0.6 um\"?");
+                 "write it as text with a unit, such as \"0.6 um\"");
     return std::nullopt;
   }
   try {
@@ -76,7 +76,7 @@ std::optional<double> read_number(const Node& node, const std::string& path, Pro
     return std::nullopt;
   }
   if (!std::isfinite(node.number)) {
-    problems.add(node, fmt::format("{}: not a finite number", path));
+    problems.add(node, fmt::format("{}: the number is not finite", path));
     return std::nullopt;
   }
   return node.number;
@@ -84,7 +84,7 @@ std::optional<double> read_number(const Node& node, const std::string& path, Pro
 
 std::optional<std::string> read_text(const Node& node, const std::string& path, Problems& problems) {
   if (node.kind == Node::Kind::text) return node.text;
-  problems.add(node, fmt::format("{}: expected text, found {}", path, describe(node.kind)), "", "put it in quotes?");
+  problems.add(node, fmt::format("{}: expected text, found {}", path, describe(node.kind)), "", "put it in quotes");
   return std::nullopt;
 }
 
@@ -103,7 +103,7 @@ const Node* Table::find(const std::string& key) {
 
 const Node* Table::require(const std::string& key, const std::string& remedy) {
   const Node* node = find(key);
-  if (!node) add(fmt::format("{}: missing", path(key)), "", remedy);
+  if (!node) add(fmt::format("{} is missing", path(key)), "", remedy);
   return node;
 }
 

@@ -23,7 +23,7 @@ void add_row(std::vector<Readouts>& groups, const Labels& labels, const std::vec
 
 bool reserved(const std::string& label, const Member& at, const std::string& path, Problems& problems) {
   if (label != "reading") return false;
-  problems.add(at.line, at.column, path + ": 'reading' is no label", "as a scope it means every reading");
+  problems.add(at.line, at.column, path + ": 'reading' cannot be a label", "as a scope it means 'every reading'");
   return true;
 }
 
@@ -147,8 +147,8 @@ private:
     for (const Member& m : where->members()) {
       if (!complete_ || std::find(names.begin(), names.end(), m.key) != names.end()) continue;
       context_.problems.add(m.line, m.column,
-                            fmt::format("{}: '{}' is no label of these readings", where->path(), m.key),
-                            "where chooses by labels", did_you_mean(m.key, names));
+                            fmt::format("{}: '{}' is not a label of these readings", where->path(), m.key),
+                            "where selects rows by their labels", did_you_mean(m.key, names));
     }
   }
 
@@ -223,7 +223,7 @@ void read_rows(const std::vector<Node>& rows, const std::string& path, const Var
     }
     if (const auto repeats = table->integer("repeats", 1, 1'000'000)) {
       if (table->has("values"))
-        table->add(table->path() + ": repeats beside values", "the values are counted", "leave it out?");
+        table->add(table->path() + ": repeats is given together with values", "the number of values is counted", "leave it out");
       group.repeats = static_cast<int>(*repeats);
     }
     for (const Member& m : table->members()) {
@@ -259,8 +259,8 @@ void one_each(const Conditions& commanded, const Labels& labels, const std::vect
               Table& table, IndicationReadouts& out) {
   const std::size_t n = commanded.readings.size();
   if (written != n)
-    table.add(fmt::format("{}: {} readings beside {} listed conditions", table.path("readings"), written, n),
-              "one a reading");
+    table.add(fmt::format("{}: {} readings but {} listed conditions", table.path("readings"), written, n),
+              "one condition per reading is needed");
   for (std::size_t i = 0; i < std::min(n, values.size()); ++i)
     out.used.push_back({joined(labels, commanded.readings[i]), commanded.readings[i].values, {values[i]}, 1});
 }
@@ -275,24 +275,24 @@ IndicationReadouts read_readouts(Table& table, const VariableCard& card, const M
   const Node* readings = table.find("readings");
   const auto* rows = table.array("rows");
   if (readings && table.has("rows")) {
-    table.add(table.path() + ": readings beside rows", "both say what was read", "leave one out?");
+    table.add(table.path() + ": readings is given together with rows", "both state what was read", "leave one out");
   }
   if (context.files.readings_replaced() && (!readings || readings->kind != Node::Kind::table))
     problems.add(readings ? *readings : table.node(),
-                 fmt::format("{}: no data file that --data could replace", table.path()),
-                 "its readings stand in the scenario", "readings = { file = \"...\", column = \"...\" }?");
+                 fmt::format("{}: there is no data file for --data to replace", table.path()),
+                 "its readings are written in the scenario", "readings = { file = \"...\", column = \"...\" }");
   Labels labels;
   if (table.has("labels")) {
     if (readings && readings->kind == Node::Kind::table) {
-      problems.add(*table.find("labels"), table.path("labels") + ": labels of a data file are its columns", "",
-                   "move it into readings?");
+      problems.add(*table.find("labels"), table.path("labels") + ": the labels of a data file are its columns", "",
+                   "move it into readings");
     } else if (auto own = table.table("labels")) {
       labels = read_labels(*own);
     }
   }
   if (commanded.listed && (rows || (readings && readings->kind == Node::Kind::table)))
-    table.add(table.path() + ": conditions are listed, one a reading", "a file's columns or the rows say them here",
-              "take the list out of [conditions]?");
+    table.add(table.path() + ": conditions are listed, one per reading", "here the file's columns or the rows state them",
+              "remove the list from [conditions]");
   if (readings && readings->kind == Node::Kind::table) {
     return FileReader(Table(*readings, table.path("readings"), problems), card, model, context).read(conditions);
   }

@@ -38,9 +38,9 @@ public:
   Scenario read() {
     document_ = parse_document(out_.text, out_.file);
     if (document_.members.empty())
-      throw InputError({{{out_.file, 0, 0}, "the scenario is empty", "", "schema = 1 and [model]?"}});
+      throw InputError({{{out_.file, 0, 0}, "the scenario is empty", "", "write schema = 1 and a [model] table"}});
     Table top(document_, "", problems_);
-    if (top.require("schema", "schema = 1?")) top.integer("schema", 1, 1);
+    if (top.require("schema", "schema = 1")) top.integer("schema", 1, 1);
     out_.title = top.text("title").value_or("");
     const ModelCard* model = read_model(top);
     if (!model) { // nothing below has a meaning without its model
@@ -70,7 +70,7 @@ public:
       for (const StatedEffect& e : out_.stated_effects)
         if (e.freed && e.of_columns)
           choose->add(fmt::format("choose: stated_effects.{} reads columns", e.name),
-                      "nothing says what they would be in other settings", "conditions only?");
+                      "nothing says what they would be in other settings", "use conditions only");
     }
     top.refuse_unknown();
     problems_.raise();
@@ -83,7 +83,7 @@ private:
     Table sensitivity(*analysis.find("sensitivity"), analysis.path("sensitivity"), problems_);
     problems_.add(*sensitivity.find("sobol"), sensitivity.path("sobol") + ": the inputs are correlated",
                   "Sobol' indices are defined for independent inputs, Shapley effects for all",
-                  "sensitivity = { shapley = 4096 }?");
+                  "sensitivity = { shapley = 4096 }");
   }
 
   void check_free(Table& top, const ModelCard& model) {
@@ -99,7 +99,7 @@ private:
   }
 
   const ModelCard* read_model(Table& top) {
-    if (!top.require("model", "[model] with a name?")) return nullptr;
+    if (!top.require("model", "[model] name = \"...\"")) return nullptr;
     auto table = top.table("model");
     if (!table) return nullptr;
     const auto index =
@@ -145,7 +145,7 @@ private:
       if (out_.method == Method::propagation && !table) {
         problems_.add(indications ? indications->node() : top.node(), fmt::format("indications.{}: missing", name),
                       "propagation of distributions evaluates readouts",
-                      fmt::format("[indications.{}] with readings?", name));
+                      fmt::format("add [indications.{}] with readings", name));
       }
       tables.push_back(table ? *table : Table(nothing, "indications." + name, problems_));
       readouts.push_back(read_readouts(tables.back(), card, model, conditions, context_));
@@ -170,7 +170,7 @@ private:
       if (table.has("readings") && table.find("readings")->kind == Node::Kind::array) return; // said already
       const std::string of = r.labels.empty() ? "" : " for " + text_of(r.labels);
       table.add(fmt::format("{}: no readings{}", table.path(), of), "propagation of distributions evaluates readouts",
-                "readings = [\"...\"]?");
+                "readings = [\"...\"]");
       return;
     }
   }

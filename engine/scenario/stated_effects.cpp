@@ -27,13 +27,13 @@ public:
     std::vector<std::string> indications;
     for (const VariableCard& i : scope_.model.indications) indications.emplace_back(i.name);
     const bool one = indications.size() == 1;
-    const Node* node = one ? table_.find("indication") : table_.require("indication", "indication = \"...\"?");
+    const Node* node = one ? table_.find("indication") : table_.require("indication", "indication = \"...\"");
     const auto index = node ? table_.choice("indication", indications) : std::nullopt;
     out_.indication = index.value_or(0);
     out_.meaning = table_.text("meaning").value_or("");
     out_.source = table_.rendered("source");
     const bool has_unit = unit();
-    if (table_.require("formula", "formula = \"1 / feed\"?")) formula();
+    if (table_.require("formula", "formula = \"1 / feed\"")) formula();
     if (const Node* size = table_.find("size"); size && has_unit) {
       const QuantityCard card{"size", out_.unit, out_.si_unit, 0, {-HUGE_VAL, HUGE_VAL}, "", "", Role::amplitude};
       sizes.push_back(read_quantity(*size, table_.path("size"), card, out_.name + ".size", context_));
@@ -54,7 +54,7 @@ private:
     if (std::ranges::any_of(scope_.model.indications, is_it)) owner = "an indication";
     if (std::ranges::any_of(scope_.model.quantities, is_it)) owner = "a quantity of the model";
     if (!owner.empty())
-      table_.add(fmt::format("{}: {} has this name", table_.path(), owner), "a name means one thing", "another name?");
+      table_.add(fmt::format("{}: {} has this name", table_.path(), owner), "a name means one thing", "choose another name");
     else if (!formula::is_name(out_.name))
       table_.add(table_.path() + ": no name for an effect", "letters, digits and _, no digit first");
   }
@@ -68,7 +68,7 @@ private:
   }
 
   bool unit() {
-    if (!table_.require("unit", "unit = \"um\"?")) return false;
+    if (!table_.require("unit", "unit = \"um\"")) return false;
     const auto text = table_.text("unit");
     if (!text) return false;
     try {
@@ -76,7 +76,7 @@ private:
       out_.si_unit = units::si_unit_of(*text);
       if (units::to_si(0, *text, out_.si_unit) == 0) return true;
       problems_.add(*table_.find("unit"), fmt::format("{}: '{}' has a zero of its own", table_.path("unit"), *text),
-                    "a size is a difference", out_.si_unit + "?");
+                    "a size is a difference", "use " + out_.si_unit);
     } catch (const InputError& error) {
       const Problem& p = error.problems().front();
       problems_.add(*table_.find("unit"), table_.path("unit") + ": " + p.what, p.why, p.remedy);
@@ -134,11 +134,11 @@ private:
       if (std::ranges::any_of(scope_.model.indications, is_it))
         found.push_back(f.problem(n.at, fmt::format("'{}' is an indication", n.name),
                                   "a signature computed from what was measured explains itself",
-                                  "what was commanded, or a column of [trace.columns]?"));
+                                  "use what was commanded, or a column of [trace.columns]"));
       else if (std::ranges::any_of(scope_.model.quantities, is_it))
         found.push_back(f.problem(n.at, fmt::format("'{}' is a quantity of the model", n.name),
                                   "a signature is known before the fit",
-                                  "what was commanded, or a column of [trace.columns]?"));
+                                  "use what was commanded, or a column of [trace.columns]"));
       else
         found.push_back(f.problem(n.at, fmt::format("'{}' is no condition and no column", n.name), "",
                                   did_you_mean(n.name, known)));
@@ -158,7 +158,7 @@ private:
         0,
         fmt::format("the formula gives {}, with a size in {} {}", formula.words(), out_.unit, (size * formula).words()),
         fmt::format("{} is {}", card.name, wanted.words()),
-        right.has_unit() ? fmt::format("unit = \"{}\"?", right.si_unit()) : "")});
+        right.has_unit() ? fmt::format("unit = \"{}\"", right.si_unit()) : "")});
   }
 
   void load(const formula::Compiled& e) {

@@ -76,10 +76,10 @@ SensitivityOptions read_sensitivity(Table table) {
   if (const auto by = table.choice("by", {"draw", "quantity"})) out.by_quantity = *by == 1;
   if (out.by_quantity && out.sobol == 0)
     table.problems().add(*table.find("by"), table.path("by") + ": needs a base size", "it is about Sobol' indices",
-                         "sobol = 65536?");
+                         "sobol = 65536");
   if (out.second_order && out.sobol == 0)
     table.problems().add(*table.find("second_order"), table.path("second_order") + ": needs a base size", "",
-                         "sobol = 65536?");
+                         "sobol = 65536");
   table.refuse_unknown();
   return out;
 }
@@ -87,7 +87,7 @@ SensitivityOptions read_sensitivity(Table table) {
 OneAtATime read_one_at_a_time(Table table, const StudyScope& scope, Context& context) {
   OneAtATime out;
   out.title = table.text("title").value_or("");
-  const Node* steps = table.require("steps", "steps = [\"100 um\", \"0.1 mrad\"]?");
+  const Node* steps = table.require("steps", "steps = [\"100 um\", \"0.1 mrad\"]");
   if (steps && steps->kind == Node::Kind::table) {
     Table given(*steps, table.path("steps"), context.problems);
     for (const Member& m : given.members()) {
@@ -149,11 +149,11 @@ ConformityTest read_conformity(Table table, const StudyScope& scope, Context& co
   out.lower = table.measure("lower", {si});
   out.upper = table.measure("upper", {si});
   if (!table.has("lower") && !table.has("upper"))
-    table.add(table.path() + ": no tolerance limit", "", "lower = \"...\", upper = \"...\" or both?");
+    table.add(table.path() + ": no tolerance limit", "", "give lower, upper or both");
   if (out.lower && out.upper && *out.lower >= *out.upper)
     table.problems().add(*table.find("lower"), table.path("lower") + ": lower must be below upper");
   if (table.has("guard_band") && table.has("guard_factor"))
-    table.add(table.path() + ": guard_band beside guard_factor", "both say how wide it is", "leave one out?");
+    table.add(table.path() + ": guard_band beside guard_factor", "both state the width", "leave one out");
   out.guard_band = table.measure("guard_band", {si, units::Kind::difference}).value_or(0);
   out.guard_factor = table.number("guard_factor").value_or(0);
   if (const Node* process = table.find("process")) {
@@ -162,7 +162,7 @@ ConformityTest read_conformity(Table table, const StudyScope& scope, Context& co
     if (q.entries.size() != 1 || q.entries[0].components.size() != 1) {
       if (context.problems.empty())
         context.problems.add(*process, table.path("process") + ": must be one distribution", "",
-                             "{ distribution = \"normal\", value = \"...\", u = \"...\" }?");
+                             "process = { distribution = \"normal\", value = \"...\", u = \"...\" }");
     } else {
       out.process = q.entries[0].components[0].distribution;
       out.process_value = q.entries[0].value;
@@ -176,7 +176,7 @@ Target read_target(Table table, const StudyScope& scope, Context& context) {
   Target out;
   const auto* measurand = read_subject(table, scope, context, out);
   if (!measurand) return out;
-  const Node* wanted = table.require("U", "U = \"5 um\"?");
+  const Node* wanted = table.require("U", "U = \"5 um\"");
   const auto u = table.measure("U", {std::string(measurand->si_unit), units::Kind::difference});
   if (wanted && u && *u <= 0) context.problems.add(*wanted, table.path("U") + ": must be above 0");
   out.expanded_uncertainty = u.value_or(1);
@@ -213,7 +213,7 @@ std::vector<std::vector<std::string>> read_joint(Table& table, const StudyScope&
     }
     if (group.kind != Node::Kind::array || measurands.size() < 2)
       problems.add(group, table.path("joint") + ": each group needs two measurands or more", "",
-                   "joint = [[\"a\", \"b\"]]?");
+                   "joint = [[\"a\", \"b\"]]");
     out.push_back(measurands);
   }
   return out;

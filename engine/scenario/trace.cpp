@@ -27,7 +27,7 @@ public:
     if (const auto alpha = table_.number("alpha")) {
       if (!(*alpha > 0 && *alpha < 1))
         problems_.add(*table_.find("alpha"), fmt::format("trace.alpha: {} must lie between 0 and 1", *alpha),
-                      "the chance of a finding where there is nothing", "alpha = 0.05?");
+                      "the chance of a finding where there is nothing", "alpha = 0.05");
       out_.alpha = *alpha;
     }
     if (const auto n = table_.integer("draws", least_draws, most_draws)) out_.draws = static_cast<int>(*n);
@@ -48,7 +48,7 @@ private:
     else if (std::ranges::any_of(scope_.model.conditions, is_it) ||
              std::ranges::any_of(scope_.model.indications, is_it) ||
              std::ranges::any_of(scope_.model.quantities, is_it))
-      refuse(m, "the name has a meaning already", fmt::format("of the model {}", scope_.model.name), "another name?");
+      refuse(m, "the name has a meaning already", fmt::format("of the model {}", scope_.model.name), "choose another name");
     else
       return true;
     return false;
@@ -59,7 +59,7 @@ private:
     auto table = columns.table(m.key);
     if (!table) return;
     const bool named = writable(m);
-    const bool given = table->require("column", "column = \"...\"?") != nullptr;
+    const bool given = table->require("column", "column = \"...\"") != nullptr;
     const std::string unit = table->text("unit").value_or("1");
     const Csv* csv = scope_.readouts.empty() ? nullptr : scope_.readouts.front().csv;
     if (!csv && context_.readings_known)
@@ -116,11 +116,11 @@ private:
     const Node* const final_node = table_.find("final");
     if (final_node && !table_.has("blocks"))
       problems_.add(*final_node, "trace.final: there are no blocks", "they are values of a label",
-                    "blocks = \"setup\"?");
+                    "blocks = \"setup\"");
     out_.final_blocks = table_.texts("final");
     if (final_node && final_node->kind == Node::Kind::array && final_node->items.empty())
       problems_.add(*final_node, "trace.final: empty", "without it the last quarter of the blocks is kept apart",
-                    "leave it out?");
+                    "leave it out");
     if (!label || !is_label(*table_.find("blocks"), "trace.blocks", *label)) return;
     out_.blocks = *label;
     if (!context_.readings_known) return;
@@ -147,7 +147,7 @@ private:
     if (final_node && known.size() == out_.final_blocks.size() &&
         std::ranges::all_of(out_.final_blocks, [&](auto& b) { return known.contains(b); }))
       problems_.add(*final_node, "trace.final: every block is kept apart", "nothing is left to search in",
-                    "fewer of them?");
+                    "list fewer of them");
   }
 
   void order() {

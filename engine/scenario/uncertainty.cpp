@@ -25,8 +25,8 @@ std::optional<Uncertainty> read_observations(Table& table, const Form& form, Con
   if (x.size() != items->size()) return std::nullopt;
   if (x.size() < 2) {
     context.problems.add(*table.find("observations"),
-                         fmt::format("{}: {} observation(s) say nothing of their scatter", table.path(), x.size()), "",
-                         "two or more?");
+                         fmt::format("{}: {} observation(s) cannot show any scatter", table.path(), x.size()), "",
+                         "give two or more");
     return std::nullopt;
   }
   const double n = static_cast<double>(x.size());
@@ -41,12 +41,12 @@ std::optional<Uncertainty> read_observations(Table& table, const Form& form, Con
   out.component.evaluation = 'A';
   out.component.degrees_of_freedom = n - 1;
   if (out.exact) {
-    context.notes.push_back(fmt::format("{}: the {} observations are equal: their Type A evaluation is zero, which the "
-                                        "resolution of the readout should replace",
+    context.notes.push_back(fmt::format("{}: the {} observations are equal: their Type A uncertainty is zero; state the "
+                                        "resolution of the readout instead",
                                         table.path(), x.size()));
   } else if (x.size() < 4) {
     context.notes.push_back(fmt::format("{}: {} observations give a t distribution with {} degrees of freedom, which "
-                                        "has no standard uncertainty: only quantiles are stated",
+                                        "has no standard uncertainty: only quantiles are given",
                                         table.path(), x.size(), x.size() - 1));
   }
   return out;
@@ -65,7 +65,7 @@ std::optional<Uncertainty> read_distribution(Table& table, const Form& form, Con
     }
     name = names[*index];
   } else if (!table.has("u") && !table.has("U")) {
-    table.add(table.path() + ": no distribution", "", "distribution, u, U with k, or observations?");
+    table.add(table.path() + ": the distribution is missing", "", "give distribution, u, U with k, or observations");
     return std::nullopt;
   }
   const auto* card = quantities::find_family(name);
@@ -84,7 +84,7 @@ void check_scope(Table& table, const std::vector<std::string>& per, Context& con
   for (const std::string& name : per) {
     if (std::find(names.begin(), names.end(), name) != names.end()) continue;
     context.problems.add(*table.find("per"), fmt::format("{}: no reading has the label '{}'", table.path("per"), name),
-                         "a scope names labels of the readings, or \"reading\"", did_you_mean(name, names));
+                         "a scope is a label of the readings or \"reading\"", did_you_mean(name, names));
   }
 }
 
@@ -93,8 +93,8 @@ void check_scope(Table& table, const std::vector<std::string>& per, Context& con
 std::optional<Uncertainty> read_uncertainty(Table& table, const Form& form, Context& context) {
   const bool observed = table.has("observations");
   if (observed && (table.has("distribution") || table.has("u") || table.has("U"))) {
-    table.add(table.path() + ": observations beside another statement", "both say how uncertain it is",
-              "leave one out?");
+    table.add(table.path() + ": observations are given together with another statement of uncertainty", "both state the uncertainty",
+              "leave one out");
   }
   auto out = observed ? read_observations(table, form, context) : read_distribution(table, form, context);
 

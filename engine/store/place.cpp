@@ -27,10 +27,10 @@ std::string destination(const std::string& path) {
   const fs::path target = fs::weakly_canonical(fs::absolute(path), error);
   if (error) refuse(error.message());
   const fs::file_status status = fs::status(target, error);
-  if (fs::is_directory(status)) refuse("it is a directory", "give a file name?");
+  if (fs::is_directory(status)) refuse("it is a directory", "give a file name");
   if (fs::exists(status) && !fs::is_regular_file(status)) refuse("it is no regular file");
   const fs::path folder = target.parent_path();
-  if (!fs::is_directory(folder, error)) refuse("folder '" + folder.string() + "' does not exist", "create it first?");
+  if (!fs::is_directory(folder, error)) refuse("folder '" + folder.string() + "' does not exist", "create it first");
   if (access(folder.c_str(), W_OK | X_OK) != 0) refuse("folder '" + folder.string() + "': " + std::strerror(errno));
   if (fs::exists(status) && access(target.c_str(), R_OK | W_OK) != 0) refuse(std::strerror(errno));
   if (target.filename().string().size() > 230) refuse("the name is too long");
@@ -72,7 +72,7 @@ std::string bytes_text(double size) {
 
 [[noreturn]] void no_space(double bytes, int problem) {
   throw OutputError("cannot allocate " + bytes_text(bytes), std::strerror(problem),
-                    "fewer samples, another disk, or store_samples = false?");
+                    "use fewer samples, another disk, or store_samples = false");
 }
 } // namespace
 

@@ -273,7 +273,7 @@ ResultFile::ResultFile(const std::string& path, const Identity& identity,
     impl_->plan();
     bool resumed = false;
     if (!empty_or_absent(impl_->path)) {
-      const std::string remedy = "choose another name?";
+      const std::string remedy = "choose another name";
       if (!is_hdf5(impl_->path)) throw OutputError("not overwritten", "it is no result of ours", remedy);
       try {
         resumed = impl_->resume();
@@ -281,7 +281,7 @@ ResultFile::ResultFile(const std::string& path, const Identity& identity,
         const Problem& p = error.problems().front();
         const std::string reason = p.what + (p.why.empty() ? "" : ", " + p.why);
         if (held_by_another(impl_->path))
-          throw OutputError("not overwritten", "another program has it open: " + reason, "wait for it?");
+          throw OutputError("not overwritten", "another program has it open: " + reason, "wait until it is closed");
         if (dynamic_cast<const NoResult*>(&error) || !was_ours(impl_->path))
           throw OutputError("not overwritten", "it is no result of ours: " + reason, remedy);
         impl_ = impl_->successor(identity.samples);

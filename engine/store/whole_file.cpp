@@ -34,7 +34,7 @@ void require_writable(const std::string& path) {
       read_stored(open_file(target, H5F_ACC_RDONLY));
     } catch (const OutputError& error) {
       throw OutputError("not overwritten", "it is no result of ours: " + error.problems().front().what,
-                        "choose another name?");
+                        "choose another name");
     }
   });
 }

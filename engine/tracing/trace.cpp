@@ -80,7 +80,7 @@ Trace trace(const scenario::Scenario& scenario, const Settings& settings) {
   if (!model.simulate_gradient && !(model.kernels && model.kernels() && model.kernels()->simulate))
     calibration::refuse(scenario.file, fmt::format("model {}: it cannot simulate its indications", scenario.model),
                         "residuals are measured minus simulated indications",
-                        scenario.made ? "[model.indications] with a formula for each?" : "");
+                        scenario.made ? "add [model.indications] with a formula for each" : "");
   const Observations observations = observe(experiment);
   const Simulator simulator(experiment, settings.threads);
   std::vector<bool> training;

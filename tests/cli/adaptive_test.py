@@ -101,7 +101,7 @@ class Adaptive(unittest.TestCase):
 
     def test_what_is_refused(self):
         for table, message in (('{ rule = "steyn" }', "stein"), ('{ digits = 9 }', "digits"),
-                               ('{ max_samples = 10 }', "max_samples"), ('{ rul = "stein" }', "did you mean 'rule'?")):
+                               ('{ max_samples = 10 }', "max_samples"), ('{ rul = "stein" }', "Did you mean 'rule'?")):
             done = run(adaptive(self.folder, table), self.folder / "x.h5")
             self.assertEqual(done.returncode, 2, table)
             self.assertIn(message, done.stderr)

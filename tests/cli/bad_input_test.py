@@ -35,14 +35,14 @@ MISTAKES = {
     "wrong dimension": (of_radius('value = "5 N"'), 5, ["quantities.rod_radius.value", "'5 N'", "length"]),
     "an angle for a length": (of_radius('value = "5 deg"'), 5, ["length"]),
     "no unit": (of_radius("value = 5"), 5, ["unit"]),
-    "misspelt key": (of_radius('valeu = "5 mm"'), 5, ["'valeu'", "did you mean 'value'?"]),
-    "misspelt section": (swap("[quantities.rod_radius]", "[quantites.rod_radius]"), 4, ["did you mean 'quantities'?"]),
-    "misspelt quantity": (swap(".rod_radius]", ".rod_radus]"), 4, ["'rod_radus'", "did you mean 'rod_radius'?"]),
-    "misspelt indication": (swap("spindle_z", "spindel_z"), 10, ["did you mean 'spindle_z'?"]),
-    "unknown model": (swap('"rod_gauging"', '"rod_gaugin"'), 3, ["did you mean 'rod_gauging'?"]),
+    "misspelt key": (of_radius('valeu = "5 mm"'), 5, ["'valeu'", "Did you mean 'value'?"]),
+    "misspelt section": (swap("[quantities.rod_radius]", "[quantites.rod_radius]"), 4, ["Did you mean 'quantities'?"]),
+    "misspelt quantity": (swap(".rod_radius]", ".rod_radus]"), 4, ["'rod_radus'", "Did you mean 'rod_radius'?"]),
+    "misspelt indication": (swap("spindle_z", "spindel_z"), 10, ["Did you mean 'spindle_z'?"]),
+    "unknown model": (swap('"rod_gauging"', '"rod_gaugin"'), 3, ["Did you mean 'rod_gauging'?"]),
     "no model": (swap('[model]\nname = "rod_gauging"\n', ""), 1, ["model"]),
-    "unknown effect": (SCENARIO + '[effects.triger_latency]\ndelay = "1 ms"\n', 14, ["did you mean 'trigger_latency'?"]),
-    "unknown quantity of an effect": (SCENARIO + '[effects.trigger_latency]\ndelya = "1 ms"\n', 15, ["did you mean 'delay'?"]),
+    "unknown effect": (SCENARIO + '[effects.triger_latency]\ndelay = "1 ms"\n', 14, ["Did you mean 'trigger_latency'?"]),
+    "unknown quantity of an effect": (SCENARIO + '[effects.trigger_latency]\ndelya = "1 ms"\n', 15, ["Did you mean 'delay'?"]),
     "unknown method": (swap('"rod_gauging"', '"rod_gauging"\nmethod = "guess"'), 4, ["'guess'", "propagation"]),
     "another schema": (swap("schema = 1", "schema = 2"), 1, ["schema"]),
     "no schema": (swap("schema = 1", "title = 'x'"), 1, ["schema"]),
@@ -64,7 +64,7 @@ MISTAKES = {
     "negative u": (of_radius('value = "5 mm"\nu = "-1 um"'), 6, ["above 0"]),
     "U without k": (of_radius('value = "5 mm"\nU = "1 um"'), 6, ["k"]),
     "low above high": (of_radius('distribution = "rectangular"\nlow = "6 mm"\nhigh = "5 mm"'), 6, ["low"]),
-    "unknown distribution": (of_radius('value = "5 mm"\ndistribution = "normla"\nu = "1 um"'), 6, ["did you mean 'normal'?"]),
+    "unknown distribution": (of_radius('value = "5 mm"\ndistribution = "normla"\nu = "1 um"'), 6, ["Did you mean 'normal'?"]),
     "no indication": (SCENARIO.split("[indications")[0], 1, ["indications.spindle_z", "missing"]),
     "no readings": (SCENARIO.split("readings =")[0], 10, ["indications.spindle_z", "no readings"]),
     "readings without a value": (SCENARIO.split("readings =")[0] + "readings = []\n", 11, ["empty"]),
@@ -75,7 +75,7 @@ MISTAKES = {
     "label without rows": (of_pitch("[quantities.beam_pitch.by.setup]", 'labels = { setup = "2" }\n'), 7, ["no value for setup = '2'"]),
     "trace by an unknown label": (SCENARIO + '[trace]\nblocks = "setup"\n', 15, ["trace.blocks", "'setup'"]),
     "trace with few draws": (SCENARIO + "[trace]\ndraws = 10\n", 15, ["trace.draws", "99"]),
-    "trace in an unknown order": (SCENARIO + '[trace]\norder = "tiem"\n', 15, ["did you mean 'time'?"]),
+    "trace in an unknown order": (SCENARIO + '[trace]\norder = "tiem"\n', 15, ["Did you mean 'time'?"]),
     "signature of the readings": (
         SCENARIO + '[stated_effects.film]\nunit = "1"\nformula = "2 * spindle_z"\n', 16, [":16:16:", "explains itself"]),
     "signature of another dimension": (SCENARIO + '[stated_effects.film]\nunit = "um"\nformula = "feed"\n', 16, [":16:12:", "spindle_z"]),
@@ -123,7 +123,7 @@ TABLES = {
     "NaN": ("rod_radius (mm)\nnan\n", 2, ["nan"]),
     "infinity": ("rod_radius (mm)\ninf\n", 2, ["inf"]),
     "too large for a number": ("rod_radius (mm)\n1e999\n", 2, ["1e999"]),
-    "unknown column": ("rod_radus (mm)\n5\n", 1, ["did you mean 'rod_radius'?"]),
+    "unknown column": ("rod_radus (mm)\n5\n", 1, ["Did you mean 'rod_radius'?"]),
     "column of our own": ("rod_radius (mm),status\n5,ok\n", 1, ["'status'"]),
     "column without a name": ("rod_radius (mm),\n5,1\n", 1, ["name"]),
     "repeated column": ("rod_radius (mm),rod_radius (mm)\n5,5\n", 1, ["rod_radius", "twice"]),
@@ -134,8 +134,8 @@ TABLES = {
     "row too short": ("rod_radius (mm),beam_yaw (deg)\n5,0\n5\n", 3, ["1 cell", "2"]),
     "row too long": ("rod_radius (mm)\n5,6\n", 2, ["2 cells"]),
     "quote not closed": ('"rod_radius (mm)\n5\n', 1, ["quote"]),
-    "unknown effect": ("triger_latency.delay (ms)\n1\n", 1, ["did you mean 'trigger_latency.delay'?"]),
-    "unknown quantity of an effect": ("trigger_latency.dely (ms)\n1\n", 1, ["did you mean 'trigger_latency.delay'?"]),
+    "unknown effect": ("triger_latency.delay (ms)\n1\n", 1, ["Did you mean 'trigger_latency.delay'?"]),
+    "unknown quantity of an effect": ("trigger_latency.dely (ms)\n1\n", 1, ["Did you mean 'trigger_latency.delay'?"]),
 }
 
 
@@ -185,7 +185,7 @@ class BadInput(unittest.TestCase):
     def test_all_mistakes_at_once(self):
         path = self.write("bad.toml", SCENARIO.replace("5 mm", "5 N").replace("0.005 deg", "0.005 parsnip").replace("resolution", "resolutoin"))
         run = gumshoe("check", path)
-        self.refused(run, ["parsnip", "'5 N'", "did you mean 'resolution'?"])
+        self.refused(run, ["parsnip", "'5 N'", "Did you mean 'resolution'?"])
         self.assertEqual([line for line, _ in places(run, path)], [5, 9, 12])
 
     def test_mistakes_in_the_data_of_a_scenario(self):
@@ -277,12 +277,12 @@ class BadInput(unittest.TestCase):
             "--format": ([*run, "--format", "xml"], ["xml"]),
             "unknown option": ([*run, "--sampels", "5"], ["--sampels"]),
             "no scenario": (["run"], ["scenario"]),
-            "unknown model": (["evaluate", "rod_gaugin", "--table", self.table], ["did you mean 'rod_gauging'?"]),
+            "unknown model": (["evaluate", "rod_gaugin", "--table", self.table], ["Did you mean 'rod_gauging'?"]),
             "unknown evaluation": (["evaluate", "rod_gauging", "--table", self.table, "--evaluation", "ful"], ["'ful'"]),
             "no table": (["evaluate", "rod_gauging"], ["--table"]),
-            "models": (["models", "rod_gaugin"], ["did you mean 'rod_gauging'?"]),
+            "models": (["models", "rod_gaugin"], ["Did you mean 'rod_gauging'?"]),
             "models, far off": (["models", "zzz"], ["'zzz'"]),
-            "effects": (["effects", "trigger_latencey"], ["did you mean 'trigger_latency'?"]),
+            "effects": (["effects", "trigger_latencey"], ["Did you mean 'trigger_latency'?"]),
             "effects, far off": (["effects", "zzz"], ["'zzz'"]),
             "no command": ([], []),
             "unknown command": (["frobnicate"], ["frobnicate"]),

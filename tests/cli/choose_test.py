@@ -130,16 +130,16 @@ class Choose(unittest.TestCase):
     def test_mistakes(self):
         variables = "[choose.variables]\n"
         mistakes = {
-            "unknown variable": (variables, variables + 'fed = ["1 mm/min"]\n', "fed =", "did you mean 'feed'?"),
+            "unknown variable": (variables, variables + 'fed = ["1 mm/min"]\n', "fed =", "Did you mean 'feed'?"),
             "empty list": ("readings = [1, 2, 3]", "readings = []", "readings =", "empty"),
             "no variables": ("readings = [1, 2, 3]", "readings = [1, 2.5]", "readings =", "whole number"),
             "low above high": ('low = "10 mm/min"', 'low = "2000 mm/min"', "feed = {", "low is not below high"),
             "low is high": ('low = "10 mm/min"', 'low = "1000 mm/min"', "feed = {", "low is not below high"),
-            "zero on a log scale": ('low = "10 mm/min"', 'low = "0 mm/min"', "feed = {", "scale = \"linear\"?"),
+            "zero on a log scale": ('low = "10 mm/min"', 'low = "0 mm/min"', "feed = {", "Try: scale = \"linear\""),
             "range of another dimension": ('low = "10 mm/min"', 'low = "10 mm"', "feed = {", "'10 mm' is not a"),
             "one step": ("steps = 5", "steps = 1", "feed = {", "between 2 and"),
             "unknown evaluation": (variables, variables + 'evaluation = ["fast"]\n', "evaluation =", "'fast'"),
-            "misspelt key": ("confirm_samples", "confirm_sample", "confirm_sample", "did you mean 'confirm_samples'?"),
+            "misspelt key": ("confirm_samples", "confirm_sample", "confirm_sample", "Did you mean 'confirm_samples'?"),
             "target of wrong dimension": ('target = "3 um"', 'target = "3 s"', "target =", "'3 s' is not a length"),
             "no target": ('target = "3 um"\n', "", "[choose]", "choose.target: missing"),
             "target of zero": ('target = "3 um"', 'target = "0 um"', "target =", "above 0"),

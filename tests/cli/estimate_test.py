@@ -137,7 +137,7 @@ class Estimate(unittest.TestCase):
         self.assertIn("quantities.a.estimated", self.refusal(LINE.replace("true", '"yes"', 1)))
 
     def test_unknown_loss(self):
-        self.assertIn("did you mean 'huber'", self.refusal(LINE + '[estimate]\nloss = "hubber"\n'))
+        self.assertIn("Did you mean 'huber'", self.refusal(LINE + '[estimate]\nloss = "hubber"\n'))
 
     def test_one_valued_column(self):
         data = "x,y\n" + "".join(f"{2},{v}\n" for v in (1, 2, 3, 4, 5))

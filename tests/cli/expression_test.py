@@ -118,7 +118,7 @@ coverage_probability = 0.99
         self.assertIn("ratio = V / I", run.stdout)
 
     def test_unknown_name(self):
-        self.refused(H2.replace("ratio * cos(phi)", "ratio * cos(phy)"), 7, 18, "'phy'", "did you mean 'phi'?")
+        self.refused(H2.replace("ratio * cos(phi)", "ratio * cos(phy)"), 7, 18, "'phy'", "Did you mean 'phi'?")
 
     def test_division_by_zero_at_the_estimates(self):
         self.refused(H2.replace("19.6610 mA", "0 mA"), 5, 12, "division by zero at the estimates", "I = 0 mA")

@@ -186,16 +186,16 @@ class Machine(unittest.TestCase):
                 ("wrong unit of a point", good.replace("-400 mm", "-400 deg"), 7, "machine.workpiece_side[2].point"),
                 ("point without unit", good.replace('"-400 mm"', "-400"), 7, "unit"),
                 ("a point of two", good.replace(', "-400 mm"', ""), 7, "needs X, Y and Z"),
-                ("misspelt key of an axis", good.replace("point = [\"30", "piont = [\"30"), 11, "did you mean 'point'?"),
-                ("misspelt side", good.replace("workpiece_side", "workpeice_side"), 7, "did you mean 'workpiece_side'?"),
+                ("misspelt key of an axis", good.replace("point = [\"30", "piont = [\"30"), 11, "Did you mean 'point'?"),
+                ("misspelt side", good.replace("workpiece_side", "workpeice_side"), 7, "Did you mean 'workpiece_side'?"),
                 ("axis without its name", good.replace('axis = "A2", ', ""), 11, "axis: missing"),
                 ("no slide along Y", good.replace('{ axis = "Y", kind = "linear" }', '"W2"'), 5, "no slide along Y"),
-                ("unknown machine", head + '[machine]\nname = "TTTTR"\n', 6, "did you mean"),
+                ("unknown machine", head + '[machine]\nname = "TTTTR"\n', 6, "Did you mean"),
                 ("a known machine listed", head + '[machine]\nname = "TTTRR"\n' + two.split("[machine]\n")[1].format(
                     '"X", "Y", "Z"'), 6, "is a known machine"),
                 ("empty machine", head + "[machine]\n", 5, "neither a name nor sides"),
                 ("no machine", head, 1, "machine: missing"),
-                ("unknown error", good + '[quantities]\nE_A0D = "0 deg"\n', 14, "unknown key 'E_A0D'", "did you mean"),
+                ("unknown error", good + '[quantities]\nE_A0D = "0 deg"\n', 14, "unknown key 'E_A0D'", "Did you mean"),
                 ("unknown error of the machine", good + '[machine.errors]\nE_A0D = "0 deg"\n', 14,
                  "the machine has no axis 'D'"),
                 ("impossible error", good + '[machine.errors]\nE_Y0B = "0 mm"\n', 14, "no offset along itself"),
@@ -203,7 +203,7 @@ class Machine(unittest.TestCase):
                 ("wrong unit of an error", good + '[quantities]\nE_A0B = "1 um"\n', 14, "is not an angle"),
                 ("wrong unit of a machine's error", good + '[machine.errors]\nE_A0B = "1 um"\n', 14, "is not an angle"),
                 ("unknown condition", good + '[conditions]\nC = "0 deg"\n', 14, "unknown key 'C'"),
-                ("unknown quantity", good + '[quantities]\nprobe_w = "1 mm"\n', 14, "did you mean 'probe_")):
+                ("unknown quantity", good + '[quantities]\nprobe_w = "1 mm"\n', 14, "Did you mean 'probe_")):
             with self.subTest(name):
                 self.refused(text, line, *said)
 

@@ -25,10 +25,34 @@ repeatability = { s = "0.4 um", degrees_of_freedom = 24 }
 
 
 def gumshoe(*words, seconds=60, **options):
-    """Runs it to the end; stdout and stderr as text."""
+    """Runs the program to its end; stdout and stderr as text. Every error message on stderr must be well formed."""
     options.setdefault("stdout", subprocess.PIPE)
-    return subprocess.run([GUMSHOE, *map(str, words)], stderr=subprocess.PIPE, text=True, errors="replace",
-                          timeout=seconds, **options)
+    run = subprocess.run([GUMSHOE, *map(str, words)], stderr=subprocess.PIPE, text=True, errors="replace",
+                         timeout=seconds, **options)
+    for line in run.stderr.splitlines():
+        if re.match(MESSAGE, line):
+            assert (fault := ill_formed(line)) is None, f"{fault}: {line[:300]!r}"
+    return run
+
+
+MESSAGE = r"(\S[^\n]*?:( |\d+:\d+: ))?error: (?=\S)"
+
+
+def ill_formed(line):
+    """What is wrong with the form `[place: ]error: what is wrong (why). What to do?` of a message, or None."""
+    said = re.sub(MESSAGE, "", line, count=1)
+    sentences, _, code = said.partition(" Try: ")
+    if " Try: " in said and not re.match(r'[\w.]+ = |[\[{"]', code):
+        return "what stands after 'Try:' is not code"
+    if not sentences.endswith((".", "?")):
+        return "no full stop or question mark at the end"
+    if re.search(r"[.?!,;:][.?!]$|\(\)|\.\)\.", sentences) and not sentences.endswith("..."):
+        return "two marks in a row"
+    if re.search(r"[a-z)'\"][.?] [a-z]", sentences):
+        return "a sentence begins without a capital"
+    if re.search(r"\bdid you mean\b|^did|^use ", sentences):
+        return "the remedy begins without a capital"
+    return None
 
 
 def complaint(run):
@@ -39,7 +63,7 @@ def complaint(run):
     if not lines:
         return "nothing on stderr"
     for line in lines:
-        if not re.match(r"(\S[^\n]*?:( |\d+:\d+: ))?error: \S", line):
+        if not re.match(MESSAGE, line):
             return f"not in the grammar: {line[:200]!r}"
     if len(run.stderr) > 10000:
         return f"{len(run.stderr)} characters are not one clear message"

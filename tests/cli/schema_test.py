@@ -107,7 +107,7 @@ class Schema(unittest.TestCase):
             file.write_text('schema = 1\n[model]\nname = "rod_gauging"\nmehtod = "propagation"\n')
             run = subprocess.run([GUMSHOE, "check", str(file)], capture_output=True, text=True)
             self.assertEqual(run.returncode, 2)
-            self.assertIn(f"{file}:4:1: error: model: unknown key 'mehtod' did you mean 'method'?", run.stderr)
+            self.assertIn(f"{file}:4:1: error: model: unknown key 'mehtod'. Did you mean 'method'?", run.stderr)
 
 
 if __name__ == "__main__":

@@ -53,7 +53,7 @@ MISTAKES = {
     "wear larger than the insert": (swap('wear_1 = "0 mm"', 'wear_1 = "7 mm"'), 12, ["wear", "insert_radius"]),
     "effect of a standing tool": (SCENARIO + '[effects.rod_runout]\nx = "1 um"\n', 19, ["tool_length cannot carry it"]),
     "speed error beyond limits": (SCENARIO + '[effects.spindle_speed_error]\nerror = "-100 %"\n', 20, ["spindle_speed_error.error", "-50"]),
-    "an insert that is not there": (SCENARIO + '[effects.insert_radius_error]\nradius_13 = "1 um"\n', 20, ["radius_13", "did you mean 'radius_1"]),
+    "an insert that is not there": (SCENARIO + '[effects.insert_radius_error]\nradius_13 = "1 um"\n', 20, ["radius_13", "Did you mean 'radius_1"]),
     "an insert of no radius": (SCENARIO + '[effects.insert_radius_error]\nradius_2 = "-6 mm"\n', None, ["insert_radius with its errors is not positive"]),
 }
 

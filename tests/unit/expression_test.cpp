@@ -91,17 +91,17 @@ TEST_CASE("formulas mean what mathematics means", "[expression]") {
 }
 
 TEST_CASE("a mistake in a formula is shown at its character", "[expression]") {
-  CHECK(about("L * (phi + ") == at(17, "a number, a name or '(' is expected, not the end of the formula"));
+  CHECK(about("L * (phi + ") == at(17, "a number, a name or '(' is expected, not the end of the formula."));
   CHECK(about("L * (phi + 1").starts_with(at(10, "this '(' is never closed")));
   CHECK(about("L * phi)").starts_with(at(13, "')' closes nothing")));
-  CHECK(about("LL * phi") == at(6, "'LL' is no quantity, condition, indication or intermediate did you mean 'L'?"));
-  CHECK(about("n + snn(phi)") == at(10, "'snn' is no function did you mean 'sin'?"));
-  CHECK(about("n + atan2(phi)") == at(10, "atan2 takes 2 arguments, not 1"));
-  CHECK(about("n + sin()") == at(10, "sin takes 1 argument, not 0"));
+  CHECK(about("LL * phi") == at(6, "'LL' is no quantity, condition, indication or intermediate. Did you mean 'L'?"));
+  CHECK(about("n + snn(phi)") == at(10, "'snn' is no function. Did you mean 'sin'?"));
+  CHECK(about("n + atan2(phi)") == at(10, "atan2 takes 2 arguments, not 1."));
+  CHECK(about("n + sin()") == at(10, "sin takes 1 argument, not 0."));
   CHECK(about("").starts_with(at(6, "the formula is empty")));
   CHECK(about("5 mm").starts_with(at(8, "an operator is missing before 'mm'")));
-  CHECK(about("n × 2").starts_with(at(8, "'×' is no sign of a formula use *?")));
-  CHECK(about("n ** 2").starts_with(at(8, "'**' is no sign of a formula use ^?")));
+  CHECK(about("n × 2").starts_with(at(8, "'×' is no sign of a formula. Use *.")));
+  CHECK(about("n ** 2").starts_with(at(8, "'**' is no sign of a formula. Use ^.")));
   CHECK(about("n × n ?").find("5:8:") != std::string::npos);
   CHECK(about("n + * 2").starts_with(at(10, "a number, a name or '(' is expected, not '*'")));
   CHECK(about("1e999 * n").starts_with(at(6, "this is not a number")));
@@ -134,9 +134,9 @@ TEST_CASE("names mean one thing and formulas do not go round in a circle", "[exp
 }
 
 TEST_CASE("dimensions must fit, and are named where they do not", "[expression][dimensions]") {
-  CHECK(about("L + phi") == at(8, "a length plus an angle (the terms of a sum must have the same dimension)"));
-  CHECK(about("n * (L - t)") == at(13, "a length minus a time (the terms of a sum must have the same dimension)"));
-  CHECK(about("exp(L / t)") == at(10, "exp of a speed (it takes a plain number) divide it by another of its kind?"));
+  CHECK(about("L + phi") == at(8, "a length plus an angle (the terms of a sum must have the same dimension)."));
+  CHECK(about("n * (L - t)") == at(13, "a length minus a time (the terms of a sum must have the same dimension)."));
+  CHECK(about("exp(L / t)") == at(10, "exp of a speed (it takes a plain number). Divide it by another quantity of its kind."));
   CHECK(about("sin(L)").starts_with(at(10, "sin of a length (it takes an angle or a plain number)")));
   CHECK(about("n^L").starts_with(at(8, "the exponent is a length")));
   CHECK(about("L^n").starts_with(at(8, "the exponent of a length varies")));
@@ -161,7 +161,7 @@ TEST_CASE("a measurand's unit is stated, or that of its first operand, or the SI
   REQUIRE(s.made->card->measurands.size() == std::size(units));
   for (std::size_t i = 0; i < std::size(units); ++i) CHECK(s.made->card->measurands[i].unit == units[i]);
   CHECK(complaint(start + "[model.measurands]\ny = { formula = \"L / t\", unit = \"mm\" }\n" + inputs) ==
-        "s.toml:5:33: error: model.measurands.y.unit: 'mm' is not a speed (what the formula gives) m/s?");
+        "s.toml:5:33: error: model.measurands.y.unit: 'mm' is not a speed (what the formula gives). Use m/s.");
   // A turn is 2 pi: an angular speed is no frequency.
   CHECK_FALSE(complaint(start + "[model.measurands]\ny = { formula = \"phi / t\", unit = \"Hz\" }\n" + inputs).empty());
 }

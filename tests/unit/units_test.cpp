@@ -80,5 +80,5 @@ TEST_CASE("what is no unit is refused, though udunits would take it", "[units]")
     CHECK_FALSE(units::convertible(unit, "m"));
   }
   CHECK_THROWS_WITH(units::to_si(1, "foo", "m"), Catch::Contains("'foo' is not a unit"));
-  CHECK_THROWS_WITH(units::to_si(1, "N", "m"), "error: 'N' is not a length (must convert to m) use mm or um?");
+  CHECK_THROWS_WITH(units::to_si(1, "N", "m"), "error: 'N' is not a length (must convert to m). Use mm or um.");
 }

@@ -89,9 +89,9 @@ std::string why_ended(const ProcessRun& run, const CommandSpec& spec) {
 }
 
 std::string remedy_for(const ProcessRun& run) {
-  if (run.end == ProcessRun::End::timed_out) return "a longer model.time_limit, a smaller model.batch?";
+  if (run.end == ProcessRun::End::timed_out) return "increase model.time_limit or reduce model.batch";
   if (run.end == ProcessRun::End::not_started)
-    return "a program that is there and may be run, seen from the scenario's folder?";
+    return "name an executable program, relative to the scenario's folder";
   return "";
 }
 

@@ -78,7 +78,7 @@ ResultColumn find_column(const VariableCard& measurand, const std::vector<std::s
   }
   throw InputError(fmt::format("its output has no column '{}'", measurand.name),
                    fmt::format("the first line is '{}'", shown(line)),
-                   fmt::format("a header with {} ({})?", measurand.name, measurand.unit));
+                   fmt::format("write a header with {} ({})", measurand.name, measurand.unit));
 }
 
 double number_in(std::string_view cell) {
@@ -113,7 +113,7 @@ void read_results(const ModelCard& card, const std::string& text, std::size_t n,
   const auto lines = lines_of(text);
   std::size_t at = 0;
   while (at < lines.size() && lines[at].empty()) ++at;
-  if (at == lines.size()) throw InputError("it wrote nothing", "", "a header and a row for each point on stdout?");
+  if (at == lines.size()) throw InputError("it wrote nothing", "", "write a header and one row per point to stdout");
   const std::string_view head = lines[at++];
   const auto names = cells_of(head);
   std::vector<ResultColumn> columns;
@@ -136,7 +136,7 @@ void read_results(const ModelCard& card, const std::string& text, std::size_t n,
   }
   if (row < n || surplus > 0)
     throw InputError(fmt::format("it wrote {} rows for {} points", row + surplus, n), "",
-                     "one row for each point, in their order?");
+                     "write one row per point, in the order of the points");
   for (std::size_t m = 0; m < columns.size(); ++m) {
     VariableCard as_written = card.measurands[m];
     as_written.unit = columns[m].unit;

@@ -24,8 +24,8 @@ std::string PluginPlace::crashed() const {
 const gumshoe_model& open_library(const std::string& path, const PluginPlace& place) {
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored))
-    place.refuse("does not exist", "looked for " + path, "build it, or write its path from the scenario's folder?");
-  if (std::filesystem::is_directory(path, ignored)) place.refuse("is a directory", "", "name the library in it?");
+    place.refuse("does not exist", "looked for " + path, "build it, or write its path relative to the scenario's folder");
+  if (std::filesystem::is_directory(path, ignored)) place.refuse("is a directory", "", "name the library in it");
   const std::string start = place.crashed();
   // Without a slash the loader would search its own folders.
   const std::string file = path.find('/') == std::string::npos ? "./" + path : path;
@@ -33,18 +33,18 @@ const gumshoe_model& open_library(const std::string& path, const PluginPlace& pl
   void* const library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!library) {
     const char* why = dlerror();
-    place.refuse("is no library that can be loaded", why ? why : "", "a shared library for this machine?");
+    place.refuse("is no library that can be loaded", why ? why : "", "is it a shared library for this computer?");
   }
   void* const symbol = dlsym(library, "gumshoe_plugin");
   if (!symbol)
     place.refuse("is no plugin", "it exports no function gumshoe_plugin",
-                 "in C++ within extern \"C\", see engine/models/plugin/gumshoe_plugin.h?");
+                 "in C++, export it within extern \"C\" (see engine/models/plugin/gumshoe_plugin.h)");
   const gumshoe_model* const model = reinterpret_cast<const gumshoe_model* (*)()>(symbol)();
   if (!model) place.refuse("describes no model", "gumshoe_plugin() returns null", "");
   if (model->abi != GUMSHOE_PLUGIN_ABI)
     place.refuse(fmt::format("is of version {} of the plugin interface", model->abi),
                  fmt::format("this program speaks version {}", GUMSHOE_PLUGIN_ABI),
-                 "build it anew with this program's gumshoe_plugin.h?");
+                 "rebuild it with this program's gumshoe_plugin.h");
   if (!model->evaluate) place.refuse("has no evaluate", "its pointer is null", "");
   return *model;
 }
@@ -91,7 +91,7 @@ public:
 
   void problem(const std::string& what, const std::string& why) {
     problems_.push_back({place_.where, fmt::format("model.library: '{}': {}", place_.name, what), why,
-                         "mend the plugin's description?"});
+                         "correct the plugin's description"});
   }
   void raise() const {
     if (!problems_.empty()) throw InputError(problems_);

@@ -166,7 +166,7 @@ Observations observe(const propagation::Experiment& e) {
   for (const auto& r : s.readings) {
     if (r.indications.size() != o.indications)
       calibration::refuse(s.file, "there are no readings to trace", "nothing was read",
-                          "[indications.NAME] with readings, or --data?");
+                          "add [indications.NAME] with readings, or use --data");
     o.measured.insert(o.measured.end(), r.indications.begin(), r.indications.end());
   }
   o.sequence = sequence_of(s);
