@@ -35,7 +35,7 @@ ExitCode choose(const Options& o) {
   scenario::Scenario s = scenario::read(o.file, catalogue());
   if (!s.choose)
     throw InputError({{{s.file},
-                       "choose: missing",
+                       "[choose] is missing",
                        "it says what may be chosen and what is to be reached",
                        "[choose] target = \"...\""}});
   if (o.samples) s.choose->samples = whole_number(*o.samples, "--samples", 200);

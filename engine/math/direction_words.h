@@ -11,7 +11,7 @@ struct Parameter {
   std::string name, unit, si_unit;
 };
 
-/// "laser_z is indistinguishable from rod_length (laser_z +1 mm and rod_length -1 mm leave every indication as it is)";
+/// "laser_z is indistinguishable from rod_length (laser_z +1 mm and rod_length -1 mm leave every indication unchanged)";
 /// "the indications do not depend on beam_yaw".
 std::string in_words(const Direction& direction, const std::vector<Parameter>& parameters);
 

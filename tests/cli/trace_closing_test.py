@@ -296,7 +296,7 @@ class Closing(unittest.TestCase):
         rods.write(self.folder, lambda i: 0)
         run = gumshoe("check", "s.toml", cwd=self.folder)
         self.assertIsNone(complaint(run), run.stderr)
-        self.assertIn("trace.free: 'laser_zz' is no quantity", run.stderr)
+        self.assertIn("trace.free: 'laser_zz' is not a quantity", run.stderr)
 
 
 if __name__ == "__main__":

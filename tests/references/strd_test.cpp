@@ -182,7 +182,7 @@ TEST_CASE("a solver that found no minimum says so", "[least_squares]") {
     };
     const auto solution = least_squares::solve(problem);
     CHECK_FALSE(solution.report.converged);
-    CHECK(solution.report.reason == "the residuals are not defined at the start values");
+    CHECK(solution.report.reason == "the residuals are undefined at the start values");
   }
 }
 

@@ -34,7 +34,7 @@ TEST_CASE("malformed tables are refused with their place", "[csv]") {
                     Catch::Contains("t.csv:3:1: error: the row has 1 cells, the header 2") &&
                         Catch::Contains("t.csv:4:1:"));
   CHECK_THROWS_WITH(parse_csv("a\n\"1\n", "t.csv"), Catch::Contains("t.csv:2:1: error: a quote is not closed"));
-  CHECK_THROWS_WITH(parse_csv("a\n\"1\"2\n", "t.csv"), Catch::Contains("t.csv:2:1: error: text after a closing quote"));
+  CHECK_THROWS_WITH(parse_csv("a\n\"1\"2\n", "t.csv"), Catch::Contains("t.csv:2:1: error: text follows a closing quote"));
   const auto csv = parse_csv("a,b\n1,x\nnan,\n", "t.csv");
   CHECK_THROWS_WITH(csv.number(csv.rows[0][1]), "t.csv:2:3: error: 'x' is not a number");
   CHECK_THROWS_AS(csv.number(csv.rows[1][0]), InputError);

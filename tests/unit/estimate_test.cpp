@@ -170,5 +170,5 @@ TEST_CASE("what cannot be estimated is said", "[calibration]") {
   CHECK_THAT(first_problem(line({1, 2}, {1, 2},
                                 "[quantities.a]\nestimated = true\nvalue = 1\nu = 1\nper = \"reading\"\n"
                                 "[quantities.b]\nvalue = 1\n")),
-             Catch::Contains("estimated beside per"));
+             Catch::Contains("estimated is given together with per"));
 }

@@ -94,7 +94,7 @@ TEST_CASE("a mistake in a formula is shown at its character", "[expression]") {
   CHECK(about("L * (phi + ") == at(17, "a number, a name or '(' is expected, not the end of the formula."));
   CHECK(about("L * (phi + 1").starts_with(at(10, "this '(' is never closed")));
   CHECK(about("L * phi)").starts_with(at(13, "')' closes nothing")));
-  CHECK(about("LL * phi") == at(6, "'LL' is no quantity, condition, indication or intermediate. Did you mean 'L'?"));
+  CHECK(about("LL * phi") == at(6, "'LL' is not a quantity, condition, indication or intermediate. Did you mean 'L'?"));
   CHECK(about("n + snn(phi)") == at(10, "'snn' is no function. Did you mean 'sin'?"));
   CHECK(about("n + atan2(phi)") == at(10, "atan2 takes 2 arguments, not 1."));
   CHECK(about("n + sin()") == at(10, "sin takes 1 argument, not 0."));

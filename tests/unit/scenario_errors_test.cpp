@@ -62,8 +62,8 @@ TEST_CASE("wrong types and units", "[scenario][errors]") {
   CHECK_THAT(with("[quantities]\nbeam_pitch = \"0.1\"\n"), Contains("is not an angle"));
   CHECK_THAT(with("[quantities]\ntrigger_fraction = \"0.5 deg\"\n"), Contains("is not a plain number"));
   CHECK_THAT(with("[quantities]\nrod_radius = \"nan mm\"\n"), Contains("not finite"));
-  CHECK_THAT(with("[quantities]\ntrigger_fraction = nan\n"), Contains("not a finite number"));
-  CHECK_THAT(with("[quantities]\ntrigger_fraction = inf\n"), Contains("not a finite number"));
+  CHECK_THAT(with("[quantities]\ntrigger_fraction = nan\n"), Contains("the number is not finite"));
+  CHECK_THAT(with("[quantities]\ntrigger_fraction = inf\n"), Contains("the number is not finite"));
   CHECK_THAT(with("[run]\nsamples = \"many\"\n"), Contains("expected a number"));
   CHECK_THAT(with("[run]\nsamples = 1.5\n"), Contains("not a whole number"));
   CHECK_THAT(with("[run]\nsamples = 0\n"), Contains("must lie between"));
@@ -94,21 +94,21 @@ TEST_CASE("statements of uncertainty that say too little or too much", "[scenari
   CHECK_THAT(radius("U = \"1 um\"\n"), Contains("coverage factor is missing"));
   CHECK_THAT(radius("U = \"1 um\"\nk = 0\n"), Contains("must be above 0"));
   CHECK_THAT(radius("u = \"1 um\"\nk = 2\n"), Contains("k belongs to an expanded uncertainty"));
-  CHECK_THAT(radius("u = \"1 um\"\nU = \"1 um\"\nk = 2\n"), Contains("u beside U"));
+  CHECK_THAT(radius("u = \"1 um\"\nU = \"1 um\"\nk = 2\n"), Contains("both u and U are given"));
   CHECK_THAT(radius("distribution = \"rectangular\"\nhalf_width = \"0 mm\"\n"),
              Contains("half_width: must be above 0"));
   CHECK_THAT(radius("distribution = \"rectangular\"\n"), Contains("half_width: missing"));
   CHECK_THAT(radius("distribution = \"rectangular\"\nlow = \"1 mm\"\nhigh = \"6 mm\"\n"),
-             Contains("value beside low and high"));
+             Contains("value is given together with low and high"));
   CHECK_THAT(radius("distribution = \"t\"\nu = \"1 um\"\n"), Contains("degrees_of_freedom: missing"));
   CHECK_THAT(radius("distribution = \"trapezoid\"\nhalf_width = \"1 um\"\ntop_ratio = 2\n"), Contains("top_ratio"));
   CHECK_THAT(radius("distribution = \"normal\"\nu = \"1 um\"\nhalf_width = \"1 um\"\n"),
              Contains("unknown key 'half_width'"));
-  CHECK_THAT(radius("u = \"1 um\"\ncomponents = [ { u = \"1 um\" } ]\n"), Contains("'u' beside components"));
+  CHECK_THAT(radius("u = \"1 um\"\ncomponents = [ { u = \"1 um\" } ]\n"), Contains("'u' is given together with components"));
   CHECK_THAT(radius("components = [ { source = \"?\" } ]\n"), Contains("no distribution"));
   CHECK_THAT(radius("components = [ { u = \"1 um\", name = \"a\" }, { u = \"1 um\", name = \"a\" } ]\n"),
-             Contains("is taken"));
-  CHECK_THAT(radius("components = [ { observations = [\"1 mm\"] } ]\n"), Contains("say nothing of their scatter"));
+             Contains("is already used"));
+  CHECK_THAT(radius("components = [ { observations = [\"1 mm\"] } ]\n"), Contains("cannot show any scatter"));
   CHECK_THAT(radius("u = \"1 um\"\nper = \"setup\"\n"), Contains("no reading has the label 'setup'"));
   CHECK_THAT(with("[quantities.rod_length]\ndistribution = \"discrete\"\nvalues = [\"1 mm\", \"2 mm\"]\nprobabilities "
                   "= [0.5, 0.6]\n"),
@@ -138,7 +138,7 @@ TEST_CASE("data files that are missing or wrong", "[scenario][errors]") {
   };
   const std::string good = "column = \"z\", unit = \"mm\"";
   CHECK_THAT(reading(good), Contains("s.toml:4:21: error: indications.spindle_z.readings.file:") &&
-                                Contains("d.csv': there is no such file"));
+                                Contains("d.csv': the file does not exist"));
   folder.write("d.csv", "rod,z\na,1\nb,one\n");
   CHECK_THAT(reading(good), Contains("d.csv:3:3: error: 'one' is not a number"));
   CHECK_THAT(reading("column = \"zz\", unit = \"mm\""), Contains("has no column 'zz'. Did you mean 'z'?"));

@@ -50,7 +50,7 @@ TEST_CASE("listed conditions make one reading each", "[scenario][readings]") {
   CHECK(two.readings[1].conditions[0] == Approx(8e-3 / 60));
   CHECK(two.readings[1].indications[0] == -0.330);
   CHECK(two.readings[1].labels == quantities::Labels{{"feed", "8 mm/min"}});
-  CHECK(complaint(readings("\"-329 mm\"", listed)).find("1 readings beside 2 listed conditions") != std::string::npos);
+  CHECK(complaint(readings("\"-329 mm\"", listed)).find("1 readings but 2 listed conditions") != std::string::npos);
 
   const auto spread =
       read_text(readings("\"-1 mm\", \"-2 mm\", \"-3 mm\"",
@@ -61,11 +61,11 @@ TEST_CASE("listed conditions make one reading each", "[scenario][readings]") {
     CHECK(spread.readings[i].conditions[0] == Approx(8e-3 / 60));
   }
   CHECK(complaint(readings("\"-1 mm\"", "[conditions]\ntime = { spread = [\"0 s\"], readings = 3 }\n"))
-            .find("needs a first and a last value") != std::string::npos);
+            .find("a first and a last value are needed") != std::string::npos);
   CHECK(complaint(readings("\"-1 mm\", \"-2 mm\"",
                            "[conditions]\ntime = { spread = [\"0 s\", \"1 s\"], readings = 3 }\nfeed = [\"8 mm/min\", "
                            "\"9 mm/min\"]\n"))
-            .find("lists stand side by side") != std::string::npos);
+            .find("lists need equal lengths") != std::string::npos);
 }
 
 TEST_CASE("s pooled over all cells of the data, though one is read", "[scenario][readings]") {
@@ -105,7 +105,7 @@ TEST_CASE("identical readouts have a Type A evaluation of zero", "[scenario][rea
       read_text(readings("\"1 mm\", \"1 mm\", \"1 mm\"", "resolution = \"1 um\"\nrepeatability = \"readings\"\n"));
   REQUIRE(noise(s).size() == 1);
   CHECK(noise(s)[0].name == "resolution");
-  CHECK_THAT(notes(s), Catch::Contains("Type A evaluation is zero"));
+  CHECK_THAT(notes(s), Catch::Contains("Type A uncertainty is zero"));
   CHECK(noise(read_text(readings("\"1 mm\", \"1 mm\"", "repeatability = \"readings\"\n"))).empty());
 }
 
@@ -118,7 +118,7 @@ TEST_CASE("fewer than four readouts have no standard uncertainty of their own", 
       read_text(readings("\"1 mm\", \"1.002 mm\", \"1.004 mm\", \"1 mm\"", "repeatability = \"readings\"\n"));
   CHECK(four.notes.empty());
   CHECK_THAT(complaint(readings("\"1 mm\"", "repeatability = \"readings\"\n")),
-             Catch::Contains("say nothing of their scatter"));
+             Catch::Contains("cannot show any scatter"));
   CHECK_THAT(complaint(readings("\"1 mm\"", "repeatability = { pooled = true }\n")),
              Catch::Contains("nothing to pool"));
 }
@@ -134,7 +134,7 @@ TEST_CASE("noise by labels where readings differ in their number of repeats", "[
   CHECK(entries[1].components[0].distribution.parameters[1] == Approx(1e-6).epsilon(1e-15));
   CHECK(entries[1].labels == quantities::Labels{{"rod", "b"}});
   CHECK_THAT(complaint(rows + "components = [ { u = \"1 um\" } ]\n"),
-             Catch::Contains("shared by readings of different noise"));
+             Catch::Contains("shared by readings with different noise"));
 }
 
 TEST_CASE("a virtual experiment needs no readouts", "[scenario][readings]") {

@@ -100,7 +100,7 @@ TEST_CASE("mistakes in [trace] are located", "[scenario][trace][errors]") {
       {"redone = [[\"rod\", \"rod\"]]", "s.toml:6:19: error: trace.redone[1]: 'rod' stands twice"},
       {"alpha = 0", "s.toml:6:9: error: trace.alpha: 0 must lie between 0 and 1"},
       {"alpha = 1.5", "s.toml:6:9: error: trace.alpha: 1.5 must lie between 0 and 1"},
-      {"alpha = nan", "s.toml:6:9: error: trace.alpha: not a finite number"},
+      {"alpha = nan", "s.toml:6:9: error: trace.alpha: the number is not finite"},
       {"draws = 98", "s.toml:6:9: error: trace.draws: 98 must lie between 99 and 1000000"},
       {"block = \"setup\"", "s.toml:6:1: error: trace: unknown key 'block'. Did you mean 'blocks'?"},
       {"[trace.columns]\nt = { column = \"Tt\" }", "has no column 'Tt'. Did you mean"},
@@ -220,11 +220,11 @@ TEST_CASE("another data file for the same scenario", "[scenario][trace]") {
   // The scenario's own file need not be there.
   std::filesystem::remove(folder.path() + "/r.csv");
   CHECK(with(folder.path() + "/other.csv").hash == other.hash);
-  CHECK(said(folder.path() + "/none.csv") == folder.path() + "/none.csv: error: there is no such file");
+  CHECK(said(folder.path() + "/none.csv") == folder.path() + "/none.csv: error: the file does not exist");
   const std::string lacking = said(folder.write("lacking.csv", "rod,setup,feed,z\na,1,10,1\n"));
   CHECK_THAT(lacking,
              Contains("s.toml:4:") && Contains("lacking.csv' has no column 't'") && Contains("has no column 'T'"));
   const std::string inline_file = folder.write("i.toml", head + one_reading);
   CHECK_THROWS_WITH(scenario::read(inline_file, catalogue(), {folder.path() + "/other.csv"}),
-                    Contains("i.toml:4:12: error: indications.spindle_z: no data file that --data could replace"));
+                    Contains("i.toml:4:12: error: indications.spindle_z: there is no data file for --data to replace"));
 }
