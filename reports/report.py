@@ -33,12 +33,12 @@ def main():
         print(f"error: {problem}", file=sys.stderr)
         return 2
     except OSError as problem:
-        print(f"error: '{problem.filename or out}' cannot be written ({problem.strerror})", file=sys.stderr)
+        print(f"error: '{problem.filename or out}' cannot be written ({problem.strerror}).", file=sys.stderr)
         return 2
     try:
         print(*written, sep="\n", flush=True)
     except OSError as problem:
-        print(f"error: standard output cannot be written ({problem.strerror})", file=sys.stderr)
+        print(f"error: standard output cannot be written ({problem.strerror}).", file=sys.stderr)
         sys.stdout = None  # nothing is left to flush at exit
         return 2
     return 0

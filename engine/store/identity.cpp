@@ -101,7 +101,7 @@ Stored read_identity(const std::string& path) {
   const Lock lock(hdf5::library());
   try {
     if (std::filesystem::is_directory(path)) throw OutputError("a directory");
-    if (!std::filesystem::exists(path)) throw OutputError("no such file");
+    if (!std::filesystem::exists(path)) throw OutputError("the file does not exist");
     if (!is_hdf5(path)) throw OutputError("no HDF5 file");
     return read_stored(open_file(path, H5F_ACC_RDONLY));
   } catch (const OutputError& error) {

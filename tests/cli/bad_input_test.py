@@ -221,7 +221,7 @@ class BadInput(unittest.TestCase):
                     self.refused(gumshoe(*command), [str(path)])
 
     def test_a_directory_and_nothing(self):
-        for path, word in ((self.folder, "directory"), (self.folder / "nothing", "no such file")):
+        for path, word in ((self.folder, "directory"), (self.folder / "nothing", "does not exist")):
             for command in (["check", path], ["run", path, "--out", self.folder / "never.h5"],
                             ["evaluate", "rod_gauging", "--table", path], ["replay", path, "--sample", 1], ["report", path]):
                 with self.subTest(word, command=command[0]):

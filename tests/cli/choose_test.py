@@ -141,7 +141,7 @@ class Choose(unittest.TestCase):
             "unknown evaluation": (variables, variables + 'evaluation = ["fast"]\n', "evaluation =", "'fast'"),
             "misspelt key": ("confirm_samples", "confirm_sample", "confirm_sample", "Did you mean 'confirm_samples'?"),
             "target of wrong dimension": ('target = "3 um"', 'target = "3 s"', "target =", "'3 s' is not a length"),
-            "no target": ('target = "3 um"\n', "", "[choose]", "choose.target: missing"),
+            "no target": ('target = "3 um"\n', "", "[choose]", "choose.target is missing"),
             "target of zero": ('target = "3 um"', 'target = "0 um"', "target =", "above 0"),
             "unknown measurand": ("samples = 1_000", 'measurand = "width"', "measurand =", "'width' is unknown"),
             "worst case of none": ('[[choose.cases]]\nname = "late"\nvalues = { delay = "8 ms" }\n', "", None, None),
@@ -182,7 +182,7 @@ class Choose(unittest.TestCase):
     def test_no_choose_section(self):
         said = gumshoe("choose", ROOT / "scenarios" / "expression.toml", "--out", self.out)
         self.assertIsNone(complaint(said))
-        self.assertIn("choose: missing", said.stderr)
+        self.assertIn("[choose] is missing", said.stderr)
 
     def test_a_file_of_another_is_not_overwritten(self):
         self.out.write_text("mine")
