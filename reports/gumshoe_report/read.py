@@ -110,19 +110,19 @@ def texts(file, name):
 def result(path):
     """Everything but the samples of a finished run. Throws NotAResult."""
     if not path.exists():
-        raise NotAResult(f"'{path}' does not exist")
+        raise NotAResult(f"'{path}' does not exist.")
     try:
         file = h5py.File(path, "r")
     except OSError as problem:
-        raise NotAResult(f"'{path}' is no result of ours ({problem})") from None
+        raise NotAResult(f"'{path}' is not a Gumshoe result ({problem}).") from None
     with file:
         r = types.SimpleNamespace(**{k: plain(v) for k, v in file.attrs.items()}, path=path)
         if getattr(r, "program", "") != "gumshoe":
-            raise NotAResult(f"'{path}' is no result of ours (another program made it)")
+            raise NotAResult(f"'{path}' is not a Gumshoe result (another program made it).")
         if not r.complete:
             done = int(file["samples_done"][0])
-            raise NotAResult(f"'{path}' is not finished ({done} of {r.samples} samples) "
-                             "give the same run command again to resume it?")
+            raise NotAResult(f"'{path}' is not finished ({done} of {r.samples} samples). "
+                             "Repeat the same run command to resume it.")
         r.outputs = rows(file.get("summary"))
         for k, output in enumerate(r.outputs):
             for key in ("histogram", "histogram_edges"):
