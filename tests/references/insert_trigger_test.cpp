@@ -7,7 +7,7 @@
 #include "references/mill_brute_force.h"
 
 using namespace gumshoe;
-using namespace gumshoe::chain;
+using namespace gumshoe::models::tool_length;
 
 namespace {
 
