@@ -4,12 +4,15 @@
 
 namespace gumshoe::models {
 
-#define GUMSHOE_MODEL(folder) extern const Model folder;
+#define GUMSHOE_MODEL(folder)                                                                                          \
+  namespace folder {                                                                                                   \
+  extern const Model model;                                                                                            \
+  }
 #include "models/catalogue.def"
 #undef GUMSHOE_MODEL
 
 namespace {
-#define GUMSHOE_MODEL(folder) &folder,
+#define GUMSHOE_MODEL(folder) &folder::model,
 const Model* const table[] = {
 #include "models/catalogue.def"
 };

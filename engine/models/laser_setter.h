@@ -1,14 +1,13 @@
 #pragma once
 /// What the models of a laser tool setter share: units, the beam's rows of their cards, conditions, the indication.
-#include <numbers>
-
+#include "base/si.h"
 #include "chain/probing_event.h"
-#include "chain/shadow.h"
+#include "models/laser_beam.h"
 #include "models/model.h"
 
 namespace gumshoe::models::laser_setter {
 
-inline constexpr double mm = 1e-3, deg = std::numbers::pi / 180, rpm = 2 * std::numbers::pi / 60, minute = 60;
+using si::mm, si::deg, si::rpm, si::minute;
 inline constexpr double huge = 1e3; ///< limit of what has none: m or rad
 
 inline constexpr QuantityCard beam_yaw{
@@ -35,6 +34,6 @@ inline constexpr VariableCard indications[] = {
     {"spindle_z", "mm", "m", 0, "spindle height latched at the trigger, Z'_s"}};
 
 /// The beam, from four quantities in a row: yaw, pitch, radius, trigger fraction.
-template <class T> chain::Beam<T> beam(const T* q) { return {q[0], q[1], q[2], q[3]}; }
+template <class T> Beam<T> beam(const T* q) { return {q[0], q[1], q[2], q[3]}; }
 
 } // namespace gumshoe::models::laser_setter

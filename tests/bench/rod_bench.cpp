@@ -5,7 +5,7 @@
 #include <benchmark/benchmark.h>
 
 #include "base/instruction_set.h"
-#include "chain/trigger_height.h"
+#include "models/rod_gauging/shadow/trigger_height.h"
 #include "models/model.h"
 
 namespace {
@@ -26,7 +26,7 @@ struct Block {
   models::BlockCall call;
 
   Block() {
-    const double degree = chain::pi / 180;
+    const double degree = std::numbers::pi / 180;
     const double mean[] = {
         5e-3, 3e-5, 88.041 * degree, 144.086 * degree, 0.179822, 0, 0.6241 * degree, 0.2836 * degree, 2e-4, 0.5, -0.51};
     const double u[] = {1e-6, 3e-6, 4e-5, 1e-3, 1e-6, 2e-3, 1e-4, 1e-4, 3e-6, 0.01, 1e-3};
@@ -67,23 +67,23 @@ template <class F> void scalar(benchmark::State& state, const F& solve) {
   std::size_t i = 0;
   for (auto _ : state) {
     const auto v = [&](std::size_t q) { return block.values[q][i]; };
-    const chain::Rod<double> rod{v(0), v(1), v(2), v(3) + v(5)};
-    const chain::Beam<double> beam{v(6), v(7), v(8), v(9)};
+    const models::rod_gauging::Rod<double> rod{v(0), v(1), v(2), v(3) + v(5)};
+    const models::laser_setter::Beam<double> beam{v(6), v(7), v(8), v(9)};
     benchmark::DoNotOptimize(solve(rod, beam));
     i = (i + 1) % n;
   }
   state.SetItemsProcessed(state.iterations());
 }
-void scalar_fast(benchmark::State& state) { scalar(state, chain::trigger_height); }
-void scalar_general(benchmark::State& state) { scalar(state, chain::general_height); }
+void scalar_fast(benchmark::State& state) { scalar(state, models::rod_gauging::trigger_height); }
+void scalar_general(benchmark::State& state) { scalar(state, models::rod_gauging::general_height); }
 BENCHMARK(scalar_fast);
 BENCHMARK(scalar_general);
 
 /// Height with all eleven first derivatives, as a budget or a trace needs it.
 void gradient(benchmark::State& state) {
-  scalar(state, [](const chain::Rod<double>& r, const chain::Beam<double>& b) {
+  scalar(state, [](const models::rod_gauging::Rod<double>& r, const models::laser_setter::Beam<double>& b) {
     using D = models::Gradient;
-    return chain::differentiable_height<D>(
+    return models::rod_gauging::differentiable_height<D>(
         {D::variable(r.radius, 0), D::variable(r.fillet_radius, 1), D::variable(r.bottom_elevation, 2),
          D::variable(r.bottom_azimuth, 3)},
         {D::variable(b.yaw, 4), D::variable(b.pitch, 5), D::variable(b.radius, 6), D::variable(b.fraction, 7)});

@@ -9,7 +9,7 @@
 namespace {
 
 using namespace gumshoe;
-namespace mill = models::mill;
+namespace mill = models::tool_length;
 
 constexpr std::size_t n = 4096;
 constexpr double pi = 3.14159265358979323846, deg = pi / 180, mm = 1e-3;
@@ -99,7 +99,7 @@ template <class F> void each(benchmark::State& state, const F& solve) {
   std::size_t i = 0;
   for (auto _ : state) {
     const auto v = [&](std::size_t q) { return block.values[q][i]; };
-    const chain::Insert<double> insert{v(mill::tool_radius),
+    const models::tool_length::Insert<double> insert{v(mill::tool_radius),
                                        v(mill::insert_radius),
                                        v(mill::insert_thickness),
                                        v(mill::clearance),
@@ -107,27 +107,27 @@ template <class F> void each(benchmark::State& state, const F& solve) {
                                        v(mill::axial_angle),
                                        0,
                                        -v(mill::offset)};
-    const chain::Flute<double> flutes[] = {{insert, 0, v(mill::wear)}, {insert, pi, v(mill::wear + 1)}};
+    const models::tool_length::Flute<double> flutes[] = {{insert, 0, v(mill::wear)}, {insert, pi, v(mill::wear + 1)}};
     benchmark::DoNotOptimize(
-        solve(std::span<const chain::Flute<double>>(flutes), chain::Beam<double>{0, 0, v(mill::beam_radius), 0.5},
-              chain::InsertMotion{block.angles[i], 5 * mm, block.condition[1] / block.condition[0]}));
+        solve(std::span<const models::tool_length::Flute<double>>(flutes), models::laser_setter::Beam<double>{0, 0, v(mill::beam_radius), 0.5},
+              models::tool_length::InsertMotion{block.angles[i], 5 * mm, block.condition[1] / block.condition[0]}));
     i = (i + 1) % n;
   }
   state.SetItemsProcessed(state.iterations());
 }
 void walk_alone(benchmark::State& state) {
-  chain::TriggerSolver solver;
+  models::tool_length::TriggerSolver solver;
   each(state, [&](const auto&... call) { return solver.walk(call...); });
 }
 void search_alone(benchmark::State& state) {
-  chain::TriggerSolver solver;
+  models::tool_length::TriggerSolver solver;
   each(state, [&](const auto&... call) { return solver.search(call...); });
 }
 void flute_alone(benchmark::State& state) {
-  chain::TriggerSolver solver;
+  models::tool_length::TriggerSolver solver;
   double level = 0;
   Block block(2, false, false);
-  const chain::Insert<double> insert{10 * mm, 5 * mm, 3.2 * mm, 15 * deg, -12 * deg, 6 * deg, 0, -4.9 * mm};
+  const models::tool_length::Insert<double> insert{10 * mm, 5 * mm, 3.2 * mm, 15 * deg, -12 * deg, 6 * deg, 0, -4.9 * mm};
   const double drop = block.condition[1] / block.condition[0];
   for (auto _ : state)
     benchmark::DoNotOptimize(solver.alone({insert, 0, 0}, {0, 0, 0.2 * mm, 0.5}, level += 0.01 * drop, drop));

@@ -5,11 +5,11 @@
 #include "models/rod_gauging/rod_gauging.h"
 
 using namespace gumshoe;
-namespace rod = gumshoe::models::rod;
+namespace rod = gumshoe::models::rod_gauging;
 
 namespace {
 
-constexpr double deg = chain::pi / 180, um = 1e-6;
+constexpr double deg = std::numbers::pi / 180, um = 1e-6;
 
 /// Change of the indication when one effect takes the given values.
 double shift(const std::string& effect, const std::vector<double>& values, const std::vector<double>& condition,
@@ -20,7 +20,7 @@ double shift(const std::string& effect, const std::vector<double>& values, const
   const std::vector<effects::Active> active{{index, 0}};
   const auto read = [&](std::span<const effects::Active> a) {
     const auto event = rod::probing_event<double>(q.data(), condition.data(), values.data(), a);
-    const auto height = chain::trigger_height(rod::rod(q.data(), event), rod::beam(q.data()));
+    const auto height = models::rod_gauging::trigger_height(rod::rod(q.data(), event), rod::beam(q.data()));
     return rod::simulate(q.data(), height.value, event);
   };
   return read(active) - read({});

@@ -8,7 +8,7 @@
 
 namespace gumshoe::tests {
 
-namespace mill = models::mill;
+namespace mill = models::tool_length;
 
 struct Draw {
   std::mt19937_64 engine{20261121};
@@ -80,11 +80,11 @@ struct Mill {
     return c;
   }
   mill::Outcome<double> simulated() const {
-    chain::TriggerSolver solver;
+    models::tool_length::TriggerSolver solver;
     return mill::simulate(solver, call(q, effects));
   }
   mill::Outcome<double> evaluated(double spindle_z) const {
-    chain::TriggerSolver solver;
+    models::tool_length::TriggerSolver solver;
     auto c = call(q, effects);
     c.indications = &spindle_z;
     return mill::evaluate(solver, c);

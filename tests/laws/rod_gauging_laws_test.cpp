@@ -8,11 +8,11 @@
 #include "models/rod_gauging/rod_gauging.h"
 
 using namespace gumshoe;
-namespace rod = gumshoe::models::rod;
+namespace rod = gumshoe::models::rod_gauging;
 
 namespace {
 
-constexpr double deg = chain::pi / 180;
+constexpr double deg = std::numbers::pi / 180;
 
 /// Random rods and beams, thin pins and tilts included, and all effects at random sizes.
 struct Draw {
@@ -137,7 +137,7 @@ TEST_CASE("lanes give the bits of the scalar solve", "[laws][rod_gauging]") {
   const Run run(q, {}, {}, nullptr);
   for (std::size_t i = 0; i < 4096; ++i) {
     const auto v = [&](int j) { return q[static_cast<std::size_t>(j)][i]; };
-    const auto one = chain::trigger_height(
+    const auto one = models::rod_gauging::trigger_height(
         {v(rod::radius), v(rod::fillet), v(rod::elevation), v(rod::azimuth) + v(rod::holder_angle)},
         {v(rod::yaw), v(rod::pitch), v(rod::beam_radius), v(rod::fraction)});
     REQUIRE(static_cast<std::uint8_t>(one.status) == run.status[i]);
@@ -150,15 +150,15 @@ TEST_CASE("the fast and the general solve agree", "[laws][shadow]") {
   std::size_t fast = 0;
   for (std::size_t i = 0; i < 4096; ++i) {
     const auto v = [&](int j) { return q[static_cast<std::size_t>(j)][i]; };
-    const chain::Rod<double> r{v(rod::radius), v(rod::fillet), v(rod::elevation), v(rod::azimuth)};
-    const chain::Beam<double> b{v(rod::yaw), v(rod::pitch), v(rod::beam_radius), v(rod::fraction)};
-    const auto chord = chain::solve_chord<double>(chain::shadow_edge(r, b), b.radius, b.fraction);
+    const models::rod_gauging::Rod<double> r{v(rod::radius), v(rod::fillet), v(rod::elevation), v(rod::azimuth)};
+    const models::laser_setter::Beam<double> b{v(rod::yaw), v(rod::pitch), v(rod::beam_radius), v(rod::fraction)};
+    const auto chord = models::rod_gauging::solve_chord<double>(models::rod_gauging::shadow_edge(r, b), b.radius, b.fraction);
     if (chord.failed != 0) continue;
     ++fast;
-    const auto general = chain::general_height(r, b);
+    const auto general = models::rod_gauging::general_height(r, b);
     REQUIRE(general.status == Status::ok);
     // The stated error of the solver is 1e-12 m; the two share no quadrature and no iteration.
-    REQUIRE(std::fabs(chain::bottom_height_of(chord.k, r, b) - general.value) < 1e-13);
+    REQUIRE(std::fabs(models::rod_gauging::bottom_height_of(chord.k, r, b) - general.value) < 1e-13);
   }
   REQUIRE(fast > 300);
 }
@@ -167,11 +167,11 @@ TEST_CASE("symmetries of the shadow", "[laws][shadow]") {
   Draw draw;
   for (int i = 0; i < 300; ++i) {
     const auto q = random_quantities(draw);
-    const chain::Rod<double> r{q[0], q[1], q[2], q[3]};
-    const chain::Beam<double> b{q[6], q[7], q[8], q[9]};
-    const auto at = chain::trigger_height(r, b);
-    const auto same = [&](const chain::Rod<double>& r2, const chain::Beam<double>& b2) {
-      const auto other = chain::trigger_height(r2, b2);
+    const models::rod_gauging::Rod<double> r{q[0], q[1], q[2], q[3]};
+    const models::laser_setter::Beam<double> b{q[6], q[7], q[8], q[9]};
+    const auto at = models::rod_gauging::trigger_height(r, b);
+    const auto same = [&](const models::rod_gauging::Rod<double>& r2, const models::laser_setter::Beam<double>& b2) {
+      const auto other = models::rod_gauging::trigger_height(r2, b2);
       REQUIRE(other.status == at.status);
       if (at.status == Status::ok) REQUIRE(std::fabs(other.value - at.value) < 1e-14);
     };
@@ -181,11 +181,11 @@ TEST_CASE("symmetries of the shadow", "[laws][shadow]") {
     turned_beam.yaw += 0.7;
     same(turned, turned_beam); // only the azimuth against the beam matters
     auto other_side = r;
-    other_side.bottom_elevation = chain::pi - r.bottom_elevation;
-    other_side.bottom_azimuth += chain::pi;
+    other_side.bottom_elevation = std::numbers::pi - r.bottom_elevation;
+    other_side.bottom_azimuth += std::numbers::pi;
     same(other_side, b); // the same plane, its normal named from the other side
     auto against = b;
-    against.yaw += chain::pi;
+    against.yaw += std::numbers::pi;
     against.pitch = -b.pitch;
     same(r, against); // a shadow does not know which way the light runs
   }
@@ -195,9 +195,9 @@ TEST_CASE("a larger share needs a lower rod", "[laws][shadow]") {
   Draw draw;
   for (int i = 0; i < 200; ++i) {
     auto q = random_quantities(draw);
-    const chain::Rod<double> r{q[0], q[1], q[2], q[3]};
-    const auto low = chain::trigger_height(r, {q[6], q[7], q[8], 0.2}),
-               high = chain::trigger_height(r, {q[6], q[7], q[8], 0.25});
+    const models::rod_gauging::Rod<double> r{q[0], q[1], q[2], q[3]};
+    const auto low = models::rod_gauging::trigger_height(r, {q[6], q[7], q[8], 0.2}),
+               high = models::rod_gauging::trigger_height(r, {q[6], q[7], q[8], 0.25});
     if (low.status == Status::ok && high.status == Status::ok) REQUIRE(high.value < low.value);
   }
 }
@@ -205,20 +205,20 @@ TEST_CASE("a larger share needs a lower rod", "[laws][shadow]") {
 TEST_CASE("wide pins and ball ends in closed form", "[references][shadow]") {
   // A ball end far larger than the beam is a circle of radius R against a disc of radius R_l: with the
   // lens at half the disc. Square end at pitch 0: a half plane, height 0 at fraction 1/2.
-  const auto square = chain::general_height({5e-3, 0, chain::pi / 2, 0}, {0, 0, 2e-4, 0.5});
+  const auto square = models::rod_gauging::general_height({5e-3, 0, std::numbers::pi / 2, 0}, {0, 0, 2e-4, 0.5});
   REQUIRE(std::fabs(square.value) < 1e-17);
   // Pin narrower than the beam, square: the strip |y| < a is covered down to z = h; in closed form
   // area = a sqrt(R^2-a^2) + R^2 asin(a/R) - 2 a h while the edge stays inside the disc.
   const double a = 1e-4, R = 2e-4, fraction = 0.4;
   const double area = a * std::sqrt(R * R - a * a) + R * R * std::asin(a / R);
-  const double h = (area - fraction * chain::pi * R * R) / (2 * a);
+  const double h = (area - fraction * std::numbers::pi * R * R) / (2 * a);
   REQUIRE(std::fabs(h) < std::sqrt(R * R - a * a));
-  const auto pin = chain::trigger_height({a, 0, chain::pi / 2, 0}, {0, 0, R, fraction});
+  const auto pin = models::rod_gauging::trigger_height({a, 0, std::numbers::pi / 2, 0}, {0, 0, R, fraction});
   REQUIRE(std::fabs(pin.value - h) < 1e-15);
   // The strip holds 0.609 of the disc: less is reached, more never.
-  const double most = 2 * area / (chain::pi * R * R);
-  REQUIRE(chain::trigger_height({a, 0, chain::pi / 2, 0}, {0, 0, R, most - 1e-6}).status == Status::ok);
-  REQUIRE(chain::trigger_height({a, 0, chain::pi / 2, 0}, {0, 0, R, most + 1e-6}).status ==
+  const double most = 2 * area / (std::numbers::pi * R * R);
+  REQUIRE(models::rod_gauging::trigger_height({a, 0, std::numbers::pi / 2, 0}, {0, 0, R, most - 1e-6}).status == Status::ok);
+  REQUIRE(models::rod_gauging::trigger_height({a, 0, std::numbers::pi / 2, 0}, {0, 0, R, most + 1e-6}).status ==
           Status::never_covered);
 }
 
@@ -265,11 +265,11 @@ TEST_CASE("derivatives agree with differences, second ones with differences of f
 }
 
 TEST_CASE("the aligned square rod has a kink in pitch", "[rod_gauging]") {
-  const auto at = chain::differentiable_height<models::Gradient>({5e-3, 0.0, chain::pi / 2, 0.0},
+  const auto at = models::rod_gauging::differentiable_height<models::Gradient>({5e-3, 0.0, std::numbers::pi / 2, 0.0},
                                                                  {0.0, models::Gradient::variable(0.0, 0), 2e-4, 0.5});
   REQUIRE(at.kink);
-  const auto beside = chain::differentiable_height<models::Gradient>(
-      {5e-3, 0.0, chain::pi / 2, 0.0}, {0.0, models::Gradient::variable(1e-3, 0), 2e-4, 0.5});
+  const auto beside = models::rod_gauging::differentiable_height<models::Gradient>(
+      {5e-3, 0.0, std::numbers::pi / 2, 0.0}, {0.0, models::Gradient::variable(1e-3, 0), 2e-4, 0.5});
   REQUIRE_FALSE(beside.kink);
   REQUIRE(beside.value.d[0] == Approx(5e-3).epsilon(1e-3)); // 5 mm times |pitch|
 }

@@ -7,7 +7,7 @@
 #include "models/sphere_calibration/sphere_calibration.h"
 
 using namespace gumshoe;
-namespace sphere = gumshoe::models::sphere;
+namespace sphere = gumshoe::models::sphere_calibration;
 
 namespace {
 

@@ -10,7 +10,7 @@
 namespace sphere_effects_case {
 
 using namespace gumshoe;
-namespace sphere = gumshoe::models::sphere;
+namespace sphere = gumshoe::models::sphere_calibration;
 
 inline constexpr double pi = 3.14159265358979323846, deg = pi / 180, um = 1e-6, arcsec = deg / 3600;
 

@@ -6,14 +6,14 @@
 #include <random>
 
 #include "base/error.h"
-#include "chain/shadow.h"
+#include "models/rod_gauging/shadow/shadow.h"
 #include "models/sphere_calibration/sphere_calibration.h"
 #include "models/sphere_probing/sphere_probing.h"
 
 using namespace gumshoe;
 using models::Gradient;
 namespace probing = models::probing;
-namespace sphere = models::sphere;
+namespace sphere = models::sphere_calibration;
 
 namespace {
 

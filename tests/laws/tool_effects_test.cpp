@@ -6,7 +6,7 @@
 using namespace gumshoe;
 using tests::Draw;
 using tests::Mill;
-namespace mill = gumshoe::models::mill;
+namespace mill = gumshoe::models::tool_length;
 
 namespace {
 
@@ -97,12 +97,12 @@ TEST_CASE("a tilted tool's inserts are the same bodies, turned", "[effects][tool
     const Mill straight = Mill::random(draw);
     const double x = draw(-0.1, 0.1), y = draw(-0.1, 0.1), ex = draw(-0.5, 0.5) * mm, ey = draw(-0.5, 0.5) * mm;
     const Mill tilted = straight.with("tool_runout", {ex, ey, x, y});
-    const chain::Beam<double> level{0, 0, 2e-4, 0.5};
+    const models::laser_setter::Beam<double> level{0, 0, 2e-4, 0.5};
     for (int k = 0; k < straight.q[mill::inserts]; ++k) {
       auto before = mill::flute(straight.q.data(), straight.event(), k);
       auto after = mill::flute(tilted.q.data(), tilted.event(), k);
       REQUIRE(after.azimuth == before.azimuth);
-      const auto a = chain::insert_body(before.insert, level), b = chain::insert_body(after.insert, level);
+      const auto a = models::tool_length::insert_body(before.insert, level), b = models::tool_length::insert_body(after.insert, level);
       const double c = std::cos(before.azimuth), s = std::sin(before.azimuth);
       const auto in_tool = [&](const auto& v, double raise) {
         return std::array<double, 3>{c * v.x - s * v.y, s * v.x + c * v.y, v.z + raise};
@@ -187,7 +187,7 @@ TEST_CASE("a lagging feed from a low start, against all angles one after another
   int solved = 0, transient = 0;
   for (int n = 0; n < 40; ++n) {
     Mill m = Mill::random(draw);
-    chain::TriggerSolver solver;
+    models::tool_length::TriggerSolver solver;
     double highest = -1;
     for (int k = 0; k < m.q[mill::inserts]; ++k) {
       const auto f = mill::flute(m.q.data(), m.event(), k);
@@ -272,9 +272,9 @@ TEST_CASE("confirmation over n revolutions lowers by n times the descent", "[eff
     const double n = std::floor(draw(1, 5)), speed = m.condition[mill::speed], v = m.condition[mill::feed];
     REQUIRE(m.reading() - m.with("revolution_confirm", {n}).reading() == Approx(n * v * 2 * pi / speed).epsilon(1e-8));
     // By definition: the first covered moment not before n revolutions after the trigger.
-    chain::TriggerSolver solver;
+    models::tool_length::TriggerSolver solver;
     const auto o = m.simulated();
-    std::vector<chain::Flute<double>> flutes;
+    std::vector<models::tool_length::Flute<double>> flutes;
     for (int k = 0; k < m.q[mill::inserts]; ++k) flutes.push_back(mill::flute(m.q.data(), m.event(), k));
     const double accepted = o.trigger.turned + 2 * pi * n;
     const auto again = solver.solve(flutes, mill::beam(m.q.data()),

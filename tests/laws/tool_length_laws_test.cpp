@@ -6,7 +6,7 @@
 using namespace gumshoe;
 using tests::Draw;
 using tests::Mill;
-namespace mill = gumshoe::models::mill;
+namespace mill = gumshoe::models::tool_length;
 
 namespace {
 
@@ -72,7 +72,7 @@ TEST_CASE("a mill's effects at null change nothing, bit for bit", "[laws][effect
     std::vector<models::Gradient> condition(all.condition.begin(), all.condition.end());
     const auto event = mill::probing_event<models::Gradient>(q.data(), condition.data(), e.data(), all.active);
     for (int k = 0; k < all.q[mill::inserts]; ++k) {
-      const auto dual = chain::converted<double>(mill::flute(q.data(), event, k));
+      const auto dual = models::tool_length::converted<double>(mill::flute(q.data(), event, k));
       const auto flat = mill::flute(plain.q.data(), plain.event(), k);
       REQUIRE(dual.insert.tool_radius == flat.insert.tool_radius);
       REQUIRE(dual.insert.seat == flat.insert.seat);
@@ -192,7 +192,7 @@ TEST_CASE("the sampled receiver has the derivatives of its mean, and of its phas
   for (int i = 0; i < 2; ++i)
     e[static_cast<std::size_t>(i)] = models::Gradient::variable(m.effects[static_cast<std::size_t>(i)], i);
   models::Gradient reading(z);
-  chain::TriggerSolver solver;
+  models::tool_length::TriggerSolver solver;
   auto call = m.call(q, e);
   call.indications = &reading;
   const auto o = mill::evaluate(solver, call);

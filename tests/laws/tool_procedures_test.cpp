@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "chain/trigger_curve.h"
+#include "models/tool_length/trigger/trigger_curve.h"
 #include "laws/mill_fixture.h"
 #include "models/tool_length/procedures.h"
 #include "propagation/run.h"
@@ -12,7 +12,7 @@
 using namespace gumshoe;
 using tests::Draw;
 using tests::Mill;
-namespace mill = models::mill;
+namespace mill = models::tool_length;
 
 namespace {
 
@@ -193,8 +193,8 @@ TEST_CASE("peaks of many points are the flutes' highest triggers", "[laws][tool_
   Mill tool = thesis();
   // Beyond its lowest point's radius an insert passes with one hump, so each flute has one peak.
   tool.q[mill::offset] = 5.6e-3;
-  const chain::InsertHeight heights(mill::insert(tool.q.data(), tool.event()), mill::beam(tool.q.data()));
-  const chain::TriggerCurve curve(heights, tool.condition[mill::feed] / tool.condition[mill::speed]);
+  const models::tool_length::InsertHeight heights(mill::insert(tool.q.data(), tool.event()), mill::beam(tool.q.data()));
+  const models::tool_length::TriggerCurve curve(heights, tool.condition[mill::feed] / tool.condition[mill::speed]);
   REQUIRE(curve.at(0).to - curve.at(0).from == Approx(curve.period()));
   constexpr int readings = 3600;
   Procedure p(tool, readings, mill::peaks);

@@ -3,11 +3,11 @@
 
 #include <random>
 
-#include "chain/insert_trigger.h"
+#include "models/tool_length/trigger/insert_trigger.h"
 #include "references/mill_brute_force.h"
 
 using namespace gumshoe;
-using namespace gumshoe::chain;
+using namespace gumshoe::models::tool_length;
 
 namespace {
 
@@ -370,7 +370,7 @@ TEST_CASE("both ways see a characteristic curve jump at the same angle", "[refer
 }
 
 TEST_CASE("inserts that differ, and drops large and tiny, agree with the twin", "[references][tool_length]") {
-  namespace mill = models::mill;
+  namespace mill = models::tool_length;
   Draw draw;
   int solved = 0;
   for (int n = 0; n < 84; n += 7) { // each insert its own

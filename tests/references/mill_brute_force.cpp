@@ -5,7 +5,7 @@
 
 namespace gumshoe::tests {
 
-namespace mill = models::mill;
+namespace mill = models::tool_length;
 
 namespace {
 

@@ -1,6 +1,6 @@
 // The engine's rod-gauging solve against independent values: rod_cases.csv (30-digit quadrature, see
 // rod_reference.py), the brute-force twin (rod_brute_force.h), and the recomputed tables of Fang 2022.
-#include "chain/shadow.h"
+#include "models/rod_gauging/shadow/shadow.h"
 #include "references/rod_brute_force.h"
 #include "places.h"
 
@@ -15,8 +15,8 @@
 
 namespace {
 
-using gumshoe::chain::Beam;
-using gumshoe::chain::Rod;
+using gumshoe::models::laser_setter::Beam;
+using gumshoe::models::rod_gauging::Rod;
 using gumshoe::Status;
 using gumshoe::references::brute_force_bottom_height;
 using gumshoe::references::Construction;
@@ -62,7 +62,7 @@ std::vector<ReferenceRow> reference_rows() {
 auto engine_height(const RodCase& c) {
   const Rod<double> rod{c.rod_radius, c.fillet_radius, c.bottom_elevation, c.bottom_azimuth + c.holder_angle};
   const Beam<double> beam{c.beam_yaw, c.beam_pitch, c.beam_radius, c.fraction};
-  return gumshoe::chain::trigger_height(rod, beam);
+  return gumshoe::models::rod_gauging::trigger_height(rod, beam);
 }
 
 } // namespace

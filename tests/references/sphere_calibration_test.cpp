@@ -10,7 +10,7 @@
 #include "propagation/point_table.h"
 
 using namespace gumshoe;
-namespace sphere = gumshoe::models::sphere;
+namespace sphere = gumshoe::models::sphere_calibration;
 
 namespace {
 

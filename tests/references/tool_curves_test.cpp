@@ -5,7 +5,7 @@
 #include <numeric>
 #include <random>
 
-#include "chain/insert_trigger.h"
+#include "models/tool_length/trigger/insert_trigger.h"
 
 using namespace gumshoe;
 
@@ -15,8 +15,8 @@ constexpr double pi = 3.14159265358979323846, deg = pi / 180, mm = 1e-3, um = 1e
 
 /// Equal inserts, evenly spread, each with its wear.
 struct Tool {
-  chain::Insert<double> insert{10 * mm, 6 * mm, 3.97 * mm, 15 * deg, -8 * deg, -5 * deg, 0, -4 * mm};
-  chain::Beam<double> beam{0, 0, 0.2 * mm, 0.5};
+  models::tool_length::Insert<double> insert{10 * mm, 6 * mm, 3.97 * mm, 15 * deg, -8 * deg, -5 * deg, 0, -4 * mm};
+  models::laser_setter::Beam<double> beam{0, 0, 0.2 * mm, 0.5};
   std::vector<double> wear{0, 0};
   double turn = 30 * um; ///< descent per turn
 
@@ -30,11 +30,11 @@ struct Readout {
   int flute;
 };
 std::vector<Readout> readouts(const Tool& tool, double height, const std::vector<double>& angles) {
-  std::vector<chain::Flute<double>> flutes;
+  std::vector<models::tool_length::Flute<double>> flutes;
   for (std::size_t k = 0; k < tool.wear.size(); ++k)
     flutes.push_back(
         {tool.insert, 2 * pi * static_cast<double>(k) / static_cast<double>(tool.wear.size()), tool.wear[k]});
-  chain::TriggerSolver solver;
+  models::tool_length::TriggerSolver solver;
   std::vector<Readout> found;
   for (const double angle : angles) {
     const auto trigger = solver.solve(flutes, tool.beam, {angle, height, tool.drop(), 0});
@@ -51,7 +51,7 @@ std::vector<double> midpoints(int count, double width) {
   return angles;
 }
 
-double peak_of(const Tool& tool) { return chain::InsertHeight(tool.insert, tool.beam).highest().height; }
+double peak_of(const Tool& tool) { return models::tool_length::InsertHeight(tool.insert, tool.beam).highest().height; }
 
 struct Draw {
   std::mt19937_64 engine{20240611};

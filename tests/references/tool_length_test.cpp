@@ -7,7 +7,7 @@
 #include "references/mill_brute_force.h"
 
 using namespace gumshoe;
-namespace mill = gumshoe::models::mill;
+namespace mill = gumshoe::models::tool_length;
 
 namespace {
 
@@ -100,7 +100,7 @@ TEST_CASE("the trigger is the first moment at which the twin sees the share cove
     const double speed = draw(300, 3000) * rpm, feed = draw(3, 60) * mm / 60, angle = draw(0, 2 * pi);
     const double turn = 2 * pi * feed / speed;
     const chain::ProbingEvent<double> event;
-    const chain::InsertHeight heights(mill::insert(q.data(), event), mill::beam(q.data()));
+    const models::tool_length::InsertHeight heights(mill::insert(q.data(), event), mill::beam(q.data()));
     if (!heights.ever_covered()) continue;
     const double start = heights.highest().height + draw(0.1, 1.5) * turn;
     const Outcome ours = trigger_si(q, speed, feed, angle, start);
@@ -152,7 +152,7 @@ TEST_CASE("a face-on insert covers a lens of two circles", "[references][tool_le
     double lo = a - b, hi = a + b;
     for (int i = 0; i < 100; ++i) (lens(0.5 * (lo + hi)) > fraction * pi * b * b ? lo : hi) = 0.5 * (lo + hi);
     const chain::ProbingEvent<double> event;
-    const chain::InsertHeight heights(mill::insert(q.data(), event), mill::beam(q.data()));
+    const models::tool_length::InsertHeight heights(mill::insert(q.data(), event), mill::beam(q.data()));
     // The lens loses digits: its terms are of size a^2, its slope the chord 2 b.
     REQUIRE(std::fabs(heights.at(0.5 * pi, std::nan("")).height - (lo - a)) < 1e-16 * 20 * a * a / b + 1e-14);
   }

@@ -3,13 +3,13 @@
 
 #include <catch2/catch.hpp>
 
-#include "chain/trigger_curve.h"
+#include "models/tool_length/trigger/trigger_curve.h"
 #include "laws/mill_fixture.h"
 
 using namespace gumshoe;
 using tests::Draw;
 using tests::Mill;
-namespace mill = models::mill;
+namespace mill = models::tool_length;
 
 TEST_CASE("a tabulated trigger curve agrees with the search along each line", "[references][tool_length]") {
   Draw draw;
@@ -18,12 +18,12 @@ TEST_CASE("a tabulated trigger curve agrees with the search along each line", "[
     const Mill tool = Mill::random(draw);
     const auto insert = mill::insert(tool.q.data(), tool.event());
     const auto beam = mill::beam(tool.q.data());
-    const chain::InsertHeight heights(insert, beam);
+    const models::tool_length::InsertHeight heights(insert, beam);
     if (!heights.ever_covered()) continue;
     const double drop = tool.condition[mill::feed] / tool.condition[mill::speed];
-    const chain::TriggerCurve curve(heights, drop);
-    const chain::Flute<double> flute{insert, 0, 0};
-    chain::TriggerSolver solver;
+    const models::tool_length::TriggerCurve curve(heights, drop);
+    const models::tool_length::Flute<double> flute{insert, 0, 0};
+    models::tool_length::TriggerSolver solver;
     INFO("tool " << n);
     for (int i = 0; i < 30; ++i) {
       const double angle = draw(0, 6), above = heights.highest().height + draw(0, 3) * curve.period();

@@ -23,7 +23,7 @@ constexpr QuantityCard quantities[] = {
      "deg",
      "rad",
      90 * deg,
-     {0, chain::pi, true, true},
+     {0, std::numbers::pi, true, true},
      "phi",
      "elevation of the bottom plane's normal; 90 deg is a square end"},
     {"bottom_azimuth",
@@ -94,33 +94,33 @@ constexpr ModelCard card{
     timing};
 
 template <class T> PointOutcome evaluate_point(const PointCall<T>& call) {
-  T condition[rod::conditions];
-  for (int i = 0; i < rod::conditions; ++i) condition[i] = T(call.conditions[i]);
-  const auto event = rod::probing_event<T>(call.quantities, condition, call.effects, call.active);
-  chain::Solved<T> height{T(0.0)};
-  if (call.evaluation == rod::full)
-    height = chain::differentiable_height(rod::rod(call.quantities, event), rod::beam(call.quantities));
-  call.measurands[rod::bottom_height_row] = height.value;
-  call.measurands[rod::laser_z_row] = rod::evaluate(call.indications[0], call.quantities, height.value, event);
+  T condition[rod_gauging::conditions];
+  for (int i = 0; i < rod_gauging::conditions; ++i) condition[i] = T(call.conditions[i]);
+  const auto event = rod_gauging::probing_event<T>(call.quantities, condition, call.effects, call.active);
+  laser_setter::Solved<T> height{T(0.0)};
+  if (call.evaluation == rod_gauging::full)
+    height = rod_gauging::differentiable_height(rod_gauging::rod(call.quantities, event), rod_gauging::beam(call.quantities));
+  call.measurands[rod_gauging::bottom_height_row] = height.value;
+  call.measurands[rod_gauging::laser_z_row] = rod_gauging::evaluate(call.indications[0], call.quantities, height.value, event);
   return {code(height.status), height.kink};
 }
 
 template <class T> PointOutcome simulate_point(const PointCall<T>& call) {
-  T condition[rod::conditions];
-  for (int i = 0; i < rod::conditions; ++i) condition[i] = T(call.conditions[i]);
-  const auto event = rod::probing_event<T>(call.quantities, condition, call.effects, call.active);
-  const auto height = chain::differentiable_height(rod::rod(call.quantities, event), rod::beam(call.quantities));
-  call.simulated[0] = rod::simulate(call.quantities, height.value, event);
+  T condition[rod_gauging::conditions];
+  for (int i = 0; i < rod_gauging::conditions; ++i) condition[i] = T(call.conditions[i]);
+  const auto event = rod_gauging::probing_event<T>(call.quantities, condition, call.effects, call.active);
+  const auto height = rod_gauging::differentiable_height(rod_gauging::rod(call.quantities, event), rod_gauging::beam(call.quantities));
+  call.simulated[0] = rod_gauging::simulate(call.quantities, height.value, event);
   return {code(height.status), height.kink};
 }
 
 std::vector<Intermediate> explain(const PointCall<double>& call) {
   const double* q = call.quantities;
-  double condition[rod::conditions];
-  std::copy_n(call.conditions, static_cast<std::size_t>(rod::conditions), condition);
-  const auto event = rod::probing_event<double>(q, condition, call.effects, call.active);
-  const auto body = rod::rod(q, event);
-  const auto beam = rod::beam(q);
+  double condition[rod_gauging::conditions];
+  std::copy_n(call.conditions, static_cast<std::size_t>(rod_gauging::conditions), condition);
+  const auto event = rod_gauging::probing_event<double>(q, condition, call.effects, call.active);
+  const auto body = rod_gauging::rod(q, event);
+  const auto beam = rod_gauging::beam(q);
   std::vector<Intermediate> out{
       {"tool axis beside the beam's reference point, X", "mm", event.tool_x / mm},
       {"tool axis beside the beam's reference point, Y", "mm", event.tool_y / mm},
@@ -129,9 +129,9 @@ std::vector<Intermediate> explain(const PointCall<double>& call) {
       {"axis scale", "um/m", event.axis_scale * 1e6},
       {"latch delay", "s", event.latch_delay},
   };
-  if (call.evaluation == rod::full && chain::in_domain(body, beam)) {
-    const auto edge = chain::shadow_edge(body, beam);
-    const auto chord = chain::solve_chord<double>(edge, beam.radius, beam.fraction);
+  if (call.evaluation == rod_gauging::full && rod_gauging::in_domain(body, beam)) {
+    const auto edge = rod_gauging::shadow_edge(body, beam);
+    const auto chord = rod_gauging::solve_chord<double>(edge, beam.radius, beam.fraction);
     out.insert(out.end(), {{"shrunk radius rho", "mm", edge.rho / mm},
                            {"shadow edge: depth of the half-ellipse", "mm", edge.depth / mm},
                            {"shadow edge: shear", "1", edge.shear},
@@ -141,30 +141,32 @@ std::vector<Intermediate> explain(const PointCall<double>& call) {
       out.insert(out.end(), {{"covered chord: left end, sin w", "1", chord.left},
                              {"covered chord: right end, sin w", "1", chord.right}});
   }
-  const auto solved = chain::trigger_height(body, beam);
-  const double height = call.evaluation == rod::full ? solved.value : 0.0;
+  const auto solved = rod_gauging::trigger_height(body, beam);
+  const double height = call.evaluation == rod_gauging::full ? solved.value : 0.0;
   const double actual = chain::actual_of(call.indications[0], event);
   out.insert(out.end(), {{"bottom_height", "mm", height / mm},
                          {"spindle height, effects removed", "mm", actual / mm},
-                         {"laser_z", "mm", rod::evaluate(call.indications[0], q, height, event) / mm}});
+                         {"laser_z", "mm", rod_gauging::evaluate(call.indications[0], q, height, event) / mm}});
   return out;
 }
 
 std::string check(const PointCall<double>& call) {
   const double* q = call.quantities;
-  if (q[rod::fillet] > q[rod::radius]) return "fillet_radius exceeds rod_radius";
+  if (q[rod_gauging::fillet] > q[rod_gauging::radius]) return "fillet_radius exceeds rod_radius";
   return {};
 }
 
-bool solve_reads(std::size_t quantity) { return quantity != rod::length && quantity != rod::laser_z; }
+bool solve_reads(std::size_t quantity) { return quantity != rod_gauging::length && quantity != rod_gauging::laser_z; }
 
 const Kernels* kernels() { return GUMSHOE_BEST_KERNELS(rod_gauging); }
 
 } // namespace
 
-extern const Model rod_gauging;
-const Model rod_gauging{
+namespace rod_gauging {
+extern const Model model;
+const Model model{
     &card,  &kernels,    &evaluate_point<Gradient>, &evaluate_point<Curvature>, &simulate_point<Gradient>, &explain,
     &check, &solve_reads};
 
+} // namespace rod_gauging
 } // namespace gumshoe::models

@@ -4,12 +4,12 @@
 /// The spindle lowers the rod until its shadow covers a share of the beam's disc; the control latches
 /// the spindle height Z'_s. With the rod's length L_r and the height Z'_d of its bottom's centre above
 /// the beam's axis at that moment, the axis lies at laser_z = Z'_s - L_r - Z'_d.
-/// Source: Fang 2022, chapter 2 (eq 2.38), solved anew: chain/shadow.h.
-#include "chain/trigger_height.h"
+/// Source: Fang 2022, chapter 2 (eq 2.38), solved anew: shadow/shadow.h.
+#include "models/rod_gauging/shadow/trigger_height.h"
 #include "effects/catalogue.h"
 #include "models/laser_setter.h"
 
-namespace gumshoe::models::rod {
+namespace gumshoe::models::rod_gauging {
 
 enum Quantity {
   radius,
@@ -43,10 +43,10 @@ chain::ProbingEvent<T> probing_event(const T* q, const T* condition, const T* ef
   return event;
 }
 
-template <class T> chain::Rod<T> rod(const T* q, const chain::ProbingEvent<T>& event) {
+template <class T> Rod<T> rod(const T* q, const chain::ProbingEvent<T>& event) {
   return {q[radius], q[fillet], q[elevation], q[azimuth] + q[holder_angle], event.tool_x, event.tool_y};
 }
-template <class T> chain::Beam<T> beam(const T* q) { return laser_setter::beam(q + yaw); }
+template <class T> Beam<T> beam(const T* q) { return laser_setter::beam(q + yaw); }
 
 /// The machine: what the control reads when the beam's axis lies at q[laser_z].
 template <class T> T simulate(const T* q, const T& bottom_height, const chain::ProbingEvent<T>& event) {

@@ -3,7 +3,7 @@
 /// order in the location errors. Pattern I: B = 0, eqs 4.23 to 4.25. Pattern II: C = 90 deg, eqs 4.30 to 4.38.
 #include "models/sphere_calibration/probe.h"
 
-namespace gumshoe::models::sphere {
+namespace gumshoe::models::sphere_calibration {
 
 /// eq 4.38 as corrected, or as printed: without probe_z E_A0B.
 enum class Equation438 { corrected, printed };

@@ -9,7 +9,7 @@
 #include "math/symmetric.h"
 #include "models/sphere_calibration/pose_rows.h"
 
-namespace gumshoe::models::sphere {
+namespace gumshoe::models::sphere_calibration {
 
 /// Singular values below this share of the largest count as zero (columns of length one). What such a direction would
 /// make of a micrometre is a metre.

@@ -5,7 +5,7 @@
 
 #include "models/sphere_calibration/sphere_calibration.h"
 
-namespace gumshoe::models::sphere {
+namespace gumshoe::models::sphere_calibration {
 
 /// The seven lengths and the four orientation errors, in the order of the model's quantities: theta.
 inline constexpr int unknowns = E_B0C + 1;
@@ -80,16 +80,16 @@ protected:
     Here h{pose.measured + square(pose, theta, lines), {}, pose.at_B, pose.at_C, {}};
     if (!pose.effects()) {
       h.moved.turns = exact_turns(lines, h.at_B, h.at_C);
-      h.probe = sphere::probe_from_origin(length, h.moved.turns);
+      h.probe = sphere_calibration::probe_from_origin(length, h.moved.turns);
       return h;
     }
     const auto& freed = pose.freed;
-    const auto nominal = pose.tip - sphere::probe_from_origin(length, exact_turns(lines, pose.B, pose.C));
+    const auto nominal = pose.tip - sphere_calibration::probe_from_origin(length, exact_turns(lines, pose.B, pose.C));
     const auto t = touch<T>(freed.condition, nominal, {freed.active, freed.quantities.data()});
     h.at_B = h.at_B + t.probing.B_error[chain::E_B], h.at_C = h.at_C + t.probing.C_error[chain::E_C];
     h.moved = moved(exact_turns(lines, h.at_B, h.at_C), t.probing);
     h.measured = freed.top - t.actual_of(freed.recorded - square(pose, theta, lines));
-    h.probe = sphere::probe_from_origin(length, h.moved.turns) + h.moved.shift();
+    h.probe = sphere_calibration::probe_from_origin(length, h.moved.turns) + h.moved.shift();
     return h;
   }
   /// Where the probe would have stood without effects, by those at theta.
@@ -98,7 +98,7 @@ protected:
     T length[lengths];
     actual(theta, pose, length);
     const Here h = at(pose, theta, length, lines);
-    return h.measured - (h.probe - sphere::probe_from_origin(length, exact_turns(lines, pose.at_B, pose.at_C)));
+    return h.measured - (h.probe - sphere_calibration::probe_from_origin(length, exact_turns(lines, pose.at_B, pose.at_C)));
   }
 
   /// Derivative of the slope's tangent, over the length of (slope, slope, 1).
@@ -125,7 +125,7 @@ protected:
     if (!pose.squareness) return {};
     T length[lengths];
     actual(theta, pose, length);
-    return squared(pose, pose.tip - sphere::probe_from_origin(length, exact_turns(lines, pose.B, pose.C)));
+    return squared(pose, pose.tip - sphere_calibration::probe_from_origin(length, exact_turns(lines, pose.B, pose.C)));
   }
 
   std::vector<Row> rows_;

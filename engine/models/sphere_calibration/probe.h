@@ -10,7 +10,7 @@
 
 #include "chain/axis.h"
 
-namespace gumshoe::models::sphere {
+namespace gumshoe::models::sphere_calibration {
 
 /// The lengths in the order of the model's quantities; actual distances D = link + E.
 enum Length { length_probe_x, length_probe_y, length_probe_z, length_B_x, length_B_z, length_C_x, length_C_y, lengths };

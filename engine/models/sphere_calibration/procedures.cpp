@@ -7,7 +7,7 @@
 
 #include "math/direction_words.h"
 
-namespace gumshoe::models::sphere {
+namespace gumshoe::models::sphere_calibration {
 namespace {
 
 constexpr double deg = 3.14159265358979323846 / 180;

@@ -5,7 +5,7 @@
 
 #include "models/sphere_calibration/identification.h"
 
-namespace gumshoe::models::sphere {
+namespace gumshoe::models::sphere_calibration {
 
 enum JointRow { residual_row = unknowns, rank_row, condition_row, joint_rows };
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include "chain/shadow.h"
 #include "models/kernel_choice.h"
 #include "models/sphere_calibration/procedures.h"
 
@@ -56,7 +55,7 @@ constexpr QuantityCard quantities[] = {
     {"S_XZ", "um/m", "rad", 0, any, "S_XZ", "squareness of Z to X: adds S_XZ times the nominal Z to the recorded X"},
     {"S_YZ", "um/m", "rad", 0, any, "S_YZ", "squareness of Z to Y: adds -S_YZ times the nominal Z to the recorded Y"},
 };
-static_assert(std::size(quantities) == sphere::count);
+static_assert(std::size(quantities) == sphere_calibration::count);
 constexpr VariableCard conditions[] = {
     {"A", "deg", "rad", 0, "commanded; turns the workpiece about +X (eq 4.1)"},
     {"B", "deg", "rad", 0, "commanded; about +Y"},
@@ -88,10 +87,10 @@ constexpr EvaluationCard evaluations[] = {
     {"closed_form", "eqs 4.23 to 4.25 at B = 0 and 4.30 to 4.38, corrected, at C = 90 deg; for the reproduction study"},
     {"sequential",
      "orientations by planes through each pattern's poses, then the seven lengths by linear least squares",
-     sphere::joint_measurands},
-    {"joint", "all eleven at once by least squares, every command of equal weight", sphere::joint_measurands},
+     sphere_calibration::joint_measurands},
+    {"joint", "all eleven at once by least squares, every command of equal weight", sphere_calibration::joint_measurands},
     {"joint_weighted", "all eleven at once, weighted with the covariance matrix of all that the scenario declares",
-     sphere::joint_measurands},
+     sphere_calibration::joint_measurands},
 };
 
 constexpr std::string_view stages[] = {"motion", "rotary", "slides", "contact", "trigger"};
@@ -109,20 +108,20 @@ constexpr ModelCard card{"sphere_calibration",
                          evaluations,
                          stages};
 
-int variant_of(int evaluation) { return evaluation < sphere::variants ? evaluation : static_cast<int>(sphere::exact); }
+int variant_of(int evaluation) { return evaluation < sphere_calibration::variants ? evaluation : static_cast<int>(sphere_calibration::exact); }
 
 template <class T> struct Point {
-  sphere::Contact<T> at;
+  sphere_calibration::Contact<T> at;
   std::uint8_t status = 0;
 };
 template <class T> Point<T> point(const PointCall<T>& call) {
-  T condition[sphere::conditions];
-  for (int i = 0; i < sphere::conditions; ++i) condition[i] = T(call.conditions[i]);
+  T condition[sphere_calibration::conditions];
+  for (int i = 0; i < sphere_calibration::conditions; ++i) condition[i] = T(call.conditions[i]);
   const int variant = variant_of(call.evaluation);
-  const auto links = sphere::links(call.quantities);
-  Point<T> p{sphere::contact(variant, call.quantities, links, condition, sphere::is_pattern_II(call.conditions), true,
+  const auto links = sphere_calibration::links(call.quantities);
+  Point<T> p{sphere_calibration::contact(variant, call.quantities, links, condition, sphere_calibration::is_pattern_II(call.conditions), true,
                              {call.active, call.effects})};
-  if (variant == sphere::closed_form && !sphere::has_closed_form(call.conditions))
+  if (variant == sphere_calibration::closed_form && !sphere_calibration::has_closed_form(call.conditions))
     p.status = code(Status::out_of_domain);
   return p;
 }
@@ -131,13 +130,13 @@ template <class T> void store(const Vector3<T>& value, T* out) { out[0] = value.
 
 template <class T> PointOutcome evaluate_point(const PointCall<T>& call) {
   const Point<T> p = point(call);
-  store(sphere::evaluate({call.indications[0], call.indications[1], call.indications[2]}, p.at), call.measurands);
+  store(sphere_calibration::evaluate({call.indications[0], call.indications[1], call.indications[2]}, p.at), call.measurands);
   return {p.status};
 }
 
 template <class T> PointOutcome simulate_point(const PointCall<T>& call) {
   const Point<T> p = point(call);
-  store(sphere::simulate(p.at), call.simulated);
+  store(sphere_calibration::simulate(p.at), call.simulated);
   return {p.status};
 }
 
@@ -150,19 +149,19 @@ void add(std::vector<Intermediate>& out, const std::string& what, const Vector3<
 
 std::vector<Intermediate> explain(const PointCall<double>& call) {
   const double* q = call.quantities;
-  const auto links = sphere::links(q);
+  const auto links = sphere_calibration::links(q);
   const auto at = point(call).at;
   std::vector<Intermediate> out{
-      {"actual B axis from the origin, D_rbx", "mm", links.length[sphere::length_B_x] / mm},
-      {"actual B axis from the origin, D_rbz", "mm", links.length[sphere::length_B_z] / mm},
-      {"actual C axis from the origin, D_rcx", "mm", links.length[sphere::length_C_x] / mm},
-      {"actual C axis from the origin, D_rcy", "mm", links.length[sphere::length_C_y] / mm},
+      {"actual B axis from the origin, D_rbx", "mm", links.length[sphere_calibration::length_B_x] / mm},
+      {"actual B axis from the origin, D_rbz", "mm", links.length[sphere_calibration::length_B_z] / mm},
+      {"actual C axis from the origin, D_rcx", "mm", links.length[sphere_calibration::length_C_x] / mm},
+      {"actual C axis from the origin, D_rcy", "mm", links.length[sphere_calibration::length_C_y] / mm},
   };
   add(out, "direction of the B axis", links.lines.b, "1", 1);
   add(out, "direction of the C axis", links.lines.c, "1", 1);
-  out.push_back({"actual A", "deg", (call.conditions[sphere::A] + q[sphere::E_AA]) / deg});
-  out.push_back({"actual B", "deg", (call.conditions[sphere::B] + q[sphere::E_BB]) / deg});
-  out.push_back({"actual C", "deg", (call.conditions[sphere::C] + q[sphere::E_CC]) / deg});
+  out.push_back({"actual A", "deg", (call.conditions[sphere_calibration::A] + q[sphere_calibration::E_AA]) / deg});
+  out.push_back({"actual B", "deg", (call.conditions[sphere_calibration::B] + q[sphere_calibration::E_BB]) / deg});
+  out.push_back({"actual C", "deg", (call.conditions[sphere_calibration::C] + q[sphere_calibration::E_CC]) / deg});
   add(out, "tip above the sphere", at.tip);
   add(out, "probe from the commanded origin", at.probe);
   add(out, "nominal command", at.nominal);
@@ -176,24 +175,24 @@ std::vector<Intermediate> explain(const PointCall<double>& call) {
     add(out, "approach in the probe's frame", probing.approach, "1", 1);
     add(out, "effects add to the command", at.touch->reading_of(at.tip - at.probe) - (at.tip - at.probe), "um", 1 / um);
   }
-  add(out, "command at the sphere's top", sphere::simulate(at));
-  const auto tip = sphere::evaluate({call.indications[0], call.indications[1], call.indications[2]}, at);
+  add(out, "command at the sphere's top", sphere_calibration::simulate(at));
+  const auto tip = sphere_calibration::evaluate({call.indications[0], call.indications[1], call.indications[2]}, at);
   out.insert(out.end(), {{"tip_x", "mm", tip.x / mm}, {"tip_y", "mm", tip.y / mm}, {"tip_z", "mm", tip.z / mm}});
   return out;
 }
 
 std::string check(const PointCall<double>& call) {
-  for (int i = 0; i < sphere::conditions; ++i)
+  for (int i = 0; i < sphere_calibration::conditions; ++i)
     if (!std::isfinite(call.conditions[i])) return "a condition is not finite";
-  if (call.evaluation == sphere::closed_form && !sphere::has_closed_form(call.conditions))
+  if (call.evaluation == sphere_calibration::closed_form && !sphere_calibration::has_closed_form(call.conditions))
     return "closed_form holds at B = 0 (pattern 1) or at C = 90 deg (pattern 2) only";
-  if (call.evaluation == sphere::closed_form && !call.active.empty()) return "closed_form has no place for effects";
-  if (call.conditions[sphere::feed] < 0) return "feed is negative";
-  for (const auto& [name, value] : {std::pair{"B_direction", call.conditions[sphere::B_direction]},
-                                    {"C_direction", call.conditions[sphere::C_direction]}})
+  if (call.evaluation == sphere_calibration::closed_form && !call.active.empty()) return "closed_form has no place for effects";
+  if (call.conditions[sphere_calibration::feed] < 0) return "feed is negative";
+  for (const auto& [name, value] : {std::pair{"B_direction", call.conditions[sphere_calibration::B_direction]},
+                                    {"C_direction", call.conditions[sphere_calibration::C_direction]}})
     if (value != 1 && value != -1 && value != 0) return std::string(name) + " is none of 1, -1, 0";
   for (const auto& [name, value] :
-       {std::pair{"B_clamped", call.conditions[sphere::B_clamped]}, {"C_clamped", call.conditions[sphere::C_clamped]}})
+       {std::pair{"B_clamped", call.conditions[sphere_calibration::B_clamped]}, {"C_clamped", call.conditions[sphere_calibration::C_clamped]}})
     if (value != 1 && value != 0) return std::string(name) + " is neither 0 nor 1";
   return {};
 }
@@ -205,8 +204,9 @@ const Kernels* kernels() { return GUMSHOE_BEST_KERNELS(sphere_calibration); }
 
 } // namespace
 
-extern const Model sphere_calibration;
-const Model sphere_calibration{&card,
+namespace sphere_calibration {
+extern const Model model;
+const Model model{&card,
                                &kernels,
                                &evaluate_point<Gradient>,
                                &evaluate_point<Curvature>,
@@ -217,7 +217,8 @@ const Model sphere_calibration{&card,
                                nullptr,
                                0,
                                nullptr,
-                               &sphere::check_readings,
-                               &sphere::remarks};
+                               &sphere_calibration::check_readings,
+                               &sphere_calibration::remarks};
 
+} // namespace sphere_calibration
 } // namespace gumshoe::models

@@ -12,7 +12,7 @@
 #include "models/model.h"
 #include "models/sphere_calibration/closed_form.h"
 
-namespace gumshoe::models::sphere {
+namespace gumshoe::models::sphere_calibration {
 
 /// The first seven in the order of enum Length; of the middle four the links are added.
 enum Quantity {

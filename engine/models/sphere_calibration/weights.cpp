@@ -5,7 +5,7 @@
 
 #include "models/sphere_calibration/procedures.h"
 
-namespace gumshoe::models::sphere {
+namespace gumshoe::models::sphere_calibration {
 
 Vector3<double> derivative(const BlockCall& call, std::size_t reading, std::size_t quantity) {
   using D = Dual<double, 1>;

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "chain/shadow.h"
 #include "models/kernel_choice.h"
 
 GUMSHOE_DECLARE_KERNELS(sphere_probing)

@@ -2,7 +2,6 @@
 /// all samples moves once per reading.
 #include <algorithm>
 
-#include "chain/shadow.h"
 #include "models/sphere_probing/sphere_probing.h"
 
 namespace gumshoe::models::probing {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace gumshoe::models::mill {
+namespace gumshoe::models::tool_length {
 
 namespace {
 

@@ -1,22 +1,22 @@
 #pragma once
 /// Flute heights and phase of a characteristic curve from readouts at several start angles, by least squares.
 ///
-/// Seen from the spindle, flute k is a curve F_k (chain/trigger_curve.h) hung at its height H_k; reading i comes down
+/// Seen from the spindle, flute k is a curve F_k (trigger/trigger_curve.h) hung at its height H_k; reading i comes down
 /// on a line known but for the phase, which all readings share, and shows the flute that triggers first:
 ///     height_i = max over k of H_k + F_k(line_ik + phase - H_k).
 /// README.md has the mathematics.
 #include <array>
 #include <vector>
 
-#include "chain/insert_trigger.h"
-#include "chain/trigger_curve.h"
+#include "models/tool_length/trigger/insert_trigger.h"
+#include "models/tool_length/trigger/trigger_curve.h"
 
-namespace gumshoe::models::mill {
+namespace gumshoe::models::tool_length {
 
 struct CurveReadings {
   std::size_t readings = 0, flutes = 0;
   double drop = 0;                                ///< m per rad; of all readings, about
-  std::vector<const chain::TriggerCurve*> curves; ///< [reading][flute]
+  std::vector<const TriggerCurve*> curves; ///< [reading][flute]
   std::vector<double> lines;                      ///< [reading][flute], m
   std::vector<double> heights;                    ///< [reading], m
   bool alike = false; ///< flutes differ in nothing but height, evenly spread: a phase of a flute's pitch renumbers them

@@ -8,7 +8,7 @@
 
 #include "models/tool_length/curve_fit.h"
 
-namespace gumshoe::models::mill {
+namespace gumshoe::models::tool_length {
 
 namespace {
 
@@ -16,7 +16,7 @@ constexpr double pi = 3.14159265358979323846;
 
 /// One reading of one sample.
 struct Reading {
-  double q[count], condition[mill::conditions];
+  double q[count], condition[conditions];
   std::vector<double> effects;
   PointCall<double> point; ///< of these
   Event<double> event;
@@ -43,8 +43,8 @@ public:
       for (std::size_t j = 0; j < count; ++j) x.q[j] = at(call_.quantities[r * count + j]);
       for (std::size_t j = 0; j < call_.effect_quantities; ++j)
         x.effects[j] = at(call_.effects[r * call_.effect_quantities + j]);
-      for (std::size_t j = 0; j < mill::conditions; ++j)
-        x.condition[j] = at(call_.conditions[r * mill::conditions + j]);
+      for (std::size_t j = 0; j < conditions; ++j)
+        x.condition[j] = at(call_.conditions[r * conditions + j]);
       if (!call_.indications) continue;
       const double z = at(call_.indications[r]);
       x.q[length] = z - x.q[laser_z]; // what grows with the length does so by that of the readout
@@ -55,7 +55,7 @@ public:
   }
 
 private:
-  chain::TriggerSolver solver_;
+  TriggerSolver solver_;
   std::vector<Reading> all_;
   const BlockCall& call_;
 };
@@ -67,7 +67,7 @@ double line_of(const Reading& r) {
   const auto m = motion(r.q, r.event, r.condition);
   return m.height + m.drop * m.angle;
 }
-double least_raise(const Reading& r) { return mill::least_raise(r.q, r.event); }
+double least_raise(const Reading& r) { return least_raise(r.q, r.event); }
 
 bool possible(const std::vector<Reading>& all) {
   for (const Reading& r : all)
@@ -79,12 +79,12 @@ bool possible(const std::vector<Reading>& all) {
 class Curves {
 public:
   /// Null if no cover is ever reached.
-  const chain::TriggerCurve* at(const chain::Insert<double>& insert, const chain::Beam<double>& beam, double drop) {
-    const chain::InsertHeight& heights = solver_.heights(insert, beam);
+  const TriggerCurve* at(const Insert<double>& insert, const Beam<double>& beam, double drop) {
+    const InsertHeight& heights = solver_.heights(insert, beam);
     for (const Known& k : known_)
       if (k.drop == drop && k.insert == insert && k.beam == beam) return &k.curve;
     if (!heights.ever_covered()) return nullptr;
-    known_.push_front({insert, beam, drop, chain::TriggerCurve(heights, drop)});
+    known_.push_front({insert, beam, drop, TriggerCurve(heights, drop)});
     return &known_.front().curve;
   }
   /// Keeps the pointers of one sample alive.
@@ -94,12 +94,12 @@ public:
 
 private:
   struct Known {
-    chain::Insert<double> insert;
-    chain::Beam<double> beam;
+    Insert<double> insert;
+    Beam<double> beam;
     double drop;
-    chain::TriggerCurve curve;
+    TriggerCurve curve;
   };
-  chain::TriggerSolver solver_;
+  TriggerSolver solver_;
   std::list<Known> known_;
 };
 
@@ -253,7 +253,7 @@ void simulate_together(const BlockCall& call) {
   BlockCall simulated = call;
   simulated.indications = nullptr;
   Readings readings(simulated);
-  chain::TriggerSolver solver;
+  TriggerSolver solver;
   for (std::size_t i = 0; i < call.samples; ++i) {
     auto& all = readings.load(i);
     bool seen[chain::most_inserts] = {};
@@ -261,7 +261,7 @@ void simulate_together(const BlockCall& call) {
     for (std::size_t r = 0; r < all.size(); ++r) {
       call.simulated[r][i] = std::nan("");
       if (status != Status::ok) continue;
-      const auto o = mill::simulate(solver, all[r].point);
+      const auto o = simulate(solver, all[r].point);
       all[r].event = o.event;
       status = o.trigger.height.status;
       if (status != Status::ok) continue;

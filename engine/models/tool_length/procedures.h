@@ -4,7 +4,7 @@
 
 #include "models/tool_length/tool_length.h"
 
-namespace gumshoe::models::mill {
+namespace gumshoe::models::tool_length {
 
 // Rows of the joint evaluations' measurands; of each flute three more.
 enum LengthRow { joint_length_row, joint_effective_row, lengths };

@@ -44,7 +44,7 @@ constexpr QuantityCard quantities[] = {
     {"laser_z", "mm", "m", 0, {-huge, huge}, "Z_ts", "height of the beam's axis, from its calibration"},
 };
 #undef GUMSHOE_WEAR
-static_assert(std::size(quantities) == mill::count);
+static_assert(std::size(quantities) == tool_length::count);
 constexpr VariableCard conditions[] = {
     {"spindle_speed", "rpm", "rad/s", 1000 * rpm, "counter-clockwise seen from above"},
     {"feed", "mm/min", "m/s", 30 * mm / minute, "of the spindle towards the beam"},
@@ -79,13 +79,13 @@ constexpr EvaluationCard evaluations[] = {
     {"conventional", "trigger_height = 0: the readout less the laser's height; what ignoring the geometry costs"},
     {"single",
      "one readout at any start angle, no curve known: effective_length is the readout less the laser's height",
-     mill::length_measurands, GUMSHOE_RUN, GUMSHOE_ONCE},
-    {"slow", "the same at high spindle speed and low feed", mill::length_measurands, GUMSHOE_RUN, GUMSHOE_ONCE},
+     tool_length::length_measurands, GUMSHOE_RUN, GUMSHOE_ONCE},
+    {"slow", "the same at high spindle speed and low feed", tool_length::length_measurands, GUMSHOE_RUN, GUMSHOE_ONCE},
     {"characteristic_curve", "readouts at several start angles: the model's curve fitted, its phase free",
-     mill::curve_measurands, "orientation_time + " GUMSHOE_RUN, GUMSHOE_ONCE},
+     tool_length::curve_measurands, "orientation_time + " GUMSHOE_RUN, GUMSHOE_ONCE},
     {"peaks",
      "readouts at several start angles, connected by lines: the highest peaks are the flutes (Fang 2022, 3.5.2)",
-     mill::peak_measurands, "orientation_time + " GUMSHOE_RUN, GUMSHOE_ONCE},
+     tool_length::peak_measurands, "orientation_time + " GUMSHOE_RUN, GUMSHOE_ONCE},
 };
 constexpr std::string_view stages[] = {"pose", "insert", "spindle", "motion", "timing", "trigger"};
 
@@ -106,30 +106,30 @@ constexpr ModelCard card{
 #undef GUMSHOE_ONCE
 
 template <class T> PointOutcome evaluate_point(const PointCall<T>& call) {
-  thread_local chain::TriggerSolver solver; // remembers the geometry from reading to reading
-  const auto o = mill::evaluate(solver, call);
-  call.measurands[mill::trigger_height_row] = o.trigger.height.value;
-  call.measurands[mill::length_row] = o.length;
-  call.measurands[mill::effective_row] = o.effective_length;
+  thread_local tool_length::TriggerSolver solver; // remembers the geometry from reading to reading
+  const auto o = tool_length::evaluate(solver, call);
+  call.measurands[tool_length::trigger_height_row] = o.trigger.height.value;
+  call.measurands[tool_length::length_row] = o.length;
+  call.measurands[tool_length::effective_row] = o.effective_length;
   return {code(o.trigger.height.status), o.trigger.height.kink};
 }
 
 template <class T> PointOutcome simulate_point(const PointCall<T>& call) {
-  thread_local chain::TriggerSolver solver; // remembers the geometry from reading to reading
-  const auto o = mill::simulate(solver, call);
+  thread_local tool_length::TriggerSolver solver; // remembers the geometry from reading to reading
+  const auto o = tool_length::simulate(solver, call);
   call.simulated[0] = o.spindle_z;
   return {code(o.trigger.height.status), o.trigger.height.kink};
 }
 
 std::vector<Intermediate> explain(const PointCall<double>& call) {
   const double* q = call.quantities;
-  thread_local chain::TriggerSolver solver; // remembers the geometry from reading to reading
-  const auto o = mill::evaluate(solver, call);
+  thread_local tool_length::TriggerSolver solver; // remembers the geometry from reading to reading
+  const auto o = tool_length::evaluate(solver, call);
   const auto& event = o.event;
-  const auto m = mill::motion(q, event, call.conditions);
+  const auto m = tool_length::motion(q, event, call.conditions);
   std::vector<Intermediate> out{
       {"tool axis beside the beam's reference point, X", "mm", event.tool_x / mm},
-      {"tool axis beside the beam's reference point, Y", "mm", (event.tool_y - q[mill::offset]) / mm},
+      {"tool axis beside the beam's reference point, Y", "mm", (event.tool_y - q[tool_length::offset]) / mm},
       {"tool growth", "mm", event.tool_growth / mm},
       {"axis error", "mm", event.axis_error / mm},
       {"axis scale", "um/m", event.axis_scale * 1e6},
@@ -138,9 +138,9 @@ std::vector<Intermediate> explain(const PointCall<double>& call) {
       {"descent per revolution", "mm", 2 * std::numbers::pi * m.drop / mm},
       {"delay from the trigger to the latch", "s", event.latch_delay},
   };
-  if (call.evaluation == mill::full && o.trigger.height.status == Status::ok) {
-    const auto flute = mill::flute(q, event, o.trigger.insert);
-    const double highest = solver.heights(flute.insert, mill::beam(q)).highest().height;
+  if (call.evaluation == tool_length::full && o.trigger.height.status == Status::ok) {
+    const auto flute = tool_length::flute(q, event, o.trigger.insert);
+    const double highest = solver.heights(flute.insert, tool_length::beam(q)).highest().height;
     out.insert(out.end(), {{"highest trigger height of this insert, unworn", "mm", highest / mm},
                            {"insert that triggers", "1", o.trigger.insert + 1.0},
                            {"spindle turned until the trigger", "deg", o.trigger.turned / deg}});
@@ -153,10 +153,10 @@ std::vector<Intermediate> explain(const PointCall<double>& call) {
 }
 
 std::string check(const PointCall<double>& call) {
-  double condition[mill::conditions];
-  std::copy_n(call.conditions, static_cast<std::size_t>(mill::conditions), condition);
-  const auto event = mill::probing_event<double>(call.quantities, condition, call.effects, call.active);
-  const char* problem = mill::impossible(call.quantities, call.conditions, event);
+  double condition[tool_length::conditions];
+  std::copy_n(call.conditions, static_cast<std::size_t>(tool_length::conditions), condition);
+  const auto event = tool_length::probing_event<double>(call.quantities, condition, call.effects, call.active);
+  const char* problem = tool_length::impossible(call.quantities, call.conditions, event);
   return problem ? problem : "";
 }
 
@@ -166,8 +166,9 @@ const Kernels* kernels() { return GUMSHOE_BEST_KERNELS(tool_length); }
 
 } // namespace
 
-extern const Model tool_length;
-const Model tool_length{&card,
+namespace tool_length {
+extern const Model model;
+const Model model{&card,
                         &kernels,
                         &evaluate_point<Gradient>,
                         &evaluate_point<Curvature>,
@@ -177,7 +178,8 @@ const Model tool_length{&card,
                         &solve_reads,
                         nullptr,
                         0,
-                        &mill::measurands_in_use,
-                        &mill::check_readings};
+                        &tool_length::measurands_in_use,
+                        &tool_length::check_readings};
 
+} // namespace tool_length
 } // namespace gumshoe::models

@@ -4,15 +4,16 @@
 /// The mill turns and is fed into the beam; the trigger fires when any insert's shadow covers a share of the beam's
 /// disc; the control latches the spindle height Z'_s. With the height Z_t of the unworn tool's centre above the laser
 /// reference point at that moment, the tool length is L_t = Z'_s - laser_z - Z_t.
-/// Source: Fang 2022, chapter 3 (eqs 3.1 to 3.29), solved anew: chain/insert_trigger.h.
+/// Source: Fang 2022, chapter 3 (eqs 3.1 to 3.29), solved anew: trigger/insert_trigger.h.
 #include <cmath>
 
-#include "chain/lagging_feed.h"
-#include "chain/latch.h"
+#include "models/tool_length/trigger/lagging_feed.h"
+#include "models/tool_length/trigger/latch.h"
+#include "models/tool_length/trigger/run_out.h"
 #include "effects/catalogue.h"
 #include "models/laser_setter.h"
 
-namespace gumshoe::models::mill {
+namespace gumshoe::models::tool_length {
 
 enum Quantity {
   tool_radius,
@@ -57,22 +58,22 @@ Event<T> probing_event(const T* q, const T* condition, const T* effect_quantitie
   return event;
 }
 
-template <class T> chain::Insert<T> insert(const T* q, const chain::ProbingEvent<T>& event) {
+template <class T> Insert<T> insert(const T* q, const chain::ProbingEvent<T>& event) {
   return {q[tool_radius],  q[insert_radius], q[insert_thickness], q[clearance],
           q[radial_angle], q[axial_angle],   event.tool_x,        event.tool_y - q[offset]};
 }
-template <class T> chain::Beam<T> beam(const T* q) { return laser_setter::beam(q + yaw); }
+template <class T> Beam<T> beam(const T* q) { return laser_setter::beam(q + yaw); }
 
 /// Flute k, from 0.
-template <class T> chain::Flute<T> flute(const T* q, const Event<T>& event, int k) {
-  return chain::deviating<T>({insert(q, event), T(2 * std::numbers::pi * k / num::value(q[inserts])), q[wear + k]}, event.tool,
+template <class T> Flute<T> flute(const T* q, const Event<T>& event, int k) {
+  return deviating<T>({insert(q, event), T(2 * std::numbers::pi * k / num::value(q[inserts])), q[wear + k]}, event.tool,
                              k);
 }
 
 /// The true motion. The control commands the spindle height at which, as the quantities say, the tool's centre stands
 /// start_height above the beam; what truly moves the tool's centre, then, moves it at the start, too, and turns the
 /// phase.
-template <class T> chain::InsertMotionOf<T> motion(const T* q, const Event<T>& event, const double* condition) {
+template <class T> InsertMotionOf<T> motion(const T* q, const Event<T>& event, const double* condition) {
   const T commanded = q[laser_z] + q[length] + condition[start_height];
   return {q[holder_angle] + condition[start_angle] + event.tool.turns_before_feed,
           condition[start_height] + (event.axis_scale * commanded + event.axis_error - event.tool_growth),
@@ -97,7 +98,7 @@ template <class T> const char* impossible(const T* q, const double* condition, c
   if (!(at(fraction) > 0 && at(fraction) < 1)) return "trigger_fraction is not between 0 and 1";
   if (!(std::fabs(at(pitch)) < 1.5707)) return "beam_pitch is upright";
   for (int k = 0; k < static_cast<int>(n); ++k) {
-    const auto f = chain::converted<double>(flute(q, event, k));
+    const auto f = converted<double>(flute(q, event, k));
     if (!(f.insert.tool_radius > 0)) return "tool_radius with its errors is not positive";
     if (!(f.insert.radius > 0)) return "insert_radius with its errors is not positive";
     if (!(f.insert.thickness >= 0)) return "insert_thickness is negative";
@@ -122,27 +123,27 @@ template <class T> const char* impossible(const T* q, const double* condition, c
 /// The height of the unworn tool's centre above the beam's axis at the first trigger. Completes the event's latch delay
 /// by what depends on the trigger.
 template <class T> struct Trigger {
-  chain::Solved<T> height{T(0.0)};
+  Solved<T> height{T(0.0)};
   int insert = 0;
   T turned = T(0.0); ///< rad, from the feed's begin
 };
 template <class T>
-Trigger<T> trigger(chain::TriggerSolver& solver, const T* q, const double* condition, Event<T>& event) {
+Trigger<T> trigger(TriggerSolver& solver, const T* q, const double* condition, Event<T>& event) {
   Trigger<T> result;
   result.height.value = T(std::nan(""));
   const auto n = static_cast<std::size_t>(num::value(q[inserts]));
-  chain::Flute<double> flutes[chain::most_inserts];
-  for (std::size_t k = 0; k < n; ++k) flutes[k] = chain::converted<double>(flute(q, event, static_cast<int>(k)));
+  Flute<double> flutes[chain::most_inserts];
+  for (std::size_t k = 0; k < n; ++k) flutes[k] = converted<double>(flute(q, event, static_cast<int>(k)));
   const auto m = motion(q, event, condition);
   const auto solved =
-      chain::lagging_trigger(solver, {flutes, n}, chain::converted<double>(beam(q)),
+      lagging_trigger(solver, {flutes, n}, converted<double>(beam(q)),
                              {num::value(m.angle), num::value(m.height), num::value(m.drop)}, num::value(m.lag));
   result.height.status = solved.status;
   result.insert = solved.insert;
   if (solved.status != Status::ok) return result;
-  result.turned = chain::differentiable_turned<T>(flute(q, event, solved.insert), beam(q), m, solved);
+  result.turned = differentiable_turned<T>(flute(q, event, solved.insert), beam(q), m, solved);
   result.height.value = m.height_at(result.turned);
-  event.latch_delay = chain::delay_of_latch<T>(event.tool, event.latch_delay, &result.turned);
+  event.latch_delay = delay_of_latch<T>(event.tool, event.latch_delay, &result.turned);
   return result;
 }
 
@@ -155,7 +156,7 @@ template <class T> struct Outcome {
 
 /// The trigger at given values, or none for an evaluation that takes its height for zero.
 template <class T>
-Outcome<T> outcome_at(chain::TriggerSolver& solver, const T* q, const PointCall<T>& call, bool with_solve) {
+Outcome<T> outcome_at(TriggerSolver& solver, const T* q, const PointCall<T>& call, bool with_solve) {
   T condition[conditions];
   for (int i = 0; i < conditions; ++i) condition[i] = T(call.conditions[i]);
   Outcome<T> o{probing_event<T>(q, condition, call.effects, call.active), {}};
@@ -164,7 +165,7 @@ Outcome<T> outcome_at(chain::TriggerSolver& solver, const T* q, const PointCall<
   else if (with_solve)
     o.trigger = trigger(solver, q, call.conditions, o.event);
   else
-    o.event.latch_delay = chain::delay_of_latch<T>(o.event.tool, o.event.latch_delay, nullptr);
+    o.event.latch_delay = delay_of_latch<T>(o.event.tool, o.event.latch_delay, nullptr);
   return o;
 }
 
@@ -178,7 +179,7 @@ template <class T> T least_raise(const T* q, const Event<T>& event) {
 }
 
 /// The machine: what the control reads when the tool is q[length] long.
-template <class T> Outcome<T> simulate(chain::TriggerSolver& solver, const PointCall<T>& call) {
+template <class T> Outcome<T> simulate(TriggerSolver& solver, const PointCall<T>& call) {
   const T* q = call.quantities;
   Outcome<T> o = outcome_at(solver, q, call, true);
   o.spindle_z = chain::reading_of<T>(q[laser_z] + q[length] + o.event.tool_growth + o.trigger.height.value, o.event);
@@ -189,7 +190,7 @@ template <class T> Outcome<T> simulate(chain::TriggerSolver& solver, const Point
 
 /// The measurement model: the tool's length from the reading; the inverse of simulate. Effects that grow with the
 /// length do so by the length that comes out, found by repetition; an expansion of 1e-4 gains four digits a pass.
-template <class T> Outcome<T> evaluate(chain::TriggerSolver& solver, const PointCall<T>& call) {
+template <class T> Outcome<T> evaluate(TriggerSolver& solver, const PointCall<T>& call) {
   T q[count];
   for (int i = 0; i < count; ++i) q[i] = call.quantities[i];
   const T& z = call.indications[0];

@@ -2,9 +2,9 @@
 /// Fast trigger solve for the common case: both ends of the covered chord lie on the smooth part of
 /// the rod's lower edge. One joint Newton iteration in (left end, right end, height), lane by lane;
 /// a lane that it cannot take says so and goes to the general solver (shadow_boundary.h).
-#include "chain/shadow.h"
+#include "models/rod_gauging/shadow/shadow.h"
 
-namespace gumshoe::chain {
+namespace gumshoe::models::rod_gauging {
 
 /// Chord ends as sin w, and the edge's height; V is double or Lanes.
 template <class V> struct ChordSolve {
@@ -89,4 +89,4 @@ template <class V> ChordSolve<V> solve_chord(const ShadowEdge<V>& e, const V& be
   return result;
 }
 
-} // namespace gumshoe::chain
+} // namespace gumshoe::models::rod_gauging

@@ -8,17 +8,13 @@
 ///     P(w) = (rho sin w, shear rho sin w - depth cos w),
 /// and the rod's lower edge is P + fillet * N with the outward unit normal N.
 ///
-/// Source: Fang 2022, section 2.4 (eqs 2.3 to 2.32), derived anew; chain/README.md has the mathematics.
-#include "base/status.h"
+/// Source: Fang 2022, section 2.4 (eqs 2.3 to 2.32), derived anew; README.md has the mathematics.
 #include "math/scalar.h"
+#include "models/laser_beam.h"
 
-namespace gumshoe::chain {
+namespace gumshoe::models::rod_gauging {
 
-template <class T> struct Solved {
-  T value;
-  Status status = Status::ok;
-  bool kink = false; ///< the value has no derivative here (an aligned square rod at pitch 0)
-};
+using laser_setter::Beam, laser_setter::Solved;
 
 /// Lengths in m, angles in rad, in the tool-setter frame (X along the nominal beam, Z up).
 template <class T> struct Rod {
@@ -28,14 +24,6 @@ template <class T> struct Rod {
   T bottom_azimuth;   ///< tau + theta_th
   T axis_x = T(0.0);  ///< the rod's axis beside the laser reference point
   T axis_y = T(0.0);
-};
-
-template <class T> struct Beam {
-  T yaw;      ///< alpha
-  T pitch;    ///< beta
-  T radius;   ///< R_l
-  T fraction; ///< share of the disc that is covered at the trigger, in (0, 1)
-  bool operator==(const Beam&) const = default;
 };
 
 /// The rod's lower edge on the photodiode plane (y across, z up), relative to the beam's centre but
@@ -91,4 +79,4 @@ template <class T> EdgePoint<T> edge_point(const ShadowEdge<T>& e, const T& sin_
 /// fillet > radius, non-positive radii, |pitch| >= pi/2, elevation outside (0, pi), fraction outside (0, 1).
 Solved<double> trigger_height(const Rod<double>& rod, const Beam<double>& beam);
 
-} // namespace gumshoe::chain
+} // namespace gumshoe::models::rod_gauging

@@ -5,9 +5,9 @@
 /// a straight line back. Both ellipses have one shape, so a line touches both at equal w.
 #include <array>
 
-#include "chain/insert_shadow.h"
+#include "models/tool_length/trigger/insert_shadow.h"
 
-namespace gumshoe::chain {
+namespace gumshoe::models::tool_length {
 
 enum class InsertPiece { back_arc, to_rake, rake_arc, to_back };
 
@@ -131,4 +131,4 @@ InsertCover<T> insert_cover(const InsertShadow<T>& s, const Joints<T>& j, const 
 /// True if the shadow, raised by k, contains the point.
 bool insert_contains(const InsertShadow<double>& shadow, double k, const Planar<double>& point);
 
-} // namespace gumshoe::chain
+} // namespace gumshoe::models::tool_length

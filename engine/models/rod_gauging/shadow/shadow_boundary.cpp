@@ -1,12 +1,12 @@
-#include "chain/shadow_boundary.h"
+#include "models/rod_gauging/shadow/shadow_boundary.h"
 
 #include <limits>
 
 #include <boost/math/tools/toms748_solve.hpp>
 
-#include "chain/shadow_area.h"
+#include "models/rod_gauging/shadow/shadow_area.h"
 
-namespace gumshoe::chain {
+namespace gumshoe::models::rod_gauging {
 
 namespace {
 
@@ -222,4 +222,4 @@ BoundarySolve solve_boundary(const ShadowEdge<double>& edge, double beam_radius,
   return result;
 }
 
-} // namespace gumshoe::chain
+} // namespace gumshoe::models::rod_gauging

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "chain/insert_trigger.h"
+#include "models/tool_length/trigger/insert_trigger.h"
 
-namespace gumshoe::chain {
+namespace gumshoe::models::tool_length {
 
 namespace {
 
@@ -146,4 +146,4 @@ TriggerSolver::Pass& TriggerSolver::pass(std::size_t flute, const Insert<double>
   return p;
 }
 
-} // namespace gumshoe::chain
+} // namespace gumshoe::models::tool_length

@@ -6,9 +6,9 @@
 /// of insert_chord.h, whose bound on every other angle is what the search walks by: nothing is skipped unproved.
 #include <array>
 
-#include "chain/insert_lines.h"
+#include "models/tool_length/trigger/insert_lines.h"
 
-namespace gumshoe::chain {
+namespace gumshoe::models::tool_length {
 
 class InsertPass {
 public:
@@ -92,4 +92,4 @@ private:
   int size_ = 0;
 };
 
-} // namespace gumshoe::chain
+} // namespace gumshoe::models::tool_length

@@ -2,13 +2,14 @@
 /// Points and path integrals on the shadow's boundary, in any scalar.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
-#include "chain/shadow_boundary.h"
+#include "models/rod_gauging/shadow/shadow_boundary.h"
 #include "math/quadrature.h"
 
-namespace gumshoe::chain {
+namespace gumshoe::models::rod_gauging {
 
-inline constexpr double pi = 3.14159265358979323846;
+inline constexpr double pi = std::numbers::pi;
 
 /// pi/2 to the digits of T, so that angles measured from either end of the half-ellipse fit together.
 template <class T> T half_pi() { return T(0.5 * pi); }
@@ -175,4 +176,4 @@ T refine_height(const ShadowEdge<T>& e, const T& beam_radius, const T& fraction,
   return k;
 }
 
-} // namespace gumshoe::chain
+} // namespace gumshoe::models::rod_gauging

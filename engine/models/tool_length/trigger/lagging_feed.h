@@ -1,8 +1,8 @@
 #pragma once
 /// The trigger of a turning tool whose feed axis follows its command with a first-order lag, from rest.
-#include "chain/insert_trigger.h"
+#include "models/tool_length/trigger/insert_trigger.h"
 
-namespace gumshoe::chain {
+namespace gumshoe::models::tool_length {
 
 /// As TriggerSolver::solve, for the height start_height - drop (turned - behind(turned, lag)); `lag` in rad of spindle
 /// angle, 0 or more.
@@ -12,4 +12,4 @@ namespace gumshoe::chain {
 InsertTrigger lagging_trigger(TriggerSolver& solver, std::span<const Flute<double>> flutes, const Beam<double>& beam,
                               const InsertMotion& motion, double lag);
 
-} // namespace gumshoe::chain
+} // namespace gumshoe::models::tool_length

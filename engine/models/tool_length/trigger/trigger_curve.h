@@ -6,9 +6,9 @@
 /// tabulates F. Interpolated by cubics between exact heights and slopes.
 #include <vector>
 
-#include "chain/insert_height.h"
+#include "models/tool_length/trigger/insert_height.h"
 
-namespace gumshoe::chain {
+namespace gumshoe::models::tool_length {
 
 class TriggerCurve {
 public:
@@ -58,4 +58,4 @@ private:
   Start by_x_, by_angle_;
 };
 
-} // namespace gumshoe::chain
+} // namespace gumshoe::models::tool_length

@@ -1,8 +1,8 @@
-#include "chain/insert_lines.h"
+#include "models/tool_length/trigger/insert_lines.h"
 
 #include <algorithm>
 
-namespace gumshoe::chain {
+namespace gumshoe::models::tool_length {
 
 InsertLines::InsertLines(const InsertBody<double>& body, const DiscShare& disc)
     : rake_(body), disc_(disc), back_radius_(body.back_radius), tilt_(std::fabs(body.sin_pitch)) {
@@ -88,4 +88,4 @@ bool InsertLines::below(double from, double to, double fall, double limit) const
   return proved;
 }
 
-} // namespace gumshoe::chain
+} // namespace gumshoe::models::tool_length

@@ -1,10 +1,10 @@
 #pragma once
 /// Zc(psi): the highest height of the tool's centre at which an insert at spindle angle psi covers the trigger's share
 /// of the beam. Geometry alone; the motion comes in insert_trigger.h.
-#include "chain/insert_cover.h"
-#include "chain/insert_pass.h"
+#include "models/tool_length/trigger/insert_cover.h"
+#include "models/tool_length/trigger/insert_pass.h"
 
-namespace gumshoe::chain {
+namespace gumshoe::models::tool_length {
 
 struct HeightNode {
   double angle = 0;
@@ -51,4 +51,4 @@ inline double guess(double angle, const HeightNode& n) {
 /// further than it takes to know whether height + drift angle comes up to it.
 HeightNode hump(const InsertHeight& heights, HeightNode a, HeightNode b, double drift, double wanted = std::nan(""));
 
-} // namespace gumshoe::chain
+} // namespace gumshoe::models::tool_length

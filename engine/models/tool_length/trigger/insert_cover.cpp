@@ -1,9 +1,9 @@
-#include "chain/insert_cover.h"
+#include "models/tool_length/trigger/insert_cover.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace gumshoe::chain {
+namespace gumshoe::models::tool_length {
 
 namespace {
 
@@ -241,4 +241,4 @@ InsertParts insert_parts(const InsertShadow<double>& s, const Joints<double>& j,
   return parts;
 }
 
-} // namespace gumshoe::chain
+} // namespace gumshoe::models::tool_length

@@ -4,9 +4,9 @@
 /// What is covered lies above every line that touches the shadow from below, so for every slope t the height is at most
 ///     D sqrt(1 + t^2) + max over both circles of (t C_y - C_z + rho g(t)),
 /// with D the height of the line above which the share of the disc lies.
-#include "chain/insert_chord.h"
+#include "models/tool_length/trigger/insert_chord.h"
 
-namespace gumshoe::chain {
+namespace gumshoe::models::tool_length {
 
 class InsertLines {
 public:
@@ -25,4 +25,4 @@ private:
   double back_radius_, thickness_, shrink_share_, normal_spread_, tilt_, spread_[2];
 };
 
-} // namespace gumshoe::chain
+} // namespace gumshoe::models::tool_length

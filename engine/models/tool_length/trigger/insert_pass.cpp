@@ -1,8 +1,8 @@
-#include "chain/insert_pass.h"
+#include "models/tool_length/trigger/insert_pass.h"
 
 #include <algorithm>
 
-namespace gumshoe::chain {
+namespace gumshoe::models::tool_length {
 
 namespace {
 
@@ -294,4 +294,4 @@ InsertPass::Crossing InsertPass::walk(const Window& w, double level, double fall
   return {Found::unproved};
 }
 
-} // namespace gumshoe::chain
+} // namespace gumshoe::models::tool_length

@@ -1,6 +1,6 @@
-#include "chain/insert_chord.h"
+#include "models/tool_length/trigger/insert_chord.h"
 
-namespace gumshoe::chain {
+namespace gumshoe::models::tool_length {
 
 DiscShare::DiscShare(double beam_radius, double fraction) : radius(beam_radius) {
   constexpr double pi = 3.14159265358979323846;
@@ -39,4 +39,4 @@ RakeBody::RakeBody(const InsertBody<double>& b)
                              b.a.y * b.b.x - b.a.x * b.b.y},
       radius(b.rake_radius), yaw(b.yaw), sin_pitch(b.sin_pitch), cos_pitch(b.cos_pitch), side(b.side), rise(b.rise) {}
 
-} // namespace gumshoe::chain
+} // namespace gumshoe::models::tool_length

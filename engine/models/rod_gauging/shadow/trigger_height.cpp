@@ -1,8 +1,8 @@
-#include "chain/shadow.h"
+#include "models/rod_gauging/shadow/shadow.h"
 
-#include "chain/trigger_height.h"
+#include "models/rod_gauging/shadow/trigger_height.h"
 
-namespace gumshoe::chain {
+namespace gumshoe::models::rod_gauging {
 
 Solved<double> trigger_height(const Rod<double>& rod, const Beam<double>& beam) {
   if (!in_domain(rod, beam)) return {std::nan(""), Status::out_of_domain};
@@ -11,4 +11,4 @@ Solved<double> trigger_height(const Rod<double>& rod, const Beam<double>& beam) 
   return general_height(rod, beam);
 }
 
-} // namespace gumshoe::chain
+} // namespace gumshoe::models::rod_gauging

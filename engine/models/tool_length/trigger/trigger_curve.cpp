@@ -1,9 +1,9 @@
-#include "chain/trigger_curve.h"
+#include "models/tool_length/trigger/trigger_curve.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace gumshoe::chain {
+namespace gumshoe::models::tool_length {
 
 namespace {
 constexpr double turn = 2 * 3.14159265358979323846;
@@ -190,4 +190,4 @@ double TriggerCurve::record(double angle) const {
   return n * period_ + (t >= p.t0 && t < p.t1 ? reach(p, t) : t < p.t0 ? p.x0 : p.x1);
 }
 
-} // namespace gumshoe::chain
+} // namespace gumshoe::models::tool_length

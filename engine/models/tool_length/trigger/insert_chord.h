@@ -6,14 +6,14 @@
 /// line is as high as the disc's share above it plus that segment makes up the trigger's, no higher ellipse covers it.
 /// With s the chord's half-length where the ellipse is the unit circle, every (t, s) gives a bound,
 ///     k <= Phi(t, s, psi) = p(s) sqrt(1 + t^2) + t C_y - C_z + sqrt(1 - s^2) rho g(t),
-/// and the least of them is k itself: chain/README.md, "Round inserts, fast".
+/// and the least of them is k itself: README.md, "Round inserts, fast".
 #include <array>
 #include <cmath>
 
-#include "chain/insert_shadow.h"
+#include "models/tool_length/trigger/insert_shadow.h"
 #include "math/lane_functions.h"
 
-namespace gumshoe::chain {
+namespace gumshoe::models::tool_length {
 
 /// How the share of the beam's disc above a line falls as the line rises. J(x) = asin x + x sqrt(1 - x^2) is half the
 /// disc (of radius 1) less what lies above a line at height x.
@@ -134,4 +134,4 @@ inline RakeChord rake_chord(const RakeView& v, double rho, const DiscShare& disc
   return chord;
 }
 
-} // namespace gumshoe::chain
+} // namespace gumshoe::models::tool_length

@@ -1,9 +1,9 @@
-#include "chain/insert_trigger.h"
+#include "models/tool_length/trigger/insert_trigger.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace gumshoe::chain {
+namespace gumshoe::models::tool_length {
 
 namespace {
 
@@ -155,4 +155,4 @@ InsertTrigger TriggerSolver::search(std::span<const Flute<double>> flutes, const
   return result;
 }
 
-} // namespace gumshoe::chain
+} // namespace gumshoe::models::tool_length

@@ -4,8 +4,9 @@
 #include <numbers>
 
 #include "chain/turning_tool.h"
+#include "models/tool_length/trigger/lag.h"
 
-namespace gumshoe::chain {
+namespace gumshoe::models::tool_length {
 
 /// The delay by which the latched position, read as if the axis moved with its feed, is ahead of the axis at the
 /// trigger, s. In this order: the revolutions of confirmation pass; the receiver, which holds the trigger, is sampled;
@@ -16,7 +17,7 @@ namespace gumshoe::chain {
 ///
 /// @param turned  spindle angle from the feed's begin to the trigger, rad; null if not known: long ago, and half a
 ///                period for the sampling
-template <class T> T delay_of_latch(const TurningTool<T>& tool, const T& latch_delay, const T* turned) {
+template <class T> T delay_of_latch(const chain::TurningTool<T>& tool, const T& latch_delay, const T* turned) {
   constexpr double turn = 2 * std::numbers::pi;
   const T confirmed = turn * tool.confirmations / tool.speed;
   const double period = num::value(tool.sampling_period), phase = num::value(tool.sampling_phase);
@@ -36,4 +37,4 @@ template <class T> T delay_of_latch(const TurningTool<T>& tool, const T& latch_d
   return actual + tool.latches_command * after;
 }
 
-} // namespace gumshoe::chain
+} // namespace gumshoe::models::tool_length

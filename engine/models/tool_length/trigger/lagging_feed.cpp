@@ -1,9 +1,9 @@
-#include "chain/lagging_feed.h"
+#include "models/tool_length/trigger/lagging_feed.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace gumshoe::chain {
+namespace gumshoe::models::tool_length {
 
 InsertTrigger lagging_trigger(TriggerSolver& solver, std::span<const Flute<double>> flutes, const Beam<double>& beam,
                               const InsertMotion& motion, double lag) {
@@ -33,4 +33,4 @@ InsertTrigger lagging_trigger(TriggerSolver& solver, std::span<const Flute<doubl
   return low;
 }
 
-} // namespace gumshoe::chain
+} // namespace gumshoe::models::tool_length

@@ -3,7 +3,7 @@
 /// in time, in path (feed times time constant) and in spindle angle (speed times time constant).
 #include "math/scalar.h"
 
-namespace gumshoe::chain {
+namespace gumshoe::models::tool_length {
 
 /// lag (1 - exp(-x / lag)), lag >= 0; 0 without lag. Beyond 700 lags the exponential is below 1e-304.
 template <class T> T behind(const T& x, const T& lag) {
@@ -14,4 +14,4 @@ template <class T> T behind(const T& x, const T& lag) {
 /// Its slope: exp(-x / lag).
 inline double falling_behind(double x, double lag) { return lag == 0 || x >= 700 * lag ? 0.0 : num::exp(-(x / lag)); }
 
-} // namespace gumshoe::chain
+} // namespace gumshoe::models::tool_length

@@ -1,9 +1,9 @@
 #pragma once
 /// The trigger height in any scalar: fast chord solve, the general solve where that fails, derivatives.
-#include "chain/shadow_area.h"
-#include "chain/shadow_newton.h"
+#include "models/rod_gauging/shadow/shadow_area.h"
+#include "models/rod_gauging/shadow/shadow_newton.h"
 
-namespace gumshoe::chain {
+namespace gumshoe::models::rod_gauging {
 
 inline bool in_domain(const Rod<double>& rod, const Beam<double>& beam) {
   return rod.radius > 0 && rod.fillet_radius >= 0 && rod.fillet_radius <= rod.radius && rod.bottom_elevation > 0 &&
@@ -52,4 +52,4 @@ template <class T> Solved<T> differentiable_height(const Rod<T>& rod, const Beam
   return {bottom_height_of(k, rod, beam), Status::ok, kink};
 }
 
-} // namespace gumshoe::chain
+} // namespace gumshoe::models::rod_gauging

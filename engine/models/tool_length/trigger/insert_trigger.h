@@ -11,13 +11,14 @@
 #include <span>
 #include <vector>
 
-#include "chain/insert_height.h"
-#include "chain/insert_pass.h"
-#include "chain/lag.h"
+#include "chain/turning_tool.h"
+#include "models/tool_length/trigger/insert_height.h"
+#include "models/tool_length/trigger/insert_pass.h"
+#include "models/tool_length/trigger/lag.h"
 
-namespace gumshoe::chain {
+namespace gumshoe::models::tool_length {
 
-inline constexpr int most_inserts = 12;
+using chain::most_inserts;
 
 /// One insert in its seat. Flutes of one tool may differ in everything.
 template <class T> struct Flute {
@@ -139,4 +140,4 @@ T differentiable_trigger_height(const Flute<T>& flute, const Beam<T>& beam, cons
   return m.height_at(differentiable_turned(flute, beam, m, solved));
 }
 
-} // namespace gumshoe::chain
+} // namespace gumshoe::models::tool_length

@@ -7,9 +7,9 @@
 /// and the covered area follows from Green's theorem in closed form but for one arc length.
 #include <vector>
 
-#include "chain/shadow.h"
+#include "models/rod_gauging/shadow/shadow.h"
 
-namespace gumshoe::chain {
+namespace gumshoe::models::rod_gauging {
 
 /// In the order of travel; interior (metal) to the left. A fan is a corner of the shrunk body, where
 /// only the normal turns; a quarter is one half of the half-ellipse.
@@ -41,4 +41,4 @@ template <class T> struct Covered {
 template <class T>
 T refine_height(const ShadowEdge<T>& edge, const T& beam_radius, const T& fraction, const BoundarySolve& solved);
 
-} // namespace gumshoe::chain
+} // namespace gumshoe::models::rod_gauging

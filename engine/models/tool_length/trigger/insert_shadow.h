@@ -3,11 +3,14 @@
 /// face and the far end of the conical flank.
 ///
 /// t_from_i = Trans(r, seat, 0) Rz(-theta_r) Rx(-theta_a); rake circle about (-R, 0, R) in the insert's X-Z plane,
-/// flank towards +Y with radius R - y tan(tau). Lengths m, angles rad, frames as in chain/README.md. Source: Fang 2022,
+/// flank towards +Y with radius R - y tan(tau). Lengths m, angles rad, frames as in engine/models/README.md. Source: Fang 2022,
 /// section 3.3 (eqs 3.1 to 3.9), derived anew.
-#include "chain/shadow.h"
+#include "math/scalar.h"
+#include "models/laser_beam.h"
 
-namespace gumshoe::chain {
+namespace gumshoe::models::tool_length {
+
+using laser_setter::Beam, laser_setter::Solved;
 
 template <class T> struct Insert {
   T tool_radius; ///< r, from the tool's axis to the virtual cutting point
@@ -99,4 +102,4 @@ template <class T> InsertShadow<T> insert_shadow(const InsertBody<T>& body, cons
   return shadow;
 }
 
-} // namespace gumshoe::chain
+} // namespace gumshoe::models::tool_length

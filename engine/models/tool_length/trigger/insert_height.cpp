@@ -1,10 +1,10 @@
-#include "chain/insert_height.h"
+#include "models/tool_length/trigger/insert_height.h"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-namespace gumshoe::chain {
+namespace gumshoe::models::tool_length {
 
 namespace {
 
@@ -158,4 +158,4 @@ HeightNode hump(const InsertHeight& heights, HeightNode a, HeightNode b, double 
   return best;
 }
 
-} // namespace gumshoe::chain
+} // namespace gumshoe::models::tool_length
