@@ -54,6 +54,25 @@ a = { value = "1 mm", u = "1 um" }
 PLAIN = 'value = "5 mm"\nu = "1 um"'
 CORRELATED = '[[correlations]]\nquantities = ["rod_radius", "beam_pitch"]\nkind = "copula"\n'
 
+# Two indications of a model, of which one lacks a reading.
+SPHERE = """schema = 1
+[model]
+name = "sphere_calibration"
+[indications]
+X = { rows = [{ n = "1", values = ["1 mm"] }, { n = "2", values = ["1 mm"] }] }
+Y = { rows = [{ n = "1", values = ["1 mm"] }] }
+Z = { rows = [{ n = "1", values = ["1 mm"] }] }
+"""
+ROD_CHOICE = SCENARIO.replace('name = "rod_gauging"', 'name = "rod_gauging"\nmethod = "virtual_experiment"').replace(
+    'readings = ["-329.932 mm", "-329.932 mm", "-329.931 mm"]\n', "") + """[choose]
+measurand = "laser_z"
+target = "5 um"
+[choose.variables]
+rod_radius = ["4.9 mm"]
+[choose.time]
+per_reading = "1 s"
+"""
+
 # (scenario, what is replaced or None for appending, by what, words of the message)
 CHECKED = [
     # uncertainties
@@ -91,6 +110,7 @@ CHECKED = [
     (DATA, ', labels = { rod = "rod" } }', ' }\n[conditions]\nfeed = ["1 mm/min", "2 mm/min"]', "conditions are listed, one per reading"),
     (ROWS, None, '[quantities.beam_yaw.by.rod.a.by.rod.b]\nvalue = "0 deg"\n', "is nested within itself"),
     (ROWS, None, '[quantities.beam_yaw]\nvalue = "0 deg"\nu = "1 deg"\nper = "rood"\n', "Did you mean 'rod'?"),
+    (SPHERE, None, "", "lacks an indication"),
     # correlations
     (SCENARIO, None, CORRELATED, "give either coefficient or matrix"),
     (SCENARIO, None, CORRELATED + "matrix = [[1, 0.5], [0.4, 1]]\n", "correlations are symmetric"),
@@ -99,6 +119,8 @@ CHECKED = [
      + "coefficient = 0.5\n", "one coefficient for 3 quantities"),
     (SCENARIO, None, CORRELATED.replace('"beam_pitch"', '"rod_radius"') + "coefficient = 0.5\n", "is named twice"),
     (SCENARIO, None, (CORRELATED + "coefficient = 0.5\n") * 2, "is already part of another correlation"),
+    (ROWS, None, '[quantities.rod_length.by.rod]\na = { value = "1 mm", u = "1 um" }\nb = { value = "1 mm", u = "1 um" }\n'
+     + CORRELATED.replace("rod_radius", "rod_length").replace("beam_pitch", "rod_length[rod a]") + "coefficient = 0.5\n", "has several draws"),
     (SCENARIO.replace(PLAIN, 'distribution = "discrete"\nvalues = ["5 mm", "6 mm"]\nprobabilities = [0.5, 0.5]'), None,
      CORRELATED.replace("copula", "spearman") + "coefficient = 0.5\n", "needs continuous distributions"),
     # run, analysis, estimate, trace
@@ -107,7 +129,7 @@ CHECKED = [
     (SCENARIO, None, "[analysis]\nsensitivity = { second_order = true }\n", "needs a base size"),
     (SCENARIO, None, '[analysis]\njoint = "laser_z"\n', "expected an array"),
     (SCENARIO, None, '[analysis]\njoint = [["laser_z"]]\n', "each group needs two measurands or more"),
-    (SCENARIO, None, '[analysis]\njoint = [["laser_z", "laser_zz"]]\n', "Did you mean 'laser_z'?"),
+    (SCENARIO, None, '[analysis]\njoint = [["laser_z", "laser_zz"]]\n', "measurand here"),
     (SCENARIO, None, '[[analysis.one_at_a_time]]\ntitle = "x"\nsteps = { rod_radius = "0 mm" }\n', "the step of rod_radius is zero"),
     (SCENARIO, None, '[[analysis.conformity]]\nmeasurand = "laser_z"\n', "no tolerance limit"),
     (SCENARIO, None, '[[analysis.conformity]]\nmeasurand = "laser_z"\nlower = "2 mm"\nupper = "1 mm"\n', "lower must be below upper"),
@@ -135,9 +157,13 @@ CHECKED = [
      None, "", "X, Y, Z, U, V, W are linear"),
     # choices
     (CHOOSE, "readings = [1, 2, 3]", "readings = [1, 1]", "stands twice"),
-    (CHOOSE, "readings = [1, 2, 3]", 'evaluation = { low = "1", high = "2" }', 'Try: evaluation = ["..."]'),
+    (CHOOSE, "readings = [1, 2, 3]", 'evaluation = { low = "1", high = "2" }', "evaluations are listed"),
+    (CHOOSE, 'low = "10 mm/min"', 'low = "0 mm/min"', "not above 0"),
+    (CHOOSE, "[choose.variables]\n", '[choose.variables]\nevaluation = ["fast"]\n', "has no evaluation 'fast'"),
     (CHOOSE, CHOOSE[CHOOSE.index("feed = {"):CHOOSE.index("[choose.time]")], "", "nothing to choose from"),
     (CHOOSE, 'feed = "10 mm/min"', 'feed = ["10 mm/min", "20 mm/min"]', "it differs between the readings"),
+    (CHOOSE, 'feed = "10 mm/min"', 'feed = ["10 mm/min", "20 mm/min"]', "the readings are listed"),
+    (ROD_CHOICE, '["4.9 mm"]', '["-5 mm"]', "outside the limits of rod_radius"),
     (CHOOSE, 'feed = "10 mm/min"', 'feed = { spread = ["10 mm/min", "20 mm/min"], readings = 1 }', "it is spread over the readings"),
     (CHOOSE, 'way = "5 mm"', 'way = "nan mm"', "not finite"),
 ]
@@ -171,6 +197,20 @@ class Messages(unittest.TestCase):
         self.assertIsNone(complaint(run), run.stderr)
         self.assertIn(words, run.stderr)
 
+    def test_tables(self):
+        table = self.file.parent / "t.csv"
+        for model, header, more, words in [
+            ("rod_gauging", "spindle_z (mm),laser_z (mm)", [], "is what the indications are evaluated for"),
+            ("sphere_calibration", "X (mm)", [], "the other indications are given"),
+            ("sphere_calibration", "sphere_distance (mm)", ["--evaluation", "joint"], "no column of readings"),
+            ("rod_gauging", "spindle_z (mm)", ["--evaluation", "full", "--out", "none/x.csv"], "cannot be written"),
+        ]:
+            with self.subTest(words):
+                table.write_text(header + "\n" + ",".join(["1"] * (header.count(",") + 1)) + "\n")
+                run = gumshoe("evaluate", model, "--table", table, *more)
+                self.assertIsNone(complaint(run), run.stderr)
+                self.assertIn(words, run.stderr)
+
     def test_commands(self):
         fit = FORMULA + '[model.indications]\nz = "a * 2"\n[indications.z]\nreadings = ["2 mm"]\n'
         for text, command, words in [
@@ -178,9 +218,13 @@ class Messages(unittest.TestCase):
                 'a = {', '[quantities]\na = {'), ["run", "S", "--out", "O"], "nothing is measured"),
             (SCENARIO, ["run", "S", "--out", "O" * 300], "too long"),
             (SCENARIO, ["estimate", "S"], "no quantity is marked estimated"),
+            (fit.replace('a = { value = "1 mm", u = "1 um" }', 'a = { value = "1 mm", u = "1 um", estimated = true }'),
+             ["estimate", "S"], "their own noise"),
+            (fit.replace('readings = ["2 mm"]', 'readings = ["2 mm"]\nrepeatability = { s = "1 um" }').replace('a = { value = "1 mm", u = "1 um" }', 'a = { value = "1 mm", u = "1 um", estimated = true }')
+             + '[[expected]]\nfigure = "fit.mien"\nvalue = 1\nsource = "x"\n', ["gauge", "S"], "figure of this fit"),
             (fit.replace('a = { value = "1 mm", u = "1 um" }', 'a = { value = "1 mm", estimated = true }')
              .replace('b = { value = "2 mm", u = "1 um" }', 'b = { value = "2 mm", estimated = true }'), ["estimate", "S"], "cannot determine"),
-            (SCENARIO + '[[expected]]\nfigure = "mien"\nof = "laser_z"\nvalue = 1\nsource = "x"\n', ["gauge", "S"], "figure"),
+            (SCENARIO + '[[expected]]\nfigure = "mien"\nof = "laser_z"\nvalue = 1\nsource = "x"\n', ["gauge", "S"], "figure of this result"),
             (CHOOSE.replace('way = "5 mm"', 'way = "-5 m"'), ["choose", "S", "--out", "O"], "the time is negative"),
             (CHOOSE.replace("steps = 5", "steps = 1000").replace("readings = [1, 2, 3]", f"readings = {list(range(1, 1001))}"),
              ["choose", "S", "--out", "O"], "combinations"),
