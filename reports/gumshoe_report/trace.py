@@ -89,9 +89,9 @@ class Trace:
             return (f"The search found something (p {self.p(t.p_anything)}), but it does not improve the prediction of the "
                     "hold-out blocks. Nothing is added to the model.")
         if t.findings:
-            return (f"{t.tried} candidates were tried; {chance}. The p-value of the whole search is "
+            return (f"{t.tried} candidates were tried; {chance}. For the whole search, "
                     f"p {self.p(t.p_anything)}.")
-        return (f"{t.tried} candidates were tried; {chance}. The p-value of the whole search is p {self.p(t.p_anything)}.")
+        return (f"{t.tried} candidates were tried; {chance}. For the whole search, p {self.p(t.p_anything)}.")
 
     def key_figures(self):
         r = self.t.rms
