@@ -110,10 +110,10 @@ class Choice:
                   f"({probability(self.p)}){worst}")
         bias = f" and a bias of at most {self.limit()}" if self.bounded else ""
         if not c.reached and c.probability >= c.confirm_probability:
-            return (f"In the search no setting met the target U = {self.target()}{bias}; with fresh samples the nearest "
+            return (f"In the search no setting met the target U = {self.target()}{bias}. With fresh samples the nearest one "
                     f"does, with a probability of {chance(c.probability)}: {self.order()}; {result}.")
         if not c.reached:
-            return (f"No setting that was tried meets the target U = {self.target()}{bias}. The nearest: "
+            return (f"No setting that was tried meets the target U = {self.target()}{bias}. The nearest is: "
                     f"{self.order()}; {result}.")
         order = self.order()
         text = f"{order[0].upper()}{order[1:]}: {result}"

@@ -55,8 +55,8 @@ def reasons(budget, indices, shapley):
     if tails:
         found.append(f"the t distribution that is drawn is wider than the s/√n of the budget for {listed(tails)}")
     if math.isfinite(budget.correlation_share) and abs(budget.correlation_share) > NEGLIGIBLE:
-        found.append(f"inputs are correlated: the budget keeps {percent(budget.correlation_share)} in one row, "
-                     + ("the Shapley effects share it out among the inputs" if shapley is not None else
+        found.append(f"inputs are correlated: the budget puts {percent(budget.correlation_share)} into one row, "
+                     + ("the Shapley effects divide it among the inputs" if shapley is not None else
                         "which belongs to no single quantity"))
     return found
 

@@ -197,13 +197,13 @@ def target(t):
     if not math.isfinite(t.present):
         text = f"Wanted: U = {size(t.wanted)}."
     elif t.present <= t.wanted:
-        text = (f"The target is met already: U = {size(t.present)} is not above {size(t.wanted)}; the allowed values say "
+        text = (f"The target is already met: U = {size(t.present)} does not exceed {size(t.wanted)}. The allowed values show "
                 "how far each quantity may grow.")
     elif alone:
-        text = (f"U = {size(t.present)} has to come down to {size(t.wanted)}; improving one quantity alone can do it: "
+        text = (f"U = {size(t.present)} must be reduced to {size(t.wanted)}; improving a single quantity is enough: "
                 f"{', '.join(alone)}.")
     else:
-        text = f"U = {size(t.present)} has to come down to {size(t.wanted)}; no single quantity can do it alone."
+        text = f"U = {size(t.present)} must be reduced to {size(t.wanted)}; improving a single quantity is not enough."
     if math.isfinite(t.reached):
         text += f" The cheapest combination reaches {size(t.reached)} at {significant(t.cost_ratio, 3)} times the present cost."
     return types.SimpleNamespace(output=t.output, text=text, statement=t.statement, rows=lines,

@@ -8,8 +8,8 @@ from .tables import budget_row, point, spread
 
 LISTED = 25  # candidates and detection limits on the page; the CSV tables have all
 FAMILIES = {"effect": "effect", "declared": "declared quantity", "stated": "stated in the scenario",
-            "shape": "mere shape", "omnibus": "test of everything", "scatter": "scatter"}
-KINDS = {"named": "one effect", "class": "effects that these data cannot tell apart", "scatter": "scatter by label",
+            "shape": "generic shape", "omnibus": "omnibus test", "scatter": "scatter"}
+KINDS = {"named": "one effect", "class": "effects that these data cannot distinguish", "scatter": "scatter by label",
          "not_in_catalogue": "not in the catalogue"}
 
 
@@ -72,26 +72,26 @@ class Trace:
         t = self.t
         if t.findings:
             names = [f"one of {len(f.members)} effects" if f.kind == "class" else
-                     "something that is not in the catalogue" if f.kind == "not_in_catalogue" else in_words(f.name)
+                     "an unknown effect" if f.kind == "not_in_catalogue" else in_words(f.name)
                      for f in t.findings]
             return f"Found: {joined(names)}"
         if t.verdict == "insufficient_data":
-            return "These data cannot tell"
+            return "These data cannot decide"
         return "Found, and withdrawn" if t.vetoed else "Nothing found"
 
     def explanation(self):
         """How sure the verdict is."""
         t = self.t
         if t.verdict == "insufficient_data":
-            return "What is missing stands below."
-        chance = f"the chance to find something where nothing is was held to {significant(100 * t.alpha, 1)}{SPACE}%"
+            return "What is missing is stated below."
+        chance = f"the false-alarm rate of the search was limited to {significant(100 * t.alpha, 1)}{SPACE}%"
         if t.vetoed:
-            return (f"The search found something (p {self.p(t.p_anything)}), but the final blocks, kept apart until then, "
-                    "are no better with it: nothing is added.")
+            return (f"The search found something (p {self.p(t.p_anything)}), but it does not improve the prediction of the "
+                    "hold-out blocks. Nothing is added to the model.")
         if t.findings:
-            return (f"{t.tried} candidates were tried; {chance}. Of the largest statistic of all, "
+            return (f"{t.tried} candidates were tried; {chance}. For the whole search, "
                     f"p {self.p(t.p_anything)}.")
-        return (f"{t.tried} candidates were tried; of the largest statistic of all, p {self.p(t.p_anything)}; {chance}.")
+        return (f"{t.tried} candidates were tried; {chance}. For the whole search, p {self.p(t.p_anything)}.")
 
     def key_figures(self):
         r = self.t.rms
@@ -106,7 +106,7 @@ class Trace:
             found = [(f"error, {where}", self.size(before))]
         found.append(("noise alone", self.size(noise)))
         if math.isfinite(r.share_removed) and self.added:
-            found.append(("removed of what can be removed", self.removed()))
+            found.append(("share of the removable mean square removed", self.removed()))
         return found
 
     def of_blocks(self, text):
@@ -163,7 +163,7 @@ class Trace:
             noise(r.holdout_noise, r.holdout_noise_low, r.holdout_noise_high))
         add("worst block", self.of_blocks(r.worst_block), r.worst_block_before, r.worst_block_after)
         add("worst point", r.worst_point, r.worst_point_before, r.worst_point_after)
-        add("in sample", "training data: chosen and fitted on these, so flattering", r.before, r.after,
+        add("in sample", "training data: used for the search and the fit, so too optimistic", r.before, r.after,
             noise(r.noise, r.noise_low, r.noise_high))
         return rows
 
@@ -181,7 +181,7 @@ class Trace:
             unit, factor = finer(d.display_units, abs(spread(d, d.value)))
             seen = math.isfinite(d.value)
             yield types.SimpleNamespace(effect=d.effect, quantity=d.quantity, seen=seen, value=with_unit(
-                significant(factor * spread(d, d.value)), unit) if seen else "not at all by these data")
+                significant(factor * spread(d, d.value)), unit) if seen else "undetectable in these data")
 
     def noise(self):
         """What of the noise is estimated, in sentences."""
@@ -191,21 +191,21 @@ class Trace:
         text = []
         if not n.declared:
             text.append(f"The scenario declares no noise; the residuals show a standard deviation of {self.size(n.scale)} "
-                        "of a readout.")
+                        "of a reading.")
         elif n.scale == 1:
             text.append("The noise is taken as declared.")
         else:
-            text.append(f"The residuals scatter {significant(n.scale, 3)} times as much as is declared.")
+            text.append(f"The residuals scatter {significant(n.scale, 3)} times as much as declared.")
         if n.declared and math.isfinite(n.chi_squared_p):
-            text.append("Residuals as large as these have a probability of "
-                        f"{significant(n.chi_squared_p)} under the declared uncertainties (chi-square).")
+            text.append("Under the declared uncertainties residuals of this size have a probability of "
+                        f"{significant(n.chi_squared_p)} (chi-squared test).")
         if n.correlation:
-            text.append(f"A reading carries over to the next with a correlation of {fixed(n.correlation, 2)}.")
+            text.append(f"Successive readings have a correlation of {fixed(n.correlation, 2)}.")
         if n.scatter:
-            text.append(f"Beside it there is scatter by {joined([s.strip() for s in n.scatter.split(',')])}, "
+            text.append(f"In addition there is scatter by {joined([s.strip() for s in n.scatter.split(',')])}, "
                         f"standard deviation {self.size(n.scatter_u)}.")
         if n.outliers:
-            text.append(f"{n.outliers} reading{'s' if n.outliers > 1 else ''} weighed down as outliers.")
+            text.append(f"{n.outliers} reading{'s' if n.outliers > 1 else ''} with reduced weight as outliers.")
         return text
 
     def budgets(self):

@@ -229,7 +229,7 @@ def sizes(t, name):
     figure, axes = plt.subplots(figsize=(7.2, 0.65 + (0.66 if t.added else 0.48) * len(found)), layout="constrained")
     for k, (_, _, before, after, noise) in enumerate(found):
         bars = [("before", before, ORANGE), ("after", after, BLUE)] if t.added else [("residuals", before, BLUE)]
-        bars += [("noise alone, with what chance makes of it (95\u202f%)", noise[0], "#b6bcc6")] if noise else []
+        bars += [("noise alone, with its range by chance (95\u202f%)", noise[0], "#b6bcc6")] if noise else []
         for place, (what, x, colour) in enumerate(bars):
             if not math.isfinite(x):
                 continue
@@ -247,7 +247,7 @@ def sizes(t, name):
     axes.set_xlim(0, 1.1 * w * max(x for row in found for x in (*row[2:4], *(row[4] or ())) if math.isfinite(x)))
     axes.set_xlabel(axis_label("root mean square of the residuals", t.unit))
     axes.legend(loc="lower left", bbox_to_anchor=(-0.02, 1), ncols=3, frameon=False, fontsize=8)
-    return svg(figure, name, f"Root mean square of the residuals{' before and after' if t.added else ''}, beside noise alone")
+    return svg(figure, name, f"Root mean square of the residuals{' before and after' if t.added else ''}, compared with noise alone")
 
 
 def curves(found, name):

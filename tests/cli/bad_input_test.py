@@ -238,11 +238,11 @@ class BadInput(unittest.TestCase):
             file["x"] = [1, 2, 3]
         with h5py.File(self.folder / "other.h5", "w") as file:
             file.attrs["program"] = "another"
-        for name in ("half", "damaged", "foreign", "other"):
+        for name, words in {"half": [], "damaged": [], "foreign": [], "other": ["another program made it"]}.items():
             path = self.folder / f"{name}.h5"
             for command in (["replay", path, "--sample", 1], ["report", path]):
                 with self.subTest(name, command=command[0]):
-                    self.refused(gumshoe(*command), [str(path)])
+                    self.refused(gumshoe(*command), [str(path), *words])
 
     def test_result_whose_scenario_has_changed(self):
         path, result = self.write("changing.toml", SCENARIO), self.folder / "changing.h5"
@@ -286,7 +286,8 @@ class BadInput(unittest.TestCase):
             "effects, far off": (["effects", "zzz"], ["'zzz'"]),
             "no command": ([], []),
             "unknown command": (["frobnicate"], ["frobnicate"]),
-            **{f"--sample {n}": (["replay", self.result, "--sample", n], ["--sample"]) for n in ("1000", "1e15", "1e30", "-1", "abc", "1.5", "nan", "")},
+            **{f"--sample {n}": (["replay", self.result, "--sample", n], ["--sample"]) for n in ("1e30", "-1", "abc", "1.5", "nan", "")},
+            **{f"--sample {n}": (["replay", self.result, "--sample", n], ["is beyond the run"]) for n in ("1000", "1e15")},
             "no sample": (["replay", self.result], ["--sample"]),
         }.items():
             with self.subTest(name):
@@ -315,7 +316,7 @@ class BadInput(unittest.TestCase):
         for path in (foreign, hdf5, self.good):
             before = path.read_bytes()
             with self.subTest(path.name):
-                self.refused(gumshoe("run", self.good, "--samples", 1000, "--out", path), [str(path)])
+                self.refused(gumshoe("run", self.good, "--samples", 1000, "--out", path), [str(path), "not overwritten"])
                 self.assertEqual(path.read_bytes(), before)
 
     def test_no_command_destroys_its_own_input(self):

@@ -151,9 +151,9 @@ class Page(Made):
     def test_what_it_is_stands_first(self):
         for kind, headline in {"named": "Found: trigger latency", "class": "Found: one of 2 effects",
                                "scatter": "Found: scatter by rod and setup", "vetoed": "Found, and withdrawn",
-                               "not_in_catalogue": "Found: something that is not in the catalogue",
-                               "two_findings": "Found: trigger latency and something that is not in the catalogue",
-                               "nothing_found": "Nothing found", "insufficient_data": "These data cannot tell"}.items():
+                               "not_in_catalogue": "Found: an unknown effect",
+                               "two_findings": "Found: trigger latency and an unknown effect",
+                               "nothing_found": "Nothing found", "insufficient_data": "These data cannot decide"}.items():
             self.assertTrue(self.first(kind).startswith(f" {headline} "), self.first(kind)[:80])
             plain = self.said[kind]["plain"][0].replace(" um", " µm")
             self.assertIn(plain, self.first(kind))
@@ -172,7 +172,7 @@ class Page(Made):
         low, high = (f"{1e6 * x:.2f}" for x in rms["holdout_noise_interval95"])
         self.assertIn(f"[{low}, {high}]", part)
         self.assertIn("in sample", part)
-        self.assertIn("neither to choose nor to fit", part)
+        self.assertIn("neither for the search nor for the fit", part)
 
     def test_sizes_are_rounded_by_their_uncertainty(self):
         self.assertRegex(words_of(self.pages["named"]), r"delay ?trigger_latency\.delay ?1\.520 ?0\.041 ?\[1\.430, 1\.610\] ?ms")
@@ -181,11 +181,11 @@ class Page(Made):
     def test_a_class_comes_with_what_would_split_it(self):
         text = words_of(self.pages["class"])
         self.assertIn("To find out which: let the spindle rest for an hour", text)
-        self.assertIn("these data cannot tell which it is", text)
+        self.assertIn("these data cannot distinguish them", text)
 
     def test_what_was_refused_says_why(self):
         text = words_of(self.pages["named"])
-        tried = text[text.index("What was tried"):text.index("What would have been seen")]
+        tried = text[text.index("What was tried"):text.index("Detection limits")]
         for reason in ("the same as trigger_latency, which is a cause", "within its uncertainty", "absorbed by laser_z"):
             self.assertIn(reason, tried)
         self.assertEqual(self.pages["named"].count('<tr class="chosen"><th scope="row"><code>'), 1)

@@ -1,0 +1,237 @@
+"""One wrong input per message: the program says what is wrong, in the form that program.ill_formed() demands.
+
+usage: messages_test.py path/to/gumshoe [unittest options]
+"""
+import pathlib
+import tempfile
+import unittest
+
+from program import SCENARIO, complaint, gumshoe
+from choose_test import TEXT as CHOOSE
+
+# Six readings with labels and a condition, in the scenario itself.
+ROWS = """schema = 1
+[model]
+name = "rod_gauging"
+[quantities.rod_radius]
+value = "5 mm"
+u = "1 um"
+[quantities.beam_pitch]
+value = "0.2836 deg"
+u = "0.005 deg"
+[indications.spindle_z]
+resolution = "1 um"
+rows = [
+  { rod = "a", setup = "1", values = ["-329.932 mm", "-329.931 mm"] },
+  { rod = "b", setup = "1", values = ["-329.932 mm"] },
+  { rod = "a", setup = "2", values = ["-329.932 mm"] },
+]
+"""
+DATA = """schema = 1
+[model]
+name = "rod_gauging"
+[indications.spindle_z]
+readings = { file = "z.csv", column = "z", unit = "mm", labels = { rod = "rod" } }
+"""
+FORMULA = """schema = 1
+[model]
+name = "expression"
+[model.measurands]
+y = "a + b"
+[quantities]
+a = { value = "1 mm", u = "1 um" }
+b = { value = "2 mm", u = "1 um" }
+"""
+COMMAND = """schema = 1
+[model]
+name = "command"
+command = ["python3", "model.py"]
+[model.measurands]
+y = "mm"
+[quantities]
+a = { value = "1 mm", u = "1 um" }
+"""
+PLAIN = 'value = "5 mm"\nu = "1 um"'
+CORRELATED = '[[correlations]]\nquantities = ["rod_radius", "beam_pitch"]\nkind = "copula"\n'
+
+# Two indications of a model, of which one lacks a reading.
+SPHERE = """schema = 1
+[model]
+name = "sphere_calibration"
+[indications]
+X = { rows = [{ n = "1", values = ["1 mm"] }, { n = "2", values = ["1 mm"] }] }
+Y = { rows = [{ n = "1", values = ["1 mm"] }] }
+Z = { rows = [{ n = "1", values = ["1 mm"] }] }
+"""
+ROD_CHOICE = SCENARIO.replace('name = "rod_gauging"', 'name = "rod_gauging"\nmethod = "virtual_experiment"').replace(
+    'readings = ["-329.932 mm", "-329.932 mm", "-329.931 mm"]\n', "") + """[choose]
+measurand = "laser_z"
+target = "5 um"
+[choose.variables]
+rod_radius = ["4.9 mm"]
+[choose.time]
+per_reading = "1 s"
+"""
+
+# (scenario, what is replaced or None for appending, by what, words of the message)
+CHECKED = [
+    # uncertainties
+    (SCENARIO, PLAIN, 'value = "mm"', "it does not begin with a number"),
+    (SCENARIO, PLAIN, 'value = "5,3 mm"', "the decimal sign must be a point"),
+    (SCENARIO, PLAIN, 'value = "5_3 mm"', "only one number may stand here"),
+    (SCENARIO, PLAIN, 'value = "1e999 mm"', "too large or too small"),
+    (SCENARIO, PLAIN, 'value = "5 mm"\nhalf_width = "1 um"\nlow = "4 mm"\ndistribution = "rectangular"',
+     "half_width is given together with low or high"),
+    (SCENARIO, PLAIN, 'value = "5 mm"\ndistribution = "rectangular"', "Give half_width, or low and high."),
+    (SCENARIO, PLAIN, 'distribution = "discrete"\nvalues = ["5 mm", "6 mm"]', 'use distribution = "empirical" for equal ones'),
+    (SCENARIO, PLAIN, 'distribution = "discrete"\nvalues = ["5 mm", "6 mm"]\nprobabilities = [1]', "probabilities for 2 values"),
+    (SCENARIO, PLAIN, 'distribution = "discrete"\nvalues = ["5 mm", "6 mm"]\nprobabilities = [0.5, 0.6]',
+     "the probabilities add up to"),
+    (SCENARIO, PLAIN, 'value = "5 mm"\ndistribution = "normal"', "Give u, or U with k."),
+    (SCENARIO, PLAIN, 'components = [ { name = "x" } ]', "the distribution is missing"),
+    (SCENARIO, PLAIN, 'observations = ["5 mm", "5.1 mm"]\nu = "1 um"', "together with another statement of uncertainty"),
+    (SCENARIO, PLAIN, 'source = "a guess"', "neither a value nor an uncertainty is given"),
+    (SCENARIO, PLAIN, 'value = "5 mm"\ndistribution = "rectangular"\nhalf_width = "6 mm"', "the distribution reaches -1"),
+    (SCENARIO, PLAIN, 'value = true', "is not a length"),
+    (SCENARIO, PLAIN, 'value = "5 mm"\nunit = "s"', "'s' is not a length"),
+    # readings and their noise
+    (SCENARIO, 'repeatability = { s = "0.4 um", degrees_of_freedom = 24 }', 'repeatability = "often"', "not understood"),
+    (SCENARIO, 'repeatability = { s = "0.4 um", degrees_of_freedom = 24 }', 'repeatability = { pooled = true, s = "1 um" }',
+     "s is given together with pooled"),
+    (SCENARIO, 'repeatability = { s = "0.4 um", degrees_of_freedom = 24 }', 'repeatability = { pooled = 1 }',
+     "expected true or false"),
+    (ROWS, '"-329.932 mm", "-329.931 mm"] }', '"-329.932 mm"], repeats = 2 }', "repeats is given together with values"),
+    (ROWS, "rows = [", 'readings = ["1 mm"]\nrows = [', "readings is given together with rows"),
+    (ROWS, '{ rod = "b",', '{ reading = "b",', "'reading' cannot be a label"),
+    (DATA, 'labels = { rod = "rod" } }', 'where = { rod = "a" } }', "is not a label of these readings"),
+    (DATA, ', labels = { rod = "rod" } }', ' }\nlabels = { rod = "a" }', "the labels of a data file are its columns"),
+    (DATA, 'labels = { rod = "rod" } }', 'conditions = { fed = { column = "z" } } }', "rod_gauging has no condition 'fed'"),
+    (DATA, 'labels = { rod = "rod" } }', 'conditions = { feed = { column = "z", unit = "mm" } } }', "'mm' is not a speed"),
+    (DATA, ', labels = { rod = "rod" } }', ' }\n[conditions]\nfeed = ["1 mm/min", "2 mm/min"]', "conditions are listed, one per reading"),
+    (ROWS, None, '[quantities.beam_yaw.by.rod.a.by.rod.b]\nvalue = "0 deg"\n', "is nested within itself"),
+    (ROWS, None, '[quantities.beam_yaw]\nvalue = "0 deg"\nu = "1 deg"\nper = "rood"\n', "Did you mean 'rod'?"),
+    (SPHERE, None, "", "lacks an indication"),
+    # correlations
+    (SCENARIO, None, CORRELATED, "give either coefficient or matrix"),
+    (SCENARIO, None, CORRELATED + "matrix = [[1, 0.5], [0.4, 1]]\n", "correlations are symmetric"),
+    (SCENARIO, None, CORRELATED.replace(', "beam_pitch"', "") + "coefficient = 0.5\n", "two quantities or more"),
+    (SCENARIO, None, '[quantities.beam_yaw]\nu = "1 deg"\n' + CORRELATED.replace('"beam_pitch"', '"beam_pitch", "beam_yaw"')
+     + "coefficient = 0.5\n", "one coefficient for 3 quantities"),
+    (SCENARIO, None, CORRELATED.replace('"beam_pitch"', '"rod_radius"') + "coefficient = 0.5\n", "is named twice"),
+    (SCENARIO, None, (CORRELATED + "coefficient = 0.5\n") * 2, "is already part of another correlation"),
+    (ROWS, None, '[quantities.rod_length.by.rod]\na = { value = "1 mm", u = "1 um" }\nb = { value = "1 mm", u = "1 um" }\n'
+     + CORRELATED.replace("rod_radius", "rod_length").replace("beam_pitch", "rod_length[rod a]") + "coefficient = 0.5\n", "has several draws"),
+    (SCENARIO.replace(PLAIN, 'distribution = "discrete"\nvalues = ["5 mm", "6 mm"]\nprobabilities = [0.5, 0.5]'), None,
+     CORRELATED.replace("copula", "spearman") + "coefficient = 0.5\n", "needs continuous distributions"),
+    # run, analysis, estimate, trace
+    (SCENARIO, None, '[run]\ndesign = "sobol"\nadaptive = { rule = "stein" }\n', "adaptive runs need independent samples"),
+    (SCENARIO, None, '[analysis]\ncomparisons = [ { measurand = "laser_z", between = "rod", within = "rod" } ]\n', "are the same label"),
+    (SCENARIO, None, "[analysis]\nsensitivity = { second_order = true }\n", "needs a base size"),
+    (SCENARIO, None, '[analysis]\njoint = "laser_z"\n', "expected an array"),
+    (SCENARIO, None, '[analysis]\njoint = [["laser_z"]]\n', "each group needs two measurands or more"),
+    (SCENARIO, None, '[analysis]\njoint = [["laser_z", "laser_zz"]]\n', "measurand here"),
+    (SCENARIO, None, '[[analysis.one_at_a_time]]\ntitle = "x"\nsteps = { rod_radius = "0 mm" }\n', "the step of rod_radius is zero"),
+    (SCENARIO, None, '[[analysis.conformity]]\nmeasurand = "laser_z"\n', "no tolerance limit"),
+    (SCENARIO, None, '[[analysis.conformity]]\nmeasurand = "laser_z"\nlower = "2 mm"\nupper = "1 mm"\n', "lower must be below upper"),
+    (SCENARIO, None, '[[analysis.conformity]]\nmeasurand = "laser_z"\nlower = "2 mm"\nguard_factor = 1\nguard_band = "1 um"\n',
+     "guard_factor"),
+    (SCENARIO, None, '[[analysis.conformity]]\nmeasurand = "laser_z"\nlower = "2 mm"\nprocess = "2 mm"\n', "must be one distribution"),
+    (SCENARIO, None, "[estimate]\nwidth = 1\n", "the squared loss has no width"),
+    (ROWS, None, '[trace]\nblocks = "setup"\nfinal = []\n', "the last quarter of the blocks"),
+    (ROWS.replace('rod = "b", setup = "1"', 'rod = "b"'), None, '[trace]\nblocks = "setup"\n', "a reading has no label 'setup'"),
+    (ROWS, None, "[trace]\nredone = [[]]\n", "an act has labels"),
+    (SCENARIO, None, '[stated_effects.film]\nunit = "degC"\nformula = "feed"\n', "has a zero of its own"),
+    (SCENARIO, None, '[stated_effects.film]\nunit = "um*s"\nformula = "1 / time"\nsize = { value = "1 um*s" }\n', "no finite value at reading 1"),
+    # formulas, programs, machines
+    (FORMULA, 'y = "a + b"', "", "no formula"),
+    (FORMULA, 'y = "a + b"', 'y = "(a b"', "an operator or ')' is missing before 'b'"),
+    (FORMULA, None, '[conditions]\na = "1 mm"\n', "a name means one thing"),
+    (FORMULA, 'y = "a + b"', 'y = { formula = "a + b", unit = "s" }', "unit: 's' is not"),
+    (COMMAND, 'y = "mm"', "", "there is nothing to evaluate"),
+    (COMMAND, 'y = "mm"', '"y,z" = "mm"', "cannot be a column"),
+    ('schema = 1\n[model]\nname = "sphere_probing"\n[machine]\nworkpiece_side = ["C"]\ntool_side = ["X", "Y"]\n', None, "",
+     "three slides bring the tip to the sphere"),
+    ('schema = 1\n[model]\nname = "sphere_probing"\n[machine]\nworkpiece_side = [{ axis = "X", sense = 2 }]\ntool_side = ["Y", "Z"]\n',
+     None, "", "is neither 1 nor -1"),
+    ('schema = 1\n[model]\nname = "sphere_probing"\n[machine]\nworkpiece_side = [{ axis = "X", kind = "rotary" }]\ntool_side = ["Y", "Z"]\n',
+     None, "", "X, Y, Z, U, V, W are linear"),
+    # choices
+    (CHOOSE, "readings = [1, 2, 3]", "readings = [1, 1]", "stands twice"),
+    (CHOOSE, "readings = [1, 2, 3]", 'evaluation = { low = "1", high = "2" }', "evaluations are listed"),
+    (CHOOSE, 'low = "10 mm/min"', 'low = "0 mm/min"', "not above 0"),
+    (CHOOSE, "[choose.variables]\n", '[choose.variables]\nevaluation = ["fast"]\n', "has no evaluation 'fast'"),
+    (CHOOSE, CHOOSE[CHOOSE.index("feed = {"):CHOOSE.index("[choose.time]")], "", "nothing to choose from"),
+    (CHOOSE, 'feed = "10 mm/min"', 'feed = ["10 mm/min", "20 mm/min"]', "it differs between the readings"),
+    (CHOOSE, 'feed = "10 mm/min"', 'feed = ["10 mm/min", "20 mm/min"]', "the readings are listed"),
+    (ROD_CHOICE, '["4.9 mm"]', '["-5 mm"]', "outside the limits of rod_radius"),
+    (CHOOSE, 'feed = "10 mm/min"', 'feed = { spread = ["10 mm/min", "20 mm/min"], readings = 1 }', "it is spread over the readings"),
+    (CHOOSE, 'way = "5 mm"', 'way = "nan mm"', "not finite"),
+]
+
+
+class Messages(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.file = pathlib.Path(self.folder.name) / "s.toml"
+        (self.file.parent / "z.csv").write_text("z,rod\n-329.932,a\n-329.931,b\n")
+
+    def test_the_bases_are_good(self):  # or the mistakes below would prove nothing
+        for text in (SCENARIO, ROWS, DATA, FORMULA, CHOOSE):
+            self.file.write_text(text)
+            self.assertEqual(gumshoe("check", self.file).stderr, "")
+
+    def test_scenarios(self):
+        for text, old, new, words in CHECKED:
+            with self.subTest(words, new=new):
+                self.assertTrue(old is None or old in text)
+                self.file.write_text(text + new if old is None else text.replace(old, new, 1))
+                run = gumshoe("check", self.file)
+                self.assertIsNone(complaint(run), run.stderr)
+                self.assertIn(words, run.stderr)
+
+    def refused(self, text, command, words):
+        self.file.write_text(text)
+        out = self.file.parent / "never.h5"
+        run = gumshoe(*(self.file if w == "S" else out if w == "O" else w for w in command))
+        self.assertIsNone(complaint(run), run.stderr)
+        self.assertIn(words, run.stderr)
+
+    def test_tables(self):
+        table = self.file.parent / "t.csv"
+        for model, header, more, words in [
+            ("rod_gauging", "spindle_z (mm),laser_z (mm)", [], "is what the indications are evaluated for"),
+            ("sphere_calibration", "X (mm)", [], "the other indications are given"),
+            ("sphere_calibration", "sphere_distance (mm)", ["--evaluation", "joint"], "no column of readings"),
+            ("rod_gauging", "spindle_z (mm)", ["--evaluation", "full", "--out", "none/x.csv"], "cannot be written"),
+        ]:
+            with self.subTest(words):
+                table.write_text(header + "\n" + ",".join(["1"] * (header.count(",") + 1)) + "\n")
+                run = gumshoe("evaluate", model, "--table", table, *more)
+                self.assertIsNone(complaint(run), run.stderr)
+                self.assertIn(words, run.stderr)
+
+    def test_commands(self):
+        fit = FORMULA + '[model.indications]\nz = "a * 2"\n[indications.z]\nreadings = ["2 mm"]\n'
+        for text, command, words in [
+            (fit.replace('[model.measurands]\ny = "a + b"\n', "").replace('[quantities]\n', '').replace(
+                'a = {', '[quantities]\na = {'), ["run", "S", "--out", "O"], "nothing is measured"),
+            (SCENARIO, ["run", "S", "--out", "O" * 300], "too long"),
+            (SCENARIO, ["estimate", "S"], "no quantity is marked estimated"),
+            (fit.replace('a = { value = "1 mm", u = "1 um" }', 'a = { value = "1 mm", u = "1 um", estimated = true }'),
+             ["estimate", "S"], "their own noise"),
+            (fit.replace('readings = ["2 mm"]', 'readings = ["2 mm"]\nrepeatability = { s = "1 um" }').replace('a = { value = "1 mm", u = "1 um" }', 'a = { value = "1 mm", u = "1 um", estimated = true }')
+             + '[[expected]]\nfigure = "fit.mien"\nvalue = 1\nsource = "x"\n', ["gauge", "S"], "figure of this fit"),
+            (fit.replace('a = { value = "1 mm", u = "1 um" }', 'a = { value = "1 mm", estimated = true }')
+             .replace('b = { value = "2 mm", u = "1 um" }', 'b = { value = "2 mm", estimated = true }'), ["estimate", "S"], "cannot determine"),
+            (SCENARIO + '[[expected]]\nfigure = "mien"\nof = "laser_z"\nvalue = 1\nsource = "x"\n', ["gauge", "S"], "figure of this result"),
+            (CHOOSE.replace('way = "5 mm"', 'way = "-5 m"'), ["choose", "S", "--out", "O"], "the time is negative"),
+            (CHOOSE.replace("steps = 5", "steps = 1000").replace("readings = [1, 2, 3]", f"readings = {list(range(1, 1001))}"),
+             ["choose", "S", "--out", "O"], "combinations"),
+        ]:
+            with self.subTest(words):
+                self.refused(text, command, words)
+
+
+if __name__ == "__main__":
+    unittest.main()
