@@ -23,6 +23,13 @@ bool same(double a, double b) {
 /// What is small for a quantity of this unit whose value is 0.
 double small(std::string_view si_unit) { return si_unit == "m" ? 1e-4 : si_unit == "rad" ? 5e-3 : 1e-3; }
 
+/// A number of things: 1 to 12.
+bool counts(const QuantityCard& q) {
+  const auto whole = [](double x) { return x == std::floor(x); };
+  return q.si_unit == "1" && q.limits.high - q.limits.low > 1 && q.limits.high - q.limits.low <= 1000 &&
+         whole(q.limits.low) && whole(q.limits.high) && whole(q.default_value);
+}
+
 template <class T>
 models::PointCall<T> call_of(const Subject& s, std::span<const effects::Active> active, const std::vector<T>& x,
                              const Point& p) {
@@ -37,8 +44,10 @@ models::PointCall<T> call_of(const Subject& s, std::span<const effects::Active> 
 }
 
 /// Derivatives by eight variables a pass.
-template <class Solve> Derived derive(std::size_t variables, std::size_t outputs, const Point& p, const Solve& solve) {
+template <class Solve> Derived derive(std::size_t variables, std::span<const VariableCard> cards, const Point& p, const Solve& solve) {
+  const std::size_t outputs = cards.size();
   Derived out;
+  out.cards = cards;
   out.derivatives.assign(outputs, std::vector<double>(variables));
   for (std::size_t first = 0; first < std::max<std::size_t>(variables, 1); first += 8) {
     std::vector<Gradient> x(p.x.begin(), p.x.end()), y(outputs);
@@ -127,7 +136,9 @@ Point Subject::random(const Point& around, Draw& draw, bool with_effects) const 
                                                                     : draw(-0.1, 0.1);
     propose(p.conditions[c], proposed);
   }
-  for (std::size_t i = 0; i < first_effect(); ++i) propose(p.x[i], p.x[i] + draw(-1, 1) * spread(i, p));
+  for (std::size_t i = 0; i < first_effect(); ++i)
+    propose(p.x[i], counts(*cards_[i]) ? std::floor(draw(cards_[i]->limits.low, cards_[i]->limits.high + 1))
+                                       : p.x[i] + draw(-1, 1) * spread(i, p));
   for (std::size_t i = first_effect(); with_effects && i < first_indication(); ++i) {
     const QuantityCard& q = *cards_[i];
     const double to = typical(q), share = draw(0.3, 1);
@@ -191,7 +202,7 @@ std::vector<Outcome> Subject::run(const std::vector<Point>& points, bool simulat
 }
 
 Derived Subject::simulate_gradient(const Point& p) const {
-  return derive(first_indication(), model_.card->indications.size(), p, [&](const auto& x, auto& y) {
+  return derive(first_indication(), model_.card->indications, p, [&](const auto& x, auto& y) {
     auto call = call_of(*this, active_, x, p);
     call.simulated = y.data();
     return model_.simulate_gradient(call);
@@ -199,7 +210,7 @@ Derived Subject::simulate_gradient(const Point& p) const {
 }
 
 Derived Subject::evaluate_gradient(const Point& p) const {
-  return derive(size(), model_.card->measurands.size(), p, [&](const auto& x, auto& y) {
+  return derive(size(), model_.card->measurands, p, [&](const auto& x, auto& y) {
     auto call = call_of(*this, active_, x, p);
     call.measurands = y.data();
     return model_.evaluate_gradient(call);
@@ -224,14 +235,19 @@ std::vector<std::vector<double>> Subject::curvature(const Point& p, const std::v
   return out;
 }
 
-std::vector<double> Subject::rounding(const Derived& evaluated, const Point& p) const {
+std::vector<double> Subject::rounding(const Derived& outputs, const Point& p) const {
   std::vector<double> out;
-  for (std::size_t o = 0; o < evaluated.values.size(); ++o) {
-    double sum = std::fabs(evaluated.values[o]);
-    for (std::size_t i = 0; i < p.x.size(); ++i) sum += std::fabs(evaluated.derivatives[o][i] * p.x[i]);
+  for (std::size_t o = 0; o < outputs.values.size(); ++o) {
+    double sum = std::fabs(outputs.values[o]);
+    for (std::size_t i = 0; i < outputs.derivatives[o].size(); ++i)
+      sum += std::fabs(outputs.derivatives[o][i] * p.x[i]);
     out.push_back(roundings * sum);
   }
-  return out;
+  std::vector<double> largest = out;
+  for (std::size_t a = 0; a < out.size(); ++a)
+    for (std::size_t b = 0; b < out.size(); ++b)
+      if (outputs.cards[a].si_unit == outputs.cards[b].si_unit) largest[a] = std::max(largest[a], out[b]);
+  return largest;
 }
 
 } // namespace gumshoe::contracts

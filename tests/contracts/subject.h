@@ -35,6 +35,7 @@ struct Outcome {
 /// Outputs at one point and their derivatives by every element of Point::x, of which indications have none where they
 /// are simulated: derivatives[output][variable].
 struct Derived : Outcome {
+  std::span<const VariableCard> cards; ///< of the outputs
   std::vector<std::vector<double>> derivatives;
 };
 
@@ -75,8 +76,9 @@ public:
   /// Second derivatives of the measurands by eight variables: [output][8 * a + b].
   std::vector<std::vector<double>> curvature(const Point& p, const std::vector<std::size_t>& by) const;
 
-  /// What rounding does to each evaluated measurand: 64 roundings of its value and of every contribution c_i x_i.
-  std::vector<double> rounding(const Derived& evaluated, const Point& p) const;
+  /// What rounding does to each output: 64 roundings of its value and of every contribution c_i x_i. An output that is
+  /// small because large ones cancel rounds as those do: the largest of all outputs of its unit counts.
+  std::vector<double> rounding(const Derived& outputs, const Point& p) const;
 
 private:
   std::vector<Outcome> run(const std::vector<Point>& points, bool simulating) const;
