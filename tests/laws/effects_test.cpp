@@ -78,18 +78,3 @@ TEST_CASE("run-out turns with the holder, an offset does not", "[effects]") {
 TEST_CASE("a longer seat raises the reading", "[effects]") {
   REQUIRE(shift("reclamp", {3 * um}, slow) == Approx(3 * um).epsilon(1e-8));
 }
-
-TEST_CASE("every card states stage, null and limits that hold the null", "[contracts][effects]") {
-  for (const EffectCard* card : effects::cards()) {
-    INFO(card->name);
-    CHECK_FALSE(card->meaning.empty());
-    CHECK_FALSE(card->source.empty());
-    bool amplitude = false;
-    for (const QuantityCard& q : card->quantities) {
-      CHECK(q.limits.contain(q.default_value));
-      amplitude |= q.role == Role::amplitude || q.role == Role::pair;
-      if (q.role == Role::amplitude || q.role == Role::pair) CHECK(q.default_value == 0);
-    }
-    CHECK(amplitude);
-  }
-}

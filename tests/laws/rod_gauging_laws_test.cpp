@@ -14,7 +14,7 @@ namespace {
 
 constexpr double deg = std::numbers::pi / 180;
 
-/// Random rods and beams, thin pins and tilts included, and all effects at random sizes.
+/// Random rods and beams, thin pins and tilts included.
 struct Draw {
   std::mt19937_64 engine{20240214};
   double operator()(double low, double high) {
@@ -29,44 +29,17 @@ std::vector<double> random_quantities(Draw& draw) {
           draw(1e-4, 4e-4), draw(0.2, 0.6),      draw(-0.6, 0.1)};
 }
 
-/// Those that a rod can carry.
-std::vector<std::size_t> applicable() {
-  std::vector<std::size_t> found;
-  for (std::size_t e = 0; e < effects::cards().size(); ++e)
-    if (effects::applies(*models::find("rod_gauging")->card, *effects::cards()[e])) found.push_back(e);
-  REQUIRE(found.size() == 8);
-  return found;
-}
-std::vector<effects::Active> all_effects() {
-  std::vector<effects::Active> active;
-  std::size_t at = 0;
-  for (const std::size_t e : applicable()) {
-    active.push_back({e, at});
-    at += effects::cards()[e]->quantities.size();
-  }
-  return active;
-}
-std::vector<double> null_values() {
-  std::vector<double> values;
-  for (const std::size_t e : applicable())
-    for (const QuantityCard& q : effects::cards()[e]->quantities) values.push_back(q.default_value);
-  return values;
-}
-
-/// One reading of n samples through the block kernels.
+/// One reading of n samples, simulated through the block kernel.
 struct Run {
   std::vector<double> simulated, bottom, laser;
   std::vector<std::uint8_t> status;
-  Run(const std::vector<std::vector<double>>& q, const std::vector<double>& e,
-      const std::vector<effects::Active>& active, const std::vector<double>* readings,
-      std::vector<double> condition = {0.01, 600, -1}) {
+  explicit Run(const std::vector<std::vector<double>>& q) {
     const std::size_t n = q[0].size();
     simulated.resize(n), bottom.resize(n), laser.resize(n), status.assign(n, 0);
-    std::vector<models::Column> quantities, effect_columns, conditions;
+    const double condition[] = {0.01, 600, -1};
+    std::vector<models::Column> quantities, conditions;
     for (const auto& column : q) quantities.push_back({column.data(), 1});
-    for (const double& x : e) effect_columns.push_back({&x, 0});
     for (const double& x : condition) conditions.push_back({&x, 0});
-    models::Column indication{readings ? readings->data() : nullptr, 1};
     double* measurands[] = {bottom.data(), laser.data()};
     double* out[] = {simulated.data()};
     const std::size_t itself = 0;
@@ -74,17 +47,12 @@ struct Run {
     call.samples = n;
     call.readings = 1;
     call.quantities = quantities.data();
-    call.effects = effect_columns.data();
-    call.effect_quantities = e.size();
-    call.active = active;
     call.conditions = conditions.data();
-    call.indications = &indication;
     call.simulated = out;
     call.measurands = measurands;
     call.solved_as = &itself;
     call.status = status.data();
-    const auto* kernels = models::find("rod_gauging")->kernels();
-    (readings ? kernels->evaluate : kernels->simulate)(call);
+    models::find("rod_gauging")->kernels()->simulate(call);
   }
 };
 
@@ -100,41 +68,9 @@ std::vector<std::vector<double>> random_columns(std::size_t n) {
 
 } // namespace
 
-TEST_CASE("evaluate undoes simulate, with every effect active", "[laws][rod_gauging]") {
-  const auto q = random_columns(4096);
-  Draw draw;
-  std::vector<double> e;
-  for (const std::size_t effect : applicable())
-    for (const QuantityCard& quantity : effects::cards()[effect]->quantities)
-      e.push_back(quantity.role == Role::shape ? quantity.default_value : draw(0.01, 0.05) * quantity.limits.high);
-  const auto active = all_effects();
-  const Run there(q, e, active, nullptr);
-  const Run back(q, e, active, &there.simulated);
-  std::size_t valid = 0;
-  for (std::size_t i = 0; i < 4096; ++i) {
-    REQUIRE(there.status[i] == back.status[i]);
-    if (there.status[i] != 0) continue;
-    ++valid;
-    // Sums of numbers below 1 m: a few roundings of 1.1e-16.
-    REQUIRE(std::fabs(back.laser[i] - q[rod::laser_z][i]) < 2e-15);
-    REQUIRE(back.bottom[i] == there.bottom[i]);
-  }
-  REQUIRE(valid > 2000);
-}
-
-TEST_CASE("effects at null change nothing, bit for bit", "[laws][effects]") {
-  const auto q = random_columns(2048);
-  const Run without(q, {}, {}, nullptr);
-  const Run with(q, null_values(), all_effects(), nullptr);
-  for (std::size_t i = 0; i < 2048; ++i) {
-    REQUIRE(without.status[i] == with.status[i]);
-    if (without.status[i] == 0) REQUIRE(without.simulated[i] == with.simulated[i]);
-  }
-}
-
 TEST_CASE("lanes give the bits of the scalar solve", "[laws][rod_gauging]") {
   const auto q = random_columns(4096);
-  const Run run(q, {}, {}, nullptr);
+  const Run run(q);
   for (std::size_t i = 0; i < 4096; ++i) {
     const auto v = [&](int j) { return q[static_cast<std::size_t>(j)][i]; };
     const auto one = models::rod_gauging::trigger_height(
@@ -220,48 +156,6 @@ TEST_CASE("wide pins and ball ends in closed form", "[references][shadow]") {
   REQUIRE(models::rod_gauging::trigger_height({a, 0, std::numbers::pi / 2, 0}, {0, 0, R, most - 1e-6}).status == Status::ok);
   REQUIRE(models::rod_gauging::trigger_height({a, 0, std::numbers::pi / 2, 0}, {0, 0, R, most + 1e-6}).status ==
           Status::never_covered);
-}
-
-TEST_CASE("derivatives agree with differences, second ones with differences of first", "[laws][rod_gauging]") {
-  const auto* model = models::find("rod_gauging");
-  Draw draw;
-  const double feed[] = {0.01, 600, -1};
-  int compared = 0;
-  for (int i = 0; i < 60; ++i) {
-    auto q = random_quantities(draw);
-    const auto gradient_at = [&](const std::vector<double>& at, int first) {
-      std::vector<models::Gradient> x(at.begin(), at.end());
-      for (int j = first; j < std::min<int>(first + 8, rod::count); ++j)
-        x[static_cast<std::size_t>(j)] = models::Gradient::variable(at[static_cast<std::size_t>(j)], j - first);
-      models::Gradient reading(0.0), y[2];
-      models::PointCall<models::Gradient> call;
-      call.quantities = x.data();
-      call.effects = x.data();
-      call.conditions = feed;
-      call.indications = &reading;
-      call.measurands = y;
-      const auto outcome = model->evaluate_gradient(call);
-      return std::pair{y[0], outcome};
-    };
-    const auto [value, outcome] = gradient_at(q, 0);
-    if (outcome.status != 0 || outcome.kink) continue;
-    for (std::size_t j : {0u, 1u, 2u, 3u, 6u, 7u}) {
-      // Central differences of an exact solver: error h^2 f'''/6 + 1e-16/h; h = 1e-5 of the quantity's scale.
-      const double h = 1e-5 * (j < 2 ? q[0] : 1.0);
-      auto up = q, down = q;
-      up[j] += h, down[j] -= h;
-      if (j == 1 && (down[1] < 0 || up[1] > q[0])) continue;
-      const auto above = gradient_at(up, 0), below = gradient_at(down, 0);
-      if (above.second.status != 0 || below.second.status != 0) continue;
-      const double difference = (above.first.v - below.first.v) / (2 * h);
-      const double scale = std::fabs(difference) + (j < 2 ? 1e-2 : 1e-5);
-      INFO("case " << i << " quantity " << j << " dual " << value.d[j] << " difference " << difference);
-      if (std::fabs(above.first.d[j] - below.first.d[j]) > 1e-2 * scale) continue; // a kink or a steep bend between
-      CHECK(std::fabs(value.d[j] - difference) < 1e-3 * scale);
-      ++compared;
-    }
-  }
-  REQUIRE(compared > 150);
 }
 
 TEST_CASE("the aligned square rod has a kink in pitch", "[rod_gauging]") {

@@ -137,37 +137,6 @@ TEST_CASE("lanes, scalars and dual numbers give the same bits", "[laws][sphere_c
   }
 }
 
-TEST_CASE("derivatives agree with differences", "[laws][sphere_calibration]") {
-  const auto* model = models::find("sphere_calibration");
-  Draw draw;
-  for (int i = 0; i < 10; ++i) {
-    const auto q = random_quantities(draw);
-    const auto condition = random_condition(draw);
-    for (std::size_t first = 0; first < sphere::count; first += 8) {
-      std::vector<models::Gradient> x(q.begin(), q.end());
-      const std::size_t n = std::min<std::size_t>(8, sphere::count - first);
-      for (std::size_t j = 0; j < n; ++j) x[first + j] = models::Gradient::variable(q[first + j], static_cast<int>(j));
-      models::Gradient out[3];
-      models::PointCall<models::Gradient> call;
-      call.quantities = x.data();
-      call.conditions = condition.data();
-      call.simulated = out;
-      REQUIRE(model->simulate_gradient(call).status == 0);
-      for (std::size_t j = 0; j < n; ++j) {
-        // Central differences: third derivatives are below 2 m, so h^2 = 1e-10 of error, and 1e-15 / h of rounding.
-        const double h = 1e-5;
-        auto up = q, down = q;
-        up[first + j] += h, down[first + j] -= h;
-        const auto above = simulated(up, condition, 0), below = simulated(down, condition, 0);
-        for (std::size_t k = 0; k < 3; ++k) {
-          CAPTURE(first + j, k);
-          REQUIRE(std::fabs(out[k].d[j] - (above[k] - below[k]) / (2 * h)) < 2e-9);
-        }
-      }
-    }
-  }
-}
-
 TEST_CASE("the probe is linear in the seven lengths by the stated matrix", "[laws][sphere_calibration]") {
   Draw draw;
   for (int i = 0; i < 50; ++i) {

@@ -64,52 +64,6 @@ struct Study {
 
 } // namespace
 
-TEST_CASE("effects of the sphere at null change nothing, bit for bit", "[laws][effects][sphere_calibration]") {
-  Draw draw;
-  REQUIRE(applicable().size() == 25);
-  for (int n = 0; n < 100; ++n) {
-    const Grinder plain = Grinder::random(draw);
-    Grinder all = plain;
-    for (const int variant : {sphere::exact, sphere::small_angle}) {
-      const auto there = plain.commands(variant);
-      const Vector3<double> read{0.1, 0.2, 0.3};
-      const auto back = sphere::evaluate(read, plain.contact<double>(plain.values(), variant));
-      const auto compare = [&](const Grinder& g) {
-        REQUIRE(same(g.commands(variant), there));
-        REQUIRE(same(sphere::evaluate(read, g.contact<double>(g.values(), variant)), back));
-      };
-      all = plain;
-      for (const EffectCard* card : applicable()) {
-        INFO(card->name);
-        compare(plain.with(card->name));
-        all = all.with(card->name);
-      }
-      compare(all);
-    }
-  }
-}
-
-TEST_CASE("the sphere's evaluation undoes its simulation, each effect alone and all together",
-          "[laws][effects][sphere_calibration]") {
-  Draw draw;
-  const auto check = [&](const Grinder& g, const Grinder& plain) {
-    for (const int variant : {sphere::exact, sphere::small_angle}) {
-      const auto at = g.contact<double>(g.values(), variant);
-      // Lengths below 2 m, a few roundings more than without effects.
-      REQUIRE(distance(sphere::evaluate(sphere::simulate(at), at), at.tip) < 5e-15);
-    }
-    REQUIRE(distance(g.commands(), plain.commands()) > 1e-9); // not for nothing
-  };
-  for (int n = 0; n < 50; ++n) {
-    const Grinder plain = Grinder::random(draw).under({{sphere::B_clamped, 1}, {sphere::C_clamped, 1}});
-    for (const EffectCard* card : applicable()) {
-      INFO(card->name);
-      check(plain.with(card->name, some(*card, draw)), plain);
-    }
-    check(plain.with_all(draw), plain);
-  }
-}
-
 TEST_CASE("joint evaluations find the machine behind any effect", "[laws][effects][sphere_calibration]") {
   Draw draw;
   const auto check = [&](const Grinder& truth) {
@@ -133,38 +87,6 @@ TEST_CASE("joint evaluations find the machine behind any effect", "[laws][effect
   Grinder square = Grinder();
   for (const auto s : {sphere::S_XY, sphere::S_XZ, sphere::S_YZ}) square.q[s] = draw(-5e-5, 5e-5);
   check(square.with_all(draw));
-}
-
-TEST_CASE("derivatives by the sphere's effects agree with differences", "[laws][effects][sphere_calibration]") {
-  const auto* model = models::find("sphere_calibration");
-  Draw draw;
-  for (int n = 0; n < 10; ++n) {
-    const Grinder g = Grinder::random(draw).with_all(draw);
-    const auto v = g.values();
-    for (std::size_t j = 0; j < v.size(); ++j) {
-      std::vector<models::Gradient> x(v.begin(), v.end());
-      x[j] = models::Gradient::variable(v[j], 0);
-      models::Gradient out[3];
-      models::PointCall<models::Gradient> call;
-      call.quantities = x.data(), call.effects = x.data() + g.q.size(), call.active = g.active;
-      call.conditions = g.condition.data(), call.simulated = out;
-      REQUIRE(model->simulate_gradient(call).status == 0);
-      const auto at = [&](double value) {
-        auto moved = v;
-        moved[j] = value;
-        return sphere::simulate(g.contact<double>(moved));
-      };
-      // 1e-15 of rounding and h^2 of curvature; a rate or a time constant is measured in thousands of seconds.
-      const bool rate = j >= g.q.size() && std::fabs(v[j])<1e-7, time = std::fabs(v[j])> 100;
-      const double h = rate ? 1e-9 : time ? 0.1 : 1e-5;
-      const auto difference = 1 / (2 * h) * (at(v[j] + h) - at(v[j] - h));
-      CAPTURE(j, j - g.q.size());
-      const double tolerance = rate ? 1e-5 : 2e-9;
-      REQUIRE(std::fabs(out[0].d[0] - difference.x) < tolerance);
-      REQUIRE(std::fabs(out[1].d[0] - difference.y) < tolerance);
-      REQUIRE(std::fabs(out[2].d[0] - difference.z) < tolerance);
-    }
-  }
 }
 
 TEST_CASE("lanes and scalars give the same bits with every effect", "[laws][effects][sphere_calibration]") {

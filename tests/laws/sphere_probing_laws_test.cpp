@@ -160,25 +160,6 @@ TEST_CASE("commands of the published five-axis machines", "[laws][sphere_probing
   }
 }
 
-TEST_CASE("exact derivatives agree with differences", "[laws][sphere_probing]") {
-  Draw draw;
-  Case c(odd(), draw, 1e-3);
-  const auto read = c.simulated();
-  for (std::size_t j = 0; j < c.q.size(); ++j) {
-    CAPTURE(c.model->card->quantities[j].name);
-    const double h = 1e-5, at = c.q[j]; // third derivatives below 10 m: 1e-9; rounding 1e-15 / h = 1e-10
-    c.q[j] = at + h;
-    const auto s_up = c.simulated(), e_up = c.evaluated(read);
-    c.q[j] = at - h;
-    const auto s_down = c.simulated(), e_down = c.evaluated(read);
-    c.q[j] = at;
-    c.simulated(j);
-    for (std::size_t k = 0; k < 3; ++k) CHECK(std::fabs(c.exact[k].d[0] - (s_up[k] - s_down[k]) / (2 * h)) < 4e-9);
-    c.evaluated(read, j);
-    for (std::size_t k = 0; k < 3; ++k) CHECK(std::fabs(c.exact[k].d[0] - (e_up[k] - e_down[k]) / (2 * h)) < 4e-9);
-  }
-}
-
 TEST_CASE("blocks give the bits of points", "[laws][sphere_probing]") {
   Draw draw;
   Case c(odd(), draw, 1e-3);
