@@ -1,5 +1,5 @@
 #pragma once
-/// From samples to everything a run says.
+/// From the samples of a run to its results.
 #include <functional>
 #include <span>
 
@@ -8,19 +8,20 @@
 
 namespace gumshoe::analysis {
 
-/// Where the samples are: values of output row `o` over the whole run, NaN where failed.
+/// Access to the samples of a run, wherever they are kept. Values are SI, in sample order, NaN where a sample failed.
 struct Samples {
   std::function<std::vector<double>(std::size_t output)> values;
   std::function<std::vector<std::uint8_t>()> status;
-  /// The same where they are, if they are in memory; else empty, or unset.
+  /// The values of an output without a copy, if they are in memory; unset or empty otherwise.
   std::function<std::span<const double>(std::size_t output)> in_memory = {};
 };
 
-/// Summaries, budgets, validation, sensitivity, comparisons, printed values and statements.
+/// Everything that [analysis] asks for: summaries, budgets, validation of the GUM framework, sensitivity, conformity,
+/// comparisons, printed values, statements. The bits do not depend on the number of threads.
 Results analyse(const propagation::Experiment& experiment, const Samples& samples, int threads);
 
-/// The result in GUM words (7.2), one sentence or two, rounded by 7.2.6, in the unit shown to people.
-/// A GUM interval that the Monte Carlo method does not validate says so.
+/// The result as JCGM 100, 7.2 states one, in one or two sentences: rounded by 7.2.6, in the unit shown to people. It says
+/// where the Monte Carlo method does not validate the GUM interval.
 std::string statement(const Summary& summary, const Budget& budget, const Validation& validation,
                       double coverage_probability, bool virtual_experiment);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Differences between readings from joint samples, and printed values beside ours.
+/// Differences between readings, from joint samples, and published values compared with the computed ones.
 #include <vector>
 
 #include "analysis/results.h"
@@ -7,12 +7,16 @@
 
 namespace gumshoe::analysis {
 
-/// Every pair of readings that differ in `between` and agree in `within`. `values[output]` are the samples;
-/// empty vectors for outputs that no comparison needs.
+/// Compares every pair of readings whose labels differ in `between` and agree in `within` ([analysis] comparisons of the
+/// scenario): difference, its standard uncertainty from the joint samples, E_n.
+///
+/// @param values [output][sample], SI, NaN where a sample failed; may be empty for outputs that no comparison needs
+/// Source of E_n: ISO 13528, 9.7.
 std::vector<ComparisonResult> compare(const propagation::Experiment& experiment,
                                       const std::vector<std::vector<double>>& values,
                                       const std::vector<Summary>& summaries);
 
+/// The published values that the scenario lists under `printed`, each with our estimate of the same measurand.
 std::vector<PrintedResult> beside_printed(const propagation::Experiment& experiment,
                                           const std::vector<Summary>& summaries);
 

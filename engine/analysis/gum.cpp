@@ -94,66 +94,78 @@ void second_order(Budget& b, const propagation::Experiment& e, std::size_t readi
       std::sqrt(std::max(0.0, b.combined_standard_uncertainty * b.combined_standard_uncertainty + extra));
 }
 
+/// Derivatives at the estimates; says in the budget why there are none.
+Derivatives linearise(const propagation::Experiment& e, std::size_t reading, std::size_t measurand,
+                      const std::vector<double>& point, Budget& b) {
+  if (e.scenario().method == scenario::Method::virtual_experiment) {
+    b.applicable = false;
+    b.reason =
+        "a virtual experiment draws the truth and evaluates at the estimates: its inputs have no measurement model";
+    Derivatives none;
+    none.first.assign(point.size(), nan);
+    none.differentiable.assign(point.size(), true);
+    return none;
+  }
+  Derivatives d = differentiate(e, reading, measurand, point, false);
+  b.estimate = d.value;
+  if (d.status != 0) {
+    b.applicable = false;
+    b.reason = "the model has no value at the estimates";
+  }
+  return d;
+}
+
+/// The row of one variate, which is part of quantity q at the reading.
+Contribution contribution_of(const propagation::Experiment& e, std::size_t v, std::size_t q, double estimate,
+                             const Derivatives& d) {
+  const auto& variate = e.plan().variates[v];
+  const auto& quantity = e.scenario().quantities[variate.quantity];
+  const auto& component = quantity.entries[variate.entry].components[variate.component];
+  Contribution c;
+  c.name = variate.name;
+  c.quantity = quantity.name;
+  c.unit = quantity.unit;
+  c.si_unit = quantity.si_unit;
+  c.estimate = estimate;
+  const double u2 = variate.distribution.variance();
+  c.standard_uncertainty = std::isfinite(u2) ? std::sqrt(u2) : nan;
+  c.evaluation = component.evaluation;
+  c.distribution = family_name(variate.distribution.family);
+  c.degrees_of_freedom = component.degrees_of_freedom;
+  // The framework takes a Type A mean's s/sqrt(n) itself (GUM 4.2.3); the t's own, larger, standard
+  // deviation belongs to the Monte Carlo method (JCGM 101 6.4.9).
+  if (variate.distribution.family == quantities::Family::t) {
+    c.standard_uncertainty = variate.distribution.parameters[1];
+    c.degrees_of_freedom = variate.distribution.parameters[2];
+  }
+  c.differentiable = d.differentiable[q];
+  c.sensitivity = d.first[q];
+  c.contribution = std::fabs(d.first[q]) * c.standard_uncertainty;
+  c.monte_carlo_share = nan;
+  c.scope = scope_text(component);
+  c.source = component.source;
+  return c;
+}
+
 } // namespace
 
 Budget budget(const propagation::Experiment& e, std::size_t output, double coverage_probability) {
   Budget b;
   b.output = e.outputs()[output];
   b.monte_carlo_interactions = nan;
-  const auto& plan = e.plan();
   const std::size_t reading = b.output.reading, measurand = output % e.measurands().size();
   const auto point = e.point(reading);
-  const bool virtual_experiment = e.scenario().method == scenario::Method::virtual_experiment;
-  Derivatives d;
-  if (virtual_experiment) {
-    b.applicable = false;
-    b.reason =
-        "a virtual experiment draws the truth and evaluates at the estimates: its inputs have no measurement model";
-    d.first.assign(point.size(), nan);
-    d.differentiable.assign(point.size(), true);
-  } else {
-    d = differentiate(e, reading, measurand, point, false);
-    b.estimate = d.value;
-    if (d.status != 0) {
-      b.applicable = false;
-      b.reason = "the model has no value at the estimates";
-    }
-  }
+  const Derivatives d = linearise(e, reading, measurand, point, b);
 
   double variance = 0, cross = 0, satterthwaite = 0;
   bool correlated = false;
   std::vector<double> u_of_quantity(point.size(), 0.0), signed_contributions;
   const auto reached = variates_reaching(e, reading);
   for (const auto& [v, q] : reached) {
-    const auto& variate = plan.variates[v];
-    const auto& quantity = e.scenario().quantities[variate.quantity];
-    const auto& component = quantity.entries[variate.entry].components[variate.component];
-    Contribution c;
-    c.name = variate.name;
-    c.quantity = quantity.name;
-    c.unit = quantity.unit;
-    c.si_unit = quantity.si_unit;
-    c.estimate = point[q];
-    const double u2 = variate.distribution.variance();
-    c.standard_uncertainty = std::isfinite(u2) ? std::sqrt(u2) : nan;
-    c.evaluation = component.evaluation;
-    c.distribution = family_name(variate.distribution.family);
-    c.degrees_of_freedom = component.degrees_of_freedom;
-    // The framework takes a Type A mean's s/sqrt(n) itself (GUM 4.2.3); the t's own, larger, standard
-    // deviation belongs to the Monte Carlo method (JCGM 101 6.4.9).
-    if (variate.distribution.family == quantities::Family::t) {
-      c.standard_uncertainty = variate.distribution.parameters[1];
-      c.degrees_of_freedom = variate.distribution.parameters[2];
-    }
-    c.differentiable = d.differentiable[q];
-    c.sensitivity = d.first[q];
-    c.contribution = std::fabs(d.first[q]) * c.standard_uncertainty;
-    c.monte_carlo_share = nan;
-    c.scope = scope_text(component);
-    c.source = component.source;
+    const Contribution c = contribution_of(e, v, q, point[q], d);
     if (!c.differentiable && c.standard_uncertainty > 0) {
       b.applicable = false;
-      b.reason += (b.reason.empty() ? "no derivative at the estimate by " : ", ") + quantity.name;
+      b.reason += (b.reason.empty() ? "no derivative at the estimate by " : ", ") + c.quantity;
     }
     const double signed_contribution = c.differentiable && b.applicable ? d.first[q] * c.standard_uncertainty : 0;
     variance += signed_contribution * signed_contribution;
@@ -169,7 +181,7 @@ Budget budget(const propagation::Experiment& e, std::size_t output, double cover
   }
   for (std::size_t i = 0; i < reached.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
-      if (const double r = correlation_of(plan, reached[i].variate, reached[j].variate); r != 0) {
+      if (const double r = correlation_of(e.plan(), reached[i].variate, reached[j].variate); r != 0) {
         correlated = true;
         cross += 2 * r * signed_contributions[i] * signed_contributions[j];
       }

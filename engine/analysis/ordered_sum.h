@@ -6,7 +6,11 @@
 
 namespace gumshoe::analysis {
 
-/// Sum of term(i), i < n: over fixed leaves of 1,024 terms in order, then pairwise over the leaves' sums.
+/// Sum of term(i) for i < n; 0 if n is 0.
+///
+/// Leaves of 1,024 terms are summed in order, then the sums of the leaves pairwise, so that the rounding error grows with
+/// log n and the bits are those of any other block size or number of threads.
+/// Source: Higham, Accuracy and Stability of Numerical Algorithms, section 4.2.
 template <class Term> double ordered_sum(std::size_t n, const Term& term) {
   constexpr std::size_t leaf = 1024;
   std::vector<double> sums;

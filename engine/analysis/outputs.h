@@ -1,5 +1,5 @@
 #pragma once
-/// Which outputs a study means.
+/// The outputs that a study of the scenario refers to.
 #include <string>
 #include <vector>
 
@@ -7,7 +7,7 @@
 
 namespace gumshoe::analysis {
 
-/// Outputs of that measurand at readings with those labels (all readings if there are none), in order.
+/// Indices of the outputs of a measurand at the readings with these labels, ascending; all readings if no label is given.
 std::vector<std::size_t> outputs_named(const propagation::Experiment& experiment, const std::string& measurand,
                                        const quantities::Labels& labels);
 

@@ -1,7 +1,10 @@
 #pragma once
-/// The pick-freeze design: rows A and B of independent draws, AB_i = A with factor i from B, and BA_i = B with
-/// factor i from A; the model run for all of them, reduced to sums over groups of rows. A factor is a variate, or all
-/// variates of a quantity: Sobol' indices hold for groups as they do for single inputs.
+/// The pick-freeze design of Sobol' indices.
+///
+/// Rows A and B are independent draws; AB_i is A with factor i taken from B, and BA_i is B with factor i taken from A. The
+/// model runs for all of them, and its values are reduced to sums over groups of rows. A factor is one variate, or all
+/// variates of a quantity: Sobol' indices are defined for groups as they are for single inputs.
+/// Source: Saltelli et al. 2010, Computer Physics Communications 181.
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -11,21 +14,23 @@
 
 namespace gumshoe::analysis {
 
-/// How many rows make a group: about a thousand groups, enough to know a standard error within 3 %.
+/// Rows per group. There are about a thousand groups, enough to know a standard error within 3 %.
 std::size_t rows_per_group(std::uint64_t rows);
 
 /// reaches[output][variate]
 std::vector<std::vector<bool>> reaching_variates(const propagation::Experiment& experiment);
 
+/// What an index belongs to.
 struct Factor {
   std::string name;
   std::vector<std::size_t> variates;
 };
-/// By the scenario's choice: one per variate, or one per quantity that has any.
+/// One factor per variate, or one per quantity with `by = "quantity"` in the scenario.
 std::vector<Factor> factors(const propagation::Experiment& experiment);
 /// True if any variate of the factor reaches the output.
 bool reaches(const std::vector<bool>& variates, const Factor& factor);
 
+/// Sums over groups of rows: by output; by output and factor; by output and pair of factors.
 struct PickFreezeSums {
   std::uint64_t rows = 0;
   std::size_t outputs = 0, factors = 0, groups = 0;
@@ -45,8 +50,12 @@ struct PickFreezeSums {
   std::size_t pairs() const { return factors * (factors - 1) / 2; }
 };
 
-/// n rows, rounded up to a multiple of 64; n (d + 2) model runs for d factors, with `mirrored` n (2 d + 2). Outputs are taken from
-/// an origin near their mean. A row in which any run failed is left out of all sums.
+/// Runs the design and sums its values.
+///
+/// @param n        rows, rounded up to a multiple of 64; takes n (d + 2) model runs for d factors, n (2 d + 2) if mirrored
+/// @param mirrored with the rows BA_i, which second-order indices need
+/// @return         sums of outputs (SI) relative to an origin near their mean; a row in which any run failed is left out
+///                 of all sums
 PickFreezeSums run_pick_freeze(const propagation::Experiment& experiment, const std::vector<Factor>& factors,
                                std::uint64_t n, bool mirrored, int threads);
 

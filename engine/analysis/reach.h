@@ -1,5 +1,5 @@
 #pragma once
-/// Which variates reach a reading, and through which quantity.
+/// Which input draws (variates) the outputs of a reading depend on, and through which quantity.
 #include <vector>
 
 #include "propagation/experiment.h"
@@ -11,6 +11,8 @@ struct Reach {
   std::size_t quantity; ///< in whose column it is added, with slope one: place in Experiment::point
 };
 
+/// Every pair of a variate and the column that it is part of at a reading, in the order of the columns. A variate stands
+/// twice if it is part of two columns.
 inline std::vector<Reach> variates_reaching(const propagation::Experiment& e, std::size_t reading) {
   std::vector<Reach> found;
   const auto& columns = e.columns_at(reading);

@@ -1,6 +1,7 @@
 #pragma once
-/// Expanded uncertainty as a function of the standard uncertainties of the inputs, by Monte Carlo with common random
-/// numbers: a function of the scales, so that it can be solved.
+/// Expanded uncertainty of one output as a function of the standard uncertainties of its inputs, by Monte Carlo with common
+/// random numbers. With the draws held fixed it is a deterministic function of the scales, so that equations in it can be
+/// solved (analysis/target).
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -12,17 +13,21 @@ namespace gumshoe::analysis {
 
 class Trial {
 public:
-  /// Of one output; runs the model at that output's reading alone where the readings' labels allow it.
+  /// Prepares the draws for one output. Where all readings have the same kinds of labels, the model runs at the reading of
+  /// that output alone. Takes at most 100,000 samples.
   Trial(const propagation::Experiment& experiment, std::size_t output, int threads);
 
-  /// Variates, by name, that reach the output.
+  /// Indices of the input draws (variates) that the output depends on.
   const std::vector<std::size_t>& reaching() const { return reaching_; }
   const propagation::Experiment& experiment() const { return *experiment_; }
 
-  /// Half the symmetric coverage interval when the deviations of variate v from its mean are multiplied by scale[v];
-  /// infinite if more samples fail than the scenario allows.
+  /// Half the length of the probabilistically symmetric coverage interval, SI.
+  ///
+  /// @param scale by variate: factor on its deviations from its mean, 1 for the uncertainty as declared, 0 for none
+  /// @return      infinite if more samples fail than `max_failed_share` allows
   double expanded_uncertainty(const std::vector<double>& scale);
 
+  /// Samples per run, and model runs so far.
   std::size_t points() const { return points_; }
   std::size_t runs() const { return runs_; }
 

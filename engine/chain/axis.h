@@ -9,9 +9,10 @@
 
 namespace gumshoe::chain {
 
-/// Directions of linear errors first, then those of angular errors about X, Y, Z; error motions, then location errors.
+/// The errors of an axis: error motions along X, Y, Z (m) and about X, Y, Z (rad), then location errors in the same order.
 enum ErrorKind { E_X, E_Y, E_Z, E_A, E_B, E_C, E_X0, E_Y0, E_Z0, E_A0, E_B0, E_C0, error_kinds };
 
+/// One axis, as it is designed.
 struct Axis {
   std::string name;  ///< "X", "C", "C2"
   int direction = 0; ///< 0, 1, 2: moves along, or turns about, X, Y, Z
@@ -20,17 +21,19 @@ struct Axis {
   Vector3<double> point{}; ///< a design point on a rotary axis; of a linear one, where its angular errors act; m
 };
 
-/// Whether ISO 230-1 knows this error of such an axis: a line has no offset along itself, a slide no angle about
-/// itself.
+/// True if ISO 230-1 defines this error for such an axis. A rotary axis has no location error along its own line, a slide
+/// none across its direction and no angular one about it.
 constexpr bool has_error(const Axis& axis, int kind) {
   if (kind < E_X0) return kind >= 0;
   if (kind < E_A0) return axis.rotary != (kind - E_X0 == axis.direction);
   return kind < error_kinds && (axis.rotary || kind - E_A0 != axis.direction);
 }
 
-/// The average line's actual direction as a unit vector, from its design direction and its two orientation errors.
+/// Actual direction of the axis average line, a unit vector, from its design direction and its two orientation errors:
 ///     c ~ (tan E_B0C, -tan E_A0C, 1),  b ~ (-tan E_C0B, 1, tan E_A0B),  a ~ (1, tan E_C0A, -tan E_B0A)
-/// Other parametrisations differ in second order. @param orientation E_A0, E_B0, E_C0 in rad; the own one is not read
+/// Other parametrisations differ in second order.
+/// @param direction   0, 1, 2: X, Y, Z
+/// @param orientation E_A0, E_B0, E_C0, rad, below pi/2; the one about the axis itself is not read
 template <class T> Vector3<T> actual_direction(int direction, const T* orientation) {
   const auto slope = [&](int i) { return num::sin(orientation[i]) / num::cos(orientation[i]); };
   switch (direction) {
@@ -43,7 +46,7 @@ template <class T> Vector3<T> actual_direction(int direction, const T* orientati
   }
 }
 
-/// Where the component stands against the one before it, in coordinates of the machine frame at zero position.
+/// Pose of a component against the one that carries it, in coordinates of the machine frame at zero position.
 ///
 /// First the exact motion along or about the actual line, then the error motions: a rotation Rx Ry Rz by the three
 /// angular ones about the axis' point, as moved, and a shift by the three linear ones, all along the machine's axes.

@@ -13,6 +13,7 @@
 
 namespace gumshoe::chain {
 
+/// An axis as a person states it.
 struct AxisDescription {
   std::string name;              ///< X Y Z U V W linear, A B C rotary, a number may follow: "C2"
   std::string kind = {};         ///< "linear" or "rotary"; empty: as the letter says
@@ -28,30 +29,38 @@ struct MachineDescription {
   std::vector<std::pair<std::string, double>> errors = {}; ///< by ISO name, "E_A0C"; m or rad
 };
 
-/// Something wrong at a place: "tool_side[2].kind", "errors.E_A0D".
+/// Something wrong in a description. `place` names it as in a scenario: "tool_side[2].kind", "errors.E_A0D".
 struct DescriptionProblem {
   std::string place, what, why, remedy;
 };
+/// Everything that is wrong with a description; empty if it makes a machine.
 std::vector<DescriptionProblem> problems(const MachineDescription& description);
 
-/// "grinder": the six-axis belt grinder of Fang 2022, its links inferred; "RRTTT", "TTTRR", "RTTTR": two rotary axes
-/// in the head (A, B), two in the table (A, C), one in each (B, A), all through the origin (Wang 2013). Null if
-/// unknown.
+/// A machine by name; null if there is none.
+///
+/// - "grinder": the six-axis belt grinder of Fang 2022, chapter 4; its link lengths are inferred, not printed.
+/// - "RRTTT", "TTTRR", "RTTTR": five-axis machines with two rotary axes in the head (A, B), two in the table (A, C) or one
+///   in each (B, A), all through the origin. Source: Wang et al. 2013.
 const MachineDescription* find_machine(std::string_view name);
+/// All machines that find_machine knows.
 std::span<const MachineDescription> machines();
 
-/// "E_A0C": ISO's name of an error of an axis. @param kind ErrorKind
+/// Name of an error of an axis by ISO 230-1 and ISO 230-7: "E_A0C". @param kind ErrorKind
 std::string error_name(const Axis& axis, int kind);
 
-/// One error of one axis: a place in a row of errors.
+/// One error of one axis, and its place in the row of all errors of a machine.
 struct ErrorPlace {
   std::size_t axis;
   int kind;
   std::size_t index() const { return axis * error_kinds + static_cast<std::size_t>(kind); }
 };
 
-/// A machine that can be computed. Axes count from the workpiece side's first to the tool side's last, each side from
-/// the bed outwards; `commands` and `errors` (error_kinds per axis) stand in that order.
+/// A machine that can be computed.
+///
+/// Axes are numbered from the first of the workpiece side to the last of the tool side, each side from the bed outwards.
+/// `commands` (one per axis, m or rad) and `errors` (error_kinds per axis, in the order of ErrorKind, m or rad) stand in
+/// that order. Poses convert coordinates of the moving component's frame; with all axes at zero every frame is the machine
+/// frame. The mathematics is in chain/README.md.
 class Machine {
 public:
   /// Throws InputError with every problem of the description.
@@ -60,17 +69,20 @@ public:
   std::span<const Axis> axes() const { return axes_; }
   std::size_t on_workpiece_side() const { return on_workpiece_side_; } ///< how many of them, the first ones
   std::span<const double> errors() const { return errors_; }           ///< as described
-  /// SIZE_MAX if there is no such axis.
+  /// Number of the axis of this name; SIZE_MAX if there is none.
   std::size_t axis(std::string_view name) const;
-  /// "E_A0C" -> its place, if the machine has such an error.
+  /// Place of the error of this ISO name, "E_A0C"; empty if the machine has no such error.
   std::optional<ErrorPlace> error(std::string_view name) const;
 
+  /// Pose of the workpiece against the bed.
   template <class T> Pose<T> bed_from_workpiece(const T* commands, const T* errors) const {
     return along(0, on_workpiece_side_, commands, errors);
   }
+  /// Pose of the tool (spindle) against the bed.
   template <class T> Pose<T> bed_from_tool(const T* commands, const T* errors) const {
     return along(on_workpiece_side_, axes_.size(), commands, errors);
   }
+  /// Pose of the tool against the workpiece: what machining and probing depend on.
   template <class T> Pose<T> workpiece_from_tool(const T* commands, const T* errors) const {
     return inverse(bed_from_workpiece(commands, errors)) * bed_from_tool(commands, errors);
   }

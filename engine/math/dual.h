@@ -1,7 +1,12 @@
 #pragma once
-/// Dual numbers: exact derivatives by forward differentiation. `Dual<R, N>` carries a value and N
-/// partial derivatives; R may itself be a dual, which gives second derivatives. Small and nestable,
-/// where Ceres' Jet is neither; Jet stays inside the least-squares door.
+/// Dual numbers: exact derivatives by forward-mode automatic differentiation.
+///
+/// `Dual<R, N>` carries a value and its N partial derivatives. R is double, or a dual itself, which yields second
+/// derivatives: in Dual<Dual<double, N>, N> the entry x.d[i].d[j] is the second derivative with respect to variables i
+/// and j. A derivative has the unit of the value divided by that of the variable. They are small and nest, which Ceres'
+/// Jet does not; Jet stays inside math/least_squares.
+///
+/// Source: Griewank and Walther, Evaluating Derivatives, 2nd ed. 2008, chapter 3.
 #include <array>
 #include <cmath>
 #include <type_traits>
@@ -10,6 +15,8 @@
 
 namespace gumshoe {
 
+/// A value and its derivatives with respect to N independent variables. Constructed from a plain number it is a
+/// constant: all derivatives are zero.
 template <class R, int N> struct Dual {
   R v{};
   std::array<R, N> d{};
@@ -19,7 +26,7 @@ template <class R, int N> struct Dual {
   Dual(const Q& value) : v(value) {
     d.fill(R(0.0));
   }
-  /// The independent variable number i.
+  /// Independent variable i, 0 <= i < N, at `value`: its derivative with respect to itself is 1.
   static Dual variable(const R& value, int i) {
     Dual x;
     x.v = value;
@@ -29,13 +36,14 @@ template <class R, int N> struct Dual {
   }
 };
 
-/// f(a) with slope df: the chain rule, once.
+/// The chain rule for a function of one argument: value f and derivative df, both at a.
 template <class R, int N> Dual<R, N> chain_rule(const R& f, const R& df, const Dual<R, N>& a) {
   Dual<R, N> r;
   r.v = f;
   for (int i = 0; i < N; ++i) r.d[i] = df * a.d[i];
   return r;
 }
+/// The chain rule for a function of two arguments: value f and partial derivatives da, db, at (a, b).
 template <class R, int N>
 Dual<R, N> chain_rule(const R& f, const R& da, const Dual<R, N>& a, const R& db, const Dual<R, N>& b) {
   Dual<R, N> r;

@@ -1,6 +1,23 @@
 #pragma once
-/// Elementary functions of the whole range (elementary_lanes.h) for every scalar: double, Lanes, and dual numbers with
-/// exact derivatives. A double goes through a lane, so that scalar and batched runs give the same bits.
+/// Elementary functions over their whole range for every scalar: double, Lanes and nested dual numbers.
+///
+/// These are the functions that formulas of a scenario may call. The values are those of elementary_lanes.h; a double
+/// goes through a lane, so that scalar and batched runs give the same bits. Angles are in rad, all else is dimensionless
+/// or keeps the unit of its argument (abs, min, max, hypot, sqrt of a square).
+///
+/// | function                | domain                 | at its end                       |
+/// |-------------------------|------------------------|----------------------------------|
+/// | sin, cos, tan           | all finite arguments   | NaN for an infinite argument     |
+/// | asin, acos              | [-1, 1]                | NaN outside                      |
+/// | atan, sinh, cosh, tanh  | all                    | infinite where they overflow     |
+/// | exp                     | all                    | 0 below -708, infinite above 709 |
+/// | log, log10              | x > 0                  | -infinity at 0, NaN below        |
+/// | sqrt                    | x >= 0                 | NaN below                        |
+/// | pow(x, y)               | x > 0, or whole y      | NaN otherwise; pow(0, 0) = 1     |
+/// | atan2(y, x)             | all                    | 0 at the origin                  |
+///
+/// Errors are a few units in the last place. Derivatives follow the chain rule and are exact up to rounding; where a
+/// function has none (abs, min and max at a tie) they are those of the branch that is taken.
 #include "math/dual.h"
 #include "math/elementary_lanes.h"
 #include "math/scalar.h"
@@ -96,7 +113,7 @@ template <class R, int N> Dual<R, N> atan2(const Dual<R, N>& y, const Dual<R, N>
   const R n = 1.0 / (x.v * x.v + y.v * y.v);
   return chain_rule<R, N>(atan2(y.v, x.v), x.v * n, y, -(y.v * n), x);
 }
-/// At x <= 0 there is no derivative by the exponent; it counts as fixed there.
+/// For x <= 0 the derivative with respect to the exponent does not exist; the exponent is treated as constant there.
 template <class R, int N> Dual<R, N> pow(const Dual<R, N>& x, const Dual<R, N>& y) {
   const R p = pow(x.v, y.v);
   return chain_rule<R, N>(p, y.v * pow(x.v, y.v - 1.0), x, num::value(x) > 0 ? R(p * log(x.v)) : R(0.0), y);
@@ -105,7 +122,9 @@ template <class R, int N> Dual<R, N> hypot(const Dual<R, N>& x, const Dual<R, N>
   const R h = hypot(x.v, y.v);
   return chain_rule<R, N>(h, x.v / h, x, y.v / h, y);
 }
+/// Derivative +1 at zero.
 template <class R, int N> Dual<R, N> abs(const Dual<R, N>& x) { return num::value(x) < 0 ? -x : x; }
+/// A NaN in either argument is the result. At a tie the derivative is that of x.
 template <class R, int N> Dual<R, N> min(const Dual<R, N>& x, const Dual<R, N>& y) {
   return num::value(x) <= num::value(y) || num::value(x) != num::value(x) ? x : y;
 }

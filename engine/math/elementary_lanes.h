@@ -1,7 +1,8 @@
 #pragma once
-/// Elementary functions over the whole range, lane by lane, as the C library defines them: a NaN stays one, a pole is
-/// infinite, outside the domain there is a NaN. Errors of a few units in the last place. Built from lane_functions.h,
-/// so that bits depend neither on the instruction set nor on neighbours.
+/// Elementary functions over their whole range, lane by lane, with the conventions of the C library: the result of a NaN
+/// is a NaN, a pole is infinite, and outside the domain the result is a NaN. Errors are a few units in the last place.
+/// They are built from lane_functions.h, so that the bits depend neither on the instruction set nor on neighbouring
+/// lanes. elementary.h offers them for every scalar and has the table of domains.
 #include <limits>
 
 #include "math/lane_functions.h"
@@ -13,7 +14,7 @@ inline constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 template <class L> L sqrt_lane(const L& x) { return xsimd::sqrt(x); }
 
-/// The C library's value in the lanes of `mask`, `otherwise` in the others.
+/// Where `mask` holds the C library's value f(x), else `otherwise`. f is evaluated lane by lane: keep the mask rare.
 template <class L, class Mask, class F> L replaced(const Mask& mask, const L& x, const L& otherwise, const F& f) {
   if (!xsimd::any(mask)) return otherwise;
   alignas(64) double in[L::size], out[L::size];
@@ -22,7 +23,7 @@ template <class L, class Mask, class F> L replaced(const Mask& mask, const L& x,
   for (std::size_t i = 0; i < L::size; ++i) out[i] = in[i];
   return xsimd::select(mask, L::load_aligned(out), otherwise);
 }
-/// Where sine_cosine_lane's reduction is not good to the last place.
+/// Mask of the arguments for which the argument reduction of sine_cosine_lane loses digits: |x| >= 1e6, NaN.
 template <class L> auto far(const L& x) { return !(xsimd::abs(x) < L(1e6)); }
 
 template <class L> L sin_lane(const L& x) {
@@ -36,12 +37,13 @@ template <class L> L tan_lane(const L& x) {
   return replaced(far(x), x, both.sine / both.cosine, [](double v) { return std::tan(v); });
 }
 
-/// Zero below -708, infinite above 709: a little before the ends of the double's range.
+/// e^x; zero below -708 and infinite above 709, slightly inside the range of a double.
 template <class L> L exp_whole_lane(const L& x) {
   const L e = xsimd::select(x > L(709.0), L(infinity), exp_lane(x));
   return xsimd::select(x == x, e, x);
 }
 
+/// Completes a logarithm at and below zero, and at infinity.
 template <class L> L outside_of_log(const L& x, const L& inside) {
   L y = xsimd::select(x > L(0.0), inside, L(not_a_number));
   y = xsimd::select(x == L(0.0), L(-infinity), y);
@@ -49,13 +51,14 @@ template <class L> L outside_of_log(const L& x, const L& inside) {
 }
 template <class L> L log_whole_lane(const L& x) { return outside_of_log(x, log_lane(x)); }
 
-/// head + rest, exactly or nearly so; |rest| below half a unit in the last place of head.
+/// An unevaluated sum head + rest with |rest| at most half a unit in the last place of head: about twice the digits.
 template <class L> struct Pair { L head, rest; };
+/// a + b without error, for any two numbers. Source: Knuth, TAOCP 2, section 4.2.2.
 template <class L> Pair<L> exact_sum(const L& a, const L& b) {
   const L s = a + b, part = s - a;
   return {s, (a - (s - part)) + (b - part)};
 }
-/// Dekker 1971; for |a|, |b| below 2^996.
+/// a b without error, for |a|, |b| below 2^996. Source: Dekker 1971.
 template <class L> Pair<L> exact_product(const L& a, const L& b) {
   const L split(134217729.0), ca = split * a, cb = split * b;
   const L ah = ca - (ca - a), al = a - ah, bh = cb - (cb - b), bl = b - bh;
@@ -63,8 +66,8 @@ template <class L> Pair<L> exact_product(const L& a, const L& b) {
   return {p, ((ah * bh - p) + ah * bl + al * bh) + al * bl};
 }
 
-/// Logarithm of a positive number to about 64 bits: 2 atanh((m - 1)/(m + 1)) as a series, its first two terms in two
-/// doubles each.
+/// Natural logarithm of a positive number to about 64 bits, for pow and log10: the series of 2 atanh((m - 1)/(m + 1)) with
+/// its first two terms in two doubles each.
 template <class L> Pair<L> log_pair_lane(L x) {
   const auto tiny = x < L(0x1p-1022);
   x = xsimd::select(tiny, x * L(0x1p54), x);
@@ -95,7 +98,7 @@ template <class L> Pair<L> log_pair_lane(L x) {
   return {head, rest - (head - b.head)};
 }
 
-/// One rounding more than the pair: log10 of a power of ten is a whole number.
+/// Decimal logarithm; exact for powers of ten, because the product is formed in pairs and rounded once.
 template <class L> L log10_lane(const L& x) {
   constexpr double c = 4.34294481903251816668e-01, c_rest = 1.09831965021676508e-17; // 1/ln 10
   const auto l = log_pair_lane(x);
@@ -103,10 +106,11 @@ template <class L> L log10_lane(const L& x) {
   return outside_of_log(x, p.head + (p.rest + (l.rest * L(c) + l.head * L(c_rest))));
 }
 
+/// Mask of whole numbers; every |y| >= 2^51 counts as one.
 template <class L> auto whole(const L& y) {
   return (xsimd::abs(y) >= L(0x1p51)) || ((y + L(0x1.8p52)) - L(0x1.8p52) == y);
 }
-/// x^y. A negative x has one for whole y only; 0^0 = 1.
+/// x^y; for negative x only if y is a whole number, else NaN; 0^0 = 1.
 template <class L> L pow_lane(const L& x, const L& given) {
   const L y = xsimd::min(xsimd::max(given, L(-1e100)), L(1e100)), size = xsimd::abs(x);
   const auto plain = (size > L(0.0)) && (size < L(infinity));
@@ -123,7 +127,7 @@ template <class L> L pow_lane(const L& x, const L& given) {
   return xsimd::select(given == L(0.0), L(1.0), r);
 }
 
-/// Arc tangent of x >= 0: about 0, 1/2, 1, 3/2 or infinity, then fdlibm's polynomial of s_atan.c.
+/// Arc tangent of x >= 0, rad: expanded about 0, 1/2, 1, 3/2 or infinity. Source: fdlibm, s_atan.c.
 template <class L> L positive_atan(const L& x) {
   const auto above_0 = x >= L(0.4375), above_1 = x >= L(0.6875), above_2 = x >= L(1.1875), above_3 = x >= L(2.4375);
   const auto choose = [&](const L& v0, double v1, double v2, double v3, double v4) {
@@ -146,14 +150,14 @@ template <class L> L positive_atan(const L& x) {
   const L z = t * t;
   return head - ((t * (z * polynomial(z, p)) - rest) - t);
 }
-/// `size` with the sign of `sign`; size >= 0.
+/// `size` with the sign of `sign`, zeros included; size >= 0.
 template <class L> L signed_as(const L& size, const L& sign) {
   return lanes_of<L>(bits_of(size) | (bits_of(sign) & Bits<L>(std::uint64_t{0x8000000000000000u})));
 }
 template <class L> L atan_lane(const L& x) { return signed_as(positive_atan(xsimd::abs(x)), x); }
 template <class L> L asin_lane(const L& x) { return atan_lane(x / xsimd::sqrt((L(1.0) - x) * (L(1.0) + x))); }
 template <class L> L acos_lane(const L& x) { return L(2.0) * positive_atan(xsimd::sqrt((L(1.0) - x) / (L(1.0) + x))); }
-/// Angle of the point (x, y) in (-pi, pi]; 0 at the origin.
+/// Angle of the point (x, y), rad, in (-pi, pi]; 0 at the origin.
 template <class L> L atan2_lane(const L& y, const L& x) {
   const L ratio = xsimd::select((x == L(0.0)) && (y == L(0.0)), L(0.0), xsimd::abs(y) / xsimd::abs(x));
   const L t = positive_atan(ratio);
@@ -161,7 +165,7 @@ template <class L> L atan2_lane(const L& y, const L& x) {
   return signed_as(turned, y);
 }
 
-/// By its series below 1; by exponentials above.
+/// Hyperbolic sine: its series for |x| < 1, exponentials above.
 template <class L> L sinh_lane(const L& x) {
   const L size = xsimd::abs(x), e = exp_whole_lane(size), z = x * x;
   constexpr double c[] = {1.0 / 6,
@@ -186,12 +190,13 @@ template <class L> L tanh_lane(const L& x) {
   return xsimd::select(size < L(1.0), sinh_lane(signed_as(small, x)) / cosh_lane(small), large);
 }
 
+/// sqrt(x^2 + y^2) without overflow of the squares.
 template <class L> L hypot_lane(const L& x, const L& y) {
   const L a = xsimd::abs(x), b = xsimd::abs(y);
   const L most = xsimd::select(a > b, a, b), least = xsimd::select(a > b, b, a), r = least / most;
   return xsimd::select(most == L(0.0), L(0.0), most * xsimd::sqrt(L(1.0) + r * r));
 }
-/// A NaN among the two stays one.
+/// The smaller, the larger of two; NaN if either is NaN.
 template <class L> L min_lane(const L& x, const L& y) {
   return xsimd::select(x <= y, x, xsimd::select(y == y, xsimd::select(x == x, y, x), y));
 }

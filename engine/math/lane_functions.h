@@ -1,32 +1,37 @@
 #pragma once
-/// Elementary functions on lanes: only additions, multiplications, divisions, square roots, bit
-/// operations and selections, so that every lane has the same bits on every instruction set and
-/// whatever its neighbours are. (xsimd's sin and cos choose their reduction by looking at all lanes.)
+/// Elementary functions on lanes.
+///
+/// They use only additions, multiplications, divisions, square roots, bit operations and selections, so that a lane has
+/// the same bits on every instruction set and whatever its neighbours hold. (xsimd's sin and cos choose their argument
+/// reduction by looking at all lanes.) Angles are in rad, everything else is dimensionless. The polynomials of log, exp,
+/// sin and cos are those of fdlibm (Sun Microsystems 1993); "ulp" is a unit in the last place.
 #include <cstdint>
 
 #include "math/lanes.h"
 
 namespace gumshoe {
 
+/// The bits of lanes, as unsigned 64-bit integers.
 template <class L> using Bits = xsimd::batch<std::uint64_t, typename L::arch_type>;
 
+/// The bit patterns of the lanes, and back.
 template <class L> Bits<L> bits_of(const L& x) { return xsimd::bitwise_cast<Bits<L>>(x); }
 template <class L> L lanes_of(const Bits<L>& x) { return xsimd::bitwise_cast<L>(x); }
 
-/// Integers below 2^52 held in the bits, as doubles.
+/// Converts integers below 2^52, held in the bits, to doubles; exact.
 template <class L> L to_double(const Bits<L>& x) {
   return lanes_of<L>(x | Bits<L>(std::uint64_t{0x4330000000000000u})) - L(0x1p52);
 }
 
-/// c[0] + c[1] x + ...
+/// The polynomial c[0] + c[1] x + ... + c[N-1] x^(N-1), by Horner's rule.
 template <class L, std::size_t N> L polynomial(const L& x, const double (&c)[N]) {
   L y(c[N - 1]);
   for (std::size_t i = N - 1; i-- > 0;) y = y * x + L(c[i]);
   return y;
 }
 
-/// Natural logarithm of positive numbers; error below 1 ulp. fdlibm's e_log.c; subnormals are
-/// scaled first.
+/// Natural logarithm of positive numbers, subnormal ones included; error below 1 ulp. Undefined for x <= 0, infinity and
+/// NaN. Source: fdlibm, e_log.c.
 template <class L> L log_lane(L x) {
   const auto tiny = x < L(0x1p-1022);
   x = xsimd::select(tiny, x * L(0x1p54), x);
@@ -47,7 +52,7 @@ template <class L> L log_lane(L x) {
          ((half_square - (s * (half_square + r) + k * L(1.90821492927058770002e-10))) - f);
 }
 
-/// e^x; error below 1 ulp or so. fdlibm's e_exp.c; 0 below -708, clamped above 709.
+/// e^x; error about 1 ulp. 0 below -708; above 709 the value at 709. Source: fdlibm, e_exp.c.
 template <class L> L exp_lane(const L& x) {
   const L y = xsimd::min(xsimd::max(x, L(-708.0)), L(709.0));
   // Rounds to the nearest integer and leaves it in the low bits of the significand.
@@ -64,7 +69,7 @@ template <class L> L exp_lane(const L& x) {
   return xsimd::select(x < L(-708.0), L(0.0), e * lanes_of<L>(scale) * L(2.0));
 }
 
-/// sin(x), |x| <= pi/4; fdlibm's k_sin.c.
+/// sin(x) for |x| <= pi/4; error below 1 ulp. Source: fdlibm, k_sin.c.
 template <class L> L small_sine(const L& x) {
   constexpr double c[] = {-1.66666666666666324348e-01, 8.33333333332248946124e-03,  -1.98412698298579493134e-04,
                           2.75573137070700676789e-06,  -2.50507602534068634195e-08, 1.58969099521155010221e-10};
@@ -72,7 +77,7 @@ template <class L> L small_sine(const L& x) {
   return x + x * z * polynomial(z, c);
 }
 
-/// cos(x), |x| <= pi/4; fdlibm's k_cos.c.
+/// cos(x) for |x| <= pi/4; error below 1 ulp. Source: fdlibm, k_cos.c.
 template <class L> L small_cosine(const L& x) {
   constexpr double c[] = {4.16666666666666019037e-02,  -1.38888888888741095749e-03, 2.48015872894767294178e-05,
                           -2.75573143513906633035e-07, 2.08757232129817482790e-09,  -1.13596475577881948265e-11};
@@ -80,9 +85,9 @@ template <class L> L small_cosine(const L& x) {
   return w + (((L(1.0) - w) - half) + z * z * polynomial(z, c));
 }
 
-/// sin and cos; error below 1 ulp or so for |x| < 1e6. The argument is reduced by multiples of pi/2 in
-/// three parts, always the same way.
 template <class L> struct SineCosine { L sine, cosine; };
+/// sin(x) and cos(x); error about 1 ulp for |x| < 1e6, growing with |x| beyond. The argument is reduced by multiples of
+/// pi/2, which is held in three parts (Cody and Waite), always in the same way.
 template <class L> SineCosine<L> sine_cosine_lane(const L& x) {
   const L magic = x * L(6.36619772367581382433e-01) + L(0x1.8p52);
   const L k = magic - L(0x1.8p52);
@@ -98,8 +103,12 @@ template <class L> SineCosine<L> sine_cosine_lane(const L& x) {
           lanes_of<L>(bits_of(xsimd::select(swap, s, c)) ^ cosine_sign)};
 }
 
-/// Quantile of the standard normal distribution for 0 < p < 1, given p and q = 1 - p (only the
-/// smaller one matters in its tail). Wichura 1988, AS 241, PPND16; relative error about 1e-16.
+/// Quantile of the standard normal distribution.
+///
+/// @param p probability, 0 < p < 1
+/// @param q 1 - p; given separately, so that a probability close to 1 keeps its digits (a tail reads the smaller one)
+/// @return  z with P(Z <= z) = p; relative error about 1e-16
+/// Source: Wichura 1988, algorithm AS 241, PPND16.
 template <class L> L normal_quantile_lane(const L& p, const L& q) {
   constexpr double a[] = {3.3871328727963666080e0,  1.3314166789178437745e+2, 1.9715909503065514427e+3,
                           1.3731693765509461125e+4, 4.5921953931549871457e+4, 6.7265770927008700853e+4,
@@ -150,9 +159,11 @@ template <class L> L normal_quantile_lane(const L& p, const L& q) {
   return xsimd::select(central, middle, xsimd::select(centred < L(0.0), -tail, tail));
 }
 
-/// Distribution function of the standard normal distribution; relative error a few 1e-16 in the lower
-/// tail down to -37. (1 + y) e^(y^2/2) P(-y) is smooth in t = (y - K)/(y + K) for all y >= 0, the idea
-/// of Shepherd and Laframboise 1981; polynomial fitted with 50 digits at Chebyshev nodes.
+/// Distribution function of the standard normal distribution, P(Z <= x).
+///
+/// The relative error is a few 1e-16, in the lower tail down to x = -37 as well. (1 + y) e^(y^2/2) P(-y) is a smooth
+/// function of t = (y - K)/(y + K) for all y >= 0; the polynomial in t was fitted with 50 digits at Chebyshev nodes.
+/// Source of the idea: Shepherd and Laframboise 1981.
 template <class L> L normal_probability_lane(const L& x) {
   constexpr double c[] = {
       0.475186245768402726,    -0.0974115047988136183,   0.00785948986281233797,    0.0334505996382925114,

@@ -6,6 +6,8 @@
 
 namespace gumshoe::math {
 
+/// The N-point rule: sum of weight[i] f(node[i]) is the integral of f over [-1, 1], exact for polynomials up to degree
+/// 2 N - 1. Nodes stand in pairs of opposite sign, from the middle outwards.
 template <int N> struct GaussLegendre {
   std::array<double, N> node{}, weight{};
   GaussLegendre() {
@@ -17,6 +19,7 @@ template <int N> struct GaussLegendre {
       if (x[i] != 0) node[n] = -x[i], weight[n++] = w[i];
     }
   }
+  /// The rule, computed once per N; safe to call from several threads.
   static const GaussLegendre& rule() {
     static const GaussLegendre r;
     return r;

@@ -1,6 +1,6 @@
 #pragma once
-/// A least-squares problem as plain rows: losses folded into the residuals, priors appended, parameters in units of
-/// their magnitudes. Internal to the least-squares door.
+/// A least-squares problem as plain rows, internal to math/least_squares: robust losses are folded into the residuals,
+/// priors are appended as rows, and parameters are dimensionless, z = x / magnitude.
 #include <Eigen/Core>
 
 #include "math/least_squares.h"
@@ -12,21 +12,31 @@ using Vector = Eigen::VectorXd;
 
 class Rows {
 public:
+  /// Keeps a reference to the problem.
   explicit Rows(const Problem& problem);
+  /// Number of residuals and priors.
   Eigen::Index rows() const { return n_ + m_; }
   Eigen::Index parameters() const { return p_; }
   const Vector& magnitude() const { return magnitude_; }
+  /// The starting point in z.
   Vector start() const;
-  /// Bounds of z = x / magnitude.
+  /// Bounds of z; infinite where the problem has none. parameters() values each.
   const Vector& low() const { return low_; }
   const Vector& high() const { return high_; }
+  /// The nearest point within the bounds.
   Vector clamp(const Vector& z) const { return z.cwiseMax(low_).cwiseMin(high_); }
+  /// x in the problem's own units, from z.
   Vector parameters_of(const Vector& z) const { return z.cwiseProduct(magnitude_); }
 
-  /// Residuals sign(r) sqrt(rho(r^2)), whose plain sum of squares is the robust one, and priors; false if undefined
-  /// or not finite. `jacobian` by z, row-major; may be null.
+  /// Residuals sign(r) sqrt(rho(r^2)), whose sum of squares is the robust sum, followed by those of the priors.
+  ///
+  /// @param z        parameters() values
+  /// @param r        rows() values on return
+  /// @param jacobian derivatives with respect to z, row-major rows() x parameters(); may be null
+  /// @return         false if the model has no value at z or any value is not finite
   bool evaluate(const double* z, double* r, double* jacobian) const;
   bool evaluate(const Vector& z, Vector& r, Matrix* jacobian) const;
+  /// Number of calls of evaluate so far.
   int evaluations() const { return evaluations_; }
 
 private:

@@ -1,7 +1,9 @@
 #pragma once
-/// What physics may ask of its scalar: double, Lanes, or a dual number over double.
-/// Elementary functions of a double go through a lane, so that scalar and batched runs, and every
-/// instruction set, give the same bits.
+/// The functions that the physics may call on its scalar, which is double, Lanes, or a (nested) dual number over double.
+///
+/// Elementary functions of a double go through a lane, so that scalar runs, batched runs and every instruction set give
+/// the same bits. Angles are in rad. sin and cos are accurate to about one unit in the last place for |x| < 1e6; exp is 0
+/// below -708 and stays at its value for 709 above. elementary.h has the whole range, for formulas that users write.
 #include <utility>
 
 #include "math/dual.h"
@@ -52,23 +54,26 @@ template <class R, int N> Dual<R, N> atan2(const Dual<R, N>& y, const Dual<R, N>
   return chain_rule<R, N>(atan2(y.v, x.v), x.v * n, y, -(y.v * n), x);
 }
 
-/// The plain number inside, through every level of duals.
+/// The plain number inside x, through every level of dual numbers. Branches of the physics may depend on it.
 inline double value(double x) { return x; }
 inline double value(long double x) { return static_cast<double>(x); }
 template <class R, int N> double value(const Dual<R, N>& x) { return value(x.v); }
 
+/// Derivative +1 at zero, where there is none: the caller reports a kink.
 template <class R, int N> Dual<R, N> abs(const Dual<R, N>& x) { return value(x) < 0 ? -x : x; }
 
-/// How many times a Newton step must be repeated at the root to carry all derivatives along.
+/// Number of extra Newton steps at a root, already converged in double, after which all derivatives are right: each step
+/// settles one level of duals.
 template <class T> inline constexpr int derivative_levels = 0;
 template <> inline constexpr int derivative_levels<long double> = 2; // no derivatives, but digits to gain
 template <class R, int N> inline constexpr int derivative_levels<Dual<R, N>> = 1 + derivative_levels<R>;
 
-/// mask ? a : b, lane by lane.
+/// mask ? a : b, lane by lane. Both sides are evaluated, so neither may trap.
 inline double select(bool mask, double a, double b) { return mask ? a : b; }
 inline Lanes select(const Lanes::batch_bool_type& mask, const Lanes& a, const Lanes& b) {
   return xsimd::select(mask, a, b);
 }
+/// True if the mask holds in any lane.
 inline bool any(bool mask) { return mask; }
 inline bool any(const Lanes::batch_bool_type& mask) { return xsimd::any(mask); }
 

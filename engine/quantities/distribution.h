@@ -46,6 +46,7 @@ struct FamilyCard {
   std::span<const ParameterCard> parameters; ///< in the order of Distribution::parameters
 };
 
+/// All families, in the order of Family, and one by its name; null if there is none.
 std::span<const FamilyCard> families();
 const FamilyCard* find_family(std::string_view name);
 
@@ -64,6 +65,7 @@ struct Distribution {
   std::shared_ptr<const std::vector<double>> values;        ///< discrete, empirical: sorted
   std::shared_ptr<const std::vector<double>> probabilities; ///< discrete only: same length, sum 1
 
+  /// Expectation; for t with 1 degree of freedom or fewer, which has none, the centre.
   double mean() const;
   /// Variance; +infinity for t with 2 degrees of freedom or fewer (no standard uncertainty exists).
   double variance() const;

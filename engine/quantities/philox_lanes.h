@@ -11,7 +11,7 @@ namespace gumshoe::quantities {
 
 using Words = Bits<Lanes>;
 
-/// Product of the lower halves of the lanes.
+/// Products of the lower 32 bits of each 64-bit lane, exact in 64 bits.
 template <class Register> inline Register product_of_low_words(const Register& a, const Register& b) {
 #if defined(__AVX512F__)
   if constexpr (sizeof(Register) == 64) return Register(_mm512_mul_epu32(a, b));
@@ -22,7 +22,9 @@ template <class Register> inline Register product_of_low_words(const Register& a
   if constexpr (sizeof(Register) == 16) return Register(_mm_mul_epu32(a, b));
 }
 
-/// The upper halves of the words may hold anything, except where they are shifted down.
+/// Ten rounds of Philox4x32 on the counters c, in place. Words are the lower halves of the lanes; the upper halves may hold
+/// anything after a round, except where they are shifted down.
+/// Source: Salmon et al. 2011, Parallel random numbers: as easy as 1, 2, 3.
 inline void philox_lanes(Words (&c)[4], std::uint32_t key0, std::uint32_t key1) {
   const Words m0(std::uint64_t{0xD2511F53}), m1(std::uint64_t{0xCD9E8D57});
   for (int round = 0; round < 10; ++round) {
@@ -36,13 +38,13 @@ inline void philox_lanes(Words (&c)[4], std::uint32_t key0, std::uint32_t key1) 
   }
 }
 
-/// random::unit_from_bits of two words.
+/// Uniforms in (0, 1) from two words each, as random::unit_from_bits makes them.
 inline Lanes unit_lanes(const Words& low, const Words& high) {
   const Words bits = (low & Words(std::uint64_t{0xffffffff})) | (high << 32);
   return (lanes_of<Lanes>((bits >> 12) | Words(std::uint64_t{0x3ff0000000000000u})) - Lanes(1.0)) + Lanes(0x1p-53);
 }
 
-/// a[from], b[from], a[from + 1], b[from + 1], ... (xsimd's zip differs between instruction sets).
+/// The lanes a[from], b[from], a[from + 1], b[from + 1], ... (xsimd's zip orders them differently on each instruction set).
 template <std::size_t from, std::size_t... i>
 inline Lanes interleaved(const Lanes& a, const Lanes& b, std::index_sequence<i...>) {
   using Register = Lanes::register_type;
@@ -50,7 +52,8 @@ inline Lanes interleaved(const Lanes& a, const Lanes& b, std::index_sequence<i..
       __builtin_shufflevector(Register(a), Register(b), static_cast<int>(from + i / 2 + (i % 2) * sizeof...(i))...)));
 }
 
-/// As random::fill_uniforms; first and n are even.
+/// Writes the uniforms of samples [first, first + n) of a stream to out: the same bits as random::fill_uniforms, which also
+/// does the rest that fills no lane. first and n are even.
 inline void fill_uniforms_in_lanes(const random::Stream& stream, std::uint64_t first, std::size_t n, double* out) {
   constexpr std::size_t step = 2 * Lanes::size; // each counter serves two samples
   alignas(64) std::uint64_t number[Lanes::size];
