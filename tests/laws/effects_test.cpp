@@ -88,7 +88,11 @@ TEST_CASE("every card states stage, null and limits that hold the null", "[contr
     for (const QuantityCard& q : card->quantities) {
       CHECK(q.limits.contain(q.default_value));
       amplitude |= q.role == Role::amplitude || q.role == Role::pair;
-      if (q.role == Role::amplitude || q.role == Role::pair) CHECK(q.default_value == 0);
+      CHECK((0 <= q.typical.low && q.typical.low <= q.typical.high));
+      CHECK((q.limits.contain(q.typical.low) && q.limits.contain(q.typical.high)));
+      if (q.role == Role::shape) continue;
+      CHECK(q.default_value == 0);
+      CHECK(q.typical.high > 0);
     }
     CHECK(amplitude);
   }

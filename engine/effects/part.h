@@ -1,0 +1,42 @@
+#pragma once
+/// What effects share that are alike on several parts of a machine: written once, with a card for each part.
+#include "chain/rotary_probing.h"
+#include "effects/effect.h"
+
+namespace gumshoe::effects {
+
+/// Effect::add(quantities, part) on the part that `of` picks from an event.
+template <class Effect, auto of> struct On {
+  template <class T> static void apply(const T* q, chain::ProbingEvent<T>& event) { Effect::add(q, of(event)); }
+};
+
+inline constexpr auto slide_X = [](auto& event) -> auto& { return event.x; };
+inline constexpr auto slide_Y = [](auto& event) -> auto& { return event.y; };
+inline constexpr auto slide_Z = [](auto& event) -> auto& { return event.z; };
+
+/// A rotary axis and its angular positioning error, rad.
+template <class T> struct Turn {
+  const chain::RotaryMotion<T>& axis;
+  T& error;
+};
+inline constexpr auto axis_B = []<class T>(chain::ProbingEvent<T>& event) {
+  return Turn<T>{event.rotary->B, event.rotary->B.error[chain::E_B]};
+};
+inline constexpr auto axis_C = []<class T>(chain::ProbingEvent<T>& event) {
+  return Turn<T>{event.rotary->C, event.rotary->C.error[chain::E_C]};
+};
+
+/// What differs between the cards of one effect on several parts.
+struct Part {
+  std::string_view name, title, iso230, adds, confused_with;
+};
+constexpr EffectCard on(const Part& part, EffectCard common) {
+  common.name = part.name;
+  common.title = part.title;
+  common.iso230 = part.iso230;
+  common.adds = part.adds;
+  common.confused_with = part.confused_with;
+  return common;
+}
+
+} // namespace gumshoe::effects
