@@ -189,7 +189,7 @@ void add_effects(CLI::App& app, Action& action) {
   add(app, "effects", "lists the effects, or one effect's card", {"text", "json", "markdown"}, action,
       [](const Options& o) {
         if (o.format != "markdown") return show(effects::cards(), "effect", o.name, o.format);
-        if (!o.name.empty()) throw InputError("markdown is a table of all effects", "", "leave the name out?");
+        if (!o.name.empty()) throw InputError("markdown is a table of all effects", "", "leave the name out");
         std::cout << effects_markdown(catalogue().models, effects::cards());
         return ExitCode::done;
       });
