@@ -26,17 +26,19 @@ inline constexpr auto axis_C = []<class T>(chain::ProbingEvent<T>& event) {
   return Turn<T>{event.rotary->C, event.rotary->C.error[chain::E_C]};
 };
 
-/// What differs between the cards of one effect on several parts.
-struct Part {
-  std::string_view name, title, iso230, adds, confused_with;
+/// What the cards of one effect on several parts share, and what each part has of its own.
+struct Common {
+  Stage stage;
+  std::string_view meaning, source;
+  std::span<const QuantityCard> quantities;
 };
-constexpr EffectCard on(const Part& part, EffectCard common) {
-  common.name = part.name;
-  common.title = part.title;
-  common.iso230 = part.iso230;
-  common.adds = part.adds;
-  common.confused_with = part.confused_with;
-  return common;
+struct Part {
+  std::string_view name, title, iso230 = {}, adds, confused_with;
+};
+constexpr EffectCard on(const Part& part, const Common& common) {
+  return {.name = part.name, .title = part.title, .stage = common.stage, .iso230 = part.iso230,
+          .meaning = common.meaning, .adds = part.adds, .confused_with = part.confused_with, .source = common.source,
+          .quantities = common.quantities};
 }
 
 } // namespace gumshoe::effects

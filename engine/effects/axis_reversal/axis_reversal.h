@@ -8,14 +8,10 @@ struct AxisReversal {
       {.name = "backlash", .unit = "arcsec", .si_unit = "rad", .limits = {-1e-2, 1e-2}, .symbol = "B",
        .meaning = "reversal value", .role = Role::amplitude, .typical = {1 * arcsec, 10 * arcsec}},
   };
-  static constexpr EffectCard common{
-      .name = "",
-      .title = "",
+  static constexpr Common common{
       .stage = Stage::rotary,
       .meaning = "The axis lags half the reversal value behind its command: actual minus commanded is -direction "
                  "backlash / 2, by the direction from which the angle was reached.",
-      .adds = "",
-      .confused_with = "",
       .source = "engineering knowledge; ISO 230-2 for the reversal value",
       .quantities = quantities};
   template <class T> static void add(const T* q, const Turn<T>& turn) {
@@ -25,15 +21,18 @@ struct AxisReversal {
 
 struct BAxisReversal : On<AxisReversal, axis_B> {
   static constexpr EffectCard card =
-      on({"b_axis_reversal", "Reversal error of the B axis", "E_BB", "E_BB -= B.direction backlash / 2",
-          "E_BB where every angle was reached from one side; time, if the sides were measured one after the other"},
+      on({.name = "b_axis_reversal", .title = "Reversal error of the B axis", .iso230 = "E_BB",
+          .adds = "E_BB -= B.direction backlash / 2",
+          .confused_with = "E_BB where every angle was reached from one side; time, if the sides were measured one "
+                           "after the other"},
          AxisReversal::common);
 };
 struct CAxisReversal : On<AxisReversal, axis_C> {
   static constexpr EffectCard card =
-      on({"c_axis_reversal", "Reversal error of the C axis", "E_CC", "E_CC -= C.direction backlash / 2",
-          "any constant turn of the probe where every angle was reached from one side; time, if the sides were measured "
-          "one after the other"},
+      on({.name = "c_axis_reversal", .title = "Reversal error of the C axis", .iso230 = "E_CC",
+          .adds = "E_CC -= C.direction backlash / 2",
+          .confused_with = "any constant turn of the probe where every angle was reached from one side; time, if the "
+                           "sides were measured one after the other"},
          AxisReversal::common);
 };
 

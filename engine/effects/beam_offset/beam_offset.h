@@ -15,8 +15,8 @@ struct BeamOffset {
       .name = "beam_offset",
       .title = "Spindle axis beside the laser reference point",
       .stage = Stage::pose,
-      .meaning = "The spindle axis passes beside the laser reference point: x along, y across the nominal beam (machine "
-                 "X and Y). The measurand is then the height of the reference point.",
+      .meaning = "The spindle axis passes beside the laser reference point: x along, y across the nominal beam "
+                 "(machine X and Y). The measurand is then the height of the reference point.",
       .adds = "tool_x += x; tool_y += y",
       .confused_with = "beam_pitch (a pitch of 0.2836 deg gives 4.95 um per mm along the beam)",
       .source = "engineering knowledge; Fang 2022, section 2.5 for the kinematic chain",

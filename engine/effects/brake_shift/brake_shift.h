@@ -9,13 +9,9 @@ struct BrakeShift {
        .meaning = "turn of the axis when its brake holds", .role = Role::amplitude,
        .typical = {1 * arcsec, 5 * arcsec}},
   };
-  static constexpr EffectCard common{
-      .name = "",
-      .title = "",
+  static constexpr Common common{
       .stage = Stage::rotary,
       .meaning = "The axis is turned by an angle where its brake holds (condition clamped = 1).",
-      .adds = "",
-      .confused_with = "",
       .source = "engineering knowledge",
       .quantities = quantities};
   template <class T> static void add(const T* q, const Turn<T>& turn) {
@@ -25,14 +21,16 @@ struct BrakeShift {
 
 struct BBrakeShift : On<BrakeShift, axis_B> {
   static constexpr EffectCard card =
-      on({"b_brake_shift", "Shift of the B axis by its brake", "E_BB", "E_BB += B.clamped angle",
-          "b_axis_reversal; what differs between the patterns if the brake closes in one of them"},
+      on({.name = "b_brake_shift", .title = "Shift of the B axis by its brake", .iso230 = "E_BB",
+          .adds = "E_BB += B.clamped angle",
+          .confused_with = "b_axis_reversal; what differs between the patterns if the brake closes in one of them"},
          BrakeShift::common);
 };
 struct CBrakeShift : On<BrakeShift, axis_C> {
   static constexpr EffectCard card =
-      on({"c_brake_shift", "Shift of the C axis by its brake", "E_CC", "E_CC += C.clamped angle",
-          "c_axis_reversal; what differs between the patterns if the brake closes in one of them"},
+      on({.name = "c_brake_shift", .title = "Shift of the C axis by its brake", .iso230 = "E_CC",
+          .adds = "E_CC += C.clamped angle",
+          .confused_with = "c_axis_reversal; what differs between the patterns if the brake closes in one of them"},
          BrakeShift::common);
 };
 

@@ -18,53 +18,49 @@ template <int order> struct EncoderHarmonic {
 };
 
 struct EncoderEccentricity : EncoderHarmonic<1> {
-  static constexpr EffectCard common{
-      .name = "",
-      .title = "",
+  static constexpr Common common{
       .stage = Stage::rotary,
       .meaning = "The centre of the graduation lies off its bearing's centre: the angular positioning error is cosine "
-                 "cos(angle) + sine sin(angle) of the commanded angle. An eccentricity of e um on a graduation of D mm "
-                 "makes 412 e / D arcsec.",
-      .adds = "",
-      .confused_with = "",
+                 "cos(angle) + sine sin(angle) of the commanded angle. An eccentricity of e um on a graduation of D "
+                 "mm makes 412 e / D arcsec.",
       .source = "HEIDENHAIN, angle encoders without bearing: error 412 e / D; ISO 230-1",
       .quantities = quantities};
 };
 struct BEncoderEccentricity : On<EncoderEccentricity, axis_B> {
   static constexpr EffectCard card =
-      on({"b_encoder_eccentricity", "Eccentric encoder of the B axis", "E_BB", "E_BB += cosine cos B + sine sin B",
-          "E_X0B, E_Z0B over a short range of B; b_encoder_ovality; gravity_sag"},
+      on({.name = "b_encoder_eccentricity", .title = "Eccentric encoder of the B axis", .iso230 = "E_BB",
+          .adds = "E_BB += cosine cos B + sine sin B",
+          .confused_with = "E_X0B, E_Z0B over a short range of B; b_encoder_ovality; gravity_sag"},
          EncoderEccentricity::common);
 };
 struct CEncoderEccentricity : On<EncoderEccentricity, axis_C> {
   static constexpr EffectCard card =
-      on({"c_encoder_eccentricity", "Eccentric encoder of the C axis", "E_CC", "E_CC += cosine cos C + sine sin C",
-          "E_X0C, E_Y0C over a quarter turn; c_encoder_ovality"},
+      on({.name = "c_encoder_eccentricity", .title = "Eccentric encoder of the C axis", .iso230 = "E_CC",
+          .adds = "E_CC += cosine cos C + sine sin C",
+          .confused_with = "E_X0C, E_Y0C over a quarter turn; c_encoder_ovality"},
          EncoderEccentricity::common);
 };
 
 struct EncoderOvality : EncoderHarmonic<2> {
-  static constexpr EffectCard common{
-      .name = "",
-      .title = "",
+  static constexpr Common common{
       .stage = Stage::rotary,
       .meaning = "Second harmonic of the angular positioning error, cosine cos(2 angle) + sine sin(2 angle) of the "
                  "commanded angle: the graduation is strained, or two opposed heads cancel its eccentricity.",
-      .adds = "",
-      .confused_with = "",
       .source = "engineering knowledge; ISO 230-1",
       .quantities = quantities};
 };
 struct BEncoderOvality : On<EncoderOvality, axis_B> {
   static constexpr EffectCard card =
-      on({"b_encoder_ovality", "Oval encoder of the B axis", "E_BB", "E_BB += cosine cos 2B + sine sin 2B",
-          "b_encoder_eccentricity over a short range of B"},
+      on({.name = "b_encoder_ovality", .title = "Oval encoder of the B axis", .iso230 = "E_BB",
+          .adds = "E_BB += cosine cos 2B + sine sin 2B",
+          .confused_with = "b_encoder_eccentricity over a short range of B"},
          EncoderOvality::common);
 };
 struct CEncoderOvality : On<EncoderOvality, axis_C> {
   static constexpr EffectCard card =
-      on({"c_encoder_ovality", "Oval encoder of the C axis", "E_CC", "E_CC += cosine cos 2C + sine sin 2C",
-          "c_encoder_eccentricity over a quarter turn; c_radial_motion"},
+      on({.name = "c_encoder_ovality", .title = "Oval encoder of the C axis", .iso230 = "E_CC",
+          .adds = "E_CC += cosine cos 2C + sine sin 2C",
+          .confused_with = "c_encoder_eccentricity over a quarter turn; c_radial_motion"},
          EncoderOvality::common);
 };
 

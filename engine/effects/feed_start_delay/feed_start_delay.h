@@ -14,8 +14,9 @@ struct FeedStartDelay {
       .name = "feed_start_delay",
       .title = "Delay of the feed",
       .stage = Stage::timing,
-      .meaning = "The feed begins this long after the spindle passes the start angle, so the tool has turned on by speed "
-                 "times delay: the characteristic curve moves to smaller start angles by 6 deg per rpm and second.",
+      .meaning = "The feed begins this long after the spindle passes the start angle, so the tool has turned on by "
+                 "speed times delay: the characteristic curve moves to smaller start angles by 6 deg per rpm and "
+                 "second.",
       .adds = "turns_before_feed += speed delay",
       .confused_with = "holder_angle at one speed; the start height (1 um is 12 deg at 1000 rpm and 30 mm/min)",
       .source = "engineering knowledge; Fang 2022, chapter 3 for the measurement",

@@ -14,8 +14,8 @@ struct GravitySag {
       .title = "Gravity sag of what B carries",
       .stage = Stage::rotary,
       .iso230 = "E_ZB",
-      .meaning = "The weight that B carries swings out with sin B and its carrier gives way: the B axis stands lower by "
-                 "drop sin(B).",
+      .meaning = "The weight that B carries swings out with sin B and its carrier gives way: the B axis stands lower "
+                 "by drop sin(B).",
       .adds = "E_ZB -= drop sin B",
       .confused_with = "E_X0B and E_Z0B over a short range of B; the sine of b_encoder_eccentricity",
       .source = "engineering knowledge",

@@ -13,9 +13,9 @@ struct PretravelBending {
       .name = "pretravel_bending",
       .title = "Pretravel by bending of the stylus",
       .stage = Stage::contact,
-      .meaning = "Pretravel grows with sin^2 of the angle between approach and stylus (the probe's Z): a bending force "
-                 "and the deflection along the approach each go with its sine. At the top of a sphere the angle is that "
-                 "of B.",
+      .meaning = "Pretravel grows with sin^2 of the angle between approach and stylus (the probe's Z): a bending "
+                 "force and the deflection along the approach each go with its sine. At the top of a sphere the angle "
+                 "is that of B.",
       .adds = "pretravel += distance sin^2 theta (theta: between approach and stylus)",
       .confused_with = "E_Z0B over a short range of B; gravity_sag where B has one sign",
       .source = "Estler et al. 1996, Precision Engineering (stylus bending); the smooth shape: engineering knowledge",

@@ -15,10 +15,10 @@ struct PretravelLobing {
       .name = "pretravel_lobing",
       .title = "Lobing of the probe's pretravel",
       .stage = Stage::contact,
-      .meaning = "The three supports of a kinematic seat give pretravel three lobes over the approach's azimuth phi in "
-                 "the probe's frame, which turns with B and C: sin^3(theta) (cosine cos 3 phi + sine sin 3 phi), theta "
-                 "from the stylus. The sines keep it smooth where the approach is along the stylus: at the top of a "
-                 "sphere it shows only where B has turned the probe.",
+      .meaning = "The three supports of a kinematic seat give pretravel three lobes over the approach's azimuth phi "
+                 "in the probe's frame, which turns with B and C: sin^3(theta) (cosine cos 3 phi + sine sin 3 phi), "
+                 "theta from the stylus. The sines keep it smooth where the approach is along the stylus: at the top "
+                 "of a sphere it shows only where B has turned the probe.",
       .adds = "pretravel += sin^3 theta (cosine cos 3 phi + sine sin 3 phi) (phi: azimuth of the approach)",
       .confused_with = "harmonics of C, form of the sphere; pretravel_bending while C stands still",
       .source = "Estler et al. 1996, Precision Engineering (three lobes of a kinematic seat); the smooth shape: "

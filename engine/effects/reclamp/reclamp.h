@@ -13,8 +13,8 @@ struct Reclamp {
       .name = "reclamp",
       .title = "Seat of the tool holder",
       .stage = Stage::pose,
-      .meaning = "Where the taper seats at this clamping; positive is a longer tool. Give it a standard uncertainty per "
-                 "clamping: that scatter is what matters.",
+      .meaning = "Where the taper seats at this clamping; positive is a longer tool. Give it a standard uncertainty "
+                 "per clamping: that scatter is what matters.",
       .adds = "tool_growth += shift",
       .confused_with = "everything constant within a clamping if each rod is clamped once",
       .source = "engineering knowledge; Fang 2022, section 2.5 for the kinematic chain",

@@ -14,10 +14,10 @@ struct RevolutionConfirm {
       .name = "revolution_confirm",
       .title = "Confirmation of the trigger",
       .stage = Stage::timing,
-      .meaning = "The receiver takes a trigger for a drop of coolant until the beam was interrupted in each of n further "
-                 "revolutions, and then accepts the first moment, n revolutions or more after the trigger, at which the "
-                 "beam is covered. The flute that triggered stands lower then and covers the beam at the same spindle "
-                 "angle: n revolutions later exactly, n times the descent per revolution lower.",
+      .meaning = "The receiver takes a trigger for a drop of coolant until the beam was interrupted in each of n "
+                 "further revolutions, and then accepts the first moment, n revolutions or more after the trigger, at "
+                 "which the beam is covered. The flute that triggered stands lower then and covers the beam at the "
+                 "same spindle angle: n revolutions later exactly, n times the descent per revolution lower.",
       .adds = "confirmations += revolutions",
       .confused_with = "trigger_latency at one speed; a length error while all indications share feed and speed",
       .source = "engineering knowledge; Fang 2022, chapter 3 for the measurement",

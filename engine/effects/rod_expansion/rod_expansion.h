@@ -21,8 +21,8 @@ struct RodExpansion {
                  "difference.",
       .adds = "tool_growth += tool_length coefficient temperature_difference",
       .confused_with = "z_scale (exactly collinear where spindle_z minus rod_length is constant), drift in time",
-      .source = "engineering knowledge; Fang 2022, section 2.5 for the kinematic chain; coefficient of "
-                "steel 11.5 um/(m K)",
+      .source = "engineering knowledge; Fang 2022, section 2.5 for the kinematic chain; coefficient of steel 11.5 "
+                "um/(m K)",
       .quantities = quantities};
   template <class T> static void apply(const T* q, chain::ProbingEvent<T>& event) {
     event.tool_growth = event.tool_growth + event.tool_length * q[0] * q[1];

@@ -15,8 +15,8 @@ struct RodRunout {
       .name = "rod_runout",
       .title = "Radial run-out of the rod",
       .stage = Stage::standing,
-      .meaning = "The axis of the rod lies off the spindle axis, in the tool-holder frame, so it turns with the holder "
-                 "angle.",
+      .meaning = "The axis of the rod lies off the spindle axis, in the tool-holder frame, so it turns with the "
+                 "holder angle.",
       .adds = "tool_x += x cos theta - y sin theta; tool_y += x sin theta + y cos theta (theta: holder angle)",
       .confused_with =
           "beam_offset while the holder angle is constant; a tilted bottom makes it look like a rod length error",

@@ -16,10 +16,10 @@ struct SamplingRate {
       .name = "sampling_rate",
       .title = "Sampling of the receiver",
       .stage = Stage::timing,
-      .meaning = "The receiver holds the trigger, none is missed, until it is next looked at: a latency between nothing "
-                 "and a period. A phase drawn from 0 to 1 makes it rectangular. The reading is a staircase and has no "
-                 "derivative; the engine gives those of its mean (half a period) and, for the phase, one period, which "
-                 "for a phase from 0 to 1 is the rectangle's uncertainty.",
+      .meaning = "The receiver holds the trigger, none is missed, until it is next looked at: a latency between "
+                 "nothing and a period. A phase drawn from 0 to 1 makes it rectangular. The reading is a staircase "
+                 "and has no derivative; the engine gives those of its mean (half a period) and, for the phase, one "
+                 "period, which for a phase from 0 to 1 is the rectangle's uncertainty.",
       .adds = "sampling_period += period; sampling_phase += phase",
       .confused_with = "trigger_latency, of half a period",
       .source = "engineering knowledge; Fang 2022, chapter 3 for the measurement",

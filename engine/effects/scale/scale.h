@@ -8,14 +8,10 @@ struct Scale {
     return {.name = symbol, .unit = "um/m", .si_unit = "1", .limits = {-1e-2, 1e-2}, .symbol = symbol,
             .meaning = "positioning error per length of travel", .role = Role::amplitude, .typical = {5e-6, 20e-6}};
   }
-  static constexpr EffectCard common(std::span<const QuantityCard> quantities) {
-    return {.name = "",
-            .title = "",
-            .stage = Stage::slides,
-            .meaning = "Actual minus commanded position grows in proportion to the command. A model's quantity of this "
-                       "symbol is an error at one place and adds to the reading.",
-            .adds = "",
-            .confused_with = "",
+  static constexpr Common common(std::span<const QuantityCard> quantities) {
+    return {.stage = Stage::slides,
+            .meaning = "Actual minus commanded position grows in proportion to the command. A model's quantity of "
+                       "this symbol is an error at one place and adds to the reading.",
             .source = "engineering knowledge; ISO 230-1",
             .quantities = quantities};
   }
@@ -27,13 +23,17 @@ struct Scale {
 struct XScale : On<Scale, slide_X> {
   static constexpr QuantityCard quantities[] = {Scale::row("E_XX")};
   static constexpr EffectCard card =
-      on({"x_scale", "Linear positioning error of X", "E_XX", "x.scale += E_XX", Scale::confused_with},
+      on({.name = "x_scale", .title = "Linear positioning error of X", .iso230 = "E_XX",
+          .adds = "x.scale += E_XX",
+          .confused_with = Scale::confused_with},
          Scale::common(quantities));
 };
 struct YScale : On<Scale, slide_Y> {
   static constexpr QuantityCard quantities[] = {Scale::row("E_YY")};
   static constexpr EffectCard card =
-      on({"y_scale", "Linear positioning error of Y", "E_YY", "y.scale += E_YY", Scale::confused_with},
+      on({.name = "y_scale", .title = "Linear positioning error of Y", .iso230 = "E_YY",
+          .adds = "y.scale += E_YY",
+          .confused_with = Scale::confused_with},
          Scale::common(quantities));
 };
 struct ZScale : On<Scale, slide_Z> {

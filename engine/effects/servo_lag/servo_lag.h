@@ -22,8 +22,8 @@ struct ServoLag {
                  "phase. A control that latches the scale still reads the true position; one that latches its own "
                  "command reads lower by the following error.",
       .adds = "servo_lag += time_constant; latches_command += latches_command",
-      .confused_with = "feed_start_delay, exactly, once the feed is steady and the scale is latched; trigger_latency if "
-                       "the command is latched",
+      .confused_with = "feed_start_delay, exactly, once the feed is steady and the scale is latched; trigger_latency "
+                       "if the command is latched",
       .source = "engineering knowledge; Fang 2022, chapter 3 for the measurement",
       .quantities = quantities};
   template <class T> static void apply(const T* q, chain::ProbingEvent<T>& event) {

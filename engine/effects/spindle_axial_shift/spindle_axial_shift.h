@@ -20,8 +20,8 @@ struct SpindleAxialShift {
       .title = "Axial shift of a turning spindle",
       .stage = Stage::spindle,
       .meaning = "The spindle nose moves towards -Z by (speed / 10 000 rpm)^2 (at_once + gradual (1 - exp(-time / "
-                 "time_constant))): bearings under centrifugal load, and their heat. Time counts since the start of the "
-                 "work, with the spindle turning.",
+                 "time_constant))): bearings under centrifugal load, and their heat. Time counts since the start of "
+                 "the work, with the spindle turning.",
       .adds = "z.error -= (speed / 10 000 rpm)^2 (at_once + gradual (1 - exp(-time / time_constant)))",
       .confused_with = "thermal_growth; a length error while all indications share one speed",
       .source = "engineering knowledge; Fang 2022, chapter 3 for the measurement; ISO 230-3",

@@ -9,9 +9,9 @@ struct Straightness {
     return {.name = symbol, .unit = "um/m2", .si_unit = "1/m", .limits = {-1e-1, 1e-1}, .symbol = symbol,
             .meaning = meaning, .role = Role::amplitude, .typical = {2e-5, 2e-4}};
   }
-  static constexpr QuantityCard x(std::string_view symbol) { return row(symbol, "along X, per square of the position"); }
-  static constexpr QuantityCard y(std::string_view symbol) { return row(symbol, "along Y, per square of the position"); }
-  static constexpr QuantityCard z(std::string_view symbol) { return row(symbol, "along Z, per square of the position"); }
+  static constexpr QuantityCard x(std::string_view symbol) { return row(symbol, "along X, per position squared"); }
+  static constexpr QuantityCard y(std::string_view symbol) { return row(symbol, "along Y, per position squared"); }
+  static constexpr QuantityCard z(std::string_view symbol) { return row(symbol, "along Z, per position squared"); }
   static constexpr EffectCard card(std::string_view name, std::string_view title, std::string_view symbols,
                                    std::string_view adds, std::span<const QuantityCard> quantities) {
     return {.name = name,

@@ -28,8 +28,8 @@ struct ThermalDrift {
       .name = "thermal_drift",
       .title = "Thermal drift along X and Y",
       .stage = Stage::slides,
-      .meaning = "The probe moves against the workpiece along X and Y with time: rate times time, plus a first-order rise "
-                 "amplitude (1 - exp(-time / time_constant)). Along Z: thermal_growth.",
+      .meaning = "The probe moves against the workpiece along X and Y with time: rate times time, plus a first-order "
+                 "rise amplitude (1 - exp(-time / time_constant)). Along Z: thermal_growth.",
       .adds = "x.error += rate_x time + amplitude_x (1 - exp(-time / time_constant)); y.error likewise",
       .confused_with = "the angle that is stepped in the order of time; drift of the sphere's holder",
       .source = "engineering knowledge; ISO 230-3",

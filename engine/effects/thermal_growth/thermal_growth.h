@@ -17,8 +17,8 @@ struct ThermalGrowth {
       .name = "thermal_growth",
       .title = "Thermal growth of spindle and Z axis",
       .stage = Stage::motion,
-      .meaning = "The spindle nose moves towards -Z with time: rate times time, plus a first-order rise amplitude (1 - "
-                 "exp(-time / time_constant)).",
+      .meaning = "The spindle nose moves towards -Z with time: rate times time, plus a first-order rise amplitude (1 "
+                 "- exp(-time / time_constant)).",
       .adds = "z.error -= rate time + amplitude (1 - exp(-time / time_constant))",
       .confused_with = "order of the rods, rod_expansion, slow changes of the beam",
       .source = "engineering knowledge; Fang 2022, section 2.5 for the kinematic chain; ISO 230-3",

@@ -20,9 +20,9 @@ struct ToolRunout {
       .name = "tool_runout",
       .title = "Run-out of a turning tool",
       .stage = Stage::insert,
-      .meaning = "The tool's axis lies off the spindle axis by (x, y) and is tilted by (tilt_x, tilt_y), in a frame that "
-                 "turns with the tool: X through the first seat, origin in the unworn tool's centre. Every insert "
-                 "changes its radius, tangential seat, height and angles, exactly.",
+      .meaning = "The tool's axis lies off the spindle axis by (x, y) and is tilted by (tilt_x, tilt_y), in a frame "
+                 "that turns with the tool: X through the first seat, origin in the unworn tool's centre. Every "
+                 "insert changes its radius, tangential seat, height and angles, exactly.",
       .adds = "runout_x += x; runout_y += y; tilt_x, tilt_y likewise, in the frame that turns with the tool",
       .confused_with =
           "wear (tilt raises the inserts as one cosine over them), insert_seat_error, insert_pitch_error",
