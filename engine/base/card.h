@@ -1,6 +1,7 @@
 #pragma once
 /// Cards: what models and effects say of themselves. Everything shown by `gumshoe models` and
 /// `gumshoe effects`, checked by the scenario parser, and written into result files comes from here.
+#include <cstddef>
 #include <span>
 #include <string_view>
 
@@ -17,6 +18,40 @@ struct Limits {
   }
 };
 
+/// Stages of the measuring chain, in the order in which effects act. A model has some of them.
+enum class Stage {
+  standing,
+  pose,
+  insert,
+  spindle,
+  motion,
+  timing,
+  rotary,
+  slides,
+  slide_directions,
+  contact,
+  trigger,
+};
+struct StageRow {
+  Stage stage;
+  std::string_view name; ///< in files and to people
+  std::string_view meaning;
+};
+inline constexpr StageRow stage_table[] = {
+    {Stage::standing, "standing", "a tool that stands still in the spindle"},
+    {Stage::pose, "pose", "place and length of the tool"},
+    {Stage::insert, "insert", "each insert of a turning tool, and how the tool sits"},
+    {Stage::spindle, "spindle", "speed and axial place of a turning spindle"},
+    {Stage::motion, "motion", "the slide Z"},
+    {Stage::timing, "timing", "from the start of the feed to the latch, with a turning tool"},
+    {Stage::rotary, "rotary", "the rotary axes B and C"},
+    {Stage::slides, "slides", "the slides X, Y and Z where all three are read"},
+    {Stage::slide_directions, "slide_directions", "the slides X and Y where it is known from which side each came"},
+    {Stage::contact, "contact", "a probe's tip, from contact to trigger"},
+    {Stage::trigger, "trigger", "from the trigger to the latch"},
+};
+constexpr std::string_view name(Stage stage) { return stage_table[static_cast<std::size_t>(stage)].name; }
+
 /// What tracing may do with a quantity of an effect.
 enum class Role {
   plain,     ///< a quantity of a model
@@ -25,16 +60,23 @@ enum class Role {
   pair,      ///< one of two components (x, y) of a vector amplitude
 };
 
+/// Magnitudes found on machines, SI, 0 <= low <= high; high = 0: not known.
+struct Typical {
+  double low = 0;
+  double high = 0;
+  std::string_view note = {}; ///< what it means in a case, or where it comes from
+};
+
 struct QuantityCard {
-  std::string_view name;    ///< public interface: "rod_radius"
-  std::string_view unit;    ///< shown to people: "mm"
-  std::string_view si_unit; ///< used inside: "m"
-  double default_value;     ///< SI; for an effect its null value
-  Limits limits;            ///< SI
-  std::string_view symbol;  ///< of the source: "R_r"
-  std::string_view meaning;
+  std::string_view name;     ///< public interface: "rod_radius"
+  std::string_view unit;     ///< shown to people: "mm"
+  std::string_view si_unit;  ///< used inside: "m"
+  double default_value = 0;  ///< SI; for an effect its null value
+  Limits limits;             ///< SI
+  std::string_view symbol{}; ///< of the source: "R_r"
+  std::string_view meaning{};
   Role role = Role::plain;
-  std::string_view typical = {}; ///< typical magnitude, in words: "0.1-5 ms"
+  Typical typical = {};
 };
 
 /// A condition (commanded, exact), an indication or a measurand.
@@ -70,20 +112,24 @@ struct ModelCard {
   std::span<const VariableCard> indications;
   std::span<const VariableCard> measurands;
   std::span<const EvaluationCard> evaluations;
-  std::span<const std::string_view> stages;  ///< of the measuring chain that the model has: effects acting there apply
+  std::span<const Stage> stages;             ///< of the measuring chain that the model has: effects acting there apply
   std::span<const QuantityCard> timing = {}; ///< what else the duration depends on: rapid feed, orientation time
 };
 
 struct EffectCard {
   std::string_view name;
   std::string_view title;
-  std::string_view stage;  ///< motion, pose, contact, trigger or reading
-  int rank;                ///< order within the stage (scale before rounding does not commute)
-  std::string_view iso230; ///< ISO 230-1/-7 symbol where there is one
+  Stage stage;
+  std::string_view iso230 = {}; ///< ISO 230-1/-7 symbol where there is one
   std::string_view meaning;
+  std::string_view adds; ///< to which fields of the event, as a formula: "latch_delay += delay"
   std::string_view confused_with;
   std::string_view source;
   std::span<const QuantityCard> quantities;
+  /// Its first quantity takes another value at every clamping of the tool: a scatter by clampings is this quantity's.
+  bool scatters_between_clampings = false;
+  /// Where readings have a derivative by its amplitudes they follow it over the whole typical range, without jumps.
+  bool follows_derivative = false;
 };
 
 } // namespace gumshoe

@@ -4,10 +4,12 @@
 #include <memory>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "base/units.h"
 #include "cli/command.h"
+#include "cli/effects_markdown.h"
 #include "effects/effect.h"
 #include "scenario/made_models.h"
 
@@ -19,6 +21,11 @@ using Json = nlohmann::ordered_json;
 
 double shown(double value, const QuantityCard& q) {
   return units::from_si(value, std::string(q.unit), std::string(q.si_unit));
+}
+
+/// With its note: "0.1-5 ms: 0.07 um/ms at 4 mm/min".
+std::string typical(const QuantityCard& q) {
+  return typical_text(q) + (q.typical.note.empty() ? "" : fmt::format(": {}", q.typical.note));
 }
 
 Json number_or_null(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
@@ -48,7 +55,7 @@ Json to_json(const QuantityCard& q, const char* default_name) {
           {"symbol", q.symbol},
           {"meaning", q.meaning},
           {"role", role_name(q.role)},
-          {"typical", q.typical}};
+          {"typical", typical(q)}};
 }
 template <class Cards> Json variables(const Cards& cards) {
   Json list = Json::array();
@@ -72,10 +79,10 @@ Json to_json(const ModelCard& card) {
 Json to_json(const EffectCard& card) {
   Json j{{"name", card.name},
          {"title", card.title},
-         {"stage", card.stage},
-         {"rank", card.rank},
+         {"stage", name(card.stage)},
          {"iso_230", card.iso230},
          {"meaning", card.meaning},
+         {"adds", card.adds},
          {"confused_with", card.confused_with},
          {"source", card.source}};
   for (const QuantityCard& q : card.quantities) j["quantities"].push_back(to_json(q, "null_value"));
@@ -86,7 +93,7 @@ void print(const QuantityCard& q, const char* default_word) {
   std::cout << fmt::format("  {:<24} {:<8} {} {:g}; limits {}{:g}, {:g}{}{}\n", q.name, q.unit, default_word,
                            shown(q.default_value, q), q.limits.low_open ? "(" : "[", shown(q.limits.low, q),
                            shown(q.limits.high, q), q.limits.high_open ? ")" : "]",
-                           q.typical.empty() ? "" : fmt::format("; typical {}", q.typical));
+                           q.typical.high == 0 ? "" : fmt::format("; typical {}", typical(q)));
   std::cout << fmt::format("  {:<24} {}{}\n", "", q.symbol.empty() ? "" : fmt::format("{}: ", q.symbol), q.meaning);
 }
 void print(const ModelCard& card) {
@@ -111,8 +118,9 @@ void print(const ModelCard& card) {
   std::cout << fmt::format("\n\nsource: {}\n", card.source);
 }
 void print(const EffectCard& card) {
-  std::cout << fmt::format("{}: {} (stage {}{})\n\n{}\nConfused with: {}.\n\nquantities\n", card.name, card.title,
-                           card.stage, card.iso230.empty() ? "" : fmt::format(", {}", card.iso230), card.meaning,
+  std::cout << fmt::format("{}: {} (stage {}{})\n\n{}\nAdds: {}.\nConfused with: {}.\n\nquantities\n",
+                           card.name, card.title, name(card.stage),
+                           card.iso230.empty() ? "" : fmt::format(", {}", card.iso230), card.meaning, card.adds,
                            card.confused_with);
   for (const QuantityCard& q : card.quantities) print(q, "null");
   std::cout << fmt::format("\nsource: {}\n", card.source);
@@ -150,11 +158,13 @@ struct Options {
   std::string name, format = "text";
 };
 
-template <class Body> void add(CLI::App& app, const char* name, const char* help, Action& action, Body body) {
+template <class Body>
+void add(CLI::App& app, const char* name, const char* help, const std::vector<std::string>& formats, Action& action,
+         Body body) {
   auto* command = app.add_subcommand(name, help);
   const auto o = std::make_shared<Options>();
   command->add_option("name", o->name, "one of them, in full");
-  command->add_option("--format", o->format, "text or json")->check(CLI::IsMember({"text", "json"}));
+  command->add_option("--format", o->format, fmt::format("{}", fmt::join(formats, " or ")))->check(CLI::IsMember(formats));
   command->callback([=, &action] { action = [=] { return body(*o); }; });
 }
 
@@ -162,7 +172,7 @@ template <class Body> void add(CLI::App& app, const char* name, const char* help
 
 void add_models(CLI::App& app, Action& action) {
   add(app, "models", "lists the models, or one model's card: quantities, units, defaults, limits, meaning, source",
-      action, [](const Options& o) {
+      {"text", "json"}, action, [](const Options& o) {
         const auto made = scenario::made_models();
         if (std::ranges::find(made, o.name, &scenario::MadeModelRow::name) != made.end())
           throw InputError("'" + o.name + "' has no card of its own", "its quantities follow from the scenario",
@@ -176,8 +186,13 @@ void add_models(CLI::App& app, Action& action) {
       });
 }
 void add_effects(CLI::App& app, Action& action) {
-  add(app, "effects", "lists the effects, or one effect's card", action,
-      [](const Options& o) { return show(effects::cards(), "effect", o.name, o.format); });
+  add(app, "effects", "lists the effects, or one effect's card", {"text", "json", "markdown"}, action,
+      [](const Options& o) {
+        if (o.format != "markdown") return show(effects::cards(), "effect", o.name, o.format);
+        if (!o.name.empty()) throw InputError("markdown is a table of all effects", "", "leave the name out");
+        std::cout << effects_markdown(catalogue().models, effects::cards());
+        return ExitCode::done;
+      });
 }
 
 } // namespace gumshoe::cli

@@ -1,6 +1,6 @@
-#include "effects/catalogue.h"
-
 #include <algorithm>
+
+#include "effects/functions.h"
 
 namespace gumshoe::effects {
 
@@ -10,6 +10,7 @@ constexpr const EffectCard* table[] = {
 #include "effects/catalogue.def"
 };
 #undef GUMSHOE_EFFECT
+static_assert(std::ranges::is_sorted(table, {}, &EffectCard::stage), "catalogue.def is in the order of the stages");
 } // namespace
 
 std::span<const EffectCard* const> cards() { return table; }
@@ -22,5 +23,12 @@ const EffectCard* find(std::string_view name) {
 bool applies(const ModelCard& model, const EffectCard& effect) {
   return std::ranges::find(model.stages, effect.stage) != model.stages.end();
 }
+
+using First = Dual<double, 8>;
+using Second = Dual<First, 8>;
+template std::span<const Apply<double>> functions<double>();
+template std::span<const Apply<Lanes>> functions<Lanes>();
+template std::span<const Apply<First>> functions<First>();
+template std::span<const Apply<Second>> functions<Second>();
 
 } // namespace gumshoe::effects

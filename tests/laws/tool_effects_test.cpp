@@ -53,8 +53,8 @@ TEST_CASE("what truly moves the tool's centre moves it at the start, too", "[eff
                     raised(spindle(40 * um, 90 * um))) < rounding);
   // Four times as much at twice the speed.
   const Mill fast = m.under(mill::speed, 2000 * rpm);
-  REQUIRE(fast.with("spindle_axial_shift", {40 * um, 0}).event().axis_error ==
-          Approx(4 * m.with("spindle_axial_shift", {40 * um, 0}).event().axis_error).epsilon(1e-14));
+  REQUIRE(fast.with("spindle_axial_shift", {40 * um, 0}).event().z.error ==
+          Approx(4 * m.with("spindle_axial_shift", {40 * um, 0}).event().z.error).epsilon(1e-14));
   // Scale: the axis stands E Z farther, at the start by the start's Z, and falls 1 + E as fast.
   const double E = 20e-6, start = -0.5 + 0.150 + h;
   const Mill scaled = m.under(mill::start_height, h + E * start).under(mill::feed, m.condition[mill::feed] * (1 + E));

@@ -31,13 +31,17 @@ inline constexpr ModelCard model{
 inline constexpr QuantityCard latency_cards[] = {{"delay", "s", "s", 0, {-1e-2, 1e-2}, "", "delay", Role::amplitude}};
 inline constexpr QuantityCard runout_cards[] = {{"x", "um", "m", 0, {-1e-3, 1e-3}, "", "", Role::pair},
                                                 {"y", "um", "m", 0, {-1e-3, 1e-3}, "", "", Role::pair}};
-inline constexpr EffectCard latency{"trigger_latency", "", "trigger", 0, "", "", "", "", latency_cards};
-inline constexpr EffectCard runout{"rod_runout", "", "pose", 0, "", "", "", "", runout_cards};
-inline constexpr EffectCard orientation{"orientation", "", "spindle", 0, "", "", "", "", latency_cards};
+constexpr EffectCard effect(std::string_view name, Stage stage, std::span<const QuantityCard> quantities) {
+  return {.name = name, .title = "", .stage = stage, .meaning = "", .adds = "", .confused_with = "", .source = "",
+          .quantities = quantities};
+}
+inline constexpr EffectCard latency = effect("trigger_latency", Stage::trigger, latency_cards);
+inline constexpr EffectCard runout = effect("rod_runout", Stage::pose, runout_cards);
+inline constexpr EffectCard orientation = effect("orientation", Stage::spindle, latency_cards);
 
 inline scenario::Catalogue catalogue() {
   return {{&model}, {&runout, &latency, &orientation}, [](const ModelCard&, const EffectCard& e) {
-            return e.stage != "spindle";
+            return e.stage != Stage::spindle;
           }};
 }
 

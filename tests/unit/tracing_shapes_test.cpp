@@ -1,15 +1,13 @@
-/// Shapes without a cause span what their names say; cards' typical sizes; what a signature depends on.
+/// Shapes without a cause span what their names say; what a signature depends on.
 #include <catch2/catch.hpp>
 
 #include <algorithm>
-#include <cctype>
 #include <numbers>
 #include <set>
 
 #include <Eigen/QR>
 
 #include "base/units.h"
-#include "tracing/typical_size.h"
 #include "unit/tracing_case.h"
 #include "unit/tracing_dense.h"
 
@@ -162,34 +160,4 @@ TEST_CASE("a signature is told by the conditions on which it depends", "[tracing
   CHECK(depends([&](std::size_t) { return 4.0; }).empty());
   const Names both = depends([&](std::size_t r) { return c[0].value[r] + 3 * std::sin(c[1].value[r]); });
   CHECK(both == Names{"feed", "angle"});
-}
-
-TEST_CASE("typical sizes of the effects' cards are read", "[tracing]") {
-  int read = 0;
-  for (const EffectCard* effect : effects::cards())
-    for (const QuantityCard& q : effect->quantities) {
-      const std::string text(q.typical);
-      if (std::none_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c); })) continue;
-      CAPTURE(effect->name, q.name, text);
-      double low = -1;
-      const double high = typical_size(q, &low);
-      CHECK(high > 0);
-      CHECK(low >= 0);
-      CHECK(low <= high);
-      CHECK(q.limits.contain(high));
-      ++read;
-    }
-  CHECK(read > 30);
-  const auto size = [](const char* text, const char* unit, const char* si) {
-    double low = 0;
-    const double high = typical_size({"x", unit, si, 0, {-1, 1}, "", "", Role::amplitude, text}, &low);
-    return std::pair{low, high};
-  };
-  CHECK(size("1-10 um", "um", "m").first == Approx(1e-6));
-  CHECK(size("1-10 um", "um", "m").second == Approx(1e-5));
-  CHECK(size("0.1-5 ms: of a control", "s", "s").second == Approx(5e-3));
-  CHECK(size("2 um", "mm", "m").second == Approx(2e-6));
-  CHECK(size("0-2", "1", "1").second == 2);
-  CHECK(size("none is known", "um", "m").second == 0);
-  CHECK(size("", "um", "m").second == 0);
 }

@@ -1,42 +1,37 @@
 #pragma once
-#include "effects/per_rotary_axis.h"
+#include "effects/part.h"
 
 namespace gumshoe::effects {
 
-/// The brake turns a rotary axis as it closes.
 struct BrakeShift {
   static constexpr QuantityCard quantities[] = {
-      {"angle",
-       "arcsec",
-       "rad",
-       0.0,
-       {-1e-2, 1e-2},
-       "",
-       "turn of the axis when its brake holds",
-       Role::amplitude,
-       "1-5 arcsec"},
+      {.name = "angle", .unit = "arcsec", .si_unit = "rad", .limits = {-1e-2, 1e-2},
+       .meaning = "turn of the axis when its brake holds", .role = Role::amplitude,
+       .typical = {1 * arcsec, 5 * arcsec}},
   };
-  static constexpr EffectCard common{
-      "",        "",
-      "rotary",  40,
-      "",        "The axis is turned by an angle where its brake holds (condition clamped = 1).",
-      "",        "engineering knowledge",
-      quantities};
-  template <class T> static void add(const T* q, const RotaryAxis<T>& axis) {
-    axis.error = axis.error + axis.clamped * q[0];
+  static constexpr Common common{
+      .stage = Stage::rotary,
+      .meaning = "The axis is turned by an angle where its brake holds (condition clamped = 1).",
+      .source = "engineering knowledge",
+      .quantities = quantities};
+  template <class T> static void add(const T* q, const Turn<T>& turn) {
+    turn.error = turn.error + turn.axis.clamped * q[0];
   }
 };
 
-struct BBrakeShift : OfB<BrakeShift> {
+struct BBrakeShift : On<BrakeShift, axis_B> {
   static constexpr EffectCard card =
-      of_axis(BrakeShift::common, 'B', "b_brake_shift", "Shift of the B axis by its brake",
-              "b_axis_reversal; what differs between the patterns if the brake closes in one of them");
+      on({.name = "b_brake_shift", .title = "Shift of the B axis by its brake", .iso230 = "E_BB",
+          .adds = "E_BB += B.clamped angle",
+          .confused_with = "b_axis_reversal; what differs between the patterns if the brake closes in one of them"},
+         BrakeShift::common);
 };
-
-struct CBrakeShift : OfC<BrakeShift> {
+struct CBrakeShift : On<BrakeShift, axis_C> {
   static constexpr EffectCard card =
-      of_axis(BrakeShift::common, 'C', "c_brake_shift", "Shift of the C axis by its brake",
-              "c_axis_reversal; what differs between the patterns if the brake closes in one of them");
+      on({.name = "c_brake_shift", .title = "Shift of the C axis by its brake", .iso230 = "E_CC",
+          .adds = "E_CC += C.clamped angle",
+          .confused_with = "c_axis_reversal; what differs between the patterns if the brake closes in one of them"},
+         BrakeShift::common);
 };
 
 } // namespace gumshoe::effects

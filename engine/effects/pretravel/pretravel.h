@@ -1,35 +1,26 @@
 #pragma once
-#include "chain/rotary_probing.h"
+#include "chain/probing_event.h"
 #include "effects/effect.h"
 
 namespace gumshoe::effects {
 
-/// Way of the tip from contact to trigger, the same in all directions.
 struct Pretravel {
   static constexpr QuantityCard quantities[] = {
-      {"distance",
-       "um",
-       "m",
-       0.0,
-       {-1e-3, 1e-3},
-       "",
-       "on along the approach from contact to trigger",
-       Role::amplitude,
-       "2-20 um"},
+      {.name = "distance", .unit = "um", .si_unit = "m", .limits = {-1e-3, 1e-3},
+       .meaning = "on along the approach from contact to trigger", .role = Role::amplitude, .typical = {2e-6, 20e-6}},
   };
   static constexpr EffectCard card{
-      "pretravel",
-      "Pretravel of the probe",
-      "contact",
-      10,
-      "",
-      "The tip moves on by this distance from contact to trigger, along the approach, whatever its direction.",
-      "sphere_radius + tip_radius and probe_z, exactly where every approach is from the top",
-      "Estler et al. 1996, Precision Engineering; size: engineering knowledge",
-      quantities};
+      .name = "pretravel",
+      .title = "Pretravel of the probe",
+      .stage = Stage::contact,
+      .meaning =
+          "The tip moves on by this distance from contact to trigger, along the approach, whatever its direction.",
+      .adds = "pretravel += distance",
+      .confused_with = "sphere_radius + tip_radius and probe_z, exactly where every approach is from the top",
+      .source = "Estler et al. 1996, Precision Engineering; size: engineering knowledge",
+      .quantities = quantities};
   template <class T> static void apply(const T* q, chain::ProbingEvent<T>& event) {
-    chain::RotaryProbing<T>& r = *event.rotary;
-    r.pretravel = r.pretravel + q[0];
+    event.pretravel = event.pretravel + q[0];
   }
 };
 

@@ -4,33 +4,26 @@
 
 namespace gumshoe::effects {
 
-/// The receiver is looked at once in a period; it holds the trigger until then.
 struct SamplingRate {
   static constexpr QuantityCard quantities[] = {
-      {"period", "ms", "s", 0.0, {0.0, 1.0}, "T", "of sampling", Role::amplitude, "0.1-4 ms"},
-      {"phase",
-       "1",
-       "1",
-       0.0,
-       {0.0, 1.0},
-       "",
-       "share of a period from the feed's begin to the first sampling",
-       Role::shape,
-       "0 to 1: rectangular where the clocks are free"},
+      {.name = "period", .unit = "ms", .si_unit = "s", .limits = {0.0, 1.0}, .symbol = "T", .meaning = "of sampling",
+       .role = Role::amplitude, .typical = {0.1e-3, 4e-3}},
+      {.name = "phase", .unit = "1", .si_unit = "1", .limits = {0.0, 1.0},
+       .meaning = "share of a period from the feed's begin to the first sampling", .role = Role::shape,
+       .typical = {0, 1, "rectangular where the clocks are free"}},
   };
   static constexpr EffectCard card{
-      "sampling_rate",
-      "Sampling of the receiver",
-      "timing",
-      40,
-      "",
-      "The receiver holds the trigger, none is missed, until it is next looked at: a latency between nothing and a "
-      "period. A phase drawn from 0 to 1 makes it rectangular. The reading is a staircase and has no derivative; the "
-      "engine gives those of its mean (half a period) and, for the phase, one period, which for a phase from 0 to 1 is "
-      "the rectangle's uncertainty.",
-      "trigger_latency, of half a period",
-      "engineering knowledge; Fang 2022, chapter 3 for the measurement",
-      quantities};
+      .name = "sampling_rate",
+      .title = "Sampling of the receiver",
+      .stage = Stage::timing,
+      .meaning = "The receiver holds the trigger, none is missed, until it is next looked at: a latency between "
+                 "nothing and a period. A phase drawn from 0 to 1 makes it rectangular. The reading is a staircase "
+                 "and has no derivative; the engine gives those of its mean (half a period) and, for the phase, one "
+                 "period, which for a phase from 0 to 1 is the rectangle's uncertainty.",
+      .adds = "sampling_period += period; sampling_phase += phase",
+      .confused_with = "trigger_latency, of half a period",
+      .source = "engineering knowledge; Fang 2022, chapter 3 for the measurement",
+      .quantities = quantities};
   template <class T> static void apply(const T* q, chain::ProbingEvent<T>& event) {
     chain::TurningTool<T>& tool = *event.turning;
     tool.sampling_period = tool.sampling_period + q[0];

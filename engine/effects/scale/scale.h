@@ -1,63 +1,53 @@
 #pragma once
-#include "chain/rotary_probing.h"
-#include "effects/effect.h"
+#include "effects/part.h"
 
 namespace gumshoe::effects {
 
-/// Linear positioning error: actual minus commanded position grows in proportion to the command. Every model with a
-/// spindle has Z; X and Y are slides that carry a probe behind rotary axes.
 struct Scale {
-  static constexpr QuantityCard of(std::string_view symbol) {
-    return {symbol,          "um/m",     "1", 0.0, {-1e-2, 1e-2}, symbol, "positioning error per length of travel",
-            Role::amplitude, "5-20 um/m"};
+  static constexpr QuantityCard row(std::string_view symbol) {
+    return {.name = symbol, .unit = "um/m", .si_unit = "1", .limits = {-1e-2, 1e-2}, .symbol = symbol,
+            .meaning = "positioning error per length of travel", .role = Role::amplitude, .typical = {5e-6, 20e-6}};
   }
-  static constexpr EffectCard of_slide(std::string_view name, std::string_view title, int rank, std::string_view symbol,
-                                       std::span<const QuantityCard> quantities) {
-    return {name,
-            title,
-            "slides",
-            rank,
-            symbol,
-            "Actual minus commanded position grows in proportion to the command. A model's quantity of this symbol is "
-            "an error at one place and adds to the reading.",
-            "lengths of the probe and links; the other slides' scales, as all three together are a scale of the whole",
-            "engineering knowledge; ISO 230-1",
-            quantities};
+  static constexpr Common common(std::span<const QuantityCard> quantities) {
+    return {.stage = Stage::slides,
+            .meaning = "Actual minus commanded position grows in proportion to the command. A model's quantity of "
+                       "this symbol is an error at one place and adds to the reading.",
+            .source = "engineering knowledge; ISO 230-1",
+            .quantities = quantities};
   }
+  static constexpr std::string_view confused_with =
+      "lengths of the probe and links; the other slides' scales, as all three together are a scale of the whole";
+  template <class T> static void add(const T* q, chain::Slide<T>& slide) { slide.scale = slide.scale + q[0]; }
 };
 
-struct XScale {
-  static constexpr QuantityCard quantities[] = {Scale::of("E_XX")};
+struct XScale : On<Scale, slide_X> {
+  static constexpr QuantityCard quantities[] = {Scale::row("E_XX")};
   static constexpr EffectCard card =
-      Scale::of_slide("x_scale", "Linear positioning error of X", 20, "E_XX", quantities);
-  template <class T> static void apply(const T* q, chain::ProbingEvent<T>& event) {
-    event.rotary->X.scale = event.rotary->X.scale + q[0];
-  }
+      on({.name = "x_scale", .title = "Linear positioning error of X", .iso230 = "E_XX",
+          .adds = "x.scale += E_XX",
+          .confused_with = Scale::confused_with},
+         Scale::common(quantities));
 };
-
-struct YScale {
-  static constexpr QuantityCard quantities[] = {Scale::of("E_YY")};
+struct YScale : On<Scale, slide_Y> {
+  static constexpr QuantityCard quantities[] = {Scale::row("E_YY")};
   static constexpr EffectCard card =
-      Scale::of_slide("y_scale", "Linear positioning error of Y", 21, "E_YY", quantities);
-  template <class T> static void apply(const T* q, chain::ProbingEvent<T>& event) {
-    event.rotary->Y.scale = event.rotary->Y.scale + q[0];
-  }
+      on({.name = "y_scale", .title = "Linear positioning error of Y", .iso230 = "E_YY",
+          .adds = "y.scale += E_YY",
+          .confused_with = Scale::confused_with},
+         Scale::common(quantities));
 };
-
-struct ZScale {
-  static constexpr QuantityCard quantities[] = {Scale::of("E_ZZ")};
-  static constexpr EffectCard card{"z_scale",
-                                   "Linear positioning error of Z",
-                                   "motion",
-                                   30,
-                                   "E_ZZ",
-                                   "Actual minus commanded position grows in proportion to the commanded Z.",
-                                   "rod_expansion (exactly collinear where spindle_z minus rod_length is constant)",
-                                   "engineering knowledge; Fang 2022, section 2.5 for the kinematic chain; ISO 230-1",
-                                   quantities};
-  template <class T> static void apply(const T* q, chain::ProbingEvent<T>& event) {
-    event.axis_scale = event.axis_scale + q[0];
-  }
+struct ZScale : On<Scale, slide_Z> {
+  static constexpr QuantityCard quantities[] = {Scale::row("E_ZZ")};
+  static constexpr EffectCard card{
+      .name = "z_scale",
+      .title = "Linear positioning error of Z",
+      .stage = Stage::motion,
+      .iso230 = "E_ZZ",
+      .meaning = "Actual minus commanded position grows in proportion to the commanded Z.",
+      .adds = "z.scale += E_ZZ",
+      .confused_with = "rod_expansion (exactly collinear where spindle_z minus rod_length is constant)",
+      .source = "engineering knowledge; Fang 2022, section 2.5 for the kinematic chain; ISO 230-1",
+      .quantities = quantities};
 };
 
 } // namespace gumshoe::effects

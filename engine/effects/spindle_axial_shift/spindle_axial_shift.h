@@ -6,37 +6,30 @@
 
 namespace gumshoe::effects {
 
-/// Axial shift of a turning spindle, towards -Z: (speed / 10 000 rpm)^2 (at_once + gradual (1 - exp(-time /
-/// time_constant))).
 struct SpindleAxialShift {
   static constexpr QuantityCard quantities[] = {
-      {"at_once",
-       "um",
-       "m",
-       0.0,
-       {-1e-3, 1e-3},
-       "",
-       "at 10 000 rpm, as soon as the spindle turns",
-       Role::amplitude,
-       "1-20 um"},
-      {"gradual", "um", "m", 0.0, {-1e-3, 1e-3}, "", "at 10 000 rpm, when warm", Role::amplitude, "5-50 um"},
-      {"time_constant", "min", "s", 600.0, {1.0, 1e6}, "", "of the gradual part", Role::shape, "5-30 min"},
+      {.name = "at_once", .unit = "um", .si_unit = "m", .limits = {-1e-3, 1e-3},
+       .meaning = "at 10 000 rpm, as soon as the spindle turns", .role = Role::amplitude, .typical = {1e-6, 20e-6}},
+      {.name = "gradual", .unit = "um", .si_unit = "m", .limits = {-1e-3, 1e-3},
+       .meaning = "at 10 000 rpm, when warm", .role = Role::amplitude, .typical = {5e-6, 50e-6}},
+      {.name = "time_constant", .unit = "min", .si_unit = "s", .default_value = 600.0, .limits = {1.0, 1e6},
+       .meaning = "of the gradual part", .role = Role::shape, .typical = {300, 1800}},
   };
-  static constexpr EffectCard card{"spindle_axial_shift",
-                                   "Axial shift of a turning spindle",
-                                   "spindle",
-                                   20,
-                                   "",
-                                   "The spindle nose moves towards -Z by (speed / 10 000 rpm)^2 (at_once + gradual (1 "
-                                   "- exp(-time / time_constant))): bearings under centrifugal load, and their heat. "
-                                   "Time counts since the start of the work, with the spindle turning.",
-                                   "thermal_growth; a length error while all readouts share one speed",
-                                   "engineering knowledge; Fang 2022, chapter 3 for the measurement; ISO 230-3",
-                                   quantities};
+  static constexpr EffectCard card{
+      .name = "spindle_axial_shift",
+      .title = "Axial shift of a turning spindle",
+      .stage = Stage::spindle,
+      .meaning = "The spindle nose moves towards -Z by (speed / 10 000 rpm)^2 (at_once + gradual (1 - exp(-time / "
+                 "time_constant))): bearings under centrifugal load, and their heat. Time counts since the start of "
+                 "the work, with the spindle turning.",
+      .adds = "z.error -= (speed / 10 000 rpm)^2 (at_once + gradual (1 - exp(-time / time_constant)))",
+      .confused_with = "thermal_growth; a length error while all indications share one speed",
+      .source = "engineering knowledge; Fang 2022, chapter 3 for the measurement; ISO 230-3",
+      .quantities = quantities};
   template <class T> static void apply(const T* q, chain::ProbingEvent<T>& event) {
     constexpr double reference = 10000 * 2 * std::numbers::pi / 60;
     const T ratio = event.turning->speed / reference;
-    event.axis_error = event.axis_error - ratio * ratio * (q[0] + q[1] * (1.0 - num::exp(-(event.time / q[2]))));
+    event.z.error = event.z.error - ratio * ratio * (q[0] + q[1] * (1.0 - num::exp(-(event.time / q[2]))));
   }
 };
 

@@ -4,30 +4,21 @@
 
 namespace gumshoe::effects {
 
-/// Speed of the spindle. True speed = commanded speed (1 + error).
 struct SpindleSpeedError {
   static constexpr QuantityCard quantities[] = {
-      {"error",
-       "%",
-       "1",
-       0.0,
-       {-0.5, 0.5},
-       "",
-       "true speed minus commanded speed, relative",
-       Role::amplitude,
-       "0.01-1 %"},
+      {.name = "error", .unit = "%", .si_unit = "1", .limits = {-0.5, 0.5},
+       .meaning = "true speed minus commanded speed, relative", .role = Role::amplitude, .typical = {1e-4, 1e-2}},
   };
   static constexpr EffectCard card{
-      "spindle_speed_error",
-      "Speed of the spindle",
-      "spindle",
-      10,
-      "",
-      "True speed = commanded speed (1 + error). The tool descends feed / true speed per revolution, which scales the "
-      "grid of heights, and has turned otherwise when it reaches the beam.",
-      "spindle_speed, exactly; the start of the feed (the phase runs away with the start height)",
-      "engineering knowledge; Fang 2022, chapter 3 for the measurement",
-      quantities};
+      .name = "spindle_speed_error",
+      .title = "Speed of the spindle",
+      .stage = Stage::spindle,
+      .meaning = "True speed = commanded speed (1 + error). The tool descends feed / true speed per revolution, which "
+                 "scales the grid of heights, and it has turned by another angle when it reaches the beam.",
+      .adds = "speed *= 1 + error",
+      .confused_with = "spindle_speed, exactly; the start of the feed (the phase runs away with the start height)",
+      .source = "engineering knowledge; Fang 2022, chapter 3 for the measurement",
+      .quantities = quantities};
   template <class T> static void apply(const T* q, chain::ProbingEvent<T>& event) {
     event.turning->speed = event.turning->speed * (1.0 + q[0]);
   }

@@ -4,50 +4,31 @@
 
 namespace gumshoe::effects {
 
-/// Run-out of a turning tool: its axis lies beside the spindle axis and is tilted, in the tool's frame, which turns.
 struct ToolRunout {
   static constexpr QuantityCard quantities[] = {
-      {"x",
-       "um",
-       "m",
-       0.0,
-       {-1e-3, 1e-3},
-       "",
-       "displacement at the tool's centre towards the first seat",
-       Role::pair,
-       "1-20 um"},
-      {"y",
-       "um",
-       "m",
-       0.0,
-       {-1e-3, 1e-3},
-       "",
-       "displacement a quarter turn ahead, counter-clockwise",
-       Role::pair,
-       "1-20 um"},
-      {"tilt_x",
-       "mrad",
-       "rad",
-       0.0,
-       {-0.1, 0.1},
-       "",
-       "turn of the tool about its X, through its centre",
-       Role::pair,
-       "0.02-0.2 mrad"},
-      {"tilt_y", "mrad", "rad", 0.0, {-0.1, 0.1}, "", "then about the Y of the spindle", Role::pair, "0.02-0.2 mrad"},
+      {.name = "x", .unit = "um", .si_unit = "m", .limits = {-1e-3, 1e-3},
+       .meaning = "displacement at the tool's centre towards the first seat", .role = Role::pair,
+       .typical = {1e-6, 20e-6}},
+      {.name = "y", .unit = "um", .si_unit = "m", .limits = {-1e-3, 1e-3},
+       .meaning = "displacement a quarter turn ahead, counter-clockwise", .role = Role::pair, .typical = {1e-6, 20e-6}},
+      {.name = "tilt_x", .unit = "mrad", .si_unit = "rad", .limits = {-0.1, 0.1},
+       .meaning = "turn of the tool about its X, through its centre", .role = Role::pair, .typical = {2e-5, 2e-4}},
+      {.name = "tilt_y", .unit = "mrad", .si_unit = "rad", .limits = {-0.1, 0.1},
+       .meaning = "then about the Y of the spindle", .role = Role::pair, .typical = {2e-5, 2e-4}},
   };
   static constexpr EffectCard card{
-      "tool_runout",
-      "Run-out of a turning tool",
-      "insert",
-      60,
-      "",
-      "The tool's axis lies beside the spindle axis by (x, y) and is tilted by (tilt_x, tilt_y), in a frame that turns "
-      "with the tool: X through the first seat, origin in the unworn tool's centre. Every insert changes its radius, "
-      "tangential seat, height and angles, exactly.",
-      "wear (tilt raises the inserts as one cosine over them), insert_seat_error, insert_pitch_error",
-      "engineering knowledge; Fang 2022, chapter 3 for the measurement",
-      quantities};
+      .name = "tool_runout",
+      .title = "Run-out of a turning tool",
+      .stage = Stage::insert,
+      .meaning = "The tool's axis lies off the spindle axis by (x, y) and is tilted by (tilt_x, tilt_y), in a frame "
+                 "that turns with the tool: X through the first seat, origin in the unworn tool's centre. Every "
+                 "insert changes its radius, tangential seat, height and angles, exactly.",
+      .adds = "runout_x += x; runout_y += y; tilt_x, tilt_y likewise, in the frame that turns with the tool",
+      .confused_with =
+          "wear (tilt raises the inserts as one cosine over them), insert_seat_error, insert_pitch_error",
+      .source = "engineering knowledge; Fang 2022, chapter 3 for the measurement",
+      .quantities = quantities,
+      .follows_derivative = true};
   template <class T> static void apply(const T* q, chain::ProbingEvent<T>& event) {
     chain::TurningTool<T>& tool = *event.turning;
     tool.runout_x = tool.runout_x + q[0];

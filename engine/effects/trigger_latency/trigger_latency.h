@@ -4,31 +4,22 @@
 
 namespace gumshoe::effects {
 
-/// Trigger latency. The control latches the axes a delay after the trigger, a beam broken or a probe's switch opened:
-/// latched position = position(t + delay). Grows with feed.
 struct TriggerLatency {
   static constexpr QuantityCard quantities[] = {
-      {"delay",
-       "ms",
-       "s",
-       0.0,
-       {-1e-2, 1e-1},
-       "t_d",
-       "from the trigger to the latch",
-       Role::amplitude,
-       "0.1-5 ms: 0.07 um/ms at 4 mm/min"},
+      {.name = "delay", .unit = "ms", .si_unit = "s", .limits = {-1e-2, 1e-1}, .symbol = "t_d",
+       .meaning = "from the trigger to the latch", .role = Role::amplitude,
+       .typical = {0.1e-3, 5e-3, "0.07 um/ms at 4 mm/min"}},
   };
-  static constexpr EffectCard card{"trigger_latency",
-                                   "Trigger latency",
-                                   "trigger",
-                                   10,
-                                   "",
-                                   "The control latches the axes a delay after the trigger, a beam broken or a probe's "
-                                   "switch opened: latched position = "
-                                   "position(t + delay). Grows with feed.",
-                                   "servo lag; a length error when all data share one feed",
-                                   "engineering knowledge; Fang 2022, section 2.5 for the kinematic chain",
-                                   quantities};
+  static constexpr EffectCard card{
+      .name = "trigger_latency",
+      .title = "Trigger latency",
+      .stage = Stage::trigger,
+      .meaning = "The control latches the axes a delay after the trigger, a beam broken or a probe's switch opened: "
+                 "latched position = position(t + delay). Grows with feed.",
+      .adds = "latch_delay += delay",
+      .confused_with = "servo lag; a length error when all data share one feed",
+      .source = "engineering knowledge; Fang 2022, section 2.5 for the kinematic chain",
+      .quantities = quantities};
   template <class T> static void apply(const T* q, chain::ProbingEvent<T>& event) {
     event.latch_delay = event.latch_delay + q[0];
   }

@@ -77,7 +77,7 @@ constexpr QuantityCard timing[] = {
     {"retract", "s", "s", 2, {0, huge}, "", "back up at rapid, and settling, of every reading"},
     {"rod_change", "s", "s", 60, {0, huge}, "", "the rod into the spindle and over the beam, once"},
 };
-constexpr std::string_view stages[] = {"standing", "pose", "motion", "trigger"};
+constexpr Stage stages[] = {Stage::standing, Stage::pose, Stage::motion, Stage::trigger};
 
 constexpr ModelCard card{
     "rod_gauging",
@@ -125,8 +125,8 @@ std::vector<Intermediate> explain(const PointCall<double>& call) {
       {"tool axis beside the beam's reference point, X", "mm", event.tool_x / mm},
       {"tool axis beside the beam's reference point, Y", "mm", event.tool_y / mm},
       {"tool growth", "mm", event.tool_growth / mm},
-      {"axis error", "mm", event.axis_error / mm},
-      {"axis scale", "um/m", event.axis_scale * 1e6},
+      {"axis error", "mm", event.z.error / mm},
+      {"axis scale", "um/m", event.z.scale * 1e6},
       {"latch delay", "s", event.latch_delay},
   };
   if (call.evaluation == rod_gauging::full && rod_gauging::in_domain(body, beam)) {

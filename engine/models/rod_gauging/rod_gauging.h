@@ -6,7 +6,7 @@
 /// the beam's axis at that moment, the axis lies at laser_z = Z'_s - L_r - Z'_d.
 /// Source: Fang 2022, chapter 2 (eq 2.38), solved anew: shadow/shadow.h.
 #include "models/rod_gauging/shadow/trigger_height.h"
-#include "effects/catalogue.h"
+#include "effects/act.h"
 #include "models/laser_setter.h"
 
 namespace gumshoe::models::rod_gauging {
@@ -34,9 +34,9 @@ template <class T>
 chain::ProbingEvent<T> probing_event(const T* q, const T* condition, const T* effect_quantities,
                                      std::span<const effects::Active> active) {
   chain::ProbingEvent<T> event;
-  event.feed = condition[feed];
+  event.z.feed = condition[feed];
   event.time = condition[time];
-  event.direction = condition[direction];
+  event.z.direction = condition[direction];
   event.holder_angle = q[holder_angle];
   event.tool_length = q[length];
   effects::act(active, effect_quantities, event);

@@ -86,8 +86,8 @@ protected:
     const auto& freed = pose.freed;
     const auto nominal = pose.tip - sphere_calibration::probe_from_origin(length, exact_turns(lines, pose.B, pose.C));
     const auto t = touch<T>(freed.condition, nominal, {freed.active, freed.quantities.data()});
-    h.at_B = h.at_B + t.probing.B_error[chain::E_B], h.at_C = h.at_C + t.probing.C_error[chain::E_C];
-    h.moved = moved(exact_turns(lines, h.at_B, h.at_C), t.probing);
+    h.at_B = h.at_B + t.rotary.B.error[chain::E_B], h.at_C = h.at_C + t.rotary.C.error[chain::E_C];
+    h.moved = moved(exact_turns(lines, h.at_B, h.at_C), t.rotary);
     h.measured = freed.top - t.actual_of(freed.recorded - square(pose, theta, lines));
     h.probe = sphere_calibration::probe_from_origin(length, h.moved.turns) + h.moved.shift();
     return h;

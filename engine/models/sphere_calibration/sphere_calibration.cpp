@@ -93,7 +93,7 @@ constexpr EvaluationCard evaluations[] = {
      sphere_calibration::joint_measurands},
 };
 
-constexpr std::string_view stages[] = {"motion", "rotary", "slides", "contact", "trigger"};
+constexpr Stage stages[] = {Stage::motion, Stage::rotary, Stage::slides, Stage::contact, Stage::trigger};
 
 constexpr ModelCard card{"sphere_calibration",
                          "Calibrating a probe and two rotary axes with a sphere",
@@ -167,12 +167,12 @@ std::vector<Intermediate> explain(const PointCall<double>& call) {
   add(out, "nominal command", at.nominal);
   add(out, "linear axes add to the command", at.added, "um", 1 / um);
   if (at.touch) {
-    const auto& [along_Z, probing] = *at.touch;
-    out.insert(out.end(), {{"effects turn B", "arcsec", probing.B_error[chain::E_B] / deg * 3600},
-                           {"effects turn C", "arcsec", probing.C_error[chain::E_C] / deg * 3600},
-                           {"pretravel", "um", probing.pretravel / um},
-                           {"latch delay", "s", along_Z.latch_delay}});
-    add(out, "approach in the probe's frame", probing.approach, "1", 1);
+    const auto& [event, rotary] = *at.touch;
+    out.insert(out.end(), {{"effects turn B", "arcsec", rotary.B.error[chain::E_B] / deg * 3600},
+                           {"effects turn C", "arcsec", rotary.C.error[chain::E_C] / deg * 3600},
+                           {"pretravel", "um", event.pretravel / um},
+                           {"latch delay", "s", event.latch_delay}});
+    add(out, "approach in the probe's frame", event.approach_in_probe, "1", 1);
     add(out, "effects add to the command", at.touch->reading_of(at.tip - at.probe) - (at.tip - at.probe), "um", 1 / um);
   }
   add(out, "command at the sphere's top", sphere_calibration::simulate(at));

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "chain/rotary_probing.h"
-#include "effects/catalogue.h"
+#include "effects/act.h"
 #include "models/model.h"
 #include "models/sphere_calibration/closed_form.h"
 
@@ -119,32 +119,29 @@ template <class T> struct Freed {
   bool any() const { return !active.empty(); }
 };
 
-/// One touch as the stages of the measuring chain see it: motion and trigger act on the event along Z, rotary, slides
-/// and contact on what lies behind it.
+/// One touch, along Z, as the stages of the measuring chain see it.
 template <class T> struct Touch {
-  chain::ProbingEvent<T> along_Z;
-  chain::RotaryProbing<T> probing;
+  chain::ProbingEvent<T> event;
+  chain::RotaryProbing<T> rotary;
 
-  Vector3<T> reading_of(const Vector3<T>& actual) const { return chain::reading_of(actual, along_Z, probing); }
-  Vector3<T> actual_of(const Vector3<T>& reading) const { return chain::actual_of(reading, along_Z, probing); }
+  Vector3<T> reading_of(const Vector3<T>& actual) const { return chain::reading_of(actual, event); }
+  Vector3<T> actual_of(const Vector3<T>& reading) const { return chain::actual_of(reading, event); }
 };
 /// @param nominal commands by the quantities, without errors of positioning or effects, m
 template <class T> Touch<T> touch(const T* condition, const Vector3<T>& nominal, const Freed<T>& freed) {
   Touch<T> t;
-  t.along_Z.feed = condition[feed];
-  t.along_Z.time = condition[time];
-  t.along_Z.direction = condition[direction];
-  t.probing.B = condition[B];
-  t.probing.C = condition[C];
-  t.probing.B_direction = condition[B_direction];
-  t.probing.C_direction = condition[C_direction];
-  t.probing.B_clamped = condition[B_clamped];
-  t.probing.C_clamped = condition[C_clamped];
-  t.probing.position = nominal;
-  t.probing.approach = chain::approach_in_probe(condition[direction], condition[B], condition[C]);
-  t.along_Z.rotary = &t.probing;
-  effects::act(freed.active, freed.quantities, t.along_Z);
-  t.along_Z.rotary = nullptr; // the touch may be copied
+  t.event.time = condition[time];
+  t.event.x.position = nominal.x, t.event.y.position = nominal.y, t.event.z.position = nominal.z;
+  t.event.z.direction = condition[direction];
+  t.event.z.feed = condition[feed];
+  t.event.approach.z = condition[direction];
+  t.event.approach_in_probe = chain::approach_in_probe(condition[direction], condition[B], condition[C]);
+  t.rotary.B.angle = condition[B], t.rotary.C.angle = condition[C];
+  t.rotary.B.direction = condition[B_direction], t.rotary.C.direction = condition[C_direction];
+  t.rotary.B.clamped = condition[B_clamped], t.rotary.C.clamped = condition[C_clamped];
+  t.event.rotary = &t.rotary;
+  effects::act(freed.active, freed.quantities, t.event);
+  t.event.rotary = nullptr; // the touch may be copied
   return t;
 }
 
@@ -156,22 +153,22 @@ template <class T> struct Moved {
   Turns<T> turns;
   Vector3<T> shift() const { return shift_B + turns.b * shift_C; }
 };
-template <class T> Moved<T> moved(const Turns<T>& turns, const chain::RotaryProbing<T>& probing) {
-  const auto b = chain::error_motion(probing.B_error, 1), c = chain::error_motion(probing.C_error, 2);
+template <class T> Moved<T> moved(const Turns<T>& turns, const chain::RotaryProbing<T>& rotary) {
+  const auto b = chain::error_motion(rotary.B.error, 1), c = chain::error_motion(rotary.C.error, 2);
   return {b.tilt, c.tilt, b.shift, c.shift, {b.tilt * turns.b, c.tilt * turns.c}};
 }
 
-/// The probe from the commanded origin at actual angles. @param pattern_II read by the closed form only  @param probing
+/// The probe from the commanded origin at actual angles. @param pattern_II read by the closed form only  @param rotary
 /// error motions, which the closed form has no place for; null: none
 template <class T, class Mask>
 Vector3<T> probe_from_origin(int variant, const Links<T>& l, const T& at_B, const T& at_C, const Mask& pattern_II,
-                             const chain::RotaryProbing<T>* probing = nullptr) {
+                             const chain::RotaryProbing<T>* rotary = nullptr) {
   if (variant == closed_form)
     return choose(pattern_II, closed_form_II(l.length, l.tilted, at_B), closed_form_I(l.length, l.tilted, at_C));
   const Turns<T> turns =
       variant == small_angle ? small_angle_turns(l.tilted, at_B, at_C) : exact_turns(l.lines, at_B, at_C);
-  if (!probing) return probe_from_origin(l.length, turns);
-  const Moved<T> m = moved(turns, *probing);
+  if (!rotary) return probe_from_origin(l.length, turns);
+  const Moved<T> m = moved(turns, *rotary);
   return probe_from_origin(l.length, m.turns) + m.shift();
 }
 
@@ -216,8 +213,8 @@ Contact<T> contact(int variant, const T* q, const Links<T>& l, const T* conditio
     return at;
   }
   at.touch = touch(condition, at.nominal, freed);
-  at_B = at_B + at.touch->probing.B_error[chain::E_B], at_C = at_C + at.touch->probing.C_error[chain::E_C];
-  at.probe = probe_from_origin(variant, l, at_B, at_C, pattern_II, &at.touch->probing);
+  at_B = at_B + at.touch->rotary.B.error[chain::E_B], at_C = at_C + at.touch->rotary.C.error[chain::E_C];
+  at.probe = probe_from_origin(variant, l, at_B, at_C, pattern_II, &at.touch->rotary);
   return at;
 }
 

@@ -87,7 +87,8 @@ constexpr EvaluationCard evaluations[] = {
      "readouts at several start angles, connected by lines: the highest peaks are the flutes (Fang 2022, 3.5.2)",
      tool_length::peak_measurands, "orientation_time + " GUMSHOE_RUN, GUMSHOE_ONCE},
 };
-constexpr std::string_view stages[] = {"pose", "insert", "spindle", "motion", "timing", "trigger"};
+constexpr Stage stages[] = {Stage::pose,   Stage::insert, Stage::spindle,
+                            Stage::motion, Stage::timing, Stage::trigger};
 
 constexpr ModelCard card{
     "tool_length",
@@ -131,8 +132,8 @@ std::vector<Intermediate> explain(const PointCall<double>& call) {
       {"tool axis beside the beam's reference point, X", "mm", event.tool_x / mm},
       {"tool axis beside the beam's reference point, Y", "mm", (event.tool_y - q[tool_length::offset]) / mm},
       {"tool growth", "mm", event.tool_growth / mm},
-      {"axis error", "mm", event.axis_error / mm},
-      {"axis scale", "um/m", event.axis_scale * 1e6},
+      {"axis error", "mm", event.z.error / mm},
+      {"axis scale", "um/m", event.z.scale * 1e6},
       {"true height when the feed begins", "mm", m.height / mm},
       {"true angle of the first insert when the feed begins", "deg", m.angle / deg},
       {"descent per revolution", "mm", 2 * std::numbers::pi * m.drop / mm},

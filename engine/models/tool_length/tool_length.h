@@ -10,7 +10,7 @@
 #include "models/tool_length/trigger/lagging_feed.h"
 #include "models/tool_length/trigger/latch.h"
 #include "models/tool_length/trigger/run_out.h"
-#include "effects/catalogue.h"
+#include "effects/act.h"
 #include "models/laser_setter.h"
 
 namespace gumshoe::models::tool_length {
@@ -46,14 +46,14 @@ template <class T>
 Event<T> probing_event(const T* q, const T* condition, const T* effect_quantities,
                        std::span<const effects::Active> active) {
   Event<T> event;
-  event.feed = condition[feed];
+  event.z.feed = condition[feed];
   event.time = condition[time];
-  event.direction = condition[direction];
+  event.z.direction = condition[direction];
   event.holder_angle = q[holder_angle];
   event.tool_length = q[length];
   event.tool.speed = condition[speed];
   event.turning = &event.tool;
-  effects::act<T>(active, effect_quantities, event);
+  effects::act(active, effect_quantities, event);
   event.turning = nullptr; // the event may be copied
   return event;
 }
@@ -76,8 +76,8 @@ template <class T> Flute<T> flute(const T* q, const Event<T>& event, int k) {
 template <class T> InsertMotionOf<T> motion(const T* q, const Event<T>& event, const double* condition) {
   const T commanded = q[laser_z] + q[length] + condition[start_height];
   return {q[holder_angle] + condition[start_angle] + event.tool.turns_before_feed,
-          condition[start_height] + (event.axis_scale * commanded + event.axis_error - event.tool_growth),
-          condition[feed] * (1.0 + event.axis_scale) / event.tool.speed, event.tool.servo_lag * event.tool.speed};
+          condition[start_height] + (event.z.scale * commanded + event.z.error - event.tool_growth),
+          condition[feed] * (1.0 + event.z.scale) / event.tool.speed, event.tool.servo_lag * event.tool.speed};
 }
 
 /// What is impossible about the values together, effects included; null if nothing.
@@ -109,7 +109,7 @@ template <class T> const char* impossible(const T* q, const double* condition, c
   }
   const chain::TurningTool<T>& tool = event.tool;
   if (!(num::value(tool.speed) > 0)) return "spindle_speed with its error is not positive";
-  if (!(num::value(event.axis_scale) > -1)) return "z_scale turns the axis round";
+  if (!(num::value(event.z.scale) > -1)) return "z_scale turns the axis round";
   if (!(num::value(tool.servo_lag) >= 0)) return "servo_lag.time_constant is negative";
   if (!(num::value(tool.sampling_period) >= 0)) return "sampling_rate.period is negative";
   // Whole in a receiver; between whole numbers for fits.

@@ -6,7 +6,6 @@
 
 #include "base/units.h"
 #include "tracing/candidates/candidate_families.h"
-#include "tracing/typical_size.h"
 
 namespace gumshoe::tracing {
 namespace {
@@ -64,7 +63,7 @@ void CandidateMaker::add_single(Alternative a, std::size_t quantity, const std::
 Amplitude CandidateMaker::amplitude(std::size_t quantity, const QuantityCard& card) const {
   const auto& q = experiment.scenario().quantities[quantity];
   return {quantity, std::string(card.name), q.unit,           q.si_unit,         q.name,
-          {},       card.limits.low,        card.limits.high, typical_size(card)};
+          {},       card.limits.low,        card.limits.high, card.typical.high};
 }
 
 std::vector<Alternative> stated_candidates(const CandidateMaker& make) {

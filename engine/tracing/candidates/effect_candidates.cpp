@@ -1,10 +1,10 @@
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
 #include "base/units.h"
 #include "tracing/candidates/candidate_families.h"
-#include "tracing/typical_size.h"
 
 namespace gumshoe::tracing {
 namespace {
@@ -60,6 +60,21 @@ void with_default_shapes(const CandidateMaker& make, std::vector<Alternative>& f
       drop_still(one);
       make.add(std::move(one), found);
     }
+}
+
+/// Values at which a shape quantity is tried, SI: its default, then from half the typical range's lower end to twice its
+/// upper one, or a share of 0, 1/2 and 1.
+std::vector<double> grid_of(const QuantityCard& card) {
+  std::vector<double> out{card.default_value};
+  const auto& [low, high, note] = card.typical;
+  if (high > low && low > 0)
+    for (int i = 0; i <= 5; ++i) out.push_back(0.5 * low * std::pow(4 * high / low, i / 5.0));
+  else if (card.limits.low == 0 && card.limits.high == 1)
+    out.insert(out.end(), {0.0, 0.5, 1.0});
+  std::vector<double> kept;
+  for (const double x : out)
+    if (card.limits.contain(x) && std::find(kept.begin(), kept.end(), x) == kept.end()) kept.push_back(x);
+  return kept;
 }
 
 /// A shape quantity, the values it is tried at, and what has that shape.

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "tracing/typical_size.h"
-
 namespace gumshoe::tracing {
 namespace {
 
@@ -22,9 +20,8 @@ std::vector<double> steps(const propagation::Experiment& e, const Points& at, do
       const std::size_t q = e.model_quantities() + a.first + k;
       if (card.role == Role::shape || e.scenario().quantities[q].estimated) continue;
       const double slope = tangents.col(column(q)).norm() / std::sqrt(static_cast<double>(tangents.rows()));
-      // Another insert is another body, solved anew for every size; it does not jump from tooth to tooth.
-      if (effect.stage == "insert" && slope > 0) continue;
-      const double typical = typical_size(card);
+      if (effect.follows_derivative && slope > 0) continue;
+      const double typical = card.typical.high;
       double size = slope > 0 ? step / slope : typical;
       if (slope > 0 && typical > 0) size = std::min(size, 3 * typical);
       for (const std::size_t i : {0, 1}) {

@@ -54,10 +54,12 @@ Matrix bent_response(const Simulator& simulator, const Points& at, std::size_t q
 
 std::optional<std::size_t> seat_at_null(const propagation::Experiment& experiment) {
   const auto& all = experiment.scenario().quantities;
-  for (std::size_t q = 0; q < all.size(); ++q)
-    if (all[q].name == "reclamp.shift" && !all[q].estimated && all[q].entries.size() == 1 &&
-        all[q].entries[0].components.empty() && all[q].entries[0].value == 0)
+  for (const effects::Active& active : experiment.active()) {
+    const std::size_t q = experiment.model_quantities() + active.first;
+    if (effects::cards()[active.effect]->scatters_between_clampings && !all[q].estimated &&
+        all[q].entries.size() == 1 && all[q].entries[0].components.empty() && all[q].entries[0].value == 0)
       return q;
+  }
   return std::nullopt;
 }
 

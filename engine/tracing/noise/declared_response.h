@@ -35,7 +35,7 @@ inline Index nearest_bend_node(double z) {
   return std::clamp<Index>(std::lround((z - bend_node(0)) / 0.1), 0, bend_nodes - 1);
 }
 
-/// The seat of a clamping, where the model has it and the scenario leaves it at null.
+/// Quantity of the effect that scatters between clampings, where the model has one and the scenario leaves it at null.
 std::optional<std::size_t> seat_at_null(const propagation::Experiment& experiment);
 
 } // namespace gumshoe::tracing

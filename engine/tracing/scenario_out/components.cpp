@@ -41,8 +41,10 @@ public:
     if (f.quantities[0].low95 < f.quantities[0].high95)
       source += fmt::format("; 95 % interval of u in the indication [{:.3g}, {:.3g}] {}", f.quantities[0].low95,
                             f.quantities[0].high95, f.quantities[0].si_unit);
-    if (const double loading = d.indications == 1 ? reclamp() : 0; loading > 0) {
-      out_.additions.push_back({"reclamp.shift", "um", "m", u / loading, f.depends_on, source});
+    const auto seat = seat_at_null(c_.experiment);
+    if (const double loading = seat && d.indications == 1 ? loading_of(*seat) : 0; loading > 0) {
+      const auto& q = c_.experiment.scenario().quantities[*seat];
+      out_.additions.push_back({q.name, q.unit, q.si_unit, u / loading, f.depends_on, source});
       return;
     }
     const bool one = fit_.structure.scatter == step.component && fit_.structure.indication >= 0;
@@ -73,12 +75,11 @@ public:
   }
 
 private:
-  /// Change of the indication with the seat of a clamping, if the scenario lacks that effect; else 0.
-  double reclamp() const {
-    const auto seat = seat_at_null(c_.experiment);
+  /// Change of the indication with a quantity, root mean square; 0 if the model has no derivative there.
+  double loading_of(std::size_t quantity) const {
     Vector f;
     Matrix derivative;
-    if (!seat || !c_.simulator.derivatives(fit_.at, {*seat}, f, derivative)) return 0;
+    if (!c_.simulator.derivatives(fit_.at, {quantity}, f, derivative)) return 0;
     return std::sqrt(derivative.squaredNorm() / static_cast<double>(derivative.rows()));
   }
 
