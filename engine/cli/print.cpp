@@ -34,7 +34,7 @@ void print_validations(const analysis::Results& r) {
 
 void print_text(const analysis::Results& r, const std::string& out) {
   std::cout << r.title << '\n';
-  for (const std::string& s : r.statements) std::cout << s << '\n';
+  for (const auto& s : r.summaries) std::cout << s.statement << '\n';
   print_validations(r);
   print_studies(r, std::cout);
   for (const auto& c : r.comparisons) {

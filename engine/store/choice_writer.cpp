@@ -194,10 +194,11 @@ void write_choice_group(hid_t file, const Result& r) {
   write_candidates(group, r);
   write_fresh(group, r);
   write_neighbours(group, r);
-  analysis::Results budget;
-  if (!r.sensitivity.indices.empty()) budget.sensitivities.push_back(r.sensitivity);
-  if (!r.shapley.effects.empty()) budget.shapley.push_back(r.shapley);
-  write_sensitivity(group, budget);
+  std::vector<analysis::Sensitivity> sobol;
+  std::vector<analysis::Shapley> shapley;
+  if (!r.sensitivity.indices.empty()) sobol.push_back(r.sensitivity);
+  if (!r.shapley.effects.empty()) shapley.push_back(r.shapley);
+  write_sensitivity(group, sobol, shapley);
   write_list(group, "evaluations", r.evaluations, "evaluations of the model, by position");
   write_list(group, "skipped_why", r.skipped_why, "why some combinations cannot be");
   write_list(file, "notes", r.notes, "decisions and warnings a reader must see");

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/units.h"
+#include "store/field_writer.h"
 
 namespace gumshoe::store {
 
@@ -51,6 +52,36 @@ void Table::texts(const std::string& name, const std::vector<std::string>& value
   const hdf5::Handle dataset = hdf5::create_dataset(group_, name, hdf5::text_type(), {rows_}, "1", long_name);
   hdf5::write_texts(dataset, values);
   hdf5::attach(dataset, 0, scale_, dimension_);
+}
+
+void Table::values(const std::string& name, const std::vector<analysis::Value>& values, const std::string& units,
+                   const std::string& long_name) {
+  if (rows_ == 0 || values.empty()) return;
+  const auto all = [&]<class T>(std::vector<T> column) {
+    for (const analysis::Value& value : values) column.push_back(std::get<T>(value));
+    return column;
+  };
+  std::visit(
+      [&]<class T>(const T&) {
+        if constexpr (std::is_same_v<T, std::string>)
+          texts(name, all(std::vector<T>{}), long_name);
+        else if constexpr (std::is_same_v<T, bool>) {
+          const std::vector<bool> flags = all(std::vector<T>{});
+          numbers(name, std::vector<int>(flags.begin(), flags.end()), units, long_name);
+        } else
+          numbers(name, all(std::vector<T>{}), units, long_name);
+      },
+      values.front());
+}
+
+std::string file_units(const analysis::Unit& unit, const std::string& row, const std::string& output) {
+  switch (unit.in) {
+  case analysis::In::point:
+  case analysis::In::difference: return row;
+  case analysis::In::output: return output;
+  case analysis::In::coefficient: return "output units / units";
+  default: return std::string(unit.stated);
+  }
 }
 
 void Table::units(const std::vector<std::string>& si_units, const std::vector<std::string>& display_units,
