@@ -88,4 +88,9 @@ template <class Row> RowUnit unit_of(const Row& row) {
     return {};
 }
 
+/// The unit of a field's numbers, of that of its row and that of the output that the table is about.
+inline RowUnit shown_in(const Unit& unit, const RowUnit& row, const RowUnit& output) {
+  return unit.in == In::output ? output : unit.in == In::point || unit.in == In::difference ? row : RowUnit{};
+}
+
 } // namespace gumshoe::analysis
