@@ -5,6 +5,7 @@ namespace gumshoe::analysis {
 using enum In;
 using propagation::Output;
 
+// clang-format off: a field is a line or two
 namespace {
 
 constexpr Shown in_csv{.csv = same}, in_both{.json = same, .csv = same};
@@ -166,6 +167,7 @@ constexpr Field<T> stopping[] = {
     {"statement", of<&T::statement>, one, "how the run ended, in words"}};
 
 } // namespace
+// clang-format on
 
 constinit const Fields<InputRecord> input_fields{"inputs", "input", inputs};
 constinit const Fields<Summary> summary_fields{"summary", "output", summary, "summary"};

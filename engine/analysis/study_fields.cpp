@@ -5,6 +5,7 @@ namespace gumshoe::analysis {
 using enum In;
 using propagation::Output;
 
+// clang-format off: a field is a line or two
 namespace {
 
 constexpr Shown in_json{.json = same}, in_csv{.csv = same}, in_both{.json = same, .csv = same};
@@ -195,6 +196,7 @@ constexpr Field<Q> target[] = {
     {"cost", of<&Q::cost>, one, "relative cost, NaN if not given", in_csv}};
 
 } // namespace
+// clang-format on
 
 constinit const Fields<Sensitivity> sobol_study_fields{"sensitivity/<k>", "", sobol_study};
 constinit const Fields<SobolIndex> sobol_fields{"sensitivity/<k>", "input_quantity", sobol, "sensitivity"};

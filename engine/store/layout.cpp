@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/result_fields.h"
+#include "choice/fields.h"
+#include "tracing/findings/trace_fields.h"
 
 namespace gumshoe::store {
 
@@ -38,6 +40,10 @@ std::vector<TableText> tables() {
       given_data_study_fields, given_data_fields, delta_fields, rank_fields, morris_study_fields, morris_fields,
       dgsm_study_fields, dgsm_fields, one_at_a_time_fields, joint_fields, circular_fields, conformity_fields,
       target_study_fields, target_fields, stopping_fields);
+  add(choice::question_fields, choice::variable_fields, choice::case_fields, choice::candidate_fields,
+      choice::figure_fields, choice::asked_fields, choice::searched_fields, choice::fresh_fields, choice::neighbour_fields);
+  add(tracing::residual_fields, tracing::trace_fields, tracing::finding_fields, tracing::size_fields,
+      tracing::candidate_fields, tracing::limit_fields, tracing::rms_fields, tracing::noise_fields);
   return all;
 }
 
@@ -72,8 +78,11 @@ std::string line(const FieldText& f, const std::string& json) {
 
 std::string layout_markdown() {
   std::string text;
-  for (const TableText& table : tables()) {
-    text += fmt::format("\n**`{}/`** ({}{})\n\n| name | unit | meaning | JSON | CSV | gauge |\n|---|---|---|---|---|---|\n",
+  const std::vector<TableText> all = tables();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const TableText& table = all[i];
+    if (i == 0 || table.where != all[i - 1].where || table.dimension != all[i - 1].dimension)
+      text += fmt::format("\n**`{}/`** ({}{})\n\n| name | unit | meaning | JSON | CSV | gauge |\n|---|---|---|---|---|---|\n",
                         table.where, table.dimension.empty() ? "attributes" : table.dimension,
                         table.csv.empty() ? "" : "; `NAME_" + table.csv + ".csv`");
     for (const FieldText& f : table.fields) {
@@ -87,12 +96,15 @@ std::string layout_markdown() {
 
 std::string csv_columns_json() {
   nlohmann::ordered_json all;
-  for (const TableText& table : tables())
+  for (const TableText& table : tables()) {
+    std::string where = table.where;
+    if (const auto at = where.find("/<k>"); at != std::string::npos) where.erase(at, 4);
     for (const FieldText& f : table.fields)
-      if (!table.csv.empty() && !f.csv.empty()) all[table.csv].push_back({f.csv, f.key, kind(f.unit).name});
-  std::string text = "{";
-  for (const auto& [table, columns] : all.items()) {
-    text += fmt::format("{}\n\"{}\": [", text == "{" ? "" : ",", table);
+      if (!f.csv.empty()) all[where].push_back({f.csv, f.key, kind(f.unit).name});
+  }
+  std::string text;
+  for (const auto& [where, columns] : all.items()) {
+    text += fmt::format("{}\n\"{}\": [", text.empty() ? "{" : ",", where);
     for (std::size_t i = 0; i < columns.size(); ++i) text += (i ? ",\n  " : "\n  ") + columns[i].dump();
     text += "]";
   }

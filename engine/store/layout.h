@@ -8,7 +8,7 @@ namespace gumshoe::store {
 /// One table per group: dataset or attribute, unit, meaning, and the names in JSON, CSV and `gumshoe gauge`.
 std::string layout_markdown();
 
-/// Per CSV table a list of columns, each [header, dataset, kind of unit] (analysis::In): reports/gumshoe_report/columns.json.
+/// The CSV columns of each group, each [header, dataset, kind of unit] (analysis::In): reports/gumshoe_report/columns.json.
 std::string csv_columns_json();
 
 } // namespace gumshoe::store

@@ -114,13 +114,17 @@ void Table::matrix(const std::string& name, const Table& columns, const std::vec
   hdf5::attach(dataset, 1, columns.scale_, columns.dimension_);
 }
 
+void write_display(hid_t object, const std::string& unit, const std::string& si_unit) {
+  const Display shown = display(unit, si_unit);
+  hdf5::write_attribute(object, "display_units", shown.units);
+  hdf5::write_attribute(object, "display_factor", shown.factor);
+  hdf5::write_attribute(object, "display_offset", shown.offset);
+}
+
 void write_output(hid_t group, const propagation::Output& output) {
-  const Display shown = display(output.unit, output.si_unit);
   hdf5::write_attribute(group, "output", output.name);
   hdf5::write_attribute(group, "units", output.si_unit);
-  hdf5::write_attribute(group, "display_units", shown.units);
-  hdf5::write_attribute(group, "display_factor", shown.factor);
-  hdf5::write_attribute(group, "display_offset", shown.offset);
+  write_display(group, output.unit, output.si_unit);
 }
 
 } // namespace gumshoe::store

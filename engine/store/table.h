@@ -60,6 +60,9 @@ private:
   hdf5::Handle scale_;
 };
 
+/// The attributes `display_units`, `display_factor` and `display_offset`.
+void write_display(hid_t object, const std::string& unit, const std::string& si_unit);
+
 /// The attributes `output`, `units`, `display_units`, `display_factor` and `display_offset` of a group that tells of
 /// one output.
 void write_output(hid_t group, const propagation::Output& output);
