@@ -169,7 +169,6 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, int th
   r.summaries.resize(outputs);
   r.budgets.resize(outputs);
   r.validations.resize(outputs);
-  r.statements.resize(outputs);
   propagation::parallel_for(outputs, threads, [&](std::size_t o) {
     std::span<const double> values;
     if (samples.in_memory) values = samples.in_memory(o);
@@ -187,7 +186,7 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, int th
       check_tails(values, summary, threads);
     }
     r.validations[o] = validate(b, summary, s.analysis.validation_digits);
-    r.statements[o] = statement(summary, b, r.validations[o], p, virtual_experiment);
+    summary.statement = statement(summary, b, r.validations[o], p, virtual_experiment);
     const bool compared =
         std::ranges::any_of(s.analysis.comparisons, [&](const auto& c) { return c.measurand == output.measurand; });
     if (compared) kept[o].assign(values.begin(), values.end());

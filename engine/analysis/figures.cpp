@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <map>
 #include <optional>
 
+#include "analysis/result_fields.h"
 #include "base/error.h"
 
 namespace gumshoe::analysis {
@@ -27,17 +26,37 @@ FigureName parse_figure(const std::string& text) {
 
 namespace {
 
-/// A confidence interval of 95 % as a standard error.
-double half_width(double low, double high) { return (high - low) / (2 * 1.959963984540054); }
+/// The field of this figure's name, in one row.
+template <class Row>
+std::optional<Figure> find(const Fields<Row>& fields, const Row& row, const std::string& name,
+                           const propagation::Output& output) {
+  const auto field = std::ranges::find(fields.list, name, [](const Field<Row>& f) { return f.shown.gauge; });
+  if (field == fields.list.end()) return std::nullopt;
+  const RowUnit unit = shown_in(field->unit, unit_of(row), {output.unit, output.si_unit});
+  Figure figure{0, 0, unit.shown, unit.si, field->unit.in != In::point, ""};
+  std::visit(
+      [&]<class T>(const T& value) {
+        if constexpr (std::is_same_v<T, std::string>)
+          figure.word = value;
+        else if constexpr (std::is_same_v<T, bool>)
+          figure.word = value ? "yes" : "no";
+        else
+          figure.value = static_cast<double>(value);
+      },
+      field->get(row));
+  if (field->standard_error) figure.standard_error = std::get<double>(field->standard_error(row));
+  return figure;
+}
 
+/// One of a run: a field of the summary, the budget or a study of one output, or what is computed from several.
 class Finder {
 public:
   Finder(const Results& r, std::size_t output, const std::string& name)
       : r_(r), o_(output), text_(name), name_(parse_figure(name)), out_(r.summaries.at(output).output) {}
 
   Figure find() {
-    for (const auto part : {&Finder::summary, &Finder::gum, &Finder::validation, &Finder::sensitivity, &Finder::joint,
-                            &Finder::circular, &Finder::conformity, &Finder::target})
+    for (const auto part : {&Finder::summary, &Finder::budget, &Finder::sensitivity, &Finder::joint,
+                            &Finder::conformity, &Finder::by_input})
       if (auto figure = (this->*part)()) {
         if (std::isnan(figure->value) && figure->word.empty()) figure->word = "none";
         return *figure;
@@ -48,100 +67,74 @@ public:
 
 private:
   Figure measure(double value, double se = 0) const { return {value, se, out_.unit, out_.si_unit, true, ""}; }
-  Figure point(double value, double se = 0) const { return {value, se, out_.unit, out_.si_unit, false, ""}; }
+  Figure point(double value) const { return {value, 0, out_.unit, out_.si_unit, false, ""}; }
   static Figure plain(double value, double se = 0) { return {value, se, "1", "1", true, ""}; }
   static Figure word(const std::string& text) { return {0, 0, "1", "1", true, text}; }
   const std::string& argument(std::size_t i) const {
     static const std::string none;
     return i < name_.arguments.size() ? name_.arguments[i] : none;
   }
-  /// The row of a study that is about our output.
-  template <class Rows> auto mine(const Rows& rows) const {
-    return std::ranges::find_if(rows, [&](const auto& row) { return row.output.name == out_.name; });
+  template <class Row> std::optional<Figure> field(const Fields<Row>& fields, const Row& row) const {
+    return analysis::find(fields, row, name_.word, out_);
+  }
+  /// In the row of the input, component or quantity that the argument names.
+  template <class Row, class Name>
+  std::optional<Figure> row_of(const Fields<Row>& fields, const std::vector<Row>& rows, Name name) const {
+    const auto row = std::ranges::find(rows, argument(0), name);
+    return row == rows.end() ? std::nullopt : field(fields, *row);
+  }
+  /// The study that is about our output; null if there is none.
+  template <class Study> const Study* mine(const std::vector<Study>& studies) const {
+    const auto study =
+        std::ranges::find(studies, out_.name, [](const Study& s) -> const std::string& { return s.output.name; });
+    return study == studies.end() ? nullptr : &*study;
   }
 
   std::optional<Figure> summary() {
     const Summary& s = r_.summaries[o_];
     const auto& [low, high, low_se, high_se, low_rank, high_rank] = s.symmetric;
-    const std::string& w = name_.word;
-    if (w == "estimate") return point(s.estimate, s.estimate_se);
-    if (w == "standard_uncertainty") return measure(s.standard_uncertainty, s.standard_uncertainty_se);
-    if (w == "symmetric_low") return point(low, low_se);
-    if (w == "symmetric_high") return point(high, high_se);
-    if (w == "symmetric_length") return measure(high - low, std::hypot(low_se, high_se));
-    if (w == "shortest_low") return point(s.shortest.low, s.shortest.low_se);
-    if (w == "shortest_high") return point(s.shortest.high, s.shortest.high_se);
-    if (w == "shortest_length") return measure(s.shortest.high - s.shortest.low, s.shortest_length_se);
-    if (w == "skewness") return plain(s.skewness);
-    if (w == "kurtosis") return plain(s.kurtosis);
-    if (w == "failed") return plain(static_cast<double>(s.failed));
-    if (w == "trials") return plain(static_cast<double>(r_.samples));
-    return std::nullopt;
+    if (name_.word == "symmetric_length") return measure(high - low, std::hypot(low_se, high_se));
+    if (name_.word == "shortest_length") return measure(s.shortest.high - s.shortest.low, s.shortest_length_se);
+    if (name_.word == "trials") return plain(static_cast<double>(r_.samples));
+    return field(summary_fields, s);
   }
 
-  std::optional<Figure> gum() {
-    if (!name_.word.starts_with("gum.")) return std::nullopt;
+  std::optional<Figure> budget() {
     const Budget& b = r_.budgets[o_];
-    const std::string w = name_.word.substr(4);
-    if (w == "applicable") return word(b.applicable ? "yes" : "no");
-    if (w == "estimate") return point(b.estimate);
-    if (w == "standard_uncertainty") return measure(b.combined_standard_uncertainty);
-    if (w == "expanded_uncertainty") return measure(b.expanded_uncertainty);
-    if (w == "low") return point(b.estimate - b.expanded_uncertainty);
-    if (w == "high") return point(b.estimate + b.expanded_uncertainty);
-    if (w == "coverage_factor") return plain(b.coverage_factor);
-    if (w == "second_order_uncertainty") return measure(b.second_order_uncertainty);
-    if (w == "second_order_bias") return measure(b.second_order_bias);
-    if (w == "degrees_of_freedom") {
+    if (name_.word == "gum.low") return point(b.estimate - b.expanded_uncertainty);
+    if (name_.word == "gum.high") return point(b.estimate + b.expanded_uncertainty);
+    if (name_.word == "gum.degrees_of_freedom") {
       if (std::isnan(b.effective_degrees_of_freedom)) return word("refused");
       if (b.effective_degrees_of_freedom == 0) return word("infinite");
       return plain(b.effective_degrees_of_freedom);
     }
-    for (const Contribution& c : b.contributions) {
-      if (c.name != argument(0)) continue;
-      if (w == "contribution") return measure(c.contribution);
-      if (w == "sensitivity") return plain(c.sensitivity);
-    }
-    return std::nullopt;
-  }
-
-  std::optional<Figure> validation() {
-    const Validation& v = r_.validations[o_];
-    if (name_.word == "validation.verdict") return word(v.verdict);
-    const double se = 0.5 * v.monte_carlo_tolerance; // it is two standard errors of the worse end
-    if (name_.word == "validation.d_low") return measure(v.d_low, se);
-    if (name_.word == "validation.d_high") return measure(v.d_high, se);
-    if (name_.word == "validation.delta") return measure(v.delta);
-    return std::nullopt;
-  }
-
-  std::optional<Figure> index(const std::vector<Index>& rows) const {
-    for (const Index& i : rows)
-      if (i.input == argument(0)) return plain(i.value, half_width(i.low, i.high));
-    return std::nullopt;
+    if (const auto figure = field(budget_fields, b)) return figure;
+    if (const auto figure = row_of(contribution_fields, b.contributions, &Contribution::name)) return figure;
+    return field(validation_fields, r_.validations[o_]);
   }
 
   std::optional<Figure> sensitivity() {
-    if (const auto s = mine(r_.sensitivities); s != r_.sensitivities.end()) {
-      for (const SobolIndex& i : s->indices) {
-        if (i.input != argument(0)) continue;
-        if (name_.word == "first") return plain(i.first, half_width(i.first_low, i.first_high));
-        if (name_.word == "total") return plain(i.total, half_width(i.total_low, i.total_high));
-      }
-      for (const SobolPair& p : s->pairs)
-        if (name_.word == "second" &&
-            ((p.a == argument(0) && p.b == argument(1)) || (p.b == argument(0) && p.a == argument(1))))
-          return plain(p.second, half_width(p.low, p.high));
-    }
-    if (const auto s = mine(r_.shapley); s != r_.shapley.end() && name_.word == "shapley") return index(s->effects);
-    if (const auto s = mine(r_.given_data); s != r_.given_data.end()) {
-      if (name_.word == "rank_first") return index(s->first);
-      if (name_.word == "delta") return index(s->delta);
-    }
-    if (const auto s = mine(r_.dgsm); s != r_.dgsm.end() && name_.word == "dgsm_bound")
-      for (const DgsmRow& row : s->rows)
-        if (row.input == argument(0)) return plain(row.bound, half_width(row.bound_low, row.bound_high));
+    const Sensitivity* s = mine(r_.sensitivities);
+    if (!s) return std::nullopt;
+    if (const auto figure = row_of(sobol_fields, s->indices, &SobolIndex::input)) return figure;
+    for (const SobolPair& p : s->pairs)
+      if ((p.a == argument(0) && p.b == argument(1)) || (p.b == argument(0) && p.a == argument(1)))
+        return field(pair_fields, p);
     return std::nullopt;
+  }
+
+  /// The studies with one row per input.
+  std::optional<Figure> by_input() {
+    std::optional<Figure> found;
+    const auto look = [&](const auto* study, const auto& fields, auto rows, auto name) {
+      if (!found && study) found = row_of(fields, (*study).*rows, name);
+    };
+    look(mine(r_.shapley), shapley_fields, &Shapley::effects, &Index::input);
+    look(mine(r_.given_data), rank_fields, &GivenData::first, &Index::input);
+    look(mine(r_.given_data), delta_fields, &GivenData::delta, &Index::input);
+    look(mine(r_.dgsm), dgsm_fields, &Dgsm::rows, &DgsmRow::input);
+    look(mine(r_.targets), target_fields, &TargetResult::rows, &TargetRow::quantity);
+    return found;
   }
 
   std::optional<Figure> joint() {
@@ -153,8 +146,7 @@ private:
                                         g.outputs.begin());
       };
       if (at(out_.name) == g.outputs.size()) continue;
-      if (name_.word == "joint.k_p") return plain(g.k_p, g.k_p_se);
-      if (name_.word == "joint.k_q") return plain(g.k_q, g.k_q_se);
+      if (const auto figure = field(joint_fields, g)) return figure;
       const std::size_t n = g.outputs.size(), i = at(argument(0)), j = at(argument(1));
       if (i == n || j == n) continue;
       if (name_.word == "joint.correlation") { // its standard error is that of two normal quantities
@@ -168,50 +160,16 @@ private:
     return std::nullopt;
   }
 
-  std::optional<Figure> circular() {
-    const auto s = mine(r_.circular);
-    if (s == r_.circular.end()) return std::nullopt;
-    if (name_.word == "circular.mean_direction") return measure(s->mean_direction, s->mean_direction_se);
-    if (name_.word == "circular.standard_deviation") return measure(s->standard_deviation, s->standard_deviation_se);
-    if (name_.word == "circular.resultant_length") return plain(s->resultant_length, s->resultant_length_se);
-    return std::nullopt;
-  }
-
   std::optional<Figure> conformity() {
-    const auto s = mine(r_.conformity);
-    if (s == r_.conformity.end()) return std::nullopt;
-    const double se = s->conformance_probability_se;
-    if (name_.word == "conformity.probability") return plain(s->conformance_probability, se);
+    if (const CircularSummary* s = mine(r_.circular))
+      if (const auto figure = field(circular_fields, *s)) return figure;
+    const ConformityResult* s = mine(r_.conformity);
+    if (!s) return std::nullopt;
     if (name_.word == "conformity.decision") return word(s->accepted ? "accepted" : "rejected");
-    const std::pair<const char*, double ConformityResult::*> risks[] = {
-        {"conformity.specific_consumer_risk", &ConformityResult::specific_consumer_risk},
-        {"conformity.specific_producer_risk", &ConformityResult::specific_producer_risk},
-        {"conformity.global_consumer_risk", &ConformityResult::global_consumer_risk},
-        {"conformity.global_producer_risk", &ConformityResult::global_producer_risk}};
-    for (const auto& [risk, member] : risks) {
-      const double p = (*s).*member;
-      if (name_.word == risk) return plain(p, std::sqrt(p * (1 - p) / static_cast<double>(r_.samples)));
-    }
-    return std::nullopt;
-  }
-
-  std::optional<Figure> target() {
-    const auto s = mine(r_.targets);
-    if (s == r_.targets.end()) return std::nullopt;
-    for (const TargetRow& row : s->rows) {
-      if (row.quantity != argument(0)) continue;
-      const Figure of_quantity{0, 0, row.unit, row.si_unit, true, ""};
-      const std::pair<const char*, double TargetRow::*> members[] = {{"target.allowed", &TargetRow::allowed},
-                                                                     {"target.allowed_gum", &TargetRow::allowed_gum},
-                                                                     {"target.cheapest", &TargetRow::cheapest}};
-      for (const auto& [name, member] : members)
-        if (name_.word == name) {
-          Figure f = of_quantity;
-          f.value = row.*member;
-          return f;
-        }
-    }
-    return std::nullopt;
+    auto figure = field(conformity_fields, *s);
+    if (figure && name_.word.ends_with("_risk")) // a share of the samples
+      figure->standard_error = std::sqrt(figure->value * (1 - figure->value) / static_cast<double>(r_.samples));
+    return figure;
   }
 
   const Results& r_;

@@ -22,18 +22,11 @@ struct FigureName {
 };
 FigureName parse_figure(const std::string& text);
 
-/// Names, `x` and `y` standing for inputs, `a` and `b` for measurands:
-///   estimate, standard_uncertainty, symmetric_low, symmetric_high, symmetric_length, shortest_low, shortest_high,
-///   shortest_length, skewness, kurtosis, failed;
-///   gum.estimate, gum.standard_uncertainty, gum.expanded_uncertainty, gum.low, gum.high, gum.coverage_factor,
-///   gum.degrees_of_freedom, gum.second_order_uncertainty, gum.applicable, gum.contribution[x], gum.sensitivity[x];
-///   validation.verdict, validation.d_low, validation.d_high, validation.delta;
-///   first[x], total[x], second[x, y], shapley[x], rank_first[x], delta[x], dgsm_bound[x];
-///   joint.k_p, joint.k_q, joint.correlation[a, b], joint.gum_correlation[a, b];
-///   circular.mean_direction, circular.standard_deviation, circular.resultant_length;
-///   conformity.probability, conformity.decision, conformity.specific_consumer_risk,
-///   conformity.specific_producer_risk, conformity.global_consumer_risk, conformity.global_producer_risk;
-///   target.allowed[x], target.allowed_gum[x], target.cheapest[x]; trials.
+/// The figure of an output by its name: that of a field (result_fields.h; the tables in engine/store/README.md list them),
+/// of an input, a component or a quantity `x` with its name as argument: first[x], gum.contribution[x], target.allowed[x],
+/// second[x, y]. Computed from several fields:
+///   symmetric_length, shortest_length, trials, gum.low, gum.high, gum.degrees_of_freedom ("refused", "infinite"),
+///   joint.correlation[a, b], joint.gum_correlation[a, b] of measurands a and b, conformity.decision.
 /// `output` is the position of the output among Results::summaries. Throws InputError for a name that is none, or a
 /// study that the scenario does not ask for.
 Figure figure(const Results& results, std::size_t output, const std::string& name);

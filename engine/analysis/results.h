@@ -29,6 +29,7 @@ struct Summary {
   double hill_index = 0; ///< tail index by Hill's estimator; small: heavy tails, below 2 no variance; NaN: not estimated
   std::string warning;           ///< "no standard uncertainty: ..." or empty
   std::string tail_remark; ///< heavy tails though a standard uncertainty exists: what its standard error is worth; or empty
+  std::string statement;   ///< the result in the words of the GUM (7.2)
 };
 
 /// One row of an uncertainty budget: one component of one input quantity that reaches the output.
@@ -245,7 +246,6 @@ struct Results {
   std::uint64_t seed = 0, samples = 0, failed = 0;
   double coverage_probability = 0.95;
   std::vector<std::string> failures;   ///< "never_covered: 12 samples, first 345"
-  std::vector<std::string> statements; ///< the result in GUM words, one per output
   std::vector<std::string> notes;
   std::vector<quantities::Reading> readings;
   std::vector<std::string> condition_names, condition_units, indication_names, indication_units; ///< SI units

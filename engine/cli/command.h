@@ -26,6 +26,7 @@ void add_replay(CLI::App& app, Action& action);
 void add_models(CLI::App& app, Action& action);
 void add_effects(CLI::App& app, Action& action);
 void add_gauge(CLI::App& app, Action& action);
+void add_fields(CLI::App& app, Action& action);
 
 /// Models and effects as the scenario parser wants them.
 scenario::Catalogue catalogue();

@@ -30,6 +30,7 @@ int main(int argc, char** argv) {
   cli::add_models(app, action);
   cli::add_effects(app, action);
   cli::add_gauge(app, action);
+  cli::add_fields(app, action);
   try {
     app.parse(argc, argv);
     const ExitCode code = action ? action() : ExitCode::done;

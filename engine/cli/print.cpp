@@ -5,10 +5,11 @@
 #include <iostream>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
+#include "analysis/result_fields.h"
 #include "analysis/rounding.h"
 #include "base/units.h"
+#include "cli/fields_json.h"
 #include "cli/print_studies.h"
 
 namespace gumshoe::cli {
@@ -34,7 +35,7 @@ void print_validations(const analysis::Results& r) {
 
 void print_text(const analysis::Results& r, const std::string& out) {
   std::cout << r.title << '\n';
-  for (const std::string& s : r.statements) std::cout << s << '\n';
+  for (const auto& s : r.summaries) std::cout << s.statement << '\n';
   print_validations(r);
   print_studies(r, std::cout);
   for (const auto& c : r.comparisons) {
@@ -55,34 +56,49 @@ void print_text(const analysis::Results& r, const std::string& out) {
   std::cout << fmt::format("{} samples, seed {}, {}, {}: {}\n", r.samples, r.seed, r.method, r.evaluation, out);
 }
 
-void print_table(const analysis::Results& r, bool json) {
-  nlohmann::ordered_json all = nlohmann::ordered_json::array();
-  if (!json)
-    std::cout << "output,unit,estimate,standard_uncertainty,symmetric_low,symmetric_high,shortest_low,shortest_high,"
-                 "valid,failed\n";
-  for (const auto& s : r.summaries) {
-    const auto shown = [&](double x) { return units::from_si(x, s.output.unit, s.output.si_unit); };
-    const double u = units::from_si(s.standard_uncertainty, s.output.unit, s.output.si_unit, units::Kind::difference);
-    const auto number = [](double x) {
-      return std::isfinite(x) ? nlohmann::ordered_json(x) : nlohmann::ordered_json(nullptr);
+namespace {
+
+/// The fields of the summary that JSON shows, as a line of CSV.
+std::string csv_line(const analysis::Summary& s) {
+  std::string line;
+  const auto unit = analysis::unit_of(s);
+  for (const auto& field : analysis::summary_fields.list) {
+    if (field.shown.json.empty()) continue;
+    if (!line.empty()) line += ',';
+    const auto cell = [&]<class T>(const T& value) {
+      if constexpr (std::is_same_v<T, double>)
+        line += fmt::format("{:.{}g}", converted(value, field.unit, unit), field.unit.in == analysis::In::point ? 15 : 6);
+      else if constexpr (std::is_same_v<T, std::string>)
+        line += '"' + value + '"';
+      else
+        line += fmt::format("{}", value);
     };
-    if (json) {
-      all.push_back({{"output", s.output.name},
-                     {"unit", s.output.unit},
-                     {"estimate", number(shown(s.estimate))},
-                     {"standard_uncertainty", number(u)},
-                     {"symmetric", {number(shown(s.symmetric.low)), number(shown(s.symmetric.high))}},
-                     {"shortest", {number(shown(s.shortest.low)), number(shown(s.shortest.high))}},
-                     {"valid", s.valid},
-                     {"failed", s.failed}});
-      add_studies(r, s.output, all.back());
-    } else {
-      std::cout << fmt::format("\"{}\",{},{:.15g},{:.6g},{:.15g},{:.15g},{:.15g},{:.15g},{},{}\n", s.output.name,
-                               s.output.unit, shown(s.estimate), u, shown(s.symmetric.low), shown(s.symmetric.high),
-                               shown(s.shortest.low), shown(s.shortest.high), s.valid, s.failed);
-    }
+    if (field.get)
+      std::visit(cell, field.get(s));
+    else
+      line += unit.shown;
   }
-  if (json) std::cout << all.dump(2) << '\n';
+  return line;
+}
+
+} // namespace
+
+void print_table(const analysis::Results& r, bool json) {
+  if (json) {
+    Json all = Json::array();
+    for (const auto& s : r.summaries) {
+      all.push_back(cli::json(analysis::summary_fields, s));
+      add_studies(r, s.output, all.back());
+    }
+    std::cout << all.dump(2) << '\n';
+    return;
+  }
+  std::string head;
+  for (const auto& field : analysis::summary_fields.list)
+    if (!field.shown.json.empty())
+      head += (head.empty() ? "" : ",") + std::string(field.name(field.shown.csv));
+  std::cout << head << '\n';
+  for (const auto& s : r.summaries) std::cout << csv_line(s) << '\n';
 }
 
 ExitCode print_results(const analysis::Results& r, const std::string& file, const std::string& format,

@@ -5,11 +5,12 @@
 #include <iostream>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "analysis/rounding.h"
 #include "base/units.h"
 #include "choice/choose.h"
+#include "choice/fields.h"
+#include "cli/fields_json.h"
 
 namespace gumshoe::cli {
 
@@ -18,10 +19,7 @@ namespace {
 using choice::Candidate;
 using choice::Figures;
 using choice::Result;
-using Json = nlohmann::ordered_json;
 using scenario::Knob;
-
-Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 
 double length(const Result& r, double si) { return units::from_si(si, r.unit, r.si_unit, units::Kind::difference); }
 
@@ -35,12 +33,6 @@ std::string value_text(const Result& r, std::size_t variable, double value, int 
   const Knob& k = r.asked.variables[variable].knob;
   if (k.kind == Knob::Kind::evaluation) return r.evaluations[static_cast<std::size_t>(value)];
   return fmt::format("{:.{}g}", units::from_si(value, k.unit, k.si_unit), digits);
-}
-
-std::string setting_text(const Result& r, const std::vector<double>& values) {
-  std::vector<scenario::Setting> settings;
-  for (std::size_t v = 0; v < values.size(); ++v) settings.push_back({r.asked.variables[v].knob, values[v]});
-  return choice::in_words(settings, r.evaluations);
 }
 
 /// Inputs by total effect, the largest first.
@@ -108,7 +100,7 @@ void print_text(const Result& r, const std::string& file) {
     const Candidate& c = r.candidates[front[k]];
     if (k % step != 0 && k + 1 != front.size() && front[k] != r.best) continue;
     std::cout << fmt::format("  {:>12}  {:>12}  {}{}\n", choice::duration(c.time),
-                             width(r, asked(c, worst).expanded, asked(c, worst).expanded), setting_text(r, c.values),
+                             width(r, asked(c, worst).expanded, asked(c, worst).expanded), choice::in_words(r, c.values),
                              front[k] == r.best ? "  <- recommended" : "");
   }
   for (const std::string& note : r.notes) std::cout << "note: " << note << '\n';
@@ -140,18 +132,16 @@ void print_csv(const Result& r) {
 }
 
 Json figures_json(const Result& r, const Figures& f) {
-  return {{"U", number(length(r, f.expanded))},
-          {"U_se", number(length(r, f.expanded_se))},
-          {"bias", number(length(r, f.mean))},
-          {"bias_se", number(length(r, f.mean_se))},
-          {"left", number(length(r, f.left))},
-          {"standard_deviation", number(length(r, f.standard_deviation))},
-          {"valid", f.valid},
-          {"failed", f.failed}};
+  propagation::Output measurand;
+  measurand.unit = r.unit;
+  measurand.si_unit = r.si_unit;
+  Json out = json(choice::figure_fields, f, measurand);
+  out["left"] = number(length(r, f.left));
+  return out;
 }
 
-Json candidate_json(const Result& r, const Candidate& c) {
-  Json settings = Json::object(), cases = Json::object();
+Json settings_json(const Result& r, const Candidate& c) {
+  Json settings = Json::object();
   for (std::size_t v = 0; v < c.values.size(); ++v) {
     const Knob& k = r.asked.variables[v].knob;
     if (k.kind == Knob::Kind::evaluation)
@@ -159,71 +149,69 @@ Json candidate_json(const Result& r, const Candidate& c) {
     else
       settings[k.name] = number(units::from_si(c.values[v], k.unit, k.si_unit));
   }
-  Json out{{"settings", settings}, {"time", c.time}, {"readings", c.readings}, {"average", figures_json(r, c.average)}};
-  for (std::size_t k = 0; k < c.cases.size(); ++k) cases[r.asked.cases[k].name] = figures_json(r, c.cases[k]);
-  if (!c.cases.empty()) {
-    out["cases"] = cases;
-    out["worst"] = r.asked.cases[c.worst].name;
-  }
-  out["meets"] = c.meets;
+  return settings;
+}
+
+/// Time, number of readings and figures, without the setting.
+Json candidate_json(const Result& r, const Candidate& c) {
+  const choice::CandidateRow row{&c, &asked(c, r.asked.worst_case), "", "", ""};
+  Json out = json(choice::candidate_fields, row);
+  add_json(out, choice::asked_fields, row);
+  out["average"] = figures_json(r, c.average);
+  for (std::size_t k = 0; k < c.cases.size(); ++k) out["cases"][r.asked.cases[k].name] = figures_json(r, c.cases[k]);
+  if (!c.cases.empty()) out["worst"] = r.asked.cases[c.worst].name;
   return out;
 }
 
-void print_json(const Result& r, const std::string& file) {
-  Json variables = Json::object(), limits = Json::array(), neighbours = Json::array(), compared = Json::array(),
-       candidates = Json::array(), near = Json::object();
-  for (std::size_t v = 0; v < r.asked.variables.size(); ++v) {
-    const Knob& k = r.asked.variables[v].knob;
-    variables[k.name] = {{"unit", k.unit}, {"resolution", r.resolution[v]}};
-    if (k.kind != Knob::Kind::evaluation && r.near_count > 0)
-      near[k.name] = {units::from_si(r.near[v].low, k.unit, k.si_unit),
-                      units::from_si(r.near[v].high, k.unit, k.si_unit)};
-  }
+Json setting_json(const Result& r, const Candidate& c) {
+  Json out{{"settings", settings_json(r, c)}};
+  out.update(candidate_json(r, c));
+  return out;
+}
+
+/// What limits the recommended setting, what lies about it, and what it is compared with.
+void add_context(Json& out, const Result& r) {
+  out["limits"] = out["neighbours"] = out["compared"] = Json::array();
   for (const auto& i : r.sensitivity.indices)
-    limits.push_back({{"input", i.input}, {"first", number(i.first)}, {"total", number(i.total)}});
-  for (const auto& i : r.shapley.effects) limits.push_back({{"input", i.input}, {"shapley", number(i.value)}});
+    out["limits"].push_back({{"input", i.input}, {"first", number(i.first)}, {"total", number(i.total)}});
+  for (const auto& i : r.shapley.effects) out["limits"].push_back({{"input", i.input}, {"shapley", number(i.value)}});
   for (const auto& n : r.neighbours) {
-    neighbours.push_back(candidate_json(r, r.candidates[n.candidate]));
-    neighbours.back().update({{"variable", r.asked.variables[n.variable].knob.name},
-                              {"time_ratio", number(n.time_ratio)},
-                              {"U_ratio", number(n.expanded_ratio)},
-                              {"near", n.near}});
+    Json row = setting_json(r, r.candidates[n.candidate]);
+    row["variable"] = r.asked.variables[n.variable].knob.name;
+    add_json(row, choice::neighbour_fields, n);
+    out["neighbours"].push_back(row);
   }
-  for (const auto& c : r.compared) {
-    compared.push_back({{"name", c.name}, {"setting", c.setting}, {"source", c.source}});
-    compared.back().update(candidate_json(r, c.candidate));
-    compared.back().erase("settings");
-    compared.back()["probability"] = number(c.probability);
+  const auto fresh = choice::fresh_rows(r);
+  for (std::size_t k = 1; k < fresh.size(); ++k) {
+    out["compared"].push_back(json(choice::fresh_fields, fresh[k]));
+    out["compared"].back().update(candidate_json(r, *fresh[k].candidate));
   }
-  for (std::size_t i = 0; i < r.candidates.size(); ++i) {
-    candidates.push_back(candidate_json(r, r.candidates[i]));
-    candidates.back().update({{"pareto", r.candidates[i].pareto}, {"round", r.candidates[i].round}});
+}
+
+void print_json(const Result& r, const std::string& file) {
+  Json out{{"scenario", r.scenario_file},
+           {"hash", r.scenario_hash},
+           {"unit", r.unit},
+           {"coverage_probability", r.coverage_probability}};
+  add_json(out, choice::question_fields, r);
+  out["recommended"] = setting_json(r, r.fresh);
+  out["searched"] = setting_json(r, r.candidates[r.best]);
+  add_context(out, r);
+  Json variables = Json::object(), spans = Json::object();
+  for (const auto& v : choice::variable_rows(r)) {
+    variables[v.name] = json(choice::variable_fields, v);
+    if (v.kind != "evaluation" && r.near_count > 0)
+      spans[v.name] = {units::from_si(v.near_low, v.unit, v.si_unit), units::from_si(v.near_high, v.unit, v.si_unit)};
   }
-  const Json out{{"scenario", r.scenario_file},
-                 {"hash", r.scenario_hash},
-                 {"measurand", r.asked.measurand},
-                 {"unit", r.unit},
-                 {"target", length(r, r.asked.target)},
-                 {"target_of", r.asked.worst_case ? "worst_case" : "average"},
-                 {"bias_limit", r.asked.bias ? Json(length(r, *r.asked.bias)) : Json(nullptr)},
-                 {"definition", name(r.asked.definition)},
-                 {"coverage_probability", r.coverage_probability},
-                 {"statement", r.statement},
-                 {"reached", r.reached},
-                 {"confirmed", r.confirmed},
-                 {"probability", number(r.probability)},
-                 {"tried", r.tried},
-                 {"recommended", candidate_json(r, r.fresh)},
-                 {"searched", candidate_json(r, r.candidates[r.best])},
-                 {"limits", limits},
-                 {"neighbours", neighbours},
-                 {"near", {{"share", r.asked.near}, {"candidates", r.near_count}, {"spans", near}}},
-                 {"compared", compared},
-                 {"variables", variables},
-                 {"candidates", candidates},
-                 {"skipped", {{"count", r.skipped}, {"reasons", r.skipped_why}}},
-                 {"notes", r.notes},
-                 {"file", file}};
+  out["near"]["spans"] = spans;
+  out["variables"] = variables;
+  for (const auto& row : choice::candidate_rows(r)) {
+    out["candidates"].push_back(setting_json(r, *row.candidate));
+    add_json(out["candidates"].back(), choice::searched_fields, row);
+  }
+  out["skipped"]["reasons"] = r.skipped_why;
+  out["notes"] = r.notes;
+  out["file"] = file;
   std::cout << out.dump(2) << '\n';
 }
 

@@ -6,7 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "analysis/result_fields.h"
 #include "base/units.h"
+#include "cli/fields_json.h"
 
 namespace gumshoe::cli {
 using namespace analysis;
@@ -147,44 +149,41 @@ void print_target(const TargetResult& t, std::ostream& out) {
   out << '\n';
 }
 
-nlohmann::ordered_json number(double x) {
-  return std::isfinite(x) ? nlohmann::ordered_json(x) : nlohmann::ordered_json(nullptr);
-}
-nlohmann::ordered_json index(double value, double low, double high, const Verdict& verdict) {
-  return {{"value", number(value)}, {"low", number(low)}, {"high", number(high)}, {"verdict", verdict}};
-}
-
-nlohmann::ordered_json conformity_object(const ConformityResult& c) {
-  const auto point = [&](double x) { return number(units::from_si(x, c.output.unit, c.output.si_unit)); };
-  return {{"lower", point(c.lower)},
-          {"upper", point(c.upper)},
-          {"acceptance_lower", point(c.acceptance_lower)},
-          {"acceptance_upper", point(c.acceptance_upper)},
-          {"accepted", c.accepted},
-          {"conformance_probability", number(c.conformance_probability)},
-          {"specific_consumer_risk", number(c.specific_consumer_risk)},
-          {"specific_producer_risk", number(c.specific_producer_risk)},
-          {"global_consumer_risk", number(c.global_consumer_risk)},
-          {"global_producer_risk", number(c.global_producer_risk)}};
+/// One object per input, component or quantity, by the name that `member` gives.
+template <class Row, class Name>
+void add_rows(Json& object, const Fields<Row>& fields, const std::vector<Row>& rows, Name name,
+              const propagation::Output& output = {}) {
+  for (const Row& row : rows) add_json(object[std::invoke(name, row)], fields, row, output);
 }
 
-nlohmann::ordered_json target_object(const TargetResult& t) {
-  nlohmann::ordered_json rows = nlohmann::ordered_json::object();
+Json target_object(const TargetResult& t) {
+  Json object = json(target_study_fields, t), quantities = Json::object();
+  add_rows(quantities, target_fields, t.rows, &TargetRow::quantity);
   for (const TargetRow& row : t.rows) {
-    const auto shown = [&](double x) {
-      return number(units::from_si(x, row.unit, row.si_unit, units::Kind::difference));
-    };
-    const auto allowed = [&](double x) { return std::isinf(x) ? nlohmann::ordered_json("any") : shown(x); };
-    rows[row.quantity] = {{"unit", row.unit},
-                          {"present", shown(row.present)},
-                          {"allowed", allowed(row.allowed)},
-                          {"allowed_gum", allowed(row.allowed_gum)},
-                          {"cheapest", shown(row.cheapest)}};
+    if (std::isinf(row.allowed)) quantities[row.quantity]["allowed"] = "any";
+    if (std::isinf(row.allowed_gum)) quantities[row.quantity]["allowed_gum"] = "any";
   }
-  return {{"wanted", number(difference(t.output, t.wanted))},
-          {"present", number(difference(t.output, t.present))},
-          {"reached", number(difference(t.output, t.reached))},
-          {"quantities", rows}};
+  object["quantities"] = quantities;
+  return object;
+}
+
+Json one_at_a_time_object(const OneAtATimeTable& table, std::size_t o) {
+  const propagation::Output& output = table.outputs[o];
+  Json quantities = Json::object();
+  add_rows(quantities, one_at_a_time_fields, table.rows, &OneAtATimeRow::quantity);
+  for (const OneAtATimeRow& row : table.rows) {
+    quantities[row.quantity]["up"] = number(difference(output, row.up[o]));
+    quantities[row.quantity]["down"] = number(difference(output, row.down[o]));
+  }
+  return {{"title", table.title}, {"quantities", quantities}};
+}
+
+Json joint_object(const JointRegion& j, std::size_t row) {
+  Json object = json(joint_fields, j), correlations = Json::object();
+  for (std::size_t k = 0; k < j.outputs.size(); ++k)
+    correlations[j.outputs[k].name] = number(j.correlation[row * j.outputs.size() + k]);
+  object["correlation"] = correlations;
+  return object;
 }
 
 } // namespace
@@ -198,85 +197,33 @@ void print_studies(const Results& r, std::ostream& out) {
   if (!r.stopping.rule.empty()) out << r.stopping.statement << '\n';
 }
 
-void add_studies(const Results& r, const propagation::Output& output, nlohmann::ordered_json& object) {
-  const auto same = [&](const auto& study) { return study.output.name == output.name; };
-  const auto keep = [&](const char* key, const auto& studies, const auto& members) {
+void add_studies(const Results& r, const propagation::Output& output, Json& object) {
+  const auto of_output = [&](const auto& studies, auto action) {
     for (const auto& study : studies)
-      if (same(study)) object[key] = members(study);
+      if (study.output.name == output.name) action(study);
   };
-  keep("sobol", r.sensitivities, [](const Sensitivity& s) {
-    auto inputs = nlohmann::ordered_json::object();
-    for (const SobolIndex& i : s.indices)
-      inputs[i.input] = {{"first", index(i.first, i.first_low, i.first_high, i.first_verdict)},
-                         {"total", index(i.total, i.total_low, i.total_high, i.total_verdict)}};
-    return inputs;
-  });
-  keep("shapley", r.shapley, [](const Shapley& s) {
-    auto inputs = nlohmann::ordered_json::object();
-    for (const Index& i : s.effects) inputs[i.input] = index(i.value, i.low, i.high, i.verdict);
-    return inputs;
-  });
-  keep("given_data", r.given_data, [](const GivenData& g) {
-    auto inputs = nlohmann::ordered_json::object();
-    for (const Index& i : g.first) inputs[i.input]["first"] = index(i.value, i.low, i.high, i.verdict);
-    for (const Index& i : g.delta) inputs[i.input]["delta"] = index(i.value, i.low, i.high, i.verdict);
-    return inputs;
-  });
-  keep("morris", r.morris, [](const Morris& m) {
-    const auto shown = [&](double x) { return number(difference(m.output, x)); };
-    auto inputs = nlohmann::ordered_json::object();
-    for (const MorrisRow& row : m.rows)
-      inputs[row.input] = {{"mean", shown(row.mean)},
-                           {"mean_absolute", shown(row.mean_absolute)},
-                           {"standard_deviation", shown(row.standard_deviation)}};
-    return inputs;
-  });
-  keep("dgsm", r.dgsm, [](const Dgsm& d) {
-    auto inputs = nlohmann::ordered_json::object();
-    for (const DgsmRow& row : d.rows)
-      inputs[row.input] = {
-          {"bound", number(row.bound)}, {"low", number(row.bound_low)}, {"high", number(row.bound_high)}};
-    return inputs;
-  });
+  const auto by_input = [&](const char* key, const auto& studies, const auto& fields, auto rows, auto name) {
+    of_output(studies, [&](const auto& study) {
+      if (!object.contains(key)) object[key] = Json::object();
+      add_rows(object[key], fields, study.*rows, name, output);
+    });
+  };
+  by_input("sobol", r.sensitivities, sobol_fields, &Sensitivity::indices, &SobolIndex::input);
+  by_input("shapley", r.shapley, shapley_fields, &Shapley::effects, &Index::input);
+  by_input("given_data", r.given_data, rank_fields, &GivenData::first, &Index::input);
+  by_input("given_data", r.given_data, delta_fields, &GivenData::delta, &Index::input);
+  by_input("morris", r.morris, morris_fields, &Morris::rows, &MorrisRow::input);
+  by_input("dgsm", r.dgsm, dgsm_fields, &Dgsm::rows, &DgsmRow::input);
   for (const OneAtATimeTable& table : r.one_at_a_time)
-    for (std::size_t o = 0; o < table.outputs.size(); ++o) {
-      if (table.outputs[o].name != output.name) continue;
-      auto rows = nlohmann::ordered_json::object();
-      for (const OneAtATimeRow& row : table.rows)
-        rows[row.quantity] = {
-            {"unit", row.unit},
-            {"step", number(units::from_si(row.step, row.unit, row.si_unit, units::Kind::difference))},
-            {"up", number(difference(output, row.up[o]))},
-            {"down", number(difference(output, row.down[o]))}};
-      object["one_at_a_time"].push_back({{"title", table.title}, {"quantities", rows}});
-    }
-  if (!r.stopping.rule.empty())
-    object["stopping"] = {{"rule", r.stopping.rule},
-                          {"trials", r.stopping.trials},
-                          {"jcgm_trials", r.stopping.jcgm_trials},
-                          {"stein_trials", r.stopping.stein_trials},
-                          {"reached", r.stopping.reached}};
-  keep("circular", r.circular, [](const CircularSummary& c) {
-    return nlohmann::ordered_json{{"mean_direction", number(difference(c.output, c.mean_direction))},
-                                  {"resultant_length", number(c.resultant_length)},
-                                  {"standard_deviation", number(difference(c.output, c.standard_deviation))},
-                                  {"arc", {number(difference(c.output, c.low)), number(difference(c.output, c.high))}}};
-  });
-  for (const ConformityResult& c : r.conformity)
-    if (same(c)) object["conformity"].push_back(conformity_object(c));
-  for (const TargetResult& t : r.targets)
-    if (same(t)) object["targets"].push_back(target_object(t));
-  for (const JointRegion& j : r.joint) {
-    const auto at = std::ranges::find(j.outputs, output.name, &propagation::Output::name);
-    if (at == j.outputs.end()) continue;
-    const auto row = static_cast<std::size_t>(at - j.outputs.begin()), n = j.outputs.size();
-    auto correlations = nlohmann::ordered_json::object();
-    for (std::size_t k = 0; k < n; ++k) correlations[j.outputs[k].name] = number(j.correlation[row * n + k]);
-    object["joint"].push_back({{"coverage_probability", j.coverage_probability},
-                               {"k_p", number(j.k_p)},
-                               {"k_q", number(j.k_q)},
-                               {"correlation", correlations}});
-  }
+    for (std::size_t o = 0; o < table.outputs.size(); ++o)
+      if (table.outputs[o].name == output.name) object["one_at_a_time"].push_back(one_at_a_time_object(table, o));
+  if (!r.stopping.rule.empty()) object["stopping"] = json(stopping_fields, r.stopping);
+  of_output(r.circular, [&](const auto& c) { object["circular"] = json(circular_fields, c); });
+  of_output(r.conformity, [&](const auto& c) { object["conformity"].push_back(json(conformity_fields, c)); });
+  of_output(r.targets, [&](const auto& t) { object["targets"].push_back(target_object(t)); });
+  for (const JointRegion& j : r.joint)
+    if (const auto at = std::ranges::find(j.outputs, output.name, &propagation::Output::name); at != j.outputs.end())
+      object["joint"].push_back(joint_object(j, static_cast<std::size_t>(at - j.outputs.begin())));
 }
 
 } // namespace gumshoe::cli

@@ -12,6 +12,18 @@ namespace {
 
 constexpr int format_version = 1;
 
+constexpr std::pair<const char*, std::string Identity::*> texts[] = {{"version", &Identity::version},
+                                                                     {"instruction_set", &Identity::instruction_set},
+                                                                     {"model", &Identity::model},
+                                                                     {"method", &Identity::method},
+                                                                     {"evaluation", &Identity::evaluation},
+                                                                     {"design", &Identity::design},
+                                                                     {"adaptive", &Identity::adaptive},
+                                                                     {"scenario_file", &Identity::scenario_file},
+                                                                     {"scenario_text", &Identity::scenario_text},
+                                                                     {"scenario_hash", &Identity::scenario_hash},
+                                                                     {"design_hash", &Identity::design_hash}};
+
 auto fields(const Identity& i) {
   return std::tie(i.adaptive, i.scenario_hash, i.scenario_text, i.model, i.method, i.evaluation, i.design, i.version,
                   i.instruction_set, i.seed, i.store_samples, i.design_hash);
@@ -24,25 +36,19 @@ bool same_numbers(const Identity& a, const Identity& b) {
 }
 
 void write_identity(hid_t file, const Identity& i) {
-  const std::pair<const char*, std::string> texts[] = {{"program", "gumshoe"},
-                                                       {"version", i.version},
-                                                       {"git_hash", git_hash},
-                                                       {"instruction_set", i.instruction_set},
-                                                       {"model", i.model},
-                                                       {"method", i.method},
-                                                       {"evaluation", i.evaluation},
-                                                       {"design", i.design},
-                                                       {"adaptive", i.adaptive},
-                                                       {"scenario_file", i.scenario_file},
-                                                       {"scenario_text", i.scenario_text},
-                                                       {"scenario_hash", i.scenario_hash},
-                                                       {"design_hash", i.design_hash}};
-  for (const auto& [name, text] : texts) hdf5::write_attribute(file, name, text);
+  hdf5::write_attribute(file, "program", std::string("gumshoe"));
+  hdf5::write_attribute(file, "git_hash", std::string(git_hash));
+  for (const auto& [name, member] : texts) hdf5::write_attribute(file, name, i.*member);
   hdf5::write_attribute(file, "format_version", format_version);
   hdf5::write_attribute(file, "seed", i.seed);
   hdf5::write_attribute(file, "samples", i.samples);
   hdf5::write_attribute(file, "store_samples", i.store_samples ? 1 : 0);
   hdf5::write_attribute(file, "complete", 0);
+  const std::uint64_t none = 0;
+  const hdf5::Handle marker =
+      hdf5::create_dataset(file, "samples_done", H5T_STD_U64LE, {1}, "1", "samples written so far");
+  hdf5::make_scale(marker, "samples_done");
+  hdf5::require(H5Dwrite(marker, H5T_NATIVE_UINT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, &none), "write the marker");
 }
 
 Stored read_stored(hid_t file) {
@@ -50,18 +56,8 @@ Stored read_stored(hid_t file) {
   Identity& i = s.identity;
   if (hdf5::read_text(file, "program") != "gumshoe") throw NoResult("another program made it");
   if (hdf5::read_integer(file, "format_version") != format_version) throw NoResult("another format version");
-  const std::pair<const char*, std::string*> texts[] = {{"version", &i.version},
-                                                        {"instruction_set", &i.instruction_set},
-                                                        {"model", &i.model},
-                                                        {"method", &i.method},
-                                                        {"evaluation", &i.evaluation},
-                                                        {"design", &i.design},
-                                                        {"adaptive", &i.adaptive},
-                                                        {"scenario_file", &i.scenario_file},
-                                                        {"scenario_text", &i.scenario_text},
-                                                        {"scenario_hash", &i.scenario_hash}};
-  for (const auto& [name, text] : texts) *text = hdf5::read_text(file, name);
-  if (H5Aexists(file, "design_hash") > 0) i.design_hash = hdf5::read_text(file, "design_hash");
+  for (const auto& [name, member] : texts)
+    if (member != &Identity::design_hash || H5Aexists(file, name) > 0) i.*member = hdf5::read_text(file, name);
   i.seed = hdf5::read_integer(file, "seed");
   i.samples = hdf5::read_integer(file, "samples");
   i.store_samples = hdf5::read_integer(file, "store_samples") != 0;

@@ -21,6 +21,7 @@ struct NoResult : OutputError {
   using OutputError::OutputError;
 };
 
+/// Also makes the progress marker `samples_done`, 0.
 void write_identity(hid_t file, const Identity& identity);
 /// Throws OutputError saying why the open file is no result of ours: NoResult, or that it cannot be read.
 Stored read_stored(hid_t file);

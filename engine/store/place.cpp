@@ -2,6 +2,7 @@
 
 #include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <system_error>
@@ -12,8 +13,6 @@
 #include <sys/stat.h>
 #include <sys/statvfs.h>
 #include <unistd.h>
-
-#include "base/error.h"
 
 namespace gumshoe::store {
 namespace fs = std::filesystem;
@@ -101,6 +100,17 @@ void claim_space(const std::string& path, std::uint64_t reserve) {
 void survive_size_limit() {
   struct sigaction now {};
   if (sigaction(SIGXFSZ, nullptr, &now) == 0 && now.sa_handler == SIG_DFL) std::signal(SIGXFSZ, SIG_IGN);
+}
+
+void replace_file(const std::string& path, const std::function<void(const std::string& temporary)>& build) {
+  const std::string temporary = temporary_name(path);
+  try {
+    build(temporary);
+    if (std::rename(temporary.c_str(), path.c_str()) != 0) throw OutputError("cannot take its place");
+  } catch (...) {
+    std::remove(temporary.c_str());
+    throw;
+  }
 }
 
 } // namespace gumshoe::store

@@ -1,7 +1,10 @@
 #pragma once
 /// Where a result file may be put: nothing that is not ours is overwritten. Private to this folder.
 #include <cstdint>
+#include <functional>
 #include <string>
+
+#include "base/error.h"
 
 namespace gumshoe::store {
 
@@ -27,5 +30,20 @@ void claim_space(const std::string& path, std::uint64_t reserve);
 
 /// Makes a file-size limit (ulimit -f) an error like a full disk; by default its signal kills us.
 void survive_size_limit();
+
+/// Has a file built under another name, which then takes the place of what stands at `path`. If `build` throws, the file
+/// is removed and nothing has changed.
+void replace_file(const std::string& path, const std::function<void(const std::string& temporary)>& build);
+
+/// Runs `action` and puts the path into whatever OutputError it throws.
+template <class Action> auto naming(const std::string& path, Action action) {
+  try {
+    return action();
+  } catch (const OutputError& error) {
+    const Problem& p = error.problems().front();
+    if (p.what.find(path) != std::string::npos) throw;
+    throw OutputError("'" + path + "': " + p.what, p.why, p.remedy);
+  }
+}
 
 } // namespace gumshoe::store

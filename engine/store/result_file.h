@@ -44,6 +44,8 @@ public:
   void finish(const analysis::Results& results);
 
 private:
+  bool resumed(const std::string& path);
+
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

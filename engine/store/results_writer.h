@@ -8,10 +8,10 @@ namespace gumshoe::store {
 /// `file` holds none of it yet.
 void write_results(hid_t file, const analysis::Results& results);
 
-/// The parts of it that have a file of their own; groups without rows are not made.
-void write_sensitivity(hid_t file, const analysis::Results& results); ///< sensitivity_writer.cpp
-void write_joint(hid_t file, const analysis::Results& results);       ///< joint_writer.cpp: joint, circular, conformity
-void write_planning(hid_t file, const analysis::Results& results);    ///< planning_writer.cpp: targets, stopping
+/// Its studies, those of sensitivity also alone; groups without rows are not made. In study_writer.cpp.
+void write_studies(hid_t file, const analysis::Results& results);
+void write_sensitivity(hid_t group, const std::vector<analysis::Sensitivity>& sobol,
+                       const std::vector<analysis::Shapley>& shapley);
 
 /// Budgets as a group `name` of sub-groups 000, 001, ...; none if there are none.
 void write_budgets(hid_t file, const std::string& name, const std::vector<analysis::Budget>& budgets);

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/units.h"
+#include "store/field_writer.h"
 
 namespace gumshoe::store {
 
@@ -53,6 +54,36 @@ void Table::texts(const std::string& name, const std::vector<std::string>& value
   hdf5::attach(dataset, 0, scale_, dimension_);
 }
 
+void Table::values(const std::string& name, const std::vector<analysis::Value>& values, const std::string& units,
+                   const std::string& long_name) {
+  if (rows_ == 0 || values.empty()) return;
+  const auto all = [&]<class T>(std::vector<T> column) {
+    for (const analysis::Value& value : values) column.push_back(std::get<T>(value));
+    return column;
+  };
+  std::visit(
+      [&]<class T>(const T&) {
+        if constexpr (std::is_same_v<T, std::string>)
+          texts(name, all(std::vector<T>{}), long_name);
+        else if constexpr (std::is_same_v<T, bool>) {
+          const std::vector<bool> flags = all(std::vector<T>{});
+          numbers(name, std::vector<int>(flags.begin(), flags.end()), units, long_name);
+        } else
+          numbers(name, all(std::vector<T>{}), units, long_name);
+      },
+      values.front());
+}
+
+std::string file_units(const analysis::Unit& unit, const std::string& row, const std::string& output) {
+  switch (unit.in) {
+  case analysis::In::point:
+  case analysis::In::difference: return row;
+  case analysis::In::output: return output;
+  case analysis::In::coefficient: return "output units / units";
+  default: return std::string(unit.stated);
+  }
+}
+
 void Table::units(const std::vector<std::string>& si_units, const std::vector<std::string>& display_units,
                   const std::string& prefix) {
   std::vector<std::string> shown;
@@ -83,13 +114,17 @@ void Table::matrix(const std::string& name, const Table& columns, const std::vec
   hdf5::attach(dataset, 1, columns.scale_, columns.dimension_);
 }
 
+void write_display(hid_t object, const std::string& unit, const std::string& si_unit) {
+  const Display shown = display(unit, si_unit);
+  hdf5::write_attribute(object, "display_units", shown.units);
+  hdf5::write_attribute(object, "display_factor", shown.factor);
+  hdf5::write_attribute(object, "display_offset", shown.offset);
+}
+
 void write_output(hid_t group, const propagation::Output& output) {
-  const Display shown = display(output.unit, output.si_unit);
   hdf5::write_attribute(group, "output", output.name);
   hdf5::write_attribute(group, "units", output.si_unit);
-  hdf5::write_attribute(group, "display_units", shown.units);
-  hdf5::write_attribute(group, "display_factor", shown.factor);
-  hdf5::write_attribute(group, "display_offset", shown.offset);
+  write_display(group, output.unit, output.si_unit);
 }
 
 } // namespace gumshoe::store

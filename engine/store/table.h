@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/fields.h"
 #include "propagation/run.h"
 #include "store/hdf5.h"
 
@@ -42,6 +43,9 @@ public:
   void numbers(const std::string& name, const std::vector<T>& values, const std::string& units,
                const std::string& long_name);
   void texts(const std::string& name, const std::vector<std::string>& values, const std::string& long_name);
+  /// A column of whichever of these types its values are; all are of one type.
+  void values(const std::string& name, const std::vector<analysis::Value>& values, const std::string& units,
+              const std::string& long_name);
   /// The columns `units`, `display_units`, `display_factor` and `display_offset`, their names after `prefix`.
   void units(const std::vector<std::string>& si_units, const std::vector<std::string>& display_units,
              const std::string& prefix = "");
@@ -55,6 +59,9 @@ private:
   hsize_t rows_;
   hdf5::Handle scale_;
 };
+
+/// The attributes `display_units`, `display_factor` and `display_offset`.
+void write_display(hid_t object, const std::string& unit, const std::string& si_unit);
 
 /// The attributes `output`, `units`, `display_units`, `display_factor` and `display_offset` of a group that tells of
 /// one output.

@@ -1,6 +1,5 @@
 #include "store/whole_file.h"
 
-#include <cstdio>
 #include <filesystem>
 
 #include "base/error.h"
@@ -8,20 +7,6 @@
 #include "store/place.h"
 
 namespace gumshoe::store {
-
-namespace {
-
-template <class Action> void naming(const std::string& path, Action action) {
-  try {
-    action();
-  } catch (const OutputError& error) {
-    const Problem& p = error.problems().front();
-    if (p.what.find(path) != std::string::npos) throw;
-    throw OutputError("'" + path + "': " + p.what, p.why, p.remedy);
-  }
-}
-
-} // namespace
 
 void require_writable(const std::string& path) {
   const Lock lock(hdf5::library());
@@ -44,28 +29,15 @@ void write_whole(const std::string& path, const Identity& identity, const std::s
   const Lock lock(hdf5::library());
   survive_size_limit();
   naming(path, [&] {
-    const std::string target = destination(path), temporary = temporary_name(target);
-    try {
+    replace_file(destination(path), [&](const std::string& temporary) {
       const hdf5::Handle file = open_file(temporary, H5F_ACC_TRUNC);
       write_identity(file, identity);
       hdf5::write_attribute(file, "title", title);
       hdf5::write_attribute(file, "coverage_probability", coverage_probability);
-      const std::uint64_t none = 0; // samples are not kept
-      const hdf5::Handle marker =
-          hdf5::create_dataset(file, "samples_done", H5T_STD_U64LE, {1}, "1", "samples written so far");
-      hdf5::make_scale(marker, "samples_done");
-      hdf5::require(H5Dwrite(marker, H5T_NATIVE_UINT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, &none), "write the marker");
       contents(file);
       hdf5::write_attribute(file, "complete", 1);
       hdf5::require(H5Fflush(file, H5F_SCOPE_GLOBAL), "write the file");
-    } catch (...) {
-      std::remove(temporary.c_str());
-      throw;
-    }
-    if (std::rename(temporary.c_str(), target.c_str()) != 0) {
-      std::remove(temporary.c_str());
-      throw OutputError("cannot take its place");
-    }
+    });
   });
 }
 

@@ -1,56 +1,62 @@
 """The tables as CSV: display units, all digits (reports/README.md)."""
 import csv
+import json
 import math
+import pathlib
 
 from .tables import point, spread
 
+# Columns of each group of the file: [header, dataset, kind of unit]. Written by `gumshoe fields --format json`.
+COLUMNS = json.loads((pathlib.Path(__file__).parent / "columns.json").read_text(encoding="utf-8"))
 
-def of(row, points="", spreads="", source=None):
-    """Members of a row in display units; `source` has the factor if the row has none."""
-    by = source or row
-    return {**{n: point(by, getattr(row, n)) for n in points.split()},
-            **{n: spread(by, getattr(row, n)) for n in spreads.split()}}
+
+def cell(kind, key, row, study, r):
+    """A field in display units. `study`: what the row belongs to, in the unit of its output."""
+    if kind == "units":
+        return row.display_units
+    if kind == "output_units":
+        return study.display_units
+    value = getattr(r if kind == "run" else row, key)
+    if kind == "point":
+        return point(row, value)
+    if kind == "difference":
+        return spread(row, value)
+    if kind == "output":
+        return spread(study, value)
+    if kind == "coefficient":
+        return value * study.display_factor / row.display_factor
+    return value
+
+
+def line(group, row, study=None, r=None):
+    """The columns of one row; those that an older file lacks are left out."""
+    return {header: cell(kind, key, row, study, r) for header, key, kind in COLUMNS[group]
+            if kind in ("units", "output_units", "run") or hasattr(row, key)}
 
 
 def plain(r):
     """Summary, budget and what stands beside them."""
-    ends = "symmetric_low symmetric_high shortest_low shortest_high"
     return {
-        "summary": [{"output": o.name, "unit": o.display_units, **of(o, "estimate"),
-                     **of(o, "", "standard_uncertainty"), **of(o, ends), "coverage_probability": r.coverage_probability,
-                     **of(o, "", "estimate_se standard_uncertainty_se"), "valid": o.valid, "failed": o.failed,
-                     "warning": o.warning, "statement": o.statement} for o in r.outputs],
-        "budget": [{"output": b.output, "quantity": c.name, "unit": c.display_units, **of(c, "estimate"),
-                    **of(c, "", "standard_uncertainty"), "type": c.evaluation, "distribution": c.distribution,
-                    "degrees_of_freedom": c.degrees_of_freedom or math.inf, "differentiable": c.differentiable,
-                    "sensitivity": c.sensitivity * b.display_factor / c.display_factor,
-                    "contribution": spread(b, c.contribution), "contribution_unit": b.display_units,
-                    "share_gum": c.share, "share_monte_carlo": c.monte_carlo_share, "scope": c.scope,
-                    "source": c.source} for b in r.budgets for c in b.rows],
-        "validation": [{"output": v.name, "unit": v.display_units, **of(v, "", "delta d_low d_high monte_carlo_tolerance"),
-                        "digits": v.digits, "verdict": v.verdict, "reason": v.reason} for v in r.validations],
-        "comparison": [{"comparison": c.name, "a": c.a, "b": c.b, "unit": c.display_units,
-                        **of(c, "", "difference standard_uncertainty root_sum_square expanded_uncertainty"),
-                        "normalised_error": c.normalised_error} for c in r.comparisons]}
+        "summary": [line("summary", o, r=r) for o in r.outputs],
+        "budget": [{"output": b.output, **line("budget", c, b), "degrees_of_freedom": c.degrees_of_freedom or math.inf}
+                   for b in r.budgets for c in b.rows],
+        "validation": [line("validation", v) for v in r.validations],
+        "comparison": [line("comparison", c) for c in r.comparisons]}
 
 
 def sensitivity(r):
-    def indices(studies):
-        return [{"output": s.output, "input": i.input, **{n: v for n, v in vars(i).items() if n != "input"}}
-                for s in studies for i in s.rows]
+    def indices(group, studies):
+        return [{"output": s.output, **line(group, i, s)} for s in studies for i in s.rows]
     return {
-        "sensitivity": indices(r.sensitivities), "shapley": indices(r.shapley), "given_data": indices(r.given_data),
-        "sensitivity_pairs": [{"output": s.output, "a": p.a, "b": p.b, "second": p.second, "low": p.low, "high": p.high,
-                               "verdict": p.verdict} for s in r.sensitivities for p in s.pairs],
-        "morris": [{"output": m.output, "input": i.input, "unit": m.display_units,
-                    **of(i, "", "mean_absolute mean_absolute_se mean standard_deviation", m)}
-                   for m in r.morris for i in m.rows],
-        "dgsm": [{"output": d.output, "input": i.input, "nu_si": i.nu, "nu_se_si": i.nu_se, "bound": i.bound,
-                  "bound_low": i.bound_low, "bound_high": i.bound_high} for d in r.dgsm for i in d.rows],
-        "one_at_a_time": [{"table": t.title, "quantity": i.quantity, **of(i, "", "step"), "step_unit": i.display_units,
-                           "output": o.name, "unit": o.display_units, "up": spread(o, i.up[k]),
-                           "down": spread(o, i.down[k])} for t in r.one_at_a_time for i in t.rows
-                          for k, o in enumerate(t.outputs)]}
+        **{name: indices(name, studies) for name, studies in (
+            ("sensitivity", r.sensitivities), ("shapley", r.shapley), ("given_data", r.given_data))},
+        "sensitivity_pairs": [{"output": s.output, **line("sensitivity/pairs", p)}
+                              for s in r.sensitivities for p in s.pairs],
+        "morris": indices("morris", r.morris), "dgsm": indices("dgsm", r.dgsm),
+        "one_at_a_time": [{"table": t.title, "quantity": i.quantity, "step": spread(i, i.step),
+                           "step_unit": i.display_units, "output": o.name, "unit": o.display_units,
+                           "up": spread(o, i.up[k]), "down": spread(o, i.down[k])}
+                          for t in r.one_at_a_time for i in t.rows for k, o in enumerate(t.outputs)]}
 
 
 def decisions(r):
@@ -60,17 +66,9 @@ def decisions(r):
                    "covariance": a.covariance[m] * a.display_factor * b.display_factor, "unit_a": a.display_units,
                    "unit_b": b.display_units, "k_p": j.k_p, "k_q": j.k_q, "coverage_probability": j.coverage_probability}
                   for k, j in enumerate(r.joint) for a in j.rows for m, b in enumerate(j.rows)],
-        "circular": [{"output": c.name, "unit": c.display_units, **of(c, "mean_direction low high", "standard_deviation"),
-                      "resultant_length": c.resultant_length, "remark": c.remark} for c in r.circular],
-        "conformity": [{"output": c.name, "unit": c.display_units,
-                        **of(c, "lower upper acceptance_lower acceptance_upper estimate process_mean",
-                             "guard_band process_u"), "accepted": c.accepted,
-                        **{n: v for n, v in vars(c).items() if n.startswith(("conformance", "specific", "global",
-                                                                             "posterior", "process_conformance"))},
-                        "statement": c.statement} for c in r.conformity],
-        "target": [{"output": t.output, "quantity": i.quantity, "unit": i.display_units,
-                    **of(i, "", "present allowed allowed_gum cheapest"), "cost": i.cost}
-                   for t in r.targets for i in t.rows]}
+        "circular": [line("circular", c) for c in r.circular],
+        "conformity": [line("conformity", c) for c in r.conformity],
+        "target": [{"output": t.output, **line("target", i)} for t in r.targets for i in t.rows]}
 
 
 def choice(c):
@@ -81,20 +79,21 @@ def choice(c):
         return {v.name + ("" if v.kind == "evaluation" or v.display_units == "1" else f" ({v.display_units})"):
                 c.evaluations[int(x)] if v.kind == "evaluation" else point(v, x) for v, x in zip(c.variables, values)}
     def figures(row):
+        cells = list(line("choice/candidates", row, c).items())
+        k = [name for name, _ in cells].index("valid")
         cases = {f"{n}[{case.name}]": spread(c, getattr(row, key)[k]) for k, case in enumerate(c.cases)
                  for n, key in (("U", "case_expanded"), ("U_se", "case_expanded_se"), ("mean_error_left", "case_left"))}
-        return {"time_s": row.time, "number_of_readings": row.readings, "unit": c.display_units, "U": spread(c, row.expanded),
-                "U_se": spread(c, row.expanded_se), "mean_error": spread(c, row.mean), "mean_error_se": spread(c, row.mean_se),
-                "standard_deviation": spread(c, row.standard_deviation), **cases, "valid": row.valid, "failed": row.failed,
-                "meets": row.meets}
-    return {"candidates": [{**chosen(row.values), **figures(row), "pareto": row.pareto, "round": row.round,
-                            "recommended": int(k == c.best)} for k, row in enumerate(c.candidates)],
-            "compared": [{"name": row.name, "setting": row.setting, "source": row.source, **figures(row),
-                          "probability": row.probability} for row in c.fresh],
+        return {**dict(cells[:k]), **cases, **dict(cells[k:])}
+    def fresh(row):
+        cells = line("choice/fresh", row)
+        probability = cells.pop("probability")
+        return {**cells, **figures(row), "probability": probability}
+    return {"candidates": [{**chosen(row.values), **figures(row), "recommended": int(k == c.best)}
+                           for k, row in enumerate(c.candidates)],
+            "compared": [fresh(row) for row in c.fresh],
             "neighbours": [{"variable": c.variables[int(n.variable)].name,
-                            **chosen(c.candidates[int(n.candidate)].values), "time_ratio": n.time_ratio,
-                            "U_ratio": n.expanded_ratio, "near": n.near, "meets": c.candidates[int(n.candidate)].meets}
-                           for n in c.neighbours],
+                            **chosen(c.candidates[int(n.candidate)].values), **line("choice/neighbours", n),
+                            "meets": c.candidates[int(n.candidate)].meets} for n in c.neighbours],
             **{name: lines for name, lines in sensitivity(c).items() if lines}}
 
 
@@ -109,18 +108,20 @@ def trace(t):
     def value(column, k):
         x = column.values[k]
         return x if isinstance(x, str) else x * column.display_factor + column.display_offset
+    def size(q):
+        """What stands in a scenario is a point on its scale, anything else a difference."""
+        if q.scenario_name:
+            return {**{n: point(q, getattr(q, n)) for n in ("value", "low", "high")},
+                    "standard_uncertainty": spread(q, q.standard_uncertainty)}
+        return {n: spread(q, getattr(q, n)) for n in ("value", "standard_uncertainty", "low", "high")}
     return {"findings": [{"finding": f.name, "kind": f.kind, "p_value": f.p_value, "member": q.member, "quantity": q.name,
-                          "labels": q.labels, "unit": q.display_units,
-                          **of(q, *(("value low high", "standard_uncertainty") if q.scenario_name else
-                                    ("", "value standard_uncertainty low high"))), "suggestion": f.suggestion}
+                          "labels": q.labels, "unit": q.display_units, **size(q), "suggestion": f.suggestion}
                          for f in t.findings for q in f.quantities],
-            "candidates": [vars(c) for c in t.candidates],
-            "detection_limits": [{"effect": d.effect, "quantity": d.quantity, "unit": d.display_units, **of(d, "", "value")}
-                                 for d in t.limits],
+            "candidates": [line("trace/candidates", c) for c in t.candidates],
+            "detection_limits": [line("trace/detection_limits", d) for d in t.limits],
             "residuals": [{"reading": row.reading + 1, "indication": row.indication, "order": row.order, "block": row.block,
                            "final": row.final, **{heads(n, c): value(c, row.reading) for n, c in beside.items()},
-                           "unit": row.display_units, **of(row, "measured", "before after noise_u"), "weight": row.weight}
-                          for row in t.residuals]}
+                           **line("residuals", row)} for row in t.residuals]}
 
 
 def write(r, folder, stem):

@@ -263,7 +263,7 @@ Results full_results() {
   r.readings.push_back({{}, {}, {}, 1});
   for (std::size_t k = 0; k < outputs().size(); ++k) {
     r.summaries.push_back(summary(k));
-    r.statements.push_back(outputs()[k].name + " in words");
+    r.summaries[k].statement = outputs()[k].name + " in words";
     r.validations.push_back({outputs()[k], 0.05 * um, 2 * um, 1.6 * um, 0.004 * um, 2, "not validated",
                              "an end differs by more than delta"});
   }

@@ -185,7 +185,7 @@ TEST_CASE("GUM H.2: three correlated outputs; Welch-Satterthwaite refused, with 
     CHECK(b.combined_standard_uncertainty == Approx(u[o]).epsilon(2e-5)); // inputs given to six digits
     CHECK(std::isnan(b.effective_degrees_of_freedom));
     CHECK(b.remark.find("correlated") != std::string::npos);
-    CHECK(r.statements[o].find("Welch-Satterthwaite") != std::string::npos);
+    CHECK(r.summaries[o].statement.find("Welch-Satterthwaite") != std::string::npos);
     CHECK(b.coverage_factor == Approx(1.959964));
     near(r.summaries[o].standard_uncertainty, u[o], r.summaries[o].standard_uncertainty_se, 1e-5 * u[o]);
   }

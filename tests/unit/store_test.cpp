@@ -83,11 +83,11 @@ analysis::Results results() {
     analysis::Summary s;
     s.output = output;
     s.estimate = 0.1;
+    s.statement = "laser_z = 100 mm";
     s.bin_edges = {0, 1, 2};
     s.density = {0.5, 0.5};
     r.summaries.push_back(s);
   }
-  r.statements = {"laser_z = 100 mm", "laser_z = 100 mm"};
   analysis::Budget budget;
   budget.output = outputs[0];
   budget.contributions.resize(2);

@@ -1,0 +1,27 @@
+#pragma once
+/// The fields of a trace that its result file holds (analysis/fields.h).
+#include "analysis/fields.h"
+#include "tracing/trace.h"
+
+namespace gumshoe::tracing {
+
+/// A residual with the words and the unit of its reading and its indication.
+struct ResidualRow : Row {
+  std::string reading_name, indication_name, unit, si_unit;
+};
+
+/// A size with the effect whose size it is, and its label values in one line.
+struct SizeRow : SizedQuantity {
+  std::string member, label_values;
+};
+
+extern const analysis::Fields<Trace> trace_fields;     ///< attributes
+extern const analysis::Fields<Finding> finding_fields; ///< attributes
+extern const analysis::Fields<SizeRow> size_fields;
+extern const analysis::Fields<Candidate> candidate_fields;
+extern const analysis::Fields<DetectionLimit> limit_fields;
+extern const analysis::Fields<Rms> rms_fields;     ///< attributes
+extern const analysis::Fields<Noise> noise_fields; ///< attributes, in the unit of Rms
+extern const analysis::Fields<ResidualRow> residual_fields;
+
+} // namespace gumshoe::tracing
