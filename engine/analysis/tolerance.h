@@ -4,8 +4,8 @@
 
 namespace gumshoe::analysis {
 
-/// u = c 10^l with c an integer of `digits` digits: delta = 10^l / 2. The power of ten is of the unit that people
-/// read, the result is in SI. u must be positive.
+/// The tolerance delta = 10^l / 2, where u = c 10^l with an integer c of `digits` digits. The power of ten refers to the
+/// unit shown to people; the result is in SI. Infinite if u is zero, infinite or NaN, which have no digits.
 double numerical_tolerance(double u, int digits, const propagation::Output& output);
 
 } // namespace gumshoe::analysis

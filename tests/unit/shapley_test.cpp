@@ -170,7 +170,7 @@ TEST_CASE("intervals of Shapley effects cover at their nominal 95 %", "[shapley]
       covered[i] += e.low <= truth[i] && truth[i] <= e.high;
     }
     const auto many = experiment<Ten>(Ten::distributions(), seeds.first + k);
-    const auto& e = analysis::shapley_effects(*many->experiment, 1024, 1)[0].effects[4];
+    const auto e = analysis::shapley_effects(*many->experiment, 1024, 1)[0].effects[4];
     ten += e.low <= 25 / 110. && 25 / 110. <= e.high;
   }
   const double m = static_cast<double>(seeds.repetitions), allowed = 4 * std::sqrt(0.95 * 0.05 / m);
