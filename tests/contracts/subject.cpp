@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "base/units.h"
-#include "tracing/typical_size.h"
 
 namespace gumshoe::contracts {
 
@@ -65,10 +64,7 @@ template <class Solve> Derived derive(std::size_t variables, std::span<const Var
 
 } // namespace
 
-double typical(const QuantityCard& card) {
-  const double size = tracing::typical_size(card);
-  return size != 0 ? size : card.default_value;
-}
+double typical(const QuantityCard& card) { return card.typical.high > 0 ? card.typical.high : card.default_value; }
 
 bool is_unit_of_si(std::string_view unit, std::string_view si_unit) {
   const std::string si(si_unit);
