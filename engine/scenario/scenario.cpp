@@ -225,7 +225,7 @@ private:
       if (!own) continue;
       if (catalogue_.applies && !catalogue_.applies(model, *effect)) {
         own->add(fmt::format("effects.{}: {} cannot carry it", name, model.name),
-                 fmt::format("no stage '{}'", effect->stage));
+                 fmt::format("no stage '{}'", gumshoe::name(effect->stage)));
         continue;
       }
       bool any = false;
