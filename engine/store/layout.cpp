@@ -52,7 +52,7 @@ struct KindText {
   const char *people, *name;
 };
 constexpr KindText kinds[] = {{"", "one"},
-                              {"row's", "point"},
+                              {"row's, a point", "point"},
                               {"row's", "difference"},
                               {"output's", "output"},
                               {"output's / row's", "coefficient"},
