@@ -5,8 +5,9 @@
 #include <fmt/format.h>
 
 #include "base/units.h"
-#include "scenario/context.h"
-#include "scenario/scenario.h"
+#include "scenario/analysis.h"
+#include "scenario/options.h"
+#include "scenario/trace.h"
 
 namespace gumshoe::scenario {
 namespace {
@@ -103,25 +104,12 @@ void explain(const quantities::Correlation& c, Lines out) {
   fmt::format_to(out, "\n");
 }
 
-std::string studies(const SensitivityOptions& o) {
-  std::string text;
-  const std::pair<const char*, std::uint64_t> counts[] = {
-      {"sobol", o.sobol}, {"shapley", o.shapley}, {"given_data", o.given_data}, {"morris", o.morris}, {"dgsm", o.dgsm}};
-  for (const auto& [study, n] : counts)
-    if (n > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", study, n);
-  if (o.second_order) text += ", second order";
-  if (o.by_quantity) text += ", by quantity";
-  return text.empty() ? "none" : text;
-}
-
 void explain_options(const Scenario& s, const ModelCard& model, Lines out) {
-  fmt::format_to(out, "run\n  samples {}, seed {}, design {}, max_failed_share {}, store_samples {}\n", s.run.samples,
-                 s.run.seed, name(s.run.design), s.run.max_failed_share, s.run.store_samples);
+  fmt::format_to(out, "run\n  {}\n", explained(run_options(), s.run));
   if (s.run.adaptive.rule != StoppingRule::fixed)
-    fmt::format_to(out, "  adaptive: rule {}, digits {}, max_samples {}\n", name(s.run.adaptive.rule),
-                   s.run.adaptive.digits, s.run.adaptive.most);
-  fmt::format_to(out, "analysis\n  coverage_probability {}, validation_digits {}, sensitivity {}\n",
-                 s.analysis.coverage_probability, s.analysis.validation_digits, studies(s.analysis.sensitivity));
+    fmt::format_to(out, "  adaptive: {}\n", explained(adaptive_options(), s.run.adaptive));
+  fmt::format_to(out, "analysis\n  {}, sensitivity {}\n", explained(analysis_options(), s.analysis),
+                 explained_changes(sensitivity_options(), s.analysis.sensitivity));
   for (const OneAtATime& study : s.analysis.one_at_a_time)
     fmt::format_to(out, "  one at a time: {} ({} quantities)\n", study.title, study.steps.size());
   for (const ConformityTest& c : s.analysis.conformity)
@@ -190,7 +178,7 @@ void explain(const TraceOptions& t, Lines out) {
     fmt::format_to(out, "  redone: no act\n");
   for (const auto& labels : t.redone.value_or(std::vector<std::vector<std::string>>{}))
     fmt::format_to(out, "  redone: {}\n", fmt::join(labels, " with "));
-  fmt::format_to(out, "  alpha {}, draws {}, seed {}\n", t.alpha, t.draws, t.seed);
+  fmt::format_to(out, "  {}\n", explained(trace_options(), t));
   for (const TraceColumn& c : t.columns) {
     const auto [low, high] = std::minmax_element(c.values.begin(), c.values.end());
     fmt::format_to(out, "  column {}: {} to {}\n", c.name, both(*low, c.unit, c.si_unit),
