@@ -30,32 +30,25 @@ std::string both(double si, std::string_view unit, std::string_view si_unit) {
 
 std::string suffix(const std::string& si_unit) { return si_unit == "1" ? "" : " " + si_unit; }
 
-std::string parameters(const Distribution& d, const std::string& si_unit) {
-  if (d.values) return fmt::format("{} values", d.values->size());
+/// "rectangular (low -1e-06 m, high 1e-06 m)"
+std::string described(const Distribution& d, const std::string& si_unit) {
+  using enum quantities::ParameterCard::Dimension;
+  const auto card = std::ranges::find(quantities::families(), d.family, &quantities::FamilyCard::family);
+  if (d.values) return fmt::format("{} ({} values)", card->name, d.values->size());
   std::string out;
-  const auto families = quantities::families();
-  const auto card = std::find_if(families.begin(), families.end(), [&](const auto& f) { return f.family == d.family; });
-  for (std::size_t i = 0; card != families.end() && i < card->parameters.size(); ++i) {
+  for (std::size_t i = 0; i < card->parameters.size(); ++i) {
     const auto& p = card->parameters[i];
-    const bool plain = p.dimension == quantities::ParameterCard::Dimension::number ||
-                       p.dimension == quantities::ParameterCard::Dimension::log;
-    out += fmt::format("{}{} {:.6g}{}", out.empty() ? "" : ", ", p.key, d.parameters[i], plain ? "" : suffix(si_unit));
+    out += fmt::format("{}{} {:.6g}{}", out.empty() ? "" : ", ", p.key, d.parameters[i],
+                       p.dimension == number || p.dimension == log ? "" : suffix(si_unit));
   }
-  return out;
-}
-
-std::string family_name(const Distribution& d) {
-  for (const auto& card : quantities::families())
-    if (card.family == d.family) return std::string(card.name);
-  return "?";
+  return fmt::format("{} ({})", card->name, out);
 }
 
 void explain(const Component& c, const InputQuantity& q, Lines out) {
   const double variance = c.distribution.variance();
   const std::string u = std::isfinite(variance) ? fmt::format("u {:.6g}{}", std::sqrt(variance), suffix(q.si_unit))
                                                 : std::string("no standard uncertainty");
-  fmt::format_to(out, "      {}: {} ({}), {}, Type {}, {}", c.name, family_name(c.distribution),
-                 parameters(c.distribution, q.si_unit), u, c.evaluation,
+  fmt::format_to(out, "      {}: {}, {}, Type {}, {}", c.name, described(c.distribution, q.si_unit), u, c.evaluation,
                  c.per.empty() ? "one draw" : fmt::format("one draw per {}", fmt::join(c.per, ", ")));
   if (c.degrees_of_freedom > 0) fmt::format_to(out, ", {:.6g} degrees of freedom", c.degrees_of_freedom);
   if (!c.source.empty()) fmt::format_to(out, ", source: {}", c.source);
@@ -63,8 +56,7 @@ void explain(const Component& c, const InputQuantity& q, Lines out) {
 }
 
 void explain(const InputQuantity& q, const ModelCard& model, Lines out) {
-  const bool noise =
-      std::any_of(model.indications.begin(), model.indications.end(), [&](const auto& i) { return i.name == q.name; });
+  const bool noise = std::ranges::find(model.indications, q.name, &VariableCard::name) != model.indications.end();
   for (const Entry& e : q.entries) {
     const std::string labels = e.labels.empty() ? "" : " [" + text_of(e.labels) + "]";
     fmt::format_to(out, "  {}{}{} = {}", noise ? "noise of " : "", q.name, labels, both(e.value, q.unit, q.si_unit));
@@ -81,14 +73,12 @@ void explain(const InputQuantity& q, const ModelCard& model, Lines out) {
 void explain(const Scenario& s, std::size_t number, const ModelCard& model, Lines out) {
   const Reading& r = s.readings[number - 1];
   fmt::format_to(out, "  {}{}:", number, r.labels.empty() ? "" : " [" + text_of(r.labels) + "]");
-  for (std::size_t i = 0; i < model.conditions.size(); ++i) {
-    const VariableCard& c = model.conditions[i];
-    fmt::format_to(out, " {} {};", c.name, both(r.conditions[i], c.unit, c.si_unit));
-  }
-  for (std::size_t i = 0; i < r.indications.size(); ++i) {
-    const VariableCard& c = model.indications[i];
-    fmt::format_to(out, " {} {};", c.name, both(r.indications[i], c.unit, c.si_unit));
-  }
+  const auto list = [&](const std::vector<double>& values, std::span<const VariableCard> cards) {
+    for (std::size_t i = 0; i < values.size(); ++i)
+      fmt::format_to(out, " {} {};", cards[i].name, both(values[i], cards[i].unit, cards[i].si_unit));
+  };
+  list(r.conditions, model.conditions);
+  list(r.indications, model.indications);
   for (const TraceColumn& c : s.trace.columns)
     fmt::format_to(out, " {} {};", c.name, both(c.values[number - 1], c.unit, c.si_unit));
   for (const StatedEffect& e : s.stated_effects)
@@ -122,8 +112,7 @@ void explain_options(const Scenario& s, const ModelCard& model, Lines out) {
     fmt::format_to(out, "  compare {} between values of {}{}\n", c.measurand, c.between,
                    c.within.empty() ? "" : ", within " + c.within);
   for (const Printed& p : s.analysis.printed) {
-    const auto card = std::find_if(model.measurands.begin(), model.measurands.end(),
-                                   [&](const auto& m) { return m.name == p.measurand; });
+    const auto card = std::ranges::find(model.measurands, p.measurand, &VariableCard::name);
     const std::string labels = p.labels.empty() ? "" : " [" + text_of(p.labels) + "]";
     fmt::format_to(out, "  printed {}{} = {}{}\n", p.measurand, labels,
                    card == model.measurands.end() ? std::string("?") : both(p.value, card->unit, card->si_unit),

@@ -9,9 +9,11 @@ constexpr std::int64_t most = std::int64_t{1} << 40;
 
 Options<Adaptive> adaptive_options() {
   using enum StoppingRule;
+  auto rule = option::word("rule", &Adaptive::rule, std::vector{jcgm_101, stein},
+                           "JCGM 101 7.9 as printed, or Stein's two stages (Wuebbeler et al. 2010)");
+  rule.usual = shape::quoted(name(stein)); // of a table that is there: without one the rule is none of them
   return {
-      option::word("rule", &Adaptive::rule, std::vector{jcgm_101, stein},
-                   "JCGM 101 7.9 as printed, or Stein's two stages (Wuebbeler et al. 2010), which is the default"),
+      rule,
       option::whole("digits", &Adaptive::digits, 1, 4, "n_dig, significant digits of u that count"),
       option::whole("max_samples", &Adaptive::most, 20'000, most, "samples at which the rule gives up and says so"),
   };
