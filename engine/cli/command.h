@@ -25,6 +25,7 @@ void add_trace(CLI::App& app, Action& action);
 void add_replay(CLI::App& app, Action& action);
 void add_models(CLI::App& app, Action& action);
 void add_effects(CLI::App& app, Action& action);
+void add_schema(CLI::App& app, Action& action);
 void add_gauge(CLI::App& app, Action& action);
 void add_fields(CLI::App& app, Action& action);
 

@@ -29,6 +29,7 @@ int main(int argc, char** argv) {
   cli::add_replay(app, action);
   cli::add_models(app, action);
   cli::add_effects(app, action);
+  cli::add_schema(app, action);
   cli::add_gauge(app, action);
   cli::add_fields(app, action);
   try {

@@ -6,13 +6,70 @@
 #include <fmt/format.h>
 
 #include "scenario/choose_time.h"
+#include "scenario/choose_variables.h"
 #include "scenario/knobs.h"
+#include "scenario/option.h"
 
 namespace gumshoe::scenario {
 namespace {
 
-constexpr std::int64_t most_samples = std::int64_t{1} << 32, most_steps = 1000;
+constexpr std::int64_t most_samples = std::int64_t{1} << 32;
 using Kind = Knob::Kind;
+
+Options<ChooseCase> case_options() {
+  return {
+      option::text("name", &ChooseCase::name, "").needed(),
+      option::source(&ChooseCase::source),
+      option::by_hand<ChooseCase>("values", shape::map(shape::reference("measure"), R"("minProperties": 1)"),
+                                  "true values of quantities, by name")
+          .needed("values = { wear_1 = \"20 um\" }"),
+  };
+}
+
+Options<ChooseCompare> compare_options() {
+  return {
+      option::text("name", &ChooseCompare::name, "").needed(),
+      option::source(&ChooseCompare::source),
+      option::by_hand<ChooseCompare>("settings", shape::map(setting_shape(), R"("minProperties": 1)"),
+                                     "conditions, quantities, readings or evaluation, by name")
+          .needed("settings = { feed = \"3 mm/min\" }"),
+  };
+}
+
+Options<Choose> choose_options() {
+  const auto by_hand = [](const char* key, const Shape& shape, const char* meaning) {
+    return option::by_hand<Choose>(key, shape, meaning);
+  };
+  return {
+      by_hand("measurand", shape::text(), "one that every evaluation in question yields; needed if there are several"),
+      by_hand("target", shape::reference("width"), "expanded uncertainty to be reached").needed("target = \"3 um\""),
+      option::word("target_of", &Choose::worst_case, {{"average", false}, {"worst_case", true}},
+                   "whose U must meet the target: over all uncertain quantities, or of the worst case"),
+      by_hand("bias", shape::reference("width"), "limit of the mean error's magnitude; left out: none"),
+      option::word("definition", &Choose::definition,
+                   std::vector{Choose::Definition::corrected, Choose::Definition::uncorrected},
+                   "corrected: the mean error is corrected for, U is half the shortest interval of what remains; "
+                   "uncorrected: U is the quantile of the error's magnitude"),
+      option::whole("samples", &Choose::samples, 200, most_samples, "samples of each candidate"),
+      option::whole("confirm_samples", &Choose::confirm_samples, 200, most_samples,
+                    "samples of the fresh run of the recommended setting"),
+      option::share("confirm_probability", &Choose::confirm_probability, true,
+                    "of meeting the target, by the fresh run; with less the next fastest is tried"),
+      option::whole("refinements", &Choose::refinements, 0, 20, "each halves the steps of the ranges"),
+      option::share("near", &Choose::near, true,
+                    "share of the time, or of U, within which settings count as near the optimum"),
+      option::whole("sobol", &Choose::sobol, 0, most_samples,
+                    "rows of the design for what limits the optimum; 0: none"),
+      by_hand("variables", variables_shape(),
+              "what may be chosen: conditions, quantities, readings or evaluation, each with its values or their range")
+          .needed("[choose.variables] feed = [\"10 mm/min\", \"100 mm/min\"]"),
+      by_hand("time", time_shape(),
+              "how long it takes: formulas of conditions, quantities, readings and the constants here; what is left "
+              "out is the model's"),
+      by_hand("cases", shape::list(table_shape(case_options())), "true values that nobody knows: U is stated for each"),
+      by_hand("compare", shape::list(table_shape(compare_options())), "settings shown next to the recommended one"),
+  };
+}
 
 class ChooseReader {
 public:
@@ -22,29 +79,19 @@ public:
 
   Choose read() {
     if (scope_.scenario.method != Method::virtual_experiment)
-      table_.add("choose: needs method = \"virtual_experiment\"",
-                 "the error of a setting is what is stated less the truth", "add it to [model]");
-    if (table_.require("variables", "[choose.variables] feed = [\"10 mm/min\", \"100 mm/min\"]"))
-      if (auto variables = table_.table("variables")) read_variables(*variables);
-    list("cases", [&](Table& t) { out_.cases.push_back(read_case(t)); });
-    list("compare", [&](Table& t) { out_.compare.push_back(read_compare(t)); });
+      table_.refuse("needs method = \"virtual_experiment\"", "the error of a setting is what is stated less the truth",
+                    "add it to [model]");
+    read_options(table_, choose_options(), out_);
+    if (auto variables = table_.table("variables")) out_.variables = read_variables(*variables, knobs_);
+    for (Table& row : table_.tables("cases")) out_.cases.push_back(read_case(row));
+    for (Table& row : table_.tables("compare")) out_.compare.push_back(read_compare(row));
     aim();
-    counts();
     out_.time = read_time(table_.table("time"), table_.node(), scope_.model, asked(), context_);
     table_.refuse_unknown();
     return std::move(out_);
   }
 
 private:
-  template <class Read> void list(const char* key, const Read& read) {
-    const auto* items = table_.array(key);
-    for (std::size_t i = 0; items && i < items->size(); ++i)
-      if (auto one = as_table((*items)[i], fmt::format("choose.{}[{}]", key, i + 1), problems_)) {
-        read(*one);
-        one->refuse_unknown();
-      }
-  }
-
   /// By evaluation: whether a candidate may use it.
   std::vector<bool> asked() const {
     std::vector<bool> out(evaluations_.size(), false);
@@ -63,34 +110,27 @@ private:
   }
 
   void aim() {
-    std::vector<std::string> names;
     const ModelCard seen = evaluated_card(scope_.model, scope_.scenario.evaluation);
-    for (const VariableCard& m : seen.measurands) names.emplace_back(m.name);
-    std::size_t index = 0;
-    bool known = names.size() == 1;
-    if (const Node* node = known ? table_.find("measurand") : table_.require("measurand"); node) {
-      const auto chosen = table_.choice("measurand", names);
-      known = chosen.has_value();
-      index = chosen.value_or(0);
-    }
-    table_.require("target", "target = \"3 um\"");
-    if (!known) { // no dimension to judge the others by
-      table_.find("target"), table_.find("bias");
-    } else {
-      const VariableCard& card = seen.measurands[index];
+    const std::vector<std::string> names = names_of(seen.measurands);
+    std::optional<std::size_t> index;
+    if (names.size() > 1) table_.require("measurand");
+    if (table_.has("measurand"))
+      index = table_.choice("measurand", names);
+    else if (names.size() == 1)
+      index = 0;
+    const Node* target = table_.find("target");
+    table_.find("bias");
+    if (index) { // else there is no dimension to judge the others by
+      const VariableCard& card = seen.measurands[*index];
+      const std::string si_unit(card.si_unit);
       out_.measurand = card.name;
-      const Dimension width{std::string(card.si_unit), units::Kind::difference};
-      out_.target = above_zero("target", width).value_or(1);
-      const Node* target = table_.find("target");
+      out_.target = table_.width("target", si_unit).value_or(1);
       out_.unit = target && target->kind == Node::Kind::text ? units_of(*target) : card.unit;
-      out_.bias = above_zero("bias", width);
+      out_.bias = table_.width("bias", si_unit);
       measured_by_all();
     }
-    if (const auto of = table_.choice("target_of", {"average", "worst_case"})) out_.worst_case = *of == 1;
     if (out_.worst_case && out_.cases.empty())
-      problems_.add(*table_.find("target_of"), "choose.target_of: there are no cases", "", "[[choose.cases]]");
-    if (const auto d = table_.choice("definition", {"corrected", "uncorrected"}))
-      out_.definition = static_cast<Choose::Definition>(*d);
+      table_.refuse_key("target_of", "there are no cases", "", "[[choose.cases]]");
   }
 
   static std::string units_of(const Node& measure) {
@@ -101,120 +141,35 @@ private:
     }
   }
 
-  std::optional<double> above_zero(const std::string& key, const Dimension& dimension) {
-    const auto x = table_.measure(key, dimension);
-    if (!x || *x > 0) return x;
-    problems_.add(*table_.find(key), table_.path(key) + ": must be above 0");
-    return std::nullopt;
-  }
-
   /// Every evaluation that may be chosen must yield the measurand.
   void measured_by_all() {
     const auto by = asked();
     for (std::size_t e = 0; e < by.size(); ++e) {
       const ModelCard seen = evaluated_card(scope_.model, evaluations_[e]);
       if (by[e] && std::ranges::find(seen.measurands, out_.measurand, &VariableCard::name) == seen.measurands.end())
-        table_.add(fmt::format("choose: evaluation '{}' does not yield '{}'", evaluations_[e], out_.measurand));
-    }
-  }
-
-  void counts() {
-    const auto count = [&](const char* key, std::int64_t least, std::int64_t most, auto& value) {
-      if (const auto n = table_.integer(key, least, most)) value = static_cast<std::decay_t<decltype(value)>>(*n);
-    };
-    count("samples", 200, most_samples, out_.samples);
-    count("confirm_samples", 200, most_samples, out_.confirm_samples);
-    count("refinements", 0, 20, out_.refinements);
-    count("sobol", 0, most_samples, out_.sobol);
-    const auto share = [&](const char* key, double& value) {
-      const auto x = table_.number(key);
-      if (x && *x > 0 && *x < 1)
-        value = *x;
-      else if (x)
-        problems_.add(*table_.find(key), table_.path(key) + ": must lie between 0 and 1");
-    };
-    share("confirm_probability", out_.confirm_probability);
-    share("near", out_.near);
-  }
-
-  void read_variables(Table& table) {
-    for (const Member& m : table.members()) {
-      const auto knob = knobs_.find(m, table.path(), false);
-      if (!knob) continue;
-      Variable v{*knob, {}};
-      if (m.value.kind == Node::Kind::table)
-        range(Table(m.value, table.path(m.key), problems_), v);
-      else if (const auto* items = table.array(m.key))
-        values(*items, m, table.path(m.key), v);
-      if (!v.values.empty()) out_.variables.push_back(std::move(v));
-    }
-    if (table.members().empty()) table.add("choose.variables: empty", "nothing to choose from");
-  }
-
-  void values(const std::vector<Node>& items, const Member& m, const std::string& path, Variable& v) {
-    if (items.empty()) problems_.add(m.value, path + ": empty", "nothing to choose from");
-    for (const Node& item : items) {
-      const auto x = knobs_.value(item, path, v.knob);
-      if (x && std::ranges::find(v.values, *x) != v.values.end())
-        problems_.add(item, path + ": the value stands twice");
-      else if (x)
-        v.values.push_back(*x);
-    }
-  }
-
-  /// { low, high, steps, scale }
-  void range(Table table, Variable& v) {
-    if (v.knob.kind == Kind::evaluation) {
-      table.add(table.path() + ": evaluations are listed", "", "evaluation = [\"...\"]");
-      table.members();
-      return;
-    }
-    const Node *low = table.require("low"), *high = table.require("high");
-    const auto a = low ? knobs_.value(*low, table.path("low"), v.knob) : std::nullopt;
-    const auto b = high ? knobs_.value(*high, table.path("high"), v.knob) : std::nullopt;
-    const auto steps = table.integer("steps", 2, most_steps).value_or(5);
-    if (const auto scale = table.choice("scale", {"linear", "log"})) v.logarithmic = *scale == 1;
-    table.refuse_unknown();
-    if (!a || !b) return;
-    if (!(*a < *b)) {
-      table.add(table.path() + ": low is not below high");
-    } else if (v.logarithmic && *a <= 0) {
-      problems_.add(*low, table.path("low") + ": not above 0", "a logarithmic scale has no zero",
-                    "scale = \"linear\"");
-    } else {
-      v.range = true;
-      v.steps = static_cast<int>(steps);
-      v.values = {*a, *b};
-      std::vector<double> grid;
-      for (int i = 0; i < v.steps; ++i) {
-        const double x = v.at(i, v.steps - 1);
-        if (grid.empty() || x > grid.back()) grid.push_back(x);
-      }
-      v.values = std::move(grid);
+        table_.refuse(fmt::format("evaluation '{}' does not yield '{}'", evaluations_[e], out_.measurand));
     }
   }
 
   ChooseCase read_case(Table& table) {
     ChooseCase out;
-    if (table.require("name")) out.name = table.text("name").value_or("");
-    out.source = table.rendered("source");
-    if (table.require("values", "values = { wear_1 = \"20 um\" }"))
-      if (auto values = table.table("values")) out.values = read_settings(*values, true);
+    read_options(table, case_options(), out);
+    if (auto values = table.table("values")) out.values = read_settings(*values, true);
+    table.refuse_unknown();
     return out;
   }
 
   ChooseCompare read_compare(Table& table) {
     ChooseCompare out;
-    if (table.require("name")) out.name = table.text("name").value_or("");
-    out.source = table.rendered("source");
-    if (table.require("settings", "settings = { feed = \"3 mm/min\" }"))
-      if (auto settings = table.table("settings")) out.settings = read_settings(*settings, false);
+    read_options(table, compare_options(), out);
+    if (auto settings = table.table("settings")) out.settings = read_settings(*settings, false);
+    table.refuse_unknown();
     return out;
   }
 
   std::vector<Setting> read_settings(Table& table, bool quantities_only) {
     std::vector<Setting> out;
-    if (table.members().empty()) table.add(table.path() + ": empty");
+    if (table.members().empty()) table.refuse("empty");
     for (const Member& m : table.members())
       if (const auto knob = knobs_.find(m, table.path(), quantities_only))
         if (const auto x = knobs_.value(m.value, table.path(m.key), *knob)) out.push_back({*knob, *x});
@@ -231,6 +186,8 @@ private:
 };
 
 } // namespace
+
+Shape choose_shape() { return table_shape(choose_options()); }
 
 Choose read_choose(Table table, const ChooseScope& scope, Context& context) {
   return ChooseReader(std::move(table), scope, context).read();

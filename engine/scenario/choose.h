@@ -12,6 +12,8 @@ struct ChooseScope {
   const Catalogue& catalogue; ///< for the limits of effects' quantities
 };
 
+Shape choose_shape();
+
 /// Problems, each at its place: an unknown variable, an empty list, a range that is none, a value outside a limit, an
 /// evaluation or a measurand that there is not, a target of another dimension, no formula for the time.
 Choose read_choose(Table table, const ChooseScope& scope, Context& context);

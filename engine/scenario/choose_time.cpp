@@ -94,9 +94,8 @@ private:
     const std::string path = "choose.time." + m.key;
     if (m.key == "readings" || std::ranges::any_of(model_.conditions, is_it) ||
         std::ranges::any_of(model_.quantities, is_it) || !formula::is_name(m.key)) {
-      problems_.add(m.line, m.column,
-                    fmt::format("{}: {}", path,
-                                formula::is_name(m.key) ? "the name has a meaning already"
+      problems_.add(m, fmt::format("{}: {}", path,
+                                   formula::is_name(m.key) ? "the name has a meaning already"
                                                            : "no name that a formula can write"));
       return;
     }
@@ -110,8 +109,7 @@ private:
           symbols_.push_back({m.key, unit, si_unit, ""});
         }
       } catch (const InputError& error) {
-        const Problem& p = error.problems().front();
-        problems_.add(m.value, path + ": " + p.what, p.why, p.remedy);
+        problems_.add(m.value, path, error);
       }
     } else if (const auto v = read_number(m.value, path, problems_)) {
       constants_.push_back(*v);
@@ -150,7 +148,7 @@ private:
       for (Problem p : error.problems()) {
         if (p.where.file.empty()) p.where = {problems_.file(), choose_.line, choose_.column};
         if (p.remedy.starts_with("[quantities.")) p.remedy = "define it as a constant in [choose.time]";
-        problems_.add(InputError(std::vector<Problem>{std::move(p)}));
+        problems_.add(std::move(p));
       }
       return nullptr;
     }
@@ -176,6 +174,13 @@ private:
   std::vector<std::size_t> named_;
   std::vector<double> constants_;
 };
+
+Shape time_shape() {
+  const Shape formula = shape::reference("formula");
+  return shape::table({{"per_reading", formula, "of every readout of every reading"},
+                       {"once", formula, "once, before the first reading"}},
+                      "", shape::reference("measure"));
+}
 
 std::vector<std::shared_ptr<const TimeModel>> read_time(std::optional<Table> table, const Node& choose,
                                                         const ModelCard& model, const std::vector<bool>& asked,

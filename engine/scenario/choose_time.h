@@ -26,6 +26,8 @@ private:
   int per_reading_ = -1, once_ = -1;    ///< of the formulas; -1: none
 };
 
+Shape time_shape();
+
 /// [choose.time]: per_reading, once and constants; what it does not say is the card's. Problems: no formula for an
 /// evaluation that is asked for; a formula that is no time; located at the character.
 std::vector<std::shared_ptr<const TimeModel>> read_time(std::optional<Table> table, const Node& choose,

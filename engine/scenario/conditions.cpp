@@ -21,6 +21,12 @@ double spread_value(const Spread& s, std::size_t i, std::size_t n) {
   return s.first + (s.last - s.first) * static_cast<double>(i) / static_cast<double>(n);
 }
 
+std::vector<Key> spread_keys() {
+  return {{"spread", shape::list(shape::reference("measure"), R"("minItems": 2, "maxItems": 2)"),
+           "first and last value; the last is excluded", true},
+          {"readings", shape::whole(1, most_readings), "how many values", true}};
+}
+
 class Reader {
 public:
   Reader(std::optional<Table> table, const ModelCard& model) : table_(std::move(table)), model_(model) {}
@@ -74,6 +80,7 @@ private:
   }
 
   void spread(std::size_t c, Table table, const Dimension& dimension, const Node& node) {
+    table.declare(spread_keys());
     const Node* const between = table.require("spread", "spread = [\"0 deg\", \"360 deg\"]");
     const Node* const count = table.require("readings", "readings = 12");
     const auto* ends = table.array("spread");
@@ -81,7 +88,8 @@ private:
     table.refuse_unknown();
     if (!between || !count || !ends || !n) return;
     if (ends->size() != 2) {
-      table.add(table.path("spread") + ": a first and a last value are needed", "", "spread = [\"0 deg\", \"360 deg\"]");
+      table.add(table.path("spread") + ": a first and a last value are needed", "",
+                "spread = [\"0 deg\", \"360 deg\"]");
       return;
     }
     const auto first = read_measure((*ends)[0], table.path("spread"), dimension, table.problems());
@@ -116,6 +124,11 @@ private:
 };
 
 } // namespace
+
+Shape condition_shape() {
+  const Shape measure = shape::reference("measure");
+  return shape::any_of({measure, shape::list(measure, R"("minItems": 1)"), shape::table(spread_keys())});
+}
 
 Conditions read_conditions(std::optional<Table> table, const ModelCard& model) {
   return Reader(std::move(table), model).read();

@@ -17,12 +17,16 @@ struct Conditions {
   bool listed = false; ///< one value a reading
 };
 
+/// Shape of one condition.
+Shape condition_shape();
+
 /// A value ("30 mm/min"), a list of values, one a reading, or { spread = [first, last], readings = n }: n values evenly
 /// from first on, last excluded. Lists go side by side and are of one length.
 Conditions read_conditions(std::optional<Table> table, const ModelCard& model);
 
 /// n readings instead of those there are, their conditions spread anew; all else is as in the first reading, its other
-/// labels included. For a virtual experiment: what was read is dropped. Without a spread the readings are labelled as repeats.
+/// labels included. For a virtual experiment: what was read is dropped. Without a spread the readings are labelled as
+/// repeats.
 void take_readings(Scenario& scenario, const ModelCard& model, std::size_t n);
 
 } // namespace gumshoe::scenario

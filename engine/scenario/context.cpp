@@ -29,7 +29,7 @@ const Csv* DataFiles::open(const Node& node, const std::string& path, Problems& 
 
 const Csv* DataFiles::open_readings(const Node& node, const std::string& path, Problems& problems) {
   if (!readings_replaced()) return open(node, path, problems);
-  const auto no_file = [&](const Problem& p) { problems.add(InputError(std::vector<Problem>{p})); };
+  const auto no_file = [&](const Problem& p) { problems.add(p); };
   return open_file(of_readings_, no_file, problems);
 }
 
@@ -44,7 +44,7 @@ const Csv* DataFiles::open_file(const std::string& file, const std::function<voi
   } catch (const InputError& error) {
     for (const Problem& p : error.problems()) {
       if (p.where.line > 0)
-        problems.add(InputError(std::vector<Problem>{p}));
+        problems.add(p);
       else
         no_file(p);
     }
@@ -66,14 +66,19 @@ std::uint64_t DataFiles::hash(std::uint64_t hash) const {
   return hash;
 }
 
+std::vector<Key> data_column_keys() {
+  return {{"file", shape::text(), "CSV file, relative to the scenario", true},
+          {"column", shape::text(), "by its name in the file's first row", true},
+          {"unit", shape::text(), "of the column's numbers; left out: a plain number"}};
+}
+
 int find_column(Table& table, const std::string& key, const Csv& csv) {
   const auto name = table.text(key);
   if (!name) return -1;
   const int column = csv.find(*name);
-  if (column < 0) {
-    table.problems().add(*table.find(key), fmt::format("{}: '{}' has no column '{}'", table.path(key), csv.file, *name),
-                         "", did_you_mean(*name, csv.names()));
-  }
+  if (column < 0)
+    table.refuse_key(key, fmt::format("'{}' has no column '{}'", csv.file, *name), "",
+                     did_you_mean(*name, csv.names()));
   return column;
 }
 
@@ -94,8 +99,7 @@ std::optional<DataColumn> read_data_column(Table& table, const std::string& si_u
     try {
       units::to_si(0, *unit, si_unit);
     } catch (const InputError& error) {
-      const Problem& p = error.problems().front();
-      table.problems().add(*table.find("unit"), table.path("unit") + ": " + p.what, p.why, p.remedy);
+      table.problems().add(*table.find("unit"), table.path("unit"), error);
     }
   }
   if (out.csv && column) out.column = find_column(table, "column", *out.csv);
@@ -117,6 +121,17 @@ std::vector<std::string> Context::label_names() const {
   std::vector<std::string> names;
   for (const auto& [name, values] : label_values) names.push_back(name);
   return names;
+}
+
+bool Context::is_label(const Node& node, const std::string& path, const std::string& name) const {
+  if (!readings_known || label_values.contains(name)) return true;
+  problems.add(node, fmt::format("{}: no reading has the label '{}'", path, name), "",
+               did_you_mean(name, label_names()));
+  return false;
+}
+
+void Context::note(const std::string& text) const {
+  if (std::ranges::find(notes, text) == notes.end()) notes.push_back(text);
 }
 
 const std::string* find_label(const quantities::Labels& labels, const std::string& name) {

@@ -46,6 +46,7 @@ struct DataColumn {
   int column = -1;
   std::string unit;
 };
+std::vector<Key> data_column_keys();
 /// Finds the column named by `key` of the table; -1 and a problem if it is not there.
 int find_column(Table& table, const std::string& key, const Csv& csv);
 /// Reads file, column and unit; nullopt and problems if something is wrong.
@@ -66,6 +67,10 @@ struct Context {
   bool readings_known = true; ///< false if they had problems: then labels are not checked
 
   std::vector<std::string> label_names() const;
+  /// False, and a problem at the node, if it is known that no reading has a label of this name.
+  bool is_label(const Node& node, const std::string& path, const std::string& name) const;
+  /// Adds a note, once.
+  void note(const std::string& text) const;
 };
 
 /// The value of a label, or null.

@@ -8,7 +8,8 @@
 namespace gumshoe::scenario {
 namespace {
 
-constexpr std::array worded{"distribution", "evaluation", "source", "per", "name", "kind", "labels", "where", "file", "column", "conditions"};
+constexpr std::array worded{"distribution", "evaluation", "source", "per",    "name",      "kind",
+                            "labels",       "where",      "file",   "column", "conditions"};
 
 /// Depth first, in file order; empty if no number here carries a unit.
 std::string first_unit(const Node& node) {
@@ -39,13 +40,8 @@ std::vector<Symbol> symbols(Table& top, const char* key, Problems& problems) {
   if (!table) return out;
   for (const Member& m : table->members()) {
     const std::string unit = declared_unit(m.value);
-    try {
-      out.push_back({m.key, unit, units::si_unit_of(unit), ""});
-    } catch (const InputError& error) {
-      const Problem& p = error.problems().front();
-      problems.add(m.value, fmt::format("{}.{}: {}", key, m.key, p.what), p.why, p.remedy);
-      out.push_back({m.key, "1", "1", ""});
-    }
+    const auto si_unit = read_si_unit(m.value, table->path(m.key), unit, problems);
+    out.push_back({m.key, si_unit ? unit : "1", si_unit.value_or("1"), ""});
   }
   return out;
 }
@@ -66,12 +62,9 @@ void add_conditions_of_files(Table& top, std::vector<Symbol>& conditions, Proble
     for (const Member& m : named->members) {
       if (std::ranges::find(conditions, m.key, &Symbol::name) != conditions.end()) continue;
       const std::string unit = declared_unit(m.value);
-      try {
-        conditions.push_back({m.key, unit, units::si_unit_of(unit), ""});
-      } catch (const InputError& error) {
-        problems.add(m.value, fmt::format("indications.{}.readings.conditions.{}: {}", indication.key, m.key,
-                                          error.problems().front().what));
-      }
+      const std::string path = fmt::format("indications.{}.readings.conditions.{}", indication.key, m.key);
+      if (const auto si_unit = read_si_unit(m.value, path, unit, problems))
+        conditions.push_back({m.key, unit, *si_unit, ""});
     }
   }
 }

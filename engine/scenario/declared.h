@@ -11,8 +11,9 @@ struct Declared {
   std::vector<Symbol> quantities, conditions, indications;
 };
 
-/// The keys of [quantities], [conditions] (and conditions that are columns of data files) and [indications]. A unit is the key `unit` of the entry, or the first
-/// one among its numbers ("5 mm", u = "2 um"); "1" if all are bare. Asking makes no key of the entries known.
+/// The keys of [quantities], [conditions] (and conditions that are columns of data files) and [indications]. A unit is
+/// the key `unit` of the entry, or the first one among its numbers ("5 mm", u = "2 um"); "1" if all are bare. Asking
+/// makes no key of the entries known.
 Declared declared_symbols(Table& top, Problems& problems);
 
 /// Unit of an entry, as above.

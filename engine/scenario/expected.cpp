@@ -1,51 +1,60 @@
 #include "scenario/expected.h"
 
-#include <fmt/format.h>
-
 #include "scenario/studies.h"
 
 namespace gumshoe::scenario {
 namespace {
 
-/// Text, or a bare number as the file's reader gave it back.
-std::string figure_text(Table& table, const std::string& key) {
-  const Node* node = table.find(key);
-  if (!node) return {};
-  if (node->kind == Node::Kind::integer) return fmt::format("{}", node->integer);
-  if (node->kind == Node::Kind::real) return fmt::format("{}", node->number);
-  return table.text(key).value_or("");
+/// A number with a unit as text, or a bare one as the file's reader gave it back.
+Option<Expected> figure(const std::string& key, std::string Expected::*member, std::string meaning) {
+  return {{key, R"("type": ["string", "number"])", std::move(meaning)}, [=](Table& t, Expected& e) {
+            const Node* node = t.find(key);
+            if (node && node->kind == Node::Kind::integer)
+              e.*member = fmt::format("{}", node->integer);
+            else if (node && node->kind == Node::Kind::real)
+              e.*member = fmt::format("{}", node->number);
+            else
+              e.*member = t.text(key).value_or("");
+          }};
+}
+
+Options<Expected> expected_options() {
+  return {
+      option::text(
+          "figure", &Expected::figure,
+          "standard_uncertainty, gum.expanded_uncertainty, first[x1] ...: scenarios/gauge/README.md lists them")
+          .needed("figure = \"standard_uncertainty\""),
+      option::by_hand<Expected>("of", shape::text(), "measurand; may be left out where there is one"),
+      option::by_hand<Expected>(labels_key()),
+      figure("value", &Expected::value, "with its unit; the last digit sets the tolerance").needed(),
+      option::source(&Expected::source),
+      figure("tolerance", &Expected::tolerance,
+             "instead of half a unit of the last digit: \"0.01 mg\" or \"1e-6 relative\""),
+      option::text("why", &Expected::why, "reason of the tolerance"),
+      option::text("note", &Expected::note, "why ours is known to differ: then a difference is a NOTE"),
+  };
 }
 
 Expected read_one(Table table, const ModelCard& model, Context& context) {
   Expected out;
   out.where = {context.problems.file(), table.node().line, table.node().column};
-  table.require("figure", "figure = \"standard_uncertainty\"");
-  table.require("value");
-  out.figure = table.text("figure").value_or("");
-  std::vector<std::string> names;
-  for (const VariableCard& m : model.measurands) names.emplace_back(m.name);
+  read_options(table, expected_options(), out);
+  const std::vector<std::string> names = names_of(model.measurands);
   if (const auto index = table.choice("of", names)) out.of = names[*index];
   out.labels = read_labels(table, context);
-  out.value = figure_text(table, "value");
-  out.source = table.rendered("source");
-  out.tolerance = figure_text(table, "tolerance");
-  out.why = table.text("why").value_or("");
-  out.note = table.text("note").value_or("");
   if (!out.tolerance.empty() && out.why.empty())
-    table.add(table.path() + ": a tolerance without a reason", "half a unit of the last digit is the rule",
-              "why = \"...\"");
+    table.refuse("a tolerance without a reason", "half a unit of the last digit is the rule", "why = \"...\"");
   table.refuse_unknown();
   return out;
 }
 
 } // namespace
 
+Shape expected_shape() { return table_shape(expected_options()); }
+
 std::vector<Expected> read_expected(Table& top, const ModelCard& model, Context& context) {
   std::vector<Expected> out;
-  const auto* items = top.array("expected");
-  for (std::size_t i = 0; items && i < items->size(); ++i)
-    if (auto row = as_table((*items)[i], fmt::format("expected[{}]", i + 1), context.problems))
-      out.push_back(read_one(*row, model, context));
+  for (const Table& row : top.tables("expected")) out.push_back(read_one(row, model, context));
   return out;
 }
 

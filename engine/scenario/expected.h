@@ -5,6 +5,9 @@
 
 namespace gumshoe::scenario {
 
+/// Shape of a row.
+Shape expected_shape();
+
 /// { figure = "standard_uncertainty", of = "y", value = "0.0755 mg", source = "JCGM 101, Table 5" }
 std::vector<Expected> read_expected(Table& top, const ModelCard& model, Context& context);
 

@@ -5,8 +5,9 @@
 #include <fmt/format.h>
 
 #include "base/units.h"
-#include "scenario/context.h"
-#include "scenario/scenario.h"
+#include "scenario/analysis.h"
+#include "scenario/options.h"
+#include "scenario/trace.h"
 
 namespace gumshoe::scenario {
 namespace {
@@ -29,32 +30,25 @@ std::string both(double si, std::string_view unit, std::string_view si_unit) {
 
 std::string suffix(const std::string& si_unit) { return si_unit == "1" ? "" : " " + si_unit; }
 
-std::string parameters(const Distribution& d, const std::string& si_unit) {
-  if (d.values) return fmt::format("{} values", d.values->size());
+/// "rectangular (low -1e-06 m, high 1e-06 m)"
+std::string described(const Distribution& d, const std::string& si_unit) {
+  using enum quantities::ParameterCard::Dimension;
+  const auto card = std::ranges::find(quantities::families(), d.family, &quantities::FamilyCard::family);
+  if (d.values) return fmt::format("{} ({} values)", card->name, d.values->size());
   std::string out;
-  const auto families = quantities::families();
-  const auto card = std::find_if(families.begin(), families.end(), [&](const auto& f) { return f.family == d.family; });
-  for (std::size_t i = 0; card != families.end() && i < card->parameters.size(); ++i) {
+  for (std::size_t i = 0; i < card->parameters.size(); ++i) {
     const auto& p = card->parameters[i];
-    const bool plain = p.dimension == quantities::ParameterCard::Dimension::number ||
-                       p.dimension == quantities::ParameterCard::Dimension::log;
-    out += fmt::format("{}{} {:.6g}{}", out.empty() ? "" : ", ", p.key, d.parameters[i], plain ? "" : suffix(si_unit));
+    out += fmt::format("{}{} {:.6g}{}", out.empty() ? "" : ", ", p.key, d.parameters[i],
+                       p.dimension == number || p.dimension == log ? "" : suffix(si_unit));
   }
-  return out;
-}
-
-std::string family_name(const Distribution& d) {
-  for (const auto& card : quantities::families())
-    if (card.family == d.family) return std::string(card.name);
-  return "?";
+  return fmt::format("{} ({})", card->name, out);
 }
 
 void explain(const Component& c, const InputQuantity& q, Lines out) {
   const double variance = c.distribution.variance();
   const std::string u = std::isfinite(variance) ? fmt::format("u {:.6g}{}", std::sqrt(variance), suffix(q.si_unit))
                                                 : std::string("no standard uncertainty");
-  fmt::format_to(out, "      {}: {} ({}), {}, Type {}, {}", c.name, family_name(c.distribution),
-                 parameters(c.distribution, q.si_unit), u, c.evaluation,
+  fmt::format_to(out, "      {}: {}, {}, Type {}, {}", c.name, described(c.distribution, q.si_unit), u, c.evaluation,
                  c.per.empty() ? "one draw" : fmt::format("one draw per {}", fmt::join(c.per, ", ")));
   if (c.degrees_of_freedom > 0) fmt::format_to(out, ", {:.6g} degrees of freedom", c.degrees_of_freedom);
   if (!c.source.empty()) fmt::format_to(out, ", source: {}", c.source);
@@ -62,8 +56,7 @@ void explain(const Component& c, const InputQuantity& q, Lines out) {
 }
 
 void explain(const InputQuantity& q, const ModelCard& model, Lines out) {
-  const bool noise =
-      std::any_of(model.indications.begin(), model.indications.end(), [&](const auto& i) { return i.name == q.name; });
+  const bool noise = std::ranges::find(model.indications, q.name, &VariableCard::name) != model.indications.end();
   for (const Entry& e : q.entries) {
     const std::string labels = e.labels.empty() ? "" : " [" + text_of(e.labels) + "]";
     fmt::format_to(out, "  {}{}{} = {}", noise ? "noise of " : "", q.name, labels, both(e.value, q.unit, q.si_unit));
@@ -80,14 +73,12 @@ void explain(const InputQuantity& q, const ModelCard& model, Lines out) {
 void explain(const Scenario& s, std::size_t number, const ModelCard& model, Lines out) {
   const Reading& r = s.readings[number - 1];
   fmt::format_to(out, "  {}{}:", number, r.labels.empty() ? "" : " [" + text_of(r.labels) + "]");
-  for (std::size_t i = 0; i < model.conditions.size(); ++i) {
-    const VariableCard& c = model.conditions[i];
-    fmt::format_to(out, " {} {};", c.name, both(r.conditions[i], c.unit, c.si_unit));
-  }
-  for (std::size_t i = 0; i < r.indications.size(); ++i) {
-    const VariableCard& c = model.indications[i];
-    fmt::format_to(out, " {} {};", c.name, both(r.indications[i], c.unit, c.si_unit));
-  }
+  const auto list = [&](const std::vector<double>& values, std::span<const VariableCard> cards) {
+    for (std::size_t i = 0; i < values.size(); ++i)
+      fmt::format_to(out, " {} {};", cards[i].name, both(values[i], cards[i].unit, cards[i].si_unit));
+  };
+  list(r.conditions, model.conditions);
+  list(r.indications, model.indications);
   for (const TraceColumn& c : s.trace.columns)
     fmt::format_to(out, " {} {};", c.name, both(c.values[number - 1], c.unit, c.si_unit));
   for (const StatedEffect& e : s.stated_effects)
@@ -103,25 +94,12 @@ void explain(const quantities::Correlation& c, Lines out) {
   fmt::format_to(out, "\n");
 }
 
-std::string studies(const SensitivityOptions& o) {
-  std::string text;
-  const std::pair<const char*, std::uint64_t> counts[] = {
-      {"sobol", o.sobol}, {"shapley", o.shapley}, {"given_data", o.given_data}, {"morris", o.morris}, {"dgsm", o.dgsm}};
-  for (const auto& [study, n] : counts)
-    if (n > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", study, n);
-  if (o.second_order) text += ", second order";
-  if (o.by_quantity) text += ", by quantity";
-  return text.empty() ? "none" : text;
-}
-
 void explain_options(const Scenario& s, const ModelCard& model, Lines out) {
-  fmt::format_to(out, "run\n  samples {}, seed {}, design {}, max_failed_share {}, store_samples {}\n", s.run.samples,
-                 s.run.seed, name(s.run.design), s.run.max_failed_share, s.run.store_samples);
+  fmt::format_to(out, "run\n  {}\n", explained(run_options(), s.run));
   if (s.run.adaptive.rule != StoppingRule::fixed)
-    fmt::format_to(out, "  adaptive: rule {}, digits {}, max_samples {}\n", name(s.run.adaptive.rule),
-                   s.run.adaptive.digits, s.run.adaptive.most);
-  fmt::format_to(out, "analysis\n  coverage_probability {}, validation_digits {}, sensitivity {}\n",
-                 s.analysis.coverage_probability, s.analysis.validation_digits, studies(s.analysis.sensitivity));
+    fmt::format_to(out, "  adaptive: {}\n", explained(adaptive_options(), s.run.adaptive));
+  fmt::format_to(out, "analysis\n  {}, sensitivity {}\n", explained(analysis_options(), s.analysis),
+                 explained_changes(sensitivity_options(), s.analysis.sensitivity));
   for (const OneAtATime& study : s.analysis.one_at_a_time)
     fmt::format_to(out, "  one at a time: {} ({} quantities)\n", study.title, study.steps.size());
   for (const ConformityTest& c : s.analysis.conformity)
@@ -134,8 +112,7 @@ void explain_options(const Scenario& s, const ModelCard& model, Lines out) {
     fmt::format_to(out, "  compare {} between values of {}{}\n", c.measurand, c.between,
                    c.within.empty() ? "" : ", within " + c.within);
   for (const Printed& p : s.analysis.printed) {
-    const auto card = std::find_if(model.measurands.begin(), model.measurands.end(),
-                                   [&](const auto& m) { return m.name == p.measurand; });
+    const auto card = std::ranges::find(model.measurands, p.measurand, &VariableCard::name);
     const std::string labels = p.labels.empty() ? "" : " [" + text_of(p.labels) + "]";
     fmt::format_to(out, "  printed {}{} = {}{}\n", p.measurand, labels,
                    card == model.measurands.end() ? std::string("?") : both(p.value, card->unit, card->si_unit),
@@ -190,7 +167,7 @@ void explain(const TraceOptions& t, Lines out) {
     fmt::format_to(out, "  redone: no act\n");
   for (const auto& labels : t.redone.value_or(std::vector<std::vector<std::string>>{}))
     fmt::format_to(out, "  redone: {}\n", fmt::join(labels, " with "));
-  fmt::format_to(out, "  alpha {}, draws {}, seed {}\n", t.alpha, t.draws, t.seed);
+  fmt::format_to(out, "  {}\n", explained(trace_options(), t));
   for (const TraceColumn& c : t.columns) {
     const auto [low, high] = std::minmax_element(c.values.begin(), c.values.end());
     fmt::format_to(out, "  column {}: {} to {}\n", c.name, both(*low, c.unit, c.si_unit),

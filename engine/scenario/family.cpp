@@ -52,7 +52,7 @@ public:
     }
     if (context_.problems.size() != problems) return std::nullopt;
     if (const std::string wrong = invalid_parameters(out_.distribution); !wrong.empty()) {
-      table_.add(fmt::format("{}: {}", table_.path(), wrong), std::string(card_.name));
+      table_.refuse(wrong, std::string(card_.name));
       return std::nullopt;
     }
     if (card_.family == Family::truncated_normal && form_.absolute) centre_truncated();
@@ -77,24 +77,20 @@ private:
     const auto half = table_.measure("half_width", difference());
     const bool ends = table_.has("low") || table_.has("high");
     if (table_.has("half_width") && ends) {
-      table_.add(table_.path() + ": half_width is given together with low or high", "both state the width", "leave one out");
+      table_.refuse("half_width is given together with low or high", "both state the width", "leave one out");
     } else if (table_.has("half_width")) {
-      if (half && *half <= 0) {
-        context_.problems.add(*table_.find("half_width"), table_.path("half_width") + ": must be above 0", "",
-                              "leave the distribution out for an exact value");
-      }
+      if (half && *half <= 0)
+        table_.refuse_key("half_width", "must be above 0", "", "leave the distribution out for an exact value");
       parameter(0) = -half.value_or(1);
       parameter(1) = half.value_or(1);
     } else if (!ends) {
       missing("half_width", "give half_width, or low and high");
     } else {
       const double a = needed("low", low), b = needed("high", high);
-      if (low && high && a >= b)
-        context_.problems.add(*table_.find("low"), table_.path("low") + ": low must be below high");
-      if (form_.absolute && form_.value) {
-        table_.add(table_.path() + ": value is given together with low and high", "the value is the middle of the limits",
-                   "give value with half_width, or low and high alone");
-      }
+      if (low && high && a >= b) table_.refuse_key("low", "low must be below high");
+      if (form_.absolute && form_.value)
+        table_.refuse("value is given together with low and high", "the value is the middle of the limits",
+                      "give value with half_width, or low and high alone");
       const double middle = form_.absolute ? a + (b - a) / 2 : 0;
       if (form_.absolute) out_.value = middle;
       parameter(0) = form_.absolute ? -(b - a) / 2 : a;
@@ -131,8 +127,7 @@ private:
     for (std::size_t i = 0; i < card_.parameters.size(); ++i) {
       if (card_.family == Family::lognormal && i == 0 && table_.has("median")) {
         const auto median = table_.measure("median", {form_.si_unit});
-        if (median && *median <= 0)
-          context_.problems.add(*table_.find("median"), table_.path("median") + ": must be above 0");
+        if (median && *median <= 0) table_.refuse_key("median", "must be above 0");
         parameter(0) = std::log(median.value_or(1));
       } else {
         parameter(i) = generic(card_.parameters[i]);
@@ -176,6 +171,7 @@ private:
       missing("values");
     } else if (node->kind == Node::Kind::table) {
       Table source(*node, table_.path("values"), context_.problems);
+      source.declare(data_column_keys());
       if (const auto data = read_data_column(source, form_.si_unit, context_.files)) {
         for (const auto& row : data->csv->rows) {
           const auto v = read_cell(*data->csv, row[static_cast<std::size_t>(data->column)], data->unit, dimension,
@@ -196,20 +192,18 @@ private:
     std::vector<double> shares;
     const auto* items = table_.array("probabilities");
     if (!items) {
-      if (!table_.has("probabilities")) missing("probabilities", "give them, or use distribution = \"empirical\" for equal ones");
+      if (!table_.has("probabilities"))
+        missing("probabilities", "give them, or use distribution = \"empirical\" for equal ones");
       return shares;
     }
     for (const Node& item : *items)
       if (const auto p = read_number(item, table_.path("probabilities"), context_.problems)) shares.push_back(*p);
-    const Node& node = *table_.find("probabilities");
     const double sum = std::accumulate(shares.begin(), shares.end(), 0.0);
-    if (shares.size() != n) {
-      context_.problems.add(node, fmt::format("{}: there are {} probabilities for {} values", table_.path(), shares.size(), n));
-    } else if (std::abs(sum - 1) > 1e-6) {
-      context_.problems.add(node, fmt::format("{}: the probabilities add up to {}, not 1", table_.path(), sum));
-    } else {
-      for (double& p : shares) p /= sum;
-    }
+    if (shares.size() != n)
+      table_.refuse_key("probabilities", fmt::format("there are {} probabilities for {} values", shares.size(), n));
+    else if (std::abs(sum - 1) > 1e-6)
+      table_.refuse_key("probabilities", fmt::format("the probabilities add up to {}, not 1", sum));
+    for (double& p : shares) p /= sum;
     return shares;
   }
 
@@ -233,24 +227,22 @@ std::optional<double> read_standard_uncertainty(Table& table, const std::string&
   const auto k = table.positive("k");
   const bool has_u = table.has("u"), has_expanded = table.has("U"), has_k = table.has("k");
   if (has_u && has_expanded) {
-    table.add(table.path() + ": both u and U are given", "both state the uncertainty", "leave one out");
+    table.refuse("both u and U are given", "both state the uncertainty", "leave one out");
     return std::nullopt;
   }
   if (has_expanded && !has_k) {
-    table.problems().add(*table.find("U"), table.path("U") + ": the coverage factor is missing",
-                         "an expanded uncertainty is meaningless without k", "k = 2");
+    table.refuse_key("U", "the coverage factor is missing", "an expanded uncertainty is meaningless without k",
+                     "k = 2");
     return std::nullopt;
   }
   if (!has_expanded && has_k) {
-    table.problems().add(*table.find("k"), table.path("k") + ": k belongs to an expanded uncertainty U", "",
-                         "write U instead of u");
+    table.refuse_key("k", "k belongs to an expanded uncertainty U", "", "write U instead of u");
     return std::nullopt;
   }
   const auto given = has_u ? u : expanded;
   const std::string key = has_u ? "u" : "U";
   if (given && *given <= 0) {
-    table.problems().add(*table.find(key), table.path(key) + ": must be above 0", "",
-                         *given == 0 ? "leave it out for an exact value" : "");
+    table.refuse_key(key, "must be above 0", "", *given == 0 ? "leave it out for an exact value" : "");
     return std::nullopt;
   }
   if (!given || (has_expanded && !k)) return std::nullopt;

@@ -29,7 +29,8 @@ std::optional<double> KnobReader::value(const Node& node, const std::string& pat
   if (knob.kind == Kind::readings) {
     const auto n = read_number(node, path, problems_);
     if (!n || (*n == std::floor(*n) && *n >= 1 && *n <= most_readings)) return n;
-    problems_.add(node, fmt::format("{}: {} is no number of readings", path, *n), "", "use a whole number of at least 1");
+    problems_.add(node, fmt::format("{}: {} is no number of readings", path, *n), "",
+                  "use a whole number of at least 1");
     return std::nullopt;
   }
   const auto x = read_measure(node, path, {knob.si_unit}, problems_);
@@ -52,7 +53,7 @@ const QuantityCard* KnobReader::card_of(const Knob& knob) const {
 std::optional<Knob> KnobReader::find(const Member& m, const std::string& path, bool quantities_only) {
   const Scenario& s = scope_.scenario;
   const auto refuse = [&](const std::string& what, const std::string& why) {
-    problems_.add(m.line, m.column, fmt::format("{}.{}: {}", path, m.key, what), why);
+    problems_.add(m, fmt::format("{}.{}: {}", path, m.key, what), why);
     return std::nullopt;
   };
   std::vector<std::string> names;
@@ -84,7 +85,7 @@ std::optional<Knob> KnobReader::find(const Member& m, const std::string& path, b
     if (q.entries.size() > 1) return refuse("its value differs between the readings", "one value is wanted for all");
     return Knob{Kind::quantity, m.key, i, q.unit, q.si_unit};
   }
-  problems_.add(m.line, m.column,
+  problems_.add(m,
                 fmt::format("{}: '{}' is no {}", path, m.key,
                             quantities_only ? "quantity" : "condition or quantity of this scenario"),
                 "", did_you_mean(m.key, names));

@@ -11,12 +11,43 @@ namespace {
 using chain::AxisDescription;
 using chain::MachineDescription;
 
+constexpr std::string_view axis_name = R"("type": "string", "pattern": "^[XYZUVWABC][0-9]*$")";
+
+std::vector<Key> axis_keys() {
+  return {
+      {"axis", Shape(axis_name), "X, Y, Z, U, V, W are slides, A, B, C turn; a number may follow", true},
+      {"kind", shape::words({"linear", "rotary"}), "may be stated and is checked"},
+      {"point", shape::list(shape::reference("measure"), R"("minItems": 3, "maxItems": 3)"),
+       "a design point on the axis, machine at zero"},
+      {"sense", R"("enum": [1, -1])",
+       "of the component's motion at a positive command; by default 1 on the tool side, -1 on the workpiece side "
+       "(ISO 841)"},
+  };
+}
+
+std::vector<Key> machine_keys() {
+  const Shape axes = shape::list(shape::any_of({Shape(axis_name), shape::table(axis_keys())}));
+  std::string known;
+  for (const std::string& name : names_of(chain::machines())) known += (known.empty() ? "" : ", ") + name;
+  const std::string errors =
+      R"("patternProperties": {"^E_[XYZABC]0?[XYZUVWABC][0-9]*$": {)" + shape::reference("measure") + "}}";
+  return {
+      {"name", shape::text() + R"(, "examples": )" + shape::quoted(names_of(chain::machines())),
+       known + "; with the two sides any other"},
+      {"workpiece_side", axes, "axes that carry the workpiece, from the bed outwards; [] where nothing moves"},
+      {"tool_side", axes, "axes that carry the tool, from the bed outwards; [] where nothing moves"},
+      {"errors", shape::table({}, errors),
+       "known errors by ISO 230-1 and -7, defaults of the quantities of these names"},
+  };
+}
+
 class MachineReader {
 public:
   MachineReader(Table table, Problems& problems) : table_(std::move(table)), problems_(problems) {}
 
   std::optional<MachineDescription> read() {
     const std::size_t before = problems_.size();
+    table_.declare(machine_keys());
     MachineDescription out;
     const auto name = table_.text("name");
     const bool sides = table_.has("workpiece_side") || table_.has("tool_side");
@@ -25,8 +56,8 @@ public:
     else if (const auto* known = named(name))
       out = *known;
     if (sides && name && chain::find_machine(*name))
-      problems_.add(*table_.find("name"), fmt::format("machine.name: '{}' is a predefined machine", *name),
-                    "its axes are already known", "leave out the sides, or choose another name");
+      table_.refuse_key("name", fmt::format("'{}' is a predefined machine", *name), "its axes are already known",
+                        "leave out the sides, or choose another name");
     if (auto errors = table_.table("errors")) read_errors(*errors, out);
     const std::size_t so_far = problems_.size();
     table_.refuse_unknown();
@@ -47,16 +78,16 @@ private:
   };
 
   const MachineDescription* named(const std::optional<std::string>& name) {
-    std::vector<std::string> names;
-    for (const MachineDescription& m : chain::machines()) names.push_back(m.name);
+    const std::vector<std::string> names = names_of(chain::machines());
     if (name) {
       table_.choice("name", names);
       return chain::find_machine(*name);
     }
     if (!table_.has("name"))
-      table_.add("machine: neither a name nor the two sides are given", "",
-                 fmt::format("name one of {}, or give workpiece_side = [\"A\"] and tool_side = [\"X\", \"Y\", \"Z\"]",
-                             fmt::join(names, ", ")));
+      table_.refuse(
+          "neither a name nor the two sides are given", "",
+          fmt::format("name one of {}, or give workpiece_side = [\"A\"] and tool_side = [\"X\", \"Y\", \"Z\"]",
+                      fmt::join(names, ", ")));
     return nullptr;
   }
 
@@ -82,6 +113,7 @@ private:
 
   AxisDescription axis(Table& row, const std::string& place) {
     AxisDescription out;
+    row.declare(axis_keys());
     const Node* name = row.require("axis", "axis = \"C\"");
     const auto text = row.text("axis");
     if (name) places_[place] = {name, row.path()};
@@ -93,15 +125,14 @@ private:
     if (row.has("sense")) {
       const auto sense = row.number("sense");
       if (sense && *sense != 1 && *sense != -1)
-        problems_.add(*row.find("sense"), fmt::format("{}: {} is neither 1 nor -1", row.path("sense"), *sense),
-                      "the sense of the component's motion at a positive command", "leave it out to follow ISO 841");
+        row.refuse_key("sense", fmt::format("{} is neither 1 nor -1", *sense),
+                       "the sense of the component's motion at a positive command", "leave it out to follow ISO 841");
       else if (sense)
         out.sense = static_cast<int>(*sense);
     }
     if (const auto* point = row.array("point")) {
       if (point->size() != 3)
-        problems_.add(*row.find("point"), row.path("point") + ": X, Y and Z are needed", "",
-                      "point = [\"0 mm\", \"0 mm\", \"-50 mm\"]");
+        row.refuse_key("point", "X, Y and Z are needed", "", "point = [\"0 mm\", \"0 mm\", \"-50 mm\"]");
       for (std::size_t i = 0; i < point->size() && point->size() == 3; ++i)
         out.point[i] = read_measure((*point)[i], row.path("point"), {"m"}, problems_).value_or(0);
     }
@@ -147,6 +178,12 @@ private:
 };
 
 } // namespace
+
+Shape machine_shape() {
+  return shape::table(machine_keys(),
+                      R"("dependencies": {"workpiece_side": ["tool_side"], "tool_side": ["workpiece_side"]}, )"
+                      R"("anyOf": [{"required": ["name"]}, {"required": ["workpiece_side", "tool_side"]}])");
+}
 
 std::optional<MachineDescription> read_machine(Table& top, Problems& problems) {
   if (!top.require("machine", "[machine] name = \"TTTRR\"")) return std::nullopt;

@@ -7,6 +7,8 @@
 
 namespace gumshoe::scenario {
 
+Shape machine_shape();
+
 /// nullopt and problems, each at its place, if the section is missing or wrong.
 ///     name = "TTTRR"                                       # a known machine, or any name beside the two sides
 ///     workpiece_side = ["Y", { axis = "C", point = ["0 mm", "0 mm", "-50 mm"], sense = 1 }]   # from the bed outwards

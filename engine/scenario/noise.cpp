@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "scenario/quantity.h"
+#include "scenario/repeatability.h"
 
 namespace gumshoe::scenario {
 namespace {
@@ -16,20 +17,6 @@ using quantities::Family;
 using quantities::InputQuantity;
 using quantities::Labels;
 
-struct Repeatability {
-  enum class Kind { none, readings, declared } kind = Kind::none;
-  Scatter scatter; ///< declared or pooled; degrees_of_freedom 0 means infinite
-  char evaluation = 'A';
-  std::string source;
-};
-
-double sum_of_squares(const std::vector<double>& x) {
-  double mean = 0, sum = 0;
-  for (const double v : x) mean += v / static_cast<double>(x.size());
-  for (const double v : x) sum += (v - mean) * (v - mean);
-  return sum;
-}
-
 class NoiseReader {
 public:
   NoiseReader(Table& table, const VariableCard& card, const IndicationReadouts& readouts, Context& context)
@@ -37,8 +24,8 @@ public:
 
   InputQuantity read() {
     InputQuantity out{std::string(card_.name), std::string(card_.unit), std::string(card_.si_unit), {}};
-    const auto step = read_step();
-    const Repeatability repeatability = read_repeatability();
+    const auto step = table_.width("resolution", std::string(card_.si_unit));
+    const Repeatability repeatability = read_repeatability(table_, card_, readouts_, context_);
     double unused = 0;
     const auto further = read_components(table_, std::string(card_.si_unit), true, unused, context_);
     for (const Component& c : further) {
@@ -49,102 +36,22 @@ public:
     std::vector<Entry> entries;
     for (const Readouts& reading : readouts_.used) add(entries, reading, choose(reading, step, repeatability));
     if (entries.empty()) entries.push_back({});
-    if (std::all_of(entries.begin(), entries.end(), [&](const Entry& e) { return alike(e, entries.front()); })) {
+    if (std::ranges::all_of(entries, [&](const Entry& e) { return alike(e, entries.front()); })) {
       entries.resize(1);
       entries.front().labels.clear();
     } else {
       refuse_shared(further, entries);
     }
     for (Entry& e : entries) e.components.insert(e.components.end(), further.begin(), further.end());
-    if (entries.front().components.empty()) {
+    if (entries.front().components.empty())
       note("no component of uncertainty is stated: the readings are treated as exact");
-    }
     out.entries = std::move(entries);
     return out;
   }
 
 private:
-  void note(const std::string& text) {
-    const std::string line = std::string(card_.name) + ": " + text;
-    if (std::find(context_.notes.begin(), context_.notes.end(), line) == context_.notes.end())
-      context_.notes.push_back(line);
-  }
-  std::string shown(double value) const {
-    const bool length = card_.si_unit == "m"; // scatter of lengths reads best in um
-    const std::string unit(length ? "um" : card_.unit);
-    return fmt::format("{:.3g} {}", units::from_si(value, unit, std::string(card_.si_unit), units::Kind::difference),
-                       unit);
-  }
-
-  std::optional<double> read_step() {
-    const auto step = table_.measure("resolution", {std::string(card_.si_unit), units::Kind::difference});
-    if (step && *step <= 0) {
-      context_.problems.add(*table_.find("resolution"), table_.path("resolution") + ": must be above 0");
-      return std::nullopt;
-    }
-    return step;
-  }
-
-  Repeatability read_repeatability() {
-    const Node* node = table_.find("repeatability");
-    if (!node) return {};
-    const std::string path = table_.path("repeatability");
-    if (node->kind == Node::Kind::text && node->text == "readings") {
-      own_repeats(*node, path);
-      return {Repeatability::Kind::readings, {}, 'A', "repeats of each reading"};
-    }
-    if (node->kind != Node::Kind::table) {
-      context_.problems.add(*node, path + ": not understood", "",
-                            "use \"readings\", { s = \"...\" } or { pooled = true }");
-      return {};
-    }
-    Table table(*node, path, context_.problems);
-    Repeatability out = table.boolean("pooled").value_or(false) ? pooled(table) : declared(table);
-    if (const std::string source = table.rendered("source"); !source.empty()) out.source = source;
-    if (const auto evaluation = table.choice("evaluation", {"A", "B"})) out.evaluation = *evaluation ? 'B' : 'A';
-    table.refuse_unknown();
-    return out;
-  }
-
-  void own_repeats(const Node& node, const std::string& path) {
-    if (!context_.readings_known) return;
-    for (const Readouts& r : readouts_.used) {
-      if (r.values.size() > 1) continue;
-      const std::string of = r.labels.empty() ? "" : fmt::format(" (reading {})", text_of(r.labels));
-      context_.problems.add(node,
-                            fmt::format("{}: {} readout(s){} cannot show any scatter", path, r.values.size(), of),
-                            "", "repeat the reading, declare s, or pool it");
-      return;
-    }
-  }
-
-  Repeatability pooled(Table& table) {
-    for (const char* key : {"s", "degrees_of_freedom"})
-      if (table.has(key))
-        table.add(fmt::format("{}: {} is given together with pooled", table.path(), key), "pooling takes it from the data", "leave it out");
-    const Scatter scatter = pooled_scatter(readouts_.all);
-    if (!(scatter.degrees_of_freedom > 0)) {
-      if (context_.readings_known)
-        table.add(table.path() + ": there is nothing to pool", "no reading is repeated", "declare s");
-      return {};
-    }
-    return {Repeatability::Kind::declared, scatter, 'A',
-            fmt::format("s = {} pooled over {} readings, {} degrees of freedom (GUM 4.2.4)", shown(scatter.s),
-                        readouts_.all.size(), scatter.degrees_of_freedom)};
-  }
-
-  Repeatability declared(Table& table) {
-    Repeatability out{Repeatability::Kind::declared, {}, 'A', {}};
-    const Node* node = table.require("s", "write s = \"...\" or pooled = true");
-    const auto s = table.measure("s", {std::string(card_.si_unit), units::Kind::difference});
-    out.scatter.degrees_of_freedom = table.positive("degrees_of_freedom").value_or(0);
-    if (!table.has("degrees_of_freedom")) out.evaluation = 'B';
-    if (node && s && *s <= 0) context_.problems.add(*node, table.path("s") + ": must be above 0");
-    if (!s || *s <= 0) return {};
-    out.scatter.s = *s;
-    return out;
-  }
-
+  std::string shown(double scatter) const { return shown_scatter(scatter, card_); }
+  void note(const std::string& text) { context_.note(std::string(card_.name) + ": " + text); }
   /// Scale and degrees of freedom of the mean of a reading.
   std::optional<Component> repeatability_of(const Readouts& reading, const Repeatability& r, Scatter& scatter) {
     if (r.kind == Repeatability::Kind::none) return std::nullopt;
@@ -208,11 +115,10 @@ private:
   }
 
   std::vector<Component> warned(const Component& repeatability, const Readouts& reading) {
-    if (repeatability.distribution.family == Family::t && repeatability.degrees_of_freedom <= 2) {
+    if (repeatability.distribution.family == Family::t && repeatability.degrees_of_freedom <= 2)
       note(fmt::format("{} readouts give a t distribution with {} degree(s) of freedom, which has no standard "
                        "uncertainty: only quantiles are given",
                        reading.repeats, repeatability.degrees_of_freedom));
-    }
     return {repeatability};
   }
 
@@ -223,11 +129,10 @@ private:
   }
 
   static bool alike(const Entry& a, const Entry& b) {
-    return std::equal(a.components.begin(), a.components.end(), b.components.begin(), b.components.end(),
-                      [](const Component& x, const Component& y) {
-                        return x.name == y.name && x.distribution.family == y.distribution.family &&
-                               x.distribution.parameters == y.distribution.parameters;
-                      });
+    return std::ranges::equal(a.components, b.components, [](const Component& x, const Component& y) {
+      return x.name == y.name && x.distribution.family == y.distribution.family &&
+             x.distribution.parameters == y.distribution.parameters;
+    });
   }
 
   /// Entries are told apart by labels; of readings that differ by conditions only the largest noise holds.
@@ -247,14 +152,13 @@ private:
 
   void refuse_shared(const std::vector<Component>& further, const std::vector<Entry>& entries) {
     for (const Component& c : further) {
-      const auto scoped = [&](const std::string& name) {
-        return std::find(c.per.begin(), c.per.end(), name) != c.per.end();
-      };
+      const auto scoped = [&](const std::string& name) { return std::ranges::find(c.per, name) != c.per.end(); };
       if (scoped("reading")) continue;
       for (const auto& [label, value] : entries.front().labels) {
         if (scoped(label)) continue;
         table_.add(fmt::format("{}.components: '{}' is shared by readings with different noise", table_.path(), c.name),
-                   "they cannot share its draws", "write per = \"reading\", or give all of them equal numbers of repeats");
+                   "they cannot share its draws",
+                   "write per = \"reading\", or give all of them equal numbers of repeats");
         return;
       }
     }
@@ -268,16 +172,13 @@ private:
 
 } // namespace
 
-Scatter pooled_scatter(const std::vector<Readouts>& cells) {
-  Scatter out;
-  double squares = 0;
-  for (const Readouts& cell : cells) {
-    if (cell.values.size() < 2) continue;
-    squares += sum_of_squares(cell.values);
-    out.degrees_of_freedom += static_cast<double>(cell.values.size()) - 1;
-  }
-  if (out.degrees_of_freedom > 0) out.s = std::sqrt(squares / out.degrees_of_freedom);
-  return out;
+std::vector<Key> noise_keys() {
+  return {
+      {"resolution", shape::reference("width"),
+       "step of the readout: rectangular, half a step either way, one draw per mean"},
+      repeatability_key(),
+      {"components", shape::list(shape::reference("component")), "further deviations of the readouts' mean"},
+  };
 }
 
 quantities::InputQuantity read_noise(Table& table, const VariableCard& card, const IndicationReadouts& readouts,

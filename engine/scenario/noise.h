@@ -5,6 +5,9 @@
 
 namespace gumshoe::scenario {
 
+/// Keys of an indication that state its noise.
+std::vector<Key> noise_keys();
+
 /// Reads the keys resolution, repeatability and components of [indications.NAME].
 ///
 /// Resolution is rectangular, half a step either way, one draw per mean. Repeatability has the scale
@@ -13,12 +16,5 @@ namespace gumshoe::scenario {
 /// only the larger is used, and a note says which.
 quantities::InputQuantity read_noise(Table& table, const VariableCard& card, const IndicationReadouts& readouts,
                                      Context& context);
-
-struct Scatter {
-  double s = 0;
-  double degrees_of_freedom = 0;
-};
-/// Pooled experimental standard deviation: s^2 = sum of squares / sum of (n_i - 1), GUM 4.2.4.
-Scatter pooled_scatter(const std::vector<Readouts>& cells);
 
 } // namespace gumshoe::scenario

@@ -1,6 +1,7 @@
 #include "scenario/quantity.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -15,6 +16,32 @@ using quantities::Entry;
 using quantities::InputQuantity;
 using quantities::Labels;
 
+const std::vector<Key>& quantity_keys() {
+  static const std::vector<Key> keys = [] {
+    std::vector<Key> all = {
+        {"value", shape::reference("measure"), "its estimate; may be left out where an uncertainty is stated"},
+        {"unit", shape::text(), "in which it is shown, where no number tells: of models that a scenario states"},
+        {"estimated", shape::flag(),
+         "gumshoe estimate fits it to the readings: value is the start, u or a distribution the prior", false, "false"},
+        {"components", shape::list(shape::reference("component")), "deviations that add up"},
+        {"by", shape::reference("by"), "values per label"},
+    };
+    const auto uncertainty = uncertainty_keys();
+    all.insert(all.end(), uncertainty.begin(), uncertainty.end());
+    return all;
+  }();
+  return keys;
+}
+
+const std::vector<Key>& component_keys() {
+  static const std::vector<Key> keys = [] {
+    std::vector<Key> all = uncertainty_keys();
+    all.insert(all.begin(), {"name", shape::text() + R"(, "minLength": 1)", "c1, c2, ... by default"});
+    return all;
+  }();
+  return keys;
+}
+
 class QuantityReader {
 public:
   QuantityReader(const QuantityCard& card, InputQuantity& out, Context& context)
@@ -23,6 +50,7 @@ public:
   void read(const Node& node, const std::string& path, const Labels& labels, const std::string& source) {
     if (node.kind != Node::Kind::table) return exact(node, path, labels, source);
     Table table(node, path, context_.problems);
+    table.declare(quantity_keys());
     const std::string own = table.rendered("source");
     unit(table);
     const std::string& told = own.empty() ? source : own;
@@ -41,9 +69,9 @@ private:
   void unit(Table& table) {
     const auto unit = table.text("unit");
     if (!unit || units::convertible(*unit, std::string(card_.si_unit))) return;
-    context_.problems.add(*table.find("unit"),
-                          fmt::format("{}: '{}' is not {}", table.path("unit"), *unit, units::kind_name(std::string(card_.si_unit))),
-                          "must convert to " + std::string(card_.si_unit));
+    const std::string si_unit(card_.si_unit);
+    table.refuse_key("unit", fmt::format("'{}' is not {}", *unit, units::kind_name(si_unit)),
+                     "must convert to " + si_unit);
   }
 
   void exact(const Node& node, const std::string& path, const Labels& labels, const std::string& source) {
@@ -59,7 +87,8 @@ private:
     if (table.has("components")) {
       for (const char* key : {"distribution", "u", "U", "observations", "half_width", "low", "high", "per"}) {
         if (!table.has(key)) continue;
-        context_.problems.add(*table.find(key), fmt::format("{}: '{}' is given together with components", table.path(), key),
+        context_.problems.add(*table.find(key),
+                              fmt::format("{}: '{}' is given together with components", table.path(), key),
                               "each component states its own", "move it into a component");
       }
       e.components = read_components(table, std::string(card_.si_unit), given, e.value, context_);
@@ -71,61 +100,52 @@ private:
         if (!uncertainty->exact) e.components.push_back(std::move(uncertainty->component));
       }
     } else if (!given && !out_.estimated) {
-      table.add(table.path() + ": neither a value nor an uncertainty is given", "", "value = \"...\"");
+      table.refuse("neither a value nor an uncertainty is given", "", "value = \"...\"");
     }
     if (given && !value) return;
     for (const Component& c : e.components) {
       if (!out_.estimated || c.per.empty()) continue;
-      table.add(table.path() + ": estimated is given together with per", "a fit finds one value per label, not one draw per label",
-                fmt::format("give a value per label: by.{}", c.per.front()));
+      table.refuse("estimated is given together with per", "a fit finds one value per label, not one draw per label",
+                   fmt::format("give a value per label: by.{}", c.per.front()));
       return;
     }
-    if (out_.estimated && e.components.empty()) {
-      const std::string note = out_.name + ": estimated, without a distribution; treated as exact at its start value until "
-                                           "gumshoe estimate has fitted it";
-      if (std::find(context_.notes.begin(), context_.notes.end(), note) == context_.notes.end())
-        context_.notes.push_back(note);
-    }
+    if (out_.estimated && e.components.empty())
+      context_.note(out_.name +
+                    ": estimated, without a distribution; treated as exact at its start value until gumshoe estimate "
+                    "has fitted it");
     if (context_.problems.size() == problems)
       keep(std::move(e), given ? *table.find("value") : table.node(), table.path());
   }
 
-  /// Anything beside value and source states an uncertainty, or is a mistake that its reader finds.
-  static bool uncertain(Table& table) {
-    for (const Member& m : table.node().members)
-      if (m.key == "distribution" || m.key == "u" || m.key == "U" || m.key == "observations" || m.key == "k" ||
-          m.key == "half_width" || m.key == "low" || m.key == "high" || m.key == "per" || m.key == "evaluation" ||
-          m.key == "degrees_of_freedom")
-        return true;
-    return false;
+  /// Anything but value and source states an uncertainty, or is a mistake that its reader finds.
+  static bool uncertain(const Table& table) {
+    constexpr std::array words{"distribution", "u",   "U",          "observations",      "k", "half_width", "low",
+                               "high",         "per", "evaluation", "degrees_of_freedom"};
+    return std::ranges::any_of(table.node().members,
+                               [&](const Member& m) { return std::ranges::find(words, m.key) != words.end(); });
   }
 
   void by(Table& table, const Labels& labels, const std::string& source) {
     auto by = table.table("by");
     if (!by) return;
     if (by->members().size() != 1) {
-      by->add(fmt::format("{}: there are {} labels", by->path(), by->members().size()), "a by-table has one label; tables can be nested",
-              "nest them: by.rod.\"rod 1\".by.setup");
+      by->refuse(fmt::format("there are {} labels", by->members().size()),
+                 "a by-table has one label; tables can be nested", "nest them: by.rod.\"rod 1\".by.setup");
       return;
     }
     const Member& label = by->members().front();
-    if (context_.readings_known && !context_.label_values.contains(label.key)) {
-      context_.problems.add(label.line, label.column,
-                            fmt::format("{}: no reading has the label '{}'", by->path(), label.key), "",
-                            did_you_mean(label.key, context_.label_names()));
-      return;
-    }
+    if (context_.readings_known && !context_.label_values.contains(label.key))
+      return context_.problems.add(label, fmt::format("{}: no reading has the label '{}'", by->path(), label.key), "",
+                                   did_you_mean(label.key, context_.label_names()));
     auto values = by->table(label.key);
     if (!values) return;
-    std::vector<std::string> seen;
+    std::set<std::string> seen;
     for (const Member& row : values->members()) {
-      seen.push_back(row.key);
+      seen.insert(row.key);
       Labels here = labels;
-      if (find_label(here, label.key)) {
-        context_.problems.add(row.line, row.column,
-                              fmt::format("{}: the label '{}' is nested within itself", by->path(), label.key));
-        return;
-      }
+      if (find_label(here, label.key))
+        return context_.problems.add(row,
+                                     fmt::format("{}: the label '{}' is nested within itself", by->path(), label.key));
       here.emplace_back(label.key, row.key);
       known(label.key, row, values->path());
       read(row.value, values->path(row.key), here, source);
@@ -137,20 +157,19 @@ private:
     if (!context_.readings_known) return;
     const auto& values = context_.label_values[label];
     if (values.contains(row.key)) return;
-    context_.problems.add(row.line, row.column, fmt::format("{}: no reading has {} = '{}'", path, label, row.key), "",
+    context_.problems.add(row, fmt::format("{}: no reading has {} = '{}'", path, label, row.key), "",
                           did_you_mean(row.key, {values.begin(), values.end()}));
   }
 
-  void complete(const Member& label, const std::vector<std::string>& seen, const Labels& labels,
-                const std::string& path) {
+  void complete(const Member& label, const std::set<std::string>& seen, const Labels& labels, const std::string& path) {
     if (!context_.readings_known) return;
     std::set<std::string> told;
     for (const Labels& reading : context_.readings) {
       if (!matches(reading, labels)) continue;
       const std::string* value = find_label(reading, label.key);
-      if (value && std::find(seen.begin(), seen.end(), *value) != seen.end()) continue;
+      if (value && seen.contains(*value)) continue;
       if (!told.insert(value ? *value : "").second) continue;
-      context_.problems.add(label.line, label.column,
+      context_.problems.add(label,
                             value ? fmt::format("{}: no value for {} = '{}'", path, label.key, *value)
                                   : fmt::format("{}: a reading has no label '{}'", path, label.key),
                             "every reading needs one");
@@ -213,26 +232,21 @@ void check_limits(const Entry& entry, const QuantityCard& card, const Node& node
 std::vector<Component> read_components(Table& table, const std::string& si_unit, bool value_given, double& value,
                                        Context& context) {
   std::vector<Component> out;
-  const auto* items = table.array("components");
-  if (!items) return out;
   std::set<std::string> names;
   bool replaced = false;
-  for (std::size_t i = 0; i < items->size(); ++i) {
-    const auto row = as_table((*items)[i], fmt::format("{}.components[{}]", table.path(), i + 1), context.problems);
-    if (!row) continue;
-    Table component = *row;
-    const std::string name = component.text("name").value_or(fmt::format("c{}", i + 1));
-    if (name.empty() || !names.insert(name).second) {
-      component.add(fmt::format("{}: the name '{}' {}", component.path(), name, name.empty() ? "is empty" : "is already used"),
-                    "components need different names");
-    }
+  std::size_t number = 0;
+  for (Table& component : table.tables("components")) {
+    component.declare(component_keys());
+    const std::string name = component.text("name").value_or(fmt::format("c{}", ++number));
+    if (name.empty() || !names.insert(name).second)
+      component.refuse(fmt::format("the name '{}' {}", name, name.empty() ? "is empty" : "is already used"),
+                       "components need different names");
     Form form{si_unit, false, 0.0, 0.0};
     const bool mean_counts = component.has("observations") && !value_given;
     if (mean_counts) form.value.reset();
-    if (mean_counts && replaced) {
-      component.add(component.path() + ": two components have observations, but there is no value", "either mean could be the value",
-                    "state the value");
-    }
+    if (mean_counts && replaced)
+      component.refuse("two components have observations, but there is no value", "either mean could be the value",
+                       "state the value");
     replaced |= mean_counts;
     auto uncertainty = read_uncertainty(component, form, context);
     component.refuse_unknown();
@@ -242,6 +256,12 @@ std::vector<Component> read_components(Table& table, const std::string& si_unit,
     if (!uncertainty->exact) out.push_back(std::move(uncertainty->component));
   }
   return out;
+}
+
+Shape component_shape() { return shape::table(component_keys(), uncertainty_rules); }
+
+Shape quantity_shape() {
+  return shape::any_of({shape::reference("measure"), shape::table(quantity_keys(), uncertainty_rules)});
 }
 
 quantities::InputQuantity default_quantity(const QuantityCard& card, const std::string& name) {

@@ -5,6 +5,10 @@
 
 namespace gumshoe::scenario {
 
+/// Shape of an input quantity, and of one component of its uncertainty.
+Shape quantity_shape();
+Shape component_shape();
+
 /// The quantity at its default: what a scenario that does not name it means.
 quantities::InputQuantity default_quantity(const QuantityCard& card, const std::string& name);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -13,6 +14,18 @@ void Problems::add(int line, int column, std::string what, std::string why, std:
 
 void Problems::add(const InputError& error) {
   list_.insert(list_.end(), error.problems().begin(), error.problems().end());
+}
+
+void Problems::add(const InputError& error, const Node& node) {
+  for (Problem p : error.problems()) {
+    if (p.where.file.empty()) p.where = {file_, node.line, node.column};
+    list_.push_back(std::move(p));
+  }
+}
+
+void Problems::add(const Node& node, const std::string& path, const InputError& error) {
+  const Problem& p = error.problems().front();
+  add(node, path + ": " + p.what, p.why, p.remedy);
 }
 
 void Problems::raise() const {
@@ -88,6 +101,16 @@ std::optional<std::string> read_text(const Node& node, const std::string& path, 
   return std::nullopt;
 }
 
+std::optional<std::string> read_si_unit(const Node& node, const std::string& path, const std::string& unit,
+                                        Problems& problems) {
+  try {
+    return units::si_unit_of(unit);
+  } catch (const InputError& error) {
+    problems.add(node, path, error);
+    return std::nullopt;
+  }
+}
+
 std::optional<Table> as_table(const Node& node, const std::string& path, Problems& problems) {
   if (node.kind == Node::Kind::table) return Table(node, path, problems);
   problems.add(node, fmt::format("{}: expected a table, found {}", path, describe(node.kind)));
@@ -119,11 +142,9 @@ std::optional<double> Table::number(const std::string& key) {
 
 std::optional<double> Table::positive(const std::string& key) {
   const auto value = number(key);
-  if (value && *value <= 0) {
-    problems_->add(*find(key), fmt::format("{}: {} must be above 0", path(key), *value));
-    return std::nullopt;
-  }
-  return value;
+  if (!value || *value > 0) return value;
+  refuse_key(key, fmt::format("{} must be above 0", *value));
+  return std::nullopt;
 }
 
 std::optional<double> Table::measure(const std::string& key, const Dimension& dimension) {
@@ -131,11 +152,18 @@ std::optional<double> Table::measure(const std::string& key, const Dimension& di
   return node ? read_measure(*node, path(key), dimension, *problems_) : std::nullopt;
 }
 
+std::optional<double> Table::width(const std::string& key, const std::string& si_unit) {
+  const auto value = measure(key, {si_unit, units::Kind::difference});
+  if (!value || *value > 0) return value;
+  refuse_key(key, "must be above 0");
+  return std::nullopt;
+}
+
 std::optional<bool> Table::boolean(const std::string& key) {
   const Node* node = find(key);
   if (!node) return std::nullopt;
   if (node->kind == Node::Kind::boolean) return node->boolean;
-  problems_->add(*node, fmt::format("{}: expected true or false, found {}", path(key), describe(node->kind)));
+  refuse_key(key, fmt::format("expected true or false, found {}", describe(node->kind)));
   return std::nullopt;
 }
 
@@ -144,12 +172,12 @@ std::optional<std::int64_t> Table::integer(const std::string& key, std::int64_t 
   const auto value = node ? read_number(*node, path(key), *problems_) : std::nullopt;
   if (!value) return std::nullopt;
   if (std::floor(*value) != *value || std::abs(*value) > 9e15) {
-    problems_->add(*node, fmt::format("{}: {} is not a whole number", path(key), *value));
+    refuse_key(key, fmt::format("{} is not a whole number", *value));
     return std::nullopt;
   }
   const auto whole = static_cast<std::int64_t>(*value);
   if (whole < low || whole > high) {
-    problems_->add(*node, fmt::format("{}: {} must lie between {} and {}", path(key), whole, low, high));
+    refuse_key(key, fmt::format("{} must lie between {} and {}", whole, low, high));
     return std::nullopt;
   }
   return whole;
@@ -164,8 +192,17 @@ const std::vector<Node>* Table::array(const std::string& key) {
   const Node* node = find(key);
   if (!node) return nullptr;
   if (node->kind == Node::Kind::array) return &node->items;
-  problems_->add(*node, fmt::format("{}: expected an array, found {}", path(key), describe(node->kind)));
+  refuse_key(key, fmt::format("expected an array, found {}", describe(node->kind)));
   return nullptr;
+}
+
+std::vector<Table> Table::tables(const std::string& key) {
+  std::vector<Table> out;
+  const auto* items = array(key);
+  for (std::size_t i = 0; items && i < items->size(); ++i)
+    if (auto one = as_table((*items)[i], fmt::format("{}[{}]", path(key), i + 1), *problems_))
+      out.push_back(std::move(*one));
+  return out;
 }
 
 std::vector<std::string> Table::texts(const std::string& key) {
@@ -216,22 +253,34 @@ std::string Table::rendered(const std::string& key) {
 std::optional<std::size_t> Table::choice(const std::string& key, const std::vector<std::string>& words) {
   const auto word = text(key);
   if (!word) return std::nullopt;
-  const auto it = std::find(words.begin(), words.end(), *word);
+  const auto it = std::ranges::find(words, *word);
   if (it != words.end()) return static_cast<std::size_t>(it - words.begin());
-  problems_->add(*find(key), fmt::format("{}: '{}' is unknown", path(key), *word), "", did_you_mean(*word, words));
+  refuse_key(key, fmt::format("'{}' is unknown", *word), "", did_you_mean(*word, words));
   return std::nullopt;
 }
 
 const std::vector<Member>& Table::members() {
   for (const Member& m : node_->members) known_.insert(m.key);
+  declared_.clear();
   return node_->members;
 }
 
+void Table::refuse_key(const std::string& key, const std::string& what, std::string why, std::string remedy) {
+  const Node* node = find(key);
+  problems_->add(node ? *node : *node_, path(key) + ": " + what, std::move(why), std::move(remedy));
+}
+
+void Table::declare(const std::vector<Key>& keys) {
+  for (const Key& k : keys) declared_.insert(k.name);
+}
+
 void Table::refuse_unknown() {
+  if (!declared_.empty() && !std::ranges::includes(declared_, known_))
+    throw std::logic_error(path_ + ": the reader asks for a key that the schema lacks");
   for (const Member& m : node_->members) {
     if (known_.contains(m.key)) continue;
     const std::string prefix = path_.empty() ? "" : path_ + ": ";
-    problems_->add(m.line, m.column, fmt::format("{}unknown key '{}'", prefix, m.key), "",
+    problems_->add(m, fmt::format("{}unknown key '{}'", prefix, m.key), "",
                    did_you_mean(m.key, {known_.begin(), known_.end()}));
   }
 }

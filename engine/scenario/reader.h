@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/units.h"
 #include "scenario/document.h"
+#include "scenario/shape.h"
 
 namespace gumshoe::scenario {
 
@@ -22,7 +23,16 @@ public:
   void add(const Node& node, std::string what, std::string why = {}, std::string remedy = {}) {
     add(node.line, node.column, std::move(what), std::move(why), std::move(remedy));
   }
+  /// A problem of the key itself.
+  void add(const Member& key, std::string what, std::string why = {}, std::string remedy = {}) {
+    add(key.line, key.column, std::move(what), std::move(why), std::move(remedy));
+  }
+  void add(Problem problem) { list_.push_back(std::move(problem)); }
   void add(const InputError& error);
+  /// Problems of `error` that have no place stand at `node`.
+  void add(const InputError& error, const Node& node);
+  /// The first problem of `error`, as one of the key that `path` names and that stands at `node`.
+  void add(const Node& node, const std::string& path, const InputError& error);
   bool empty() const { return list_.empty(); }
   std::size_t size() const { return list_.size(); }
   const std::string& file() const { return file_; }
@@ -68,23 +78,34 @@ public:
   std::optional<double> number(const std::string& key);
   std::optional<double> positive(const std::string& key);
   std::optional<double> measure(const std::string& key, const Dimension& dimension);
+  /// A difference above 0.
+  std::optional<double> width(const std::string& key, const std::string& si_unit);
   std::optional<bool> boolean(const std::string& key);
   /// A whole number from low to high; 1e6 counts as one.
   std::optional<std::int64_t> integer(const std::string& key, std::int64_t low, std::int64_t high);
   std::optional<Table> table(const std::string& key);
   /// An array's nodes; null if absent or not an array.
   const std::vector<Node>* array(const std::string& key);
+  /// The tables of an array, called "key[1]", "key[2]" ... in messages; none if absent.
+  std::vector<Table> tables(const std::string& key);
   /// Text or an array of texts.
   std::vector<std::string> texts(const std::string& key);
   /// Text, or anything else rendered as text: {certificate = "12"} becomes "certificate: 12".
   std::string rendered(const std::string& key);
   /// One of the words; its index.
   std::optional<std::size_t> choice(const std::string& key, const std::vector<std::string>& words);
-  /// Every key, each known from now on.
+  /// Every key, each known from now on, declared or not.
   const std::vector<Member>& members();
   void add(std::string what, std::string why = {}, std::string remedy = {}) const {
     problems_->add(*node_, std::move(what), std::move(why), std::move(remedy));
   }
+  /// A problem of the table, or of one of its keys: "path: what", "path.key: what".
+  void refuse(const std::string& what, std::string why = {}, std::string remedy = {}) const {
+    add(path_ + ": " + what, std::move(why), std::move(remedy));
+  }
+  void refuse_key(const std::string& key, const std::string& what, std::string why = {}, std::string remedy = {});
+  /// States the keys that the schema lists for this table: asking for another one is an error of the program.
+  void declare(const std::vector<Key>& keys);
   /// Reports the keys that were never asked for. Call it last.
   void refuse_unknown();
 
@@ -93,10 +114,22 @@ private:
   std::string path_;
   Problems* problems_;
   std::set<std::string> known_;
+  std::set<std::string> declared_; ///< empty: keys are the user's own
 };
 
 /// "did you mean 'high'?", or a list of few candidates, or empty.
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates);
+
+/// Names of cards, or of what else has a name.
+template <class Cards> std::vector<std::string> names_of(const Cards& cards) {
+  std::vector<std::string> names;
+  for (const auto& card : cards) names.emplace_back(card.name);
+  return names;
+}
+
+/// The SI unit of a unit in the file; nullopt and a problem if it is none.
+std::optional<std::string> read_si_unit(const Node& node, const std::string& path, const std::string& unit,
+                                        Problems& problems);
 
 /// The node as a table; nullopt and a problem if it is not.
 std::optional<Table> as_table(const Node& node, const std::string& path, Problems& problems);

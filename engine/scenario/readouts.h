@@ -23,6 +23,9 @@ struct IndicationReadouts {
   std::string column;        ///< of it
 };
 
+/// Keys of an indication that say what was read.
+std::vector<Key> readout_keys();
+
 /// Reads the keys readings, rows and labels of [indications.NAME]. Conditions listed one a reading need as many
 /// readings, or none.
 IndicationReadouts read_readouts(Table& table, const VariableCard& card, const ModelCard& model,

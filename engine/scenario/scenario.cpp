@@ -7,13 +7,15 @@
 
 #include "base/hash.h"
 #include "base/text_file.h"
+#include "scenario/analysis.h"
 #include "scenario/choose.h"
-#include "scenario/conditions.h"
+#include "scenario/correlations.h"
 #include "scenario/expected.h"
 #include "scenario/made_models.h"
-#include "scenario/noise.h"
 #include "scenario/options.h"
 #include "scenario/quantity.h"
+#include "scenario/readings.h"
+#include "scenario/schema.h"
 #include "scenario/stated_effects.h"
 #include "scenario/trace.h"
 
@@ -21,7 +23,6 @@ namespace gumshoe::scenario {
 namespace {
 
 using quantities::InputQuantity;
-using quantities::Reading;
 
 constexpr std::size_t largest_scenario = std::size_t{4} << 20;
 
@@ -40,6 +41,7 @@ public:
     if (document_.members.empty())
       throw InputError({{{out_.file, 0, 0}, "the scenario is empty", "", "write schema = 1 and a [model] table"}});
     Table top(document_, "", problems_);
+    top.declare(sections());
     if (top.require("schema", "schema = 1")) top.integer("schema", 1, 1);
     out_.title = top.text("title").value_or("");
     const ModelCard* model = read_model(top);
@@ -49,18 +51,20 @@ public:
     }
     const ModelCard &own = *model, seen = evaluated_card(own, out_.evaluation);
     model = &seen;
-    read_readings(top, *model);
+    Readings readings = read_readings(top, *model, out_.method, context_);
+    out_.readings = std::move(readings.readings);
+    out_.spreads = std::move(readings.spreads);
     read_quantities(top, *model);
     read_effects(top, *model);
-    out_.quantities.insert(out_.quantities.end(), noise_.begin(), noise_.end());
-    if (auto trace = top.table("trace")) out_.trace = read_trace(*trace, {own, out_.readings, readouts_}, context_);
+    out_.quantities.insert(out_.quantities.end(), readings.noise.begin(), readings.noise.end());
+    if (auto trace = top.table("trace"))
+      out_.trace = read_trace(*trace, {own, out_.readings, readings.readouts}, context_);
     if (auto stated = top.table("stated_effects")) read_stated(*stated, own);
     if (!out_.trace.free.empty()) check_free(top, own);
-    if (const auto* items = top.array("correlations"))
-      out_.correlations = read_correlations(*items, problems_, out_.quantities);
+    out_.correlations = read_correlations(top, out_.quantities);
     if (auto run = top.table("run")) out_.run = read_run(*run);
     if (auto analysis = top.table("analysis")) {
-      out_.analysis = read_analysis(*analysis, *model, out_.quantities, context_);
+      out_.analysis = read_analysis(*analysis, {*model, out_.quantities}, context_);
       if (out_.analysis.sensitivity.sobol > 0 && !out_.correlations.empty()) refuse_sobol(*analysis);
     }
     out_.expected = read_expected(top, *model, context_);
@@ -69,8 +73,8 @@ public:
       out_.choose = read_choose(*choose, {own, out_, catalogue_}, context_);
       for (const StatedEffect& e : out_.stated_effects)
         if (e.freed && e.of_columns)
-          choose->add(fmt::format("choose: stated_effects.{} reads columns", e.name),
-                      "nothing says what they would be in other settings", "use conditions only");
+          choose->refuse(fmt::format("stated_effects.{} reads columns", e.name),
+                         "nothing says what they would be in other settings", "use conditions only");
     }
     top.refuse_unknown();
     problems_.raise();
@@ -80,10 +84,10 @@ public:
 
 private:
   void refuse_sobol(Table& analysis) {
-    Table sensitivity(*analysis.find("sensitivity"), analysis.path("sensitivity"), problems_);
-    problems_.add(*sensitivity.find("sobol"), sensitivity.path("sobol") + ": the inputs are correlated",
-                  "Sobol' indices are defined for independent inputs, Shapley effects for all",
-                  "sensitivity = { shapley = 4096 }");
+    Table(*analysis.find("sensitivity"), analysis.path("sensitivity"), problems_)
+        .refuse_key("sobol", "the inputs are correlated",
+                    "Sobol' indices are defined for independent inputs, Shapley effects for all",
+                    "sensitivity = { shapley = 4096 }");
   }
 
   void check_free(Table& top, const ModelCard& model) {
@@ -94,16 +98,16 @@ private:
     Table trace(*top.find("trace"), "trace", problems_);
     for (const std::string& name : out_.trace.free)
       if (std::ranges::find(names, name) == names.end())
-        problems_.add(*trace.find("free"), fmt::format("trace.free: '{}' is no quantity of the scenario", name), "",
-                      did_you_mean(name, names));
+        trace.refuse_key("free", fmt::format("'{}' is no quantity of the scenario", name), "",
+                         did_you_mean(name, names));
   }
 
   const ModelCard* read_model(Table& top) {
     if (!top.require("model", "[model] name = \"...\"")) return nullptr;
     auto table = top.table("model");
     if (!table) return nullptr;
-    const auto index =
-        table->require("name") ? table->choice("name", model_names(catalogue_.models)) : std::nullopt;
+    table->declare(model_keys());
+    const auto index = table->require("name") ? table->choice("name", model_names(catalogue_.models)) : std::nullopt;
     if (const auto method = table->choice("method", {"propagation", "virtual_experiment"}))
       out_.method = static_cast<Method>(*method);
     const ModelCard* model = nullptr;
@@ -118,9 +122,7 @@ private:
       }
       model = out_.made->card;
     }
-    std::vector<std::string> evaluations;
-    if (model)
-      for (const EvaluationCard& e : model->evaluations) evaluations.emplace_back(e.name);
+    const auto evaluations = model ? names_of(model->evaluations) : std::vector<std::string>{};
     if (model) out_.model = model->name;
     if (!evaluations.empty()) out_.evaluation = evaluations.front();
     if (!model)
@@ -129,80 +131,6 @@ private:
       out_.evaluation = evaluations[*e];
     table->refuse_unknown();
     return model;
-  }
-
-  void read_readings(Table& top, const ModelCard& model) {
-    const std::size_t before = problems_.size();
-    const Conditions conditions = read_conditions(top.table("conditions"), model);
-    out_.spreads = conditions.spreads;
-    auto indications = top.table("indications");
-    static const Node nothing;
-    auto& readouts = readouts_;
-    std::vector<Table> tables;
-    for (const VariableCard& card : model.indications) {
-      const std::string name(card.name);
-      std::optional<Table> table = indications ? indications->table(name) : std::nullopt;
-      if (out_.method == Method::propagation && !table) {
-        problems_.add(indications ? indications->node() : top.node(), fmt::format("indications.{}: missing", name),
-                      "propagation of distributions evaluates readouts",
-                      fmt::format("add [indications.{}] with readings", name));
-      }
-      tables.push_back(table ? *table : Table(nothing, "indications." + name, problems_));
-      readouts.push_back(read_readouts(tables.back(), card, model, conditions, context_));
-      if (table && out_.method == Method::propagation) need_values(*table, readouts.back());
-    }
-    if (indications) indications->refuse_unknown();
-    merge(model, readouts, tables);
-    context_.readings_known = problems_.size() == before;
-    for (const Reading& r : out_.readings) context_.readings.push_back(r.labels);
-    for (const auto& of_one : readouts)
-      for (const Readouts& r : of_one.all)
-        for (const auto& [label, value] : r.labels) context_.label_values[label].insert(value);
-    for (std::size_t i = 0; i < tables.size(); ++i) {
-      noise_.push_back(read_noise(tables[i], model.indications[i], readouts[i], context_));
-      tables[i].refuse_unknown();
-    }
-  }
-
-  void need_values(Table& table, const IndicationReadouts& readouts) {
-    for (const Readouts& r : readouts.used) {
-      if (!r.values.empty()) continue;
-      if (table.has("readings") && table.find("readings")->kind == Node::Kind::array) return; // said already
-      const std::string of = r.labels.empty() ? "" : " for " + text_of(r.labels);
-      table.add(fmt::format("{}: no readings{}", table.path(), of), "propagation of distributions evaluates readouts",
-                "readings = [\"...\"]");
-      return;
-    }
-  }
-
-  /// One reading per group of equal labels and conditions, in the order of the first indication.
-  void merge(const ModelCard& model, const std::vector<IndicationReadouts>& readouts, std::vector<Table>& tables) {
-    for (std::size_t i = 0; i < readouts.size(); ++i) {
-      for (const Readouts& r : readouts[i].used) {
-        auto it = std::find_if(out_.readings.begin(), out_.readings.end(), [&](const Reading& known) {
-          return matches(known.labels, r.labels) && matches(r.labels, known.labels) && known.conditions == r.conditions;
-        });
-        if (i == 0) it = out_.readings.insert(out_.readings.end(), {r.labels, r.conditions, {}, r.repeats});
-        if (it == out_.readings.end()) {
-          tables[i].add(
-              fmt::format("{}: {} has no reading {}", tables[i].path(), model.indications[0].name, text_of(r.labels)),
-              "every indication of a reading is needed");
-          continue;
-        }
-        if (r.values.empty()) continue;
-        double mean = 0;
-        for (const double v : r.values) mean += (v - r.values.front()) / static_cast<double>(r.values.size());
-        it->indications.push_back(r.values.front() + mean);
-        double squares = 0;
-        for (const double v : r.values) squares += (v - it->indications.back()) * (v - it->indications.back());
-        it->scatter.push_back(squares);
-      }
-    }
-    for (const Reading& r : out_.readings) {
-      if (r.indications.empty() || r.indications.size() == readouts.size()) continue;
-      tables.back().add(fmt::format("indications: the reading {} lacks an indication", text_of(r.labels)));
-    }
-    if (out_.readings.empty()) out_.readings.push_back({{}, std::vector<double>(model.conditions.size()), {}, 1});
   }
 
   void read_quantities(Table& top, const ModelCard& model) {
@@ -224,8 +152,7 @@ private:
       auto own = table->table(name);
       if (!own) continue;
       if (catalogue_.applies && !catalogue_.applies(model, *effect)) {
-        own->add(fmt::format("effects.{}: {} cannot carry it", name, model.name),
-                 fmt::format("no stage '{}'", gumshoe::name(effect->stage)));
+        own->refuse(fmt::format("{} cannot carry it", model.name), fmt::format("no stage '{}'", gumshoe::name(effect->stage)));
         continue;
       }
       bool any = false;
@@ -257,8 +184,6 @@ private:
   DataFiles files_;
   Context context_;
   Node document_;
-  std::vector<InputQuantity> noise_;
-  std::vector<IndicationReadouts> readouts_; ///< by indication
 };
 
 } // namespace

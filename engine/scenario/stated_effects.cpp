@@ -8,11 +8,28 @@
 #include "base/dimension.h"
 #include "formula/compile.h"
 #include "formula/interpreter.h"
+#include "scenario/option.h"
 #include "scenario/quantity.h"
 
 namespace gumshoe::scenario {
 
 namespace {
+
+Options<StatedEffect> stated_effect_options() {
+  const auto by_hand = [](const char* key, const Shape& shape, const char* meaning) {
+    return option::by_hand<StatedEffect>(key, shape, meaning);
+  };
+  return {
+      by_hand("indication", shape::text(), "to which it adds; needed if there are several"),
+      by_hand("formula", R"("type": ["string", "number"])", "of conditions and columns of [trace.columns], SI")
+          .needed("formula = \"1 / feed\""),
+      by_hand("unit", shape::text(), "of its size: size times formula is what the indication is")
+          .needed("unit = \"um\""),
+      by_hand("size", shape::reference("quantity"), "left out: a candidate of gumshoe trace, at its null value"),
+      option::text("meaning", &StatedEffect::meaning, ""),
+      option::source(&StatedEffect::source),
+  };
+}
 
 class Reader {
 public:
@@ -24,16 +41,14 @@ public:
   StatedEffect read(std::vector<quantities::InputQuantity>& sizes) {
     const std::size_t before = problems_.size();
     name_is_free();
-    std::vector<std::string> indications;
-    for (const VariableCard& i : scope_.model.indications) indications.emplace_back(i.name);
+    read_options(table_, stated_effect_options(), out_);
+    const std::vector<std::string> indications = names_of(scope_.model.indications);
     const bool one = indications.size() == 1;
     const Node* node = one ? table_.find("indication") : table_.require("indication", "indication = \"...\"");
     const auto index = node ? table_.choice("indication", indications) : std::nullopt;
     out_.indication = index.value_or(0);
-    out_.meaning = table_.text("meaning").value_or("");
-    out_.source = table_.rendered("source");
     const bool has_unit = unit();
-    if (table_.require("formula", "formula = \"1 / feed\"")) formula();
+    if (table_.has("formula")) formula();
     if (const Node* size = table_.find("size"); size && has_unit) {
       const QuantityCard card{"size", out_.unit, out_.si_unit, 0, {-HUGE_VAL, HUGE_VAL}, "", "", Role::amplitude};
       sizes.push_back(read_quantity(*size, table_.path("size"), card, out_.name + ".size", context_));
@@ -54,9 +69,9 @@ private:
     if (std::ranges::any_of(scope_.model.indications, is_it)) owner = "an indication";
     if (std::ranges::any_of(scope_.model.quantities, is_it)) owner = "a quantity of the model";
     if (!owner.empty())
-      table_.add(fmt::format("{}: {} has this name", table_.path(), owner), "a name means one thing", "choose another name");
+      table_.refuse(owner + " has this name", "a name means one thing", "choose another name");
     else if (!formula::is_name(out_.name))
-      table_.add(table_.path() + ": no name for an effect", "letters, digits and _, no digit first");
+      table_.refuse("no name for an effect", "letters, digits and _, no digit first");
   }
 
   void formula() {
@@ -68,19 +83,15 @@ private:
   }
 
   bool unit() {
-    if (!table_.require("unit", "unit = \"um\"")) return false;
     const auto text = table_.text("unit");
     if (!text) return false;
-    try {
-      out_.unit = *text;
-      out_.si_unit = units::si_unit_of(*text);
-      if (units::to_si(0, *text, out_.si_unit) == 0) return true;
-      problems_.add(*table_.find("unit"), fmt::format("{}: '{}' has a zero of its own", table_.path("unit"), *text),
-                    "a size is a difference", "use " + out_.si_unit);
-    } catch (const InputError& error) {
-      const Problem& p = error.problems().front();
-      problems_.add(*table_.find("unit"), table_.path("unit") + ": " + p.what, p.why, p.remedy);
-    }
+    const auto si_unit = read_si_unit(*table_.find("unit"), table_.path("unit"), *text, problems_);
+    if (!si_unit) return false;
+    out_.unit = *text;
+    out_.si_unit = *si_unit;
+    if (units::to_si(0, *text, *si_unit) == 0) return true;
+    table_.refuse_key("unit", fmt::format("'{}' has a zero of its own", *text), "a size is a difference",
+                      "use " + *si_unit);
     return false;
   }
 
@@ -98,8 +109,7 @@ private:
       for (const TraceColumn& c : scope_.columns) statement.conditions.push_back({c.name, c.unit, c.si_unit, ""});
       statement.measurands.push_back(std::move(stated));
       std::vector<std::string> ignored;
-      const auto compiled =
-          std::make_shared<const formula::Compiled>(formula::compile(std::move(statement), ignored));
+      const auto compiled = std::make_shared<const formula::Compiled>(formula::compile(std::move(statement), ignored));
       const formula::Compiled& e = *compiled;
       fits(e);
       out_.loading_at = [compiled](const std::vector<double>& conditions, const std::vector<double>& columns) {
@@ -112,10 +122,7 @@ private:
       if (std::ranges::all_of(scope_.columns, [&](const auto& c) { return c.values.size() == scope_.readings.size(); }))
         load(e);
     } catch (const InputError& error) {
-      for (Problem p : error.problems()) {
-        if (p.where.file.empty()) p.where = {problems_.file(), node.line, node.column};
-        problems_.add(InputError(std::vector<Problem>{std::move(p)}));
-      }
+      problems_.add(error, node);
     }
   }
 
@@ -186,6 +193,8 @@ private:
 };
 
 } // namespace
+
+Shape stated_effects_shape() { return shape::map(table_shape(stated_effect_options())); }
 
 StatedEffects read_stated_effects(Table& table, const StatedScope& scope, Context& context) {
   StatedEffects out;

@@ -18,6 +18,8 @@ struct StatedEffects {
   std::vector<quantities::InputQuantity> sizes; ///< "NAME.size" of the freed ones, in their order
 };
 
+Shape stated_effects_shape();
+
 /// Problems stand at the formula's character: names other than conditions and columns, dimensions that do not fit.
 StatedEffects read_stated_effects(Table& table, const StatedScope& scope, Context& context);
 

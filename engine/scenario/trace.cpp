@@ -9,7 +9,12 @@
 namespace gumshoe::scenario {
 namespace {
 
-constexpr std::int64_t least_draws = 99, most_draws = 1'000'000, most_seed = std::int64_t{1} << 40;
+constexpr std::int64_t most_seed = std::int64_t{1} << 40;
+
+std::vector<Key> column_keys() {
+  return {{"column", shape::text(), "of the data file of the first indication", true},
+          {"unit", shape::text(), "1 without it"}};
+}
 
 class TraceReader {
 public:
@@ -20,25 +25,17 @@ public:
     out_.stated = true;
     if (auto columns = table_.table("columns"))
       for (const Member& m : columns->members()) column(m, *columns);
+    read_options(table_, trace_options(), out_);
     blocks();
     order();
     redone();
-    out_.free = table_.texts("free");
-    if (const auto alpha = table_.number("alpha")) {
-      if (!(*alpha > 0 && *alpha < 1))
-        problems_.add(*table_.find("alpha"), fmt::format("trace.alpha: {} must lie between 0 and 1", *alpha),
-                      "the chance of a finding where there is nothing", "alpha = 0.05");
-      out_.alpha = *alpha;
-    }
-    if (const auto n = table_.integer("draws", least_draws, most_draws)) out_.draws = static_cast<int>(*n);
-    if (const auto n = table_.integer("seed", 0, most_seed)) out_.seed = static_cast<std::uint64_t>(*n);
     table_.refuse_unknown();
     return std::move(out_);
   }
 
 private:
   void refuse(const Member& m, const std::string& what, const std::string& why, const std::string& remedy = {}) {
-    problems_.add(m.line, m.column, fmt::format("trace.columns.{}: {}", m.key, what), why, remedy);
+    problems_.add(m, fmt::format("trace.columns.{}: {}", m.key, what), why, remedy);
   }
 
   bool writable(const Member& m) {
@@ -48,7 +45,8 @@ private:
     else if (std::ranges::any_of(scope_.model.conditions, is_it) ||
              std::ranges::any_of(scope_.model.indications, is_it) ||
              std::ranges::any_of(scope_.model.quantities, is_it))
-      refuse(m, "the name has a meaning already", fmt::format("of the model {}", scope_.model.name), "choose another name");
+      refuse(m, "the name has a meaning already", fmt::format("of the model {}", scope_.model.name),
+             "choose another name");
     else
       return true;
     return false;
@@ -58,6 +56,7 @@ private:
   void column(const Member& m, Table& columns) {
     auto table = columns.table(m.key);
     if (!table) return;
+    table->declare(column_keys());
     const bool named = writable(m);
     const bool given = table->require("column", "column = \"...\"") != nullptr;
     const std::string unit = table->text("unit").value_or("1");
@@ -67,15 +66,10 @@ private:
     const int index = csv && given ? find_column(*table, "column", *csv) : -1;
     table->find("column");
     table->refuse_unknown();
-    TraceColumn out{m.key, unit, "1", {}};
-    try {
-      out.si_unit = units::si_unit_of(unit);
-    } catch (const InputError& error) {
-      const Problem& p = error.problems().front();
-      problems_.add(*table->find("unit"), table->path("unit") + ": " + p.what, p.why, p.remedy);
-      return;
-    }
-    if (!named) return;
+    const Node* unit_node = table->find("unit");
+    const auto si_unit = read_si_unit(unit_node ? *unit_node : table->node(), table->path("unit"), unit, problems_);
+    if (!si_unit || !named) return;
+    TraceColumn out{m.key, unit, *si_unit, {}};
     if (index >= 0 && context_.readings_known && own(m, *csv, index))
       values(*csv, static_cast<std::size_t>(index), out);
     out_.columns.push_back(std::move(out));
@@ -104,50 +98,42 @@ private:
     if (problems_.size() != before) out.values.clear();
   }
 
-  bool is_label(const Node& node, const std::string& path, const std::string& name) {
-    if (!context_.readings_known || context_.label_values.contains(name)) return true;
-    problems_.add(node, fmt::format("{}: no reading has the label '{}'", path, name), "",
-                  did_you_mean(name, context_.label_names()));
-    return false;
-  }
-
   void blocks() {
-    const auto label = table_.text("blocks");
     const Node* const final_node = table_.find("final");
+    const std::string& label = out_.blocks;
     if (final_node && !table_.has("blocks"))
-      problems_.add(*final_node, "trace.final: there are no blocks", "they are values of a label",
-                    "blocks = \"setup\"");
-    out_.final_blocks = table_.texts("final");
+      table_.refuse_key("final", "there are no blocks", "they are values of a label", "blocks = \"setup\"");
     if (final_node && final_node->kind == Node::Kind::array && final_node->items.empty())
-      problems_.add(*final_node, "trace.final: empty", "without it the last quarter of the blocks is kept apart",
-                    "leave it out");
-    if (!label || !is_label(*table_.find("blocks"), "trace.blocks", *label)) return;
-    out_.blocks = *label;
-    if (!context_.readings_known) return;
+      table_.refuse_key("final", "empty", "without it the last quarter of the blocks is kept apart", "leave it out");
+    const Node* const node = table_.find("blocks");
+    if (!node || node->kind != Node::Kind::text || !context_.is_label(*node, "trace.blocks", label) ||
+        !context_.readings_known)
+      return;
     std::set<std::string> known;
     for (const quantities::Reading& r : scope_.readings) {
-      if (const std::string* value = find_label(r.labels, *label)) {
-        known.insert(*value);
-        continue;
-      }
-      problems_.add(*table_.find("blocks"), fmt::format("trace.blocks: a reading has no label '{}'", *label),
-                    "every reading belongs to a block");
-      return;
+      const std::string* value = find_label(r.labels, label);
+      if (!value)
+        return table_.refuse_key("blocks", fmt::format("a reading has no label '{}'", label),
+                                 "every reading belongs to a block");
+      known.insert(*value);
     }
-    for (std::size_t i = 0; final_node && i < out_.final_blocks.size(); ++i) {
+    if (final_node) final_blocks(*final_node, known);
+  }
+
+  void final_blocks(const Node& node, const std::set<std::string>& known) {
+    std::set<std::string> seen;
+    for (std::size_t i = 0; i < out_.final_blocks.size(); ++i) {
       const std::string& name = out_.final_blocks[i];
-      const Node& at = final_node->kind == Node::Kind::array ? final_node->items[i] : *final_node;
+      const Node& at = node.kind == Node::Kind::array ? node.items[i] : node;
       if (!known.contains(name))
-        problems_.add(at, fmt::format("trace.final: no reading has {} = '{}'", *label, name), "",
+        problems_.add(at, fmt::format("trace.final: no reading has {} = '{}'", out_.blocks, name), "",
                       did_you_mean(name, {known.begin(), known.end()}));
-      else if (std::find(out_.final_blocks.begin(), out_.final_blocks.begin() + static_cast<std::ptrdiff_t>(i), name) !=
-               out_.final_blocks.begin() + static_cast<std::ptrdiff_t>(i))
+      else if (!seen.insert(name).second)
         problems_.add(at, fmt::format("trace.final: '{}' stands twice", name));
     }
-    if (final_node && known.size() == out_.final_blocks.size() &&
+    if (known.size() == out_.final_blocks.size() &&
         std::ranges::all_of(out_.final_blocks, [&](auto& b) { return known.contains(b); }))
-      problems_.add(*final_node, "trace.final: every block is kept apart", "nothing is left to search in",
-                    "list fewer of them");
+      table_.refuse_key("final", "every block is kept apart", "nothing is left to search in", "list fewer of them");
   }
 
   void order() {
@@ -168,8 +154,8 @@ private:
       out_.order_name = *name;
       return;
     }
-    problems_.add(*table_.find("order"), fmt::format("trace.order: '{}' is no condition and no column", *name), "",
-                  did_you_mean(*name, names));
+    table_.refuse_key("order", fmt::format("'{}' is no condition and no column", *name), "",
+                      did_you_mean(*name, names));
   }
 
   void redone() {
@@ -183,7 +169,7 @@ private:
       const bool listed = node.kind == Node::Kind::array;
       std::vector<std::string> labels;
       for (const Node& item : listed ? node.items : one)
-        if (const auto label = read_text(item, path, problems_); label && is_label(item, path, *label)) {
+        if (const auto label = read_text(item, path, problems_); label && context_.is_label(item, path, *label)) {
           if (std::ranges::find(labels, *label) != labels.end())
             problems_.add(item, fmt::format("{}: '{}' stands twice", path, *label));
           labels.push_back(*label);
@@ -201,6 +187,31 @@ private:
 };
 
 } // namespace
+
+Options<TraceOptions> trace_options() {
+  const Shape act = shape::texts(R"("minItems": 1)");
+  return {
+      option::text("blocks", &TraceOptions::blocks, "label whose values are blocks: set-ups, days, clampings"),
+      option::texts("final", &TraceOptions::final_blocks, R"("minItems": 1)",
+                    "hold-out blocks; left out: the last quarter, at least one"),
+      option::by_hand<TraceOptions>("order", shape::text(),
+                                    "order of measurement: a condition or a column; left out: as the readings stand"),
+      option::by_hand<TraceOptions>(
+          "redone", shape::list(act),
+          "labels that identify one redone set-up step, such as a clamping, which may leave scatter behind. Empty: "
+          "none "
+          "was redone. Left out: every set of one or two labels with at least six combinations"),
+      option::texts("free", &TraceOptions::free, "",
+                    "quantities whose stated values come from these data: fitted again, as if marked estimated"),
+      option::share("alpha", &TraceOptions::alpha, true, "chance that anything is found where nothing is"),
+      option::whole("draws", &TraceOptions::draws, 99, 1'000'000, "draws of the parametric bootstrap"),
+      option::whole("seed", &TraceOptions::seed, 0, most_seed, "seed of the bootstrap"),
+      option::by_hand<TraceOptions>("columns", shape::map(shape::table(column_keys())),
+                                    "recorded along with the readings, in the same data file: a temperature, an order"),
+  };
+}
+
+Shape trace_shape() { return table_shape(trace_options(), R"("dependencies": {"final": ["blocks"]})"); }
 
 TraceOptions read_trace(Table table, const TraceScope& scope, Context& context) {
   return TraceReader(std::move(table), scope, context).read();

@@ -1,6 +1,7 @@
 #pragma once
 /// Reads [trace]: what of the readings is a block, an order, one act done anew, and what was recorded beside them.
 #include "base/card.h"
+#include "scenario/option.h"
 #include "scenario/readouts.h"
 #include "scenario/trace_options.h"
 
@@ -11,6 +12,9 @@ struct TraceScope {
   const std::vector<quantities::Reading>& readings;
   const std::vector<IndicationReadouts>& readouts; ///< by indication; those used of the first are the readings
 };
+
+Options<TraceOptions> trace_options();
+Shape trace_shape();
 
 TraceOptions read_trace(Table table, const TraceScope& scope, Context& context);
 

@@ -13,6 +13,13 @@ namespace {
 using quantities::Component;
 using quantities::Family;
 
+std::vector<std::string> distribution_names() {
+  std::vector<std::string> names;
+  for (const auto& family : quantities::families())
+    if (family.family != Family::constant) names.emplace_back(family.name);
+  return names;
+}
+
 /// Type A: the mean of n observations is a t with n - 1 degrees of freedom and scale s/sqrt(n),
 /// JCGM 101:2008, 6.4.9.
 std::optional<Uncertainty> read_observations(Table& table, const Form& form, Context& context) {
@@ -24,9 +31,8 @@ std::optional<Uncertainty> read_observations(Table& table, const Form& form, Con
       x.push_back(*v);
   if (x.size() != items->size()) return std::nullopt;
   if (x.size() < 2) {
-    context.problems.add(*table.find("observations"),
-                         fmt::format("{}: {} observation(s) cannot show any scatter", table.path(), x.size()), "",
-                         "give two or more");
+    table.refuse_key("observations", fmt::format("{} observation(s) cannot show any scatter", x.size()), "",
+                     "give two or more");
     return std::nullopt;
   }
   const double n = static_cast<double>(x.size());
@@ -41,9 +47,10 @@ std::optional<Uncertainty> read_observations(Table& table, const Form& form, Con
   out.component.evaluation = 'A';
   out.component.degrees_of_freedom = n - 1;
   if (out.exact) {
-    context.notes.push_back(fmt::format("{}: the {} observations are equal: their Type A uncertainty is zero; state the "
-                                        "resolution of the readout instead",
-                                        table.path(), x.size()));
+    context.notes.push_back(
+        fmt::format("{}: the {} observations are equal: their Type A uncertainty is zero; state the "
+                    "resolution of the readout instead",
+                    table.path(), x.size()));
   } else if (x.size() < 4) {
     context.notes.push_back(fmt::format("{}: {} observations give a t distribution with {} degrees of freedom, which "
                                         "has no standard uncertainty: only quantiles are given",
@@ -55,9 +62,7 @@ std::optional<Uncertainty> read_observations(Table& table, const Form& form, Con
 std::optional<Uncertainty> read_distribution(Table& table, const Form& form, Context& context) {
   std::string name = "normal"; // u, or U with k, alone
   if (table.has("distribution")) {
-    std::vector<std::string> names;
-    for (const auto& family : quantities::families())
-      if (family.family != Family::constant) names.emplace_back(family.name);
+    const std::vector<std::string> names = distribution_names();
     const auto index = table.choice("distribution", names);
     if (!index) {
       table.members(); // the parameters cannot be judged
@@ -65,7 +70,7 @@ std::optional<Uncertainty> read_distribution(Table& table, const Form& form, Con
     }
     name = names[*index];
   } else if (!table.has("u") && !table.has("U")) {
-    table.add(table.path() + ": the distribution is missing", "", "give distribution, u, U with k, or observations");
+    table.refuse("the distribution is missing", "", "give distribution, u, U with k, or observations");
     return std::nullopt;
   }
   const auto* card = quantities::find_family(name);
@@ -82,20 +87,54 @@ void check_scope(Table& table, const std::vector<std::string>& per, Context& con
   std::vector<std::string> names = context.label_names();
   names.emplace_back("reading");
   for (const std::string& name : per) {
-    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
-    context.problems.add(*table.find("per"), fmt::format("{}: no reading has the label '{}'", table.path("per"), name),
-                         "a scope is a label of the readings or \"reading\"", did_you_mean(name, names));
+    if (std::ranges::find(names, name) != names.end()) continue;
+    table.refuse_key("per", fmt::format("no reading has the label '{}'", name),
+                     "a scope is a label of the readings or \"reading\"", did_you_mean(name, names));
   }
 }
 
 } // namespace
 
+const char* const uncertainty_rules = R"("dependencies": {"U": ["k"], "k": ["U"]})";
+
+std::vector<Key> uncertainty_keys() {
+  using namespace shape;
+  const Shape measure = reference("measure"), width = reference("width"), positive = reference("positive");
+  const std::string some = R"("minItems": 1)";
+  return {
+      {"distribution", words(distribution_names()), "JCGM 101:2008, Table 1, and a few more; left out: normal"},
+      {"u", width, "standard uncertainty; for a t distribution the scale s/sqrt(n)"},
+      {"U", width, "expanded uncertainty, with its coverage factor k"},
+      {"k", positive, "coverage factor of U"},
+      {"half_width", width, "half the width about the value"},
+      {"low", measure, "lower limit; of a component: of the deviation"},
+      {"high", measure, "upper limit; of a component: of the deviation"},
+      {"inexactness", width, "curvilinear trapezoid: half-width of each limit's range"},
+      {"top_ratio", interval(0, 1, false), "trapezoid: width of the top over that of the base"},
+      {"mean", measure, "exponential: expectation"},
+      {"shape", positive, "gamma: shape"},
+      {"scale", measure, "gamma: scale"},
+      {"median", measure, "lognormal: median"},
+      {"mu", number(), "lognormal: expectation of ln x, x in SI"},
+      {"sigma", positive, "lognormal: standard deviation of ln x"},
+      {"values", any_of({list(measure, some), table(data_column_keys())}),
+       "discrete and empirical: the values, or a column of a data file"},
+      {"probabilities", list(interval(0, 1, false)), "discrete: one per value, adding up to 1"},
+      {"observations", list(measure, R"("minItems": 2)"),
+       "Type A: repeated observations; a t with n - 1 degrees of freedom"},
+      {"evaluation", words({"A", "B"}), "Type A or Type B evaluation (GUM 2.3.2, 2.3.3)"},
+      {"degrees_of_freedom", positive, "left out: infinite"},
+      {"per", any_of({text(), list(text())}),
+       "scope: one draw per combination of these labels, or per \"reading\"; left out: one draw"},
+      {"source", reference("source")},
+  };
+}
+
 std::optional<Uncertainty> read_uncertainty(Table& table, const Form& form, Context& context) {
   const bool observed = table.has("observations");
-  if (observed && (table.has("distribution") || table.has("u") || table.has("U"))) {
-    table.add(table.path() + ": observations are given together with another statement of uncertainty", "both state the uncertainty",
-              "leave one out");
-  }
+  if (observed && (table.has("distribution") || table.has("u") || table.has("U")))
+    table.refuse("observations are given together with another statement of uncertainty", "both state the uncertainty",
+                 "leave one out");
   auto out = observed ? read_observations(table, form, context) : read_distribution(table, form, context);
 
   // Read in any case, so that these keys are known and their problems are told too.

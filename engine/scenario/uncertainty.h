@@ -22,6 +22,11 @@ struct Form {
   double fallback = 0;         ///< the value otherwise, for families that need one
 };
 
+/// The keys that read_uncertainty() may ask for, by what the distribution needs.
+std::vector<Key> uncertainty_keys();
+/// Members of the schema of a table with these keys: U and k stand together.
+extern const char* const uncertainty_rules;
+
 /// Reads distribution, parameters, evaluation, degrees_of_freedom, per and source from the table;
 /// nullopt and problems if something is wrong. Does not call refuse_unknown().
 ///

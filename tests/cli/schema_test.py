@@ -1,4 +1,5 @@
-"""The shipped JSON Schema accepts the shipped scenarios and refuses what the program refuses.
+"""The shipped JSON Schema is the program's; it accepts the shipped scenarios, refuses what the program refuses, and has
+the keys that the program reads.
 
 usage: schema_test.py [path of gumshoe] [unittest options]
 """
@@ -19,18 +20,191 @@ GUMSHOE = sys.argv.pop(1) if len(sys.argv) > 1 and not sys.argv[1].startswith("-
 
 def load(path):
     with open(path, "rb") as file:
-        return json.loads(json.dumps(tomllib.load(file), default=str))
+        return plain(tomllib.load(file))
+
+
+def plain(document):
+    return json.loads(json.dumps(document, default=str))
+
+
+def shipped():
+    return sorted([*FOLDER.glob("*.toml"), *FOLDER.glob("plugin/*.toml"), *FOLDER.glob("command/*.toml"),
+                   *FOLDER.glob("gauge/*.toml")])
+
+
+def stated_keys(schema, place="#"):
+    """(place, key) of every key that the schema lists."""
+    for key, value in schema.get("properties", {}).items():
+        yield place, key
+        yield from stated_keys(value, f"{place}/{key}")
+    for word in ("items", "additionalProperties"):
+        if isinstance(schema.get(word), dict):
+            yield from stated_keys(schema[word], f"{place}/{word}")
+    for number, value in enumerate(schema.get("anyOf", [])):
+        yield from stated_keys(value, f"{place}/{number}")
+
+
+def used_keys(root, schema, value, place="#"):
+    """The same, of those that stand in a document."""
+    if "$ref" in schema:
+        name = schema["$ref"].rsplit("/", 1)[1]
+        yield from used_keys(root, root["definitions"][name], value, f"#/definitions/{name}")
+    for part in schema.get("allOf", []):
+        yield from used_keys(root, part, value, place)
+    for number, part in enumerate(schema.get("anyOf", [])):
+        if jsonschema.Draft7Validator(part | {"definitions": root["definitions"]}).is_valid(value):
+            yield from used_keys(root, part, value, f"{place}/{number}")
+    for item in value if isinstance(value, list) and "items" in schema else []:
+        yield from used_keys(root, schema["items"], item, f"{place}/items")
+    for key, item in value.items() if isinstance(value, dict) else []:
+        if key in schema.get("properties", {}):
+            yield place, key
+            yield from used_keys(root, schema["properties"][key], item, f"{place}/{key}")
+        elif isinstance(schema.get("additionalProperties"), dict):
+            yield from used_keys(root, schema["additionalProperties"], item, f"{place}/additionalProperties")
+
+
+# What no shipped scenario says.
+EVERY_KEY = {
+    "distributions": '''
+schema = 1
+[model]
+name = "rod_gauging"
+[quantities.laser_z]
+components = [
+  { name = "a", U = "2 um", k = 2, evaluation = "B", degrees_of_freedom = 9 },
+  { distribution = "curvilinear_trapezoid", low = "-2 um", high = "2 um", inexactness = "0.1 um" },
+  { distribution = "trapezoid", half_width = "2 um", top_ratio = 0.5 },
+  { distribution = "exponential", mean = "1 um" },
+  { distribution = "gamma", shape = 2, scale = "1 um" },
+  { distribution = "lognormal", median = "1 um", sigma = 0.1 },
+  { distribution = "lognormal", mu = -13, sigma = 0.1 },
+  { distribution = "discrete", values = ["0 um", "1 um"], probabilities = [0.5, 0.5] },
+  { distribution = "empirical", values = { file = "values.csv", column = "r", unit = "um" } },
+  { observations = ["0 um", "1 um", "2 um", "1 um"], source = "four" },
+]
+[quantities]
+rod_radius = { distribution = "empirical", values = { file = "values.csv", column = "r", unit = "mm" }, unit = "mm" }
+rod_length = { distribution = "discrete", values = ["150 mm", "151 mm"], probabilities = [0.5, 0.5], evaluation = "B" }
+fillet_radius = { distribution = "lognormal", median = "0.03 mm", sigma = 0.1 }
+[indications.spindle_z]
+readings = ["-330 mm", "-330.001 mm"]
+labels = { rod = "1" }
+repeatability = { s = "1 um", degrees_of_freedom = 4, evaluation = "A", source = "declared" }
+[[correlations]]
+quantities = ["fillet_radius", "rod_length"]
+kind = "copula"
+coefficient = 0.1
+source = "assumed"
+[[expected]]
+figure = "standard_uncertainty"
+of = "laser_z"
+value = "1 um"
+labels = { rod = "1" }
+[run]
+design = "sobol"
+max_failed_share = 0.5
+[analysis]
+sensitivity = { morris = 8 }
+[[analysis.conformity]]
+measurand = "laser_z"
+labels = { rod = "1" }
+lower = "-1 m"
+guard_factor = 1
+[[analysis.targets]]
+measurand = "laser_z"
+labels = { rod = "1" }
+U = "5 um"
+[estimate]
+loss = "huber"
+width = 2
+iterations = 100
+posterior = "t"
+''',
+    "pooled": '''
+schema = 1
+[model]
+name = "rod_gauging"
+[quantities]
+laser_z = { estimated = true, value = "-510 mm" }
+[indications.spindle_z]
+readings = ["-330 mm", "-330.001 mm"]
+repeatability = { pooled = true, evaluation = "A" }
+[trace]
+alpha = 0.01
+draws = 99
+free = "laser_z"
+[stated_effects.film]
+formula = "1 / feed"
+unit = "um*mm/min"
+size = { value = "1 um*mm/min", u = "1 um*mm/min" }
+source = "a guess"
+''',
+    "choose": '''
+schema = 1
+[model]
+name = "expression"
+method = "virtual_experiment"
+[model.measurands]
+length = "z"
+[model.indications]
+z = "length + feed * delay"
+[conditions]
+feed = "10 mm/min"
+[quantities]
+length = "100 mm"
+delay = { value = "6 ms", u = "1 ms" }
+[choose]
+target = "3 um"
+target_of = "worst_case"
+bias = "10 um"
+definition = "uncorrected"
+confirm_probability = 0.9
+near = 0.2
+refinements = 1
+sobol = 64
+[choose.variables]
+feed = ["10 mm/min", "20 mm/min"]
+[choose.time]
+per_reading = "way / feed"
+once = "start"
+way = "5 mm"
+start = "1 s"
+[[choose.cases]]
+name = "slow"
+values = { delay = "9 ms" }
+''',
+    "command": '''
+schema = 1
+[model]
+name = "command"
+command = ["/usr/bin/python3", "model.py"]
+[model.measurands]
+y = { unit = "mm", meaning = "a length" }
+[quantities]
+x = "1 mm"
+''',
+    "machine": '''
+schema = 1
+[model]
+name = "sphere_probing"
+method = "virtual_experiment"
+[machine]
+workpiece_side = ["X", { axis = "B", kind = "rotary", point = ["0 mm", "0 mm", "-400 mm"], sense = 1 }]
+tool_side = ["Z", { axis = "Y", kind = "linear", point = ["0 mm", "0 mm", "0 mm"], sense = 1 }]
+errors = { E_A0B = "0.01 deg" }
+''',
+}
 
 
 class Schema(unittest.TestCase):
     def setUp(self):
-        schema = json.loads((FOLDER / "scenario.schema.json").read_text())
-        jsonschema.Draft7Validator.check_schema(schema)
-        self.validator = jsonschema.Draft7Validator(schema)
+        self.schema = json.loads((FOLDER / "scenario.schema.json").read_text())
+        jsonschema.Draft7Validator.check_schema(self.schema)
+        self.validator = jsonschema.Draft7Validator(self.schema)
 
     def test_shipped_scenarios_are_accepted(self):
-        files = sorted([*FOLDER.glob("*.toml"), *FOLDER.glob("plugin/*.toml"), *FOLDER.glob("command/*.toml"),
-                        *FOLDER.glob("gauge/*.toml")])
+        files = shipped()
         self.assertGreaterEqual(len(files), 2)
         for file in files:
             with self.subTest(file.name):
@@ -92,6 +266,57 @@ class Schema(unittest.TestCase):
                 ({}, {"formula": "1"}, False), ({}, film | {"amount": "1 um"}, False)):
             with self.subTest((trace, effect)):
                 self.assertEqual(self.validator.is_valid(good | {"trace": trace, "stated_effects": {"film": effect}}), fine)
+
+    @unittest.skipUnless(GUMSHOE, "needs the program")
+    def test_shipped_schema_is_the_programs(self):
+        self.assertEqual(self.program("schema").stdout, (FOLDER / "scenario.schema.json").read_text(),
+                         "stale: scripts/update-generated")
+
+    @unittest.skipUnless(GUMSHOE, "needs the program")
+    def test_names_are_those_of_the_cards(self):
+        properties = self.schema["properties"]
+        effects = {e["name"]: {q["name"] for q in e["quantities"]}
+                   for e in json.loads(self.program("effects", "--format", "json").stdout)}
+        self.assertEqual({name: set(e["properties"]) for name, e in properties["effects"]["properties"].items()}, effects)
+        for model in json.loads(self.program("models", "--format", "json").stdout):
+            for section in ("conditions", "indications", "quantities"):
+                names = {card["name"] for card in model[section]}
+                self.assertLessEqual(names, set(properties[section]["properties"]), model["name"])
+                for name, fine in ((min(names), True), (min(names) + "_x", False)):
+                    value = {} if section == "indications" else "1 mm"
+                    document = {"schema": 1, "model": {"name": model["name"]}, section: {name: value}}
+                    self.assertEqual(self.validator.is_valid(document), fine, document)
+
+    @unittest.skipUnless(GUMSHOE, "needs the program")
+    def test_program_reads_every_key(self):
+        """Each key of the schema stands in a scenario that the program accepts."""
+        seen = set()
+        for file in shipped():
+            seen.update(used_keys(self.schema, self.schema, load(file)))
+        with tempfile.TemporaryDirectory() as folder:
+            (pathlib.Path(folder) / "values.csv").write_text("r\n5\n6\n")
+            (pathlib.Path(folder) / "model.py").write_text(
+                "import sys\nprint('y')\nfor row in sys.stdin.read().splitlines()[1:]: print(row)\n")
+            for name, text in EVERY_KEY.items():
+                with self.subTest(name):
+                    document = plain(tomllib.loads(text))
+                    self.assertEqual([e.message for e in self.validator.iter_errors(document)], [])
+                    seen.update(used_keys(self.schema, self.schema, document))
+                    file = pathlib.Path(folder) / f"{name}.toml"
+                    file.write_text(text)
+                    run = self.program("check", file)
+                    self.assertEqual(run.returncode, 0, run.stderr)
+        by_cards = ("#/effects", "#/quantities", "#/conditions", "#/indications")
+        lacking = {(place, key) for place, key in self.stated() if not place.startswith(by_cards)} - seen
+        self.assertEqual(sorted(lacking), [])
+
+    def stated(self):
+        yield from stated_keys(self.schema)
+        for name, schema in self.schema["definitions"].items():
+            yield from stated_keys(schema, f"#/definitions/{name}")
+
+    def program(self, *words):
+        return subprocess.run([GUMSHOE, *map(str, words)], capture_output=True, text=True)
 
     @unittest.skipUnless(GUMSHOE, "needs the program")
     def test_program_accepts_the_shipped_scenarios(self):

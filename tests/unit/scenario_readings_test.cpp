@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "places.h"
-#include "scenario/noise.h"
+#include "scenario/repeatability.h"
 #include "unit/scenario_fixture.h"
 
 using namespace scenario_fixture;

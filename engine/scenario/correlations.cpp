@@ -1,0 +1,103 @@
+#include "scenario/correlations.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "quantities/cells.h"
+#include "scenario/option.h"
+
+namespace gumshoe::scenario {
+namespace {
+
+using quantities::Correlation;
+
+Options<Correlation> correlation_options() {
+  using enum Correlation::Kind;
+  const Shape coefficient = shape::interval(-1, 1, false);
+  return {
+      option::texts("quantities", &Correlation::quantities, R"("minItems": 2)",
+                    "two quantities or more: \"name\", \"name.component\" or \"name[label value]\"")
+          .needed(),
+      option::word("kind", &Correlation::kind, {{"copula", copula}, {"pearson", pearson}, {"spearman", spearman}},
+                   "whose coefficient it is; there is no default")
+          .needed("use copula, pearson or spearman"),
+      option::by_hand<Correlation>("coefficient", coefficient, "of two quantities"),
+      option::by_hand<Correlation>("matrix", shape::list(shape::list(coefficient)),
+                                   "a row and a column per quantity; symmetric, 1 on the diagonal"),
+      option::by_hand<Correlation>("source", shape::reference("source"), ""),
+  };
+}
+
+void read_matrix(Table& table, std::size_t n, std::vector<double>& matrix) {
+  const auto* rows = table.array("matrix");
+  if (!rows) return;
+  for (const Node& row : *rows) {
+    if (row.kind != Node::Kind::array || row.items.size() != n || rows->size() != n)
+      return table.refuse_key("matrix", fmt::format("must have {} rows of {} numbers", n, n));
+    for (const Node& cell : row.items)
+      matrix.push_back(read_number(cell, table.path("matrix"), table.problems()).value_or(0));
+  }
+  for (std::size_t i = 0; i < n * n && matrix.size() == n * n; ++i) {
+    const double here = matrix[i], mirrored = matrix[(i % n) * n + i / n];
+    const bool diagonal = i / n == i % n;
+    if (here == mirrored && std::abs(here) <= 1 && (!diagonal || here == 1)) continue;
+    return table.refuse_key("matrix", fmt::format("row {}, column {} is {}", i / n + 1, i % n + 1, here),
+                            "correlations are symmetric, between -1 and 1, and 1 on the diagonal");
+  }
+}
+
+Correlation read_correlation(Table table, const std::vector<std::string>& names) {
+  Correlation out;
+  read_options(table, correlation_options(), out);
+  std::vector<std::string> seen;
+  for (const std::string& name : out.quantities) {
+    if (std::ranges::find(names, name) == names.end())
+      table.refuse_key("quantities", fmt::format("'{}' is no quantity here", name), "", did_you_mean(name, names));
+    if (std::ranges::find(seen, name) != seen.end())
+      table.refuse_key("quantities", fmt::format("'{}' is named twice", name));
+    seen.push_back(name);
+  }
+  const std::size_t n = out.quantities.size();
+  table.rendered("source");
+  const auto coefficient = table.number("coefficient");
+  if (n < 2 && table.has("quantities")) table.refuse("needs two quantities or more");
+  if (table.has("coefficient") == table.has("matrix"))
+    table.refuse("give either coefficient or matrix", "", "write coefficient = 0.5 for two quantities");
+  else if (coefficient && n != 2)
+    table.refuse(fmt::format("one coefficient for {} quantities", n), "", "give a matrix");
+  else if (coefficient && std::abs(*coefficient) > 1)
+    table.refuse_key("coefficient", fmt::format("{} must lie between -1 and 1", *coefficient));
+  else if (coefficient)
+    out.matrix = {1, *coefficient, *coefficient, 1};
+  read_matrix(table, n, out.matrix);
+  table.refuse_unknown();
+  return out;
+}
+
+} // namespace
+
+Shape correlation_shape() {
+  return table_shape(correlation_options(), R"("oneOf": [{"required": ["coefficient"]}, {"required": ["matrix"]}])");
+}
+
+std::vector<Correlation> read_correlations(Table& top, const std::vector<quantities::InputQuantity>& quantities) {
+  std::vector<std::string> names;
+  for (const auto& q : quantities) {
+    names.push_back(q.name);
+    for (const auto& entry : q.entries) {
+      auto labels = entry.labels;
+      std::sort(labels.begin(), labels.end()); // as draws are named
+      const std::string cell = q.name + '[' + quantities::text_of(labels) + ']';
+      if (!labels.empty()) names.push_back(cell);
+      for (const auto& c : entry.components) {
+        names.push_back(q.name + '.' + c.name);
+        if (!labels.empty() && entry.components.size() > 1) names.push_back(cell + ": " + c.name);
+      }
+    }
+  }
+  std::vector<Correlation> out;
+  for (const Table& row : top.tables("correlations")) out.push_back(read_correlation(row, names));
+  return out;
+}
+
+} // namespace gumshoe::scenario

@@ -1,0 +1,16 @@
+#pragma once
+/// [[correlations]]: dependence between input quantities.
+#include "quantities/input_quantity.h"
+#include "scenario/reader.h"
+
+namespace gumshoe::scenario {
+
+/// Shape of a row of [[correlations]].
+Shape correlation_shape();
+
+/// Reads the section of the scenario `top`. Names must be among `quantities`, "quantity.component", or
+/// "quantity[label]" where values are given per label.
+std::vector<quantities::Correlation> read_correlations(Table& top,
+                                                       const std::vector<quantities::InputQuantity>& quantities);
+
+} // namespace gumshoe::scenario

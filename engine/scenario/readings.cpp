@@ -1,0 +1,113 @@
+#include "scenario/readings.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "scenario/noise.h"
+
+namespace gumshoe::scenario {
+namespace {
+
+using quantities::Reading;
+
+class ReadingsReader {
+public:
+  ReadingsReader(const ModelCard& model, Method method, Context& context)
+      : model_(model), method_(method), context_(context), problems_(context.problems) {}
+
+  Readings read(Table& top) {
+    const std::size_t before = problems_.size();
+    const Conditions conditions = read_conditions(top.table("conditions"), model_);
+    out_.spreads = conditions.spreads;
+    auto indications = top.table("indications");
+    static const Node nothing;
+    std::vector<Table> tables;
+    for (const VariableCard& card : model_.indications) {
+      const std::string name(card.name);
+      std::optional<Table> table = indications ? indications->table(name) : std::nullopt;
+      if (method_ == Method::propagation && !table)
+        problems_.add(indications ? indications->node() : top.node(), fmt::format("indications.{}: missing", name),
+                      "propagation of distributions evaluates readouts",
+                      fmt::format("add [indications.{}] with readings", name));
+      tables.push_back(table ? *table : Table(nothing, "indications." + name, problems_));
+      tables.back().declare(readout_keys());
+      tables.back().declare(noise_keys());
+      out_.readouts.push_back(read_readouts(tables.back(), card, model_, conditions, context_));
+      if (table && method_ == Method::propagation) need_values(*table, out_.readouts.back());
+    }
+    if (indications) indications->refuse_unknown();
+    merge(tables);
+    context_.readings_known = problems_.size() == before;
+    for (const Reading& r : out_.readings) context_.readings.push_back(r.labels);
+    for (const auto& of_one : out_.readouts)
+      for (const Readouts& r : of_one.all)
+        for (const auto& [label, value] : r.labels) context_.label_values[label].insert(value);
+    for (std::size_t i = 0; i < tables.size(); ++i) {
+      out_.noise.push_back(read_noise(tables[i], model_.indications[i], out_.readouts[i], context_));
+      tables[i].refuse_unknown();
+    }
+    return std::move(out_);
+  }
+
+private:
+  void need_values(Table& table, const IndicationReadouts& readouts) {
+    for (const Readouts& r : readouts.used) {
+      if (!r.values.empty()) continue;
+      if (table.has("readings") && table.find("readings")->kind == Node::Kind::array) return; // said already
+      const std::string of = r.labels.empty() ? "" : " for " + text_of(r.labels);
+      table.refuse("no readings" + of, "propagation of distributions evaluates readouts", "readings = [\"...\"]");
+      return;
+    }
+  }
+
+  /// One reading per group of equal labels and conditions, in the order of the first indication.
+  void merge(std::vector<Table>& tables) {
+    const std::vector<IndicationReadouts>& readouts = out_.readouts;
+    for (std::size_t i = 0; i < readouts.size(); ++i) {
+      for (const Readouts& r : readouts[i].used) {
+        auto it = std::find_if(out_.readings.begin(), out_.readings.end(), [&](const Reading& known) {
+          return matches(known.labels, r.labels) && matches(r.labels, known.labels) && known.conditions == r.conditions;
+        });
+        if (i == 0) it = out_.readings.insert(out_.readings.end(), {r.labels, r.conditions, {}, r.repeats});
+        if (it == out_.readings.end()) {
+          tables[i].refuse(fmt::format("{} has no reading {}", model_.indications[0].name, text_of(r.labels)),
+                           "every indication of a reading is needed");
+          continue;
+        }
+        if (r.values.empty()) continue;
+        double mean = 0;
+        for (const double v : r.values) mean += (v - r.values.front()) / static_cast<double>(r.values.size());
+        it->indications.push_back(r.values.front() + mean);
+        double squares = 0;
+        for (const double v : r.values) squares += (v - it->indications.back()) * (v - it->indications.back());
+        it->scatter.push_back(squares);
+      }
+    }
+    for (const Reading& r : out_.readings) {
+      if (r.indications.empty() || r.indications.size() == readouts.size()) continue;
+      tables.back().add(fmt::format("indications: the reading {} lacks an indication", text_of(r.labels)));
+    }
+    if (out_.readings.empty()) out_.readings.push_back({{}, std::vector<double>(model_.conditions.size()), {}, 1});
+  }
+
+  const ModelCard& model_;
+  const Method method_;
+  Context& context_;
+  Problems& problems_;
+  Readings out_;
+};
+
+} // namespace
+
+Shape indication_shape() {
+  std::vector<Key> keys = readout_keys();
+  for (const Key& key : noise_keys()) keys.push_back(key);
+  return shape::table(keys);
+}
+
+Readings read_readings(Table& top, const ModelCard& model, Method method, Context& context) {
+  return ReadingsReader(model, method, context).read(top);
+}
+
+} // namespace gumshoe::scenario

@@ -1,0 +1,19 @@
+#pragma once
+/// Readouts that stand in a data file: readings = { file, column, unit, labels, conditions, where }.
+#include "scenario/readouts.h"
+
+namespace gumshoe::scenario {
+
+std::vector<Key> readouts_file_keys();
+/// `conditions`: SI, by position in the model's card; columns of the file replace them.
+IndicationReadouts read_readouts_file(Table table, const VariableCard& card, const ModelCard& model,
+                                      const std::vector<double>& conditions, Context& context);
+
+/// Labels as a table of texts: { rod = "rod 1" }.
+quantities::Labels read_own_labels(Table table);
+/// True, and a problem, if a label has the name that as a scope means every reading.
+bool reserved(const Member& label, const std::string& path, Problems& problems);
+/// Position in the model's card; the number of conditions if there is none of that name.
+std::size_t condition_index(const ModelCard& model, const std::string& name);
+
+} // namespace gumshoe::scenario

@@ -1,0 +1,184 @@
+#include "scenario/schema.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "scenario/analysis.h"
+#include "scenario/choose.h"
+#include "scenario/conditions.h"
+#include "scenario/correlations.h"
+#include "scenario/expected.h"
+#include "scenario/machine.h"
+#include "scenario/made_models.h"
+#include "scenario/options.h"
+#include "scenario/quantity.h"
+#include "scenario/readings.h"
+#include "scenario/stated_effects.h"
+#include "scenario/trace.h"
+
+namespace gumshoe::scenario {
+namespace {
+
+/// Starts like a number; `sign`: the signs it may have.
+Shape measure_text(const char* sign) {
+  return fmt::format(R"("type": "string", "pattern": "^\\s*[{}]?(\\d+\\.?\\d*|\\.\\d+)([eE][+-]?\\d+)?\\s*")", sign);
+}
+
+/// What references name.
+std::vector<Key> definitions() {
+  using namespace shape;
+  const Shape above_zero = number() + R"(, "exclusiveMinimum": 0)";
+  return {
+      {"measure", any_of({number(), measure_text("+-")}),
+       "a number with its unit, \"0.6 um\"; bare numbers only without a dimension"},
+      {"width", any_of({above_zero, measure_text("+")}), "above 0, with its unit"},
+      {"positive", above_zero, "above 0"},
+      {"source", R"("type": ["string", "object", "array"])",
+       "where the number comes from: text, or a table such as { certificate = \"...\", date = 2026-01-15 }"},
+      {"labels", map(text(), R"("propertyNames": {"not": {"const": "reading"}})"), "label = value"},
+      {"formula", R"("type": ["string", "number"])",
+       "+ - * / ^ ( ), functions, pi, e, and names of quantities, conditions, indications and intermediates"},
+      {"component", component_shape(), "a deviation from the value"},
+      {"quantity", quantity_shape(), "an input quantity: a value alone, or with what is known of it"},
+      {"by", map(map(reference("quantity")), R"("minProperties": 1, "maxProperties": 1)"),
+       "one label, with a quantity for each of its values"},
+      {"condition", condition_shape(),
+       "one value, a list with a value for each reading, or values evenly spread over n readings, the last value "
+       "excluded"},
+      {"indication", indication_shape(), "what was read, and its noise"},
+  };
+}
+
+/// What the cards call their quantities, conditions or indications; a name of several models has several meanings.
+class Names {
+public:
+  explicit Names(const char* definition) : definition_(definition) {}
+  template <class Cards> void add(const ModelCard& model, const Cards& cards) {
+    for (const auto& card : cards) {
+      const std::string meaning =
+          fmt::format("{}: {}{}", model.name, card.meaning, card.unit == "1" ? "" : fmt::format(", {}", card.unit));
+      const auto it = std::ranges::find(keys_, std::string(card.name), &Key::name);
+      if (it == keys_.end())
+        keys_.push_back({std::string(card.name), shape::reference(definition_), meaning});
+      else
+        it->meaning += "; " + meaning;
+    }
+  }
+  /// Models that a scenario describes have names of their own.
+  Shape shape() const { return shape::table(keys_, "", shape::reference(definition_)); }
+
+private:
+  const char* definition_;
+  std::vector<Key> keys_;
+};
+
+std::string only(const char* section, const std::vector<std::string>& names) {
+  return fmt::format(R"("{}": {{"propertyNames": {{"enum": {}}}}})", section, shape::quoted(names));
+}
+
+/// What a model of the catalogue has: other names are refused.
+std::string rules_of(const ModelCard& model, const Catalogue& catalogue) {
+  std::vector<std::string> effects;
+  for (const EffectCard* e : catalogue.effects)
+    if (!catalogue.applies || catalogue.applies(model, *e)) effects.emplace_back(e->name);
+  return fmt::format(
+      R"({{"if": {{"properties": {{"model": {{"properties": {{"name": {{"const": {}}}}}}}}}}}, )"
+      R"("then": {{"properties": {{"model": {{"properties": {{"evaluation": {{{}}}}}}}, {}, {}, {}, {}}}}}}})",
+      shape::quoted(model.name), shape::words(names_of(model.evaluations)),
+      only("conditions", names_of(model.conditions)), only("indications", names_of(model.indications)),
+      only("quantities", names_of(model.quantities)), only("effects", effects));
+}
+
+Shape effects_shape(const Catalogue& catalogue) {
+  std::vector<Key> effects;
+  for (const EffectCard* e : catalogue.effects) {
+    std::vector<Key> quantities;
+    for (const QuantityCard& q : e->quantities)
+      quantities.push_back({std::string(q.name), shape::reference("quantity"),
+                            fmt::format("{}{}", q.meaning, q.unit == "1" ? "" : fmt::format(", {}", q.unit))});
+    effects.push_back({std::string(e->name), shape::table(quantities), std::string(e->title)});
+  }
+  return shape::table(effects);
+}
+
+} // namespace
+
+std::vector<Key> model_keys() {
+  using namespace shape;
+  std::string described;
+  for (const MadeModelRow& row : made_models())
+    described += fmt::format("{}{} ({})", described.empty() ? "" : ", ", row.name, row.what);
+  const Shape formula = reference("formula");
+  const Shape measurand = table({{"formula", formula},
+                                 {"unit", text(), "in which it is shown"},
+                                 {"meaning", text(), "of a command: what it is"}});
+  return {
+      {"name", text(), "one that gumshoe models lists; or " + described, true},
+      {"method", words({"propagation", "virtual_experiment"}),
+       "propagation of distributions (JCGM 101), or draw the truth, simulate and evaluate", false,
+       quoted("propagation")},
+      {"evaluation", text(), "one of the model's evaluations; left out: the first"},
+      {"intermediates", map(formula), "expression: formulas used by others, in any order"},
+      {"measurands", map(any_of({formula, measurand})),
+       "expression: name = formula, or { formula, unit }; command: name = unit, or { unit, meaning }"},
+      {"indications", map(formula), "expression: what the readouts would be, for virtual experiments and fits"},
+      {"library", text(), "plugin: the shared library, relative to the scenario's folder"},
+      {"command", list(text(), R"("minItems": 1)"),
+       "command: the program and its arguments; run in the scenario's folder, points as CSV on standard input, results "
+       "as CSV on standard output"},
+      {"batch", whole(1, 10'000'000), "command: points per call, at most", false, "10000"},
+      {"time_limit", reference("width"), "command: per call; left out: 60 s"},
+  };
+}
+
+std::vector<Key> sections() {
+  using namespace shape;
+  return {
+      {"schema", R"("const": 1)", "version of this format", true},
+      {"title", text(), "one line, shown in the report"},
+      {"model", table(model_keys()), "what is measured with, and how it is evaluated", true},
+      {"machine", machine_shape(), "sphere_probing: a known machine by its name, or the axes of one's own"},
+      {"conditions", map(reference("condition")), "what was commanded, exact"},
+      {"quantities", map(reference("quantity")), "the model's quantities; what is left out stays at its default"},
+      {"effects", "", "effects left out stay at their null value"},
+      {"indications", map(reference("indication")), "what was read"},
+      {"correlations", list(correlation_shape()), "dependence between input quantities"},
+      {"estimate", table_shape(estimate_options()), "how gumshoe estimate fits"},
+      {"run", table_shape(run_options()), "how many samples, and which"},
+      {"analysis", table_shape(analysis_options()), "what is computed from the samples"},
+      {"expected", list(expected_shape()), "published or exact figures; gumshoe gauge compares them with ours"},
+      {"choose", choose_shape(), "gumshoe choose: the fastest settings within a target expanded uncertainty"},
+      {"trace", trace_shape(),
+       "gumshoe trace: blocks, order, redone set-up steps, and what was recorded along with the readings"},
+      {"stated_effects", stated_effects_shape(),
+       "effects as formulas: size times formula adds to an indication; without a size a candidate of gumshoe trace"},
+  };
+}
+
+std::string schema(const Catalogue& catalogue) {
+  Names conditions("condition"), quantities("quantity"), indications("indication");
+  std::string rules;
+  for (const ModelCard* model : catalogue.models) {
+    conditions.add(*model, model->conditions);
+    quantities.add(*model, model->quantities);
+    indications.add(*model, model->indications);
+    rules += (rules.empty() ? "" : ", ") + rules_of(*model, catalogue);
+  }
+  std::vector<Key> all = sections();
+  for (Key& section : all) {
+    if (section.name == "conditions") section.shape = conditions.shape();
+    if (section.name == "quantities") section.shape = quantities.shape();
+    if (section.name == "indications") section.shape = indications.shape();
+    if (section.name == "effects") section.shape = effects_shape(catalogue);
+  }
+  std::string defined;
+  for (const Key& d : definitions())
+    defined += (defined.empty() ? "" : ", ") + shape::quoted(d.name) + ": " + shape::described(d);
+  return R"({"$schema": "http://json-schema.org/draft-07/schema#", "title": "Gumshoe scenario", "description": )" +
+         shape::quoted("What is measured and what is known of each input quantity. Numbers with a dimension are text "
+                       "with a unit: \"0.6 um\", \"0.2836 deg\".") +
+         ", " + shape::table(all, fmt::format(R"("allOf": [{}])", rules)) + R"(, "definitions": {)" + defined + "}}";
+}
+
+} // namespace gumshoe::scenario
