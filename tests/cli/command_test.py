@@ -255,7 +255,7 @@ for line in sys.stdin:
                 (self.folder / "broken").touch()
                 (self.folder / "calls.txt").unlink(missing_ok=True)
                 run = self.run_it(scenario, name, "--threads", threads)
-                self.refused(run, "the licence server is away", "samples are kept", "the same command resumes")
+                self.refused(run, "the licence server is away", "samples are kept", "Repeat the command to resume")
                 with h5py.File(self.folder / name) as file:
                     done = int(np.ravel(file["samples_done"][()])[0])
                     self.assertFalse(file.attrs["complete"])
