@@ -236,7 +236,7 @@ class Plugin(unittest.TestCase):
 
     def test_no_library(self):
         library = self.folder / "libmine.so"
-        self.refused(gumshoe("check", self.scenario), "does not exist", "build it")
+        self.refused(gumshoe("check", self.scenario), "does not exist", "Build it")
         library.mkdir()
         self.refused(gumshoe("check", self.scenario), "is a directory")
         library.rmdir()
