@@ -18,7 +18,7 @@ std::string trimmed(const std::string& text) {
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-/// Walks through the text once, row by row.
+/// Reads the text once, row by row.
 class Reader {
 public:
   Reader(std::string_view text, const std::string& file) : text_(text), file_(file) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Comma-separated values (RFC 4180): a header, then rows; every cell knows where it stands.
+/// Comma-separated values (RFC 4180): a header, then rows; every cell knows its place in the file.
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,7 +23,7 @@ struct Csv {
   Location at(const CsvCell& cell) const { return {file, cell.line, cell.column}; }
   /// Index of the column, or -1.
   int find(std::string_view name) const;
-  std::vector<std::string> names() const;
+  std::vector<std::string> names() const; ///< column names, in order
   /// The cell as a finite number; throws InputError with the cell's location.
   double number(const CsvCell& cell) const;
 };

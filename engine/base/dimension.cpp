@@ -14,7 +14,7 @@ constexpr std::string_view names[] = {"rad", "m", "kg", "s", "A", "K", "mol", "c
 bool same(double a, double b) { return std::fabs(a - b) < 1e-9; }
 } // namespace
 
-/// Drops the radian where it says nothing.
+/// Drops the radian unless it marks an angle, an angular speed or an angular acceleration.
 Dimension& Dimension::settled() {
   for (double& e : exponents_)
     if (same(e, std::round(e))) e = std::round(e);

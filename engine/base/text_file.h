@@ -1,5 +1,5 @@
 #pragma once
-/// Reading a text file whole, refusing what cannot be one.
+/// Reads a whole text file and refuses files that cannot be text.
 #include <cstddef>
 #include <string>
 

@@ -30,7 +30,7 @@ bool letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || static_cast<unsigned char>(c) >= 0x80;
 }
 
-/// udunits reads "mm 3" as 3 mm and "mm@3" as a shifted scale: only names, exponents and * / . ^ ( ) pass.
+/// udunits reads "mm 3" as 3 mm and "mm@3" as a shifted scale: allow only names, exponents and * / . ^ ( ).
 bool plain_grammar(const std::string& unit) {
   if (unit.starts_with("1e-") && unit.find_first_not_of("0123456789", 3) == std::string::npos) return true;
   if (std::string_view("*/.^-").find(unit.back()) != std::string_view::npos) return false;
@@ -52,7 +52,7 @@ bool plain_grammar(const std::string& unit) {
   return open == 0;
 }
 
-/// Names of the field that udunits does not know.
+/// Replaces names of the field that udunits does not know.
 std::string with_known_names(const std::string& unit) {
   std::string out;
   for (std::size_t i = 0; i < unit.size();) {

@@ -11,7 +11,7 @@ namespace gumshoe::units {
 /// uncertainty on it (1 degC = 1 K).
 enum class Kind { point, difference };
 
-/// A number with its unit as the user wrote it, e.g. {0.6, "um"}. The unit is "1" when none stood there.
+/// A number with its unit as the user wrote it, such as {0.6, "um"}. The unit is "1" if there was none.
 struct Measure {
   double number = 0;
   std::string unit;
@@ -20,21 +20,21 @@ struct Measure {
 /// Splits "0.6 um" into number and unit; throws InputError if there is no finite number in front.
 Measure parse(std::string_view text);
 
-/// The SI unit of `unit`, e.g. "mm/min" -> "m/s"; one of the names the model cards use.
-/// Throws InputError("'foo' is not a unit").
-/// Both throw if the units are not convertible: "'N' is not a length" (must convert to m).
-/// An angle is no plain number: deg does not convert to 1, but um/m converts to rad.
+/// Convert a number in `unit` to a value in `si_unit` and back: to_si(0.6, "um", "m") is 0.6e-6. `si_unit` is a unit as
+/// cards state it, such as "m", "m/s" or "1/K".
+/// Throw InputError if a unit is unknown or the units do not convert: "'N' is not a length" (must convert to m).
+/// An angle is not a plain number: deg does not convert to 1, but um/m converts to rad.
 double to_si(double number, const std::string& unit, const std::string& si_unit, Kind kind = Kind::point);
 double from_si(double value, const std::string& unit, const std::string& si_unit, Kind kind = Kind::point);
 
-/// The same for points, in place.
+/// Convert points on the scale in place.
 void to_si(std::span<double> values, const std::string& unit, const std::string& si_unit);
 void from_si(std::span<double> values, const std::string& unit, const std::string& si_unit);
 
 /// True if `unit` is known and converts to `si_unit`.
 bool convertible(const std::string& unit, const std::string& si_unit);
 
-/// The unit in which values of `unit` stand inside: "mm" -> "m", "degC" -> "K", "mm/min" -> "m.s-1". Throws
+/// The SI unit of values in `unit` inside the engine: "mm" -> "m", "degC" -> "K", "mm/min" -> "m/s". Throws
 /// InputError if it is not a unit.
 std::string si_unit_of(const std::string& unit);
 
@@ -42,7 +42,7 @@ std::string si_unit_of(const std::string& unit);
 /// InputError if it is not a unit.
 std::string base_units_of(const std::string& unit);
 
-/// What a quantity of this SI unit is called in a message: m -> "a length", rad -> "an angle".
+/// Name of a quantity of this SI unit in messages: m -> "a length", rad -> "an angle".
 std::string kind_name(const std::string& si_unit);
 
 } // namespace gumshoe::units

@@ -85,7 +85,7 @@ def readouts():
         if rows and {"setup", "rod", "readout", "spindle_z_mm", "rod_length_mm"} <= set(rows[0]):
             break
     else:
-        raise SystemExit("rods.py: no readouts of Tables 2.4 to 2.7 under scenarios/data")
+        raise SystemExit("rods.py: no readings of Tables 2.4 to 2.7 under scenarios/data")
     cells = {}
     for row in rows:
         cells.setdefault((row["setup"], row["rod"]), []).append(float(row["spindle_z_mm"]))
@@ -128,7 +128,7 @@ def main():
     ours = {(table, rod): z for (table, rod, _, _), z in zip(wanted, solved)}
     varied = dict(zip(((t, rod, text) for t, rod, text, _ in variants), solved[len(points):]))
 
-    lines = ["# Fang 2022, chapter 2: ours beside printed", "",
+    lines = ["# Fang 2022, chapter 2: computed and printed values", "",
              "Written by `reports/reproduction/rods.py` from `gumshoe evaluate rod_gauging`; do not edit.", "",
              "*Agrees* means: within half a unit of the last printed digit. Rods as in Table 2.1 (the standard rod with",
              "elevation 90 deg and fillet radius 0), beam radius 0.2 mm, trigger at half of the beam's disc, holder angle 0.",
@@ -165,9 +165,9 @@ def main():
                        fixed(span(map(float, printed.values())), 3),
                        fixed(span(exchanged.values()), 6) if exchanged else "-", fixed(ignored, 3),
                        note("range", table, None, agrees(spread, printed_range)) if printed_range else ""])
-    lines += [f"Readouts: `{source.relative_to(ROOT)}`, three a cell; the height of the laser axis is the mean readout less",
+    lines += [f"Readings: `{source.relative_to(ROOT)}`, three a cell; the height of the laser axis is the mean reading less",
               "rod length less Z'_d (eq. 2.38).", ""]
-    lines += section("Height of the laser axis", ["table", "rod", "mean readout", "L_r", "printed", "ours", ""], rows)
+    lines += section("Height of the laser axis", ["table", "rod", "mean reading", "L_r", "printed", "ours", ""], rows)
     lines += section("Range of the laser axis over the three rods",
                      ["table", "printed range", "ours", "of the printed heights", "yaw and pitch exchanged",
                       "geometry ignored (Z'_d = 0)", ""], ranges)

@@ -134,7 +134,7 @@ def variants(lines):
               "**`probe_z` cannot be reproduced.** Printed 8 µm; with the clamped axis exact `sequential` gives "
               f"{um(1e3 * base.u[at['probe_z']], 2)} µm, or {um(1e3 * found['linear terms once a run', 'sequential'].u[at['probe_z']], 2)} "
               "with linear terms once a run, whatever the",
-              "rotary half-range. It follows from the Z commands, which at B = 0 feel only the Z terms, as do E_A0C and E_B0C:",
+              "rotary half-range. It follows from the Z commands, which at B = 0 are sensitive only to the Z terms, as do E_A0C and E_B0C:",
               f"wider Z terms that bring it to 8 would bring E_A0C to {1e3 * base.u[at['E_A0C']] * 8 / (1e3 * base.u[at['probe_z']]):.1f} "
               "and E_B0C to "
               f"{1e3 * base.u[at['E_B0C']] * 8 / (1e3 * base.u[at['probe_z']]):.1f} (printed 0.6, 0.7). An error of the clamped B reaches 8",
@@ -147,7 +147,7 @@ def identifiability(lines, base, joint, weighted):
     sphere_figures.correlation(matrix)
     lines += ["## Correlations, rank, condition", "",
               f"Rank {', '.join(f'{r:.0f}' for r in base.rank)}; condition number {base.condition:.1f} (columns of length one), "
-              f"{weighted.condition:.1f} on what is whitened by `joint_weighted`.", "",
+              f"{weighted.condition:.1f} for the whitened problem of `joint_weighted`.", "",
               "![correlations of the identified parameters](../figures/sphere_correlation.svg)", ""]
     lines += table([""] + NAMES, [[n] + [plain(f"{v:.2f}") for v in row] for n, row in zip(NAMES, matrix)])
     lines += ["Of the other evaluations, where above 0.9 in size:", ""]
@@ -159,7 +159,7 @@ def identifiability(lines, base, joint, weighted):
     fit = study.fit(NAMES, GIVEN, study.POSES, shifted, "exact", 0)
     rows = [[n, um(1e3 * (fit["parameters"][n]["value"] - GIVEN[n]), 4)] for n in NAMES]
     lines += ["", "<a id=\"invisible\"></a>", "",
-              "**What the data cannot see.** Commands of a sphere 10 µm farther out (d_s = 184.193), fitted with 184.183 by",
+              "**What the data leave undetermined.** Commands of a sphere 10 µm farther out (d_s = 184.193), fitted with 184.183 by",
               f"`gumshoe estimate`, all eleven free: residuals have a standard deviation of {1e6 * max(fit['s'], 1e-15):.0e} nm, and", ""]
     lines += table(["", "shift, µm or 0.001 deg"], rows)
     lines += ["An error of `sphere_distance` goes over to `probe_x`, `E_X0B` and `E_X0C`, one to one, with nothing left in the",
@@ -190,7 +190,7 @@ def main():
         study.PROGRAM = pathlib.Path(sys.argv[1])
     if not study.PROGRAM.exists():
         raise SystemExit(f"sphere_calibration.py: {study.PROGRAM} does not exist (not built?) scripts/build first")
-    lines = ["# Fang 2022, chapter 4: ours beside printed", "",
+    lines = ["# Fang 2022, chapter 4: computed and printed values", "",
              "Written by `reports/reproduction/sphere_calibration.py` from `gumshoe run`, `evaluate` and `estimate`; do not",
              "edit. Model `sphere_calibration`; given values of Table 4.7; lengths in mm, angles in deg, unless stated. The four",
              "design links are printed nowhere: (-120, 110, 50, 180) is inferred, the set that fits Table 4.7 best, so agreement",

@@ -26,7 +26,7 @@ def bias(lines, found):
               "Exact commands without noise, orientations known, reduced in the thesis' two steps by `gumshoe estimate`: pattern",
               "I for five lengths, then pattern II for two, with the first five as found or true. µm.", ""]
     lines += table(["reduced with", "first five"] + study.LENGTHS_1 + study.LENGTHS_2 + ["rms I", "rms II"], rows)
-    lines += ["The thesis' Monte Carlo makes its data with the same closed forms as it fits, so it cannot see these biases; the",
+    lines += ["The thesis' Monte Carlo makes its data with the same closed forms as it fits, so it cannot show these biases; the",
               "experiment can. Mean errors of the three evaluations over 100,000 runs, µm and 0.001 deg, ± standard error:", ""]
     rows = []
     for (case, evaluation), r in found.items():

@@ -1,4 +1,4 @@
-"""What the curves say about one readout, start angles, hidden teeth, phase and time: the second half of tools.md."""
+"""What the curves say about one reading, start angles, hidden teeth, phase and time: the second half of tools.md."""
 
 import math
 
@@ -19,7 +19,7 @@ def lowest_radius(tool):
 
 
 def distribution(tool, points=240):
-    """Range and standard deviation of a readout over a uniform start angle, in f_z: midpoints of one tooth's turn."""
+    """Range and standard deviation of a reading over a uniform start angle, in f_z: midpoints of one tooth's turn."""
     n = tool["inserts (1)"]
     z = mills.curve(tool, (np.arange(points) + 0.5) * 360 / n / points) / (mills.per_turn(tool) / n)
     return np.ptp(z), np.std(z), np.mean(z) - np.max(z)
@@ -47,11 +47,11 @@ def one_readout(lines, table, um):
         rows.append(row)
     for n, w, s in dots:  # w is read off 240 points, each step of which may hide 1/240 of the range
         assert w <= 1 + 1e-9 and s <= 1 / math.sqrt(12) + 1e-3 and s >= (w**1.5 / math.sqrt(12)) - 0.005, (n, w, s)
-    lines += ["## One readout at a random start angle", "",
+    lines += ["## One reading at a random start angle", "",
               "Starting s degrees further on is the same descent, started higher by s v / (360 N_s). The line that comes",
               "down lies that much higher, so it meets the inserts later: along the curve Z_t **rises at most by",
               "v / (360 N_s) per degree, and jumps only down**. Equal teeth repeat every 360 / n deg. From these two follows",
-              "what holds for every geometry: a readout lies at most f_z below the peak; and with the range w f_z, w <= 1,",
+              "what holds for every geometry: a reading lies at most f_z below the peak; and with the range w f_z, w <= 1,",
               "every height between is met with a density of at least 1 / f_z, so that the standard deviation over a random",
               "angle lies between f_z w^1.5 / sqrt(12) and f_z sqrt(w^2 / 4 - w^3 / 6), never above f_z / sqrt(12) = 0.29 f_z.",
               "",
@@ -73,8 +73,8 @@ def one_readout(lines, table, um):
     lines += [f"Of all {len(usual)} cases with one to three teeth the middle 80 % have a range of {w[tenth]:.2f} to "
               f"{w[-tenth - 1]:.2f} f_z and a standard deviation of {s[tenth]:.2f} to {s[-tenth - 1]:.2f} f_z; many teeth with "
               "a coarse feed spread less.",
-              "One readout makes these three tools short by about a third of f_z on average, and never long. At 3 mm/min and 3000 rpm (f_z = 0.5 um with two teeth) both are negligible, and paid for in time.",
-              "", "![spread of one readout](../figures/tool_spread.svg)", ""]
+              "One reading makes these three tools short by about a third of f_z on average, and never long. At 3 mm/min and 3000 rpm (f_z = 0.5 um with two teeth) both are negligible, and paid for in time.",
+              "", "![spread of one reading](../figures/tool_spread.svg)", ""]
     tool_figures.spread(dots)
 
 
@@ -85,7 +85,7 @@ def tops(tool):
 
 
 def shortfalls(tool, top, m, phases=160):
-    """Shortfall of each flute's highest readout against its peak, over the phase of m equally spaced angles; infinite
+    """Shortfall of each flute's highest reading against its peak, over the phase of m equally spaced angles; infinite
     where the flute does not show."""
     phase = np.arange(phases) / phases
     angles = (phase[:, None] + np.arange(m)) * 360 / m
@@ -111,7 +111,7 @@ def start_angles(lines, table, um):
     lines += ["## m equally spaced start angles", "",
               "They sample the heights on a grid of v / (N_s m): with twelve angles at 1000 rpm and 30 mm/min, of 2.5 um. Of",
               "equal teeth m angles have m / gcd(m, n) distinct phases, so an m coprime to n tells more. Since the curve rises",
-              "at most by v / N_s per turn, the highest readout falls short of the peak by less than f_z gcd(m, n) / m. How",
+              "at most by v / N_s per turn, the highest reading falls short of the peak by less than f_z gcd(m, n) / m. How",
               "much less, worst and mean over the phase, which nobody knows (next but one section), is geometry; in um:", ""]
     lines += table(["m", "grid v / (N_s m)", "distinct phases, n = 2", "bound f_z gcd(m, n) / m", "example 1: worst",
                     "example 1: mean", "experiment, flute 1: worst", "flute 2 (worn 2 um): worst", "flute 2: mean"], rows)
@@ -136,7 +136,7 @@ def hidden(lines, table, um):
     which = mills.flutes(third, angles)[1]
     lines += ["## A worn tooth hides", "",
               "Example 1 (two teeth, f_z = 15 um) with tooth 2 worn by W. The share is that of the start angles at which",
-              "tooth 2 triggers; the last column is how far its highest readout lies below that of tooth 1, which a reader",
+              "tooth 2 triggers; the last column is how far its highest reading lies below that of tooth 1, which a reader",
               "of the curve takes for W:", ""]
     lines += table(["W, um", "W / f_z", "share of start angles", "(1 - W / f_z) / 2", "highest of tooth 1 - highest of tooth 2, um"], rows)
     lines += ["The line that comes down passes the teeth in turn, f_z lower each time, and a worn tooth needs it W lower: pass j",
@@ -177,11 +177,11 @@ def time(lines, table, um):
         feeding = float(np.sum(height - z)) / feed * 60
         rows.append([label, m, height, f"{feed} / {speed}", f"{feeding:.1f}", printed or "-"])
     lines += ["## Time", "",
-              "A readout feeds for (h - Z_t) / v; orientation, spin-up and retraction come on top. Sums over the readouts, with",
+              "A reading feeds for (h - Z_t) / v; orientation, spin-up and retraction come on top. Sums over the readings, with",
               "the engine's Z_t of the experiment's tool:", ""]
     lines += table(["procedure", "readouts", "start height, mm", "feed / speed, mm/min / rpm", "feeding, s", "printed total, s"],
                    rows)
-    lines += ["The thesis' 1 min 20 s for twelve readouts from about 10 mm at 30 mm/min is impossible: feeding alone takes",
+    lines += ["The thesis' 1 min 20 s for twelve readings from about 10 mm at 30 mm/min is impossible: feeding alone takes",
               "three times that ([errata](" + ERRATA + "fang-3-experiment)). Start low rather than slow: the height costs time and tells",
               "nothing, the feed costs spread.", ""]
 

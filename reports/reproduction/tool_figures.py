@@ -116,7 +116,7 @@ def spread(rows):
     ax.text(0.21, 1 / np.sqrt(12) + 0.003, "1/√12", fontsize=8)
     ax.set_xlim(0.2, 1.01)
     ax.set_ylim(0.03, 0.31)
-    ax.set_xlabel("range of the readouts / f$_z$")
+    ax.set_xlabel("range of the readings / f$_z$")
     ax.set_ylabel("standard deviation / f$_z$")
     ax.legend(frameon=False, fontsize=8, loc="lower right")
     figure.tight_layout()
@@ -124,7 +124,7 @@ def spread(rows):
 
 
 def grid(series):
-    """Series of (label, phases, shortfall in mm): shortfall of the highest readout over the phase of the start."""
+    """Series of (label, phases, shortfall in mm): shortfall of the highest reading over the phase of the start."""
     figure, ax = plt.subplots(figsize=(7.2, 3.4))
     for colour, (label, phase, short) in zip(["#b3402f", "#c2571a", "#2f7d4f", "#1b4f8a", "#0b2a4a"], series):
         ax.plot(phase, 1e3 * short, color=colour, lw=1.4, label=label)

@@ -196,7 +196,7 @@ def main():
         mills.PROGRAM = pathlib.Path(sys.argv[1])
     if not mills.PROGRAM.exists():
         raise SystemExit(f"tools.py: {mills.PROGRAM} does not exist (not built?) scripts/build first")
-    lines = ["# Fang 2022, chapter 3: ours beside printed", "",
+    lines = ["# Fang 2022, chapter 3: computed and printed values", "",
              "Written by `reports/reproduction/tools.py` from `gumshoe evaluate tool_length`; do not edit.", "",
              "*Agrees* means: within half a unit of the last printed digit. Tools as in Tables 3.1 to 3.4, where needed with",
              "the readings of [errata](../errata.md#fang-3); beam radius 0.2 mm, trigger at half of the beam's disc. Lengths in",

@@ -23,7 +23,7 @@ import tables  # noqa: E402
 
 SCENARIOS = ROOT / "scenarios"
 PAGE = ROOT / "reports" / "tracing_data.md"
-KINDS = {"nothing_found": "nothing found", "insufficient_data": "these data cannot tell", "not_in_catalogue": "not in the catalogue"}
+KINDS = {"nothing_found": "nothing found", "insufficient_data": "these data cannot decide", "not_in_catalogue": "not in the catalogue"}
 
 
 class Program:
@@ -98,14 +98,14 @@ def sizes(v):
                 low, high = q["interval95"]
                 out.append(f"- `{member['name']}`: {q['name']} = {digits(q['value'], 4)}{unit}, u = {digits(q['u'], 2)}{unit}, 95 % [{digits(low, 4)}, {digits(high, 4)}]")
         out += [f"- remark: {r}" for r in f["remarks"]]
-        out += [f"- what would split it, as the program has it: {f['suggestion']}"] if f["suggestion"] else []
+        out += [f"- measurement that the program suggests to split the class: {f['suggestion']}"] if f["suggestion"] else []
     return "\n".join(out)
 
 
 def limits(v, names):
     rows = [(d["effect"], d["quantity"], "not at all" if d["value"] is None else f"{digits(d['value'], 2)} {d['unit']}")
             for d in v["detection_limits"] if d["effect"] in names]
-    return tables.table(["effect", "quantity", "would have been seen from"], rows)
+    return tables.table(["effect", "quantity", "detectable from"], rows)
 
 
 def said(v):
@@ -158,7 +158,7 @@ def rod_section(program):
                        ('2 = { value = "0.00 deg"', '2 = { value = "0.5729 deg"'))
     exchanged = program.trace("trace_rods", change=exchange)
     chi, freedom, by_setup, names = chi_squared(program.path)
-    blunt = (" The program says nothing of it: its own test of the noise's size, by data drawn in and among all that is tried at once, is weaker with eight degrees of freedom."
+    blunt = (" The program does not report this: its own test of the size of the noise uses winsorised data and competes with everything else that is tried, so that it is weaker with eight degrees of freedom."
              if whole["verdict"] == "nothing_found" else "")
     heights = [(s, *(f"{x:+.1f}" for x in r), f"{np.ptp(r):.1f}") for s, r in by_setup.items()]
     return f"""## Rods of Tables 2.4 to 2.7
@@ -166,29 +166,29 @@ def rod_section(program):
 `scenarios/trace_rods.toml`: three rods on four alignments of a laser tool setter (Fang 2022), quantities and uncertainties as in
 `rod_gauging_all.toml`, assumed there; the height of the beam is estimated, one per alignment. um.
 
-{tables.table(HEAD, [row("as shipped, set-up 3 kept apart", shipped), row("all four set-ups searched", whole),
+{tables.table(HEAD, [row("as shipped, set-up 3 held out", shipped), row("all four set-ups searched", whole),
                      row("the same, angles of Table 2.6 exchanged as the thesis computed them", exchanged)])}
 {sizes(exchanged)}
 
 Heights of the beam by each rod, less their mean in that set-up (um), with the angles as printed:
 
 {tables.table(["set-up", *names, "range"], heights)}
-By generalised least squares with everything that the scenario declares, apart from the program's search, chi-squared is
-{chi:.1f} with {freedom} degrees of freedom: twelve heights scatter more than the assumed uncertainties (clamping 1 um, length 1 um)
+By generalised least squares with everything that the scenario declares, independent of the program's search, chi-squared is
+{chi:.1f} with {freedom} degrees of freedom: the twelve heights scatter more than the assumed uncertainties (clamping 1 um, length 1 um)
 allow.{blunt}
 
-The program's own statements:
+Statements of the program:
 
 {said(shipped)}
-What would have been seen, all four set-ups searched:
+Detection limits, all four set-ups searched:
 
 {limits(whole, ("rod_runout", "rod_expansion", "z_scale", "reclamp", "trigger_latency", "z_reversal", "thermal_growth", "declared:beam_pitch", "declared:rod_length[rod2]"))}
 **What can be said.** Rods agree about each beam within 2 to 9 um. That is more than the assumed uncertainties explain, and no
-effect of the catalogue explains it better than scatter from clamping to clamping would: the largest deviations, of the standard
-rod and rod 1 in set-up 3, have opposite signs and do not come back in other set-ups. **What cannot.** Three readouts without clamping
-anew say how well a readout repeats (0.3 um), nothing of the clamping; each rod was clamped once per alignment, so a clamping's
-scatter and any other cause peculiar to one rod on one alignment are one and the same. One feed, one direction, no times, one holder
-angle: latency, backlash, drift and the rod's orientation cannot be told from the height of the beam. To know more: clamp a rod
+effect of the catalogue explains it better than scatter between clampings: the largest deviations, of the standard
+rod and rod 1 in set-up 3, have opposite signs and do not recur in other set-ups. **What cannot.** Three readings without
+re-clamping show how well a reading repeats (0.3 um) and nothing about the clamping. Each rod was clamped once per alignment, so
+that the scatter of clampings cannot be distinguished from any other cause that is specific to one rod on one alignment. One feed, one direction, no times, one holder
+angle: latency, backlash, drift and the rod's orientation cannot be distinguished from the height of the beam. To learn more, clamp a rod
 five times on one alignment, and turn the holder by 180 deg.
 """
 
@@ -223,17 +223,17 @@ With the same two errors in all movements:
 
 {sizes(common)}
 
-Angles in deg, printed beside recomputed (z of the error columns reversed, x and y rows solved, sign of d_alpha reversed) and fitted to
-all three rows with one sign of z; closure: length of the vector from the pivot before less after, which no rotation changes (um):
+Angles in deg, printed and recomputed (z of the error columns reversed, x and y rows solved, sign of d_alpha reversed) and fitted to
+all three rows with one sign of z; closure: length of the vector from the pivot before minus after, which no rotation changes (um):
 
 {tables.table(["movement", "alpha, gamma", "d_alpha printed", "d_gamma printed", "d_alpha, same way", "d_gamma, same way", "d_alpha fitted", "d_gamma fitted",
                "closure"], rows)}
-**What can be said.** A rotation keeps lengths, and the lengths before and after differ by up to 53 um: two orientation errors cannot
-be all. **What cannot.** Four numbers are left to judge a third cause by: position errors of the table's axes, errors of the slides
-at the new place, or of the ball bar's set-up fit as well. Movements 3 and 4 differ by 15 deg of gamma only, were measured with one
+**What can be said.** A rotation preserves lengths, and the lengths before and after differ by up to 53 um: two orientation
+errors cannot explain everything. **What cannot.** Four numbers remain to judge a third cause: position errors of the table's
+axes, errors of the slides at the new place, or errors of the ball bar's set-up fit equally well. Movements 3 and 4 differ by 15 deg of gamma only, were measured with one
 reference, and give angles of alpha that differ by 0.02 deg. A name under the last run is a description: with one pair of angles
-for all movements, the declared error of one movement has to take what the others do not share, at a hundred times its uncertainty. To
-know more: measure several points on the table at each pair of angles, and come back to one of them.
+for all movements, the declared error of one movement must absorb what the others do not share, at a hundred times its
+uncertainty. To learn more, measure several points on the table at each pair of angles, and return to one of them.
 """
 
 
@@ -265,10 +265,10 @@ coefficient of the square is -3.16081871345029e-15 with standard deviation 4.866
 correlation from reading to reading). Lack of fit by the pure error of equal loads: F = {lack_of_fit(1):.4f} of the line and
 {lack_of_fit(2):.4f} of the parabola; the e-Handbook, 4.6.1, prints 214.7464 and 0.8107.
 
-**What can be said.** The cell's deflection bends with the load, as a square does; without a stated candidate the program describes
-it and names no cause, with one it names it. **What cannot.** Loads rise in both runs: load and order of measurement are one and
-the same within a run, and hysteresis cannot show. Two runs are two blocks, so that hold-out figures are of data that the search
-has seen in part.
+**What can be said.** The deflection of the cell grows with the square of the load. Without a stated candidate the program
+describes this curve and names no cause; with the candidate it names it. **What cannot.** Loads rise in both runs. Load and
+order of measurement therefore cannot be distinguished within a run, and hysteresis cannot show. Two runs are two blocks, so
+that the hold-out figures come partly from data that the search has used.
 """
 
 
@@ -279,9 +279,9 @@ def thermometer_section(program):
 `scenarios/trace_thermometer.toml`: eleven corrections against temperature, a straight line, noise estimated. mK.
 
 {tables.table(HEAD, [row("straight line", v, 1e3)])}
-**What can be said.** Nothing beside the line shows, and the residual standard deviation is the GUM's 3.5 mK. **What cannot.** Eleven
+**What can be said.** Nothing in addition to the line is found, and the residual standard deviation is 3.5 mK as in the GUM. **What cannot.** Eleven
 points in the order of rising temperature, once: a curve of {digits(1e3 * v["rms"]["noise"], 2)} mK and less, a drift, and the steps of the
-scale cannot be told from noise or from each other.
+scale cannot be distinguished from noise or from each other.
 
 {said(v)}"""
 
@@ -324,20 +324,20 @@ def cone_section(program):
     owners = ("sensor_zero", "dz_BR", "e_z", "growth_rate", "beta_BR[setup 1]")
     astray = [m for f in constant["findings"] for m in f["members"] if not m.removeprefix("declared:").startswith(owners)]
     doubt = "" if not astray else f"""
-**A fault of the program**: {", ".join(f"`{m}`" for m in astray)} do not belong into this class. By the table above none of them can make the
-constant, and their sizes (radians, metres, or nothing at all) say so.
+**A fault of the program**: {", ".join(f"`{m}`" for m in astray)} do not belong in this class. By the table above none of them
+can cause the constant, as their sizes show (radians, metres, or none).
 """
     return f"""## A constant 13.7 um: Ibaraki et al. 2018, section 4.4
 
-The paper scans a cone on the table's axis and, two hours later, beside it; the profiles differ by 13.7 um on average with a
-standard deviation of 2.4 um. It names a part that lay (0.2, -0.2) mm off in set-up 2. Readings are made up here, in its geometry, by
+The paper scans a cone on the table's axis and, two hours later, off the axis; the profiles differ by 13.7 um on average with a
+standard deviation of 2.4 um. It names a part that lay (0.2, -0.2) mm off in set-up 2. The readings are simulated in its geometry by
 `tests/recovery/cone.py` (seeds {cone.TRUTH["constant"][0]} and {cone.TRUTH["shift"][0]}; 6 lines, {len(cone.ANGLES)} angles, two set-ups; height of the surfaces 20 mm, assumed),
 and traced by `scenarios/trace_cone.toml`, whose formulas agree with the matrices of `cone.py` within 1e-6 um
 (`tests/cli/trace_data_test.py`). Declared is what the paper declares: the part's place to 0.01 mm in set-up 1 and to 0.3 mm in set-up
 2, k = 2; its form is free at every point.
 
-Each error alone, changed in one set-up: how large would it have to be for a mean of 13.7 um, and what standard deviation would it
-bring along (um)? More than 2.4 um is more than was seen.
+Each error alone, changed in one set-up: how large must it be for a mean of 13.7 um, and which standard deviation comes with it
+(um)? More than 2.4 um contradicts the measurement.
 
 {tables.table(["error", "set-up", "size for 13.7 um", "standard deviation with it", "could be"], alternatives())}
 The paper's cause, (e_x, e_y) = (0.2, -0.2) mm in set-up 2, on the arc that was measured (um):
@@ -354,12 +354,12 @@ What the program says (um):
 {doubt}
 **What can be said.** The constant can be a change of the sensor's zero, of the height of the B axis (dz_BR), growth of spindle or
 sensor holder, 6.8 um/h for two hours, or the height at which the part sits, each of 13.7 um; or a turn of B's zero by 0.2 mrad
-while set-up 1 was measured. These five leave the same readings within noise. It cannot be the part's place, its tilt, the squareness
-of B and C or the offsets of their axes: each would bring a wave of more than 2.4 um. The second set says nothing, rightly: a
-part 0.28 mm off lies within what is declared of its place.
+while set-up 1 was measured. These five give the same readings within the noise. It cannot be the part's place, its tilt, the squareness
+of B and C or the offsets of their axes: each would cause a wave of more than 2.4 um. For the second set the program rightly reports nothing: a
+part 0.28 mm off lies within the declared uncertainty of its place.
 
-**What would tell them apart**, by reasoning, beside what the program found by trying its conditions (a turn of B takes the seat's
-height along with the table; zero, dz_BR and growth are the same under every condition that the scenario knows):
+**What would distinguish them**, by reasoning, in addition to what the program found by trying its conditions (a turn of B moves
+the seat with the table; zero, dz_BR and growth are the same under every condition that the scenario knows):
 
 | measurement | tells |
 |---|---|
@@ -381,9 +381,9 @@ def main():
     sections = [f(program) for f in (rod_section, socket_section, load_section, thermometer_section, cone_section)]
     head = f"""# Tracing measured data, and a published example
 
-Written by `reports/reproduction/tracing_data.py` from `gumshoe trace` ({version}); do not edit. What each run says, unembellished, and
-what can be made of it. Scenarios are as shipped, with 999 bootstrap draws; where a row says otherwise, the change is in the script.
-*p of anything*: probability of a finding as unusual where nothing is. *Noise / declared*: as the program estimates it.
+Written by `reports/reproduction/tracing_data.py` from `gumshoe trace` ({version}); do not edit. The results of each run, and
+what can be concluded from them. Scenarios are as shipped, with 999 bootstrap draws; where a row says otherwise, the change is in the script.
+*p of anything*: p-value of the whole search. *Noise / declared*: as estimated by the program.
 """
     PAGE.write_text("\n".join([head, *sections]).replace("\n\n\n", "\n\n").rstrip() + "\n")
     tables.include(ROOT / "reports" / "tracing.md", PAGE)

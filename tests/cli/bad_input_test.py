@@ -238,7 +238,10 @@ class BadInput(unittest.TestCase):
             file["x"] = [1, 2, 3]
         with h5py.File(self.folder / "other.h5", "w") as file:
             file.attrs["program"] = "another"
-        for name, words in {"half": [], "damaged": [], "foreign": [], "other": ["another program made it"]}.items():
+        with h5py.File(self.folder / "later.h5", "w") as file:
+            file.attrs["program"] = "gumshoe"
+            file.attrs["format_version"] = 99
+        for name, words in {"half": [], "damaged": [], "foreign": [], "other": ["another program"], "later": ["another format version"]}.items():
             path = self.folder / f"{name}.h5"
             for command in (["replay", path, "--sample", 1], ["report", path]):
                 with self.subTest(name, command=command[0]):

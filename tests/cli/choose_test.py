@@ -122,9 +122,10 @@ class Choose(unittest.TestCase):
 
     def test_no_run_to_replay(self):
         self.choose()
-        for words in (("replay", self.out, "--sample", 1), ("analyse", self.out)):
+        for words, missing in ((("replay", self.out, "--sample", 1), "holds no run"), (("analyse", self.out), "holds no samples")):
             said = gumshoe(*words)
             self.assertIsNone(complaint(said))
+            self.assertIn(missing, said.stderr)
             self.assertIn("gumshoe choose made it", said.stderr)
 
     def test_mistakes(self):

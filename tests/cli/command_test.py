@@ -190,7 +190,7 @@ for line in sys.stdin:
             "": ["wrote nothing"],
             "print('hello')\n": ["no column 'area'", "'hello'"],
             "answer([])\n": ["0 rows for 1 points"],
-            "answer([1, 2])\n": ["2 rows for 1 points"],
+            "answer([1, 2])\n": ["it wrote 2 rows for 1 points"],
             "answer([1], 'volume (mm3)')\n": ["no column 'area'"],
             "answer([1], 'area (mm3)')\n": ["its column area", "mm3"],
             "answer([1], 'area (foo)')\n": ["'foo' is not a unit"],
@@ -255,7 +255,7 @@ for line in sys.stdin:
                 (self.folder / "broken").touch()
                 (self.folder / "calls.txt").unlink(missing_ok=True)
                 run = self.run_it(scenario, name, "--threads", threads)
-                self.refused(run, "the licence server is away", "samples are kept", "the same command resumes")
+                self.refused(run, "the licence server is away", "samples are kept", "Repeat the command to resume")
                 with h5py.File(self.folder / name) as file:
                     done = int(np.ravel(file["samples_done"][()])[0])
                     self.assertFalse(file.attrs["complete"])

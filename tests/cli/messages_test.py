@@ -70,7 +70,8 @@ target = "5 um"
 [choose.variables]
 rod_radius = ["4.9 mm"]
 [choose.time]
-per_reading = "1 s"
+per_reading = "pause"
+pause = "1 s"
 """
 
 # (scenario, what is replaced or None for appending, by what, words of the message)
@@ -141,7 +142,7 @@ CHECKED = [
     (ROWS.replace('rod = "b", setup = "1"', 'rod = "b"'), None, '[trace]\nblocks = "setup"\n', "a reading has no label 'setup'"),
     (ROWS, None, "[trace]\nredone = [[]]\n", "an act has labels"),
     (SCENARIO, None, '[stated_effects.film]\nunit = "degC"\nformula = "feed"\n', "has a zero of its own"),
-    (SCENARIO, None, '[stated_effects.film]\nunit = "um*s"\nformula = "1 / time"\nsize = { value = "1 um*s" }\n', "no finite value at reading 1"),
+    (SCENARIO, None, '[stated_effects.film]\nunit = "um*s"\nformula = "1 / time"\nsize = { value = "1 um*s" }\n', "the formula has no finite value at reading"),
     # formulas, programs, machines
     (FORMULA, 'y = "a + b"', "", "no formula"),
     (FORMULA, 'y = "a + b"', 'y = "(a b"', "an operator or ')' is missing before 'b'"),
@@ -213,6 +214,9 @@ class Messages(unittest.TestCase):
 
     def test_commands(self):
         fit = FORMULA + '[model.indications]\nz = "a * 2"\n[indications.z]\nreadings = ["2 mm"]\n'
+        fit_two = FORMULA.replace("u = ", "estimated = true, u = ", 1) + (
+            '[model.indications]\nz = "a * 2"\nw = "a"\n[indications.z]\nreadings = ["2 mm"]\nrepeatability = { s = "1 um" }\n'
+            '[indications.w]\nreadings = ["1 mm"]\nNOISE\n')
         for text, command, words in [
             (fit.replace('[model.measurands]\ny = "a + b"\n', "").replace('[quantities]\n', '').replace(
                 'a = {', '[quantities]\na = {'), ["run", "S", "--out", "O"], "nothing is measured"),
@@ -227,10 +231,28 @@ class Messages(unittest.TestCase):
             (SCENARIO + '[[expected]]\nfigure = "mien"\nof = "laser_z"\nvalue = 1\nsource = "x"\n', ["gauge", "S"], "figure of this result"),
             (CHOOSE.replace('way = "5 mm"', 'way = "-5 m"'), ["choose", "S", "--out", "O"], "the time is negative"),
             (CHOOSE.replace("steps = 5", "steps = 1000").replace("readings = [1, 2, 3]", f"readings = {list(range(1, 1001))}"),
-             ["choose", "S", "--out", "O"], "combinations"),
+             ["choose", "S", "--out", "O"], "choose.variables: more than"),
+            (ROD_CHOICE.replace('rod_radius = ["4.9 mm"]', 'fillet_radius = ["6 mm"]'), ["choose", "S", "--out", "O"],
+             "choose: no combination of the variables"),
+            (fit_two.replace("NOISE", ""), ["estimate", "S"], "no noise is declared, but"),
+            (fit_two.replace("NOISE", 'components = [ { distribution = "normal", u = "1 um" } ]').replace(
+                'repeatability = { s = "1 um" }', 'components = [ { distribution = "normal", u = "1 um" } ]').replace('readings = ["1 mm"]', 'rows = [{ n = "1", values = ["1 mm"] }, { n = "2", values = ["1 mm"] }]').replace(
+                'readings = ["2 mm"]', 'rows = [{ n = "1", values = ["2 mm"] }, { n = "2", values = ["2 mm"] }]'),
+             ["estimate", "S"], "the noise of readings"),
         ]:
             with self.subTest(words):
                 self.refused(text, command, words)
+
+    def test_traced_scenario_of_another(self):
+        self.file.write_text(ROWS)
+        traced = self.file.parent / "s.traced.toml"
+        for report, content, words in [("page.html", "mine", "was not written by gumshoe"), (traced.name, None, "the traced scenario")]:
+            if content:
+                traced.write_text(content)
+            run = gumshoe("trace", self.file, "--out", self.file.parent / "r.h5", "--report", self.file.parent / report)
+            self.assertIsNone(complaint(run), run.stderr)
+            self.assertIn(words, run.stderr)
+            traced.unlink(missing_ok=True)
 
 
 if __name__ == "__main__":

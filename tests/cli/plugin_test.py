@@ -205,12 +205,12 @@ class Plugin(unittest.TestCase):
 
     def test_bad_libraries(self):
         cases = [
-            (["-DABI=2"], ["version 2", "speaks version 1"]),
+            (["-DABI=2"], ["version 2 of the plugin interface", "version 1"]),
             (["-DNAME=other"], ["exports no function gumshoe_plugin"]),
             (["-DMEASURANDS={\"y\", \"foo\", 0, 0, 0, 0}"], ["y: 'foo' is not a unit"]),
             (['-DQUANTITIES={"a", "mm", 0, 0, 0, 0}, {"a", "mm", 0, 0, 0, 0}'], ["'a' stands twice"]),
             (['-DQUANTITIES={"a", "mm", 0, 0, 0, 0}, {"feed", "1", 0, 0, 0, 0}'], ["'feed' stands twice"]),
-            (['-DQUANTITIES={"a b", "mm", 0, 0, 0, 0}, {0, "1", 0, 0, 0, 0}'], ["number 1 of its quantities", "number 2"]),
+            (['-DQUANTITIES={"a b", "mm", 0, 0, 0, 0}, {0, "1", 0, 0, 0, 0}'], ["number 1 of its quantities has no", "number 2"]),
             (['-DQUANTITIES={"a", "mm", 0, 7, 1, 2}, {"b", "1", 0, 0, 2, 1}'], ["default is outside", "not in order"]),
             (['-DQUANTITIES={"a", "mm", 0, NAN, 0, 0}, {"b", "1", 0, 0, 0, 0}'], ["default is not finite"]),
             (["-DFAULT=return 3;"], ["failed at a point outside the run", "returned 3"]),
@@ -236,7 +236,7 @@ class Plugin(unittest.TestCase):
 
     def test_no_library(self):
         library = self.folder / "libmine.so"
-        self.refused(gumshoe("check", self.scenario), "does not exist", "build it")
+        self.refused(gumshoe("check", self.scenario), "does not exist", "Build it")
         library.mkdir()
         self.refused(gumshoe("check", self.scenario), "is a directory")
         library.rmdir()

@@ -46,7 +46,7 @@ def ill_formed(line):
         return "what stands after 'Try:' is not code"
     if not sentences.endswith((".", "?")):
         return "no full stop or question mark at the end"
-    if re.search(r"[.?!,;:][.?!]$|\(\)|\.\)\.", sentences) and not sentences.endswith("..."):
+    if re.search(r"[.?!,;:][.?!]$| \(\)|\.\)\.", sentences) and not sentences.endswith("..."):
         return "two marks in a row"
     if re.search(r"[a-z)'\"][.?] [a-z]", sentences):
         return "a sentence begins without a capital"

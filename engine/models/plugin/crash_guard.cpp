@@ -64,7 +64,7 @@ void say(std::uint64_t number) {
   }
   say(" (");
   say(why);
-  say("; samples already in the result file are kept) mend the library?\n");
+  say("; samples already in the result file are kept). Correct the library.\n");
   _exit(static_cast<int>(ExitCode::bad_input));
 }
 

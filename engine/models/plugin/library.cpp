@@ -18,7 +18,9 @@ void PluginPlace::refuse(const std::string& what, const std::string& why, const 
 }
 
 std::string PluginPlace::crashed() const {
-  return format({where, fmt::format("model.library: '{}' crashed", name), "", ""});
+  std::string start = format({where, fmt::format("model.library: '{}' crashed", name), "", ""});
+  start.pop_back(); // the guard ends the sentence
+  return start;
 }
 
 const gumshoe_model& open_library(const std::string& path, const PluginPlace& place) {
