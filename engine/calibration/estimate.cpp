@@ -295,7 +295,7 @@ private:
     const auto& s = experiment_.scenario();
     const auto& card = *experiment_.model().card;
     for (std::size_t q = 0; q < s.quantities.size(); ++q) {
-      if (q >= experiment_.first_indication() && q < experiment_.first_indication() + card.indications.size()) continue;
+      if (experiment_.layout().indications.contains(q)) continue;
       const auto& quantity = s.quantities[q];
       const bool uncertain = std::any_of(quantity.entries.begin(), quantity.entries.end(),
                                          [](const auto& e) { return !e.components.empty(); });
