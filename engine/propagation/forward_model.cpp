@@ -79,7 +79,7 @@ models::BlockCall ForwardModel::call(const Block& block, double* const* simulate
   call.effect_quantities = layout_.effects.size();
   call.active = active_;
   call.conditions = block.conditions.data();
-  call.indications = block.indications.data();
+  call.indications = const_cast<models::Column*>(block.indications.data()); // NOLINT: kernels read them
   call.simulated = simulated;
   call.measurands = measurands;
   call.solved_as = block.solved_as.data();

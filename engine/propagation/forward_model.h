@@ -74,7 +74,7 @@ public:
                                    std::vector<models::Gradient>& out) const;
 
   /// Adds a reading to a block: `row` holds its columns in the order of the layout. Conditions are the reading's, unless
-  /// columns are given for them.
+  /// columns are given for them; this then outlives the block.
   void add(Block& block, std::size_t reading, std::span<const models::Column> row,
            std::span<const models::Column> conditions = {}) const;
   BlockValues simulate(const Block& block) const;

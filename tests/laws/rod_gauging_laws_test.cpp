@@ -4,7 +4,7 @@
 #include <random>
 
 #include "base/instruction_set.h"
-#include "models/model.h"
+#include "asked.h"
 #include "models/rod_gauging/rod_gauging.h"
 
 using namespace gumshoe;
@@ -61,30 +61,14 @@ struct Run {
       const std::vector<effects::Active>& active, const std::vector<double>* readings,
       std::vector<double> condition = {0.01, 600, -1}) {
     const std::size_t n = q[0].size();
-    simulated.resize(n), bottom.resize(n), laser.resize(n), status.assign(n, 0);
-    std::vector<models::Column> quantities, effect_columns, conditions;
-    for (const auto& column : q) quantities.push_back({column.data(), 1});
-    for (const double& x : e) effect_columns.push_back({&x, 0});
-    for (const double& x : condition) conditions.push_back({&x, 0});
-    models::Column indication{readings ? readings->data() : nullptr, 1};
-    double* measurands[] = {bottom.data(), laser.data()};
-    double* out[] = {simulated.data()};
-    const std::size_t itself = 0;
-    models::BlockCall call;
-    call.samples = n;
-    call.readings = 1;
-    call.quantities = quantities.data();
-    call.effects = effect_columns.data();
-    call.effect_quantities = e.size();
-    call.active = active;
-    call.conditions = conditions.data();
-    call.indications = &indication;
-    call.simulated = out;
-    call.measurands = measurands;
-    call.solved_as = &itself;
-    call.status = status.data();
-    const auto* kernels = models::find("rod_gauging")->kernels();
-    (readings ? kernels->evaluate : kernels->simulate)(call);
+    const propagation::ForwardModel forward(*models::find("rod_gauging"), tests::cards_of(active), 0, {condition});
+    auto columns = tests::joined(q, tests::columns_of(e));
+    columns.push_back(readings ? *readings : std::vector<double>{0.0});
+    const auto block = tests::block_of(forward, n, columns);
+    auto found = readings ? forward.evaluate(block) : forward.simulate(block);
+    simulated = std::move(found.indications), status = std::move(found.status);
+    bottom.assign(found.measurands.begin(), found.measurands.begin() + static_cast<std::ptrdiff_t>(n));
+    laser.assign(found.measurands.begin() + static_cast<std::ptrdiff_t>(n), found.measurands.end());
   }
 };
 
@@ -223,9 +207,8 @@ TEST_CASE("wide pins and ball ends in closed form", "[references][shadow]") {
 }
 
 TEST_CASE("derivatives agree with differences, second ones with differences of first", "[laws][rod_gauging]") {
-  const auto* model = models::find("rod_gauging");
+  const propagation::ForwardModel forward(*models::find("rod_gauging"), {}, 0, {{0.01, 600, -1}});
   Draw draw;
-  const double feed[] = {0.01, 600, -1};
   int compared = 0;
   for (int i = 0; i < 60; ++i) {
     auto q = random_quantities(draw);
@@ -233,14 +216,9 @@ TEST_CASE("derivatives agree with differences, second ones with differences of f
       std::vector<models::Gradient> x(at.begin(), at.end());
       for (int j = first; j < std::min<int>(first + 8, rod::count); ++j)
         x[static_cast<std::size_t>(j)] = models::Gradient::variable(at[static_cast<std::size_t>(j)], j - first);
-      models::Gradient reading(0.0), y[2];
-      models::PointCall<models::Gradient> call;
-      call.quantities = x.data();
-      call.effects = x.data();
-      call.conditions = feed;
-      call.indications = &reading;
-      call.measurands = y;
-      const auto outcome = model->evaluate_gradient(call);
+      x.emplace_back(0.0); // the readout
+      std::vector<models::Gradient> y;
+      const auto outcome = forward.measurands(0, x, y);
       return std::pair{y[0], outcome};
     };
     const auto [value, outcome] = gradient_at(q, 0);

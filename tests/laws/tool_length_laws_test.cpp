@@ -1,6 +1,7 @@
 /// Laws of the mill model with effects that hold whatever the numbers are.
 #include <catch2/catch.hpp>
 
+#include "asked.h"
 #include "laws/mill_fixture.h"
 
 using namespace gumshoe;
@@ -116,7 +117,6 @@ TEST_CASE("the mill's evaluation undoes its simulation, each effect alone and al
 
 TEST_CASE("derivatives by the mill's quantities and effects agree with differences", "[laws][effects][tool_length]") {
   Draw draw;
-  const auto* model = models::find("tool_length");
   int first_compared = 0, second_compared = 0;
   for (int n = 0; n < 3; ++n) {
     Mill m = Mill::random(draw);
@@ -124,16 +124,14 @@ TEST_CASE("derivatives by the mill's quantities and effects agree with differenc
       if (card->name != "sampling_rate") m = m.with(std::string(card->name), some(*card, draw));
     if (!m.triggers()) continue;
     const double z = m.reading();
-    const std::size_t nq = m.q.size();
+    const propagation::ForwardModel forward(*models::find("tool_length"), tests::cards_of(m.active), 0, {m.condition});
     // All at once: quantities, then effects; derivatives of the length by eight of them, and their own.
     const auto at = [&](std::vector<double> x, const std::vector<std::size_t>& by) {
       std::vector<models::Gradient> v(x.begin(), x.end());
       for (std::size_t i = 0; i < by.size(); ++i) v[by[i]] = models::Gradient::variable(x[by[i]], static_cast<int>(i));
-      models::Gradient reading(z), y[mill::measurands];
-      models::PointCall<models::Gradient> c;
-      c.quantities = v.data(), c.effects = v.data() + nq, c.active = m.active;
-      c.conditions = m.condition.data(), c.indications = &reading, c.measurands = y;
-      const auto outcome = model->evaluate_gradient(c);
+      v.emplace_back(z);
+      std::vector<models::Gradient> y;
+      const auto outcome = forward.measurands(0, v, y);
       return outcome.status == 0 ? y[mill::length_row] : models::Gradient(std::nan(""));
     };
     std::vector<double> x = m.q;
@@ -163,11 +161,9 @@ TEST_CASE("derivatives by the mill's quantities and effects agree with differenc
       std::vector<D> v(x.begin(), x.end());
       v[i] = D::variable(models::Gradient(x[i]), 0);
       v[j].v = models::Gradient::variable(x[j], 0);
-      D reading(z), y[mill::measurands];
-      models::PointCall<D> c;
-      c.quantities = v.data(), c.effects = v.data() + nq, c.active = m.active;
-      c.conditions = m.condition.data(), c.indications = &reading, c.measurands = y;
-      REQUIRE(model->evaluate_curvature(c).status == 0);
+      v.emplace_back(z);
+      std::vector<D> y;
+      REQUIRE(forward.measurands(0, v, y).status == 0);
       const double exact = y[mill::length_row].d[0].d[0];
       const double h = 1e-7 * (std::fabs(x[j]) > 0.05 ? 1.0 : 0.1);
       auto up = x, down = x;
