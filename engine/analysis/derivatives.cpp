@@ -11,27 +11,9 @@ namespace {
 
 constexpr std::size_t chunk = 8;
 
-/// Calls the model at one reading in scalar T; `point` holds all quantities in scenario order.
-template <class T>
-models::PointOutcome call(const propagation::Experiment& e, std::size_t reading, std::vector<T> point,
-                          std::vector<T>& measurands, models::PointOutcome (*evaluate)(const models::PointCall<T>&)) {
-  e.take_off_stated(reading, point.data());
-  models::PointCall<T> c;
-  c.quantities = point.data();
-  c.effects = point.data() + e.model_quantities();
-  c.active = e.active();
-  c.conditions = e.scenario().readings[reading].conditions.data();
-  c.indications = point.data() + e.first_indication();
-  measurands.resize(e.model().card->measurands.size());
-  c.measurands = measurands.data();
-  c.evaluation = static_cast<int>(e.evaluation());
-  c.context = e.model().context;
-  return evaluate(c);
-}
-
 double plain(const propagation::Experiment& e, std::size_t reading, std::size_t m, const std::vector<double>& point) {
   std::vector<models::Gradient> x(point.begin(), point.end()), y;
-  const auto outcome = call(e, reading, x, y, e.model().evaluate_gradient);
+  const auto outcome = e.forward().measurands(reading, x, y);
   return outcome.status == 0 ? y[m].v : std::nan("");
 }
 
@@ -70,7 +52,7 @@ Derivatives differentiate(const propagation::Experiment& e, std::size_t reading,
     std::vector<models::Gradient> x(point.begin(), point.end()), y;
     for (std::size_t q = at; q < std::min(n, at + chunk); ++q)
       x[q] = models::Gradient::variable(point[q], static_cast<int>(q - at));
-    const auto outcome = call(e, reading, x, y, e.model().evaluate_gradient);
+    const auto outcome = e.forward().measurands(reading, x, y);
     d.status = std::max(d.status, outcome.status);
     kink |= outcome.kink;
     d.value = y[m].v;
@@ -92,7 +74,7 @@ Derivatives differentiate(const propagation::Experiment& e, std::size_t reading,
         if (q >= row && q < row + chunk) c.d[q - row] = models::Gradient(1.0);
         x.push_back(c);
       }
-      call(e, reading, x, y, e.model().evaluate_curvature);
+      e.forward().measurands(reading, x, y);
       for (std::size_t i = row; i < std::min(n, row + chunk); ++i)
         for (std::size_t j = column; j < std::min(n, column + chunk); ++j)
           d.second[i * n + j] = d.second[j * n + i] = y[m].d[i - row].d[j - column];

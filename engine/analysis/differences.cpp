@@ -22,7 +22,7 @@ std::vector<double> steps(const propagation::Experiment& e, std::size_t reading,
       h[q] = std::hypot(h[q], std::isfinite(u2) ? std::sqrt(u2) : d.parameters[1]);
     }
     if (h[q] == 0) continue;
-    if (const std::size_t of = plan.columns[columns[q]].quantity; of < e.model_quantities()) {
+    if (const std::size_t of = plan.columns[columns[q]].quantity; e.layout().model.contains(of)) {
       const Limits& limits = e.model().card->quantities[of].limits;
       const double room = std::min(point[q] - limits.low, limits.high - point[q]);
       if (room > 0) h[q] = std::min(h[q], 0.999 * room);
@@ -32,21 +32,13 @@ std::vector<double> steps(const propagation::Experiment& e, std::size_t reading,
   return h;
 }
 
-/// Collects the points of a stencil, then finds their values by the shifts that made them.
-class Stencil {
-public:
-  explicit Stencil(const Point& centre) : points{centre} {}
-  std::size_t add(std::size_t q, double by) {
-    points.push_back(points.front());
-    points.back()[q] += by;
+/// Collects the points of a stencil as shifts from its centre, which is the first.
+struct Stencil {
+  std::size_t add(std::vector<propagation::Change> shifts) {
+    points.push_back({std::move(shifts)});
     return points.size() - 1;
   }
-  std::size_t add(std::size_t q, double by, std::size_t p, double also) {
-    const std::size_t i = add(q, by);
-    points[i][p] += also;
-    return i;
-  }
-  std::vector<Point> points;
+  std::vector<propagation::Variation> points{{}};
 };
 
 struct Line {
@@ -64,90 +56,29 @@ bool is_kink(double up, double down, double half_up, double half_down, double f0
 
 } // namespace
 
-namespace {
-
-/// Of a joint evaluation: points hold values of the plan's columns.
-std::vector<double> joint_values(const propagation::Experiment& e, const std::vector<Point>& points) {
-  const std::size_t count = points.size(), n = (count + 7) / 8 * 8, width = points.front().size();
-  const std::size_t outputs = e.outputs().size();
-  std::vector<double> columns(width * n), values(outputs * n), out;
-  std::vector<const double*> pointers;
-  for (std::size_t c = 0; c < width; ++c) {
-    for (std::size_t i = 0; i < n; ++i) columns[c * n + i] = points[std::min(i, count - 1)][c];
-    pointers.push_back(&columns[c * n]);
-  }
-  std::vector<std::uint8_t> status(n);
-  propagation::Workspace w;
-  e.run_columns(pointers, n, w, values.data(), status.data());
-  for (std::size_t o = 0; o < outputs; ++o)
-    out.insert(out.end(), values.begin() + static_cast<std::ptrdiff_t>(o * n),
-               values.begin() + static_cast<std::ptrdiff_t>(o * n + count));
-  return out;
-}
-
-} // namespace
-
-std::vector<double> values_at(const propagation::Experiment& e, std::size_t reading, const std::vector<Point>& points) {
-  if (e.joint()) return joint_values(e, points);
-  const ModelCard& card = *e.model().card;
-  const std::size_t count = points.size(), n = (count + 7) / 8 * 8, width = points.front().size();
-  std::vector<double> columns(width * n), values(card.measurands.size() * n);
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t q = 0; q < width; ++q) columns[q * n + i] = points[std::min(i, count - 1)][q];
-  for (const propagation::StatedSize& s : e.stated())
-    for (std::size_t i = 0; i < n; ++i)
-      columns[(e.first_indication() + s.indication) * n + i] -= columns[s.quantity * n + i] * (*s.loading)[reading];
-  std::vector<models::Column> inputs, conditions;
-  for (std::size_t q = 0; q < width; ++q) inputs.push_back({&columns[q * n], 1});
-  for (const double& c : e.scenario().readings[reading].conditions) conditions.push_back({&c, 0});
-  std::vector<double*> measurands;
-  for (std::size_t m = 0; m < card.measurands.size(); ++m) measurands.push_back(&values[m * n]);
-  std::vector<std::uint8_t> status(n, 0);
-  const std::size_t itself = 0;
-  models::BlockCall call;
-  call.samples = n;
-  call.readings = 1;
-  call.quantities = inputs.data();
-  call.effects = inputs.data() + e.model_quantities();
-  call.effect_quantities = e.effect_quantities();
-  call.active = e.active();
-  call.conditions = conditions.data();
-  call.indications = inputs.data() + e.first_indication();
-  call.measurands = measurands.data();
-  call.solved_as = &itself;
-  call.status = status.data();
-  call.evaluation = static_cast<int>(e.evaluation());
-  call.context = e.model().context;
-  e.model().kernels()->evaluate(call);
-  std::vector<double> out;
-  for (std::size_t m = 0; m < card.measurands.size(); ++m)
-    for (std::size_t i = 0; i < count; ++i)
-      out.push_back(status[i] == 0 ? values[m * n + i] : std::numeric_limits<double>::quiet_NaN());
-  return out;
-}
-
 Derivatives differences(const propagation::Experiment& e, std::size_t reading, std::size_t m, const Point& point,
                         bool second) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const std::size_t n = point.size();
   const std::vector<double> h = steps(e, reading, point);
-  Stencil stencil(point);
+  Stencil stencil;
   std::vector<Line> lines(n);
   for (std::size_t q = 0; q < n; ++q)
     if (h[q] > 0)
-      lines[q] = {stencil.add(q, h[q]), stencil.add(q, -h[q]), stencil.add(q, 0.5 * h[q]), stencil.add(q, -0.5 * h[q])};
+      lines[q] = {stencil.add({{q, h[q]}}), stencil.add({{q, -h[q]}}), stencil.add({{q, 0.5 * h[q]}}),
+                  stencil.add({{q, -0.5 * h[q]}})};
   std::vector<std::size_t> corners(n * n, 0); // [i][j], i < j: first of ++ +- -+ --
   if (second)
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = i + 1; j < n; ++j) {
         if (h[i] == 0 || h[j] == 0) continue;
-        corners[i * n + j] = stencil.add(i, h[i], j, h[j]);
-        stencil.add(i, h[i], j, -h[j]);
-        stencil.add(i, -h[i], j, h[j]);
-        stencil.add(i, -h[i], j, -h[j]);
+        corners[i * n + j] = stencil.add({{i, h[i]}, {j, h[j]}});
+        stencil.add({{i, h[i]}, {j, -h[j]}});
+        stencil.add({{i, -h[i]}, {j, h[j]}});
+        stencil.add({{i, -h[i]}, {j, -h[j]}});
       }
-  const std::vector<double> all = values_at(e, reading, stencil.points);
-  const auto f = [&](std::size_t i) { return all[m * stencil.points.size() + i]; };
+  const propagation::Responses all = e.outputs_at(reading, point, stencil.points);
+  const auto f = [&](std::size_t i) { return all.status[i] == Status::ok ? all.at(i, m) : nan; };
 
   Derivatives d;
   d.exact = false;

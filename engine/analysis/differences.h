@@ -4,11 +4,6 @@
 
 namespace gumshoe::analysis {
 
-/// Measurands at points of one reading (as Experiment::point), all in one call of the block kernel:
-/// values[m * points + i], SI, NaN where the point failed.
-std::vector<double> values_at(const propagation::Experiment& experiment, std::size_t reading,
-                              const std::vector<std::vector<double>>& points);
-
 /// Central differences over one and half a standard uncertainty, extrapolated to a step of zero (Richardson), by
 /// every quantity that varies at this reading; NaN by the others. All points in one call. At a kink, where the slopes
 /// on either side do not come together, not differentiable. `second`: Hessian and the third derivatives of JCGM 100

@@ -21,11 +21,11 @@ constexpr QuantityCard size_card{"size", "", "", 0, {-HUGE_VAL, HUGE_VAL}, "", "
 
 /// The card of a quantity of the model, of an active effect or of a stated one.
 const QuantityCard& card_of(const Experiment& e, std::size_t quantity) {
-  if (quantity >= e.first_indication()) return size_card;
-  if (quantity < e.model_quantities()) return e.model().card->quantities[quantity];
-  const std::size_t at = quantity - e.model_quantities();
+  if (quantity >= e.layout().effects.end) return size_card;
+  if (e.layout().model.contains(quantity)) return e.model().card->quantities[quantity];
+  const std::size_t at = quantity - e.layout().effects.begin;
   const effects::Active* owner = nullptr;
-  for (const effects::Active& a : e.active())
+  for (const effects::Active& a : e.forward().active())
     if (a.first <= at) owner = &a;
   return effects::cards()[owner->effect]->quantities[at - owner->first];
 }
@@ -86,7 +86,7 @@ std::vector<Unknown> unknowns_of(const Experiment& e) {
       u.low = card.limits.low;
       u.high = card.limits.high;
       double usual = std::fabs(card.default_value);
-      if (q >= e.first_indication()) usual = units::to_si(1, u.unit, u.si_unit, units::Kind::difference);
+      if (q >= e.layout().effects.end) usual = units::to_si(1, u.unit, u.si_unit, units::Kind::difference);
       u.magnitude = u.start != 0 ? std::fabs(u.start) : u.prior_u > 0 ? u.prior_u : usual > 0 ? usual : 1;
       out.push_back(u);
     }
@@ -100,8 +100,8 @@ std::vector<Unknown> unknowns_of(const Experiment& e) {
 Data data_of(const Experiment& e) {
   const auto& s = e.scenario();
   const auto& plan = e.plan();
-  const std::size_t indications = e.model().card->indications.size(), n = s.readings.size() * indications;
-  const std::size_t first = e.first_indication();
+  const propagation::Range noise = e.layout().indications;
+  const std::size_t indications = noise.size(), n = s.readings.size() * indications;
   Data out;
   std::map<std::size_t, std::vector<std::size_t>> rows_of; // variate to rows
   std::string quiet, loud;
@@ -113,21 +113,21 @@ Data data_of(const Experiment& e) {
     const auto point = e.reading_point(r);
     for (std::size_t k = 0; k < indications; ++k) {
       const std::size_t row = out.measured.size();
-      out.measured.push_back(point[first + k]);
+      out.measured.push_back(point[noise[k]]);
       out.weight.push_back(s.readings[r].repeats);
       if (k < s.readings[r].scatter.size()) {
         out.pure_error += s.readings[r].scatter[k];
         out.pure_freedom += s.readings[r].repeats - 1;
       }
       double squares = 0;
-      for (const std::size_t v : plan.columns[plan.gather[r][first + k]].variates) {
+      for (const std::size_t v : plan.columns[plan.gather[r][noise[k]]].variates) {
         bool has = true;
         squares += variance(plan.variates[v].distribution, has);
         finite &= has;
         rows_of[v].push_back(row);
       }
       out.u.push_back(std::sqrt(squares));
-      (squares > 0 ? loud : quiet) = s.quantities[first + k].name;
+      (squares > 0 ? loud : quiet) = s.quantities[noise[k]].name;
     }
   }
   if (!finite)

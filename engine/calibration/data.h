@@ -49,11 +49,10 @@ class Simulation {
 public:
   /// Throws InputError if the model has no simulation.
   Simulation(const propagation::Experiment& experiment, std::vector<Unknown> unknowns, int threads);
-  std::size_t rows() const { return rows_; }
-  /// simulated[rows] and, unless null, jacobian[rows][unknowns] at x, SI. False where the model gives no value.
-  /// Exact derivatives in chunks of 8 unknowns; central differences where the model has none.
+  /// simulated[row] and, unless null, jacobian[row][unknown] at x, SI. False where the model gives no value.
   bool operator()(const double* x, double* simulated, double* jacobian) const;
-  bool exact() const;
+  /// Whether derivatives are exact; else they are central differences.
+  bool exact() const { return forward_.has_derivatives(); }
 
   struct Failure {
     std::size_t reading = 0;
@@ -63,16 +62,10 @@ public:
   Failure failure() const { return failure_; }
 
 private:
-  bool by_dual_numbers(const double* x, double* simulated, double* jacobian) const;
-  bool by_differences(const double* x, double* simulated, double* jacobian) const;
-  std::uint8_t reading_by_duals(std::size_t reading, const double* x, double* simulated, double* jacobian) const;
-
-  const propagation::Experiment& experiment_;
+  propagation::ForwardModel forward_;
   std::vector<Unknown> unknowns_;
-  std::size_t rows_ = 0, indications_ = 0;
-  int threads_ = 1;
-  std::vector<std::vector<double>> points_;        ///< [reading]: all quantities at their estimates
-  std::vector<std::vector<std::size_t>> involved_; ///< [reading]: unknowns it reads
+  propagation::Points points_; ///< all quantities at their estimates
+  std::vector<propagation::Partial> partials_;
   mutable Failure failure_;
 };
 

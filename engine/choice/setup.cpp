@@ -54,9 +54,7 @@ Setup::Setup(const scenario::Scenario& s, const std::vector<scenario::Setting>& 
   if (it == outputs.end())
     throw InputError(fmt::format("choose: {} does not yield {}", scenario_->evaluation, choose.measurand));
   output_ = static_cast<std::size_t>(it - outputs.begin());
-  std::vector<std::vector<double>> values;
-  for (std::size_t r = 0; r < scenario_->readings.size(); ++r) values.push_back(experiment_->reading_point(r));
-  seconds_ = choose.time.at(experiment_->evaluation())->seconds(scenario_->readings, values);
+  seconds_ = choose.time.at(experiment_->forward().evaluation())->seconds(scenario_->readings, experiment_->estimates());
   if (!(std::isfinite(seconds_) && seconds_ >= 0))
     throw InputError(
         fmt::format("choose.time: {}", std::isfinite(seconds_) ? "the time is negative" : "the formula has no value"));

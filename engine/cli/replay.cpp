@@ -33,13 +33,13 @@ void print_reading(const propagation::Experiment& e, std::size_t r, const std::v
   const std::string name = propagation::reading_name(s.readings[r]);
   std::cout << "\nreading" << (name.empty() ? "" : " [" + name + "]") << '\n';
   const bool virtual_experiment = s.method == scenario::Method::virtual_experiment;
-  const std::size_t first_indication = e.first_indication();
+  const auto first_indication = static_cast<std::ptrdiff_t>(e.layout().indications.begin);
   auto point = e.reading_point(r, variates.data());
   const auto estimates = e.reading_point(r);
   if (virtual_experiment) {
-    std::copy(simulated.begin(), simulated.end(), point.begin() + static_cast<long>(first_indication));
-    for (const propagation::StatedSize& t : e.stated()) // as the readout shows it
-      point[first_indication + t.indication] += estimates[t.quantity] * (*t.loading)[r];
+    std::copy(simulated.begin(), simulated.end(), point.begin() + first_indication);
+    for (const propagation::StatedSize& t : e.forward().stated()) // as the readout shows it
+      point[e.layout().indications[t.indication]] += estimates[t.quantity] * t.loading[r];
   }
   for (std::size_t q = 0; q < point.size(); ++q)
     std::cout << fmt::format("  {:<44} {:.17g} {}\n", s.quantities[q].name,
@@ -48,20 +48,12 @@ void print_reading(const propagation::Experiment& e, std::size_t r, const std::v
   if (virtual_experiment) {
     std::cout << "  evaluated at the estimates\n";
     point = estimates;
-    std::copy(simulated.begin(), simulated.end(), point.begin() + static_cast<long>(first_indication));
+    std::copy(simulated.begin(), simulated.end(), point.begin() + first_indication);
   } else {
-    e.take_off_stated(r, point.data());
+    e.forward().subtract_stated(r, point.data());
   }
-  models::PointCall<double> call;
-  call.quantities = point.data();
-  call.effects = point.data() + e.model_quantities();
-  call.active = e.active();
-  call.conditions = s.readings[r].conditions.data();
-  call.indications = point.data() + first_indication;
-  call.evaluation = static_cast<int>(e.evaluation());
-  call.context = e.model().context;
   std::cout << "  intermediate values\n";
-  for (const auto& i : e.model().explain(call))
+  for (const auto& i : e.forward().explain(r, point))
     std::cout << fmt::format("    {:<42} {:.17g} {}\n", i.name, i.value, i.unit);
 }
 

@@ -69,9 +69,9 @@ std::string design_hash(const Experiment& e) {
     record.add(r.conditions);
     record.add(r.indications);
   }
-  for (const StatedSize& stated : e.stated()) {
+  for (const StatedSize& stated : e.forward().stated()) {
     record.add(std::uint64_t{stated.indication});
-    record.add(*stated.loading);
+    record.add(stated.loading);
   }
   return record.hash();
 }

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "propagation/experiment.h"
+#include "propagation/parallel.h"
 
 namespace gumshoe::propagation {
 
@@ -30,9 +31,6 @@ std::uint64_t propagate(const Experiment& experiment, Sink& sink, const RunSetti
 
 /// The variates of one sample, as in the run. For replay.
 std::vector<double> variates_of(const Experiment& experiment, std::uint64_t sample);
-
-/// Calls body(i) for i in [0, n) on `threads` threads (0: all).
-void parallel_for(std::size_t n, int threads, const std::function<void(std::size_t)>& body);
 
 quantities::PointSet point_set(scenario::Design design);
 

@@ -4,7 +4,7 @@
 #include <random>
 
 #include "base/instruction_set.h"
-#include "models/model.h"
+#include "asked.h"
 #include "models/rod_gauging/rod_gauging.h"
 
 using namespace gumshoe;
@@ -35,24 +35,13 @@ struct Run {
   std::vector<std::uint8_t> status;
   explicit Run(const std::vector<std::vector<double>>& q) {
     const std::size_t n = q[0].size();
-    simulated.resize(n), bottom.resize(n), laser.resize(n), status.assign(n, 0);
-    const double condition[] = {0.01, 600, -1};
-    std::vector<models::Column> quantities, conditions;
-    for (const auto& column : q) quantities.push_back({column.data(), 1});
-    for (const double& x : condition) conditions.push_back({&x, 0});
-    double* measurands[] = {bottom.data(), laser.data()};
-    double* out[] = {simulated.data()};
-    const std::size_t itself = 0;
-    models::BlockCall call;
-    call.samples = n;
-    call.readings = 1;
-    call.quantities = quantities.data();
-    call.conditions = conditions.data();
-    call.simulated = out;
-    call.measurands = measurands;
-    call.solved_as = &itself;
-    call.status = status.data();
-    models::find("rod_gauging")->kernels()->simulate(call);
+    const propagation::ForwardModel forward(*models::find("rod_gauging"), {}, 0, {{0.01, 600, -1}});
+    auto columns = q;
+    columns.push_back({0.0}); // no readout
+    auto found = forward.simulate(tests::block_of(forward, n, columns));
+    simulated = std::move(found.indications), status = std::move(found.status);
+    bottom.assign(found.measurands.begin(), found.measurands.begin() + static_cast<std::ptrdiff_t>(n));
+    laser.assign(found.measurands.begin() + static_cast<std::ptrdiff_t>(n), found.measurands.end());
   }
 };
 

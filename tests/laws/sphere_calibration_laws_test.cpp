@@ -3,6 +3,7 @@
 
 #include <random>
 
+#include "asked.h"
 #include "chain/machine.h"
 #include "models/sphere_calibration/sphere_calibration.h"
 
@@ -42,33 +43,23 @@ struct Run {
   std::vector<double> simulated, tip;
   std::vector<std::uint8_t> status;
   Run(const std::vector<std::vector<double>>& q, const std::vector<std::vector<double>>& condition, int variant,
-      const std::vector<double>* read = nullptr)
-      : simulated(6 * samples), tip(6 * samples), status(samples, 0) {
-    std::vector<models::Column> quantities, conditions, indications;
-    std::vector<double*> out, measurands;
+      const std::vector<double>* read = nullptr) {
+    const propagation::ForwardModel forward(*models::find("sphere_calibration"), {}, static_cast<std::size_t>(variant),
+                                            condition);
+    propagation::Block block;
+    block.clear(samples);
+    std::vector<std::vector<double>> columns[2];
     for (std::size_t r = 0; r < 2; ++r) {
-      for (const auto& column : q) quantities.push_back({column.data(), 1});
-      for (const double& x : condition[r]) conditions.push_back({&x, 0});
-      for (std::size_t k = 0; k < 3; ++k) {
-        out.push_back(&simulated[(3 * r + k) * samples]);
-        measurands.push_back(&tip[(3 * r + k) * samples]);
-        indications.push_back({read ? &(*read)[(3 * r + k) * samples] : nullptr, 1});
-      }
+      columns[r] = q;
+      for (std::size_t k = 0; k < 3; ++k)
+        columns[r].push_back(read ? std::vector<double>(read->begin() + static_cast<std::ptrdiff_t>((3 * r + k) * samples),
+                                                        read->begin() +
+                                                            static_cast<std::ptrdiff_t>((3 * r + k + 1) * samples))
+                                  : std::vector<double>{0.0});
+      tests::add(block, forward, r, columns[r]);
     }
-    const std::size_t itself[] = {0, 1};
-    models::BlockCall call;
-    call.samples = samples;
-    call.readings = 2;
-    call.quantities = quantities.data();
-    call.conditions = conditions.data();
-    call.indications = indications.data();
-    call.simulated = out.data();
-    call.measurands = measurands.data();
-    call.solved_as = itself;
-    call.status = status.data();
-    call.evaluation = variant;
-    const auto* kernels = models::find("sphere_calibration")->kernels();
-    (read ? kernels->evaluate : kernels->simulate)(call);
+    auto found = read ? forward.evaluate(block) : forward.simulate(block);
+    simulated = std::move(found.indications), tip = std::move(found.measurands), status = std::move(found.status);
   }
 };
 

@@ -1,4 +1,5 @@
 /// Effects of the sphere calibration: laws that hold for every one of them.
+#include "asked.h"
 #include "laws/sphere_effects_case.h"
 
 using namespace sphere_effects_case;
@@ -29,34 +30,24 @@ struct Study {
   }
   /// The eleven by a joint evaluation that starts from `declared`, in the order of the model's quantities.
   std::vector<double> found(const Grinder& declared, int evaluation) const {
-    std::vector<models::Column> quantities, effect_columns, conditions, read;
-    for (const Grinder& g : poses) {
-      for (const double& v : declared.q) quantities.push_back({&v, 0});
-      for (const double& v : declared.e) effect_columns.push_back({&v, 0});
-      for (const double& v : g.condition) conditions.push_back({&v, 0});
+    std::vector<std::vector<double>> conditions;
+    for (const Grinder& g : poses) conditions.push_back(g.condition);
+    const propagation::ForwardModel forward(*models::find("sphere_calibration"), tests::cards_of(declared.active),
+                                            static_cast<std::size_t>(evaluation), conditions);
+    propagation::Block block;
+    block.clear(8);
+    std::vector<std::vector<std::vector<double>>> columns;
+    columns.reserve(poses.size());
+    for (std::size_t r = 0; r < poses.size(); ++r) {
+      columns.push_back(tests::columns_of(declared.values()));
+      for (std::size_t k = 0; k < 3; ++k) columns[r].emplace_back(x[3 * r + k].begin(), x[3 * r + k].end());
+      tests::add(block, forward, r, columns[r]);
     }
-    for (const auto& row : x) read.push_back({row.data(), 1});
-    std::vector<std::vector<double>> out(sphere::joint_rows, std::vector<double>(8));
-    std::vector<double*> rows;
-    for (auto& row : out) rows.push_back(row.data());
-    std::vector<std::uint8_t> status(8, 0);
-    models::BlockCall call;
-    call.samples = 8;
-    call.readings = poses.size();
-    call.quantities = quantities.data();
-    call.effects = effect_columns.data();
-    call.effect_quantities = declared.e.size();
-    call.active = declared.active;
-    call.conditions = conditions.data();
-    call.indications = read.data();
-    call.measurands = rows.data();
-    call.status = status.data();
-    call.evaluation = evaluation;
-    models::find("sphere_calibration")->kernels()->evaluate(call);
+    const auto found = forward.evaluate(block);
     std::vector<double> theta;
     for (int j = 0; j < sphere::unknowns; ++j) {
-      REQUIRE(status[0] == 0);
-      theta.push_back(out[static_cast<std::size_t>(sphere::row_of[j])][0]);
+      REQUIRE(found.status[0] == 0);
+      theta.push_back(found.measurands[8 * static_cast<std::size_t>(sphere::row_of[j])]);
     }
     return theta;
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "asked.h"
 #include "models/sphere_calibration/procedures.h"
 
 using namespace gumshoe;
@@ -71,33 +72,31 @@ struct Study {
       condition.back()[sphere::pattern] = pose.label;
     }
   }
-  models::BlockCall call(const std::vector<Quantities>& q, int evaluation) {
-    columns_.clear(), conditions_.clear(), read_.clear(), simulated_.clear(), rows_.clear();
+  propagation::BlockValues ask(const std::vector<Quantities>& q, int evaluation, bool simulates) {
+    propagation::ForwardModel forward(*models::find("sphere_calibration"), {}, static_cast<std::size_t>(evaluation),
+                                      condition);
+    forward.declare(declared);
+    propagation::Block block;
+    block.clear(8);
+    std::vector<std::vector<std::vector<double>>> columns;
     for (std::size_t r = 0; r < poses.size(); ++r) {
-      for (const double& value : q[q.size() == 1 ? 0 : r]) columns_.push_back({&value, 0});
-      for (const double& value : condition[r]) conditions_.push_back({&value, 0});
+      columns.push_back(tests::columns_of(q[q.size() == 1 ? 0 : r]));
+      for (std::size_t k = 0; k < 3; ++k) columns[r].push_back(x[3 * r + k]);
+      tests::add(block, forward, r, columns[r]);
     }
-    for (auto& values : x) read_.push_back({values.data(), 1}), simulated_.push_back(values.data());
-    results.assign(sphere::joint_rows, std::vector<double>(8));
-    for (auto& row : results) rows_.push_back(row.data());
-    status.assign(8, 0);
-    models::BlockCall c;
-    c.samples = 8;
-    c.readings = poses.size();
-    c.quantities = columns_.data();
-    c.conditions = conditions_.data();
-    c.indications = read_.data();
-    c.simulated = simulated_.data();
-    c.measurands = rows_.data();
-    c.status = status.data();
-    c.evaluation = evaluation;
-    c.declared = &declared;
-    return c;
+    return simulates ? forward.simulate(block) : forward.evaluate(block);
   }
-  void measure(const std::vector<Quantities>& q) { kernels()->simulate(call(q, sphere::joint)); }
-  void identify(const Quantities& estimates, int evaluation) {
-    const std::vector<Quantities> q{estimates};
-    kernels()->evaluate(call(q, evaluation));
+  void measure(const std::vector<Quantities>& q) {
+    const auto found = ask(q, sphere::joint, true);
+    for (std::size_t i = 0; i < x.size(); ++i) std::copy_n(&found.indications[8 * i], 8, x[i].begin());
+    take(found);
+  }
+  void identify(const Quantities& estimates, int evaluation) { take(ask({estimates}, evaluation, false)); }
+  void take(const propagation::BlockValues& found) {
+    results.clear();
+    for (std::size_t row = 0; row < sphere::joint_rows; ++row)
+      results.emplace_back(&found.measurands[8 * row], &found.measurands[8 * row] + 8);
+    status = found.status;
   }
   /// Independent noise of every command, u in m, and of B and C, u in rad.
   void declare(const Quantities& estimates, double linear, double rotary = 0) {
@@ -115,11 +114,6 @@ struct Study {
   }
   std::vector<std::vector<double>> results;
   std::vector<std::uint8_t> status;
-
-private:
-  static const models::Kernels* kernels() { return models::find("sphere_calibration")->kernels(); }
-  std::vector<models::Column> columns_, conditions_, read_;
-  std::vector<double*> simulated_, rows_;
 };
 
 } // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "asked.h"
 #include "base/error.h"
 #include "models/rod_gauging/shadow/shadow.h"
 #include "models/sphere_calibration/sphere_calibration.h"
@@ -42,25 +43,22 @@ struct Case {
     for (const auto& card : model->card->conditions)
       conditions.push_back(card.unit == "deg" ? draw(-0.9, 0.9) : draw(-0.2, 0.2));
   }
-  Gradient exact[3];
-  std::array<double, 3> simulated(std::size_t variable = 0) {
+  std::vector<Gradient> exact;
+  propagation::ForwardModel forward() const { return propagation::ForwardModel(*model, {}, 0, {conditions}); }
+  std::vector<Gradient> point(std::size_t variable, const std::array<double, 3>& read) const {
     std::vector<Gradient> g(q.begin(), q.end());
     g[variable] = Gradient::variable(q[variable], 0);
-    models::PointCall<Gradient> call{};
-    call.quantities = g.data(), call.conditions = conditions.data(), call.simulated = exact;
-    call.context = model->context;
-    REQUIRE(model->simulate_gradient(call).status == 0);
-    return {exact[0].v, exact[1].v, exact[2].v};
+    g.insert(g.end(), read.begin(), read.end());
+    return g;
+  }
+  std::array<double, 3> values() const { return {exact[0].v, exact[1].v, exact[2].v}; }
+  std::array<double, 3> simulated(std::size_t variable = 0) {
+    REQUIRE(forward().indications(0, point(variable, {}), exact).status == 0);
+    return values();
   }
   std::array<double, 3> evaluated(const std::array<double, 3>& read, std::size_t variable = 0) {
-    std::vector<Gradient> g(q.begin(), q.end());
-    g[variable] = Gradient::variable(q[variable], 0);
-    const Gradient x[] = {read[0], read[1], read[2]};
-    models::PointCall<Gradient> call{};
-    call.quantities = g.data(), call.conditions = conditions.data(), call.measurands = exact;
-    call.indications = x, call.context = model->context;
-    REQUIRE(model->evaluate_gradient(call).status == 0);
-    return {exact[0].v, exact[1].v, exact[2].v};
+    REQUIRE(forward().measurands(0, point(variable, read), exact).status == 0);
+    return values();
   }
 };
 
@@ -169,30 +167,27 @@ TEST_CASE("blocks give the bits of points", "[laws][sphere_probing]") {
     values.emplace_back(n, c.q[j]);
     for (double& v : values.back()) v = j % 3 == 0 ? c.q[j] * draw(0.5, 1.5) : c.q[j];
   }
-  std::vector<models::Column> quantities, conditions, read(3);
-  for (std::size_t j = 0; j < c.q.size(); ++j) quantities.push_back({values[j].data(), j % 3 == 0 ? 1u : 0u});
-  for (const double& v : c.conditions) conditions.push_back({&v, 0});
-  std::vector<std::vector<double>> rows(6, std::vector<double>(n));
-  std::vector<double*> out;
-  for (auto& r : rows) out.push_back(r.data());
-  std::vector<std::uint8_t> status(n);
-  models::BlockCall call{};
-  call.samples = n, call.readings = 1;
-  call.quantities = quantities.data(), call.conditions = conditions.data(), call.indications = read.data();
-  call.simulated = out.data(), call.measurands = out.data() + 3, call.status = status.data();
-  call.context = c.model->context;
-  c.model->kernels()->simulate(call);
-  for (std::size_t k = 0; k < 3; ++k) CHECK(rows[3 + k] == std::vector<double>(n, 0.0));
-  for (std::size_t k = 0; k < 3; ++k) read[k] = {rows[k].data(), 1};
-  c.model->kernels()->evaluate(call);
+  const auto forward = c.forward();
+  auto columns = values;
+  for (std::size_t j = 0; j < columns.size(); ++j)
+    if (j % 3 != 0) columns[j].resize(1);
+  columns.resize(columns.size() + 3, {0.0});
+  const auto there = forward.simulate(tests::block_of(forward, n, columns));
+  CHECK(there.measurands == std::vector<double>(3 * n, 0.0));
+  const double* rows[3];
+  for (std::size_t k = 0; k < 3; ++k) {
+    rows[k] = &there.indications[k * n];
+    columns[c.q.size() + k].assign(rows[k], rows[k] + n);
+  }
+  const auto back = forward.evaluate(tests::block_of(forward, n, columns));
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j < c.q.size(); ++j) c.q[j] = values[j][i];
     const auto xyz = c.simulated(), off = c.evaluated({rows[0][i], rows[1][i], rows[2][i]});
     for (std::size_t k = 0; k < 3; ++k) {
       CHECK(rows[k][i] == xyz[k]);
-      CHECK(rows[3 + k][i] == off[k]);
+      CHECK(back.measurands[k * n + i] == off[k]);
     }
-    CHECK(status[i] == 0);
+    CHECK((there.status[i] == 0 && back.status[i] == 0));
   }
 }
 
@@ -201,23 +196,10 @@ TEST_CASE("slides in one plane are out of reach", "[laws][sphere_probing]") {
   // X stands behind B: at 90 deg it moves along Z.
   Case c({"", Axes{}, Axes{{"Y"}, {"Z"}, {"B"}, {"X"}}}, draw, 0);
   c.conditions = {90 * deg};
-  models::PointCall<double> call{};
-  call.quantities = c.q.data(), call.conditions = c.conditions.data(), call.context = c.model->context;
-  CHECK(c.model->check(call).find("B = 90 deg") != std::string::npos);
-  const models::Column condition{c.conditions.data(), 0};
-  std::vector<models::Column> quantities;
-  for (const double& v : c.q) quantities.push_back({&v, 0});
-  std::vector<std::vector<double>> rows(6, std::vector<double>(8));
-  std::vector<double*> out;
-  for (auto& r : rows) out.push_back(r.data());
-  std::vector<std::uint8_t> status(8);
-  models::BlockCall block{};
-  block.samples = 8, block.readings = 1, block.quantities = quantities.data(), block.conditions = &condition;
-  block.simulated = out.data(), block.measurands = out.data() + 3, block.status = status.data();
-  block.context = c.model->context;
-  c.model->kernels()->simulate(block);
-  for (const auto s : status) CHECK(s == code(Status::out_of_domain));
+  const auto point = tests::joined(c.q, std::vector<double>(3));
+  CHECK(c.forward().check(0, point).find("B = 90 deg") != std::string::npos);
+  CHECK(c.forward().indications({point}).status[0] == Status::out_of_domain);
   c.conditions = {30 * deg};
-  CHECK(c.model->check(call).empty());
+  CHECK(c.forward().check(0, point).empty());
   REQUIRE_THROWS_AS(probing::make({"", Axes{{"C"}}, Axes{{"X"}, {"Z"}}}), InputError);
 }

@@ -1,6 +1,7 @@
 /// Laws of the mill model with effects that hold whatever the numbers are.
 #include <catch2/catch.hpp>
 
+#include "asked.h"
 #include "laws/mill_fixture.h"
 
 using namespace gumshoe;

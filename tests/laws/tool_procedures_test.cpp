@@ -5,9 +5,9 @@
 #include <catch2/catch.hpp>
 
 #include "models/tool_length/trigger/trigger_curve.h"
+#include "asked.h"
 #include "laws/mill_fixture.h"
 #include "models/tool_length/procedures.h"
-#include "propagation/run.h"
 
 using namespace gumshoe;
 using tests::Draw;
@@ -38,50 +38,43 @@ struct Procedure {
     double operator[](int row) const { return rows[static_cast<std::size_t>(row)][0]; }
     double flute(int k, int row) const { return (*this)[mill::curve_rows + mill::flute_rows * k + row]; }
   };
-  /// Runs `use` on the call.
-  template <class Use> Answer run(const Use& use) {
-    std::vector<models::Column> q, c, z;
-    std::vector<std::vector<double>> simulated(conditions.size(), std::vector<double>(8));
-    std::vector<double*> simulated_rows, rows;
-    for (std::size_t r = 0; r < conditions.size(); ++r) {
-      for (const double& x : tool.q) q.push_back({&x, 0});
-      for (const double& x : conditions[r]) c.push_back({&x, 0});
-      z.push_back({&readouts[8 * r], 1});
-      simulated_rows.push_back(simulated[r].data());
-    }
-    Answer a;
-    a.rows.resize(std::size(mill::curve_measurands));
-    for (auto& row : a.rows) rows.push_back(row.data());
-    std::uint8_t status[8] = {};
-    models::BlockCall call;
-    call.samples = 8;
-    call.readings = conditions.size();
-    call.quantities = q.data();
-    call.conditions = c.data();
-    call.indications = z.data();
-    call.simulated = simulated_rows.data();
-    call.measurands = rows.data();
-    call.status = status;
-    call.evaluation = evaluation;
-    use(call);
-    a.status = *std::max_element(status, status + 8);
-    return a;
-  }
   /// The truth; the readouts follow it.
   Answer simulate() {
-    std::vector<double> read;
-    const Answer a = run([&](const models::BlockCall& call) {
-      models::find("tool_length")->kernels()->simulate(call);
-      for (std::size_t r = 0; r < call.readings; ++r) read.insert(read.end(), call.simulated[r], call.simulated[r] + 8);
-    });
-    readouts = read;
-    return a;
+    const auto found = ask(&propagation::ForwardModel::simulate);
+    readouts = found.indications;
+    return answer(found);
   }
-  Answer evaluate() { return run(models::find("tool_length")->kernels()->evaluate); }
-  std::string problem() {
-    std::string text;
-    run([&](const models::BlockCall& call) { text = mill::check_readings(call); });
-    return text;
+  Answer evaluate() const { return answer(ask(&propagation::ForwardModel::evaluate)); }
+  std::string problem() const {
+    propagation::Points points;
+    for (std::size_t r = 0; r < conditions.size(); ++r) points.push_back(tests::joined(tool.q, {readouts[8 * r]}));
+    return forward().check_together(points);
+  }
+
+private:
+  propagation::ForwardModel forward() const {
+    return propagation::ForwardModel(*models::find("tool_length"), {}, static_cast<std::size_t>(evaluation),
+                                     conditions);
+  }
+  propagation::BlockValues ask(propagation::BlockValues (propagation::ForwardModel::*use)(const propagation::Block&)
+                                   const) const {
+    const propagation::ForwardModel model = forward();
+    std::vector<std::vector<std::vector<double>>> columns(conditions.size(), tests::columns_of(tool.q));
+    propagation::Block block;
+    block.clear(8);
+    for (std::size_t r = 0; r < conditions.size(); ++r) {
+      columns[r].emplace_back(&readouts[8 * r], &readouts[8 * r] + 8);
+      tests::add(block, model, r, columns[r]);
+    }
+    return (model.*use)(block);
+  }
+  static Answer answer(const propagation::BlockValues& found) {
+    Answer a;
+    a.rows.resize(std::size(mill::curve_measurands));
+    for (std::size_t row = 0; row < found.measurands.size() / 8; ++row)
+      std::copy_n(&found.measurands[8 * row], 8, a.rows[row].begin());
+    a.status = *std::max_element(found.status.begin(), found.status.end());
+    return a;
   }
 };
 

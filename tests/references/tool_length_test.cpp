@@ -4,6 +4,7 @@
 #include <map>
 #include <random>
 
+#include "asked.h"
 #include "references/mill_brute_force.h"
 
 using namespace gumshoe;
@@ -27,26 +28,10 @@ struct Outcome {
   int status;
 };
 Outcome trigger_si(const Values& q, double speed, double feed, double angle, double height) {
-  const double condition[] = {speed, feed, angle, height, 0, -1};
-  std::vector<models::Column> quantities, conditions;
-  for (const double& x : q) quantities.push_back({&x, 0});
-  for (const double& x : condition) conditions.push_back({&x, 0});
-  double out[4][8];
-  double* measurands[] = {out[0], out[1], out[2]};
-  double* simulated[] = {out[3]};
-  std::uint8_t status[8] = {};
-  const std::size_t itself = 0;
-  models::BlockCall call;
-  call.samples = 8;
-  call.readings = 1;
-  call.quantities = quantities.data();
-  call.conditions = conditions.data();
-  call.simulated = simulated;
-  call.measurands = measurands;
-  call.solved_as = &itself;
-  call.status = status;
-  models::find("tool_length")->kernels()->simulate(call);
-  return {out[mill::trigger_height_row][0], status[0]};
+  const propagation::ForwardModel forward(*models::find("tool_length"), {}, 0, {{speed, feed, angle, height, 0, -1}});
+  const auto columns = tests::columns_of(tests::joined(q, {0.0}));
+  const auto found = forward.simulate(tests::block_of(forward, 8, columns));
+  return {found.measurands[8 * mill::trigger_height_row], found.status[0]};
 }
 Outcome trigger(const Values& q, double angle_deg = 0, double height_mm = 0, double feed_mm_min = 30,
                 double speed_rpm = 1000) {
@@ -266,19 +251,16 @@ TEST_CASE("evaluate undoes simulate, and derivatives agree with differences", "[
   q[mill::yaw] = 0.3 * deg, q[mill::pitch] = -0.2 * deg;
   q[mill::wear] = 1e-6, q[mill::laser_z] = -0.4;
   Values condition{1000 * rpm, 30 * mm / 60, 0.7, 0.5 * mm, 0, -1};
+  const propagation::ForwardModel forward(*model, {}, 0, {condition});
   const double height = trigger_si(q, condition[0], condition[1], condition[2], condition[3]).height;
   const double reading = q[mill::laser_z] + q[mill::length] + height;
   for (int first = 0; first < mill::count; first += 8) {
-    std::vector<models::Gradient> x, out(mill::measurands), indication{models::Gradient(reading)};
+    std::vector<models::Gradient> x, out;
     for (int i = 0; i < mill::count; ++i)
       x.push_back(i >= first && i < first + 8 ? models::Gradient::variable(q[static_cast<std::size_t>(i)], i - first)
                                               : models::Gradient(q[static_cast<std::size_t>(i)]));
-    models::PointCall<models::Gradient> call;
-    call.quantities = x.data();
-    call.conditions = condition.data();
-    call.indications = indication.data();
-    call.measurands = out.data();
-    REQUIRE(model->evaluate_gradient(call).status == 0);
+    x.emplace_back(reading);
+    REQUIRE(forward.measurands(0, x, out).status == 0);
     // Sums of numbers below 1 m.
     REQUIRE(std::fabs(out[mill::length_row].v - q[mill::length]) < 4e-16);
     REQUIRE(std::fabs(out[mill::trigger_height_row].v - height) < 1e-15);

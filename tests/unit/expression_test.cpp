@@ -4,6 +4,7 @@
 #include <bit>
 #include <random>
 
+#include "asked.h"
 #include "base/instruction_set.h"
 #include "models/expression/expression.h"
 #include "models/kernel_choice.h"
@@ -48,14 +49,10 @@ MadeModel model_of(const std::vector<std::string>& names, const std::vector<std:
 
 double value_of(const std::string& formula, const std::vector<double>& x) {
   const auto model = model_of({"a", "b", "c"}, {formula});
-  std::vector<Gradient> q(x.begin(), x.end());
-  Gradient y;
-  PointCall<Gradient> call;
-  call.quantities = q.data();
-  call.measurands = &y;
-  call.context = model->context;
-  model->evaluate_gradient(call);
-  return y.v;
+  const std::vector<Gradient> q(x.begin(), x.end());
+  std::vector<Gradient> y;
+  propagation::ForwardModel(*model).measurands(0, q, y);
+  return y[0].v;
 }
 
 } // namespace
@@ -176,12 +173,8 @@ TEST_CASE("derivatives are exact", "[expression][dual]") {
     x.v = Gradient::variable(x.v.v, i);
     x.d[static_cast<std::size_t>(i)] = Gradient(1.0);
   }
-  std::vector<Curvature> y(2);
-  PointCall<Curvature> call;
-  call.quantities = q.data();
-  call.measurands = y.data();
-  call.context = model->context;
-  const auto outcome = model->evaluate_curvature(call);
+  std::vector<Curvature> y;
+  const auto outcome = propagation::ForwardModel(*model).measurands(0, q, y);
   CHECK(outcome.status == 0);
   CHECK(outcome.kink); // abs at 0
   const double s = std::sin(b), k = std::cos(b);
@@ -218,20 +211,15 @@ TEST_CASE("every instruction set gives the same bits, equal to those of a point"
   for (auto& column : x)
     for (double& v : column) v = wide(engine);
   const double k = 1.234;
-  std::vector<Column> columns{{x[0].data(), 1}, {x[1].data(), 1}, {x[2].data(), 1}, {&k, 0}};
+  x.push_back({k});
+  const propagation::ForwardModel forward(*model);
+  const auto block = tests::block_of(forward, n, x);
   const auto run = [&](const Kernels& kernels, std::vector<std::uint8_t>& status) {
     std::vector<double> out(m * n);
     std::vector<double*> rows;
     for (std::size_t i = 0; i < m; ++i) rows.push_back(&out[i * n]);
     status.assign(n, 0);
-    BlockCall call;
-    call.samples = n;
-    call.readings = 1;
-    call.quantities = columns.data();
-    call.measurands = rows.data();
-    call.status = status.data();
-    call.context = model->context;
-    kernels.evaluate(call);
+    kernels.evaluate(forward.call(block, nullptr, rows.data(), status.data()));
     return out;
   };
   std::vector<std::uint8_t> status, other_status;
@@ -249,13 +237,8 @@ TEST_CASE("every instruction set gives the same bits, equal to those of a point"
       if (!same(plain[i], other[i])) FAIL_CHECK(formulas[i / n] << ": " << plain[i] << " and " << other[i]);
   }
   for (std::size_t i = 0; i < n; ++i) {
-    const Gradient q[] = {x[0][i], x[1][i], x[2][i], k};
-    std::vector<Gradient> y(m);
-    PointCall<Gradient> call;
-    call.quantities = q;
-    call.measurands = y.data();
-    call.context = model->context;
-    model->evaluate_gradient(call);
+    std::vector<Gradient> y;
+    forward.measurands(0, {x[0][i], x[1][i], x[2][i], k}, y);
     for (std::size_t j = 0; j < m; ++j)
       if (!same(y[j].v, plain[j * n + i]))
         FAIL_CHECK(formulas[j] << " at a point: " << y[j].v << " and " << plain[j * n + i]);
@@ -265,19 +248,9 @@ TEST_CASE("every instruction set gives the same bits, equal to those of a point"
 
 TEST_CASE("a sample without a finite value is marked, the others are not", "[expression]") {
   const auto model = model_of({"a"}, {"log(a)"});
-  std::vector<double> a{1, 0, -1, 2, 3, 4, 5, HUGE_VAL}, out(8);
-  std::vector<std::uint8_t> status(8);
-  double* row = out.data();
-  Column column{a.data(), 1};
-  BlockCall call;
-  call.samples = 8;
-  call.readings = 1;
-  call.quantities = &column;
-  call.measurands = &row;
-  call.status = status.data();
-  call.context = model->context;
-  model->kernels()->evaluate(call);
-  CHECK(status == std::vector<std::uint8_t>{0, code(Status::not_finite), code(Status::not_finite), 0, 0, 0, 0, code(Status::not_finite)});
+  const std::vector<std::vector<double>> a{{1, 0, -1, 2, 3, 4, 5, HUGE_VAL}};
+  const propagation::ForwardModel forward(*model);
+  CHECK(forward.evaluate(tests::block_of(forward, 8, a)).status == std::vector<std::uint8_t>{0, code(Status::not_finite), code(Status::not_finite), 0, 0, 0, 0, code(Status::not_finite)});
 }
 
 TEST_CASE("readouts simulated from conditions, with exact derivatives, and no measurand", "[expression]") {
@@ -286,14 +259,10 @@ TEST_CASE("readouts simulated from conditions, with exact derivatives, and no me
   REQUIRE(s.made->simulate_gradient);
   CHECK(s.made->card->measurands.empty());
   const double x = 2, b1 = 240, b2 = 5e-4;
-  const Gradient q[] = {Gradient::variable(b1, 0), Gradient::variable(b2, 1)};
-  Gradient y;
-  PointCall<Gradient> call;
-  call.quantities = q;
-  call.conditions = &x;
-  call.simulated = &y;
-  call.context = s.made->context;
-  CHECK(s.made->simulate_gradient(call).status == 0);
+  const propagation::ForwardModel forward(*s.made, {}, 0, {{x}});
+  std::vector<Gradient> found;
+  CHECK(forward.indications(0, {Gradient::variable(b1, 0), Gradient::variable(b2, 1), Gradient(0.0)}, found).status == 0);
+  const Gradient& y = found[0];
   CHECK(y.v == Approx(b1 * -std::expm1(-b2 * x)).epsilon(1e-12)); // 1 - exp cancels three digits
   CHECK(y.d[0] == Approx(-std::expm1(-b2 * x)).epsilon(1e-12));
   CHECK(y.d[1] == Approx(b1 * x * std::exp(-b2 * x)).epsilon(1e-14));

@@ -86,7 +86,7 @@ void add_cell(const CandidateMaker& make, std::size_t q, const Cell& cell, std::
 std::vector<Alternative> declared_candidates(const CandidateMaker& make) {
   const auto& s = make.experiment.scenario();
   std::vector<Alternative> out;
-  for (std::size_t q = 0; q < make.experiment.model_quantities(); ++q) {
+  for (std::size_t q = 0; q < make.experiment.layout().model.end; ++q) {
     const InputQuantity& quantity = s.quantities[q];
     if (quantity.estimated && quantity.entries.front().components.empty()) continue; // free: absorbs itself
     std::vector<Alternative> found;

@@ -22,7 +22,7 @@ std::vector<Group> groups_of(const propagation::Experiment& e, const effects::Ac
   };
   std::vector<Group> out;
   for (std::size_t i = 0; i < card.quantities.size(); ++i) {
-    const std::size_t first = e.model_quantities() + active.first + i;
+    const std::size_t first = e.layout().effects[active.first + i];
     if (card.quantities[i].role == Role::amplitude) out.push_back({&card, i, first, 1});
     if (paired(i) && paired(i + 1)) out.push_back({&card, i++, first, 2});
   }
@@ -49,7 +49,7 @@ void drop_still(Alternative& a) {
 }
 
 void with_default_shapes(const CandidateMaker& make, std::vector<Alternative>& found) {
-  for (const effects::Active& active : make.experiment.active())
+  for (const effects::Active& active : make.experiment.forward().active())
     for (const Group& group : groups_of(make.experiment, active)) {
       Alternative one = alternative(make, group);
       if (group.count == 1) {
@@ -86,11 +86,11 @@ struct Grid {
 
 std::vector<Grid> grids_of(const propagation::Experiment& e) {
   std::vector<Grid> out;
-  for (const effects::Active& active : e.active()) {
+  for (const effects::Active& active : e.forward().active()) {
     const auto& card = effects::cards()[active.effect]->quantities;
     for (std::size_t i = 0; i < card.size(); ++i)
       if (card[i].role == Role::shape)
-        out.push_back({e.model_quantities() + active.first + i, grid_of(card[i]), groups_of(e, active)});
+        out.push_back({e.layout().effects[active.first + i], grid_of(card[i]), groups_of(e, active)});
   }
   return out;
 }

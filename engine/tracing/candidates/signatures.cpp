@@ -13,11 +13,11 @@ Index column(std::size_t i) { return static_cast<Index>(i); }
 /// its typical size.
 std::vector<double> steps(const propagation::Experiment& e, const Points& at, double step, const Matrix& tangents) {
   std::vector<double> sizes(2 * static_cast<std::size_t>(tangents.cols()), 0);
-  for (const effects::Active& a : e.active()) {
+  for (const effects::Active& a : e.forward().active()) {
     const EffectCard& effect = *effects::cards()[a.effect];
     for (std::size_t k = 0; k < effect.quantities.size(); ++k) {
       const QuantityCard& card = effect.quantities[k];
-      const std::size_t q = e.model_quantities() + a.first + k;
+      const std::size_t q = e.layout().effects[a.first + k];
       if (card.role == Role::shape || e.scenario().quantities[q].estimated) continue;
       const double slope = tangents.col(column(q)).norm() / std::sqrt(static_cast<double>(tangents.rows()));
       if (effect.follows_derivative && slope > 0) continue;
@@ -74,7 +74,7 @@ void take_secants(const Simulator& simulator, const Points& at, Signatures& s) {
 
 Signatures signatures(const propagation::Experiment& experiment, const Simulator& simulator, const Points& at,
                       double step) {
-  std::vector<std::size_t> all(experiment.model_quantities() + experiment.effect_quantities());
+  std::vector<std::size_t> all(experiment.layout().effects.end);
   std::iota(all.begin(), all.end(), std::size_t{0});
   Signatures out;
   Vector f;

@@ -50,12 +50,11 @@ Fitter::Fitter(const propagation::Experiment& e, const Simulator& simulator, con
     draws_.push_back(
         {v.name, std::isfinite(variance) ? std::sqrt(variance) : std::fabs(v.distribution.parameters[1]), {}, false});
   }
-  const std::size_t first_noise = e.model_quantities() + e.effect_quantities();
   for (std::size_t r = 0; r < s.readings.size(); ++r)
     for (std::size_t q = 0; q < plan.gather[r].size(); ++q)
       for (const std::size_t v : plan.columns[plan.gather[r][q]].variates) {
         draws_[v].moves.push_back({r, q});
-        if (q >= first_noise && q < first_noise + o.indications)
+        if (e.layout().indications.contains(q))
           noise_declared_ = true;
         else
           needed.insert(q);

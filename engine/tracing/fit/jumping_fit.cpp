@@ -50,7 +50,7 @@ std::optional<Fitter::Profile> Fitter::profile(const JointFit& fit, std::size_t 
   const Term& t = fit.terms[term];
   const Amplitude& a = t.alternative.amplitudes[static_cast<std::size_t>(amplitude)];
   // The tool itself is solved anew for every size: there no more than Gauss-Newton.
-  if (a.quantity == Amplitude::npos || a.quantity < experiment_.model_quantities() || !(unit > 0)) return std::nullopt;
+  if (a.quantity == Amplitude::npos || experiment_.layout().model.contains(a.quantity) || !(unit > 0)) return std::nullopt;
   Profile out;
   Matrix f;
   const auto try_each = [&](double by) {

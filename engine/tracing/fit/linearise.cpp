@@ -13,9 +13,8 @@ namespace gumshoe::tracing {
 void Fitter::find_responses() {
   responses_.assign(needed_.size(), {});
   offset_ = Vector::Zero(static_cast<Index>(simulator_.rows()));
-  const std::size_t first = experiment_.model_quantities(), end = first + experiment_.effect_quantities();
   for (std::size_t i = 0; i < needed_.size(); ++i) {
-    if (needed_[i] < first || needed_[i] >= end) continue;
+    if (!experiment_.layout().effects.contains(needed_[i])) continue;
     double u = 0;
     // A table holds where each draw is by itself all that moves its readings by the quantity.
     bool alone = true;
@@ -40,12 +39,12 @@ void Fitter::local_noise(const Matrix& derivative, JointFit& fit) const {
   const auto& e = experiment_;
   const auto& o = observations_;
   const auto k = static_cast<Index>(o.indications);
-  const std::size_t first_noise = e.model_quantities() + e.effect_quantities();
+  const propagation::Range noise = e.layout().indications;
   std::vector<Matrix> covariance(o.readings, Matrix::Zero(k, k));
   const auto effect_of = [&](std::size_t reading, std::size_t quantity) {
     Vector g = Vector::Zero(k);
-    if (quantity >= first_noise && quantity < first_noise + o.indications) {
-      g[static_cast<Index>(quantity - first_noise)] = 1;
+    if (noise.contains(quantity)) {
+      g[static_cast<Index>(quantity - noise.begin)] = 1;
       return g;
     }
     const auto at = std::lower_bound(needed_.begin(), needed_.end(), quantity) - needed_.begin();
@@ -156,7 +155,7 @@ bool Fitter::linearise(JointFit& fit) const {
   // Draws shared by readings, tied ones through the factor of their copula's matrix.
   Matrix shared = Matrix::Zero(n, static_cast<Index>(draws_.size()));
   std::vector<bool> used(draws_.size(), false);
-  const std::size_t first_noise = experiment_.model_quantities() + experiment_.effect_quantities();
+  const propagation::Range noise = experiment_.layout().indications;
   // What is declared of a quantity that is found to be off binds it no more.
   const auto released = [&](const Draw& draw) {
     return std::any_of(fit.terms.begin(), fit.terms.end(), [&](const Term& t) {
@@ -172,8 +171,8 @@ bool Fitter::linearise(JointFit& fit) const {
     if (draws_[v].local || released(draws_[v])) continue;
     for (const auto& [r, q] : draws_[v].moves) {
       const auto rows = Eigen::seqN(static_cast<Index>(r) * k, k);
-      if (q >= first_noise && q < first_noise + o.indications)
-        shared(static_cast<Index>(r) * k + static_cast<Index>(q - first_noise), static_cast<Index>(v)) += draws_[v].u;
+      if (noise.contains(q))
+        shared(static_cast<Index>(r) * k + static_cast<Index>(q - noise.begin), static_cast<Index>(v)) += draws_[v].u;
       else
         shared(rows, static_cast<Index>(v)) += drawn(rows, at(q)) * draws_[v].u;
     }

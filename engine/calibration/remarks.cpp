@@ -1,0 +1,63 @@
+// What a reader of an estimate must know beyond its numbers.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/units.h"
+#include "calibration/fit.h"
+
+namespace gumshoe::calibration {
+
+void Fit::remarks(Estimate& out) const {
+  const auto& s = experiment_.scenario();
+  const auto& card = *experiment_.model().card;
+  for (std::size_t q = 0; q < s.quantities.size(); ++q) {
+    if (experiment_.layout().indications.contains(q)) continue;
+    const auto& quantity = s.quantities[q];
+    const bool uncertain = std::any_of(quantity.entries.begin(), quantity.entries.end(),
+                                       [](const auto& e) { return !e.components.empty(); });
+    if (uncertain && !quantity.estimated)
+      out.notes.push_back(quantity.name + " is held at its estimate: its uncertainty is not in the result (marked "
+                                          "estimated, it is)");
+  }
+  if (!out.indistinguishable.empty())
+    for (std::size_t c = 0; c < card.conditions.size() && s.readings.size() > 1; ++c) {
+      const double first = s.readings.front().conditions[c];
+      const std::string unit(card.conditions[c].unit);
+      if (std::all_of(s.readings.begin(), s.readings.end(), [&](const auto& r) { return r.conditions[c] == first; }))
+        out.notes.push_back(fmt::format("{} is {:.6g}{} in every reading", card.conditions[c].name,
+                                        units::from_si(first, unit, std::string(card.conditions[c].si_unit)),
+                                        unit == "1" ? "" : " " + unit));
+    }
+  for (const Parameter& p : out.parameters)
+    if (p.at_limit) out.notes.push_back(p.unknown.name + " is held by a limit of its card");
+  if (!out.noise_declared && !(out.degrees_of_freedom > 0))
+    out.notes.push_back("as many unknowns as readings and no declared noise: no standard uncertainties");
+  if (out.chi_squared_probability < 1e-6)
+    out.notes.push_back(fmt::format("the residuals are {:.3g} times what the declared noise explains: is a unit, a "
+                                    "label or a reading wrong, an effect missing, or the noise larger?",
+                                    out.s));
+  outlier(out);
+}
+
+/// The largest residual, if it stands out from the others' middle.
+void Fit::outlier(Estimate& out) const {
+  std::vector<double> sizes;
+  for (const Row& r : out.rows) sizes.push_back(std::fabs(r.normalised));
+  if (sizes.size() < 5 || !defined()) return;
+  const double scale = median_of(sizes) / 0.6744897501960817;
+  const auto largest = std::max_element(sizes.begin(), sizes.end());
+  if (!(*largest > 8 * scale) || !(*largest > (out.noise_declared ? 5 : 0))) return;
+  const Row& row = out.rows[static_cast<std::size_t>(largest - sizes.begin())];
+  const auto& indication = experiment_.model().card->indications[row.indication];
+  const std::string unit(indication.unit),
+      name = propagation::reading_name(experiment_.scenario().readings[row.reading]);
+  out.notes.push_back(
+      fmt::format("reading {}{} stands out: {} is {:.4g}{} from the fit, {:.3g} times the usual residual",
+                  row.reading + 1, name.empty() ? "" : " (" + name + ")", indication.name,
+                  units::from_si(row.residual, unit, std::string(indication.si_unit), units::Kind::difference),
+                  unit == "1" ? "" : " " + unit, *largest / scale));
+}
+
+} // namespace gumshoe::calibration

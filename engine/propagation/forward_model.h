@@ -1,0 +1,127 @@
+#pragma once
+/// The one way to ask a model: indications and measurands at given points, with derivatives.
+///
+/// A ForwardModel is a model, the effects that act on it, one of its evaluations, the conditions of every reading and
+/// the stated effects. A simulation adds stated effects to the indications; an evaluation first subtracts them. No model
+/// knows of them. Values are SI throughout. Thread-safe.
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "models/model.h"
+#include "propagation/layout.h"
+#include "propagation/points.h"
+
+namespace gumshoe::propagation {
+
+/// A stated effect that has a size: the quantity that is its size, and what it adds to.
+struct StatedSize {
+  std::size_t quantity = 0, indication = 0;
+  std::vector<double> loading; ///< [reading]: change of the indication by the size, SI
+};
+
+class ForwardModel {
+public:
+  ForwardModel() = default;
+  /// `effects`: those that act, in the order of the catalogue. `conditions`: [reading][condition], one entry per
+  /// reading. The model must outlive this.
+  explicit ForwardModel(const models::Model& model, std::span<const EffectCard* const> effects = {},
+                        std::size_t evaluation = 0, std::vector<std::vector<double>> conditions = {{}},
+                        std::vector<StatedSize> stated = {});
+  /// The same, with readings shared out to so many threads (0: all processors). A model made from a scenario (a plugin,
+  /// a command) may not be safe to call from several; it is called from one.
+  ForwardModel on_threads(int threads) const;
+  /// What a joint evaluation weights its readings by.
+  void declare(models::Declared declared);
+
+  const models::Model& model() const { return *model_; }
+  const Layout& layout() const { return layout_; }
+  std::span<const effects::Active> active() const { return active_; }
+  std::size_t evaluation() const { return evaluation_; }
+  std::size_t readings() const { return conditions_.size(); }
+  std::span<const double> conditions(std::size_t reading) const { return conditions_[reading]; }
+  std::span<const StatedSize> stated() const { return stated_; }
+  /// All readings together give one set of measurands.
+  bool joint() const;
+  /// Measurands of one reading; of a joint evaluation, those that have a meaning where a reading has these quantities.
+  std::span<const VariableCard> measurands(const double* quantities) const;
+  bool has_simulation() const;
+  /// Whether linearise gives exact derivatives.
+  bool has_derivatives() const { return model_->simulate_gradient != nullptr; }
+
+  /// Indications of all readings at the points, under each variation. Readings of equal quantities are placed next to
+  /// each other: a model may remember what it computed for the one before.
+  Responses indications(const Points& at, std::span<const Variation> variations) const;
+  /// The same without variations.
+  Responses indications(const Points& at) const;
+  /// Measurands of all readings, evaluated from the points' indications.
+  Responses measurands(const Points& at, std::span<const Variation> variations) const;
+  /// Measurands of one reading of an evaluation that is not joint; its conditions are the reading's.
+  Responses measurands(std::size_t reading, const std::vector<double>& point,
+                       std::span<const Variation> variations) const;
+  /// Indications and their derivatives: exact in chunks of eight quantities, or central differences over the partials'
+  /// steps where the model has no derivatives. A quantity may be asked for twice.
+  Linearisation linearise(const Points& at, std::span<const Partial> partials) const;
+
+  /// Measurands of one reading in dual numbers; stated effects are subtracted. The model must have the derivatives.
+  models::PointOutcome measurands(std::size_t reading, std::vector<models::Gradient> point,
+                                  std::vector<models::Gradient>& out) const;
+  models::PointOutcome measurands(std::size_t reading, std::vector<models::Curvature> point,
+                                  std::vector<models::Curvature>& out) const;
+  /// Indications of one reading in dual numbers, stated effects added.
+  models::PointOutcome indications(std::size_t reading, const std::vector<models::Gradient>& point,
+                                   std::vector<models::Gradient>& out) const;
+
+  /// Adds a reading to a block: `row` holds its columns in the order of the layout. Conditions are the reading's, unless
+  /// columns are given for them; this then outlives the block.
+  void add(Block& block, std::size_t reading, std::span<const models::Column> row,
+           std::span<const models::Column> conditions = {}) const;
+  BlockValues simulate(const Block& block) const;
+  BlockValues evaluate(const Block& block) const;
+  /// The call of a block kernel, stated effects left to the caller. Rows of pointers as in models::BlockCall.
+  models::BlockCall call(const Block& block, double* const* simulated, double* const* measurands,
+                         std::uint8_t* status) const;
+
+  /// Subtracts the stated effects from the indications of a reading's point, as an evaluation does first.
+  template <class T> void subtract_stated(std::size_t reading, T* point) const {
+    for (const StatedSize& s : stated_) {
+      T& indication = point[layout_.indications[s.indication]];
+      indication = indication - point[s.quantity] * s.loading[reading];
+    }
+  }
+  /// What is impossible about a reading's point beyond the limits of single quantities; empty if nothing.
+  std::string check(std::size_t reading, std::vector<double> point) const;
+  /// What is impossible about all readings together, and what a reader must know of them: directions that they cannot
+  /// see.
+  std::string check_together(const Points& at) const;
+  std::vector<std::string> remarks(const Points& at) const;
+  /// Every intermediate value of the evaluation of a reading, in the order of computation. Stated effects are subtracted
+  /// already.
+  std::vector<models::Intermediate> explain(std::size_t reading, const std::vector<double>& point) const;
+
+private:
+  template <class T> models::PointCall<T> point_call(std::size_t reading, const T* point) const;
+  template <class T>
+  models::PointOutcome evaluate_point(std::size_t reading, std::vector<T> point, std::vector<T>& out,
+                                      models::PointOutcome (*evaluate)(const models::PointCall<T>&)) const;
+  struct Together;
+  Together together(const Points& at) const;
+  using Kernel = BlockValues (ForwardModel::*)(const Block&) const;
+  Responses respond(Kernel kernel, std::span<const std::size_t> readings, const Points& at,
+                    std::span<const Variation> variations) const;
+  std::vector<std::size_t> alike_together(const Points& at) const;
+  void by_dual_numbers(const Points& at, std::span<const Partial> partials, Linearisation& out) const;
+  void by_differences(const Points& at, std::span<const Partial> partials, Linearisation& out) const;
+
+  const models::Model* model_ = nullptr;
+  std::vector<effects::Active> active_;
+  Layout layout_;
+  std::size_t evaluation_ = 0;
+  std::vector<std::vector<double>> conditions_;
+  std::vector<StatedSize> stated_;
+  std::shared_ptr<const models::Declared> declared_; ///< of a joint evaluation in a scenario
+  int threads_ = 1;
+};
+
+} // namespace gumshoe::propagation
