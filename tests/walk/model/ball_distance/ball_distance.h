@@ -3,8 +3,8 @@
 ///
 /// The bar that holds the balls points from ball 1 to where ball 2 was commanded, and has grown with its temperature:
 ///     centre 2 - centre 1 = distance (1 + expansion temperature_difference) direction
-/// The evaluation takes the length of the difference of both centres and the growth back.
-#include "models/limits.h"
+/// The evaluation takes the length of the difference of both centres and divides by the growth.
+#include "models/cards.h"
 #include "models/model.h"
 #include "models/reading.h"
 
@@ -13,30 +13,27 @@ namespace gumshoe::models::ball_distance {
 using si::minute, si::mm;
 
 inline constexpr QuantityCard quantity_cards[] = {
-    {.name = "distance", .unit = "mm", .si_unit = "m", .default_value = 300 * mm, .limits = positive, .symbol = "L",
-     .meaning = "between the balls' centres at 20 degC; only simulation reads it"},
+    in_mm({.name = "distance", .default_value = 300 * mm, .limits = positive, .symbol = "L",
+           .meaning = "between the balls' centres at 20 degC; only simulation reads it"}),
     {.name = "expansion", .unit = "um/m/K", .si_unit = "1/K", .default_value = 11.5e-6, .limits = {-1e-4, 1e-4},
      .symbol = "alpha", .meaning = "coefficient of linear thermal expansion of the bar"},
-    {.name = "temperature_difference", .unit = "K", .si_unit = "K", .default_value = 0, .limits = {-200, 200},
-     .symbol = "dT", .meaning = "temperature of the bar minus 20 degC"},
+    {.name = "temperature_difference", .unit = "K", .si_unit = "K", .limits = {-200, 200}, .symbol = "dT",
+     .meaning = "temperature of the bar minus 20 degC"},
 };
-constexpr VariableCard place(std::string_view name, double at) {
-  return {.name = name, .unit = "mm", .si_unit = "m", .default_value = at, .meaning = "command at a ball's centre"};
+constexpr VariableCard command(std::string_view name, double at) {
+  return shown_in_mm({.name = name, .default_value = at, .meaning = "command at a ball's centre"});
 }
 inline constexpr VariableCard condition_cards[] = {
-    place("x_1", 100 * mm), place("y_1", 50 * mm), place("z_1", -200 * mm),
-    place("x_2", 300 * mm), place("y_2", 250 * mm), place("z_2", -100 * mm),
+    command("x_1", 100 * mm), command("y_1", 50 * mm), command("z_1", -200 * mm),
+    command("x_2", 300 * mm), command("y_2", 250 * mm), command("z_2", -100 * mm),
     {.name = "feed", .unit = "mm/min", .si_unit = "m/s", .default_value = 30 * mm / minute, .meaning = "of every slide"},
-    {.name = "direction", .unit = "1", .si_unit = "1", .default_value = -1, .meaning = "from which every slide came: 1 or -1"},
-    {.name = "time", .unit = "s", .si_unit = "s", .default_value = 0, .meaning = "since the start of the work"},
+    shown_pure({.name = "direction", .default_value = -1, .meaning = "from which every slide came: 1 or -1"}),
+    shown_in_s({.name = "time", .meaning = "since the start of the work"}),
 };
-constexpr VariableCard command(std::string_view name) {
-  return {.name = name, .unit = "mm", .si_unit = "m", .default_value = 0, .meaning = "command recorded at a ball's centre"};
-}
-inline constexpr VariableCard indication_cards[] = {command("X_1"), command("Y_1"), command("Z_1"),
-                                                    command("X_2"), command("Y_2"), command("Z_2")};
+inline constexpr VariableCard indication_cards[] = {command("X_1", 0), command("Y_1", 0), command("Z_1", 0),
+                                                    command("X_2", 0), command("Y_2", 0), command("Z_2", 0)};
 inline constexpr VariableCard measurand_cards[] = {
-    {.name = "distance", .unit = "mm", .si_unit = "m", .default_value = 0, .meaning = "between the balls' centres at 20 degC"}};
+    shown_in_mm({.name = "distance", .meaning = "between the balls' centres at 20 degC"})};
 inline constexpr EvaluationCard evaluation_cards[] = {{.name = "full", .meaning = "length of the difference"}};
 inline constexpr Stage stages[] = {Stage::motion, Stage::slides, Stage::slide_directions, Stage::trigger};
 
@@ -47,6 +44,11 @@ struct Rows {
   GUMSHOE_NAMED(Measurands, distance);
 };
 template <class T> using At = Reading<Rows, T>;
+
+template <class T> Vector3<T> first(const At<T>& at) { return {at.c.x_1, at.c.y_1, at.c.z_1}; }
+template <class T> Vector3<T> second(const At<T>& at) { return {at.c.x_2, at.c.y_2, at.c.z_2}; }
+template <class T> T length(const Vector3<T>& v) { return num::sqrt(dot(v, v)); }
+template <class T> T growth(const At<T>& at) { return 1.0 + at.q.expansion * at.q.temperature_difference; }
 
 /// A ball probed where `commanded` is, with all freed effects applied.
 template <class T> chain::ProbingEvent<T> touch(const At<T>& at, const Vector3<T>& commanded) {
@@ -73,18 +75,9 @@ struct BallDistance {
       .evaluations = evaluation_cards,
       .stages = stages};
 
-  template <class T> static Vector3<T> first(const At<T>& at) { return {at.c.x_1, at.c.y_1, at.c.z_1}; }
-  template <class T> static Vector3<T> second(const At<T>& at) { return {at.c.x_2, at.c.y_2, at.c.z_2}; }
-  template <class T> static T length(const Vector3<T>& v) { return num::sqrt(dot(v, v)); }
-  template <class T> static T growth(const At<T>& at) { return 1.0 + at.q.expansion * at.q.temperature_difference; }
-
-  template <class T> static void check(const At<T>& at, Outcome<T>& outcome) {
-    outcome.refuse(length<T>(second(at) - first(at)) <= T(0.0), "both balls are commanded at one place");
-  }
-
   template <class T> static Simulated<Rows, T> simulate(const At<T>& at, Outcome<T>&) {
     const Vector3<T> a = first(at), along = second(at) - a;
-    const Vector3<T> b = a + (at.q.distance * growth(at) / length(along)) * along;
+    const Vector3<T> b = a + at.q.distance * growth(at) / length(along) * along;
     const auto read_a = chain::reading_of(a, touch(at, a)), read_b = chain::reading_of(b, touch(at, second(at)));
     return {{read_a.x, read_a.y, read_a.z, read_b.x, read_b.y, read_b.z}, {at.q.distance}};
   }
