@@ -29,19 +29,6 @@ bool counts(const QuantityCard& q) {
          whole(q.limits.low) && whole(q.limits.high) && whole(q.default_value);
 }
 
-template <class T>
-models::PointCall<T> call_of(const Subject& s, std::span<const effects::Active> active, const std::vector<T>& x,
-                             const Point& p) {
-  models::PointCall<T> call;
-  call.quantities = x.data();
-  call.effects = x.data() + s.first_effect();
-  call.active = active;
-  call.conditions = p.conditions.data();
-  call.indications = x.data() + s.first_indication();
-  call.context = s.model().context;
-  return call;
-}
-
 /// Derivatives by eight variables a pass.
 template <class Solve> Derived derive(std::size_t variables, std::span<const VariableCard> cards, const Point& p, const Solve& solve) {
   const std::size_t outputs = cards.size();
@@ -75,19 +62,15 @@ bool Outcome::operator==(const Outcome& other) const {
   return status == other.status && (status != 0 || std::ranges::equal(values, other.values, same));
 }
 
-Subject::Subject(const models::Model& model, const std::vector<const EffectCard*>& freed) : model_(model) {
+Subject::Subject(const models::Model& model, const std::vector<const EffectCard*>& freed)
+    : model_(model), freed_(freed) {
   const auto add = [&](const std::string& prefix, const QuantityCard& q) {
     cards_.push_back(&q);
     names_.push_back(prefix + std::string(q.name));
   };
   for (const QuantityCard& q : model.card->quantities) add("", q);
-  const auto all = effects::cards();
-  for (std::size_t e = 0, at = 0; e < all.size(); ++e) {
-    if (std::ranges::find(freed, all[e]) == freed.end()) continue;
-    active_.push_back({e, at});
-    at += all[e]->quantities.size();
-    for (const QuantityCard& q : all[e]->quantities) add(std::string(all[e]->name) + '.', q);
-  }
+  for (const EffectCard* effect : freed)
+    for (const QuantityCard& q : effect->quantities) add(std::string(effect->name) + '.', q);
 }
 
 std::string Subject::name(std::size_t i) const {
@@ -106,7 +89,7 @@ Point Subject::at_null(const Point& plain) const {
 bool Subject::possible(const Point& p) const {
   for (std::size_t i = 0; i < first_indication(); ++i)
     if (!cards_[i]->limits.contain(p.x[i])) return false;
-  return model_.check(call_of(*this, active_, p.x, p)).empty();
+  return at(p).check(0, p.x).empty();
 }
 
 double Subject::spread(std::size_t i, const Point& p) const {
@@ -160,57 +143,39 @@ std::vector<Outcome> Subject::simulate(const std::vector<Point>& points) const {
 std::vector<Outcome> Subject::evaluate(const std::vector<Point>& points) const { return run(points, false); }
 
 std::vector<Outcome> Subject::run(const std::vector<Point>& points, bool simulating) const {
-  const ModelCard& card = *model_.card;
-  const std::size_t n = (points.size() + 7) / 8 * 8, k = card.indications.size(), m = card.measurands.size();
-  const auto point = [&](std::size_t i) -> const Point& { return points[std::min(i, points.size() - 1)]; };
-  std::vector<double> in((size() + card.conditions.size()) * n), out((k + m) * n);
+  const std::size_t n = propagation::padded(points.size()), conditions = points[0].conditions.size();
+  std::vector<double> in((size() + conditions) * n);
   for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = 0; j < size(); ++j) in[j * n + i] = point(i).x[j];
-    for (std::size_t j = 0; j < card.conditions.size(); ++j) in[(size() + j) * n + i] = point(i).conditions[j];
+    const Point& p = points[std::min(i, points.size() - 1)];
+    for (std::size_t j = 0; j < size(); ++j) in[j * n + i] = p.x[j];
+    for (std::size_t j = 0; j < conditions; ++j) in[(size() + j) * n + i] = p.conditions[j];
   }
   std::vector<models::Column> columns;
-  for (std::size_t j = 0; j < in.size() / n; ++j) columns.push_back({&in[j * n], 1});
-  std::vector<double*> rows;
-  for (std::size_t o = 0; o < k + m; ++o) rows.push_back(&out[o * n]);
-  std::vector<std::uint8_t> status(n, 0);
-  const std::size_t itself = 0;
-  models::BlockCall call;
-  call.samples = n;
-  call.readings = 1;
-  call.quantities = columns.data();
-  call.effects = columns.data() + first_effect();
-  call.effect_quantities = first_indication() - first_effect();
-  call.active = active_;
-  call.indications = columns.data() + first_indication();
-  call.conditions = columns.data() + size();
-  call.simulated = rows.data();
-  call.measurands = rows.data() + k;
-  call.solved_as = &itself;
-  call.status = status.data();
-  call.context = model_.context;
-  (simulating ? model_.kernels()->simulate : model_.kernels()->evaluate)(call);
+  for (std::size_t j = 0; j < size() + conditions; ++j) columns.push_back({&in[j * n], 1});
+  const propagation::ForwardModel forward = at(points[0]);
+  propagation::Block block;
+  block.clear(n);
+  const std::span all(columns);
+  forward.add(block, 0, all.first(size()), all.subspan(size()));
+  const propagation::BlockValues out = simulating ? forward.simulate(block) : forward.evaluate(block);
   std::vector<Outcome> outcomes(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    outcomes[i].status = status[i];
-    for (std::size_t o = simulating ? 0 : k; o < k + m; ++o) outcomes[i].values.push_back(out[o * n + i]);
+    outcomes[i].status = out.status[i];
+    for (const auto* rows : {&out.indications, &out.measurands})
+      for (std::size_t at = i; at < rows->size() && (simulating || rows == &out.measurands); at += n)
+        outcomes[i].values.push_back((*rows)[at]);
   }
   return outcomes;
 }
 
 Derived Subject::simulate_gradient(const Point& p) const {
-  return derive(first_indication(), model_.card->indications, p, [&](const auto& x, auto& y) {
-    auto call = call_of(*this, active_, x, p);
-    call.simulated = y.data();
-    return model_.simulate_gradient(call);
-  });
+  return derive(first_indication(), model_.card->indications, p,
+                [&](const auto& x, auto& y) { return at(p).indications(0, x, y); });
 }
 
 Derived Subject::evaluate_gradient(const Point& p) const {
-  return derive(size(), model_.card->measurands, p, [&](const auto& x, auto& y) {
-    auto call = call_of(*this, active_, x, p);
-    call.measurands = y.data();
-    return model_.evaluate_gradient(call);
-  });
+  return derive(size(), model_.card->measurands, p,
+                [&](const auto& x, auto& y) { return at(p).measurands(0, x, y); });
 }
 
 std::vector<std::vector<double>> Subject::curvature(const Point& p, const std::vector<std::size_t>& by) const {
@@ -219,9 +184,7 @@ std::vector<std::vector<double>> Subject::curvature(const Point& p, const std::v
     x[by[a]].v = Gradient::variable(p.x[by[a]], static_cast<int>(a));
     x[by[a]].d[a] = Gradient(1.0);
   }
-  auto call = call_of(*this, active_, x, p);
-  call.measurands = y.data();
-  model_.evaluate_curvature(call);
+  at(p).measurands(0, x, y);
   std::vector<std::vector<double>> out;
   for (const Curvature& v : y) {
     out.emplace_back();

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "models/model.h"
+#include "propagation/forward_model.h"
 
 namespace gumshoe::contracts {
 
@@ -82,8 +82,10 @@ public:
 
 private:
   std::vector<Outcome> run(const std::vector<Point>& points, bool simulating) const;
+  /// The model under the conditions of a point.
+  propagation::ForwardModel at(const Point& p) const { return propagation::ForwardModel(model_, freed_, 0, {p.conditions}); }
   const models::Model& model_;
-  std::vector<effects::Active> active_;
+  std::vector<const EffectCard*> freed_;
   std::vector<const QuantityCard*> cards_;
   std::vector<std::string> names_;
 };
