@@ -33,9 +33,10 @@ std::string row(const EffectCard& card) {
     while (end < card.quantities.size() && alike(card.quantities[end], q)) ++end;
     const std::string shape = q.role == Role::shape ? fmt::format("; shape, default {}", in_unit(q, q.default_value)) : "";
     quantities.push_back(fmt::format("{} ({}{})", names(card.quantities.subspan(i, end - i)), q.unit, shape));
-    if (const std::string text = typical_text(q);
-        q.role != Role::shape && std::find(typical.begin(), typical.end(), text) == typical.end())
-      typical.push_back(text);
+    for (const QuantityCard& one : card.quantities.subspan(i, end - i))
+      if (const std::string text = typical_text(one);
+          one.role != Role::shape && std::find(typical.begin(), typical.end(), text) == typical.end())
+        typical.push_back(text);
   }
   return fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", card.name, name(card.stage), fmt::join(quantities, ", "),
                      fmt::join(typical, ", "), card.adds, card.confused_with);

@@ -9,7 +9,8 @@ namespace gumshoe::effects {
 /// Adds to an event; `quantities` are the effect's own, SI.
 template <class T> using Apply = void (*)(const T* quantities, chain::ProbingEvent<T>& event);
 
-/// The function of every effect, in the order of cards(). For double, Dual<double, 8>, its own dual, and Lanes.
+/// The function of every effect, in the order of cards(). For the scalars that catalogue.cpp and functions_kernels.cpp
+/// list; another one does not link until it stands there.
 template <class T> std::span<const Apply<T>> functions();
 
 /// Lets the active effects act on an event that is filled in as commanded.

@@ -24,11 +24,13 @@ bool applies(const ModelCard& model, const EffectCard& effect) {
   return std::ranges::find(model.stages, effect.stage) != model.stages.end();
 }
 
-using First = Dual<double, 8>;
-using Second = Dual<First, 8>;
+using Slope = Dual<double, 1>;
+using Gradient = Dual<double, 8>;
+using Curvature = Dual<Gradient, 8>;
 template std::span<const Apply<double>> functions<double>();
 template std::span<const Apply<Lanes>> functions<Lanes>();
-template std::span<const Apply<First>> functions<First>();
-template std::span<const Apply<Second>> functions<Second>();
+template std::span<const Apply<Slope>> functions<Slope>();
+template std::span<const Apply<Gradient>> functions<Gradient>();
+template std::span<const Apply<Curvature>> functions<Curvature>();
 
 } // namespace gumshoe::effects
