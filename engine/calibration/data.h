@@ -49,6 +49,7 @@ class Simulation {
 public:
   /// Throws InputError if the model has no simulation.
   Simulation(const propagation::Experiment& experiment, std::vector<Unknown> unknowns, int threads);
+  std::size_t rows() const { return points_.size() * forward_.layout().indications.size(); }
   /// simulated[row] and, unless null, jacobian[row][unknown] at x, SI. False where the model gives no value.
   bool operator()(const double* x, double* simulated, double* jacobian) const;
   /// Whether derivatives are exact; else they are central differences.

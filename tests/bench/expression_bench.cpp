@@ -3,6 +3,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include "asked.h"
 #include "models/expression/expression.h"
 
 namespace {
@@ -27,21 +28,14 @@ void evaluate(benchmark::State& state, const std::vector<std::string>& names, co
   std::mt19937_64 engine(1);
   std::uniform_real_distribution<double> unit(-3.14, 3.14);
   std::vector<std::vector<double>> x(names.size(), std::vector<double>(block));
-  std::vector<models::Column> columns;
-  for (auto& column : x) {
+  for (auto& column : x)
     for (double& v : column) v = unit(engine);
-    columns.push_back({column.data(), 1});
-  }
   std::vector<double> out(block);
   std::vector<std::uint8_t> status(block);
   double* row = out.data();
-  models::BlockCall call;
-  call.samples = block;
-  call.readings = 1;
-  call.quantities = columns.data();
-  call.measurands = &row;
-  call.status = status.data();
-  call.context = model->context;
+  const propagation::ForwardModel forward(*model);
+  const auto columns = tests::block_of(forward, block, x);
+  const auto call = forward.call(columns, nullptr, &row, status.data());
   for (auto _ : state) {
     model->kernels()->evaluate(call);
     benchmark::DoNotOptimize(out.data());

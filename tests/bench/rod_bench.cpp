@@ -4,6 +4,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include "asked.h"
 #include "base/instruction_set.h"
 #include "models/rod_gauging/shadow/trigger_height.h"
 #include "models/model.h"
@@ -17,12 +18,11 @@ constexpr std::size_t n = 4096;
 /// Eleven drawn columns around rod 2 on the beam of Fang 2022, Table 2.5.
 struct Block {
   std::vector<std::vector<double>> values;
-  std::vector<models::Column> columns, conditions;
   std::vector<double> outputs = std::vector<double>(2 * n), simulated = std::vector<double>(n);
   std::vector<std::uint8_t> status = std::vector<std::uint8_t>(n);
   std::vector<double*> measurands{&outputs[0], &outputs[n]}, indications{&simulated[0]};
-  double condition[3] = {4e-3 / 60, 0, -1};
-  std::size_t itself = 0;
+  propagation::ForwardModel forward{*models::find("rod_gauging"), {}, 0, {{4e-3 / 60, 0, -1}}};
+  propagation::Block columns;
   models::BlockCall call;
 
   Block() {
@@ -36,17 +36,10 @@ struct Block {
       values.emplace_back(n);
       for (double& x : values.back()) x = mean[q] + u[q] * normal(engine);
     }
-    for (auto& v : values) columns.push_back({v.data(), 1});
-    for (double& c : condition) conditions.push_back({&c, 0});
-    call.samples = n;
-    call.readings = 1;
-    call.quantities = columns.data();
-    call.effects = columns.data();
-    call.conditions = conditions.data();
-    call.simulated = indications.data();
-    call.measurands = measurands.data();
-    call.solved_as = &itself;
-    call.status = status.data();
+    values.emplace_back(1); // the readout
+    columns.clear(n);
+    tests::add(columns, forward, 0, values);
+    call = forward.call(columns, indications.data(), measurands.data(), status.data());
   }
 };
 

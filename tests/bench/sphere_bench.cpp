@@ -1,6 +1,7 @@
 /// The sphere model's kernels: one block of 2,048 samples at the 33 poses of the thesis.
 #include <benchmark/benchmark.h>
 
+#include "asked.h"
 #include "models/sphere_calibration/sphere_calibration.h"
 
 using namespace gumshoe;
@@ -14,36 +15,26 @@ void commands(benchmark::State& state) {
   std::vector<std::vector<double>> q;
   for (const auto& card : model->card->quantities) q.emplace_back(samples, card.default_value);
   for (std::size_t i = 0; i < samples; ++i) q[sphere::E_CC][i] = 1e-9 * static_cast<double>(i);
-  const double zero = 0;
-  std::vector<double> angle(2 * readings);
-  std::vector<models::Column> quantities, conditions;
+  for (int k = 0; k < 3; ++k) q.push_back({0}); // the readouts
+  std::vector<std::vector<double>> conditions(readings, std::vector<double>(sphere::conditions));
   std::vector<double> out(readings * 6 * samples);
   std::vector<double*> simulated, truth;
-  std::vector<std::size_t> itself;
   for (std::size_t r = 0; r < readings; ++r) {
-    angle[2 * r] = r < 19 ? 0 : 0.08 * (static_cast<double>(r) - 23);
-    angle[2 * r + 1] = r < 19 ? 0.08 * static_cast<double>(r) : 1.5;
-    for (std::size_t j = 0; j < sphere::count; ++j)
-      quantities.push_back({q[j].data(), j < sphere::S_XY || state.range(1) ? std::size_t{1} : std::size_t{0}});
-    for (int c = 0; c < sphere::conditions; ++c)
-      conditions.push_back({c == sphere::B ? &angle[2 * r] : c == sphere::C ? &angle[2 * r + 1] : &zero, 0});
+    conditions[r][sphere::B] = r < 19 ? 0 : 0.08 * (static_cast<double>(r) - 23);
+    conditions[r][sphere::C] = r < 19 ? 0.08 * static_cast<double>(r) : 1.5;
     for (std::size_t k = 0; k < 3; ++k) {
       simulated.push_back(&out[(6 * r + k) * samples]);
       truth.push_back(&out[(6 * r + 3 + k) * samples]);
     }
-    itself.push_back(r);
   }
   std::vector<std::uint8_t> status(samples, 0);
-  models::BlockCall call;
-  call.samples = samples;
-  call.readings = readings;
-  call.quantities = quantities.data();
-  call.conditions = conditions.data();
-  call.simulated = simulated.data();
-  call.measurands = truth.data();
-  call.solved_as = itself.data();
-  call.status = status.data();
-  call.evaluation = static_cast<int>(state.range(0));
+  const propagation::ForwardModel forward(*model, {}, static_cast<std::size_t>(state.range(0)), conditions);
+  if (!state.range(1))
+    for (std::size_t j = sphere::S_XY; j < sphere::count; ++j) q[j].resize(1);
+  propagation::Block block;
+  block.clear(samples);
+  for (std::size_t r = 0; r < readings; ++r) tests::add(block, forward, r, q);
+  const auto call = forward.call(block, simulated.data(), truth.data(), status.data());
   for (auto _ : state) {
     model->kernels()->simulate(call);
     benchmark::DoNotOptimize(out.data());

@@ -5,6 +5,7 @@
 #include <benchmark/benchmark.h>
 
 #include "models/tool_length/tool_length.h"
+#include "propagation/forward_model.h"
 
 namespace {
 
@@ -17,12 +18,12 @@ constexpr double pi = 3.14159265358979323846, deg = pi / 180, mm = 1e-3;
 /// The tool of Fang 2022, Tables 3.3 and 3.4, all of its geometry drawn; tilted beams and other shares if asked.
 struct Block {
   std::vector<std::vector<double>> values = std::vector<std::vector<double>>(mill::count, std::vector<double>(n));
-  std::vector<models::Column> columns, conditions;
   std::vector<double> outputs = std::vector<double>(3 * n), simulated = std::vector<double>(n), angles;
   std::vector<std::uint8_t> status = std::vector<std::uint8_t>(n);
   std::vector<double*> measurands{&outputs[0], &outputs[n], &outputs[2 * n]}, indications{&simulated[0]};
   double condition[6] = {1000 * 2 * pi / 60, 30 * mm / 60, 0, 5 * mm, 0, -1};
-  std::size_t itself = 0;
+  propagation::ForwardModel forward{*models::find("tool_length")};
+  propagation::Block columns;
   models::BlockCall call;
 
   explicit Block(double inserts, bool tilted, bool drawn = true) {
@@ -45,18 +46,14 @@ struct Block {
     fill(mill::beam_radius, 0.2 * mm, 3e-6);
     if (tilted) fill(mill::yaw, 0, 1e-4), fill(mill::pitch, 0, 1e-4), fill(mill::fraction, 0.5, 0.01);
     for (std::size_t i = 0; i < n; ++i) angles.push_back(2 * pi * static_cast<double>(i) / n);
-    for (auto& v : values) columns.push_back({v.data(), 1});
+    values.emplace_back(1); // the readout
+    std::vector<models::Column> row, conditions;
+    for (auto& v : values) row.push_back({v.data(), v.size() > 1 ? 1u : 0u});
     for (double& c : condition) conditions.push_back({&c, 0});
     conditions[mill::start_angle] = {angles.data(), 1};
-    call.samples = n;
-    call.readings = 1;
-    call.quantities = columns.data();
-    call.effects = columns.data();
-    call.conditions = conditions.data();
-    call.simulated = indications.data();
-    call.measurands = measurands.data();
-    call.solved_as = &itself;
-    call.status = status.data();
+    columns.clear(n);
+    forward.add(columns, 0, row, conditions);
+    call = forward.call(columns, indications.data(), measurands.data(), status.data());
   }
 };
 
