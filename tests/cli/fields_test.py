@@ -6,10 +6,14 @@ import pathlib
 import re
 import subprocess
 import sys
+import tempfile
 import unittest
+
+import h5py
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 GUMSHOE = sys.argv.pop(1)
+MADE = pathlib.Path(GUMSHOE).resolve().parent / "tests/gumshoe_made_result"
 README = ROOT / "engine/store/README.md"
 COLUMNS = ROOT / "reports/gumshoe_report/columns.json"
 BEGIN, END = "<!-- gumshoe fields: tests/cli/fields_test.py PROGRAM --update -->\n", "<!-- end of fields -->\n"
@@ -38,6 +42,28 @@ class Fields(unittest.TestCase):
             self.assertEqual(len(names), len(set(names)), table[:60])
             for row in rows:
                 self.assertTrue(row[2].strip(), row)
+
+    def test_what_stands_in_a_file_is_described(self):
+        described = set(re.findall(r"`([^`|]+)`", README.read_text(encoding="utf-8")))
+        names = {re.sub(r".*/(?=.)", "", name) for name in described}
+        unknown = []
+
+        def check(path, item):
+            path = re.sub(r"(?<=[/_])\d{3}(?=/|$)", "<k>", path)
+            if path.startswith(("outputs/", "readings/", "data/")):  # named by model and scenario
+                return
+            if isinstance(item, h5py.Dataset):
+                if b"but not a netCDF variable" not in bytes(item.attrs.get("NAME", b"")):
+                    unknown.extend({path.split("/")[-1]} - names)
+            else:
+                unknown.extend(f"{path}@{a}" for a in item.attrs if a not in names)
+
+        with tempfile.TemporaryDirectory() as folder:
+            for words in ([], ["--trace", "class"], ["--trace", "not_in_catalogue"]):
+                subprocess.run([MADE, *words, f"{folder}/made.h5"], check=True)
+                with h5py.File(f"{folder}/made.h5") as file:
+                    file.visititems(check)
+        self.assertEqual(sorted(set(unknown)), [])
 
 
 if __name__ == "__main__":
