@@ -8,9 +8,7 @@
 #include "analysis/rounding.h"
 #include "analysis/shapley.h"
 #include "analysis/sobol.h"
-#include "base/instruction_set.h"
 #include "base/units.h"
-#include "base/version.h"
 #include "choice/figures.h"
 #include "choice/setup.h"
 
@@ -122,13 +120,8 @@ private:
   void describe() {
     r_.asked = choose_;
     r_.title = s_.title;
-    r_.model = s_.model;
     r_.scenario_file = s_.file;
-    r_.scenario_text = s_.text;
     r_.scenario_hash = s_.hash;
-    r_.version = version;
-    r_.git_hash = git_hash;
-    r_.instruction_set = name(best_instruction_set());
     r_.coverage_probability = s_.analysis.coverage_probability;
     r_.seed = s_.run.seed;
     r_.candidates = search_.candidates();

@@ -55,7 +55,7 @@ struct Span {
 
 struct Result {
   scenario::Choose asked;
-  std::string title, model, scenario_file, scenario_text, scenario_hash, version, git_hash, instruction_set;
+  std::string title, scenario_file, scenario_hash;
   std::string unit, si_unit;            ///< of the measurand
   std::vector<std::string> evaluations; ///< names by position in the card
   double coverage_probability = 0.95;

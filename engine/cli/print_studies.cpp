@@ -31,15 +31,21 @@ std::string names(const std::vector<propagation::Output>& outputs) {
   return text;
 }
 
-/// "rod_length 0.41, beam_pitch 0.30, 3 more", the largest first.
-std::string largest(std::vector<std::pair<double, std::string>> indices, std::size_t most = 3) {
-  std::erase_if(indices, [](const auto& index) { return std::isnan(index.first); });
-  std::ranges::stable_sort(indices, [](const auto& a, const auto& b) { return a.first > b.first; });
-  std::string text;
-  for (std::size_t i = 0; i < std::min(most, indices.size()); ++i)
-    text += fmt::format("{}{} {:.3f}", i == 0 ? "" : ", ", indices[i].second, indices[i].first);
-  if (indices.size() > most) text += fmt::format(", {} more", indices.size() - most);
-  return text;
+std::string three_decimals(double x) { return fmt::format("{:.3f}", x); }
+
+/// "rod_length 0.410, beam_pitch 0.300, 3 more": rows by name, the largest first; empty if all are NaN.
+template <class Row, class Value, class Name, class Text = std::string (*)(double)>
+std::string largest(const std::vector<Row>& rows, Value value, Name name, Text text = three_decimals) {
+  std::vector<std::pair<double, std::string>> sorted;
+  for (const Row& row : rows)
+    if (const double x = std::invoke(value, row); !std::isnan(x)) sorted.emplace_back(x, std::invoke(name, row));
+  std::ranges::stable_sort(sorted, [](const auto& a, const auto& b) { return a.first > b.first; });
+  constexpr std::size_t most = 3;
+  std::string line;
+  for (std::size_t i = 0; i < std::min(most, sorted.size()); ++i)
+    line += fmt::format("{}{} {}", i == 0 ? "" : ", ", sorted[i].second, text(sorted[i].first));
+  if (sorted.size() > most) line += fmt::format(", {} more", sorted.size() - most);
+  return line;
 }
 
 void print_joint(const Results& r, std::ostream& out) {
@@ -72,63 +78,39 @@ void print_conformity(const Results& r, std::ostream& out) {
 
 void print_indices(const Results& r, std::ostream& out) {
   for (const Sensitivity& s : r.sensitivities) {
-    std::vector<std::pair<double, std::string>> totals;
     std::map<std::string, std::size_t> verdicts;
-    for (const SobolIndex& i : s.indices) {
-      totals.emplace_back(i.total, i.input);
-      ++verdicts[i.total_verdict];
-    }
-    if (std::ranges::all_of(totals, [](const auto& t) { return std::isnan(t.first); })) continue; // it does not vary
+    for (const SobolIndex& i : s.indices) ++verdicts[i.total_verdict];
     std::string counts;
     for (const auto& [word, count] : verdicts)
       counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", count, word);
-    out << fmt::format("total Sobol' indices of {}: {} ({})\n", s.output.name, largest(std::move(totals)), counts);
+    if (const auto text = largest(s.indices, &SobolIndex::total, &SobolIndex::input); !text.empty())
+      out << fmt::format("total Sobol' indices of {}: {} ({})\n", s.output.name, text, counts);
   }
-  for (const Shapley& s : r.shapley) {
-    std::vector<std::pair<double, std::string>> effects;
-    for (const Index& i : s.effects) effects.emplace_back(i.value, i.input);
-    out << fmt::format("Shapley effects of {}: {}\n", s.output.name, largest(std::move(effects)));
-  }
-  for (const GivenData& g : r.given_data) {
-    std::vector<std::pair<double, std::string>> deltas;
-    for (const Index& i : g.delta) deltas.emplace_back(i.value, i.input);
-    if (!deltas.empty())
+  for (const Shapley& s : r.shapley)
+    out << fmt::format("Shapley effects of {}: {}\n", s.output.name, largest(s.effects, &Index::value, &Index::input));
+  for (const GivenData& g : r.given_data)
+    if (!g.delta.empty())
       out << fmt::format("Borgonovo's delta of {}, from {} stored samples: {}\n", g.output.name, g.samples,
-                         largest(std::move(deltas)));
-  }
-  for (const Dgsm& d : r.dgsm) {
-    std::vector<std::pair<double, std::string>> bounds;
-    for (const DgsmRow& row : d.rows) bounds.emplace_back(row.bound, row.input);
-    if (const std::string text = largest(std::move(bounds)); !text.empty())
+                         largest(g.delta, &Index::value, &Index::input));
+  for (const Dgsm& d : r.dgsm)
+    if (const auto text = largest(d.rows, &DgsmRow::bound, &DgsmRow::input); !text.empty())
       out << fmt::format("total indices of {} are at most, by derivatives: {}\n", d.output.name, text);
-  }
 }
 
-/// Elementary effects and steps, in the output's unit, the largest first.
-std::string largest_changes(std::vector<std::pair<double, std::string>> changes, const propagation::Output& o) {
-  std::erase_if(changes, [](const auto& change) { return std::isnan(change.first); });
-  std::ranges::stable_sort(changes, [](const auto& a, const auto& b) { return a.first > b.first; });
-  std::string text;
-  for (std::size_t i = 0; i < std::min<std::size_t>(3, changes.size()); ++i)
-    text += fmt::format("{}{} {}", i == 0 ? "" : ", ", changes[i].second, shown(changes[i].first, o.unit, o.si_unit));
-  if (changes.size() > 3) text += fmt::format(", {} more", changes.size() - 3);
-  return text;
-}
-
+/// Elementary effects and steps, in the output's unit.
 void print_screening(const Results& r, std::ostream& out) {
-  for (const Morris& m : r.morris) {
-    std::vector<std::pair<double, std::string>> effects;
-    for (const MorrisRow& row : m.rows) effects.emplace_back(row.mean_absolute, row.input);
+  const auto in_unit_of = [](const propagation::Output& o) {
+    return [&o](double x) { return shown(x, o.unit, o.si_unit); };
+  };
+  for (const Morris& m : r.morris)
     out << fmt::format("elementary effects (mu*) on {}: {}\n", m.output.name,
-                       largest_changes(std::move(effects), m.output));
-  }
+                       largest(m.rows, &MorrisRow::mean_absolute, &MorrisRow::input, in_unit_of(m.output)));
   for (const OneAtATimeTable& table : r.one_at_a_time)
     for (std::size_t o = 0; o < table.outputs.size(); ++o) {
-      std::vector<std::pair<double, std::string>> changes;
-      for (const OneAtATimeRow& row : table.rows)
-        changes.emplace_back(std::fmax(std::fabs(row.up[o]), std::fabs(row.down[o])), row.quantity);
+      const auto change = [o](const OneAtATimeRow& row) { return std::fmax(std::fabs(row.up[o]), std::fabs(row.down[o])); };
       out << fmt::format("{}, largest changes of {}: {}\n", table.title.empty() ? "one at a time" : table.title,
-                         table.outputs[o].name, largest_changes(std::move(changes), table.outputs[o]));
+                         table.outputs[o].name,
+                         largest(table.rows, change, &OneAtATimeRow::quantity, in_unit_of(table.outputs[o])));
     }
 }
 

@@ -12,8 +12,6 @@
 
 #include "analysis/analyse.h"
 #include "analysis/stopping.h"
-#include "base/instruction_set.h"
-#include "base/version.h"
 #include "cli/command.h"
 #include "cli/print.h"
 #include "propagation/propagate.h"
@@ -99,20 +97,9 @@ ExitCode run(const Options& o) {
     throw InputError({{{s.file}, "model: nothing is measured", "a run evaluates measurands", "add [model.measurands]"}});
   if (o.out.empty()) std::filesystem::create_directories("results");
 
-  const store::Identity identity{s.hash,
-                                 s.text,
-                                 s.file,
-                                 s.model,
-                                 scenario::name(s.method),
-                                 s.evaluation,
-                                 scenario::name(s.run.design),
-                                 version,
-                                 name(best_instruction_set()),
-                                 adaptive_text(s.run.adaptive),
-                                 s.run.seed,
-                                 s.run.samples,
-                                 s.run.store_samples,
-                                 propagation::design_hash(experiment)};
+  store::Identity identity = store::identity_of(s);
+  identity.adaptive = adaptive_text(s.run.adaptive);
+  identity.design_hash = propagation::design_hash(experiment);
   store::ResultFile file(out, identity, experiment.outputs(), experiment.place_names());
 
   if (!file.remark().empty()) std::cerr << file.remark() << '\n';

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <tuple>
 
+#include "base/instruction_set.h"
 #include "base/version.h"
 
 namespace gumshoe::store {
@@ -33,6 +34,23 @@ auto fields(const Identity& i) {
 
 bool same_numbers(const Identity& a, const Identity& b) {
   return fields(a) == fields(b) && (!a.adaptive.empty() || a.samples == b.samples);
+}
+
+Identity identity_of(const scenario::Scenario& s) {
+  return {.scenario_hash = s.hash,
+          .scenario_text = s.text,
+          .scenario_file = s.file,
+          .model = s.model,
+          .method = scenario::name(s.method),
+          .evaluation = s.evaluation,
+          .design = scenario::name(s.run.design),
+          .version = version,
+          .instruction_set = name(best_instruction_set()),
+          .adaptive = "",
+          .seed = s.run.seed,
+          .samples = s.run.samples,
+          .store_samples = s.run.store_samples,
+          .design_hash = ""};
 }
 
 void write_identity(hid_t file, const Identity& i) {

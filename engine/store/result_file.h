@@ -7,6 +7,7 @@
 
 #include "analysis/results.h"
 #include "propagation/run.h"
+#include "scenario/scenario.h"
 
 namespace gumshoe::store {
 
@@ -18,6 +19,9 @@ struct Identity {
   bool store_samples = true;
   std::string design_hash; ///< propagation::design_hash; empty in files older than it
 };
+
+/// What a scenario says of it and this program adds: all but `adaptive` and `design_hash`.
+Identity identity_of(const scenario::Scenario& scenario);
 
 /// Throws OutputError if a result cannot be put there: a missing folder, a file that is no result of ours.
 void require_writable(const std::string& path);

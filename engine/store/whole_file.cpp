@@ -24,16 +24,21 @@ void require_writable(const std::string& path) {
   });
 }
 
-void write_whole(const std::string& path, const Identity& identity, const std::string& title,
-                 double coverage_probability, const std::function<void(hid_t file)>& contents) {
+void write_whole(const std::string& path, const scenario::Scenario& s, std::uint64_t seed, std::uint64_t samples,
+                 const std::function<void(hid_t file)>& contents) {
+  Identity identity = identity_of(s);
+  identity.design = scenario::name(scenario::Design::monte_carlo);
+  identity.seed = seed;
+  identity.samples = samples;
+  identity.store_samples = false;
   const Lock lock(hdf5::library());
   survive_size_limit();
   naming(path, [&] {
     replace_file(destination(path), [&](const std::string& temporary) {
       const hdf5::Handle file = open_file(temporary, H5F_ACC_TRUNC);
       write_identity(file, identity);
-      hdf5::write_attribute(file, "title", title);
-      hdf5::write_attribute(file, "coverage_probability", coverage_probability);
+      hdf5::write_attribute(file, "title", s.title);
+      hdf5::write_attribute(file, "coverage_probability", s.analysis.coverage_probability);
       contents(file);
       hdf5::write_attribute(file, "complete", 1);
       hdf5::require(H5Fflush(file, H5F_SCOPE_GLOBAL), "write the file");

@@ -23,7 +23,7 @@ constexpr Field<Trace> search[] = {
     {"alpha", of<&Trace::alpha>, one, "rate of false alarms that was asked for"},
     {"tried", of<&Trace::tried>, one, "candidates tried"},
     {"draws", of<&Trace::draws>, one, "draws of the bootstrap"},
-    {"vetoed", of<&Trace::vetoed>, one, "1 if the hold-out blocks refused what was found"}};
+    {"vetoed", of<&Trace::vetoed>, one, "1 if the hold-out blocks rejected what was found"}};
 
 using F = Finding;
 constexpr Field<F> finding[] = {
@@ -100,7 +100,7 @@ constexpr Field<Noise> noise[] = {
      "p-value of residuals as large as these, were the declared noise true"},
     {"scatter", of<&Noise::scatter>, one, "labels of the variance component in use, or empty"},
     {"declared", of<&Noise::declared>, one, "1 if the scenario declares the noise"},
-    {"outliers", of<&Noise::outliers>, one, "readings weighed down"}};
+    {"outliers", of<&Noise::outliers>, one, "readings that were down-weighted"}};
 
 using R = ResidualRow;
 constexpr Field<R> residuals[] = {
