@@ -132,9 +132,9 @@ std::vector<Key> model_keys() {
   };
 }
 
-std::vector<Key> sections() {
+const std::vector<Key>& sections() {
   using namespace shape;
-  return {
+  static const std::vector<Key> all = {
       {"schema", R"("const": 1)", "version of this format", true},
       {"title", text(), "one line, shown in the report"},
       {"model", table(model_keys()), "what is measured with, and how it is evaluated", true},
@@ -154,6 +154,7 @@ std::vector<Key> sections() {
       {"stated_effects", stated_effects_shape(),
        "effects as formulas: size times formula adds to an indication; without a size a candidate of gumshoe trace"},
   };
+  return all;
 }
 
 std::string schema(const Catalogue& catalogue) {

@@ -6,7 +6,7 @@
 namespace gumshoe::scenario {
 
 /// The sections of a scenario, with their shapes.
-std::vector<Key> sections();
+const std::vector<Key>& sections();
 /// The keys of [model], those of models that a scenario describes included.
 std::vector<Key> model_keys();
 
