@@ -104,7 +104,7 @@ TEST_CASE("mistakes in [trace] are located", "[scenario][trace][errors]") {
       {"draws = 98", "s.toml:6:9: error: trace.draws: 98 must lie between 99 and 1000000"},
       {"block = \"setup\"", "s.toml:6:1: error: trace: unknown key 'block'. Did you mean 'blocks'?"},
       {"[trace.columns]\nt = { column = \"Tt\" }", "has no column 'Tt'. Did you mean"},
-      {"[trace.columns]\nt = { unit = \"s\" }", "s.toml:7:5: error: trace.columns.t.column: missing"},
+      {"[trace.columns]\nt = { unit = \"s\" }", "s.toml:7:5: error: trace.columns.t.column is missing"},
       {"[trace.columns]\nt = { column = \"T\", unit = \"degX\" }", "'degX' is not a unit"},
       {"[trace.columns]\nfeed = { column = \"T\" }", "s.toml:7:1: error: trace.columns.feed: the name has a meaning"},
       {"[trace.columns]\n\"t x\" = { column = \"T\" }", "no name that a formula can write"},
@@ -187,8 +187,8 @@ TEST_CASE("mistakes in stated effects are located at the character", "[scenario]
   CHECK_THAT(wrong(effect("1 +", "um")), Contains("s.toml:6:15: error"));
   CHECK_THAT(wrong(effect("1 / time", "um*s")), Contains("no finite value at reading 1 (rod = a, setup = 1)"));
   CHECK_THAT(wrong(effect("time", "um/fortnit")), Contains("s.toml:7:8: error: stated_effects.film.unit: "));
-  CHECK_THAT(wrong("[stated_effects.film]\nunit = \"um\"\n"), Contains("stated_effects.film.formula: missing"));
-  CHECK_THAT(wrong("[stated_effects.film]\nformula = 1\n"), Contains("stated_effects.film.unit: missing"));
+  CHECK_THAT(wrong("[stated_effects.film]\nunit = \"um\"\n"), Contains("stated_effects.film.formula is missing"));
+  CHECK_THAT(wrong("[stated_effects.film]\nformula = 1\n"), Contains("stated_effects.film.unit is missing"));
   CHECK_THAT(wrong(effect("1", "um", "indication = \"spindel_z\"\n")), Contains("Did you mean 'spindle_z'?"));
   CHECK_THAT(wrong(effect("1", "um", "size = \"1 s\"\n")), Contains("stated_effects.film.size: '1 s' is not a length"));
   CHECK_THAT(wrong(effect("1", "um", "amount = \"1 um\"\n")), Contains("unknown key 'amount'"));
@@ -220,7 +220,7 @@ TEST_CASE("another data file for the same scenario", "[scenario][trace]") {
   // The scenario's own file need not be there.
   std::filesystem::remove(folder.path() + "/r.csv");
   CHECK(with(folder.path() + "/other.csv").hash == other.hash);
-  CHECK(said(folder.path() + "/none.csv") == folder.path() + "/none.csv: error: the file does not exist");
+  CHECK(said(folder.path() + "/none.csv") == folder.path() + "/none.csv: error: the file does not exist.");
   const std::string lacking = said(folder.write("lacking.csv", "rod,setup,feed,z\na,1,10,1\n"));
   CHECK_THAT(lacking,
              Contains("s.toml:4:") && Contains("lacking.csv' has no column 't'") && Contains("has no column 'T'"));
