@@ -50,11 +50,11 @@ void read_range(Table table, KnobReader& knobs, Variable& v) {
 }
 
 void read_list(const Member& m, const std::string& path, KnobReader& knobs, Problems& problems, Variable& v) {
-  if (m.value.items.empty()) problems.add(m.value, path + ": empty", "nothing to choose from");
+  if (m.value.items.empty()) problems.add(m.value, path + ": empty", "there is nothing to choose from");
   for (const Node& item : m.value.items) {
     const auto x = knobs.value(item, path, v.knob);
     if (x && std::ranges::find(v.values, *x) != v.values.end())
-      problems.add(item, path + ": the value stands twice");
+      problems.add(item, path + ": the value is listed twice");
     else if (x)
       v.values.push_back(*x);
   }
@@ -81,7 +81,7 @@ std::vector<Variable> read_variables(Table& table, KnobReader& knobs) {
       read_list(m, table.path(m.key), knobs, table.problems(), v);
     if (!v.values.empty()) out.push_back(std::move(v));
   }
-  if (table.members().empty()) table.refuse("empty", "nothing to choose from");
+  if (table.members().empty()) table.refuse("empty", "there is nothing to choose from");
   return out;
 }
 

@@ -49,7 +49,7 @@ const quantities::InputQuantity* find(const StudyScope& scope, const std::string
 }
 
 void unknown_quantity(const Table& table, const Node& node, const std::string& name, const StudyScope& scope) {
-  table.problems().add(node, fmt::format("{}: '{}' is no quantity here", table.path(), name), "",
+  table.problems().add(node, fmt::format("{}: '{}' is not a quantity here", table.path(), name), "",
                        did_you_mean(name, names_of(scope.quantities)));
 }
 

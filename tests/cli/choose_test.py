@@ -117,7 +117,7 @@ class Choose(unittest.TestCase):
     def test_none_meets_the_target(self):
         said = self.choose(TEXT.replace('target = "3 um"', 'target = "1 um"'))
         self.assertEqual(said.returncode, 0)
-        self.assertIn("No candidate meets the target U = 1 um. The best reached is U =", said.stdout)
+        self.assertIn("No candidate meets the target U = 1 um. The smallest U reached is", said.stdout)
         self.assertIn("what limits it", said.stdout)
 
     def test_no_run_to_replay(self):
@@ -150,12 +150,12 @@ class Choose(unittest.TestCase):
             "compare without settings": ('settings = { feed = "30 mm/min", readings = 12 }', "settings = {}",
                                          "settings = {}", "empty"),
             "no formula for the time": ('per_reading = "way / feed + retract"\nonce = "start"\n', "", "[choose]",
-                                        "nothing says how long"),
+                                        "is not given"),
             "a time that is a length": ("way / feed + retract", "way", "per_reading", "the formula gives a length"),
             "sum of unlike": ("way / feed + retract", "way + retract", "per_reading", "a length"),
             "unknown name in the time": ("way / feed + retract", "way / fed + retract", "per_reading", "'fed'"),
             "a constant that has a meaning": ('start = "5 s"', 'start = "5 s"\ndelay = "5 s"', 'delay = "5 s"',
-                                              "a meaning already"),
+                                              "already has a meaning"),
             "not a virtual experiment": ('method = "virtual_experiment"\n', "", None, None),
         }
         for name, (old, new, where, words) in mistakes.items():

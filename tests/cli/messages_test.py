@@ -129,7 +129,7 @@ CHECKED = [
     (SCENARIO, None, '[analysis]\ncomparisons = [ { measurand = "laser_z", between = "rod", within = "rod" } ]\n', "are the same label"),
     (SCENARIO, None, "[analysis]\nsensitivity = { second_order = true }\n", "needs a base size"),
     (SCENARIO, None, '[analysis]\njoint = "laser_z"\n', "expected an array"),
-    (SCENARIO, None, '[analysis]\njoint = [["laser_z"]]\n', "each group needs two measurands or more"),
+    (SCENARIO, None, '[analysis]\njoint = [["laser_z"]]\n', "each group needs at least two measurands"),
     (SCENARIO, None, '[analysis]\njoint = [["laser_z", "laser_zz"]]\n', "measurand here"),
     (SCENARIO, None, '[[analysis.one_at_a_time]]\ntitle = "x"\nsteps = { rod_radius = "0 mm" }\n', "the step of rod_radius is zero"),
     (SCENARIO, None, '[[analysis.conformity]]\nmeasurand = "laser_z"\n', "no tolerance limit"),
@@ -140,13 +140,13 @@ CHECKED = [
     (SCENARIO, None, "[estimate]\nwidth = 1\n", "the squared loss has no width"),
     (ROWS, None, '[trace]\nblocks = "setup"\nfinal = []\n', "the last quarter of the blocks"),
     (ROWS.replace('rod = "b", setup = "1"', 'rod = "b"'), None, '[trace]\nblocks = "setup"\n', "a reading has no label 'setup'"),
-    (ROWS, None, "[trace]\nredone = [[]]\n", "an act has labels"),
-    (SCENARIO, None, '[stated_effects.film]\nunit = "degC"\nformula = "feed"\n', "has a zero of its own"),
+    (ROWS, None, "[trace]\nredone = [[]]\n", "a set-up step needs at least one label"),
+    (SCENARIO, None, '[stated_effects.film]\nunit = "degC"\nformula = "feed"\n', "has its own zero"),
     (SCENARIO, None, '[stated_effects.film]\nunit = "um*s"\nformula = "1 / time"\nsize = { value = "1 um*s" }\n', "the formula has no finite value at reading"),
     # formulas, programs, machines
     (FORMULA, 'y = "a + b"', "", "no formula"),
     (FORMULA, 'y = "a + b"', 'y = "(a b"', "an operator or ')' is missing before 'b'"),
-    (FORMULA, None, '[conditions]\na = "1 mm"\n', "a name means one thing"),
+    (FORMULA, None, '[conditions]\na = "1 mm"\n', "names must be unique"),
     (FORMULA, 'y = "a + b"', 'y = { formula = "a + b", unit = "s" }', "unit: 's' is not"),
     (COMMAND, 'y = "mm"', "", "there is nothing to evaluate"),
     (COMMAND, 'y = "mm"', '"y,z" = "mm"', "cannot be a column"),
@@ -219,7 +219,7 @@ class Messages(unittest.TestCase):
             '[indications.w]\nreadings = ["1 mm"]\nNOISE\n')
         for text, command, words in [
             (fit.replace('[model.measurands]\ny = "a + b"\n', "").replace('[quantities]\n', '').replace(
-                'a = {', '[quantities]\na = {'), ["run", "S", "--out", "O"], "nothing is measured"),
+                'a = {', '[quantities]\na = {'), ["run", "S", "--out", "O"], "there is nothing to measure"),
             (SCENARIO, ["run", "S", "--out", "O" * 300], "too long"),
             (SCENARIO, ["estimate", "S"], "no quantity is marked estimated"),
             (fit.replace('a = { value = "1 mm", u = "1 um" }', 'a = { value = "1 mm", u = "1 um", estimated = true }'),
@@ -238,7 +238,7 @@ class Messages(unittest.TestCase):
             (fit_two.replace("NOISE", 'components = [ { distribution = "normal", u = "1 um" } ]').replace(
                 'repeatability = { s = "1 um" }', 'components = [ { distribution = "normal", u = "1 um" } ]').replace('readings = ["1 mm"]', 'rows = [{ n = "1", values = ["1 mm"] }, { n = "2", values = ["1 mm"] }]').replace(
                 'readings = ["2 mm"]', 'rows = [{ n = "1", values = ["2 mm"] }, { n = "2", values = ["2 mm"] }]'),
-             ["estimate", "S"], "the noise of readings"),
+             ["estimate", "S"], "readings share all of their noise"),
         ]:
             with self.subTest(words):
                 self.refused(text, command, words)

@@ -141,7 +141,7 @@ class Plugin(unittest.TestCase):
         with h5py.File(self.folder / "1.h5") as file:
             # exact but for rounding: y = 25e-3 to 3e-18, over steps of 0.5e-6
             self.assertAlmostEqual(float(file["budget/000"].attrs["combined_standard_uncertainty"]) / u, 1, delta=1e-10)
-        self.assertIn("by differences", run.stdout)
+        self.assertIn("are differences over a standard uncertainty", run.stdout)
         replay = gumshoe("replay", self.folder / "1.h5", "--sample", 12345)
         self.assertEqual(replay.returncode, 0, replay.stderr)
         shown = re.search(r"outputs\n  y +(\S+) mm", replay.stdout)
@@ -188,7 +188,7 @@ class Plugin(unittest.TestCase):
         self.assertLess(abs(error.std() / u - 1), 4 / np.sqrt(40000))
         self.assertLess(abs(error.mean()), 4 * u / np.sqrt(20000))
         self.build()
-        self.refused(self.run_it("never.h5"), "does not say what the readouts would be", place=(2, 1))
+        self.refused(self.run_it("never.h5"), "does not simulate the readings", place=(2, 1))
 
     def test_failed_samples(self):
         for fault in ("for (size_t i = 0; i < b->samples; ++i) b->failed[i] = at(&b->quantities[1], i) > 2.002;",
@@ -279,7 +279,7 @@ class Plugin(unittest.TestCase):
         self.build("-DQUANTITIES={\"a\", \"mm\", \"one\", 11, 0, 100}, {\"b\", \"1\", \"other\", 2, 0, 0}")
         replay = gumshoe("replay", self.folder / "r.h5", "--sample", 1)
         self.assertIsNone(complaint(replay), replay.stderr)
-        self.assertIn("no longer the scenario", replay.stderr)
+        self.assertIn("has changed since this result", replay.stderr)
 
     def test_shipped_example_and_the_same_as_a_program(self):
         shutil.copytree(ROOT / "scenarios/plugin", self.folder / "plugin", ignore=shutil.ignore_patterns("build"))

@@ -60,7 +60,7 @@ TEST_CASE("an option outside its limits, missing or unknown is refused at its pl
              Contains("d.toml:2:9: error: drill.turns: 10 must lie between 1 and 9"));
   CHECK_THAT(read("name = \"a\"\nshare = 1.0\n").second,
              Contains("d.toml:2:9: error: drill.share: 1 must lie between 0 and 1") && Contains("share = 0.25"));
-  CHECK_THAT(read("turns = 2\n").second, Contains("drill.name: missing") && Contains("name = \"d\""));
+  CHECK_THAT(read("turns = 2\n").second, Contains("drill.name is missing") && Contains("name = \"d\""));
   CHECK_THAT(read("name = \"a\"\nkind = \"spet\"\n").second, Contains("'step'"));
   CHECK_THAT(read("name = \"a\"\nturn = 2\n").second, Contains("unknown key 'turn'") && Contains("'turns'"));
 }

@@ -89,15 +89,15 @@ TEST_CASE("mistakes in [trace] are located", "[scenario][trace][errors]") {
        "s.toml:6:10: error: trace.blocks: no reading has the label 'setpu'. Did you mean 'setup'?"},
       {"blocks = \"setup\"\nfinal = [\"2\", \"3\"]", "s.toml:7:15: error: trace.final: no reading has setup = '3'"},
       {"blocks = \"setup\"\nfinal = [\"1\", \"2\"]", "s.toml:7:9: error: trace.final: every block is kept apart"},
-      {"blocks = \"setup\"\nfinal = [\"2\", \"2\"]", "s.toml:7:15: error: trace.final: '2' stands twice"},
+      {"blocks = \"setup\"\nfinal = [\"2\", \"2\"]", "s.toml:7:15: error: trace.final: '2' is listed twice"},
       {"blocks = \"setup\"\nfinal = []", "s.toml:7:9: error: trace.final: empty"},
-      {"blocks = \"setup\"\nfinal = [2]", "s.toml:7:10: error: trace.final: expected text, found an integer"},
+      {"blocks = \"setup\"\nfinal = [2]", "s.toml:7:10: error: trace.final: text is expected, not an integer"},
       {"final = [\"2\"]", "s.toml:6:9: error: trace.final: there are no blocks"},
-      {"order = \"tiem\"", "s.toml:6:9: error: trace.order: 'tiem' is no condition and no column. Did you mean 'time'?"},
+      {"order = \"tiem\"", "s.toml:6:9: error: trace.order: 'tiem' is neither a condition nor a column. Did you mean 'time'?"},
       {"order = \"temperatur\"\n" + columns, "Did you mean 'temperature'?"},
       {"redone = [[\"rod\", \"setpu\"]]", "s.toml:6:19: error: trace.redone[1]: no reading has the label 'setpu'"},
       {"redone = [[]]", "s.toml:6:11: error: trace.redone[1]: empty"},
-      {"redone = [[\"rod\", \"rod\"]]", "s.toml:6:19: error: trace.redone[1]: 'rod' stands twice"},
+      {"redone = [[\"rod\", \"rod\"]]", "s.toml:6:19: error: trace.redone[1]: 'rod' is listed twice"},
       {"alpha = 0", "s.toml:6:9: error: trace.alpha: 0 must lie between 0 and 1"},
       {"alpha = 1.5", "s.toml:6:9: error: trace.alpha: 1.5 must lie between 0 and 1"},
       {"alpha = nan", "s.toml:6:9: error: trace.alpha: the number is not finite"},
@@ -107,7 +107,7 @@ TEST_CASE("mistakes in [trace] are located", "[scenario][trace][errors]") {
       {"[trace.columns]\nt = { unit = \"s\" }", "s.toml:7:5: error: trace.columns.t.column is missing"},
       {"[trace.columns]\nt = { column = \"T\", unit = \"degX\" }", "'degX' is not a unit"},
       {"[trace.columns]\nfeed = { column = \"T\" }", "s.toml:7:1: error: trace.columns.feed: the name has a meaning"},
-      {"[trace.columns]\n\"t x\" = { column = \"T\" }", "no name that a formula can write"},
+      {"[trace.columns]\n\"t x\" = { column = \"T\" }", "a formula cannot use this name"},
       {"[trace.columns]\nx = { column = \"rod\" }", "r.csv:2:1: error: 'a' is not a number"},
       {"[trace.columns]\nx = { column = \"z\" }", "s.toml:7:1: error: trace.columns.x: 'z' holds readings"},
   };
@@ -115,7 +115,7 @@ TEST_CASE("mistakes in [trace] are located", "[scenario][trace][errors]") {
     CAPTURE(text);
     CHECK_THAT(wrong("[trace]\n" + text + '\n'), Contains(message));
   }
-  CHECK_THAT(complaint(head + one_reading + "[trace]\n" + columns), Contains("the readings stand in no data file"));
+  CHECK_THAT(complaint(head + one_reading + "[trace]\n" + columns), Contains("the readings are not in a data file"));
 }
 
 TEST_CASE("cells without a number are refused at their place", "[scenario][trace][errors]") {
@@ -183,7 +183,7 @@ TEST_CASE("mistakes in stated effects are located at the character", "[scenario]
                                                                 "is a quantity of the model"));
   CHECK_THAT(
       wrong(effect("tiem", "um/s")),
-      Contains("s.toml:6:12: error: stated_effects.film: 'tiem' is no condition and no column. Did you mean 'time'?"));
+      Contains("s.toml:6:12: error: stated_effects.film: 'tiem' is neither a condition nor a column. Did you mean 'time'?"));
   CHECK_THAT(wrong(effect("1 +", "um")), Contains("s.toml:6:15: error"));
   CHECK_THAT(wrong(effect("1 / time", "um*s")), Contains("no finite value at reading 1 (rod = a, setup = 1)"));
   CHECK_THAT(wrong(effect("time", "um/fortnit")), Contains("s.toml:7:8: error: stated_effects.film.unit: "));
