@@ -101,7 +101,7 @@ ExitCode analyse(const Options& o) {
     }
     file.write(block);
   }
-  s.notes.push_back("analysed anew from the samples of " + o.file);
+  s.notes.push_back("analysed again from the samples of " + o.file);
   const analysis::Samples kept{[&](std::size_t output) { return file.read(output, 0, samples); },
                                [&] { return file.read_status(0, samples); }};
   analysis::Results results = analysis::analyse(experiment, kept, o.threads);

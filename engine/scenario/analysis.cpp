@@ -72,7 +72,7 @@ Comparison read_comparison(Table table, const StudyScope& scope, Context& contex
   read_options(table, comparison_options(), out);
   check_label(table, "between", out.between, context);
   check_label(table, "within", out.within, context);
-  if (!out.between.empty() && out.between == out.within) table.refuse("between and within are the same label");
+  if (!out.between.empty() && out.between == out.within) table.refuse("between and within must be different labels");
   table.refuse_unknown();
   return out;
 }

@@ -24,7 +24,7 @@ Options<Range> range_options() {
 
 void read_range(Table table, KnobReader& knobs, Variable& v) {
   if (v.knob.kind == Knob::Kind::evaluation) {
-    table.refuse("evaluations are listed", "", "evaluation = [\"...\"]");
+    table.refuse("evaluations must be listed", "", "evaluation = [\"...\"]");
     return;
   }
   Range range;
@@ -34,7 +34,7 @@ void read_range(Table table, KnobReader& knobs, Variable& v) {
   const auto b = high ? knobs.value(*high, table.path("high"), v.knob) : std::nullopt;
   table.refuse_unknown();
   if (!a || !b) return;
-  if (!(*a < *b)) return table.refuse("low is not below high");
+  if (!(*a < *b)) return table.refuse("low must be below high");
   if (range.logarithmic && *a <= 0)
     return table.refuse_key("low", "not above 0", "a logarithmic scale has no zero", "scale = \"linear\"");
   v.range = true;

@@ -98,7 +98,7 @@ private:
     Table trace(*top.find("trace"), "trace", problems_);
     for (const std::string& name : out_.trace.free)
       if (std::ranges::find(names, name) == names.end())
-        trace.refuse_key("free", fmt::format("'{}' is no quantity of the scenario", name), "",
+        trace.refuse_key("free", fmt::format("'{}' is not a quantity of the scenario", name), "",
                          did_you_mean(name, names));
   }
 

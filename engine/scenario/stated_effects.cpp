@@ -71,7 +71,7 @@ private:
     if (!owner.empty())
       table_.refuse(owner + " has this name", "names must be unique", "choose another name");
     else if (!formula::is_name(out_.name))
-      table_.refuse("no name for an effect", "use letters, digits and _, with no digit first");
+      table_.refuse("the name cannot be used for an effect", "use letters, digits and _, with no digit first");
   }
 
   void formula() {

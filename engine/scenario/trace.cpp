@@ -133,7 +133,7 @@ private:
     }
     if (known.size() == out_.final_blocks.size() &&
         std::ranges::all_of(out_.final_blocks, [&](auto& b) { return known.contains(b); }))
-      table_.refuse_key("final", "every block is kept apart", "no block is left for the search", "list fewer of them");
+      table_.refuse_key("final", "every block is held out", "no block is left for the search", "list fewer of them");
   }
 
   void order() {

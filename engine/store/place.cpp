@@ -21,7 +21,7 @@ std::string destination(const std::string& path) {
   const auto refuse = [&](const std::string& why, const std::string& remedy = {}) {
     throw OutputError("'" + path + "' cannot be written", why, remedy);
   };
-  if (path.empty()) refuse("no name given");
+  if (path.empty()) refuse("no name is given");
   std::error_code error;
   const fs::path target = fs::weakly_canonical(fs::absolute(path), error);
   if (error) refuse(error.message());

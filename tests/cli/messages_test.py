@@ -113,7 +113,7 @@ CHECKED = [
     (ROWS, None, '[quantities.beam_yaw]\nvalue = "0 deg"\nu = "1 deg"\nper = "rood"\n', "Did you mean 'rod'?"),
     (SPHERE, None, "", "lacks an indication"),
     # correlations
-    (SCENARIO, None, CORRELATED, "give either coefficient or matrix"),
+    (SCENARIO, None, CORRELATED, "either a coefficient or a matrix is needed"),
     (SCENARIO, None, CORRELATED + "matrix = [[1, 0.5], [0.4, 1]]\n", "correlations are symmetric"),
     (SCENARIO, None, CORRELATED.replace(', "beam_pitch"', "") + "coefficient = 0.5\n", "two quantities or more"),
     (SCENARIO, None, '[quantities.beam_yaw]\nu = "1 deg"\n' + CORRELATED.replace('"beam_pitch"', '"beam_pitch", "beam_yaw"')
@@ -126,7 +126,7 @@ CHECKED = [
      CORRELATED.replace("copula", "spearman") + "coefficient = 0.5\n", "needs continuous distributions"),
     # run, analysis, estimate, trace
     (SCENARIO, None, '[run]\ndesign = "sobol"\nadaptive = { rule = "stein" }\n', "adaptive runs need independent samples"),
-    (SCENARIO, None, '[analysis]\ncomparisons = [ { measurand = "laser_z", between = "rod", within = "rod" } ]\n', "are the same label"),
+    (SCENARIO, None, '[analysis]\ncomparisons = [ { measurand = "laser_z", between = "rod", within = "rod" } ]\n', "must be different labels"),
     (SCENARIO, None, "[analysis]\nsensitivity = { second_order = true }\n", "needs a base size"),
     (SCENARIO, None, '[analysis]\njoint = "laser_z"\n', "expected an array"),
     (SCENARIO, None, '[analysis]\njoint = [["laser_z"]]\n', "each group needs at least two measurands"),
@@ -135,7 +135,7 @@ CHECKED = [
     (SCENARIO, None, '[[analysis.conformity]]\nmeasurand = "laser_z"\n', "no tolerance limit"),
     (SCENARIO, None, '[[analysis.conformity]]\nmeasurand = "laser_z"\nlower = "2 mm"\nupper = "1 mm"\n', "lower must be below upper"),
     (SCENARIO, None, '[[analysis.conformity]]\nmeasurand = "laser_z"\nlower = "2 mm"\nguard_factor = 1\nguard_band = "1 um"\n',
-     "guard_factor"),
+     "both guard_band and guard_factor"),
     (SCENARIO, None, '[[analysis.conformity]]\nmeasurand = "laser_z"\nlower = "2 mm"\nprocess = "2 mm"\n', "must be one distribution"),
     (SCENARIO, None, "[estimate]\nwidth = 1\n", "the squared loss has no width"),
     (ROWS, None, '[trace]\nblocks = "setup"\nfinal = []\n', "the last quarter of the blocks"),
@@ -158,7 +158,7 @@ CHECKED = [
      None, "", "X, Y, Z, U, V, W are linear"),
     # choices
     (CHOOSE, "readings = [1, 2, 3]", "readings = [1, 1]", "stands twice"),
-    (CHOOSE, "readings = [1, 2, 3]", 'evaluation = { low = "1", high = "2" }', "evaluations are listed"),
+    (CHOOSE, "readings = [1, 2, 3]", 'evaluation = { low = "1", high = "2" }', "evaluations must be listed"),
     (CHOOSE, 'low = "10 mm/min"', 'low = "0 mm/min"', "not above 0"),
     (CHOOSE, "[choose.variables]\n", '[choose.variables]\nevaluation = ["fast"]\n', "has no evaluation 'fast'"),
     (CHOOSE, CHOOSE[CHOOSE.index("feed = {"):CHOOSE.index("[choose.time]")], "", "nothing to choose from"),

@@ -88,7 +88,7 @@ TEST_CASE("mistakes in [trace] are located", "[scenario][trace][errors]") {
       {"blocks = \"setpu\"",
        "s.toml:6:10: error: trace.blocks: no reading has the label 'setpu'. Did you mean 'setup'?"},
       {"blocks = \"setup\"\nfinal = [\"2\", \"3\"]", "s.toml:7:15: error: trace.final: no reading has setup = '3'"},
-      {"blocks = \"setup\"\nfinal = [\"1\", \"2\"]", "s.toml:7:9: error: trace.final: every block is kept apart"},
+      {"blocks = \"setup\"\nfinal = [\"1\", \"2\"]", "s.toml:7:9: error: trace.final: every block is held out"},
       {"blocks = \"setup\"\nfinal = [\"2\", \"2\"]", "s.toml:7:15: error: trace.final: '2' is listed twice"},
       {"blocks = \"setup\"\nfinal = []", "s.toml:7:9: error: trace.final: empty"},
       {"blocks = \"setup\"\nfinal = [2]", "s.toml:7:10: error: trace.final: text is expected, not an integer"},
@@ -194,7 +194,7 @@ TEST_CASE("mistakes in stated effects are located at the character", "[scenario]
   CHECK_THAT(wrong(effect("1", "um", "amount = \"1 um\"\n")), Contains("unknown key 'amount'"));
   for (const std::string name : {"trigger_latency", "feed", "rod_radius", "spindle_z"})
     CHECK_THAT(wrong("[stated_effects." + name + "]\nformula = 1\nunit = \"um\"\n"), Contains("has this name"));
-  CHECK_THAT(wrong("[stated_effects.\"a film\"]\nformula = 1\nunit = \"um\"\n"), Contains("no name for an effect"));
+  CHECK_THAT(wrong("[stated_effects.\"a film\"]\nformula = 1\nunit = \"um\"\n"), Contains("the name cannot be used for an effect"));
 }
 
 TEST_CASE("another data file for the same scenario", "[scenario][trace]") {
