@@ -194,9 +194,9 @@ for line in sys.stdin:
             "answer([1], 'volume (mm3)')\n": ["no column 'area'"],
             "answer([1], 'area (mm3)')\n": ["its column area", "mm3"],
             "answer([1], 'area (foo)')\n": ["'foo' is not a unit"],
-            "answer(['1,2'])\n": ["line 2 of its output has 2 cells, the header 1"],
+            "answer(['1,2'])\n": ["line 2 of its output has 2 cells, but the header has 1"],
             "sys.stdout.buffer.write(bytes(range(256)) * 10)\n": ["no column 'area'"],
-            "while True: print('area' * 10000)\n": ["writes without end"],
+            "while True: print('area' * 10000)\n": ["its output did not end"],
         }
         for body, words in cases.items():
             with self.subTest(body):

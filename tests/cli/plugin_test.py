@@ -205,13 +205,13 @@ class Plugin(unittest.TestCase):
 
     def test_bad_libraries(self):
         cases = [
-            (["-DABI=2"], ["version 2 of the plugin interface", "version 1"]),
-            (["-DNAME=other"], ["exports no function gumshoe_plugin"]),
+            (["-DABI=2"], ["version 2 of the plugin interface", "this program uses version 1"]),
+            (["-DNAME=other"], ["is not a plugin (it exports no function gumshoe_plugin)"]),
             (["-DMEASURANDS={\"y\", \"foo\", 0, 0, 0, 0}"], ["y: 'foo' is not a unit"]),
-            (['-DQUANTITIES={"a", "mm", 0, 0, 0, 0}, {"a", "mm", 0, 0, 0, 0}'], ["'a' stands twice"]),
-            (['-DQUANTITIES={"a", "mm", 0, 0, 0, 0}, {"feed", "1", 0, 0, 0, 0}'], ["'feed' stands twice"]),
-            (['-DQUANTITIES={"a b", "mm", 0, 0, 0, 0}, {0, "1", 0, 0, 0, 0}'], ["number 1 of its quantities has no", "number 2"]),
-            (['-DQUANTITIES={"a", "mm", 0, 7, 1, 2}, {"b", "1", 0, 0, 2, 1}'], ["default is outside", "not in order"]),
+            (['-DQUANTITIES={"a", "mm", 0, 0, 0, 0}, {"a", "mm", 0, 0, 0, 0}'], ["the name 'a' is used twice"]),
+            (['-DQUANTITIES={"a", "mm", 0, 0, 0, 0}, {"feed", "1", 0, 0, 0, 0}'], ["the name 'feed' is used twice"]),
+            (['-DQUANTITIES={"a b", "mm", 0, 0, 0, 0}, {0, "1", 0, 0, 0, 0}'], ["number 1 of its quantities has no valid name", "number 2"]),
+            (['-DQUANTITIES={"a", "mm", 0, 7, 1, 2}, {"b", "1", 0, 0, 2, 1}'], ["default is outside", "its lower limit exceeds its upper limit"]),
             (['-DQUANTITIES={"a", "mm", 0, NAN, 0, 0}, {"b", "1", 0, 0, 0, 0}'], ["default is not finite"]),
             (["-DFAULT=return 3;"], ["failed at a point outside the run", "returned 3"]),
             (["-DFAULT=snprintf(b->error, b->error_size, \"no table\"); return 1;"], ["(no table)"]),
@@ -242,9 +242,9 @@ class Plugin(unittest.TestCase):
         library.rmdir()
         for data in (b"", b"int main() {}", os.urandom(5000)):
             library.write_bytes(data)
-            self.refused(gumshoe("check", self.scenario), "no library that can be loaded")
+            self.refused(gumshoe("check", self.scenario), "cannot be loaded as a library")
         self.build("-DFAULT=extern void nowhere(void); nowhere();")
-        self.refused(gumshoe("check", self.scenario), "no library that can be loaded", "nowhere")
+        self.refused(gumshoe("check", self.scenario), "cannot be loaded as a library", "nowhere")
         self.scenario.write_text(SCENARIO.replace('library = "libmine.so"\n', ""))
         self.refused(gumshoe("check", self.scenario), "library", place=(2, 1))
         self.scenario.write_text(SCENARIO.replace('"libmine.so"', "5"))
