@@ -181,7 +181,7 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, int th
     if (s.run.design != scenario::Design::monte_carlo) drop_standard_errors(summary);
     if (const std::string reason = infinite_variance(e, b); !reason.empty()) {
       summary.standard_uncertainty = summary.standard_uncertainty_se = summary.estimate_se = std::nan("");
-      summary.warning = reason + "; the interval's ends are quantiles and hold";
+      summary.warning = reason + "; the ends of the interval are quantiles and remain valid";
     } else {
       check_tails(values, summary, threads);
     }
@@ -192,14 +192,15 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, int th
     if (compared) kept[o].assign(values.begin(), values.end());
   });
   if ((!e.model().evaluate_gradient || e.joint()) && !virtual_experiment)
-    r.notes.push_back("sensitivity coefficients by differences over a standard uncertainty: the model states none");
+    r.notes.push_back("sensitivity coefficients are differences over a standard uncertainty, because the model "
+                      "provides no derivatives");
   if (s.analysis.sensitivity.sobol > 0) {
     r.sensitivities = sobol_indices(e, s.analysis.sensitivity.sobol, threads);
     add_monte_carlo_column(r);
   }
   if (s.run.design != scenario::Design::monte_carlo)
     r.notes.push_back(fmt::format(
-        "design {}: its points are not independent, so no Monte Carlo standard errors are stated", r.design));
+        "design {}: its points are not independent, so that no Monte Carlo standard errors are given", r.design));
   const auto& wanted = s.analysis.sensitivity;
   if (wanted.shapley > 0) r.shapley = shapley_effects(e, wanted.shapley, threads);
   if (wanted.given_data > 0) r.given_data = given_data_indices(e, samples.values, wanted.given_data, threads);

@@ -92,7 +92,7 @@ CircularSummary circular_summary(std::span<const double> angles, double p) {
                            c.resultant_length);
   else if (crossed > 0)
     c.remark = fmt::format("{:.2g} % of the samples lie across the cut of the circle: mean, standard uncertainty and "
-                           "interval on the line mislead",
+                           "interval on the line are misleading",
                            100 * static_cast<double>(crossed) / n);
   return c;
 }

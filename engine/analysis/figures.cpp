@@ -61,7 +61,7 @@ public:
         if (std::isnan(figure->value) && figure->word.empty()) figure->word = "none";
         return *figure;
       }
-    throw InputError("'" + text_ + "' is no figure of this result", "or the scenario does not ask for its study",
+    throw InputError("'" + text_ + "' is not a figure of this result", "or the scenario does not request its study",
                      "engine/analysis/figures.h lists them");
   }
 

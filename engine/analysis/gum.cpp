@@ -165,7 +165,7 @@ Budget budget(const propagation::Experiment& e, std::size_t output, double cover
     const Contribution c = contribution_of(e, v, q, point[q], d);
     if (!c.differentiable && c.standard_uncertainty > 0) {
       b.applicable = false;
-      b.reason += (b.reason.empty() ? "no derivative at the estimate by " : ", ") + c.quantity;
+      b.reason += (b.reason.empty() ? "there is no derivative at the estimate with respect to " : ", ") + c.quantity;
     }
     const double signed_contribution = c.differentiable && b.applicable ? d.first[q] * c.standard_uncertainty : 0;
     variance += signed_contribution * signed_contribution;
@@ -219,7 +219,7 @@ Validation validate(const Budget& b, const Summary& s, int digits) {
   if (!(u > 0) || s.valid < 2) {
     v.verdict = u > 0 ? "undecided" : "not validated";
     v.reason = u > 0 ? "too few samples" : "the framework's standard uncertainty is zero";
-    if (u == 0 && s.standard_uncertainty == 0) v.verdict = "validated", v.reason = "nothing is uncertain";
+    if (u == 0 && s.standard_uncertainty == 0) v.verdict = "validated", v.reason = "no input is uncertain";
     return v;
   }
   v.delta = numerical_tolerance(u, digits, b.output);
@@ -235,10 +235,10 @@ Validation validate(const Budget& b, const Summary& s, int digits) {
     v.reason = "an end differs by more than delta";
   } else if (v.monte_carlo_tolerance > v.delta / 5) {
     v.verdict = "undecided";
-    v.reason = "the Monte Carlo tolerance exceeds a fifth of delta: take more samples";
+    v.reason = "the Monte Carlo tolerance exceeds a fifth of delta; use more samples";
   } else if (worst > v.delta) {
     v.verdict = "undecided";
-    v.reason = "an end differs by delta but for the Monte Carlo tolerance: take more samples";
+    v.reason = "the difference of an end and delta agree within the Monte Carlo tolerance; use more samples";
   } else {
     v.verdict = "validated";
     v.reason = "both ends agree within delta";

@@ -132,7 +132,7 @@ std::vector<Sensitivity> sobol_indices(const propagation::Experiment& e, std::ui
   const auto& plan = e.plan();
   if (!plan.copulas.empty())
     throw InputError("analysis.sensitivity: the inputs are correlated",
-                     "Sobol' indices are defined for independent inputs, Shapley effects for all",
+                     "Sobol' indices need independent inputs, Shapley effects do not",
                      "sensitivity = { shapley = 4096 }");
   const bool second_order = e.scenario().analysis.sensitivity.second_order;
   const auto groups = factors(e);

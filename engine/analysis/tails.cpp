@@ -62,9 +62,10 @@ void check_tails(std::span<const double> values, Summary& s, int threads) {
   const double unsettled = s.kurtosis / n;
   const bool infinite = !std::isfinite(s.standard_uncertainty) || !std::isfinite(s.kurtosis);
   if (infinite || (heavy && unsettled > 1e-3)) {
-    s.warning = fmt::format("no standard uncertainty: the tails are so heavy that the variance does not settle, Hill's "
-                            "tail index {:.2g}, below 2 there is none; the interval's ends are quantiles and hold",
-                            s.hill_index);
+    s.warning = fmt::format(
+        "no standard uncertainty: the tails are so heavy that the variance does not settle, Hill's "
+        "tail index is {:.2g}, and below 2 it does not exist; the ends of the interval are quantiles and remain valid",
+        s.hill_index);
     s.standard_uncertainty = s.standard_uncertainty_se = s.estimate_se = nan;
   } else if (below(s.hill_index, k, 2, 4) && unsettled > 1e-2) {
     s.tail_remark = fmt::format("heavy tails, Hill's tail index {:.2g}: below 4 the standard uncertainty has no Monte "

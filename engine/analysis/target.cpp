@@ -205,7 +205,7 @@ private:
     const auto u = [&](double s) { return trial_.expanded_uncertainty(scales(of_row(s * unit))); };
     const double common = unit * largest_allowed(u, u(1), u(0), wanted, 0);
     if (std::isnan(common)) return no_cheapest("the quantities without a cost alone exceed the target");
-    if (std::isinf(common)) return no_cheapest("no limit: the quantities with a cost hardly matter");
+    if (std::isinf(common)) return no_cheapest("no limit, because the quantities with a cost hardly matter");
     double then = 0;
     const auto s = of_row(common);
     for (std::size_t r = 0; r < s.size(); ++r) {

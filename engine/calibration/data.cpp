@@ -79,8 +79,8 @@ std::vector<Unknown> unknowns_of(const Experiment& e) {
         bool finite = true;
         squares += variance(e.plan().variates[v].distribution, finite);
         if (!finite)
-          refuse(s.file, u.name + ": its distribution has no standard uncertainty", "a prior needs one",
-                 "give u with more than 2 degrees of freedom");
+          refuse(s.file, u.name + ": its distribution has no standard uncertainty",
+                 "a prior needs a standard uncertainty", "give u with more than 2 degrees of freedom");
       }
       u.prior_u = std::sqrt(squares);
       u.low = card.limits.low;
@@ -131,18 +131,19 @@ Data data_of(const Experiment& e) {
     }
   }
   if (!finite)
-    out.notes.push_back("the noise is a t with too few degrees of freedom for a standard uncertainty: its scale "
-                        "s / sqrt(n) weighs the readings");
+    out.notes.push_back(
+        "the noise is a t distribution with too few degrees of freedom for a standard uncertainty; its scale "
+        "s / sqrt(n) is used as the weight of the readings");
   out.noise_declared = !loud.empty();
   if (!loud.empty() && !quiet.empty())
     refuse(s.file, fmt::format("indications.{}: no noise is declared, but {} has some", quiet, loud),
-           "the readings cannot be weighed against each other", "repeatability = { s = \"...\" }");
+           "the relative weights of the readings are unknown", "repeatability = { s = \"...\" }");
   bool shared = false;
   for (const auto& [v, rows] : rows_of) shared |= rows.size() > 1;
   if (!shared) return out;
   if (n > 5000)
     refuse(s.file, fmt::format("{} readings share draws of their noise", n),
-           "the covariance matrix of more than 5000 is not made", "per = \"reading\"");
+           "a covariance matrix of more than 5000 readings is not built", "per = \"reading\"");
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(n));
   for (const auto& [v, rows] : rows_of) {
     bool unused = true;
@@ -154,11 +155,11 @@ Data data_of(const Experiment& e) {
   const Eigen::MatrixXd factor = llt.matrixL();
   const double least = factor.diagonal().minCoeff() / factor.diagonal().maxCoeff();
   if (llt.info() != Eigen::Success || !(least > 1e-7))
-    refuse(s.file, "indications: the noise of readings is shared by them", "each needs some of its own",
+    refuse(s.file, "indications: readings share all of their noise", "each reading needs some independent noise",
            "write per = \"reading\" for resolution or repeatability");
   for (Eigen::Index a = 0; a < factor.rows(); ++a)
     for (Eigen::Index b = 0; b < factor.cols(); ++b) out.cholesky.push_back(factor(a, b));
-  out.notes.push_back("readings share part of their noise: they are weighed by its full covariance matrix");
+  out.notes.push_back("readings share part of their noise; they are weighted by its full covariance matrix");
   return out;
 }
 

@@ -71,7 +71,7 @@ void Fit::covariance(Estimate& out) const {
   out.determined = all.rank == p_;
   if (by_data.rank == p_ && by_data.condition > 1e6) {
     const auto names = members(by_data.weakest, named);
-    out.notes.push_back(fmt::format("{} {} hardly told apart by the data (condition number {:.1e})",
+    out.notes.push_back(fmt::format("{} {} hardly distinguished by the data (condition number {:.1e})",
                                     fmt::join(names, ", "), names.size() > 1 ? "are" : "is", by_data.condition));
   }
   const double factor = variance_factor(out, all.rank);

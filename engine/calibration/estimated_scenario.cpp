@@ -16,11 +16,11 @@ std::string estimated_scenario(const propagation::Experiment& experiment, const 
   const auto& s = experiment.scenario();
   for (const Parameter& p : estimate.parameters) {
     if (std::isinf(p.standard_uncertainty))
-      refuse(s.file, p.unknown.name + ": the data do not determine it", "it has no distribution to be written",
+      refuse(s.file, p.unknown.name + ": the data do not determine it", "it has no distribution that could be written",
              "give it a prior (u), add readings, or leave it out of the fit");
     if (!std::isfinite(p.standard_uncertainty))
-      refuse(s.file, p.unknown.name + ": nothing says how uncertain it is",
-             "no reading is left over and no noise declared", "repeatability = { s = \"...\" }");
+      refuse(s.file, p.unknown.name + ": its uncertainty is unknown",
+             "there are no redundant readings and no declared noise", "repeatability = { s = \"...\" }");
   }
   ScenarioText out(s, folder);
   const std::string source =

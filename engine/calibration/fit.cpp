@@ -51,10 +51,10 @@ void Fit::check() const {
   for (const auto& i : indications)
     if (i.si_unit != indications[0].si_unit)
       refuse(s.file, fmt::format("indications {} and {} have no declared noise", indications[0].name, i.name),
-             "what is measured in different units cannot be weighed without it", "repeatability = { s = \"...\" }");
+             "readings in different units cannot be weighted without it", "repeatability = { s = \"...\" }");
   if (m > 0 && n_ <= p_ && !(data_.pure_freedom > 0))
-    refuse(s.file, fmt::format("{} readings cannot tell their own noise beside {} unknowns", n_, p_),
-           "priors are weighed against it", "repeatability = { s = \"...\" }");
+    refuse(s.file, fmt::format("{} readings cannot determine their own noise in addition to {} unknowns", n_, p_),
+           "it is needed to weight the priors", "repeatability = { s = \"...\" }");
 }
 
 bool Fit::evaluate(const double* x, double* r, double* jacobian, double sigma) const {

@@ -18,8 +18,9 @@ void Fit::remarks(Estimate& out) const {
     const bool uncertain = std::any_of(quantity.entries.begin(), quantity.entries.end(),
                                        [](const auto& e) { return !e.components.empty(); });
     if (uncertain && !quantity.estimated)
-      out.notes.push_back(quantity.name + " is held at its estimate: its uncertainty is not in the result (marked "
-                                          "estimated, it is)");
+      out.notes.push_back(quantity.name +
+                          " is held at its estimate, so that its uncertainty is not in the result (mark it "
+                          "estimated to include it)");
   }
   if (!out.indistinguishable.empty())
     for (std::size_t c = 0; c < card.conditions.size() && s.readings.size() > 1; ++c) {
@@ -31,9 +32,10 @@ void Fit::remarks(Estimate& out) const {
                                         unit == "1" ? "" : " " + unit));
     }
   for (const Parameter& p : out.parameters)
-    if (p.at_limit) out.notes.push_back(p.unknown.name + " is held by a limit of its card");
+    if (p.at_limit) out.notes.push_back(p.unknown.name + " is at a limit of its card");
   if (!out.noise_declared && !(out.degrees_of_freedom > 0))
-    out.notes.push_back("as many unknowns as readings and no declared noise: no standard uncertainties");
+    out.notes.push_back(
+        "there are as many unknowns as readings and no declared noise: no standard uncertainties are given");
   if (out.chi_squared_probability < 1e-6)
     out.notes.push_back(fmt::format("the residuals are {:.3g} times what the declared noise explains: is a unit, a "
                                     "label or a reading wrong, an effect missing, or the noise larger?",

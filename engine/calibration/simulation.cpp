@@ -13,7 +13,7 @@ Simulation::Simulation(const propagation::Experiment& e, std::vector<Unknown> un
     : forward_(e.forward().on_threads(threads)), unknowns_(std::move(unknowns)), points_(e.estimates()) {
   const auto& s = e.scenario();
   if (!forward_.has_simulation())
-    refuse(s.file, fmt::format("model {}: it cannot simulate its indications", s.model),
+    refuse(s.file, fmt::format("model {}: the model cannot simulate its indications", s.model),
            "residuals are measured minus simulated indications",
            s.made ? "add [model.indications] with a formula for each" : "");
   for (const Unknown& u : unknowns_) {

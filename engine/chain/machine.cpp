@@ -46,20 +46,20 @@ Axis axis_of(const AxisDescription& d, bool on_tool_side) {
 void check_axis(const AxisDescription& a, const std::string& place, std::vector<std::string>& seen,
                 std::vector<DescriptionProblem>& out) {
   if (!direction_of(a.name)) {
-    out.push_back({place, "'" + a.name.substr(0, 40) + "' is no axis",
-                   "axes are X, Y, Z, U, V, W, A, B, C, a number may follow", ""});
+    out.push_back({place, "'" + a.name.substr(0, 40) + "' is not an axis",
+                   "axes are X, Y, Z, U, V, W, A, B and C, optionally followed by a number", ""});
     return;
   }
   if (std::ranges::find(seen, a.name) != seen.end())
-    out.push_back({place, "axis " + a.name + " stands twice", "", "name the second one " + a.name + "2"});
+    out.push_back({place, "axis " + a.name + " is listed twice", "", "name the second one " + a.name + "2"});
   seen.push_back(a.name);
   const bool rotary = rotary_by_letter(a.name);
   const std::string_view kind = rotary ? "rotary" : "linear";
   if (!a.kind.empty() && a.kind != kind)
     out.push_back({place + ".kind", "axis " + a.name + " is " + std::string(kind) + ", not '" + a.kind + "'",
-                   "X, Y, Z, U, V, W are linear, A, B, C rotary (ISO 841)", ""});
+                   "X, Y, Z, U, V, W are linear axes, A, B, C rotary axes (ISO 841)", ""});
   if (a.sense < -1 || a.sense > 1)
-    out.push_back({place + ".sense", "sense is 1 or -1", "", "leave it out to follow ISO 841"});
+    out.push_back({place + ".sense", "sense must be 1 or -1", "", "leave it out to follow ISO 841"});
   if (!std::ranges::all_of(a.point, [](double x) { return std::isfinite(x); }))
     out.push_back({place + ".point", "a coordinate is not finite", "", ""});
 }
@@ -89,12 +89,12 @@ DescriptionProblem unknown_error(std::span<const Axis> axes, const std::string& 
       if (has_error(a, k)) known.push_back(error_name(a, k));
   const auto parsed = parsed_error(name);
   std::string why =
-      "names are E_ with X, Y, Z, A, B or C, for a location error 0, and an axis: E_XZ, E_A0C (ISO 230-1)";
+      "a name is E_ with X, Y, Z, A, B or C, a 0 for a location error, and an axis: E_XZ, E_A0C (ISO 230-1)";
   if (parsed) {
     const auto axis = std::ranges::find(axes, parsed->axis, &Axis::name);
     why = axis == axes.end() ? fmt::format("the machine has no axis '{}'", parsed->axis.substr(0, 40))
-          : axis->rotary     ? "an axis of rotation has no offset along itself"
-                             : "a slide has no offset across itself and no orientation about itself";
+          : axis->rotary     ? "a rotary axis has no offset along itself"
+                             : "a linear axis has no offset and no orientation about itself";
   }
   const std::string meant = nearest(name, known);
   return {"errors." + name, "unknown error '" + name.substr(0, 40) + "'", why,
@@ -114,7 +114,7 @@ std::vector<DescriptionProblem> problems(const MachineDescription& d) {
   const auto check = [&](const char* name, const auto& side, const char* carried) {
     if (!side) {
       out.push_back({name, fmt::format("the machine has no {}", name),
-                     fmt::format("it lists the axes from the bed to the {}", carried),
+                     fmt::format("this lists the axes from the bed to the {}", carried),
                      "write [] if nothing moves there"});
       return;
     }
@@ -133,7 +133,8 @@ std::vector<DescriptionProblem> problems(const MachineDescription& d) {
     }
     if (!std::isfinite(value)) out.push_back({"errors." + name, "the value is not finite", "", ""});
     for (std::size_t j = 0; j < i; ++j)
-      if (d.errors[j].first == name) out.push_back({"errors." + name, name + " stands twice", "", "remove one of them"});
+      if (d.errors[j].first == name)
+        out.push_back({"errors." + name, name + " is listed twice", "", "remove one of them"});
   }
   return out;
 }

@@ -130,8 +130,8 @@ private:
     r_.resolution = search_.resolution();
     r_.notes = s_.notes;
     if (s_.run.design != scenario::Design::monte_carlo)
-      r_.notes.push_back(
-          fmt::format("design {} is not used here: standard errors need independent samples", name(s_.run.design)));
+      r_.notes.push_back(fmt::format("design {} is not used here, because standard errors need independent samples",
+                                     name(s_.run.design)));
   }
 
   void budget() {
@@ -175,7 +175,7 @@ private:
     std::string text;
     if (!r_.reached) {
       text = fmt::format(
-          "No candidate meets the target U = {:.6g}{}{}. The best reached is U = {} in {}, with {}",
+          "No candidate meets the target U = {:.6g}{}{}. The smallest U reached is {} in {}, with {}",
           shown(choose_.target), unit,
           choose_.bias ? fmt::format(" with a bias of at most {:.6g}{}", shown(*choose_.bias), unit) : "",
           width(f.expanded), duration(r_.fresh.time), in_words(search_.settings_of(r_.fresh.values), r_.evaluations));
@@ -190,8 +190,9 @@ private:
     text += fmt::format("; by {} fresh samples it meets the target with a probability of {:.3g}.",
                         choose_.confirm_samples, r_.probability);
     if (r_.reached && !r_.confirmed)
-      text += fmt::format(" No faster or slower setting tried is sure to (probability {:.3g} asked for): more samples "
-                          "or a finer search?",
+      text += fmt::format(" No faster or slower setting that was tried meets it with the required probability of "
+                          "{:.3g}. Use more samples "
+                          "or a finer search.",
                           choose_.confirm_probability);
     r_.statement = text;
   }

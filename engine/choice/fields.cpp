@@ -41,7 +41,7 @@ constexpr Field<Result> question[] = {
      in_json},
     {"best", of<&Result::best>, one, "the recommended setting, by position in candidates"},
     {"tried", of<&Result::tried>, one, "candidates run afresh until one was confirmed", in_json},
-    {"skipped", of<&Result::skipped>, one, "combinations that cannot be", {.json = "skipped/count"}},
+    {"skipped", of<&Result::skipped>, one, "impossible combinations", {.json = "skipped/count"}},
     {"near_share", asked_for<&Choose::near>, one, "share of time or U within which settings count as near",
      {.json = "near/share"}},
     {"near_count", of<&Result::near_count>, one, "candidates that meet the target within this share of the least time",
@@ -49,7 +49,7 @@ constexpr Field<Result> question[] = {
 
 using V = VariableRow;
 constexpr Field<V> variables[] = {
-    {"name", of<&V::name>, one, "what may be chosen"},
+    {"name", of<&V::name>, one, "variables that may be chosen"},
     {"kind", of<&V::kind>, one, "condition, quantity, readings or evaluation"},
     {"units", nullptr, units, "", {.json = "unit"}},
     {"range", of<&V::range>, one, "1: a range, refined; 0: a list"},

@@ -153,7 +153,8 @@ std::vector<Place> Search::centres() const {
 void Search::run() {
   attempt(grid_.coarse());
   if (candidates_.empty())
-    throw InputError("choose: no combination of the variables can be", skipped_why_.empty() ? "" : skipped_why_[0]);
+    throw InputError("choose: no combination of the variables is possible",
+                     skipped_why_.empty() ? "" : skipped_why_[0]);
   const bool ranges = std::ranges::any_of(choose_.variables, &scenario::Variable::range);
   for (round_ = 1; ranges && round_ <= choose_.refinements; ++round_) {
     std::vector<Place> at;

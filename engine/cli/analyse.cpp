@@ -25,14 +25,15 @@ struct Options {
 
 void refuse_unusable(const store::Stored& stored, const std::string& file) {
   if (!stored.made_by.empty())
-    throw InputError(file + ": holds no samples", "gumshoe " + stored.made_by + " made it", "use gumshoe run");
+    throw InputError(file + ": the file holds no samples", "gumshoe " + stored.made_by + " made it", "use gumshoe run");
   if (!stored.identity.store_samples)
-    throw InputError(file + ": holds no samples", "its scenario says store_samples = false", "run again with store_samples = true");
+    throw InputError(file + ": the file holds no samples", "its scenario has store_samples = false",
+                     "run again with store_samples = true");
   if (!stored.complete)
     throw InputError(file + ": the run is not finished", "it was interrupted",
                      "run the same command again to resume it");
   if (stored.identity.design_hash.empty())
-    throw InputError(file + ": does not say which design its samples are of", "an older version made it", "run again");
+    throw InputError(file + ": the design of its samples is not recorded", "an older version wrote it", "run again");
 }
 
 /// The design hash knows a model by name only: the first samples, run again, must come out as they are stored, but
@@ -58,7 +59,7 @@ void refuse_other_model(const propagation::Experiment& e, const store::StoredSam
       const bool same = std::isnan(now) ? std::isnan(before[i])
                                         : std::fabs(now - before[i]) <= 1e-12 * std::fabs(now) + 1e-6 * (high - low);
       if (!same)
-        throw InputError(file + ": samples of another model",
+        throw InputError(file + ": its samples come from another model",
                          fmt::format("{} of sample {} is {:.17g} in the file and {:.17g} now", e.outputs()[o].name, i,
                                      before[i], now),
                          "run the scenario again");
@@ -75,7 +76,7 @@ ExitCode analyse(const Options& o) {
   const propagation::Experiment experiment(s);
   const std::string hash = propagation::design_hash(experiment);
   if (hash != stored.identity.design_hash)
-    throw InputError(o.file + ": samples of another design than " + s.file,
+    throw InputError(o.file + ": its samples have another design than " + s.file,
                      "design hash " + stored.identity.design_hash + ", the scenario has " + hash,
                      "only [analysis] may differ. Run the scenario again");
   const std::string out =
@@ -100,7 +101,7 @@ ExitCode analyse(const Options& o) {
     }
     file.write(block);
   }
-  s.notes.push_back("analysed anew from the samples of " + o.file);
+  s.notes.push_back("analysed again from the samples of " + o.file);
   const analysis::Samples kept{[&](std::size_t output) { return file.read(output, 0, samples); },
                                [&] { return file.read_status(0, samples); }};
   analysis::Results results = analysis::analyse(experiment, kept, o.threads);
@@ -112,7 +113,7 @@ ExitCode analyse(const Options& o) {
 } // namespace
 
 void add_analyse(CLI::App& app, Action& action) {
-  auto* command = app.add_subcommand("analyse", "analyses the stored samples of a result anew, into a new file");
+  auto* command = app.add_subcommand("analyse", "analyses the stored samples of a result again and writes a new file");
   const auto o = std::make_shared<Options>();
   command->add_option("result", o->file, "result file (HDF5)")->required();
   command->add_option("--scenario", o->scenario, "instead of the one it was made from; only [analysis] may differ");

@@ -8,8 +8,7 @@
 namespace gumshoe::cli {
 
 void add_check(CLI::App& app, Action& action) {
-  auto* command =
-      app.add_subcommand("check", "reads a scenario and says what is wrong with it, or how it was understood");
+  auto* command = app.add_subcommand("check", "checks a scenario, and shows how it was understood");
   struct Options {
     std::string file;
     bool explain = false;

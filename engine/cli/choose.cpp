@@ -34,10 +34,8 @@ void show(const choice::Progress& p) {
 ExitCode choose(const Options& o) {
   scenario::Scenario s = scenario::read(o.file, catalogue());
   if (!s.choose)
-    throw InputError({{{s.file},
-                       "[choose] is missing",
-                       "it says what may be chosen and what is to be reached",
-                       "[choose] target = \"...\""}});
+    throw InputError(
+        {{{s.file}, "[choose] is missing", "it defines the variables and the target", "[choose] target = \"...\""}});
   if (o.samples) s.choose->samples = whole_number(*o.samples, "--samples", 200);
   if (o.seed) s.run.seed = whole_number(*o.seed, "--seed", 0);
   const std::string out = !o.out.empty() ? o.out : "results/" + std::filesystem::path(o.file).stem().string() + ".h5";
@@ -55,10 +53,10 @@ ExitCode choose(const Options& o) {
 
 void add_choose(CLI::App& app, Action& action) {
   auto* command =
-      app.add_subcommand("choose", "the fastest settings that reach a target expanded uncertainty ([choose])");
+      app.add_subcommand("choose", "finds the fastest settings that reach a target expanded uncertainty ([choose])");
   const auto o = std::make_shared<Options>();
   command->add_option("scenario", o->file, "scenario file (TOML) with [choose]")->required();
-  command->add_option("--samples", o->samples, "of each candidate, instead of the scenario's, e.g. 1e4");
+  command->add_option("--samples", o->samples, "samples per candidate, instead of the scenario's, e.g. 1e4");
   command->add_option("--seed", o->seed, "instead of the scenario's");
   command->add_option("--threads", o->threads, "0: all processors")->check(CLI::Range(0, 1024));
   command->add_option("--out", o->out, "result file (default: results/SCENARIO.h5)");

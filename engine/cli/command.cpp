@@ -35,7 +35,8 @@ std::uint64_t whole_number(const std::string& text, const std::string& option, s
 void require_different(const std::string& out, const std::string& in) {
   std::error_code ignored;
   if (std::filesystem::equivalent(out, in, ignored))
-    throw OutputError(out + ": is the file that is read", "it would be lost", "choose another name for the output");
+    throw OutputError(out + ": this is the file that is read", "it would be overwritten",
+                      "choose another name for the output");
 }
 
 void write_text(const std::string& path, const std::string& text) {

@@ -159,7 +159,7 @@ void print_text(const propagation::Experiment& e, const Estimate& r, const std::
     std::cout << fmt::format("s = {:.4g}{}, {:.4g} degrees of freedom\n", r.s * factor, unit == "1" ? "" : " " + unit,
                              r.degrees_of_freedom);
   std::cout << fmt::format("rank {} of {}, condition number {:.3g}\n", r.rank, p, r.condition);
-  for (const auto& d : r.indistinguishable) std::cout << "not seen by the data: " << d << '\n';
+  for (const auto& d : r.indistinguishable) std::cout << "undetermined by these data: " << d << '\n';
   if (r.loss != least_squares::Loss::squared) {
     std::cout << fmt::format("loss {}, width {:.4g}\n", least_squares::name(r.loss), r.loss_width);
     for (const auto& row : r.rows) {
@@ -214,7 +214,7 @@ void add_estimate(CLI::App& app, Action& action) {
   const auto o = std::make_shared<Options>();
   command->add_option("scenario", o->file, "scenario file (TOML)")->required();
   command->add_option("--scenario-out", o->scenario_out,
-                      "the scenario with what was found (default: SCENARIO.estimated.toml, beside the scenario)");
+                      "scenario file for the estimates (default: SCENARIO.estimated.toml, next to the scenario)");
   command->add_option("--threads", o->threads, "0: all processors")->check(CLI::Range(0, 1024));
   command->add_option("--format", o->format, "text or json")->check(CLI::IsMember({"text", "json"}));
   command->callback([=, &action] { action = [=] { return estimate(*o); }; });

@@ -52,15 +52,15 @@ void write_file(const std::string& path, const std::string& text) {
 } // namespace
 
 void add_evaluate(CLI::App& app, Action& action) {
-  auto* command = app.add_subcommand("evaluate", "the forward model at the points of a table, no sampling");
+  auto* command = app.add_subcommand("evaluate", "evaluates the model at the points of a table, without sampling");
   struct Options {
     std::string model, table, out, evaluation;
   };
   const auto o = std::make_shared<Options>();
   command->add_option("model", o->model, "a model (gumshoe models)")->required();
-  command->add_option("--table", o->table, "CSV file; header cells `name (unit)`, one row a point")->required();
-  command->add_option("--out", o->out, "write here instead of standard output");
-  command->add_option("--evaluation", o->evaluation, "one of the model's evaluations (default: its first)");
+  command->add_option("--table", o->table, "CSV file; header cells `name (unit)`, one row per point")->required();
+  command->add_option("--out", o->out, "output file (default: standard output)");
+  command->add_option("--evaluation", o->evaluation, "evaluation of the model (default: the first)");
   command->callback([=, &action] {
     action = [=] {
       const models::Model* model = models::find(o->model);

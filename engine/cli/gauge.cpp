@@ -97,7 +97,7 @@ std::size_t output_of(const scenario::Expected& e, const analysis::Results& r) {
         std::ranges::all_of(e.labels, [&](const auto& l) { return std::ranges::find(labels, l) != labels.end(); });
     if (fits && (e.of.empty() || output.measurand == e.of)) return o;
   }
-  throw InputError("no output fits");
+  throw InputError("no output matches");
 }
 
 /// Compares every expected figure with the one that `find` gives; its errors are located at the figure.
@@ -120,7 +120,8 @@ std::vector<Line> run_example(const std::string& file, int threads) {
   scenario::Scenario s = scenario::read(file, catalogue());
   const std::string example = fs::path(file).stem().string();
   if (s.expected.empty())
-    throw InputError({{{file}, "nothing to compare with", "no [[expected]]", "use gumshoe run " + file}});
+    throw InputError(
+        {{{file}, "there is nothing to compare with", "it has no [[expected]]", "use gumshoe run " + file}});
   const propagation::Experiment experiment(s);
   if (s.expected.front().figure.starts_with("fit.")) {
     const auto fit = calibration::estimate(experiment, {threads});
@@ -167,7 +168,7 @@ std::vector<std::string> examples(const std::vector<std::string>& asked) {
     for (const auto& entry : fs::directory_iterator(name))
       if (entry.path().extension() == ".toml") files.push_back(entry.path().string());
     std::sort(files.begin() + static_cast<std::ptrdiff_t>(before), files.end());
-    if (files.size() == before) throw InputError("'" + name + "' holds no scenario files");
+    if (files.size() == before) throw InputError("'" + name + "' contains no scenario files");
   }
   return files;
 }
@@ -203,14 +204,14 @@ ExitCode gauge(const std::vector<std::string>& asked, int threads, bool json) {
 
 void add_gauge(CLI::App& app, Action& action) {
   auto* command =
-      app.add_subcommand("gauge", "runs published examples again and compares: PASS, DIFF or NOTE, a line each");
+      app.add_subcommand("gauge", "repeats published examples and compares: PASS, DIFF or NOTE, one line each");
   struct Options {
     std::vector<std::string> files;
     std::string format = "text";
     int threads = 0;
   };
   const auto o = std::make_shared<Options>();
-  command->add_option("examples", o->files, "scenario files or folders (default: those that come with the program)");
+  command->add_option("examples", o->files, "scenario files or folders (default: those shipped with the program)");
   command->add_option("--threads", o->threads, "0: all processors")->check(CLI::Range(0, 1024));
   command->add_option("--format", o->format, "text or json")->check(CLI::IsMember({"text", "json"}));
   command->callback([=, &action] { action = [=] { return gauge(o->files, o->threads, o->format == "json"); }; });

@@ -175,7 +175,7 @@ void add_models(CLI::App& app, Action& action) {
       {"text", "json"}, action, [](const Options& o) {
         const auto made = scenario::made_models();
         if (std::ranges::find(made, o.name, &scenario::MadeModelRow::name) != made.end())
-          throw InputError("'" + o.name + "' has no card of its own", "its quantities follow from the scenario",
+          throw InputError("'" + o.name + "' has no card", "the scenario defines its quantities",
                            "see engine/models/" + o.name + "/README.md");
         const ExitCode code = show(catalogue().models, "model", o.name, o.format);
         if (o.name.empty() && o.format == "text") {

@@ -107,7 +107,7 @@ void print_text(const Result& r, const std::string& file) {
   for (const std::string& why : r.skipped_why) std::cout << "skipped: " << why << '\n';
   std::cout << fmt::format("{} candidates of {} samples{}, seed {}, {} definition, target asked of the {}: {}\n",
                            r.candidates.size(), r.asked.samples,
-                           r.skipped > 0 ? fmt::format(" ({} combinations cannot be)", r.skipped) : "", r.seed,
+                           r.skipped > 0 ? fmt::format(" ({} combinations are impossible)", r.skipped) : "", r.seed,
                            name(r.asked.definition), worst ? "worst case" : "average", file);
 }
 

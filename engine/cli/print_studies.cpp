@@ -123,8 +123,8 @@ void print_target(const TargetResult& t, std::ostream& out) {
           fmt::format("{}{} {}", alone.empty() ? "" : ", ", row.quantity, shown(row.allowed, row.unit, row.si_unit));
   out << fmt::format("target for {}: U = {} wanted, {} now; {}", t.output.name, width(t.wanted), width(t.present),
                      t.present <= t.wanted ? "met"
-                     : alone.empty()       ? "no quantity reaches it alone"
-                                           : "alone would do u of " + alone);
+                     : alone.empty()       ? "no single quantity reaches it"
+                                           : "sufficient alone: u of " + alone);
   if (std::isfinite(t.reached))
     out << fmt::format("; the cheapest combination reaches {} at {:.3g} times the cost", width(t.reached),
                        t.cost_ratio);

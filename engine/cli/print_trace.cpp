@@ -56,16 +56,16 @@ struct Lengths {
 void print_verdict(const Trace& t) {
   for (const std::string& sentence : t.plain) std::cout << sentence << '\n';
   if (t.findings.empty())
-    std::cout << (t.outcome == Outcome::insufficient_data ? "verdict: these data cannot tell\n"
+    std::cout << (t.outcome == Outcome::insufficient_data ? "verdict: these data cannot decide\n"
                                                           : "verdict: nothing found\n");
   if (std::isfinite(t.p_anything))
-    std::cout << fmt::format("probability of so much where nothing is: {} (of {} draws, {} candidates; asked: {:g})\n",
+    std::cout << fmt::format("p-value of the whole search: {} ({} draws, {} candidates; false-alarm rate {:g})\n",
                              probability(t.p_anything), t.draws, t.tried, t.alpha);
-  if (t.vetoed) std::cout << "the final blocks did not improve: nothing is added\n";
+  if (t.vetoed) std::cout << "the hold-out blocks are not predicted better: nothing is added\n";
 }
 
 void print_finding(const Finding& f) {
-  const char* words[] = {"", " (a class: these data cannot tell them apart)", " (scatter by label)", ""};
+  const char* words[] = {"", " (a class: these data cannot distinguish its members)", " (scatter by label)", ""};
   std::cout << fmt::format("found: {}{}, p = {}\n", f.name, words[static_cast<int>(f.kind)], probability(f.p_value));
   if (!f.depends_on.empty()) std::cout << fmt::format("  depends on {}\n", fmt::join(f.depends_on, ", "));
   if (f.alternatives.empty())
@@ -75,7 +75,7 @@ void print_finding(const Finding& f) {
     for (const SizedQuantity& q : f.alternatives[i]) std::cout << "    " << size_text(q) << '\n';
   }
   if (f.removed_share > 0)
-    std::cout << fmt::format("  takes away {:.0f} % of the residuals' mean square\n", 100 * f.removed_share);
+    std::cout << fmt::format("  explains {:.0f} % of the mean square of the residuals\n", 100 * f.removed_share);
   if (!f.suggestion.empty()) std::cout << "  to split them: " << f.suggestion << '\n';
   for (const std::string& remark : f.remarks) std::cout << "  remark: " << remark << '\n';
 }
@@ -100,7 +100,7 @@ void print_rms(const Rms& r) {
   line("  worst block: " + r.worst_block, r.worst_block_before, r.worst_block_after, "");
   line("  worst point: " + r.worst_point, r.worst_point_before, r.worst_point_after, "");
   if (std::isfinite(r.share_removed))
-    std::cout << fmt::format("  {} of what could be removed of the hold-out's mean square is gone\n",
+    std::cout << fmt::format("  {} of the removable mean square of the hold-out residuals has been removed\n",
                              r.share_removed > 1 ? "all" : fmt::format("{:.0f} %", 100 * r.share_removed));
   if (!std::isfinite(r.holdout_before) && !r.holdout.empty()) std::cout << "  hold-out: " << r.holdout << '\n';
 }
@@ -123,11 +123,11 @@ void print_candidates(const std::vector<Candidate>& candidates) {
 
 void print_limits(const std::vector<DetectionLimit>& limits) {
   if (limits.empty()) return;
-  std::cout << "would have been seen, in nine cases of ten, from\n";
+  std::cout << "detectable in nine cases of ten from\n";
   for (std::size_t i = 0; i < std::min(listed, limits.size()); ++i) {
     const ShownSize s = shown(limits[i]);
     const std::string size =
-        std::isfinite(s.value) ? with_unit(two_digits(s.value), s.unit) : "no size: not by these data";
+        std::isfinite(s.value) ? with_unit(two_digits(s.value), s.unit) : "undetectable in these data";
     std::cout << fmt::format("  {}, {}: {}\n", limits[i].effect, limits[i].quantity, size);
   }
   if (limits.size() > listed) std::cout << fmt::format("({} more in the result file)\n", limits.size() - listed);
@@ -135,11 +135,11 @@ void print_limits(const std::vector<DetectionLimit>& limits) {
 
 void print_noise(const Noise& n, const Rms& r) {
   const Lengths lengths(r);
-  std::string text = n.declared ? n.scale == 1 ? "as declared" : fmt::format("{:.3g} times what is declared", n.scale)
-                                : lengths.with_unit(n.scale) + " of a readout, from the residuals";
+  std::string text = n.declared ? n.scale == 1 ? "as declared" : fmt::format("{:.3g} times as declared", n.scale)
+                                : lengths.with_unit(n.scale) + " of a reading, from the residuals";
   if (n.correlation != 0) text += fmt::format(", correlation from reading to reading {:.2f}", n.correlation);
   if (!n.scatter.empty()) text += fmt::format(", scatter by {} {}", n.scatter, lengths.with_unit(n.scatter_u));
-  if (n.outliers > 0) text += fmt::format(", {} outlier{} weighed down", n.outliers, n.outliers == 1 ? "" : "s");
+  if (n.outliers > 0) text += fmt::format(", {} outlier{} with reduced weight", n.outliers, n.outliers == 1 ? "" : "s");
   std::cout << "noise: " << text << '\n';
 }
 
@@ -158,9 +158,9 @@ void print_trace(const Trace& t, const std::string& title, const std::vector<std
   if (t.findings.empty()) print_limits(t.detection_limits);
   for (const std::string& text : t.statements) std::cout << "note: " << text << '\n';
   if (!traced.empty())
-    std::cout << fmt::format("scenario with what was found: {} (gumshoe run, or trace again)\n", traced);
+    std::cout << fmt::format("scenario with the findings: {} (use it with gumshoe run or gumshoe trace)\n", traced);
   else
-    std::cout << "no scenario is written: nothing is added to it\n";
+    std::cout << "no scenario is written, because nothing would be added to it\n";
   if (!written.empty()) std::cout << fmt::format("written: {}\n", fmt::join(written, ", "));
 }
 

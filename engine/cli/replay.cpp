@@ -16,8 +16,8 @@ namespace {
 scenario::Scenario scenario_of(const store::Identity& identity, const std::string& result) {
   scenario::Scenario s = scenario::read(identity.scenario_file, catalogue());
   if (s.hash != identity.scenario_hash)
-    throw InputError(result + ": " + identity.scenario_file + " is no longer the scenario of this result",
-                     "hash " + s.hash + ", the result says " + identity.scenario_hash,
+    throw InputError(result + ": " + identity.scenario_file + " has changed since this result was made",
+                     "hash " + s.hash + ", in the result " + identity.scenario_hash,
                      "restore the scenario and its data, or run again");
   s.run.samples = identity.samples;
   s.run.seed = identity.seed;
@@ -60,7 +60,7 @@ void print_reading(const propagation::Experiment& e, std::size_t r, const std::v
 } // namespace
 
 void add_replay(CLI::App& app, Action& action) {
-  auto* command = app.add_subcommand("replay", "computes one sample of a result again, with every intermediate value");
+  auto* command = app.add_subcommand("replay", "repeats one sample of a result and prints every intermediate value");
   struct Options {
     std::string file, sample;
   };
@@ -71,7 +71,8 @@ void add_replay(CLI::App& app, Action& action) {
     action = [=] {
       const store::Stored stored = store::read_identity(o->file);
       if (!stored.made_by.empty())
-        throw InputError(o->file + ": holds no run", "gumshoe " + stored.made_by + " made it", "use gumshoe run");
+        throw InputError(o->file + ": the file holds no run", "gumshoe " + stored.made_by + " made it",
+                         "use gumshoe run");
       const std::uint64_t sample = whole_number(o->sample, "--sample", 0);
       if (sample >= stored.identity.samples)
         throw InputError(fmt::format("--sample: {} is beyond the run", sample),

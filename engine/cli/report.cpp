@@ -8,14 +8,14 @@
 namespace gumshoe::cli {
 
 void add_report(CLI::App& app, Action& action) {
-  auto* command = app.add_subcommand("report", "writes one self-contained HTML page and CSV tables for a result");
+  auto* command = app.add_subcommand("report", "writes a self-contained HTML page and CSV tables for a result");
   struct Options {
     std::string file, out, csv;
   };
   const auto o = std::make_shared<Options>();
   command->add_option("result", o->file, "result file (HDF5)")->required();
-  command->add_option("--out", o->out, "the page (default: beside the result, .html)");
-  command->add_option("--csv", o->csv, "folder for the CSV tables (default: beside the page)");
+  command->add_option("--out", o->out, "HTML file (default: next to the result)");
+  command->add_option("--csv", o->csv, "folder for the CSV tables (default: that of the page)");
   command->callback([=, &action] {
     action = [=] {
       require_different(o->out, o->file);

@@ -94,7 +94,8 @@ ExitCode run(const Options& o) {
   const propagation::Experiment experiment(s);
   const std::string out = !o.out.empty() ? o.out : "results/" + std::filesystem::path(o.file).stem().string() + ".h5";
   if (experiment.outputs().empty())
-    throw InputError({{{s.file}, "model: nothing is measured", "a run evaluates measurands", "add [model.measurands]"}});
+    throw InputError(
+        {{{s.file}, "model: there is nothing to measure", "a run evaluates measurands", "add [model.measurands]"}});
   if (o.out.empty()) std::filesystem::create_directories("results");
 
   store::Identity identity = store::identity_of(s);
@@ -115,7 +116,8 @@ ExitCode run(const Options& o) {
   analysis::StoppingRecord stopping;
   if (!sample(s, experiment, file, settings, out, stopping)) {
     const std::uint64_t done = file.samples_done();
-    std::cerr << fmt::format("\ninterrupted after {} of {} samples; the same command resumes\n", done, s.run.samples);
+    std::cerr << fmt::format("\ninterrupted after {} of {} samples. Repeat the command to resume.\n", done,
+                             s.run.samples);
     return ExitCode::interrupted;
   }
   const analysis::Samples samples{[&](std::size_t output) { return file.read(output, 0, s.run.samples); },

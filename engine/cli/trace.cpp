@@ -57,9 +57,12 @@ Outputs checked_outputs(const Options& o) {
   const std::string scenario = (std::filesystem::path(out).parent_path() / (name + ".traced.toml")).string();
   if (o.out.empty()) std::filesystem::create_directories("results");
   if (std::filesystem::exists(scenario) && !ours(scenario))
-    throw OutputError(scenario + ": exists and was not written by gumshoe", "the traced scenario would replace it");
+    throw OutputError(scenario + ": the file exists and was not written by gumshoe",
+                      "the traced scenario would replace it");
   for (const std::string& path : {out, o.json, o.report})
-    if (path == scenario) throw OutputError(path + ": the traced scenario goes there", "two files of one name");
+    if (path == scenario)
+      throw OutputError(path + ": the traced scenario is written to this file",
+                        "two outputs cannot have the same name");
   for (const std::string& path : {out, o.json, o.report, scenario}) {
     if (path.empty()) continue;
     require_different(path, o.file);
@@ -89,7 +92,7 @@ bool close_loop(const scenario::Scenario& s, tracing::Trace& found, const std::s
   } catch (const InputError& error) {
     std::filesystem::remove(path);
     for (const Problem& p : error.problems())
-      found.statements.push_back("no traced scenario is written, since it would not be read: " + p.what +
+      found.statements.push_back("no traced scenario is written, because it could not be read: " + p.what +
                                  (p.why.empty() ? "" : " (" + p.why + ")"));
     return false;
   }
@@ -134,14 +137,14 @@ ExitCode trace(const Options& o) {
 } // namespace
 
 void add_trace(CLI::App& app, Action& action) {
-  auto* command = app.add_subcommand("trace", "what the residuals show that the model lacks ([trace])");
+  auto* command = app.add_subcommand("trace", "finds what is missing from the model, from the residuals ([trace])");
   const auto o = std::make_shared<Options>();
   command->add_option("scenario", o->file, "scenario file (TOML) with readings")->required();
-  command->add_option("--data", o->data, "readings, instead of the files that the scenario names (CSV)");
+  command->add_option("--data", o->data, "CSV file with readings, instead of the files named in the scenario");
   command->add_option("--out", o->out, "result file (default: results/SCENARIO.traced.h5)");
   command->add_option("--json", o->json, "file for the verdict");
   command->add_option("--report", o->report, "file for the report, one HTML page");
-  command->add_option("--draws", o->draws, "of the bootstrap, instead of the scenario's");
+  command->add_option("--draws", o->draws, "seed of the bootstrap, instead of the scenario's");
   command->add_option("--seed", o->seed, "instead of the scenario's");
   command->add_option("--threads", o->threads, "0: all processors")->check(CLI::Range(0, 1024));
   command->add_option("--format", o->format, "text or json")->check(CLI::IsMember({"text", "json"}));

@@ -39,9 +39,9 @@ void note_unused(const Compiled& c, const Names& names, std::vector<std::string>
           formulas.insert(m->index);
       }
   for (const Symbol& q : c.statement.quantities)
-    if (!used.contains(&q)) notes.push_back(fmt::format("quantities.{}: no formula uses it", q.name));
+    if (!used.contains(&q)) notes.push_back(fmt::format("quantities.{}: no formula uses this quantity", q.name));
   for (std::size_t i = 0; i < c.first_measurand(); ++i)
-    if (!formulas.contains(i)) notes.push_back(fmt::format("{}: no formula uses it", c.formulas[i].name));
+    if (!formulas.contains(i)) notes.push_back(fmt::format("{}: no formula uses this quantity", c.formulas[i].name));
 }
 
 } // namespace

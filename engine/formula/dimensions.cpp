@@ -118,7 +118,7 @@ private:
     }
     if (n.operation != Operation::atan2 && n.operation != Operation::hypot &&
         ((a.literal && b.dimension.is_angle()) || (b.literal && a.dimension.is_angle())))
-      problem(formula_->start(a.literal ? n.a : n.b), "a bare number beside an angle", "1 deg or 1 rad?",
+      problem(formula_->start(a.literal ? n.a : n.b), "a bare number is combined with an angle", "1 deg or 1 rad?",
               "use a quantity with a unit, or pi");
     return a.dimension.joined(b.dimension);
   }
@@ -126,7 +126,7 @@ private:
   Dimension power(const Node& n, const Known& a, const Known& b) {
     if (!b.dimension.plain()) {
       problem(formula_->start(n.b), fmt::format("the exponent is {}", b.dimension.words()),
-              "an exponent is a plain number");
+              "an exponent must be a plain number");
       return {};
     }
     if (a.dimension.plain() && !(b.value && a.dimension.has_angle())) return {};

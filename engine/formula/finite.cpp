@@ -13,7 +13,7 @@ namespace {
 std::string why_not_finite(Operation operation, double a, double b) {
   switch (operation) {
   case Operation::divide:
-    return b == 0 ? "division by zero" : "the quotient is too large for a number";
+    return b == 0 ? "division by zero" : "the quotient overflows";
   case Operation::log:
   case Operation::log10:
     return a == 0 ? "the logarithm of zero" : "the logarithm of a negative number";
@@ -24,10 +24,10 @@ std::string why_not_finite(Operation operation, double a, double b) {
     return fmt::format("{} of {:.6g}, which is outside [-1, 1]", word(operation), a);
   case Operation::power:
     return a == 0  ? "a negative power of zero"
-           : a < 0 ? "a broken power of a negative number"
-                   : "the power is too large for a number";
+           : a < 0 ? "a fractional power of a negative number"
+                   : "the power overflows";
   default:
-    return fmt::format("the result of '{}' is too large for a number", word(operation));
+    return fmt::format("the result of '{}' overflows", word(operation));
   }
 }
 

@@ -48,7 +48,7 @@ void Lexer::advance() {
   if (at_ == text.size()) return;
   const std::string_view rest = text.substr(at_);
   if (const Misread* m = find_misread(rest))
-    throw InputError({formula_.problem(at_, fmt::format("'{}' is no sign of a formula", m->sign), "",
+    throw InputError({formula_.problem(at_, fmt::format("'{}' is not allowed in a formula", m->sign), "",
                                        fmt::format("use {}", m->meant))});
   std::size_t length = 1;
   if (digit(rest[0]) || (rest[0] == '.' && rest.size() > 1 && digit(rest[1]))) {
@@ -64,8 +64,8 @@ void Lexer::advance() {
   } else if (std::string_view("+-*/^(),").find(rest[0]) != std::string_view::npos) {
     next_.kind = Token::Kind::sign;
   } else {
-    throw InputError(
-        {formula_.problem(at_, fmt::format("'{}' is no sign of a formula", rest[0]), "", "use + - * / ^ and parentheses")});
+    throw InputError({formula_.problem(at_, fmt::format("'{}' is not allowed in a formula", rest[0]), "",
+                                       "use + - * / ^ and parentheses")});
   }
   next_.text = rest.substr(0, length);
   at_ += length;

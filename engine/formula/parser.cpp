@@ -17,10 +17,10 @@ public:
     if (lexer_.next().kind == Token::Kind::end) fail("the formula is empty", "", "\"a + b\"");
     sum();
     if (lexer_.next().kind == Token::Kind::end) return;
-    if (is(")")) fail("')' closes nothing", "", "add a '(' or remove the ')'");
-    if (is(",")) fail("',' stands outside a function", "", "use a point as the decimal sign");
+    if (is(")")) fail("this ')' has no matching '('", "", "add a '(' or remove the ')'");
+    if (is(",")) fail("',' is allowed only in a function's arguments", "", "use a point as the decimal sign");
     fail(fmt::format("an operator is missing before {}", lexer_.shown()),
-         lexer_.next().kind == Token::Kind::name ? "a unit belongs to a quantity, not into a formula" : "",
+         lexer_.next().kind == Token::Kind::name ? "units belong to quantities, not to formulas" : "",
          "write '*' to multiply");
   }
 
@@ -32,7 +32,8 @@ private:
 
   struct Depth {
     explicit Depth(Parser& p) : parser(p) {
-      if (++parser.depth_ > deepest) parser.fail("nested too deeply", fmt::format("at most {} levels", deepest));
+      if (++parser.depth_ > deepest)
+        parser.fail("the formula is nested too deeply", fmt::format("at most {} levels", deepest));
     }
     ~Depth() { --parser.depth_; }
     Parser& parser;
@@ -100,7 +101,7 @@ private:
     const Function* function = find_function(name.text);
     if (!function) {
       const std::string meant = nearest(name.text, function_names());
-      throw InputError({formula_.problem(name.at, fmt::format("'{}' is no function", name.text), "",
+      throw InputError({formula_.problem(name.at, fmt::format("'{}' is not a function", name.text), "",
                                          meant.empty() ? fmt::format("use one of {}", fmt::join(function_names(), ", "))
                                                        : fmt::format("did you mean '{}'?", meant))});
     }

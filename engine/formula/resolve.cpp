@@ -13,7 +13,7 @@ Names::Names(const Statement& s, const std::vector<Formula>& formulas, std::vect
       if (!fresh)
         problems.push_back({{},
                             fmt::format("'{}' is {} and {}", symbols[i].name, it->second, what),
-                            "a name means one thing",
+                            "names must be unique",
                             "rename one of them"});
       meanings_[symbols[i].name] = {source, i, &symbols[i]};
     }
@@ -25,8 +25,9 @@ Names::Names(const Statement& s, const std::vector<Formula>& formulas, std::vect
   for (std::size_t i = 0; i < formulas.size(); ++i) {
     const std::string name = formulas[i].short_name();
     if (!is_name(name))
-      problems.push_back({formulas[i].where, fmt::format("{}: '{}' is no name for a formula", formulas[i].name, name),
-                          "letters, digits and _, no digit first", ""});
+      problems.push_back({formulas[i].where,
+                          fmt::format("{}: '{}' cannot be the name of a formula", formulas[i].name, name),
+                          "use letters, digits and _, with no digit first", ""});
     if (i >= simulated) {
       simulated_[name] = {Source::step, i, nullptr};
       continue;
@@ -37,8 +38,8 @@ Names::Names(const Statement& s, const std::vector<Formula>& formulas, std::vect
     const std::string what = i < measurands ? "an intermediate" : "a measurand";
     const auto [it, fresh] = taken.try_emplace(name, what);
     if (!fresh)
-      problems.push_back({formulas[i].where, fmt::format("{}: '{}' is {} already", formulas[i].name, name, it->second),
-                          "a name means one thing", "rename one of them"});
+      problems.push_back({formulas[i].where, fmt::format("{}: '{}' is already {}", formulas[i].name, name, it->second),
+                          "names must be unique", "rename one of them"});
     else
       meanings_[name] = {Source::step, i, nullptr};
   }
@@ -63,7 +64,7 @@ void Names::check(const Formula& f, std::vector<Problem>& problems) const {
                                    ? fmt::format("use one of {}", fmt::join(candidates, ", "))
                                    : fmt::format("[quantities.{}]", n.name);
     problems.push_back(f.problem(n.at,
-                                 fmt::format("'{}' is no quantity, condition, indication or intermediate", n.name),
+                                 fmt::format("'{}' is not a quantity, condition, indication or intermediate", n.name),
                                  find_function(n.name) ? "it is a function" : "", remedy));
   }
 }
@@ -99,8 +100,8 @@ std::vector<std::size_t> Names::order(const std::vector<std::size_t>& roots, boo
         for (; from < stack.size(); ++from) {
           circle += formulas_[stack[from].formula].short_name() + " -> ";
         }
-        problems.push_back(f.problem(n.at, fmt::format("'{}' needs itself", n.name), circle + n.name,
-                                     "formulas must not go round in a circle"));
+        problems.push_back(f.problem(n.at, fmt::format("'{}' depends on itself", n.name), circle + n.name,
+                                     "formulas must not form a circle"));
         return {};
       }
       state[m->index] = State::open;

@@ -25,7 +25,7 @@ public:
         if (!fits(stated, is)) return;
       } else if (!is.has_unit()) {
         problems_.push_back(
-            f.problem(0, fmt::format("the measurand is {}", is.words()), "no unit has broken exponents"));
+            f.problem(0, fmt::format("the measurand is {}", is.words()), "no unit has fractional exponents"));
         return;
       }
     }
@@ -50,7 +50,7 @@ private:
       if (wanted.like(is) && (wanted.has_angle() || !is.has_angle() || is.is_angle())) return true;
       problems_.push_back({stated.unit_place,
                            fmt::format("{}.unit: '{}' is not {}", stated.formula.name, stated.unit, is.words()),
-                           "what the formula gives", is.has_unit() ? fmt::format("use {}", is.si_unit()) : ""});
+                           "the formula gives this", is.has_unit() ? fmt::format("use {}", is.si_unit()) : ""});
     } catch (const InputError& error) {
       for (Problem p : error.problems()) {
         p.where = stated.unit_place;
@@ -74,7 +74,7 @@ private:
       const Dimension wanted = Dimension::of(s.unit);
       if (!wanted.like(is))
         problems_.push_back(f.problem(0, fmt::format("the formula gives {}", is.words()),
-                                      fmt::format("the readouts are {}", wanted.words())));
+                                      fmt::format("the readings are {}", wanted.words())));
     }
   }
 

@@ -64,7 +64,7 @@ Experiment::Experiment(const scenario::Scenario& s)
   const models::Model* model = made_ ? made_.get() : models::find(s.model);
   if (!model) throw InputError(fmt::format("model: unknown model '{}'", s.model));
   if (virtual_ && !model->kernels()->simulate)
-    throw InputError({{find_line(s, "[model]"), "model: it does not say what the readouts would be",
+    throw InputError({{find_line(s, "[model]"), "model: the model does not simulate the readings",
                        "a virtual experiment simulates every indication", "method = \"propagation\""}});
   plan_ = located_plan(s);
   forward_ = forward_model_of(s, *model);

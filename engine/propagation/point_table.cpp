@@ -41,7 +41,7 @@ void check_indications(const ModelCard& card, const Csv& table, std::size_t eval
     if (const Slot* s = columns.given(m.name); s && indicated)
       columns.problems.push_back({table.at(table.header[static_cast<std::size_t>(s->given_column)]),
                                   "column '" + s->name + "' is what the indications are evaluated for",
-                                  "it is an output here", "remove one of them"});
+                                  "here it is an output", "remove one of them"});
   if (evaluation < card.evaluations.size() && card.evaluations[evaluation].joint() && !indicated)
     columns.problems.push_back(
         {{table.file},
@@ -158,7 +158,7 @@ PointTable evaluate_points(const models::Model& model, const Csv& table, const s
   if (!columns.problems.empty()) throw InputError(columns.problems);
   const bool indicated = is_indicated(*model.card, columns), together = model.card->evaluations[chosen].joint();
   if (together && table.rows.empty())
-    throw InputError({{{table.file}, "the table has no rows", "every row is a reading", ""}});
+    throw InputError({{{table.file}, "the table has no rows", "each row is a reading", ""}});
   PointTable result;
   result.impossible = columns.impossible;
   std::vector<bool> bad_row = columns.bad_row;

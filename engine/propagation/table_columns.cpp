@@ -75,7 +75,7 @@ void read_column(std::size_t c, const Csv& table, TableColumns& out) {
     return;
   }
   if (slot->given_column >= 0) {
-    out.problems.push_back({where, "column '" + name + "' stands twice", "", "remove one of them"});
+    out.problems.push_back({where, "column '" + name + "' is listed twice", "", "remove one of them"});
     return;
   }
   slot->given_column = static_cast<int>(c);

@@ -73,7 +73,7 @@ private:
 
   void check_matrix() const {
     const auto& m = correlation_.matrix;
-    if (n_ < 2) fail("needs at least two quantities");
+    if (n_ < 2) fail("at least two quantities are needed");
     if (m.size() != n_ * n_) fail(fmt::format("the matrix needs {} x {} numbers, not {}", n_, n_, m.size()));
     for (std::size_t i = 0; i < n_; ++i)
       for (std::size_t j = 0; j < n_; ++j) {

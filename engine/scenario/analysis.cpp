@@ -30,7 +30,7 @@ SensitivityOptions read_sensitivity(Table table) {
   SensitivityOptions out;
   read_options(table, sensitivity_options(), out);
   if (out.by_quantity && out.sobol == 0)
-    table.refuse_key("by", "needs a base size", "it is about Sobol' indices", "sobol = 65536");
+    table.refuse_key("by", "needs a base size", "it applies to Sobol' indices", "sobol = 65536");
   if (out.second_order && out.sobol == 0) table.refuse_key("second_order", "needs a base size", "", "sobol = 65536");
   table.refuse_unknown();
   return out;
@@ -49,13 +49,14 @@ std::vector<std::vector<std::string>> read_joint(Table& table, const StudyScope&
       const auto name = read_text(item, path, problems);
       if (!name) continue;
       if (std::ranges::find(names, *name) == names.end())
-        problems.add(item, fmt::format("{}: '{}' is no measurand here", path, *name), "", did_you_mean(*name, names));
+        problems.add(item, fmt::format("{}: '{}' is not a measurand here", path, *name), "",
+                     did_you_mean(*name, names));
       else if (std::ranges::find(measurands, *name) != measurands.end())
         problems.add(item, fmt::format("{}: '{}' is named twice", path, *name));
       measurands.push_back(*name);
     }
     if (group.kind != Node::Kind::array || measurands.size() < 2)
-      problems.add(group, path + ": each group needs two measurands or more", "", "joint = [[\"a\", \"b\"]]");
+      problems.add(group, path + ": each group needs at least two measurands", "", "joint = [[\"a\", \"b\"]]");
     out.push_back(measurands);
   }
   return out;
@@ -71,7 +72,7 @@ Comparison read_comparison(Table table, const StudyScope& scope, Context& contex
   read_options(table, comparison_options(), out);
   check_label(table, "between", out.between, context);
   check_label(table, "within", out.within, context);
-  if (!out.between.empty() && out.between == out.within) table.refuse("between and within are the same label");
+  if (!out.between.empty() && out.between == out.within) table.refuse("between and within must be different labels");
   table.refuse_unknown();
   return out;
 }

@@ -79,8 +79,8 @@ public:
 
   Choose read() {
     if (scope_.scenario.method != Method::virtual_experiment)
-      table_.refuse("needs method = \"virtual_experiment\"", "the error of a setting is what is stated less the truth",
-                    "add it to [model]");
+      table_.refuse("needs method = \"virtual_experiment\"",
+                    "the error of a setting is the stated value minus the true value", "add it to [model]");
     read_options(table_, choose_options(), out_);
     if (auto variables = table_.table("variables")) out_.variables = read_variables(*variables, knobs_);
     for (Table& row : table_.tables("cases")) out_.cases.push_back(read_case(row));

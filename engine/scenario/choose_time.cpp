@@ -78,7 +78,7 @@ private:
           constants_.back() = *v;
           if (!t.limits.contain(*v))
             problems_.add(*table_->find(std::string(t.name)),
-                          fmt::format("choose.time.{}: outside its limits", t.name));
+                          fmt::format("choose.time.{}: the value is outside its limits", t.name));
         }
       symbols_.push_back({std::string(t.name), std::string(t.unit), std::string(t.si_unit), ""});
     }
@@ -95,8 +95,8 @@ private:
     if (m.key == "readings" || std::ranges::any_of(model_.conditions, is_it) ||
         std::ranges::any_of(model_.quantities, is_it) || !formula::is_name(m.key)) {
       problems_.add(m, fmt::format("{}: {}", path,
-                                   formula::is_name(m.key) ? "the name has a meaning already"
-                                                           : "no name that a formula can write"));
+                                   formula::is_name(m.key) ? "the name already has a meaning"
+                                                           : "a formula cannot use this name"));
       return;
     }
     std::string unit = "1";
@@ -133,8 +133,8 @@ private:
     out->per_reading_ = add("per_reading", per_reading_, card.time_per_reading);
     out->once_ = add("once", once_, card.time_once);
     if (statement.measurands.empty()) {
-      problems_.add(choose_, fmt::format("choose: nothing says how long '{}' takes", card.name),
-                    "the least time is asked for", "[choose.time] per_reading = \"...\"");
+      problems_.add(choose_, fmt::format("choose: the time that '{}' takes is not given", card.name),
+                    "choose minimises the time", "[choose.time] per_reading = \"...\"");
       return nullptr;
     }
     statement.quantities = symbols_;
@@ -162,7 +162,7 @@ private:
       if (!units::convertible(e.explained[i].unit, "s"))
         throw InputError({e.formulas[i].problem(
             0, fmt::format("{}: the formula gives {}", e.formulas[i].name, units::kind_name(e.explained[i].si_unit)),
-            "a time is asked for", "")});
+            "a time is needed", "")});
   }
 
   std::optional<Table> table_;

@@ -24,7 +24,7 @@ Options<Range> range_options() {
 
 void read_range(Table table, KnobReader& knobs, Variable& v) {
   if (v.knob.kind == Knob::Kind::evaluation) {
-    table.refuse("evaluations are listed", "", "evaluation = [\"...\"]");
+    table.refuse("evaluations must be listed", "", "evaluation = [\"...\"]");
     return;
   }
   Range range;
@@ -34,7 +34,7 @@ void read_range(Table table, KnobReader& knobs, Variable& v) {
   const auto b = high ? knobs.value(*high, table.path("high"), v.knob) : std::nullopt;
   table.refuse_unknown();
   if (!a || !b) return;
-  if (!(*a < *b)) return table.refuse("low is not below high");
+  if (!(*a < *b)) return table.refuse("low must be below high");
   if (range.logarithmic && *a <= 0)
     return table.refuse_key("low", "not above 0", "a logarithmic scale has no zero", "scale = \"linear\"");
   v.range = true;
@@ -50,11 +50,11 @@ void read_range(Table table, KnobReader& knobs, Variable& v) {
 }
 
 void read_list(const Member& m, const std::string& path, KnobReader& knobs, Problems& problems, Variable& v) {
-  if (m.value.items.empty()) problems.add(m.value, path + ": empty", "nothing to choose from");
+  if (m.value.items.empty()) problems.add(m.value, path + ": empty", "there is nothing to choose from");
   for (const Node& item : m.value.items) {
     const auto x = knobs.value(item, path, v.knob);
     if (x && std::ranges::find(v.values, *x) != v.values.end())
-      problems.add(item, path + ": the value stands twice");
+      problems.add(item, path + ": the value is listed twice");
     else if (x)
       v.values.push_back(*x);
   }
@@ -81,7 +81,7 @@ std::vector<Variable> read_variables(Table& table, KnobReader& knobs) {
       read_list(m, table.path(m.key), knobs, table.problems(), v);
     if (!v.values.empty()) out.push_back(std::move(v));
   }
-  if (table.members().empty()) table.refuse("empty", "nothing to choose from");
+  if (table.members().empty()) table.refuse("empty", "there is nothing to choose from");
   return out;
 }
 

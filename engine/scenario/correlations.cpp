@@ -52,7 +52,7 @@ Correlation read_correlation(Table table, const std::vector<std::string>& names)
   std::vector<std::string> seen;
   for (const std::string& name : out.quantities) {
     if (std::ranges::find(names, name) == names.end())
-      table.refuse_key("quantities", fmt::format("'{}' is no quantity here", name), "", did_you_mean(name, names));
+      table.refuse_key("quantities", fmt::format("'{}' is not a quantity here", name), "", did_you_mean(name, names));
     if (std::ranges::find(seen, name) != seen.end())
       table.refuse_key("quantities", fmt::format("'{}' is named twice", name));
     seen.push_back(name);
@@ -60,9 +60,9 @@ Correlation read_correlation(Table table, const std::vector<std::string>& names)
   const std::size_t n = out.quantities.size();
   table.rendered("source");
   const auto coefficient = table.number("coefficient");
-  if (n < 2 && table.has("quantities")) table.refuse("needs two quantities or more");
+  if (n < 2 && table.has("quantities")) table.refuse("at least two quantities are needed");
   if (table.has("coefficient") == table.has("matrix"))
-    table.refuse("give either coefficient or matrix", "", "write coefficient = 0.5 for two quantities");
+    table.refuse("either a coefficient or a matrix is needed", "", "write coefficient = 0.5 for two quantities");
   else if (coefficient && n != 2)
     table.refuse(fmt::format("one coefficient for {} quantities", n), "", "give a matrix");
   else if (coefficient && std::abs(*coefficient) > 1)

@@ -43,7 +43,7 @@ Expected read_one(Table table, const ModelCard& model, Context& context) {
   if (const auto index = table.choice("of", names)) out.of = names[*index];
   out.labels = read_labels(table, context);
   if (!out.tolerance.empty() && out.why.empty())
-    table.refuse("a tolerance without a reason", "half a unit of the last digit is the rule", "why = \"...\"");
+    table.refuse("a tolerance without a reason", "the default is half a unit of the last digit", "why = \"...\"");
   table.refuse_unknown();
   return out;
 }

@@ -29,14 +29,14 @@ std::optional<double> KnobReader::value(const Node& node, const std::string& pat
   if (knob.kind == Kind::readings) {
     const auto n = read_number(node, path, problems_);
     if (!n || (*n == std::floor(*n) && *n >= 1 && *n <= most_readings)) return n;
-    problems_.add(node, fmt::format("{}: {} is no number of readings", path, *n), "",
+    problems_.add(node, fmt::format("{}: {} is not a valid number of readings", path, *n), "",
                   "use a whole number of at least 1");
     return std::nullopt;
   }
   const auto x = read_measure(node, path, {knob.si_unit}, problems_);
   const QuantityCard* card = knob.kind == Kind::quantity ? card_of(knob) : nullptr;
   if (x && card && !card->limits.contain(*x)) {
-    problems_.add(node, fmt::format("{}: outside the limits of {}", path, knob.name));
+    problems_.add(node, fmt::format("{}: the value is outside the limits of {}", path, knob.name));
     return std::nullopt;
   }
   return x;
@@ -61,7 +61,7 @@ std::optional<Knob> KnobReader::find(const Member& m, const std::string& path, b
     if (m.key == "evaluation") return Knob{Kind::evaluation, m.key};
     if (m.key == "readings") {
       if (s.spreads.empty() && s.readings.size() > 1)
-        return refuse("the readings are listed", "only readings alike or evenly spread can be more or fewer");
+        return refuse("the readings are listed", "only the number of equal or evenly spread readings can vary");
       return Knob{Kind::readings, m.key};
     }
     names = {"evaluation", "readings"};
@@ -71,9 +71,9 @@ std::optional<Knob> KnobReader::find(const Member& m, const std::string& path, b
       if (card.name != m.key) continue;
       for (const auto& r : s.readings)
         if (r.conditions[c] != s.readings.front().conditions[c])
-          return refuse("it differs between the readings", "one value is wanted for all");
+          return refuse("it differs between the readings", "one value for all readings is needed");
       if (std::ranges::find(s.spreads, c, &Spread::condition) != s.spreads.end())
-        return refuse("it is spread over the readings", "one value is wanted for all");
+        return refuse("it is spread over the readings", "one value for all readings is needed");
       return Knob{Kind::condition, m.key, c, std::string(card.unit), std::string(card.si_unit)};
     }
   }
@@ -82,11 +82,12 @@ std::optional<Knob> KnobReader::find(const Member& m, const std::string& path, b
     const quantities::InputQuantity& q = s.quantities[i];
     names.push_back(q.name);
     if (q.name != m.key) continue;
-    if (q.entries.size() > 1) return refuse("its value differs between the readings", "one value is wanted for all");
+    if (q.entries.size() > 1)
+      return refuse("its value differs between the readings", "one value for all readings is needed");
     return Knob{Kind::quantity, m.key, i, q.unit, q.si_unit};
   }
   problems_.add(m,
-                fmt::format("{}: '{}' is no {}", path, m.key,
+                fmt::format("{}: '{}' is not a {}", path, m.key,
                             quantities_only ? "quantity" : "condition or quantity of this scenario"),
                 "", did_you_mean(m.key, names));
   return std::nullopt;

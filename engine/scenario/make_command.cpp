@@ -16,7 +16,7 @@ std::vector<std::string> read_words(Table& model, Problems& problems) {
   for (const Node& item : *items)
     if (const auto word = read_text(item, "model.command", problems)) words.push_back(*word);
   if (items->empty() || (!words.empty() && words.front().empty()))
-    problems.add(*node, "model.command: no program", "", "command = [\"python3\", \"model.py\"]");
+    problems.add(*node, "model.command: no program is named", "", "command = [\"python3\", \"model.py\"]");
   return words;
 }
 
@@ -44,7 +44,7 @@ std::vector<Symbol> read_measurands(Table& model, Problems& problems) {
     }
     out.push_back(s);
   }
-  if (out.empty()) table->add("model.measurands: none", "there is nothing to evaluate", "y = \"mm\"");
+  if (out.empty()) table->add("model.measurands: no measurand is named", "there is nothing to evaluate", "y = \"mm\"");
   return out;
 }
 
@@ -52,8 +52,8 @@ std::vector<Symbol> read_measurands(Table& model, Problems& problems) {
 void require_plain(const std::vector<Symbol>& symbols, const Table& model) {
   for (const Symbol& s : symbols)
     if (s.name.find_first_of("(),\"\n\r") != std::string::npos)
-      model.add(fmt::format("model: '{}' cannot be a column's name", s.name),
-                "brackets, commas and quotes part columns");
+      model.add(fmt::format("model: '{}' cannot be a column name", s.name),
+                "brackets, commas and quotes are delimiters");
 }
 
 } // namespace

@@ -66,7 +66,8 @@ models::MadeModel make_expression(const MadeModelSource& source) {
   }
   const Node* method = model.find("method");
   if (s.measurands.empty() && s.simulated.empty())
-    model.add("model: no formula", "an expression states what is measured", "[model.measurands] y = \"a + b\"");
+    model.add("model: there is no formula", "an expression needs at least one measurand",
+              "[model.measurands] y = \"a + b\"");
   if (context.problems.size() != before) return nullptr;
   try {
     return models::expression::make(std::move(s), context.notes,

@@ -57,7 +57,8 @@ RunOptions read_run(Table table) {
     read_options(*adaptive, adaptive_options(), out.adaptive);
     adaptive->refuse_unknown();
     if (table.has("samples"))
-      table.refuse_key("samples", "samples beside adaptive", "an adaptive run finds their number", "leave one out");
+      table.refuse_key("samples", "samples is given together with adaptive", "an adaptive run determines the number of samples",
+                       "leave one out");
     if (out.design != Design::monte_carlo)
       table.refuse_key("design", "adaptive runs need independent samples", "", "design = \"monte_carlo\"");
   }

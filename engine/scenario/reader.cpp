@@ -85,7 +85,7 @@ std::optional<double> read_measure(const Node& node, const std::string& path, co
 
 std::optional<double> read_number(const Node& node, const std::string& path, Problems& problems) {
   if (node.kind != Node::Kind::integer && node.kind != Node::Kind::real) {
-    problems.add(node, fmt::format("{}: expected a number without a unit, found {}", path, describe(node.kind)));
+    problems.add(node, fmt::format("{}: a number without a unit is expected, not {}", path, describe(node.kind)));
     return std::nullopt;
   }
   if (!std::isfinite(node.number)) {
@@ -97,7 +97,7 @@ std::optional<double> read_number(const Node& node, const std::string& path, Pro
 
 std::optional<std::string> read_text(const Node& node, const std::string& path, Problems& problems) {
   if (node.kind == Node::Kind::text) return node.text;
-  problems.add(node, fmt::format("{}: expected text, found {}", path, describe(node.kind)), "", "put it in quotes");
+  problems.add(node, fmt::format("{}: text is expected, not {}", path, describe(node.kind)), "", "put it in quotes");
   return std::nullopt;
 }
 
@@ -113,7 +113,7 @@ std::optional<std::string> read_si_unit(const Node& node, const std::string& pat
 
 std::optional<Table> as_table(const Node& node, const std::string& path, Problems& problems) {
   if (node.kind == Node::Kind::table) return Table(node, path, problems);
-  problems.add(node, fmt::format("{}: expected a table, found {}", path, describe(node.kind)));
+  problems.add(node, fmt::format("{}: a table is expected, not {}", path, describe(node.kind)));
   return std::nullopt;
 }
 

@@ -27,8 +27,8 @@ public:
       const std::string name(card.name);
       std::optional<Table> table = indications ? indications->table(name) : std::nullopt;
       if (method_ == Method::propagation && !table)
-        problems_.add(indications ? indications->node() : top.node(), fmt::format("indications.{}: missing", name),
-                      "propagation of distributions evaluates readouts",
+        problems_.add(indications ? indications->node() : top.node(), fmt::format("indications.{} is missing", name),
+                      "the propagation of distributions evaluates readings",
                       fmt::format("add [indications.{}] with readings", name));
       tables.push_back(table ? *table : Table(nothing, "indications." + name, problems_));
       tables.back().declare(readout_keys());
@@ -56,7 +56,7 @@ private:
       if (!r.values.empty()) continue;
       if (table.has("readings") && table.find("readings")->kind == Node::Kind::array) return; // said already
       const std::string of = r.labels.empty() ? "" : " for " + text_of(r.labels);
-      table.refuse("no readings" + of, "propagation of distributions evaluates readouts", "readings = [\"...\"]");
+      table.refuse("no readings" + of, "the propagation of distributions evaluates readings", "readings = [\"...\"]");
       return;
     }
   }

@@ -74,7 +74,7 @@ public:
       for (const StatedEffect& e : out_.stated_effects)
         if (e.freed && e.of_columns)
           choose->refuse(fmt::format("stated_effects.{} reads columns", e.name),
-                         "nothing says what they would be in other settings", "use conditions only");
+                         "their values at other settings are unknown", "use conditions only");
     }
     top.refuse_unknown();
     problems_.raise();
@@ -86,7 +86,7 @@ private:
   void refuse_sobol(Table& analysis) {
     Table(*analysis.find("sensitivity"), analysis.path("sensitivity"), problems_)
         .refuse_key("sobol", "the inputs are correlated",
-                    "Sobol' indices are defined for independent inputs, Shapley effects for all",
+                    "Sobol' indices need independent inputs, Shapley effects do not",
                     "sensitivity = { shapley = 4096 }");
   }
 
@@ -98,7 +98,7 @@ private:
     Table trace(*top.find("trace"), "trace", problems_);
     for (const std::string& name : out_.trace.free)
       if (std::ranges::find(names, name) == names.end())
-        trace.refuse_key("free", fmt::format("'{}' is no quantity of the scenario", name), "",
+        trace.refuse_key("free", fmt::format("'{}' is not a quantity of the scenario", name), "",
                          did_you_mean(name, names));
   }
 
@@ -152,7 +152,8 @@ private:
       auto own = table->table(name);
       if (!own) continue;
       if (catalogue_.applies && !catalogue_.applies(model, *effect)) {
-        own->refuse(fmt::format("{} cannot carry it", model.name), fmt::format("no stage '{}'", gumshoe::name(effect->stage)));
+        own->refuse(fmt::format("{} cannot carry it", model.name),
+                    fmt::format("it has no stage '{}'", gumshoe::name(effect->stage)));
         continue;
       }
       bool any = false;

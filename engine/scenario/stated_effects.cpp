@@ -69,9 +69,9 @@ private:
     if (std::ranges::any_of(scope_.model.indications, is_it)) owner = "an indication";
     if (std::ranges::any_of(scope_.model.quantities, is_it)) owner = "a quantity of the model";
     if (!owner.empty())
-      table_.refuse(owner + " has this name", "a name means one thing", "choose another name");
+      table_.refuse(owner + " has this name", "names must be unique", "choose another name");
     else if (!formula::is_name(out_.name))
-      table_.refuse("no name for an effect", "letters, digits and _, no digit first");
+      table_.refuse("the name cannot be used for an effect", "use letters, digits and _, with no digit first");
   }
 
   void formula() {
@@ -90,8 +90,7 @@ private:
     out_.unit = *text;
     out_.si_unit = *si_unit;
     if (units::to_si(0, *text, *si_unit) == 0) return true;
-    table_.refuse_key("unit", fmt::format("'{}' has a zero of its own", *text), "a size is a difference",
-                      "use " + *si_unit);
+    table_.refuse_key("unit", fmt::format("'{}' has its own zero", *text), "a size is a difference", "use " + *si_unit);
     return false;
   }
 
@@ -147,7 +146,7 @@ private:
                                   "a signature is known before the fit",
                                   "use what was commanded, or a column of [trace.columns]"));
       else
-        found.push_back(f.problem(n.at, fmt::format("'{}' is no condition and no column", n.name), "",
+        found.push_back(f.problem(n.at, fmt::format("'{}' is neither a condition nor a column", n.name), "",
                                   did_you_mean(n.name, known)));
     }
     if (!found.empty()) throw InputError(found);
@@ -161,11 +160,11 @@ private:
                              wanted = gumshoe::Dimension::of(std::string(card.si_unit));
     if ((size * formula).like(wanted)) return;
     const gumshoe::Dimension right = wanted / formula;
-    throw InputError({e.formulas[0].problem(
-        0,
-        fmt::format("the formula gives {}, with a size in {} {}", formula.words(), out_.unit, (size * formula).words()),
-        fmt::format("{} is {}", card.name, wanted.words()),
-        right.has_unit() ? fmt::format("unit = \"{}\"", right.si_unit()) : "")});
+    throw InputError({e.formulas[0].problem(0,
+                                            fmt::format("the formula gives {}; multiplied by a size in {}, it gives {}",
+                                                        formula.words(), out_.unit, (size * formula).words()),
+                                            fmt::format("{} is {}", card.name, wanted.words()),
+                                            right.has_unit() ? fmt::format("unit = \"{}\"", right.si_unit()) : "")});
   }
 
   void load(const formula::Compiled& e) {
@@ -182,7 +181,7 @@ private:
       any |= x != 0;
       out_.loading.push_back(x);
     }
-    if (!any) context_.notes.push_back(table_.path() + ": the formula is 0 at every reading, it changes nothing");
+    if (!any) context_.notes.push_back(table_.path() + ": the formula is 0 at every reading and changes nothing");
   }
 
   Table table_;

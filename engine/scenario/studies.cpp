@@ -49,7 +49,7 @@ const quantities::InputQuantity* find(const StudyScope& scope, const std::string
 }
 
 void unknown_quantity(const Table& table, const Node& node, const std::string& name, const StudyScope& scope) {
-  table.problems().add(node, fmt::format("{}: '{}' is no quantity here", table.path(), name), "",
+  table.problems().add(node, fmt::format("{}: '{}' is not a quantity here", table.path(), name), "",
                        did_you_mean(name, names_of(scope.quantities)));
 }
 
@@ -110,10 +110,10 @@ ConformityTest read_conformity(Table table, const StudyScope& scope, Context& co
   const auto* measurand = read_subject(table, scope, context, out);
   if (!measurand) return out;
   read_options(table, conformity_options(std::string(measurand->si_unit)), out);
-  if (!table.has("lower") && !table.has("upper")) table.refuse("no tolerance limit", "", "give lower, upper or both");
+  if (!table.has("lower") && !table.has("upper")) table.refuse("no tolerance limit is given", "", "give lower, upper or both");
   if (out.lower && out.upper && *out.lower >= *out.upper) table.refuse_key("lower", "lower must be below upper");
   if (table.has("guard_band") && table.has("guard_factor"))
-    table.refuse("guard_band beside guard_factor", "both state the width", "leave one out");
+    table.refuse("both guard_band and guard_factor are given", "both state the width", "leave one out");
   if (const Node* process = table.find("process")) {
     const QuantityCard card{measurand->name, measurand->unit, measurand->si_unit, 0, {-1e300, 1e300}, "", ""};
     const auto q = read_quantity(*process, table.path("process"), card, std::string(measurand->name), context);

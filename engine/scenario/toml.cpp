@@ -86,7 +86,7 @@ Node parse_document(const std::string& text, const std::string& file) {
         {{file, static_cast<int>(place.line), static_cast<int>(place.column)}, std::move(what), "TOML", ""}});
   } catch (const ParserGaveUp&) {
     throw InputError(std::vector<Problem>{
-        {{file, 0, 0}, "this is not TOML", "the parser gave up", "is a quote or a bracket missing?"}});
+        {{file, 0, 0}, "the file is not valid TOML", "the parser gave up", "is a quote or a bracket missing?"}});
   }
 }
 

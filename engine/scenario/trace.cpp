@@ -41,11 +41,11 @@ private:
   bool writable(const Member& m) {
     const auto is_it = [&](const auto& card) { return card.name == m.key; };
     if (!formula::is_name(m.key))
-      refuse(m, "no name that a formula can write", "letters, digits and _, no digit first");
+      refuse(m, "a formula cannot use this name", "use letters, digits and _, with no digit first");
     else if (std::ranges::any_of(scope_.model.conditions, is_it) ||
              std::ranges::any_of(scope_.model.indications, is_it) ||
              std::ranges::any_of(scope_.model.quantities, is_it))
-      refuse(m, "the name has a meaning already", fmt::format("of the model {}", scope_.model.name),
+      refuse(m, "the name already has a meaning", fmt::format("of the model {}", scope_.model.name),
              "choose another name");
     else
       return true;
@@ -62,7 +62,7 @@ private:
     const std::string unit = table->text("unit").value_or("1");
     const Csv* csv = scope_.readouts.empty() ? nullptr : scope_.readouts.front().csv;
     if (!csv && context_.readings_known)
-      refuse(m, "the readings stand in no data file", "columns are of the file that holds them");
+      refuse(m, "the readings are not in a data file", "columns belong to the file that holds the readings");
     const int index = csv && given ? find_column(*table, "column", *csv) : -1;
     table->find("column");
     table->refuse_unknown();
@@ -102,9 +102,9 @@ private:
     const Node* const final_node = table_.find("final");
     const std::string& label = out_.blocks;
     if (final_node && !table_.has("blocks"))
-      table_.refuse_key("final", "there are no blocks", "they are values of a label", "blocks = \"setup\"");
+      table_.refuse_key("final", "there are no blocks", "blocks are the values of a label", "blocks = \"setup\"");
     if (final_node && final_node->kind == Node::Kind::array && final_node->items.empty())
-      table_.refuse_key("final", "empty", "without it the last quarter of the blocks is kept apart", "leave it out");
+      table_.refuse_key("final", "empty", "without it the last quarter of the blocks is held out", "leave it out");
     const Node* const node = table_.find("blocks");
     if (!node || node->kind != Node::Kind::text || !context_.is_label(*node, "trace.blocks", label) ||
         !context_.readings_known)
@@ -129,11 +129,11 @@ private:
         problems_.add(at, fmt::format("trace.final: no reading has {} = '{}'", out_.blocks, name), "",
                       did_you_mean(name, {known.begin(), known.end()}));
       else if (!seen.insert(name).second)
-        problems_.add(at, fmt::format("trace.final: '{}' stands twice", name));
+        problems_.add(at, fmt::format("trace.final: '{}' is listed twice", name));
     }
     if (known.size() == out_.final_blocks.size() &&
         std::ranges::all_of(out_.final_blocks, [&](auto& b) { return known.contains(b); }))
-      table_.refuse_key("final", "every block is kept apart", "nothing is left to search in", "list fewer of them");
+      table_.refuse_key("final", "every block is held out", "no block is left for the search", "list fewer of them");
   }
 
   void order() {
@@ -154,7 +154,7 @@ private:
       out_.order_name = *name;
       return;
     }
-    table_.refuse_key("order", fmt::format("'{}' is no condition and no column", *name), "",
+    table_.refuse_key("order", fmt::format("'{}' is neither a condition nor a column", *name), "",
                       did_you_mean(*name, names));
   }
 
@@ -171,10 +171,10 @@ private:
       for (const Node& item : listed ? node.items : one)
         if (const auto label = read_text(item, path, problems_); label && context_.is_label(item, path, *label)) {
           if (std::ranges::find(labels, *label) != labels.end())
-            problems_.add(item, fmt::format("{}: '{}' stands twice", path, *label));
+            problems_.add(item, fmt::format("{}: '{}' is listed twice", path, *label));
           labels.push_back(*label);
         }
-      if (listed && node.items.empty()) problems_.add(node, path + ": empty", "an act has labels");
+      if (listed && node.items.empty()) problems_.add(node, path + ": empty", "a set-up step needs at least one label");
       out_.redone->push_back(std::move(labels));
     }
   }

@@ -72,8 +72,8 @@ void write_identity(hid_t file, const Identity& i) {
 Stored read_stored(hid_t file) {
   Stored s;
   Identity& i = s.identity;
-  if (hdf5::read_text(file, "program") != "gumshoe") throw NoResult("another program made it");
-  if (hdf5::read_integer(file, "format_version") != format_version) throw NoResult("another format version");
+  if (hdf5::read_text(file, "program") != "gumshoe") throw NoResult("another program wrote it");
+  if (hdf5::read_integer(file, "format_version") != format_version) throw NoResult("it has another format version");
   for (const auto& [name, member] : texts)
     if (member != &Identity::design_hash || H5Aexists(file, name) > 0) i.*member = hdf5::read_text(file, name);
   i.seed = hdf5::read_integer(file, "seed");
@@ -114,13 +114,13 @@ bool is_hdf5(const std::string& path) { return H5Fis_hdf5(path.c_str()) > 0; }
 Stored read_identity(const std::string& path) {
   const Lock lock(hdf5::library());
   try {
-    if (std::filesystem::is_directory(path)) throw OutputError("a directory");
+    if (std::filesystem::is_directory(path)) throw OutputError("it is a directory");
     if (!std::filesystem::exists(path)) throw OutputError("the file does not exist");
-    if (!is_hdf5(path)) throw OutputError("no HDF5 file");
+    if (!is_hdf5(path)) throw OutputError("it is not an HDF5 file");
     return read_stored(open_file(path, H5F_ACC_RDONLY));
   } catch (const OutputError& error) {
     const Problem& p = error.problems().front();
-    throw InputError("'" + path + "' is no result of ours", p.what + (p.why.empty() ? "" : ": " + p.why));
+    throw InputError("'" + path + "' is not a Gumshoe result", p.what + (p.why.empty() ? "" : ": " + p.why));
   }
 }
 

@@ -21,13 +21,13 @@ std::string destination(const std::string& path) {
   const auto refuse = [&](const std::string& why, const std::string& remedy = {}) {
     throw OutputError("'" + path + "' cannot be written", why, remedy);
   };
-  if (path.empty()) refuse("no name given");
+  if (path.empty()) refuse("no name is given");
   std::error_code error;
   const fs::path target = fs::weakly_canonical(fs::absolute(path), error);
   if (error) refuse(error.message());
   const fs::file_status status = fs::status(target, error);
   if (fs::is_directory(status)) refuse("it is a directory", "give a file name");
-  if (fs::exists(status) && !fs::is_regular_file(status)) refuse("it is no regular file");
+  if (fs::exists(status) && !fs::is_regular_file(status)) refuse("it is not a regular file");
   const fs::path folder = target.parent_path();
   if (!fs::is_directory(folder, error)) refuse("folder '" + folder.string() + "' does not exist", "create it first");
   if (access(folder.c_str(), W_OK | X_OK) != 0) refuse("folder '" + folder.string() + "': " + std::strerror(errno));
@@ -106,7 +106,7 @@ void replace_file(const std::string& path, const std::function<void(const std::s
   const std::string temporary = temporary_name(path);
   try {
     build(temporary);
-    if (std::rename(temporary.c_str(), path.c_str()) != 0) throw OutputError("cannot take its place");
+    if (std::rename(temporary.c_str(), path.c_str()) != 0) throw OutputError("it cannot be moved into place");
   } catch (...) {
     std::remove(temporary.c_str());
     throw;

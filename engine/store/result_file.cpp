@@ -172,7 +172,7 @@ ResultFile::ResultFile(const std::string& path, const Identity& identity,
 /// Whether the run goes on in the file that stands there. Throws OutputError if it must not be overwritten.
 bool ResultFile::resumed(const std::string& path) {
   const std::string remedy = "choose another name";
-  if (!is_hdf5(impl_->path)) throw OutputError("not overwritten", "it is no result of ours", remedy);
+  if (!is_hdf5(impl_->path)) throw OutputError("not overwritten", "it is not a Gumshoe result", remedy);
   try {
     return impl_->resume();
   } catch (const OutputError& error) {
@@ -181,10 +181,10 @@ bool ResultFile::resumed(const std::string& path) {
     if (held_by_another(impl_->path))
       throw OutputError("not overwritten", "another program has it open: " + reason, "wait until it is closed");
     if (dynamic_cast<const NoResult*>(&error) || !was_ours(impl_->path))
-      throw OutputError("not overwritten", "it is no result of ours: " + reason, remedy);
+      throw OutputError("not overwritten", "it is not a Gumshoe result: " + reason, remedy);
     impl_ = impl_->successor(impl_->identity.samples);
-    impl_->remark =
-        fmt::format("'{}' is a result of ours that cannot be read ({}): the run begins from the start", path, reason);
+    impl_->remark = fmt::format("'{}' is a Gumshoe result that cannot be read ({}); the run starts from the beginning",
+                                path, reason);
     return false;
   }
 }

@@ -15,10 +15,10 @@ void require_writable(const std::string& path) {
     std::error_code none;
     if (!std::filesystem::exists(target) || std::filesystem::file_size(target, none) == 0) return;
     try {
-      if (!is_hdf5(target)) throw OutputError("no HDF5 file");
+      if (!is_hdf5(target)) throw OutputError("it is not an HDF5 file");
       read_stored(open_file(target, H5F_ACC_RDONLY));
     } catch (const OutputError& error) {
-      throw OutputError("not overwritten", "it is no result of ours: " + error.problems().front().what,
+      throw OutputError("not overwritten", "it is not a Gumshoe result: " + error.problems().front().what,
                         "choose another name");
     }
   });

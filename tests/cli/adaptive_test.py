@@ -108,7 +108,7 @@ class Adaptive(unittest.TestCase):
         scenario = self.folder / "both.toml"
         scenario.write_text(re.sub(r"(?m)^(samples.*)$", r"\1" + '\nadaptive = { rule = "stein" }', TEXT, count=1))
         done = run(scenario, self.folder / "x.h5")
-        self.assertIn("samples beside adaptive", done.stderr)
+        self.assertIn("samples is given together with adaptive", done.stderr)
 
 
 if __name__ == "__main__":

@@ -74,7 +74,7 @@ class Analyse(unittest.TestCase):
 
     def test_refusals(self):
         wider = self.scenario((SCENARIO + RUN).replace('u = "1 um"', 'u = "2 um"'))
-        self.refused("samples of another design", gumshoe("analyse", self.result, "--scenario", wider))
+        self.refused("samples have another design", gumshoe("analyse", self.result, "--scenario", wider))
         self.refused("file that is read", gumshoe("analyse", self.result, "--out", self.result))
         empty = self.folder / "empty.h5"
         file = self.scenario(SCENARIO + RUN + "store_samples = false\n")

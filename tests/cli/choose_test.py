@@ -117,7 +117,7 @@ class Choose(unittest.TestCase):
     def test_none_meets_the_target(self):
         said = self.choose(TEXT.replace('target = "3 um"', 'target = "1 um"'))
         self.assertEqual(said.returncode, 0)
-        self.assertIn("No candidate meets the target U = 1 um. The best reached is U =", said.stdout)
+        self.assertIn("No candidate meets the target U = 1 um. The smallest U reached is", said.stdout)
         self.assertIn("what limits it", said.stdout)
 
     def test_no_run_to_replay(self):
@@ -134,8 +134,8 @@ class Choose(unittest.TestCase):
             "unknown variable": (variables, variables + 'fed = ["1 mm/min"]\n', "fed =", "Did you mean 'feed'?"),
             "empty list": ("readings = [1, 2, 3]", "readings = []", "readings =", "empty"),
             "no variables": ("readings = [1, 2, 3]", "readings = [1, 2.5]", "readings =", "whole number"),
-            "low above high": ('low = "10 mm/min"', 'low = "2000 mm/min"', "feed = {", "low is not below high"),
-            "low is high": ('low = "10 mm/min"', 'low = "1000 mm/min"', "feed = {", "low is not below high"),
+            "low above high": ('low = "10 mm/min"', 'low = "2000 mm/min"', "feed = {", "low must be below high"),
+            "low is high": ('low = "10 mm/min"', 'low = "1000 mm/min"', "feed = {", "low must be below high"),
             "zero on a log scale": ('low = "10 mm/min"', 'low = "0 mm/min"', "feed = {", "Try: scale = \"linear\""),
             "range of another dimension": ('low = "10 mm/min"', 'low = "10 mm"', "feed = {", "'10 mm' is not a"),
             "one step": ("steps = 5", "steps = 1", "feed = {", "between 2 and"),
@@ -146,16 +146,16 @@ class Choose(unittest.TestCase):
             "target of zero": ('target = "3 um"', 'target = "0 um"', "target =", "above 0"),
             "unknown measurand": ("samples = 1_000", 'measurand = "width"', "measurand =", "'width' is unknown"),
             "worst case of none": ('[[choose.cases]]\nname = "late"\nvalues = { delay = "8 ms" }\n', "", None, None),
-            "case of no quantity": ('delay = "8 ms"', 'feed = "8 mm/min"', 'values = {', "is no quantity"),
+            "case of no quantity": ('delay = "8 ms"', 'feed = "8 mm/min"', 'values = {', "is not a quantity"),
             "compare without settings": ('settings = { feed = "30 mm/min", readings = 12 }', "settings = {}",
                                          "settings = {}", "empty"),
             "no formula for the time": ('per_reading = "way / feed + retract"\nonce = "start"\n', "", "[choose]",
-                                        "nothing says how long"),
+                                        "is not given"),
             "a time that is a length": ("way / feed + retract", "way", "per_reading", "the formula gives a length"),
             "sum of unlike": ("way / feed + retract", "way + retract", "per_reading", "a length"),
             "unknown name in the time": ("way / feed + retract", "way / fed + retract", "per_reading", "'fed'"),
             "a constant that has a meaning": ('start = "5 s"', 'start = "5 s"\ndelay = "5 s"', 'delay = "5 s"',
-                                              "a meaning already"),
+                                              "already has a meaning"),
             "not a virtual experiment": ('method = "virtual_experiment"\n', "", None, None),
         }
         for name, (old, new, where, words) in mistakes.items():

@@ -86,7 +86,7 @@ class Command(unittest.TestCase):
         self.assertLess(abs(values.std() / u - 1), 4 / np.sqrt(2e5))
         with h5py.File(self.folder / "r.h5") as file:
             self.assertEqual(file.attrs["model"], "command")
-        self.assertIn("by differences", run.stdout)
+        self.assertIn("are differences over a standard uncertainty", run.stdout)
         # U = k u_c: the law of propagation by differences; dA/dangle is 0 at 90 deg
         self.assertRegex(run.stdout, r"GUM framework: U = 0\.98 mm2 with k = 1\.96")
 
@@ -154,7 +154,7 @@ for line in sys.stdin:
         (self.folder / "model.py").write_text(BEGIN + GOOD + "# changed\n")
         replay = gumshoe("replay", self.folder / "r.h5", "--sample", 1)
         self.assertIsNone(complaint(replay), replay.stderr)
-        self.assertIn("no longer the scenario", replay.stderr)
+        self.assertIn("has changed since this result", replay.stderr)
 
     # failed samples
 
@@ -194,9 +194,9 @@ for line in sys.stdin:
             "answer([1], 'volume (mm3)')\n": ["no column 'area'"],
             "answer([1], 'area (mm3)')\n": ["its column area", "mm3"],
             "answer([1], 'area (foo)')\n": ["'foo' is not a unit"],
-            "answer(['1,2'])\n": ["line 2 of its output has 2 cells, the header 1"],
+            "answer(['1,2'])\n": ["line 2 of its output has 2 cells, but the header has 1"],
             "sys.stdout.buffer.write(bytes(range(256)) * 10)\n": ["no column 'area'"],
-            "while True: print('area' * 10000)\n": ["writes without end"],
+            "while True: print('area' * 10000)\n": ["its output did not end"],
         }
         for body, words in cases.items():
             with self.subTest(body):
@@ -230,10 +230,10 @@ for line in sys.stdin:
             (lambda t: t.replace('"30 s"', '"-1 s"'), "model.time_limit", (6, 14)),
             (lambda t: t.replace('"30 s"', '"30 mm"'), "model.time_limit", (6, 14)),
             (lambda t: t.replace('area = "mm2"', 'area = "foo"'), "'foo' is not a unit", (8, 8)),
-            (lambda t: t.replace('area = "mm2"\n', ""), "model.measurands: none", (7, 1)),
+            (lambda t: t.replace('area = "mm2"\n', ""), "model.measurands: no measurand is named", (7, 1)),
             (lambda t: t.replace("batch =", "bacth ="), "unknown key 'bacth'", (5, 1)),
             (lambda t: t.replace('[model.measurands]\narea = "mm2"\n', ""), "measurands", (2, 1)),
-            (lambda t: t.replace('name = "command"', 'name = "command"\nmethod = "virtual_experiment"'), "does not say what the readouts would be", (2, 1)),
+            (lambda t: t.replace('name = "command"', 'name = "command"\nmethod = "virtual_experiment"'), "does not simulate the readings", (2, 1)),
         ]
         for change, word, place in cases:
             with self.subTest(word):

@@ -131,7 +131,7 @@ coverage_probability = 0.99
         self.refused(H2.replace('Z = "ratio"', 'Z = "V + phi"'), 9, 8, "a voltage plus an angle")
 
     def test_circle(self):
-        self.refused(H2.replace('"V / I"', '"V / I * R / R"'), 7, 6, "'ratio' needs itself", "R -> ratio")
+        self.refused(H2.replace('"V / I"', '"V / I * R / R"'), 7, 6, "'ratio' depends on itself", "R -> ratio")
 
     def test_failed_samples_are_counted(self):
         text = """schema = 1
@@ -151,7 +151,7 @@ max_failed_share = 0.2
     def test_unused_quantity_is_a_note(self):
         run = gumshoe("check", self.scenario(H2.replace("[quantities.V]", "[quantities.idle]\nvalue = 1\n[quantities.V]")))
         self.assertEqual(run.returncode, 0, run.stderr)
-        self.assertIn("note: quantities.idle: no formula uses it", run.stdout)
+        self.assertIn("note: quantities.idle: no formula uses this quantity", run.stdout)
 
     def test_virtual_experiment_sees_what_the_evaluation_leaves_out(self):
         text = """schema = 1

@@ -175,10 +175,10 @@ class Machine(unittest.TestCase):
         tool = good[good.index("tool_side"):]
         for name, text, line, *said in (
                 ("an axis twice", good.replace('kind = "linear"', "").replace('"Y", ', '"Z" '), 10,
-                 "machine.tool_side[2]: axis Z stands twice"),
+                 "machine.tool_side[2]: axis Z is listed twice"),
                 ("no tool side", good.replace(tool, ""), 5, "the machine has no tool_side", "spindle"),
                 ("no workpiece side", good.replace("workpiece_side", "#"), 5, "the machine has no workpiece_side"),
-                ("unknown letter", good.replace('"A2"', '"Q"'), 11, "'Q' is no axis"),
+                ("unknown letter", good.replace('"A2"', '"Q"'), 11, "'Q' is not an axis"),
                 ("a number for an axis", good.replace('"W"]', "3]"), 7, "machine.workpiece_side[3]: expected text"),
                 ("kind against letter", good.replace('"linear"', '"rotary"'), 10, "axis Y is linear, not 'rotary'"),
                 ("zero sense", good.replace("sense = -1", "sense = 0"), 11, "neither 1 nor -1"),

@@ -113,7 +113,7 @@ CHECKED = [
     (ROWS, None, '[quantities.beam_yaw]\nvalue = "0 deg"\nu = "1 deg"\nper = "rood"\n', "Did you mean 'rod'?"),
     (SPHERE, None, "", "lacks an indication"),
     # correlations
-    (SCENARIO, None, CORRELATED, "give either coefficient or matrix"),
+    (SCENARIO, None, CORRELATED, "either a coefficient or a matrix is needed"),
     (SCENARIO, None, CORRELATED + "matrix = [[1, 0.5], [0.4, 1]]\n", "correlations are symmetric"),
     (SCENARIO, None, CORRELATED.replace(', "beam_pitch"', "") + "coefficient = 0.5\n", "two quantities or more"),
     (SCENARIO, None, '[quantities.beam_yaw]\nu = "1 deg"\n' + CORRELATED.replace('"beam_pitch"', '"beam_pitch", "beam_yaw"')
@@ -126,27 +126,27 @@ CHECKED = [
      CORRELATED.replace("copula", "spearman") + "coefficient = 0.5\n", "needs continuous distributions"),
     # run, analysis, estimate, trace
     (SCENARIO, None, '[run]\ndesign = "sobol"\nadaptive = { rule = "stein" }\n', "adaptive runs need independent samples"),
-    (SCENARIO, None, '[analysis]\ncomparisons = [ { measurand = "laser_z", between = "rod", within = "rod" } ]\n', "are the same label"),
+    (SCENARIO, None, '[analysis]\ncomparisons = [ { measurand = "laser_z", between = "rod", within = "rod" } ]\n', "must be different labels"),
     (SCENARIO, None, "[analysis]\nsensitivity = { second_order = true }\n", "needs a base size"),
     (SCENARIO, None, '[analysis]\njoint = "laser_z"\n', "expected an array"),
-    (SCENARIO, None, '[analysis]\njoint = [["laser_z"]]\n', "each group needs two measurands or more"),
+    (SCENARIO, None, '[analysis]\njoint = [["laser_z"]]\n', "each group needs at least two measurands"),
     (SCENARIO, None, '[analysis]\njoint = [["laser_z", "laser_zz"]]\n', "measurand here"),
     (SCENARIO, None, '[[analysis.one_at_a_time]]\ntitle = "x"\nsteps = { rod_radius = "0 mm" }\n', "the step of rod_radius is zero"),
     (SCENARIO, None, '[[analysis.conformity]]\nmeasurand = "laser_z"\n', "no tolerance limit"),
     (SCENARIO, None, '[[analysis.conformity]]\nmeasurand = "laser_z"\nlower = "2 mm"\nupper = "1 mm"\n', "lower must be below upper"),
     (SCENARIO, None, '[[analysis.conformity]]\nmeasurand = "laser_z"\nlower = "2 mm"\nguard_factor = 1\nguard_band = "1 um"\n',
-     "guard_factor"),
+     "both guard_band and guard_factor"),
     (SCENARIO, None, '[[analysis.conformity]]\nmeasurand = "laser_z"\nlower = "2 mm"\nprocess = "2 mm"\n', "must be one distribution"),
     (SCENARIO, None, "[estimate]\nwidth = 1\n", "the squared loss has no width"),
     (ROWS, None, '[trace]\nblocks = "setup"\nfinal = []\n', "the last quarter of the blocks"),
     (ROWS.replace('rod = "b", setup = "1"', 'rod = "b"'), None, '[trace]\nblocks = "setup"\n', "a reading has no label 'setup'"),
-    (ROWS, None, "[trace]\nredone = [[]]\n", "an act has labels"),
-    (SCENARIO, None, '[stated_effects.film]\nunit = "degC"\nformula = "feed"\n', "has a zero of its own"),
+    (ROWS, None, "[trace]\nredone = [[]]\n", "a set-up step needs at least one label"),
+    (SCENARIO, None, '[stated_effects.film]\nunit = "degC"\nformula = "feed"\n', "has its own zero"),
     (SCENARIO, None, '[stated_effects.film]\nunit = "um*s"\nformula = "1 / time"\nsize = { value = "1 um*s" }\n', "the formula has no finite value at reading"),
     # formulas, programs, machines
     (FORMULA, 'y = "a + b"', "", "no formula"),
     (FORMULA, 'y = "a + b"', 'y = "(a b"', "an operator or ')' is missing before 'b'"),
-    (FORMULA, None, '[conditions]\na = "1 mm"\n', "a name means one thing"),
+    (FORMULA, None, '[conditions]\na = "1 mm"\n', "names must be unique"),
     (FORMULA, 'y = "a + b"', 'y = { formula = "a + b", unit = "s" }', "unit: 's' is not"),
     (COMMAND, 'y = "mm"', "", "there is nothing to evaluate"),
     (COMMAND, 'y = "mm"', '"y,z" = "mm"', "cannot be a column"),
@@ -158,7 +158,7 @@ CHECKED = [
      None, "", "X, Y, Z, U, V, W are linear"),
     # choices
     (CHOOSE, "readings = [1, 2, 3]", "readings = [1, 1]", "stands twice"),
-    (CHOOSE, "readings = [1, 2, 3]", 'evaluation = { low = "1", high = "2" }', "evaluations are listed"),
+    (CHOOSE, "readings = [1, 2, 3]", 'evaluation = { low = "1", high = "2" }', "evaluations must be listed"),
     (CHOOSE, 'low = "10 mm/min"', 'low = "0 mm/min"', "not above 0"),
     (CHOOSE, "[choose.variables]\n", '[choose.variables]\nevaluation = ["fast"]\n', "has no evaluation 'fast'"),
     (CHOOSE, CHOOSE[CHOOSE.index("feed = {"):CHOOSE.index("[choose.time]")], "", "nothing to choose from"),
@@ -219,7 +219,7 @@ class Messages(unittest.TestCase):
             '[indications.w]\nreadings = ["1 mm"]\nNOISE\n')
         for text, command, words in [
             (fit.replace('[model.measurands]\ny = "a + b"\n', "").replace('[quantities]\n', '').replace(
-                'a = {', '[quantities]\na = {'), ["run", "S", "--out", "O"], "nothing is measured"),
+                'a = {', '[quantities]\na = {'), ["run", "S", "--out", "O"], "there is nothing to measure"),
             (SCENARIO, ["run", "S", "--out", "O" * 300], "too long"),
             (SCENARIO, ["estimate", "S"], "no quantity is marked estimated"),
             (fit.replace('a = { value = "1 mm", u = "1 um" }', 'a = { value = "1 mm", u = "1 um", estimated = true }'),
@@ -238,7 +238,7 @@ class Messages(unittest.TestCase):
             (fit_two.replace("NOISE", 'components = [ { distribution = "normal", u = "1 um" } ]').replace(
                 'repeatability = { s = "1 um" }', 'components = [ { distribution = "normal", u = "1 um" } ]').replace('readings = ["1 mm"]', 'rows = [{ n = "1", values = ["1 mm"] }, { n = "2", values = ["1 mm"] }]').replace(
                 'readings = ["2 mm"]', 'rows = [{ n = "1", values = ["2 mm"] }, { n = "2", values = ["2 mm"] }]'),
-             ["estimate", "S"], "the noise of readings"),
+             ["estimate", "S"], "readings share all of their noise"),
         ]:
             with self.subTest(words):
                 self.refused(text, command, words)

@@ -141,7 +141,7 @@ class Plugin(unittest.TestCase):
         with h5py.File(self.folder / "1.h5") as file:
             # exact but for rounding: y = 25e-3 to 3e-18, over steps of 0.5e-6
             self.assertAlmostEqual(float(file["budget/000"].attrs["combined_standard_uncertainty"]) / u, 1, delta=1e-10)
-        self.assertIn("by differences", run.stdout)
+        self.assertIn("are differences over a standard uncertainty", run.stdout)
         replay = gumshoe("replay", self.folder / "1.h5", "--sample", 12345)
         self.assertEqual(replay.returncode, 0, replay.stderr)
         shown = re.search(r"outputs\n  y +(\S+) mm", replay.stdout)
@@ -188,7 +188,7 @@ class Plugin(unittest.TestCase):
         self.assertLess(abs(error.std() / u - 1), 4 / np.sqrt(40000))
         self.assertLess(abs(error.mean()), 4 * u / np.sqrt(20000))
         self.build()
-        self.refused(self.run_it("never.h5"), "does not say what the readouts would be", place=(2, 1))
+        self.refused(self.run_it("never.h5"), "does not simulate the readings", place=(2, 1))
 
     def test_failed_samples(self):
         for fault in ("for (size_t i = 0; i < b->samples; ++i) b->failed[i] = at(&b->quantities[1], i) > 2.002;",
@@ -205,13 +205,13 @@ class Plugin(unittest.TestCase):
 
     def test_bad_libraries(self):
         cases = [
-            (["-DABI=2"], ["version 2 of the plugin interface", "version 1"]),
-            (["-DNAME=other"], ["exports no function gumshoe_plugin"]),
+            (["-DABI=2"], ["version 2 of the plugin interface", "this program uses version 1"]),
+            (["-DNAME=other"], ["is not a plugin (it exports no function gumshoe_plugin)"]),
             (["-DMEASURANDS={\"y\", \"foo\", 0, 0, 0, 0}"], ["y: 'foo' is not a unit"]),
-            (['-DQUANTITIES={"a", "mm", 0, 0, 0, 0}, {"a", "mm", 0, 0, 0, 0}'], ["'a' stands twice"]),
-            (['-DQUANTITIES={"a", "mm", 0, 0, 0, 0}, {"feed", "1", 0, 0, 0, 0}'], ["'feed' stands twice"]),
-            (['-DQUANTITIES={"a b", "mm", 0, 0, 0, 0}, {0, "1", 0, 0, 0, 0}'], ["number 1 of its quantities has no", "number 2"]),
-            (['-DQUANTITIES={"a", "mm", 0, 7, 1, 2}, {"b", "1", 0, 0, 2, 1}'], ["default is outside", "not in order"]),
+            (['-DQUANTITIES={"a", "mm", 0, 0, 0, 0}, {"a", "mm", 0, 0, 0, 0}'], ["the name 'a' is used twice"]),
+            (['-DQUANTITIES={"a", "mm", 0, 0, 0, 0}, {"feed", "1", 0, 0, 0, 0}'], ["the name 'feed' is used twice"]),
+            (['-DQUANTITIES={"a b", "mm", 0, 0, 0, 0}, {0, "1", 0, 0, 0, 0}'], ["number 1 of its quantities has no valid name", "number 2"]),
+            (['-DQUANTITIES={"a", "mm", 0, 7, 1, 2}, {"b", "1", 0, 0, 2, 1}'], ["default is outside", "its lower limit exceeds its upper limit"]),
             (['-DQUANTITIES={"a", "mm", 0, NAN, 0, 0}, {"b", "1", 0, 0, 0, 0}'], ["default is not finite"]),
             (["-DFAULT=return 3;"], ["failed at a point outside the run", "returned 3"]),
             (["-DFAULT=snprintf(b->error, b->error_size, \"no table\"); return 1;"], ["(no table)"]),
@@ -242,9 +242,9 @@ class Plugin(unittest.TestCase):
         library.rmdir()
         for data in (b"", b"int main() {}", os.urandom(5000)):
             library.write_bytes(data)
-            self.refused(gumshoe("check", self.scenario), "no library that can be loaded")
+            self.refused(gumshoe("check", self.scenario), "cannot be loaded as a library")
         self.build("-DFAULT=extern void nowhere(void); nowhere();")
-        self.refused(gumshoe("check", self.scenario), "no library that can be loaded", "nowhere")
+        self.refused(gumshoe("check", self.scenario), "cannot be loaded as a library", "nowhere")
         self.scenario.write_text(SCENARIO.replace('library = "libmine.so"\n', ""))
         self.refused(gumshoe("check", self.scenario), "library", place=(2, 1))
         self.scenario.write_text(SCENARIO.replace('"libmine.so"', "5"))
@@ -279,7 +279,7 @@ class Plugin(unittest.TestCase):
         self.build("-DQUANTITIES={\"a\", \"mm\", \"one\", 11, 0, 100}, {\"b\", \"1\", \"other\", 2, 0, 0}")
         replay = gumshoe("replay", self.folder / "r.h5", "--sample", 1)
         self.assertIsNone(complaint(replay), replay.stderr)
-        self.assertIn("no longer the scenario", replay.stderr)
+        self.assertIn("has changed since this result", replay.stderr)
 
     def test_shipped_example_and_the_same_as_a_program(self):
         shutil.copytree(ROOT / "scenarios/plugin", self.folder / "plugin", ignore=shutil.ignore_patterns("build"))

@@ -85,7 +85,7 @@ class BadData(unittest.TestCase):
         self.refused("no rows", [])
         self.refused("no reading has the label 'clamp'", rows(), trace='[trace]\nblocks = "clamp"')
         self.refused("no reading has setup = '99'", rows(), trace='[trace]\nblocks = "setup"\nfinal = ["99"]')
-        self.refused("every block is kept apart", rows(),
+        self.refused("every block is held out", rows(),
                      trace='[trace]\nblocks = "setup"\nfinal = ["1", "2", "3", "4", "5", "6", "7", "8"]')
         self.refused("no column 'T'", rows(), trace=TRACE + '\n[trace.columns]\nt = { column = "T", unit = "degC" }')
         self.refused("is not a number", [row + ["nan"] for row in rows()], head="setup,round,feed,spindle_z,T",

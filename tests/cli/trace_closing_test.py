@@ -267,7 +267,7 @@ class Closing(unittest.TestCase):
     def test_nothing_found_nothing_written(self):
         rods = Rods()
         rods.write(self.folder, rods.latency(0.5))
-        self.assertIn(f"scenario with what was found: {self.traced.relative_to(self.folder)}", self.program("trace", "s.toml"))
+        self.assertIn(f"scenario with the findings: {self.traced.relative_to(self.folder)}", self.program("trace", "s.toml"))
         rods.write(self.folder, lambda i: 0)
         self.assertIn("no scenario is written", self.program("trace", "s.toml"))
         self.assertFalse(self.traced.exists())  # it told of other data

@@ -254,7 +254,7 @@ class Text(unittest.TestCase):
         text = made("class", "--text")
         self.assertRegex(text, r"either thermal_growth\n    growth = 3\.10 um.*\n  or rod_expansion\n    expansion = 11\.2 um/m/K")
         self.assertIn("to split them: let the spindle rest", text)
-        self.assertIn("z_scale, scale: no size: not by these data", made("nothing_found", "--text"))
+        self.assertIn("z_scale, scale: undetectable in these data", made("nothing_found", "--text"))
         text = made("insufficient_data", "--text")
         self.assertIn("these data cannot tell", text)
         for kind in KINDS:

@@ -106,7 +106,7 @@ void add_budgets(Results& r) {
                              -0.2));
   Budget kink = budget(o[3], centre[3], {contribution("tilt", "deg", "rad", 0, 0.1 * deg, none, "normal")}, 0);
   kink.applicable = false;
-  kink.reason = "no derivative at the estimate by tilt";
+  kink.reason = "there is no derivative at the estimate with respect to tilt";
   kink.contributions[0].differentiable = false;
   kink.contributions[0].share = none;
   kink.combined_standard_uncertainty = kink.expanded_uncertainty = none;
@@ -268,7 +268,7 @@ Results full_results() {
                              "an end differs by more than delta"});
   }
   r.validations[3].verdict = "not applicable";
-  r.validations[3].reason = "no derivative at the estimate by tilt";
+  r.validations[3].reason = "there is no derivative at the estimate with respect to tilt";
   r.summaries[3].standard_uncertainty = r.summaries[3].standard_uncertainty_se = none;
   r.summaries[3].hill_index = 1.6;
   r.summaries[3].warning = "no standard uncertainty: Hill's tail index is 1.6, the variance does not settle";

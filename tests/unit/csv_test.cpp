@@ -36,7 +36,7 @@ TEST_CASE("malformed tables are refused with their place", "[csv]") {
   CHECK_THROWS_WITH(parse_csv("a\n\"1\n", "t.csv"), Catch::Contains("t.csv:2:1: error: a quote is not closed"));
   CHECK_THROWS_WITH(parse_csv("a\n\"1\"2\n", "t.csv"), Catch::Contains("t.csv:2:1: error: text follows a closing quote"));
   const auto csv = parse_csv("a,b\n1,x\nnan,\n", "t.csv");
-  CHECK_THROWS_WITH(csv.number(csv.rows[0][1]), "t.csv:2:3: error: 'x' is not a number");
+  CHECK_THROWS_WITH(csv.number(csv.rows[0][1]), "t.csv:2:3: error: 'x' is not a number.");
   CHECK_THROWS_AS(csv.number(csv.rows[1][0]), InputError);
   CHECK_THROWS_AS(csv.number(csv.rows[1][1]), InputError);
 }

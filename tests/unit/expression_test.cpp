@@ -90,19 +90,19 @@ TEST_CASE("formulas mean what mathematics means", "[expression]") {
 TEST_CASE("a mistake in a formula is shown at its character", "[expression]") {
   CHECK(about("L * (phi + ") == at(17, "a number, a name or '(' is expected, not the end of the formula."));
   CHECK(about("L * (phi + 1").starts_with(at(10, "this '(' is never closed")));
-  CHECK(about("L * phi)").starts_with(at(13, "')' closes nothing")));
+  CHECK(about("L * phi)").starts_with(at(13, "this ')' has no matching '('")));
   CHECK(about("LL * phi") == at(6, "'LL' is not a quantity, condition, indication or intermediate. Did you mean 'L'?"));
-  CHECK(about("n + snn(phi)") == at(10, "'snn' is no function. Did you mean 'sin'?"));
+  CHECK(about("n + snn(phi)") == at(10, "'snn' is not a function. Did you mean 'sin'?"));
   CHECK(about("n + atan2(phi)") == at(10, "atan2 takes 2 arguments, not 1."));
   CHECK(about("n + sin()") == at(10, "sin takes 1 argument, not 0."));
   CHECK(about("").starts_with(at(6, "the formula is empty")));
   CHECK(about("5 mm").starts_with(at(8, "an operator is missing before 'mm'")));
-  CHECK(about("n × 2").starts_with(at(8, "'×' is no sign of a formula. Use *.")));
-  CHECK(about("n ** 2").starts_with(at(8, "'**' is no sign of a formula. Use ^.")));
+  CHECK(about("n × 2").starts_with(at(8, "'×' is not allowed in a formula. Use *.")));
+  CHECK(about("n ** 2").starts_with(at(8, "'**' is not allowed in a formula. Use ^.")));
   CHECK(about("n × n ?").find("5:8:") != std::string::npos);
   CHECK(about("n + * 2").starts_with(at(10, "a number, a name or '(' is expected, not '*'")));
   CHECK(about("1e999 * n").starts_with(at(6, "this is not a number")));
-  CHECK(about("n, 2").starts_with(at(7, "',' stands outside a function")));
+  CHECK(about("n, 2").starts_with(at(7, "',' is allowed only in a function's arguments")));
 }
 
 TEST_CASE("a formula may be long but not deep", "[expression]") {
@@ -121,7 +121,7 @@ TEST_CASE("names mean one thing and formulas do not go round in a circle", "[exp
                              "[model.intermediates]\nu = \"v + n\"\nv = \"w * 2\"\nw = \"u\"\n[model.measurands]\ny "
                              "= \"u\"\n" +
                              inputs;
-  CHECK(complaint(circle).starts_with("s.toml:7:6: error: model.intermediates.w: 'u' needs itself (u -> v -> w -> u)"));
+  CHECK(complaint(circle).starts_with("s.toml:7:6: error: model.intermediates.w: 'u' depends on itself (u -> v -> w -> u)"));
   const std::string twice = start + "[model.intermediates]\nn = \"t\"\n[model.measurands]\ny = \"n\"\n" + inputs;
   CHECK(complaint(twice).starts_with("s.toml:5:6: error: model.intermediates.n: 'n' is a quantity already"));
   // In any order, and a chain longer than the program's stack would hold.
@@ -138,8 +138,8 @@ TEST_CASE("dimensions must fit, and are named where they do not", "[expression][
   CHECK(about("n^L").starts_with(at(8, "the exponent is a length")));
   CHECK(about("L^n").starts_with(at(8, "the exponent of a length varies")));
   CHECK(about("max(L, t)").starts_with(at(6, "max of a length and a time")));
-  CHECK(about("phi + 1").starts_with(at(12, "a bare number beside an angle (1 deg or 1 rad?)")));
-  CHECK(about("2 * 3 - phi").starts_with(at(6, "a bare number beside an angle")));
+  CHECK(about("phi + 1").starts_with(at(12, "a bare number is combined with an angle (1 deg or 1 rad?)")));
+  CHECK(about("2 * 3 - phi").starts_with(at(6, "a bare number is combined with an angle")));
   CHECK(about("sqrt(L)").starts_with(at(6, "the measurand is a quantity in m^0.5")));
   for (const char* good :
        {"L + L * phi", "phi + pi / 2", "phi + 0", "max(L, 0)", "sin(phi) + n", "L^2 / L", "sqrt(L * L) + L",
@@ -158,7 +158,7 @@ TEST_CASE("a measurand's unit is stated, or that of its first operand, or the SI
   REQUIRE(s.made->card->measurands.size() == std::size(units));
   for (std::size_t i = 0; i < std::size(units); ++i) CHECK(s.made->card->measurands[i].unit == units[i]);
   CHECK(complaint(start + "[model.measurands]\ny = { formula = \"L / t\", unit = \"mm\" }\n" + inputs) ==
-        "s.toml:5:33: error: model.measurands.y.unit: 'mm' is not a speed (what the formula gives). Use m/s.");
+        "s.toml:5:33: error: model.measurands.y.unit: 'mm' is not a speed (the formula gives this). Use m/s.");
   // A turn is 2 pi: an angular speed is no frequency.
   CHECK_FALSE(complaint(start + "[model.measurands]\ny = { formula = \"phi / t\", unit = \"Hz\" }\n" + inputs).empty());
 }

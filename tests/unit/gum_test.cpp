@@ -152,7 +152,7 @@ TEST_CASE("an aligned square rod: the framework does not apply, and says by what
   const propagation::Experiment e(s);
   const auto b = analysis::budget(e, 1, 0.95);
   CHECK_FALSE(b.applicable);
-  CHECK(b.reason == "no derivative at the estimate by beam_pitch");
+  CHECK(b.reason == "there is no derivative at the estimate with respect to beam_pitch");
   Memory memory(2);
   propagation::propagate(e, memory, {});
   const auto summary = analysis::summarise(e.outputs()[0], memory.rows[0], 0.95);

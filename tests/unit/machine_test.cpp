@@ -314,10 +314,10 @@ TEST_CASE("a wrong description is told by place and reason", "[machine]") {
     CHECK_THROWS_AS(Machine(d), InputError);
   };
   for (const MachineDescription& d : machines()) CHECK(problems(d).empty());
-  told({"", Axes{{"X"}, {"A"}}, Axes{{"Y"}, {"Z"}, {"A"}}}, "tool_side[2]", "axis A stands twice");
+  told({"", Axes{{"X"}, {"A"}}, Axes{{"Y"}, {"Z"}, {"A"}}}, "tool_side[2]", "axis A is listed twice");
   told({"", Axes{{"X"}}, std::nullopt}, "tool_side", "spindle");
   told({"", std::nullopt, Axes{{"X"}}}, "workpiece_side", "workpiece");
-  told({"", Axes{{"Q"}}, Axes{{"X"}}}, "workpiece_side[0]", "'Q' is no axis");
+  told({"", Axes{{"Q"}}, Axes{{"X"}}}, "workpiece_side[0]", "'Q' is not an axis");
   told({"", Axes{}, Axes{{"XY"}}}, "tool_side[0]", "no axis");
   told({"", Axes{}, Axes{{""}, {"X"}}}, "tool_side[0]", "no axis");
   told({"", Axes{}, Axes{{"X", "rotary"}}}, "tool_side[0].kind", "axis X is linear");
@@ -328,9 +328,9 @@ TEST_CASE("a wrong description is told by place and reason", "[machine]") {
   const Axes xc{{"X"}, {"C"}};
   told({"", Axes{}, xc, {{"E_A0D", 0}}}, "errors.E_A0D", "no axis 'D'");
   told({"", Axes{}, xc, {{"E_Z0C", 0}}}, "errors.E_Z0C", "no offset along itself");
-  told({"", Axes{}, xc, {{"E_Y0X", 0}}}, "errors.E_Y0X", "no offset across itself");
+  told({"", Axes{}, xc, {{"E_Y0X", 0}}}, "errors.E_Y0X", "no offset and no orientation about itself");
   told({"", Axes{}, xc, {{"E_A0X", 0}}}, "errors.E_A0X", "about itself");
-  told({"", Axes{}, xc, {{"S_XY", 0}}}, "errors.S_XY", "names are E_");
+  told({"", Axes{}, xc, {{"S_XY", 0}}}, "errors.S_XY", "a name is E_");
   told({"", Axes{}, xc, {{"E_A0C", 0}, {"E_A0C", 1}}}, "errors.E_A0C", "twice");
   told({"", Axes{}, xc, {{"E_XC", std::nan("")}}}, "errors.E_XC", "not finite");
   told({"", Axes{}, xc, {{"E_a0C", 0}}}, "errors.E_a0C", "did you mean");

@@ -327,7 +327,7 @@ TEST_CASE("plans refuse what cannot be meant, and say why", "[sampler][plan]") {
 
   const std::vector<Reading> setups = {reading({{"setup", "1"}}), reading({{"setup", "2"}})};
   CHECK_THAT(refuse({quantity("p", {component("a", standard, {"setpu"})})}, {}, setups),
-             Contains("'setpu' names no label") && Contains("'setup'"));
+             Contains("'setpu' is not a label") && Contains("'setup'"));
   CHECK_THAT(refuse({{"p", "m", "m", {{{{"setup", "1"}}, 0, {}, ""}}}}, {}, setups),
              Contains("p: no value for setup 2"));
   CHECK_THAT(refuse({quantity("p", {component("a", standard), component("b", standard)}), simple("q", standard)},

@@ -177,7 +177,7 @@ TEST_CASE("correlations name their kind", "[scenario]") {
   CHECK(s.correlations[0].kind == quantities::Correlation::Kind::spearman);
   CHECK(s.correlations[0].matrix == std::vector<double>{1, -0.5, -0.5, 1});
   CHECK_THAT(complaint(head + one_reading + pair + "coefficient = 0.5\n"),
-             Catch::Contains("correlations[1].kind: missing"));
+             Catch::Contains("correlations[1].kind is missing"));
   CHECK_THAT(complaint(head + one_reading + pair + "kind = \"pearson\"\ncoefficient = 1.5\n"),
              Catch::Contains("must lie between -1 and 1"));
   CHECK_THAT(complaint(head + one_reading + pair + "kind = \"pearson\"\nmatrix = [[1, 0.5], [0.4, 1]]\n"),

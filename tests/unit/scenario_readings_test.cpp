@@ -148,7 +148,7 @@ TEST_CASE("a virtual experiment needs no readouts", "[scenario][readings]") {
   REQUIRE(rows.readings.size() == 2);
   CHECK(rows.readings[1].repeats == 4);
   CHECK(noise(rows)[0].distribution.parameters[1] == Approx(1e-6).epsilon(1e-15));
-  CHECK_THAT(complaint(head), Catch::Contains("indications.spindle_z: missing"));
+  CHECK_THAT(complaint(head), Catch::Contains("indications.spindle_z is missing"));
   CHECK_THAT(complaint(head + "[indications.spindle_z]\nresolution = \"1 um\"\n"),
              Catch::Contains("indications.spindle_z: no readings"));
 }

@@ -196,7 +196,7 @@ TEST_CASE("nothing that is not ours is overwritten", "[store][errors]") {
     fs::resize_file(path, 1500);
   }
   const std::string before = bytes(path);
-  CHECK(message(path, identity()).find("no result of ours") != std::string::npos);
+  CHECK(message(path, identity()).find("not a Gumshoe result") != std::string::npos);
   CHECK(message(path, identity()).find(path) != std::string::npos);
   CHECK(bytes(path) == before);
   CHECK_THROWS_AS(store::read_identity(path), InputError);
@@ -221,7 +221,7 @@ TEST_CASE("a place that cannot hold a file is an error with its reason", "[store
   const Folder folder;
   CHECK(message(folder.path(), identity()).find("directory") != std::string::npos);
   CHECK(message(folder / "missing/run.h5", identity()).find("does not exist") != std::string::npos);
-  CHECK(message("/dev/full", identity()).find("no regular file") != std::string::npos);
+  CHECK(message("/dev/full", identity()).find("not a regular file") != std::string::npos);
   CHECK(message("", identity()).find("no name") != std::string::npos);
   CHECK_THROWS_AS(store::read_identity(folder.path()), InputError);
   CHECK_THROWS_AS(store::read_identity(folder / "missing.h5"), InputError);

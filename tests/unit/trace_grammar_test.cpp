@@ -88,26 +88,26 @@ TEST_CASE("mistakes in [trace] are located", "[scenario][trace][errors]") {
       {"blocks = \"setpu\"",
        "s.toml:6:10: error: trace.blocks: no reading has the label 'setpu'. Did you mean 'setup'?"},
       {"blocks = \"setup\"\nfinal = [\"2\", \"3\"]", "s.toml:7:15: error: trace.final: no reading has setup = '3'"},
-      {"blocks = \"setup\"\nfinal = [\"1\", \"2\"]", "s.toml:7:9: error: trace.final: every block is kept apart"},
-      {"blocks = \"setup\"\nfinal = [\"2\", \"2\"]", "s.toml:7:15: error: trace.final: '2' stands twice"},
+      {"blocks = \"setup\"\nfinal = [\"1\", \"2\"]", "s.toml:7:9: error: trace.final: every block is held out"},
+      {"blocks = \"setup\"\nfinal = [\"2\", \"2\"]", "s.toml:7:15: error: trace.final: '2' is listed twice"},
       {"blocks = \"setup\"\nfinal = []", "s.toml:7:9: error: trace.final: empty"},
-      {"blocks = \"setup\"\nfinal = [2]", "s.toml:7:10: error: trace.final: expected text, found an integer"},
+      {"blocks = \"setup\"\nfinal = [2]", "s.toml:7:10: error: trace.final: text is expected, not an integer"},
       {"final = [\"2\"]", "s.toml:6:9: error: trace.final: there are no blocks"},
-      {"order = \"tiem\"", "s.toml:6:9: error: trace.order: 'tiem' is no condition and no column. Did you mean 'time'?"},
+      {"order = \"tiem\"", "s.toml:6:9: error: trace.order: 'tiem' is neither a condition nor a column. Did you mean 'time'?"},
       {"order = \"temperatur\"\n" + columns, "Did you mean 'temperature'?"},
       {"redone = [[\"rod\", \"setpu\"]]", "s.toml:6:19: error: trace.redone[1]: no reading has the label 'setpu'"},
       {"redone = [[]]", "s.toml:6:11: error: trace.redone[1]: empty"},
-      {"redone = [[\"rod\", \"rod\"]]", "s.toml:6:19: error: trace.redone[1]: 'rod' stands twice"},
+      {"redone = [[\"rod\", \"rod\"]]", "s.toml:6:19: error: trace.redone[1]: 'rod' is listed twice"},
       {"alpha = 0", "s.toml:6:9: error: trace.alpha: 0 must lie between 0 and 1"},
       {"alpha = 1.5", "s.toml:6:9: error: trace.alpha: 1.5 must lie between 0 and 1"},
       {"alpha = nan", "s.toml:6:9: error: trace.alpha: the number is not finite"},
       {"draws = 98", "s.toml:6:9: error: trace.draws: 98 must lie between 99 and 1000000"},
       {"block = \"setup\"", "s.toml:6:1: error: trace: unknown key 'block'. Did you mean 'blocks'?"},
       {"[trace.columns]\nt = { column = \"Tt\" }", "has no column 'Tt'. Did you mean"},
-      {"[trace.columns]\nt = { unit = \"s\" }", "s.toml:7:5: error: trace.columns.t.column: missing"},
+      {"[trace.columns]\nt = { unit = \"s\" }", "s.toml:7:5: error: trace.columns.t.column is missing"},
       {"[trace.columns]\nt = { column = \"T\", unit = \"degX\" }", "'degX' is not a unit"},
       {"[trace.columns]\nfeed = { column = \"T\" }", "s.toml:7:1: error: trace.columns.feed: the name has a meaning"},
-      {"[trace.columns]\n\"t x\" = { column = \"T\" }", "no name that a formula can write"},
+      {"[trace.columns]\n\"t x\" = { column = \"T\" }", "a formula cannot use this name"},
       {"[trace.columns]\nx = { column = \"rod\" }", "r.csv:2:1: error: 'a' is not a number"},
       {"[trace.columns]\nx = { column = \"z\" }", "s.toml:7:1: error: trace.columns.x: 'z' holds readings"},
   };
@@ -115,7 +115,7 @@ TEST_CASE("mistakes in [trace] are located", "[scenario][trace][errors]") {
     CAPTURE(text);
     CHECK_THAT(wrong("[trace]\n" + text + '\n'), Contains(message));
   }
-  CHECK_THAT(complaint(head + one_reading + "[trace]\n" + columns), Contains("the readings stand in no data file"));
+  CHECK_THAT(complaint(head + one_reading + "[trace]\n" + columns), Contains("the readings are not in a data file"));
 }
 
 TEST_CASE("cells without a number are refused at their place", "[scenario][trace][errors]") {
@@ -183,18 +183,18 @@ TEST_CASE("mistakes in stated effects are located at the character", "[scenario]
                                                                 "is a quantity of the model"));
   CHECK_THAT(
       wrong(effect("tiem", "um/s")),
-      Contains("s.toml:6:12: error: stated_effects.film: 'tiem' is no condition and no column. Did you mean 'time'?"));
+      Contains("s.toml:6:12: error: stated_effects.film: 'tiem' is neither a condition nor a column. Did you mean 'time'?"));
   CHECK_THAT(wrong(effect("1 +", "um")), Contains("s.toml:6:15: error"));
   CHECK_THAT(wrong(effect("1 / time", "um*s")), Contains("no finite value at reading 1 (rod = a, setup = 1)"));
   CHECK_THAT(wrong(effect("time", "um/fortnit")), Contains("s.toml:7:8: error: stated_effects.film.unit: "));
-  CHECK_THAT(wrong("[stated_effects.film]\nunit = \"um\"\n"), Contains("stated_effects.film.formula: missing"));
-  CHECK_THAT(wrong("[stated_effects.film]\nformula = 1\n"), Contains("stated_effects.film.unit: missing"));
+  CHECK_THAT(wrong("[stated_effects.film]\nunit = \"um\"\n"), Contains("stated_effects.film.formula is missing"));
+  CHECK_THAT(wrong("[stated_effects.film]\nformula = 1\n"), Contains("stated_effects.film.unit is missing"));
   CHECK_THAT(wrong(effect("1", "um", "indication = \"spindel_z\"\n")), Contains("Did you mean 'spindle_z'?"));
   CHECK_THAT(wrong(effect("1", "um", "size = \"1 s\"\n")), Contains("stated_effects.film.size: '1 s' is not a length"));
   CHECK_THAT(wrong(effect("1", "um", "amount = \"1 um\"\n")), Contains("unknown key 'amount'"));
   for (const std::string name : {"trigger_latency", "feed", "rod_radius", "spindle_z"})
     CHECK_THAT(wrong("[stated_effects." + name + "]\nformula = 1\nunit = \"um\"\n"), Contains("has this name"));
-  CHECK_THAT(wrong("[stated_effects.\"a film\"]\nformula = 1\nunit = \"um\"\n"), Contains("no name for an effect"));
+  CHECK_THAT(wrong("[stated_effects.\"a film\"]\nformula = 1\nunit = \"um\"\n"), Contains("the name cannot be used for an effect"));
 }
 
 TEST_CASE("another data file for the same scenario", "[scenario][trace]") {
@@ -220,7 +220,7 @@ TEST_CASE("another data file for the same scenario", "[scenario][trace]") {
   // The scenario's own file need not be there.
   std::filesystem::remove(folder.path() + "/r.csv");
   CHECK(with(folder.path() + "/other.csv").hash == other.hash);
-  CHECK(said(folder.path() + "/none.csv") == folder.path() + "/none.csv: error: the file does not exist");
+  CHECK(said(folder.path() + "/none.csv") == folder.path() + "/none.csv: error: the file does not exist.");
   const std::string lacking = said(folder.write("lacking.csv", "rod,setup,feed,z\na,1,10,1\n"));
   CHECK_THAT(lacking,
              Contains("s.toml:4:") && Contains("lacking.csv' has no column 't'") && Contains("has no column 'T'"));

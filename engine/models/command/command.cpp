@@ -78,11 +78,11 @@ std::string why_ended(const ProcessRun& run, const CommandSpec& spec) {
   case ProcessRun::End::exited:
     return run.code == 0 ? "" : fmt::format("it ended with exit status {}", run.code);
   case ProcessRun::End::killed:
-    return fmt::format("it died of signal {} ({})", run.code, strsignal(run.code));
+    return fmt::format("signal {} ended it ({})", run.code, strsignal(run.code));
   case ProcessRun::End::timed_out:
     return fmt::format("it took longer than {:g} s and was stopped", spec.time_limit);
   case ProcessRun::End::talkative:
-    return "it writes without end and was stopped";
+    return "its output did not end and it was stopped";
   default:
     return fmt::format("it cannot be started: {}", std::strerror(run.code));
   }

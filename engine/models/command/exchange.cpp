@@ -129,7 +129,7 @@ void read_results(const ModelCard& card, const std::string& text, std::size_t n,
     const auto cells = cells_of(lines[at]);
     if (cells.size() != names.size())
       throw InputError(
-          fmt::format("line {} of its output has {} cells, the header {}", at + 1, cells.size(), names.size()),
+          fmt::format("line {} of its output has {} cells, but the header has {}", at + 1, cells.size(), names.size()),
           fmt::format("it is '{}'", shown(lines[at])));
     for (std::size_t m = 0; m < columns.size(); ++m) measurands[m][row] = number_in(cells[columns[m].at]);
     ++row;

@@ -35,17 +35,17 @@ const gumshoe_model& open_library(const std::string& path, const PluginPlace& pl
   void* const library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!library) {
     const char* why = dlerror();
-    place.refuse("is no library that can be loaded", why ? why : "", "is it a shared library for this computer?");
+    place.refuse("cannot be loaded as a library", why ? why : "", "is it a shared library for this computer?");
   }
   void* const symbol = dlsym(library, "gumshoe_plugin");
   if (!symbol)
-    place.refuse("is no plugin", "it exports no function gumshoe_plugin",
+    place.refuse("is not a plugin", "it exports no function gumshoe_plugin",
                  "in C++, export it within extern \"C\" (see engine/models/plugin/gumshoe_plugin.h)");
   const gumshoe_model* const model = reinterpret_cast<const gumshoe_model* (*)()>(symbol)();
   if (!model) place.refuse("describes no model", "gumshoe_plugin() returns null", "");
   if (model->abi != GUMSHOE_PLUGIN_ABI)
-    place.refuse(fmt::format("is of version {} of the plugin interface", model->abi),
-                 fmt::format("this program speaks version {}", GUMSHOE_PLUGIN_ABI),
+    place.refuse(fmt::format("has version {} of the plugin interface", model->abi),
+                 fmt::format("this program uses version {}", GUMSHOE_PLUGIN_ABI),
                  "rebuild it with this program's gumshoe_plugin.h");
   if (!model->evaluate) place.refuse("has no evaluate", "its pointer is null", "");
   return *model;
@@ -70,18 +70,18 @@ public:
                            std::set<std::string>& names) {
     std::vector<Symbol> out;
     if (n > 10000 || (n > 0 && !variables)) {
-      problem(fmt::format("its {} are not there", kind), fmt::format("{} of them at null", n));
+      problem(fmt::format("its {} are missing", kind), fmt::format("{} of them at null", n));
       return out;
     }
     for (std::size_t i = 0; i < n; ++i) {
       const gumshoe_variable& v = variables[i];
       if (!is_name(v.name)) {
-        problem(fmt::format("number {} of its {} has no proper name", i + 1, kind),
+        problem(fmt::format("number {} of its {} has no valid name", i + 1, kind),
                 "letters, digits and _, not beginning with a digit");
         continue;
       }
       const std::string name = v.name;
-      if (!names.insert(name).second) problem(fmt::format("the name '{}' stands twice", name), "");
+      if (!names.insert(name).second) problem(fmt::format("the name '{}' is used twice", name), "");
       try {
         out.push_back(symbol(v, name));
       } catch (const InputError& error) {
@@ -106,7 +106,7 @@ private:
     if (!std::isfinite(v.default_value)) throw InputError("its default is not finite");
     s.default_value = units::to_si(v.default_value, s.unit, s.si_unit);
     if (v.low == v.high) return s;
-    if (!(v.low < v.high)) throw InputError("its limits are not in order", fmt::format("{} and {}", v.low, v.high));
+    if (!(v.low < v.high)) throw InputError("its lower limit exceeds its upper limit", fmt::format("{} and {}", v.low, v.high));
     if (!(v.default_value >= v.low && v.default_value <= v.high))
       throw InputError("its default is outside its limits",
                        fmt::format("{} is not in [{}, {}]", v.default_value, v.low, v.high));
@@ -126,7 +126,7 @@ CardTexts card_of(const gumshoe_model& m, const PluginPlace& place) {
   const CrashGuard guard(start, unnumbered, 0); // pointers in it may lead nowhere
   CardReader reader(place);
   CardTexts card;
-  if (!is_name(m.name)) reader.problem("it has no proper name", "letters, digits and _, not beginning with a digit");
+  if (!is_name(m.name)) reader.problem("it has no valid name", "letters, digits and _, not beginning with a digit");
   card.name = is_name(m.name) ? m.name : "plugin";
   card.title = m.title ? m.title : card.name;
   card.summary = text_of(m.summary);

@@ -47,7 +47,7 @@ void guarded(const Plugin& p, int (*function)(const gumshoe_batch*), const gumsh
   batch.error[batch.error_size - 1] = '\0';
   if (threw)
     p.place.refuse("threw an exception at " + span_text(first_sample, 0, batch.samples),
-                   "the interface is of C: exceptions must not leave it", "return a code and a text instead");
+                   "exceptions must not cross the C interface", "return a code and a text instead");
   if (code != 0)
     p.place.refuse(fmt::format("failed at {}", span_text(first_sample, 0, batch.samples)),
                    *batch.error ? std::string(batch.error) : fmt::format("it returned {} without a text", code), "");
