@@ -105,14 +105,14 @@ void print_rms(const Rms& r) {
   if (!std::isfinite(r.holdout_before) && !r.holdout.empty()) std::cout << "  hold-out: " << r.holdout << '\n';
 }
 
-void print_candidates(const std::vector<Candidate>& candidates) {
+void print_candidates(const std::vector<RankedCandidate>& candidates) {
   if (candidates.empty()) return;
   std::size_t width = 9;
   const std::size_t n = std::min(listed, candidates.size());
   for (std::size_t i = 0; i < n; ++i) width = std::max(width, candidates[i].name.size());
   std::cout << fmt::format("{:<{}}  {:>9}  {:>9}  {:>6}  outcome\n", "candidate", width, "2 ln L", "p alone", "left");
   for (std::size_t i = 0; i < n; ++i) {
-    const Candidate& c = candidates[i];
+    const RankedCandidate& c = candidates[i];
     std::cout << fmt::format("{:<{}}  {:>9}  {:>9}  {:>5.1f}%  {}{}\n", c.name, width,
                              std::isfinite(c.statistic) ? fmt::format("{:.4g}", c.statistic) : "-",
                              probability(c.p_single), 100 * c.identifiable, c.outcome,

@@ -140,7 +140,7 @@ void write_residuals(hid_t file, const scenario::Scenario& s, const ModelCard& c
   hdf5::write_attribute(group, "order_name", s.trace.order_name);
   Table table(group, "row", rows.size());
   write_fields(table, residual_fields, rows);
-  table.numbers("final", column(rows, [](const Row& row) { return static_cast<std::uint8_t>(row.final ? 1 : 0); }), "1",
+  table.numbers("final", column(rows, [](const Row& row) { return static_cast<std::uint8_t>(row.held_out ? 1 : 0); }), "1",
                 "whether it was kept apart until the end");
   if (rows.empty()) return;
   const hdf5::Handle flags = hdf5::own(H5Dopen2(group, "final", H5P_DEFAULT), H5Dclose, "describe the flags");

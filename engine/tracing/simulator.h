@@ -2,15 +2,11 @@
 /// The forward model of a scenario as tracing asks it: in matrices, on several threads.
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "propagation/experiment.h"
+#include "tracing/matrix.h"
 
 namespace gumshoe::tracing {
 
-using Matrix = Eigen::MatrixXd;
-using Vector = Eigen::VectorXd;
-using Index = Eigen::Index;
 using propagation::Points;
 using propagation::Variation;
 

@@ -6,18 +6,19 @@
 #include <fmt/format.h>
 
 #include "base/units.h"
-#include "quantities/cells.h"
 #include "tracing/candidates/extended_scenario.h"
+#include "tracing/criteria.h"
+#include "tracing/findings/comparison.h"
 #include "tracing/findings/findings.h"
-#include "tracing/findings/report_rows.h"
+#include "tracing/judgement/holdout.h"
 #include "tracing/judgement/search.h"
 #include "tracing/scenario_out/composition.h"
 
 namespace gumshoe::tracing {
 namespace {
 
-/// What the design of the data rules out, whatever is in them.
-void state_what_cannot_be_told(const Circumstances& c, const scenario::Scenario& s, Trace& out) {
+/// Says what the design of the data rules out, whatever the readings are.
+void state_what_design_rules_out(const TraceContext& c, const scenario::Scenario& s, Trace& out) {
   const ModelCard& card = *c.experiment.model().card;
   out.statements.insert(out.statements.end(), c.observations.statements.begin(), c.observations.statements.end());
   for (std::size_t i = 0; i < card.conditions.size() && s.readings.size() > 1; ++i) {
@@ -26,32 +27,32 @@ void state_what_cannot_be_told(const Circumstances& c, const scenario::Scenario&
       continue;
     const std::string unit(card.conditions[i].unit);
     out.statements.push_back(
-        fmt::format("{} is {:.6g}{} in every reading: whatever grows with it cannot be told from a constant",
+        fmt::format("{} is {:.6g}{} in every reading: whatever grows with it cannot be distinguished from a constant",
                     card.conditions[i].name, units::from_si(first, unit, std::string(card.conditions[i].si_unit)),
                     unit == "1" ? "" : " " + unit));
   }
 }
 
-bool enough(const Circumstances& c, Trace& out) {
+/// Whether the readings suffice to judge residuals; says why not.
+bool enough(const TraceContext& c, Trace& out) {
   const auto& rows = c.fitter.rows();
   const JointFit fit = c.fitter.fit({}, 1);
   const std::size_t unknowns = independent(fit.design, rows).size();
-  if (rows.size() < unknowns + 4) {
+  if (rows.size() < unknowns + criteria.readings_above_unknowns) {
     const auto& readings = c.experiment.scenario().readings;
     const bool repeated = std::any_of(readings.begin(), readings.end(), [](const auto& r) { return r.repeats > 1; });
     out.statements.push_back(
-        fmt::format("{} readings{} are left to {} unknowns: what remains beside them cannot be judged; it takes "
-                    "four readings more than unknowns at the least",
+        fmt::format("{} readings{} determine {} unknowns; it takes at least four readings more than unknowns to "
+                    "judge the residuals",
                     rows.size(), repeated ? " (readouts of equal labels and conditions count as one)" : "", unknowns));
     out.outcome = Outcome::insufficient_data;
     return false;
   }
   const double size = std::fabs(*std::max_element(c.observations.measured.begin(), c.observations.measured.end(),
                                                   [](double a, double b) { return std::fabs(a) < std::fabs(b); }));
-  if (fit.residual(rows).cwiseAbs().maxCoeff() > 1e-12 * size) return true;
-  out.statements.push_back(
-      "the readings agree with the model to their last digit: they do not scatter, so that nothing "
-      "can be told from chance (a readout in steps too wide, or copied rows?)");
+  if (fit.residual(rows).cwiseAbs().maxCoeff() > criteria.exact * size) return true;
+  out.statements.push_back("the readings agree with the model to their last digit: they do not scatter, so "
+                           "nothing can be distinguished from chance (a readout in steps too wide, or copied rows?)");
   out.outcome = Outcome::insufficient_data;
   return false;
 }
@@ -83,36 +84,36 @@ Trace trace(const scenario::Scenario& scenario, const Settings& settings) {
                         scenario.made ? "add [model.indications] with a formula for each" : "");
   const Observations observations = observe(experiment);
   const Simulator simulator(experiment, settings.threads);
-  std::vector<bool> training;
-  for (const bool final : observations.final) training.push_back(!final);
+  std::vector<bool> training = observations.held_out;
+  training.flip();
   const Fitter fitter(experiment, simulator, observations, rows_where(observations, training), settings.threads);
-  const Circumstances c{
+  const TraceContext c{
       experiment,           simulator,           observations,     fitter,           scenario.trace.alpha,
       scenario.trace.draws, scenario.trace.seed, settings.threads, settings.progress};
   out.rms.unit = model.card->indications[0].unit;
   out.rms.si_unit = model.card->indications[0].si_unit;
   out.alpha = c.alpha;
   out.draws = c.draws;
-  state_what_cannot_be_told(c, scenario, out);
+  state_what_design_rules_out(c, scenario, out);
   if (!enough(c, out)) {
-    speak(out);
+    summarise(out);
     return out;
   }
   const Search found = search(c);
   out.tried = found.tried;
   out.p_anything = found.first.p_anything;
-  out.candidates = found.candidates;
+  out.candidates = found.ranking;
   out.detection_limits = found.limits;
-  out.statements.insert(out.statements.end(), found.statements.begin(), found.statements.end());
   if (!found.base.converged)
-    out.statements.push_back("the fit of the declared model did not converge: judge nothing by it");
+    out.statements.push_back("the fit of the declared model did not converge: do not rely on any figure");
   if (found.base.kink)
-    out.statements.push_back("the model has a kink where it was linearised: derivatives there are of one side");
+    out.statements.push_back(
+        "the model has a kink where it was linearised: its derivatives there hold for one side only");
   out.vetoed = compare(c, found, out);
   describe_noise(c, found, out);
   collect(c, found, out);
   if (!out.vetoed) compose(c, found, out);
-  speak(out);
+  summarise(out);
   return out;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 /// Finds what is left after a scenario's model is fitted to its readings, and traces it to an effect that the scenario
-/// holds at null. All values SI; names and units as shown to people beside them. Method: README.md.
+/// holds at null. All values SI, next to names and units as shown to people. Method: README.md.
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -14,7 +14,7 @@ namespace gumshoe::tracing {
 
 enum class Kind {
   named,             ///< one effect, which beats its rivals
-  equivalence_class, ///< effects that these data cannot tell apart
+  equivalence_class, ///< effects that these data cannot distinguish
   scatter,           ///< a variance component by label
   not_in_catalogue,  ///< structure that no known effect explains
 };
@@ -23,7 +23,7 @@ const char* name(Kind kind);
 
 /// Size of an effect, with an interval that allows for the search (README.md).
 struct SizedQuantity {
-  std::string name; ///< "delay"; of a declared quantity its name
+  std::string name; ///< "delay"; for a declared quantity its name
   std::string unit, si_unit;
   double value = 0, u = 0, low95 = 0, high95 = 0;
   /// Where it stands in a scenario: "trigger_latency.delay", "rod_length"; empty: nowhere (scatter, a shape).
@@ -42,22 +42,22 @@ struct Curve {
 struct Finding {
   Kind kind = Kind::named;
   std::string name; ///< "trigger_latency", "declared:rod_length[rod 2]", "scatter:rod,setup", "not in the catalogue"
-  std::vector<std::string> members;    ///< those that cannot be told apart, the best first; of a named effect itself
-  double p_value = 1;                  ///< of the largest statistic over all that was tried
+  std::vector<std::string> members;    ///< of a class, the best first; else the effect itself
+  double p_value = 1;                  ///< of the largest statistic, over all that was tried
   std::vector<std::string> depends_on; ///< conditions, columns or labels
-  std::string suggestion;              ///< the measurement that would split the class
+  std::string suggestion;              ///< the measurement that would distinguish the members
   std::vector<SizedQuantity> quantities;
-  /// The same sizes for every member of a class, by member; the first are `quantities`.
+  /// Sizes for every member of a class, as if it were the cause; the first are `quantities`.
   std::vector<std::vector<SizedQuantity>> alternatives;
   /// Root mean square by which the members' predictions differ over the training data, SI of the first indication.
   double spread = 0;
-  double removed_share = 0;         ///< of the residual's mean square in the training data
+  double removed_share = 0;         ///< share of the residuals' mean square in the training data that it explains
   std::vector<Curve> curves;        ///< of what is not in the catalogue
   std::vector<std::string> remarks; ///< implausible size, kept shapes, also described by ...
 };
 
-/// One line of the search, for the ranking.
-struct Candidate {
+/// A candidate as the ranking lists it.
+struct RankedCandidate {
   std::string name;   ///< "trigger_latency", "declared:rod_length[rod 2]", "polynomial:feed^2"
   std::string shape;  ///< what was held fixed: "time_constant 30 min"
   std::string family; ///< effect, declared, stated, shape, omnibus, scatter
@@ -70,10 +70,10 @@ struct Candidate {
   std::string outcome;     ///< "named", "in the class", "refused: ..."
 };
 
-/// The smallest size that would have been seen, in nine cases of ten.
+/// The smallest size that is detected in nine cases of ten.
 struct DetectionLimit {
   std::string effect, quantity, unit, si_unit;
-  double value = 0; ///< infinity: not at all by these data
+  double value = 0; ///< infinity: not detectable by these data
 };
 
 /// Root mean squares of residuals, SI of the first indication. NaN where there is none.
@@ -84,7 +84,7 @@ struct Rms {
   double noise_low = none, noise_high = none;       ///< 95 % of what noise alone gives
   double holdout_before = none, holdout_after = none, holdout_noise = none;
   double holdout_noise_low = none, holdout_noise_high = none;
-  double worst_block_before = none, worst_block_after = none; ///< largest of the final blocks
+  double worst_block_before = none, worst_block_after = none; ///< largest of the hold-out blocks
   std::string worst_block;
   double worst_point_before = none, worst_point_after = none; ///< largest residual of one reading there
   std::string worst_point;
@@ -97,28 +97,28 @@ struct Row {
   std::size_t reading = 0, indication = 0;
   double order = 0;
   std::string block;
-  bool final = false;
+  bool held_out = false; ///< "final" in the result file
   double measured = 0;
-  double before = 0, after = 0; ///< residuals with the data's own constants taken off; NaN if not scored
+  double before = 0, after = 0; ///< residuals less the block offsets; NaN if not scored
   double noise_u = 0;
-  double weight = 1; ///< below 1: taken for an outlier
+  double weight = 1; ///< below 1: winsorised
 };
 
-/// What of the noise is estimated.
+/// The noise as fitted.
 struct Noise {
-  double scale = 1; ///< of the declared standard uncertainties; of a readout in SI where none are declared
+  double scale = 1; ///< factor on the declared standard uncertainties; SI where none are declared
   bool declared = true;
   double correlation = 0;   ///< from a reading to the next in the order of measurement
   std::string scatter;      ///< labels of the variance component in use, or empty
   double scatter_u = 0;     ///< SI
-  double chi_squared_p = 1; ///< of residuals as large as these, were the declared noise true
+  double chi_squared_p = 1; ///< p-value of the residuals' size, were the declared noise true
   int outliers = 0;
 };
 
 /// How one parameter of the estimate goes into the traced scenario.
 struct Taken {
-  bool own = false;          ///< the data's own constant: free again when traced anew
-  quantities::Labels labels; ///< of the readings at which it was found off; empty: all
+  bool block_offset = false; ///< offset of a block, or another free unknown: free again in a further trace
+  quantities::Labels labels; ///< readings at which the quantity was found off; empty: all
   std::string source;
 };
 
@@ -136,19 +136,19 @@ enum class Outcome { found, nothing_found, insufficient_data };
 struct Trace {
   Outcome outcome = Outcome::nothing_found;
   std::vector<Finding> findings;
-  double p_anything = 1; ///< of the one verdict over all tests
+  double p_anything = 1; ///< p-value of the whole search
   Rms rms;
   Noise noise;
   std::vector<DetectionLimit> detection_limits;
-  std::vector<Candidate> candidates; ///< of the first search, best first
+  std::vector<RankedCandidate> candidates; ///< of the first round, best first
   std::vector<Row> rows;
   int tried = 0, draws = 0;
   double alpha = 0.05;
-  bool vetoed = false;                 ///< by the final blocks: nothing was added
-  std::vector<std::string> statements; ///< what these data cannot tell, and every decision a reader must see
+  bool vetoed = false;                 ///< by the hold-out blocks: nothing was added
+  std::vector<std::string> statements; ///< what these data leave undetermined, and every decision a reader must see
   std::vector<std::string> plain;      ///< two sentences for a machinist
   /// The scenario with the effects found marked as estimated quantities, and what traced_scenario.h writes: their joint
-  /// estimate with the data's own constants, and how each parameter is taken in. Empty: nothing to add.
+  /// estimate with the free unknowns, and how each parameter enters. Empty: nothing to add.
   scenario::Scenario extended;
   calibration::Estimate estimate;
   std::vector<Taken> taken;
@@ -160,7 +160,7 @@ struct Settings {
   std::function<void(const std::string& what)> progress = {};
 };
 
-/// Throws InputError: bad input. What the data cannot tell is in the result.
+/// Traces a scenario with readings. Throws InputError: bad input. What the data leave undetermined is in the result.
 Trace trace(const scenario::Scenario& scenario, const Settings& settings);
 
 } // namespace gumshoe::tracing

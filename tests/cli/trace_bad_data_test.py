@@ -167,7 +167,7 @@ class BadData(unittest.TestCase):
 
     def test_few_blocks_are_left_out_in_turn(self):
         said = self.verdict(rows((1, 2, 3)), (1, 2, 3))
-        self.stated(said, "too few to keep some apart")
+        self.stated(said, "too few to hold some out")
         self.assertIn("left out in turn", said["rms"]["holdout"])
 
 

@@ -69,7 +69,7 @@ void add_rows(Traced& t, const Effect& there, const Effect& found) {
     row.reading = i;
     row.order = s.trace.order[i];
     row.block = s.readings[i].labels[1].second;
-    row.final = std::stoi(row.block) >= first_final;
+    row.held_out = std::stoi(row.block) >= first_final;
     row.before = there(s, i) + noise_u * normal(i);
     row.after = row.before - found(s, i);
     row.measured = s.readings[i].indications[0] + row.before;
@@ -96,8 +96,8 @@ void add_rms(Trace& t) {
   Rms& r = t.rms;
   r.unit = "mm";
   r.si_unit = "m";
-  const auto training = [](const Row& row) { return !row.final; };
-  const auto final = [](const Row& row) { return row.final; };
+  const auto training = [](const Row& row) { return !row.held_out; };
+  const auto final = [](const Row& row) { return row.held_out; };
   r.before = root_mean_square(t.rows, &Row::before, training);
   r.after = root_mean_square(t.rows, &Row::after, training);
   r.holdout_before = root_mean_square(t.rows, &Row::before, final);
@@ -116,7 +116,7 @@ void add_rms(Trace& t) {
     }
   }
   for (const Row& row : t.rows)
-    if (row.final && !(std::fabs(row.after) <= r.worst_point_after)) {
+    if (row.held_out && !(std::fabs(row.after) <= r.worst_point_after)) {
       r.worst_point = fmt::format("reading {}, setup {}", row.reading + 1, row.block);
       r.worst_point_before = std::fabs(row.before);
       r.worst_point_after = std::fabs(row.after);
@@ -152,7 +152,7 @@ Finding latency() {
   return f;
 }
 
-std::vector<Candidate> ranking() {
+std::vector<RankedCandidate> ranking() {
   return {
       {"trigger_latency", "", "effect", 1, 461.2, 2e-99, 0.91, "", 1, "named"},
       {"polynomial:feed", "", "shape", 1, 461.2, 2e-99, 0.91, "", 1,
@@ -311,7 +311,7 @@ Traced not_in_catalogue(bool beside_latency) {
   t.trace.findings.push_back(unknown());
   t.trace.candidates = ranking();
   if (!beside_latency)
-    for (Candidate& c : t.trace.candidates) c.outcome = "refused: leaves a structure in time";
+    for (RankedCandidate& c : t.trace.candidates) c.outcome = "refused: leaves a structure in time";
   t.trace.plain = {
       "The readings swing up and down by 1 um every quarter of an hour, and no effect known here does that.",
       "Look for something that switches with this period, such as cooling."};
@@ -323,7 +323,7 @@ Traced nothing_found(bool vetoed) {
   add_rows(t, nothing, nothing);
   add_rms(t.trace);
   t.trace.candidates = ranking();
-  for (Candidate& c : t.trace.candidates) {
+  for (RankedCandidate& c : t.trace.candidates) {
     c.statistic = c.parameters * 1.3, c.p_single = 0.25;
     c.outcome = "refused: no better than the largest of so many is by chance";
   }

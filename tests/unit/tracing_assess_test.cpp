@@ -14,31 +14,31 @@ namespace {
 double tolerance(double p, int sets, int draws) { return 5 * std::sqrt(p * (1 - p) / sets) + 1.0 / (draws + 1); }
 
 /// A line, a wave, a label's steps: signatures of one and of several columns.
-std::vector<Alternative> signatures(const Design& d) {
+std::vector<Candidate> signatures(const Design& d) {
   const Index n = d.fixed.rows();
-  std::vector<Alternative> out;
+  std::vector<Candidate> out;
   for (int h = 1; h <= 4; ++h) {
     Matrix wave(n, h % 2 == 0 ? 2 : 1);
     for (Index i = 0; i < n; ++i) {
       wave(i, 0) = std::sin(0.26 * h * static_cast<double>(i));
       if (wave.cols() > 1) wave(i, 1) = std::cos(0.26 * h * static_cast<double>(i));
     }
-    out.push_back(alternative(wave));
+    out.push_back(candidate(wave));
   }
   Vector line(n), late(n);
   for (Index i = 0; i < n; ++i) {
     line[i] = static_cast<double>(i);
     late[i] = 2 * i > n ? 1 : 0;
   }
-  out.push_back(alternative(line));
-  out.push_back(alternative(late));
+  out.push_back(candidate(line));
+  out.push_back(candidate(late));
   return out;
 }
 
 /// 24 readings about one constant, what is tried on them, and draws of their noise.
 struct Made {
   Design design;
-  std::vector<Alternative> tried;
+  std::vector<Candidate> tried;
   Scan scan;
   Whitened truth;
 
@@ -52,9 +52,9 @@ private:
     d.fixed.setOnes();
     return d;
   }
-  static std::vector<const Alternative*> pointers_to(const std::vector<Alternative>& all) {
-    std::vector<const Alternative*> out;
-    for (const Alternative& a : all) out.push_back(&a);
+  static std::vector<const Candidate*> pointers_to(const std::vector<Candidate>& all) {
+    std::vector<const Candidate*> out;
+    for (const Candidate& a : all) out.push_back(&a);
     return out;
   }
 };

@@ -57,13 +57,13 @@ struct Case {
   }
 
   /// Signatures at the point of a fit.
-  std::vector<Alternative> candidates(const JointFit& fit, double step = 3e-6) const {
+  std::vector<Candidate> candidates(const JointFit& fit, double step = 3e-6) const {
     return physical_candidates(*experiment, *simulator, fit.at, observations, step,
-                               [](const Alternative&) { return false; });
+                               [](const Candidate&) { return false; });
   }
   /// A term of one candidate, to begin with at zero: the tangent, or with a shape held.
   Term term(const JointFit& fit, const std::string& name, const std::string& quantity = "") const {
-    for (Alternative& a : candidates(fit))
+    for (Candidate& a : candidates(fit))
       if (a.name == name && a.finite == 0 && (quantity.empty() || a.amplitudes[0].name == quantity))
         return {a, Vector::Zero(a.columns.cols())};
     throw InputError("no candidate " + name);

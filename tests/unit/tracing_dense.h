@@ -80,7 +80,7 @@ inline Matrix local_factor(const Design& d, const std::vector<Index>& rows) {
 }
 
 /// V: serial correlation along the chosen readings, declared draws, variance component.
-inline Matrix covariance(const Design& d, const std::vector<Index>& rows, const Structure& s) {
+inline Matrix covariance(const Design& d, const std::vector<Index>& rows, const CovarianceModel& s) {
   const auto n = static_cast<Index>(rows.size());
   const auto k = static_cast<Index>(d.indications);
   Matrix serial = Matrix::Zero(n, n);
@@ -137,8 +137,8 @@ inline Matrix joined(const Matrix& a, const Matrix& b) {
   return out;
 }
 
-inline Alternative alternative(const Matrix& columns) {
-  Alternative a;
+inline Candidate candidate(const Matrix& columns) {
+  Candidate a;
   a.name = "made up";
   a.columns = columns;
   a.amplitudes.resize(static_cast<std::size_t>(columns.cols()));

@@ -137,9 +137,9 @@ TEST_CASE("where readings jump with a size its u is that of a straight line or m
     c.fitter->widen_jumping(fit);
     const Index last = fit.design.fixed.cols() - 1;
     const double u = std::sqrt(fit.covariance(last, last)), s = std::sqrt(fit.variance);
-    CAPTURE(seed, s, fit.structure.correlation, fit.terms[0].size[0] * 3600e6);
+    CAPTURE(seed, s, fit.covariance_model.correlation, fit.terms[0].size[0] * 3600e6);
     CHECK(std::fabs(fit.terms[0].size[0] - 12e-6 / 3600) < 4 * u);
-    if (fit.structure.correlation != 0) continue; // by chance: another noise, another u
+    if (fit.covariance_model.correlation != 0) continue; // by chance: another noise, another u
     ++plain;
     CHECK(u > 0.98 * s * line); // the line's slope is t but for jumps at both ends of the steps
     CHECK(u < 1.5 * s * line);
@@ -215,7 +215,7 @@ TEST_CASE("the order of rows in the file does not change a bit of the fit", "[tr
   for (std::size_t i = 0; i < o.readings; ++i) {
     REQUIRE(o.sequence[i] == order[p.sequence[i]]);
     CHECK(o.measured[o.sequence[i]] == p.measured[p.sequence[i]]);
-    CHECK(o.final[o.sequence[i]] == p.final[p.sequence[i]]);
+    CHECK(o.held_out[o.sequence[i]] == p.held_out[p.sequence[i]]);
   }
   const auto same = [](const Matrix& x, const Matrix& y) {
     return x.rows() == y.rows() && x.cols() == y.cols() &&
@@ -271,7 +271,7 @@ TEST_CASE("no signature comes from the measured response", "[tracing]") {
   for (std::size_t i = 0; i < sa.size(); ++i) CHECK(sa[i].columns == sb[i].columns);
   // And none of them explains noise: the largest squared correlation of a signature with it, beside the constants, is
   // that of a few directions among 36.
-  std::vector<const Alternative*> pointers;
+  std::vector<const Candidate*> pointers;
   for (const auto& c : cb) pointers.push_back(&c);
   const JointFit noisy = b.fitter->fit({}, 1);
   const Scan scan(noisy.design, b.fitter->rows(), pointers, 1);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "tracing/noise/declared_response.h"
 #include "unit/tracing_dense.h"
 
 using namespace tracing_dense;
@@ -21,7 +22,7 @@ struct Case {
 const Case cases[] = {{30, 1, 3, 0, 0}, {30, 1, 3, 4, 6}, {15, 2, 2, 3, 6}, {10, 3, 2, 2, 0}, {28, 1, 0, 2, 7}};
 
 /// ln |V| but for the own noise's part, and ln |F'V^-1 F| with F in units of the noise and columns of length one.
-double dense_determinant(const Design& d, const std::vector<Index>& rows, const Structure& s) {
+double dense_determinant(const Design& d, const std::vector<Index>& rows, const CovarianceModel& s) {
   const Matrix v = covariance(d, rows, s);
   double out = ln_determinant(v) - 2 * local_factor(d, rows).diagonal().array().log().sum();
   if (d.fixed.cols() == 0) return out;
@@ -64,18 +65,18 @@ TEST_CASE("likelihood, sizes and information are those of dense generalised leas
         rows.resize(rows.size() - 2 * c.indications);
       const auto n = static_cast<Index>(rows.size());
       std::mt19937_64 chance(seed + 100);
-      const Alternative one = alternative(normal_matrix(d.fixed.rows(), 1, chance)),
-                        pair = alternative(normal_matrix(d.fixed.rows(), 2, chance));
-      const std::vector<const Alternative*> alternatives{&one, &pair};
-      const Scan scan(d, rows, alternatives, 1);
+      const Candidate one = candidate(normal_matrix(d.fixed.rows(), 1, chance)),
+                      pair = candidate(normal_matrix(d.fixed.rows(), 2, chance));
+      const std::vector<const Candidate*> candidates{&one, &pair};
+      const Scan scan(d, rows, candidates, 1);
       const Vector y = tame(scan, d, rows, seed + 10);
       const Matrix f = chosen(d.fixed, rows);
       const double freedom = static_cast<double>(n - c.fixed);
       REQUIRE(scan.degrees_of_freedom() == static_cast<std::size_t>(n - c.fixed));
       double base = 1e300, with[2] = {1e300, 1e300};
       std::size_t best = 0, best_with[2] = {0, 0};
-      for (std::size_t k = 0; k < scan.all_structures().size(); ++k) {
-        const Structure& s = scan.all_structures()[k];
+      for (std::size_t k = 0; k < scan.covariance_models().size(); ++k) {
+        const CovarianceModel& s = scan.covariance_models()[k];
         CAPTURE(c.readings, c.indications, seed, s.correlation, s.scatter, s.ratio);
         const Matrix v = covariance(d, rows, s);
         const double determinant = dense_determinant(d, rows, s);
@@ -85,13 +86,13 @@ TEST_CASE("likelihood, sizes and information are those of dense generalised leas
         CHECK(w.left(w.whiten(y))[0] == Approx(without.squares).epsilon(rounding));
         if (const double x = freedom * std::log(without.squares) + determinant; x < base) base = x, best = k;
         for (std::size_t a = 0; a < 2; ++a) {
-          const Matrix g = chosen(alternatives[a]->columns, rows);
+          const Matrix g = chosen(candidates[a]->columns, rows);
           const Gls both = gls(v, joined(f, g), y);
           if (const double x = freedom * std::log(both.squares) + determinant; x < with[a])
             with[a] = x, best_with[a] = k;
           // Whitened::solve, beside the declared and scattering parts.
           Matrix covariance_of_all;
-          const Vector x = w.solve(w.whiten(g), w.whiten(y), &covariance_of_all);
+          const Vector x = w.solve(w.whiten(y), &covariance_of_all, w.whiten(g));
           const Index m = g.cols(), p = f.cols();
           for (Index j = 0; j < m; ++j) {
             const double u = std::sqrt(both.covariance(p + j, p + j));
@@ -106,18 +107,18 @@ TEST_CASE("likelihood, sizes and information are those of dense generalised leas
         }
       }
       const Statistics found = scan.run(y);
-      CHECK(found.structure[0] == best);
+      CHECK(found.covariance_model[0] == best);
       CHECK(found.criterion[0] == Approx(base).epsilon(rounding));
       CHECK(found.variance[0] ==
-            Approx(gls(covariance(d, rows, scan.all_structures()[best]), f, y).squares / freedom).epsilon(1e-8));
+            Approx(gls(covariance(d, rows, scan.covariance_models()[best]), f, y).squares / freedom).epsilon(1e-8));
       const Matrix local = local_factor(d, rows), plain = covariance(d, rows, {});
       for (std::size_t a = 0; a < 2; ++a) {
-        const Matrix g = chosen(alternatives[a]->columns, rows);
+        const Matrix g = chosen(candidates[a]->columns, rows);
         const auto row = static_cast<Index>(a);
         CHECK(found.ratio(row, 0) == Approx(std::max(0.0, base - with[a])).margin(1e-7));
         const Fit fit = scan.fit(a, y);
-        const Gls dense = gls(covariance(d, rows, scan.all_structures()[best_with[a]]), joined(f, g), y);
-        CHECK(fit.structure == best_with[a]);
+        const Gls dense = gls(covariance(d, rows, scan.covariance_models()[best_with[a]]), joined(f, g), y);
+        CHECK(fit.covariance_model == best_with[a]);
         CHECK(fit.ratio == Approx(found.ratio(row, 0)).margin(1e-7));
         for (Index j = 0; j < g.cols(); ++j) {
           const Index at = f.cols() + j;
@@ -133,12 +134,12 @@ TEST_CASE("likelihood, sizes and information are those of dense generalised leas
         CHECK(scan.identifiable(a) == Approx(left / x.squaredNorm()).epsilon(1e-8));
       }
       // Both together, and a signature that is a fixed column: nothing is left to see.
-      const Gls all = gls(covariance(d, rows, scan.all_structures()[best]),
+      const Gls all = gls(covariance(d, rows, scan.covariance_models()[best]),
                           joined(f, joined(chosen(one.columns, rows), chosen(pair.columns, rows))), y);
-      const double alone = gls(covariance(d, rows, scan.all_structures()[best]), f, y).squares;
+      const double alone = gls(covariance(d, rows, scan.covariance_models()[best]), f, y).squares;
       CHECK(scan.pair_ratio(0, 1, y, best) == Approx(freedom * std::log(alone / all.squares)).margin(1e-7));
       if (c.fixed > 0) {
-        const Alternative absorbed = alternative(d.fixed.col(0) * 3);
+        const Candidate absorbed = candidate(d.fixed.col(0) * 3);
         const Scan nothing(d, rows, {&absorbed}, 1);
         CHECK(nothing.identifiable(0) < 1e-12);
         CHECK(nothing.run(y).ratio(0, 0) == 0);
@@ -154,7 +155,7 @@ TEST_CASE("draws of the noise have the dense covariance", "[tracing]") {
     const std::vector<Index> rows = all_rows(d);
     std::vector<Index> use;
     for (Index j = 0; j < d.fixed.cols(); ++j) use.push_back(j);
-    const Structure s{0.6, 0, 2.8};
+    const CovarianceModel s{0.6, 0, 2.8};
     const Whitened w(d, rows, use, s);
     const Matrix e = w.draw(draws, 17), v = covariance(d, rows, s);
     std::mt19937_64 chance(5);
@@ -213,7 +214,7 @@ TEST_CASE("readings far out are put among the draws in their share", "[tracing]"
   const std::vector<Index> rows = all_rows(d);
   Vector y = tame(Scan(d, rows, {}, 1), d, rows, 8);
   for (const Index i : {20, 41}) y[i] += 15 * d.local[static_cast<std::size_t>(i)](0, 0);
-  const auto found = Scan(d, rows, {}, 1).departures(y);
+  const auto found = Scan(d, rows, {}, 1).noise_shape(y);
   REQUIRE(found.sizes.size() == 2);
   CHECK(found.share == Approx(2.0 / 60 - std::erfc(3.5 / std::sqrt(2.0))));
   // Of four values one in ten far out: the rest are normal, and smaller by what those take of the variance.
@@ -223,7 +224,7 @@ TEST_CASE("readings far out are put among the draws in their share", "[tracing]"
   d.random = Matrix(4, 0);
   d.local.assign(4, Matrix::Constant(1, 1, 2.0));
   d.reference = {2.0};
-  const gumshoe::tracing::Departures one_in_ten{0.1, {8.0}, {}};
+  const gumshoe::tracing::NoiseShape one_in_ten{0.1, {8.0}, {}};
   CHECK(one_in_ten.core() == Approx(1 / std::sqrt(1 + 0.1 * (3.5 * 3.5 - 1))));
   constexpr std::size_t sets = 20000;
   const Matrix drawn =
@@ -243,7 +244,7 @@ TEST_CASE("a variance component is drawn as the readings jump with it", "[tracin
     const double z = gumshoe::tracing::bend_node(j);
     table.col(j) << z, (z > 0 ? 3 : -3);
   }
-  const gumshoe::tracing::Departures jumping{0, {}, table};
+  const gumshoe::tracing::NoiseShape jumping{0, {}, table};
   const Matrix drawn = gumshoe::tracing::Whitened(d, {0, 1}, {}, {0, 0, 1.0}).draw(1000, 7, jumping);
   for (Index j = 0; j < drawn.cols(); ++j)
     if (std::fabs(drawn(0, j)) > 0.06) CHECK(drawn(1, j) == Approx(std::copysign(3, drawn(0, j))).margin(1e-6));
@@ -251,7 +252,7 @@ TEST_CASE("a variance component is drawn as the readings jump with it", "[tracin
 }
 
 TEST_CASE("a declared draw that bends is drawn as it bends", "[tracing]") {
-  // Beside z half a unit up or down: variance 1 + E|z| + 1/4, and no noise to speak of.
+  // Beside z half a unit up or down: variance 1 + E|z| + 1/4, and no noise to summarise of.
   Design d;
   d.reading = {0};
   d.fixed = Matrix(1, 0);

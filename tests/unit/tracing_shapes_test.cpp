@@ -45,8 +45,8 @@ Observations made() {
   return o;
 }
 
-const Alternative& named(const std::vector<Alternative>& all, const std::string& name, const std::string& shape = "") {
-  for (const Alternative& a : all)
+const Candidate& named(const std::vector<Candidate>& all, const std::string& name, const std::string& shape = "") {
+  for (const Candidate& a : all)
     if (a.name == name && (shape.empty() || a.shape == shape)) return a;
   throw InputError("no shape " + name);
 }
@@ -67,7 +67,7 @@ Matrix with_constant(const Matrix& basis) { return tracing_dense::joined(Matrix:
 TEST_CASE("shapes span what they say", "[tracing]") {
   const Observations o = made();
   const auto all = shapes(o);
-  for (const Alternative& a : all) {
+  for (const Candidate& a : all) {
     CHECK(a.columns.rows() == static_cast<Index>(count));
     CHECK(a.columns.allFinite());
     CHECK(a.amplitudes.size() == static_cast<std::size_t>(a.columns.cols()));
@@ -136,7 +136,7 @@ TEST_CASE("a shape is that of one indication", "[tracing]") {
   Observations o = made();
   o.indications = 2;
   o.names = {"X", "Y"};
-  for (const Alternative& a : shapes(o)) {
+  for (const Candidate& a : shapes(o)) {
     REQUIRE(a.columns.rows() == static_cast<Index>(2 * count));
     const bool x = a.name.ends_with(" of X");
     CHECK((x || a.name.ends_with(" of Y")));

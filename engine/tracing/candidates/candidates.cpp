@@ -6,6 +6,7 @@
 
 #include "base/units.h"
 #include "tracing/candidates/candidate_families.h"
+#include "tracing/criteria.h"
 
 namespace gumshoe::tracing {
 namespace {
@@ -19,38 +20,38 @@ double alike(const Vector& a, const Vector& b) {
 Matrix masked(const Observations& o, Matrix one, const std::vector<bool>* mask) {
   if (mask)
     for (Index i = 0; i < one.rows(); ++i)
-      if (!(*mask)[static_cast<std::size_t>(i) / o.indications]) one(i, 0) = 0;
+      if (!(*mask)[index(i) / o.indications]) one(i, 0) = 0;
   return in_sequence(o, one);
 }
 
 } // namespace
 
 CandidateMaker::CandidateMaker(const propagation::Experiment& e, const Simulator& s, const Points& p,
-                               const Observations& o, double step, const std::function<bool(const Alternative&)>& skip)
+                               const Observations& o, double step, const std::function<bool(const Candidate&)>& skip)
     : experiment(e), simulator(s), at(p), observations(o), moved(signatures(e, s, p, step)), step_(step), skip_(skip) {}
 
-void CandidateMaker::add(Alternative a, std::vector<Alternative>& family) const {
+void CandidateMaker::add(Candidate a, std::vector<Candidate>& family) const {
   // What a whole SI unit would move by less than a ten-millionth of the noise is rounding, no signature.
-  const double least = 1e-7 * step_ * std::sqrt(static_cast<double>(a.columns.rows()));
+  const double least = criteria.least_signature * step_ * std::sqrt(static_cast<double>(a.columns.rows()));
   if (skip_(a) || !(a.columns.norm() > least)) return;
-  for (const Alternative& other : family)
+  for (const Candidate& other : family)
     if (other.name == a.name && other.columns.cols() == 1 && a.columns.cols() == 1 &&
         other.amplitudes[0].scenario_name == a.amplitudes[0].scenario_name &&
-        std::fabs(alike(other.columns.col(0), a.columns.col(0))) > 0.9995)
+        std::fabs(alike(other.columns.col(0), a.columns.col(0))) > criteria.same_signature)
       return;
   for (const auto& [label, value] : a.amplitudes[0].labels) a.depends_on.push_back(label);
   if (a.depends_on.empty()) a.depends_on = dependence(observations, a.columns);
   family.push_back(std::move(a));
 }
 
-void CandidateMaker::add_single(Alternative a, std::size_t quantity, const std::vector<bool>* mask,
-                                std::vector<Alternative>& family) const {
-  a.columns = masked(observations, moved.tangents.col(static_cast<Index>(quantity)), mask);
+void CandidateMaker::add_single(Candidate a, std::size_t quantity, const std::vector<bool>* mask,
+                                std::vector<Candidate>& family) const {
+  a.columns = masked(observations, moved.tangents.col(index(quantity)), mask);
   add(a, family);
   for (const std::size_t i : {2 * quantity, 2 * quantity + 1}) {
     if (moved.sizes[i] == 0) continue;
-    Alternative finite = a;
-    finite.columns = masked(observations, moved.secants.col(static_cast<Index>(i)), mask);
+    Candidate finite = a;
+    finite.columns = masked(observations, moved.secants.col(index(i)), mask);
     finite.finite = moved.sizes[i];
     const Amplitude& s = a.amplitudes[0];
     finite.shape =
@@ -66,9 +67,9 @@ Amplitude CandidateMaker::amplitude(std::size_t quantity, const QuantityCard& ca
           {},       card.limits.low,        card.limits.high, card.typical.high};
 }
 
-std::vector<Alternative> stated_candidates(const CandidateMaker& make) {
+std::vector<Candidate> stated_candidates(const CandidateMaker& make) {
   const Observations& o = make.observations;
-  std::vector<Alternative> out;
+  std::vector<Candidate> out;
   for (const auto& effect : make.experiment.scenario().stated_effects) {
     if (effect.freed) continue;
     Amplitude size;
@@ -77,10 +78,10 @@ std::vector<Alternative> stated_candidates(const CandidateMaker& make) {
     size.unit = effect.unit;
     size.si_unit = effect.si_unit;
     size.scenario_name = effect.name + ".size";
-    Matrix column = Matrix::Zero(static_cast<Index>(make.simulator.rows()), 1);
+    Matrix column = Matrix::Zero(index(make.simulator.rows()), 1);
     for (std::size_t r = 0; r < o.readings; ++r)
-      column(static_cast<Index>(r * o.indications + effect.indication), 0) = effect.loading[r];
-    Alternative one;
+      column(index(r * o.indications + effect.indication), 0) = effect.loading[r];
+    Candidate one;
     one.family = Family::stated;
     one.name = effect.name;
     one.amplitudes = {size};
@@ -95,13 +96,13 @@ const char* name(Family family) {
   return names[static_cast<int>(family)];
 }
 
-std::vector<Alternative> physical_candidates(const propagation::Experiment& experiment, const Simulator& simulator,
-                                             const Points& at, const Observations& observations, double step,
-                                             const std::function<bool(const Alternative&)>& skip) {
+std::vector<Candidate> physical_candidates(const propagation::Experiment& experiment, const Simulator& simulator,
+                                           const Points& at, const Observations& observations, double step,
+                                           const std::function<bool(const Candidate&)>& skip) {
   const CandidateMaker make(experiment, simulator, at, observations, step, skip);
-  std::vector<Alternative> out = effect_candidates(make);
+  std::vector<Candidate> out = effect_candidates(make);
   for (const auto family : {declared_candidates, stated_candidates}) {
-    const std::vector<Alternative> more = family(make);
+    const std::vector<Candidate> more = family(make);
     out.insert(out.end(), more.begin(), more.end());
   }
   return out;

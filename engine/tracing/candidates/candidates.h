@@ -1,5 +1,5 @@
 #pragma once
-/// What might be missing: effects held at null, declared quantities off their value, effects stated as formulas.
+/// What the model might lack: effects held at null, declared quantities off their value, effects stated as formulas.
 #include <functional>
 #include <string>
 #include <utility>
@@ -20,21 +20,21 @@ const char* name(Family family);
 
 /// Which quantity of the extended scenario an amplitude moves, and at which readings.
 struct Amplitude {
-  std::size_t quantity = 0; ///< npos: of a shape, which is no quantity
+  std::size_t quantity = 0; ///< npos: belongs to a shape, which is no quantity
   std::string name, unit, si_unit, scenario_name;
   std::vector<std::pair<std::string, std::string>> labels; ///< only where readings have these
   double low = -1e300, high = 1e300;                       ///< limits of its card, SI
-  double typical = 0;  ///< upper end of the card's typical magnitude, SI; 0: not told
-  double declared = 0; ///< standard uncertainty that is declared of a quantity found off, SI
+  double typical = 0;  ///< upper end of the card's typical magnitude, SI; 0: not stated
+  double declared = 0; ///< standard uncertainty declared for a quantity that may be off, SI
   static constexpr std::size_t npos = ~std::size_t{0};
 };
 
-/// One signature to be tried: columns by rows in the order of measurement, per unit (SI) of each amplitude.
-struct Alternative {
+/// One signature that is tried.
+struct Candidate {
   std::string name;  ///< "trigger_latency", "declared:rod_length[rod 2]", "polynomial:feed^2"
   std::string shape; ///< what is held fixed, in words; or "at +5 um" of a signature taken over a finite step
   Family family = Family::effect;
-  Matrix columns;
+  Matrix columns; ///< rows in the order of measurement x amplitudes, per SI unit of each
   std::vector<Amplitude> amplitudes;
   std::vector<std::pair<std::size_t, double>> held; ///< shape quantities, SI
   std::vector<std::string> depends_on;
@@ -42,13 +42,15 @@ struct Alternative {
   bool physical() const { return family == Family::effect || family == Family::declared || family == Family::stated; }
 };
 
-/// Signatures of all physical candidates at a point, from exact derivatives and, where the model bends within
-/// `step` of the indications (SI), over finite steps. `skip` names what is in the model already.
-std::vector<Alternative> physical_candidates(const propagation::Experiment& experiment, const Simulator& simulator,
-                                             const Points& at, const Observations& observations, double step,
-                                             const std::function<bool(const Alternative&)>& skip);
+/// Signatures of all physical candidates at a point, from exact derivatives and, where the model bends, over finite
+/// steps, too.
+/// @param step  what finite steps move the indications by, SI
+/// @param skip  true for candidates that are terms already
+std::vector<Candidate> physical_candidates(const propagation::Experiment& experiment, const Simulator& simulator,
+                                           const Points& at, const Observations& observations, double step,
+                                           const std::function<bool(const Candidate&)>& skip);
 
-/// Covariates and labels on which a signature depends.
+/// Names of the covariates, else of the labels, on which a signature depends.
 std::vector<std::string> dependence(const Observations& observations, const Matrix& columns);
 
 } // namespace gumshoe::tracing

@@ -4,6 +4,7 @@
 
 #include "quantities/cells.h"
 #include "tracing/candidates/candidate_families.h"
+#include "tracing/criteria.h"
 
 namespace gumshoe::tracing {
 namespace {
@@ -56,7 +57,7 @@ double declared_uncertainty(const InputQuantity& q, const quantities::Labels& la
   return std::sqrt(variance);
 }
 
-void add_cell(const CandidateMaker& make, std::size_t q, const Cell& cell, std::vector<Alternative>& found) {
+void add_cell(const CandidateMaker& make, std::size_t q, const Cell& cell, std::vector<Candidate>& found) {
   const auto& s = make.experiment.scenario();
   const QuantityCard& card = make.experiment.model().card->quantities[q];
   std::vector<bool> mask;
@@ -67,15 +68,14 @@ void add_cell(const CandidateMaker& make, std::size_t q, const Cell& cell, std::
     low = std::min(low, make.at[r][q]);
     high = std::max(high, make.at[r][q]);
   }
-  Alternative one;
+  Candidate one;
   one.family = Family::declared;
   one.name = "declared:" + s.quantities[q].name + (cell.empty() ? "" : "[" + quantities::text_of(cell) + "]");
   one.amplitudes = {make.amplitude(q, card)};
   one.amplitudes[0].labels = cell;
   const auto first = std::find(mask.begin(), mask.end(), true);
   if (first != mask.end())
-    one.amplitudes[0].declared =
-        declared_uncertainty(s.quantities[q], s.readings[static_cast<std::size_t>(first - mask.begin())].labels);
+    one.amplitudes[0].declared = declared_uncertainty(s.quantities[q], s.readings[index(first - mask.begin())].labels);
   one.amplitudes[0].low = card.limits.low - low; // of the shift
   one.amplitudes[0].high = card.limits.high - high;
   make.add_single(std::move(one), q, cell.empty() ? nullptr : &mask, found);
@@ -83,16 +83,16 @@ void add_cell(const CandidateMaker& make, std::size_t q, const Cell& cell, std::
 
 } // namespace
 
-std::vector<Alternative> declared_candidates(const CandidateMaker& make) {
+std::vector<Candidate> declared_candidates(const CandidateMaker& make) {
   const auto& s = make.experiment.scenario();
-  std::vector<Alternative> out;
+  std::vector<Candidate> out;
   for (std::size_t q = 0; q < make.experiment.layout().model.end; ++q) {
     const InputQuantity& quantity = s.quantities[q];
     if (quantity.estimated && quantity.entries.front().components.empty()) continue; // free: absorbs itself
-    std::vector<Alternative> found;
+    std::vector<Candidate> found;
     for (const auto& labels : label_sets(quantity)) {
       const std::set<Cell> cells = cells_of(s, labels);
-      if (!labels.empty() && (cells.size() < 2 || cells.size() > 60)) continue;
+      if (!labels.empty() && (cells.size() < 2 || cells.size() > criteria.most_cells)) continue;
       for (const Cell& cell : cells) add_cell(make, q, cell, found);
     }
     out.insert(out.end(), found.begin(), found.end());

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "tracing/candidates/candidates.h"
+#include "tracing/criteria.h"
 
 namespace gumshoe::tracing {
 namespace {
@@ -9,7 +10,7 @@ namespace {
 double explained(const Vector& x, const std::vector<std::size_t>& group) {
   const std::size_t groups = *std::max_element(group.begin(), group.end()) + 1;
   std::vector<double> sum(groups, 0), count(groups, 0);
-  for (std::size_t i = 0; i < group.size(); ++i) sum[group[i]] += x[static_cast<Index>(i)], ++count[group[i]];
+  for (std::size_t i = 0; i < group.size(); ++i) sum[group[i]] += x[index(i)], ++count[group[i]];
   const double mean = x.mean(), total = (x.array() - mean).square().sum();
   double between = 0;
   for (std::size_t g = 0; g < groups; ++g)
@@ -22,7 +23,7 @@ double explained(const Vector& x, const std::vector<std::size_t>& group) {
 } // namespace
 
 std::vector<std::string> dependence(const Observations& o, const Matrix& columns) {
-  const auto k = static_cast<Index>(o.indications);
+  const auto k = index(o.indications);
   std::vector<std::string> out;
   const auto depends = [&](const std::vector<std::size_t>& by_reading) {
     std::vector<std::size_t> group;
@@ -31,23 +32,14 @@ std::vector<std::string> dependence(const Observations& o, const Matrix& columns
       for (Index i = 0; i < k; ++i) {
         const Vector x = columns(Eigen::seq(i, Eigen::last, k), j);
         if (!(x.norm() > 1e-9 * columns.norm())) continue;
-        if (explained(x, group) > 0.1 || explained(x.cwiseAbs(), group) > 0.1) return true;
+        if (std::max(explained(x, group), explained(x.cwiseAbs(), group)) > criteria.dependence_share) return true;
       }
     return false;
   };
-  for (const Covariate& c : o.covariates) {
-    // At most eight groups of neighbouring values.
-    std::vector<std::size_t> group;
-    const std::size_t levels = c.levels.size(), bins = std::min<std::size_t>(levels, 8);
-    for (const double x : c.value) {
-      const auto rank =
-          static_cast<std::size_t>(std::lower_bound(c.levels.begin(), c.levels.end(), x) - c.levels.begin());
-      group.push_back(rank * bins / levels);
-    }
-    if (depends(group)) out.push_back(c.name);
-  }
+  for (const Covariate& c : o.covariates)
+    if (depends(neighbours(c, criteria.dependence_bins))) out.push_back(c.name);
   for (const Grouping& g : o.labels)
-    if (out.empty() && g.groups.size() <= 30 && depends(g.group)) out.push_back(g.name);
+    if (out.empty() && g.groups.size() <= criteria.most_label_groups && depends(g.group)) out.push_back(g.name);
   return out;
 }
 

@@ -30,8 +30,8 @@ std::vector<Group> groups_of(const propagation::Experiment& e, const effects::Ac
 }
 
 /// Without columns yet.
-Alternative alternative(const CandidateMaker& make, const Group& group) {
-  Alternative out;
+Candidate candidate(const CandidateMaker& make, const Group& group) {
+  Candidate out;
   out.name = group.effect->name;
   for (std::size_t i = 0; i < group.count; ++i)
     out.amplitudes.push_back(make.amplitude(group.first + i, group.effect->quantities[group.in_card + i]));
@@ -39,7 +39,7 @@ Alternative alternative(const CandidateMaker& make, const Group& group) {
 }
 
 /// A component of a pair that moves nothing here is no parameter.
-void drop_still(Alternative& a) {
+void drop_still(Candidate& a) {
   for (Index j = a.columns.cols() - 1; j >= 0 && a.columns.cols() > 1; --j) {
     if (a.columns.col(j).norm() > 0) continue;
     const Matrix kept = a.columns.col(1 - j);
@@ -48,15 +48,15 @@ void drop_still(Alternative& a) {
   }
 }
 
-void with_default_shapes(const CandidateMaker& make, std::vector<Alternative>& found) {
+void with_default_shapes(const CandidateMaker& make, std::vector<Candidate>& found) {
   for (const effects::Active& active : make.experiment.forward().active())
     for (const Group& group : groups_of(make.experiment, active)) {
-      Alternative one = alternative(make, group);
+      Candidate one = candidate(make, group);
       if (group.count == 1) {
         make.add_single(std::move(one), group.first, nullptr, found);
         continue;
       }
-      one.columns = in_sequence(make.observations, make.moved.tangents.middleCols(static_cast<Index>(group.first), 2));
+      one.columns = in_sequence(make.observations, make.moved.tangents.middleCols(index(group.first), 2));
       drop_still(one);
       make.add(std::move(one), found);
     }
@@ -97,7 +97,7 @@ std::vector<Grid> grids_of(const propagation::Experiment& e) {
 
 /// Amplitudes again with every shape quantity at the other values of its grid; the amplitudes are at null, so all
 /// effects can stand at their next grid value together.
-void with_other_shapes(const CandidateMaker& make, std::vector<Alternative>& found) {
+void with_other_shapes(const CandidateMaker& make, std::vector<Candidate>& found) {
   const std::vector<Grid> grids = grids_of(make.experiment);
   std::size_t longest = 0;
   for (const Grid& grid : grids) longest = std::max(longest, grid.values.size());
@@ -118,12 +118,12 @@ void with_other_shapes(const CandidateMaker& make, std::vector<Alternative>& fou
       if (g >= grid.values.size()) continue;
       const auto& shape = make.experiment.scenario().quantities[grid.shape];
       for (const Group& group : grid.groups) {
-        Alternative one = alternative(make, group);
+        Candidate one = candidate(make, group);
         one.held = {{grid.shape, grid.values[g]}};
         one.shape =
             fmt::format("{} {:.3g} {}", shape.name.substr(shape.name.find('.') + 1),
                         units::from_si(grid.values[g], shape.unit, shape.si_unit), shape.unit == "1" ? "" : shape.unit);
-        const auto count = static_cast<Index>(group.count);
+        const auto count = index(group.count);
         one.columns = in_sequence(make.observations, derivative.middleCols(column, count));
         column += count;
         drop_still(one);
@@ -135,8 +135,8 @@ void with_other_shapes(const CandidateMaker& make, std::vector<Alternative>& fou
 
 } // namespace
 
-std::vector<Alternative> effect_candidates(const CandidateMaker& make) {
-  std::vector<Alternative> found;
+std::vector<Candidate> effect_candidates(const CandidateMaker& make) {
+  std::vector<Candidate> found;
   with_default_shapes(make, found);
   with_other_shapes(make, found);
   return found;

@@ -6,20 +6,21 @@
 
 #include <fmt/format.h>
 
+#include "tracing/criteria.h"
+
 namespace gumshoe::tracing {
 namespace {
 
 /// By reading of the sequence, scaled to [-1, 1].
 Vector scaled(const Observations& o, const Covariate& c) {
   const double low = c.levels.front(), high = c.levels.back();
-  Vector x(static_cast<Index>(o.readings));
-  for (std::size_t i = 0; i < o.readings; ++i)
-    x[static_cast<Index>(i)] = 2 * (c.value[o.sequence[i]] - low) / (high - low) - 1;
+  Vector x(index(o.readings));
+  for (std::size_t i = 0; i < o.readings; ++i) x[index(i)] = 2 * (c.value[o.sequence[i]] - low) / (high - low) - 1;
   return x;
 }
 Vector plain(const Observations& o, const Covariate& c) {
-  Vector x(static_cast<Index>(o.readings));
-  for (std::size_t i = 0; i < o.readings; ++i) x[static_cast<Index>(i)] = c.value[o.sequence[i]];
+  Vector x(index(o.readings));
+  for (std::size_t i = 0; i < o.readings; ++i) x[index(i)] = c.value[o.sequence[i]];
   return x;
 }
 
@@ -27,7 +28,7 @@ class Shapes {
 public:
   explicit Shapes(const Observations& o) : o_(o) {}
 
-  std::vector<Alternative> all() {
+  std::vector<Candidate> all() {
     for (const Covariate& c : o_.covariates) {
       c.angle ? harmonics(c) : polynomials(c);
       if (c.name == "time" || c.name == "order") drift(c);
@@ -38,34 +39,36 @@ public:
       for (std::size_t j = i + 1; j < o_.covariates.size(); ++j) product(o_.covariates[i], o_.covariates[j]);
     for (const Covariate& c : o_.covariates)
       if (c.levels.size() > 2) {
-        add(Family::omnibus, "omnibus:" + c.name, smooth_basis(o_, c, 5), {c.name});
+        add(Family::omnibus, "omnibus:" + c.name, smooth_basis(o_, c, criteria.omnibus_columns), {c.name});
         // What rises and falls within a tenth of the range.
-        if (c.levels.size() > 30) add(Family::omnibus, "omnibus:" + c.name, smooth_basis(o_, c, 12), {c.name}, "fine");
+        if (c.levels.size() > criteria.levels_for_fine_omnibus)
+          add(Family::omnibus, "omnibus:" + c.name, smooth_basis(o_, c, criteria.fine_omnibus_columns), {c.name},
+              "fine");
       }
     // What scatters by a label is a variance component; any pattern of few groups is a shape.
     const auto scatters = [&](const Grouping& g) {
-      return std::any_of(o_.redone.begin(), o_.redone.end(), [&](const Grouping& r) { return r.group == g.group; });
+      return std::any_of(o_.replicate_groups.begin(), o_.replicate_groups.end(),
+                         [&](const Grouping& r) { return r.group == g.group; });
     };
     for (const Grouping& g : o_.labels)
-      if (g.groups.size() > 2 && g.groups.size() <= 12 && !scatters(g)) {
-        Matrix m = Matrix::Zero(static_cast<Index>(o_.readings), static_cast<Index>(g.groups.size()) - 1);
+      if (g.groups.size() > 2 && g.groups.size() <= criteria.most_omnibus_groups && !scatters(g)) {
+        Matrix m = Matrix::Zero(index(o_.readings), index(g.groups.size()) - 1);
         for (std::size_t i = 0; i < o_.readings; ++i)
-          if (const std::size_t at = g.group[o_.sequence[i]]; at > 0)
-            m(static_cast<Index>(i), static_cast<Index>(at) - 1) = 1;
+          if (const std::size_t at = g.group[o_.sequence[i]]; at > 0) m(index(i), index(at) - 1) = 1;
         add(Family::omnibus, "omnibus:" + g.name, m, {g.name});
       }
     return std::move(out_);
   }
 
 private:
-  /// One alternative per indication.
+  /// One candidate per indication.
   void add(Family family, const std::string& name, const Matrix& by_reading, std::vector<std::string> depends_on,
            const std::string& shape = "") {
-    const auto k = static_cast<Index>(o_.indications);
+    const auto k = index(o_.indications);
     for (Index i = 0; i < k; ++i) {
-      Alternative a;
+      Candidate a;
       a.family = family;
-      a.name = name + (k > 1 ? " of " + o_.names[static_cast<std::size_t>(i)] : "");
+      a.name = name + (k > 1 ? " of " + o_.names[index(i)] : "");
       a.shape = shape;
       a.columns = Matrix::Zero(by_reading.rows() * k, by_reading.cols());
       for (Index r = 0; r < by_reading.rows(); ++r) a.columns.row(r * k + i) = by_reading.row(r);
@@ -97,7 +100,7 @@ private:
 
   void harmonics(const Covariate& c) {
     const Vector x = plain(o_, c);
-    const auto most = std::min<std::size_t>(6, (c.levels.size() - 1) / 2);
+    const auto most = std::min(criteria.most_harmonics, (c.levels.size() - 1) / 2);
     for (std::size_t h = 1; h <= most; ++h) {
       Matrix pair(x.size(), 2);
       pair << (x.array() * static_cast<double>(h)).cos(), (x.array() * static_cast<double>(h)).sin();
@@ -133,10 +136,10 @@ private:
   }
 
   void steps(const Grouping& g) {
-    if (g.groups.size() > 30) return;
+    if (g.groups.size() > criteria.most_label_groups) return;
     for (std::size_t i = g.groups.size() == 2 ? 1 : 0; i < g.groups.size(); ++i) {
-      Vector one(static_cast<Index>(o_.readings));
-      for (std::size_t r = 0; r < o_.readings; ++r) one[static_cast<Index>(r)] = g.group[o_.sequence[r]] == i ? 1 : 0;
+      Vector one(index(o_.readings));
+      for (std::size_t r = 0; r < o_.readings; ++r) one[index(r)] = g.group[o_.sequence[r]] == i ? 1 : 0;
       add(Family::shape, "step:" + g.groups[i], one, {g.name});
     }
   }
@@ -144,7 +147,7 @@ private:
   void product(const Covariate& a, const Covariate& b) {
     const Vector x = scaled(o_, a), y = scaled(o_, b);
     const Vector cx = x.array() - x.mean(), cy = y.array() - y.mean();
-    if (std::fabs(cx.dot(cy)) > 0.98 * cx.norm() * cy.norm()) return; // one and the same, confounded
+    if (std::fabs(cx.dot(cy)) > criteria.confounded * cx.norm() * cy.norm()) return; // one and the same, confounded
     add(Family::shape, "product:" + a.name + "*" + b.name, cx.cwiseProduct(cy), {a.name, b.name});
     Matrix surface(x.size(), 0);
     const Matrix first = smooth_basis(o_, a, 2), second = smooth_basis(o_, b, 2);
@@ -157,19 +160,19 @@ private:
   }
 
   const Observations& o_;
-  std::vector<Alternative> out_;
+  std::vector<Candidate> out_;
 };
 
 } // namespace
 
 Matrix smooth_basis(const Observations& o, const Covariate& c, int most) {
-  const auto n = static_cast<Index>(o.readings);
+  const auto n = index(o.readings);
   const Vector raw = plain(o, c), x = scaled(o, c);
   if (static_cast<int>(c.levels.size()) <= most + 1) {
-    Matrix out = Matrix::Zero(n, static_cast<Index>(c.levels.size()) - 1);
+    Matrix out = Matrix::Zero(n, index(c.levels.size()) - 1);
     for (Index i = 0; i < n; ++i)
       for (std::size_t l = 1; l < c.levels.size(); ++l)
-        if (raw[i] == c.levels[l]) out(i, static_cast<Index>(l) - 1) = 1;
+        if (raw[i] == c.levels[l]) out(i, index(l) - 1) = 1;
     return out;
   }
   if (c.angle && c.levels.back() - c.levels.front() > 1.5 * std::numbers::pi) {
@@ -187,13 +190,13 @@ Matrix smooth_basis(const Observations& o, const Covariate& c, int most) {
       out.col(j) = x.array().pow(static_cast<int>(j) + 1);
       continue;
     }
-    const std::size_t at = c.levels.size() * static_cast<std::size_t>(j - 2) / static_cast<std::size_t>(most - 2);
+    const std::size_t at = c.levels.size() * index(j - 2) / index(most - 2);
     const double knot = 2 * (c.levels[at] - c.levels.front()) / (c.levels.back() - c.levels.front()) - 1;
     out.col(j) = (x.array() - knot).max(0).cube();
   }
   return out;
 }
 
-std::vector<Alternative> shapes(const Observations& observations) { return Shapes(observations).all(); }
+std::vector<Candidate> shapes(const Observations& observations) { return Shapes(observations).all(); }
 
 } // namespace gumshoe::tracing

@@ -4,15 +4,17 @@
 #include <cmath>
 #include <numeric>
 
+#include "tracing/criteria.h"
+
 namespace gumshoe::tracing {
 namespace {
 
-Index column(std::size_t i) { return static_cast<Index>(i); }
+Index column(std::size_t i) { return index(i); }
 
 /// Steps of both signs, of the amplitudes of effects. What does not move the indications at all by its derivative takes
 /// its typical size.
 std::vector<double> steps(const propagation::Experiment& e, const Points& at, double step, const Matrix& tangents) {
-  std::vector<double> sizes(2 * static_cast<std::size_t>(tangents.cols()), 0);
+  std::vector<double> sizes(2 * index(tangents.cols()), 0);
   for (const effects::Active& a : e.forward().active()) {
     const EffectCard& effect = *effects::cards()[a.effect];
     for (std::size_t k = 0; k < effect.quantities.size(); ++k) {
@@ -23,7 +25,7 @@ std::vector<double> steps(const propagation::Experiment& e, const Points& at, do
       if (effect.follows_derivative && slope > 0) continue;
       const double typical = card.typical.high;
       double size = slope > 0 ? step / slope : typical;
-      if (slope > 0 && typical > 0) size = std::min(size, 3 * typical);
+      if (slope > 0 && typical > 0) size = std::min(size, criteria.secant_step * typical);
       for (const std::size_t i : {0, 1}) {
         const double signed_size = i == 0 ? size : -size;
         if (size > 0 &&

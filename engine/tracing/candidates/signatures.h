@@ -4,14 +4,15 @@
 
 namespace gumshoe::tracing {
 
-/// Of every quantity of the model and of its effects; rows as the simulator's.
+/// Signatures of every quantity of the model and of its effects; rows as the simulator's.
 struct Signatures {
   Matrix tangents;           ///< [row][quantity]: exact derivatives
   Matrix secants;            ///< [row][2 quantity + i]: slopes over sizes[2 quantity + i], i = 0 upwards, 1 downwards
   std::vector<double> sizes; ///< SI; 0: no secant
 };
 
-/// Secants are of amplitudes of effects, over steps that move the indications by about `step` (SI).
+/// Computes them at a point. Only amplitudes of effects have secants, over steps that move the indications by about
+/// `step` (SI).
 Signatures signatures(const propagation::Experiment& experiment, const Simulator& simulator, const Points& at,
                       double step);
 

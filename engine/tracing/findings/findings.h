@@ -1,15 +1,15 @@
 #pragma once
-/// From what the search took in to what is reported: findings with sizes and intervals, the noise, words.
+/// From what the search found to what is reported.
 #include "tracing/judgement/search.h"
 
 namespace gumshoe::tracing {
 
-/// Findings and the outcome.
-void collect(const Circumstances& circumstances, const Search& search, Trace& out);
-void describe_noise(const Circumstances& circumstances, const Search& search, Trace& out);
-/// Size of a variance component, with the interval of its profile likelihood.
-void describe_scatter(const Circumstances& circumstances, const JointFit& fit, const Step& step, Finding& finding);
-/// Two sentences for a machinist.
-void speak(Trace& out);
+/// Findings with their sizes, and the outcome. A veto of the hold-out blocks (out.vetoed) leaves only scatter.
+void collect(const TraceContext& context, const Search& search, Trace& out);
+void describe_noise(const TraceContext& context, const Search& search, Trace& out);
+/// Size of a variance component, with the interval of its profile likelihood; with none, size of the noise.
+void describe_scatter(const TraceContext& context, const JointFit& fit, int component, Finding& finding);
+/// Writes the two sentences for a machinist: what was found, how large, how sure, what to do.
+void summarise(Trace& out);
 
 } // namespace gumshoe::tracing

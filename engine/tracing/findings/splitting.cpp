@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 
 #include "base/units.h"
+#include "tracing/criteria.h"
+#include "tracing/judgement/holdout.h"
 
 namespace gumshoe::tracing {
 namespace {
@@ -61,8 +63,8 @@ Scenario with(const Scenario& s, const Observations& o, const Proposal& p) {
   const std::size_t first = o.sequence.front();
   std::size_t added = 0;
   for (const std::size_t r : o.sequence) {
-    if (o.final[r] || (!o.blocks.groups.empty() && o.blocks.group[r] != o.blocks.group[first])) continue;
-    if (++added > 24) break;
+    if (o.held_out[r] || (!o.blocks.groups.empty() && o.blocks.group[r] != o.blocks.group[first])) continue;
+    if (++added > criteria.split_readings) break;
     auto reading = s.readings[r];
     double& x = reading.conditions[p.condition];
     x = p.how == Proposal::set ? p.value : p.how == Proposal::add ? x + p.value : -x;
@@ -80,41 +82,39 @@ Scenario with(const Scenario& s, const Observations& o, const Proposal& p) {
 }
 
 /// How far apart the members' predictions are in twice the log likelihood, the least of all pairs with the best.
-double apart(const Circumstances& c, const Scenario& scenario, const Search& search, const Step& step) {
+double apart(const TraceContext& c, const Scenario& scenario, const Search& search, const SearchFinding& finding) {
   const propagation::Experiment experiment(scenario);
   const Observations observations = observe(experiment);
   const Simulator simulator(experiment, c.threads);
-  std::vector<Index> rows;
-  for (std::size_t i = 0; i < observations.sequence.size(); ++i)
-    if (!observations.final[observations.sequence[i]])
-      for (std::size_t k = 0; k < observations.indications; ++k)
-        rows.push_back(static_cast<Index>(i * observations.indications + k));
+  std::vector<bool> training = observations.held_out;
+  training.flip();
+  const std::vector<Index> rows = rows_where(observations, training);
   const Fitter fitter(experiment, simulator, observations, rows, c.threads);
   const JointFit fit = fitter.linearised(search.found.noise);
   if (!fit.valid) return 0;
-  std::vector<Term> members{search.found.terms[step.terms[0]]};
-  members.insert(members.end(), step.rivals.begin(), step.rivals.end());
-  const auto wanted = [&](const Alternative& a) {
+  std::vector<Term> members{search.found.terms[finding.terms[0]]};
+  members.insert(members.end(), finding.rivals.begin(), finding.rivals.end());
+  const auto wanted = [&](const Candidate& a) {
     return std::none_of(members.begin(), members.end(), [&](const Term& t) {
-      return t.alternative.name == a.name && t.alternative.shape == a.shape &&
-             t.alternative.amplitudes[0].scenario_name == a.amplitudes[0].scenario_name;
+      return t.candidate.name == a.name && t.candidate.shape == a.shape &&
+             t.candidate.amplitudes[0].scenario_name == a.amplitudes[0].scenario_name;
     });
   };
-  const auto found =
-      physical_candidates(experiment, simulator, fit.at, observations, 3 * fit.design.reference[0], wanted);
-  std::vector<const Alternative*> pointers;
+  const auto found = physical_candidates(experiment, simulator, fit.at, observations,
+                                         criteria.secant_step * fit.design.reference[0], wanted);
+  std::vector<const Candidate*> pointers;
   for (const Term& t : members)
-    for (const Alternative& a : found)
-      if (t.alternative.name == a.name && t.alternative.held == a.held && t.alternative.finite == a.finite) {
+    for (const Candidate& a : found)
+      if (t.candidate.name == a.name && t.candidate.held == a.held && t.candidate.finite == a.finite) {
         pointers.push_back(&a);
         break;
       }
-  if (pointers.size() < 2 || pointers[0]->name != members[0].alternative.name) return 0;
+  if (pointers.size() < 2 || pointers[0]->name != members[0].candidate.name) return 0;
   const Scan scan(fit.design, rows, pointers, c.threads);
   double least = 1e300;
   const Vector signal = pointers[0]->columns * members[0].size;
   const Whitened& w = scan.whitened(scan.plain());
-  const Vector white = w.whiten(w.take(signal));
+  const Vector white = w.whiten_rows(signal);
   const double whole = w.left(white)[0];
   for (std::size_t i = 1; i < pointers.size(); ++i) {
     const double cosine = scan.correlation(0, i, scan.plain());
@@ -125,23 +125,22 @@ double apart(const Circumstances& c, const Scenario& scenario, const Search& sea
 
 } // namespace
 
-std::string splitting_measurement(const Circumstances& c, const Search& search, const Step& step) {
-  if (step.terms.empty() || step.rivals.empty()) return {};
+std::string splitting_measurement(const TraceContext& c, const Search& search, const SearchFinding& finding) {
+  if (finding.terms.empty() || finding.rivals.empty()) return {};
   const Scenario& s = c.experiment.scenario();
-  const double now = apart(c, s, search, step);
+  const double now = apart(c, s, search, finding);
   double best = 0;
   std::string words;
   for (const Proposal& p : proposals(*c.experiment.model().card, s)) {
     double d = 0;
     try {
-      d = apart(c, with(s, c.observations, p), search, step);
+      d = apart(c, with(s, c.observations, p), search, finding);
     } catch (const InputError&) { // impossible there
       continue;
     }
     if (d > best) best = d, words = p.words;
   }
-  // Nine: three standard deviations between the two.
-  if (best < 9 || best < 1.5 * now) return {};
+  if (best < criteria.split || best < criteria.split_gain * now) return {};
   return words;
 }
 

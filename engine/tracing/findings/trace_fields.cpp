@@ -47,7 +47,7 @@ constexpr Field<Q> sizes[] = {
     {"low", of<&Q::low95>, point, "lower end of the 95 % interval that allows for the search"},
     {"high", of<&Q::high95>, point, "upper end of it"}};
 
-using C = Candidate;
+using C = RankedCandidate;
 constexpr Field<C> candidates[] = {
     {"absorbed_by", of<&C::absorbed_by>, one, "quantity that absorbs it, where next to nothing is left", in_csv},
     {"correlation", of<&C::correlation>, one, "correlation of its projected signature with that of the best", in_csv},
@@ -123,7 +123,7 @@ constexpr Field<R> residuals[] = {
 constinit const Fields<Trace> trace_fields{"trace", "", search};
 constinit const Fields<Finding> finding_fields{"trace/findings/<k>", "", finding};
 constinit const Fields<SizeRow> size_fields{"trace/findings/<k>/quantities", "quantity", sizes};
-constinit const Fields<Candidate> candidate_fields{"trace/candidates", "candidate", candidates, "candidates"};
+constinit const Fields<RankedCandidate> candidate_fields{"trace/candidates", "candidate", candidates, "candidates"};
 constinit const Fields<DetectionLimit> limit_fields{"trace/detection_limits", "limit", limits, "detection_limits"};
 constinit const Fields<Rms> rms_fields{"trace/rms", "", rms};
 constinit const Fields<Noise> noise_fields{"trace/noise", "", noise};

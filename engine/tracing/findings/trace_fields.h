@@ -18,7 +18,7 @@ struct SizeRow : SizedQuantity {
 extern const analysis::Fields<Trace> trace_fields;     ///< attributes
 extern const analysis::Fields<Finding> finding_fields; ///< attributes
 extern const analysis::Fields<SizeRow> size_fields;
-extern const analysis::Fields<Candidate> candidate_fields;
+extern const analysis::Fields<RankedCandidate> candidate_fields;
 extern const analysis::Fields<DetectionLimit> limit_fields;
 extern const analysis::Fields<Rms> rms_fields;     ///< attributes
 extern const analysis::Fields<Noise> noise_fields; ///< attributes, in the unit of Rms

@@ -2,31 +2,24 @@
 #include <algorithm>
 #include <cmath>
 
-#include "quantities/cells.h"
+#include "tracing/criteria.h"
 #include "tracing/fit/joint_fit.h"
 
 namespace gumshoe::tracing {
 namespace {
-
-/// Sizes tried about the one found, in its standard uncertainty.
-constexpr double reach = 6, spacing = 0.25, coarse = 1.5;
-/// What bends less about straight lines over the sizes jumps by nothing to speak of: in standard deviations of the
-/// noise. What bends more than this share of its movement is mostly jumps: some size would fit anything.
-constexpr double least = 0.1, most = 0.25;
-/// A tangent that differs from the line through the steps by no more than this share of it serves.
-constexpr double straight = 0.1;
 
 bool jumps(const Matrix& f, const std::vector<double>& steps, double noise) {
   const Eigen::Map<const Vector> x(steps.data(), f.cols());
   const Vector sizes = x.array() - x.mean();
   const Matrix moved = f.colwise() - f.rowwise().mean(), line = moved * sizes / sizes.squaredNorm() * sizes.transpose();
   const double bend = (moved - line).norm();
-  return bend > least * noise * std::sqrt(static_cast<double>(f.size())) && bend < most * line.norm();
+  return bend > criteria.least_jump * noise * std::sqrt(static_cast<double>(f.size())) &&
+         bend < criteria.most_jump * line.norm();
 }
 
 } // namespace
 
-/// The likelihood along one size, all else as good as can be.
+/// The likelihood along one size, all else fitted.
 struct Fitter::Profile {
   std::vector<double> steps; ///< from the size found, SI
   Index here = 0;            ///< the step of none
@@ -48,15 +41,16 @@ struct Fitter::Profile {
 std::optional<Fitter::Profile> Fitter::profile(const JointFit& fit, std::size_t term, Index amplitude, double unit,
                                                Worth worth) const {
   const Term& t = fit.terms[term];
-  const Amplitude& a = t.alternative.amplitudes[static_cast<std::size_t>(amplitude)];
+  const Amplitude& a = t.candidate.amplitudes[index(amplitude)];
   // The tool itself is solved anew for every size: there no more than Gauss-Newton.
-  if (a.quantity == Amplitude::npos || experiment_.layout().model.contains(a.quantity) || !(unit > 0)) return std::nullopt;
+  if (a.quantity == Amplitude::npos || experiment_.layout().model.contains(a.quantity) || !(unit > 0))
+    return std::nullopt;
   Profile out;
   Matrix f;
   const auto try_each = [&](double by) {
     std::vector<Variation> variations;
     out.steps.clear();
-    for (double step = -reach; step <= reach; step += by)
+    for (double step = -criteria.profile_reach; step <= criteria.profile_reach; step += by)
       if (const double to = t.size[amplitude] + step * unit; to >= a.low && to <= a.high) {
         out.steps.push_back(step * unit);
         variations.push_back({{{a.quantity, step * unit, false}}});
@@ -71,31 +65,31 @@ std::optional<Fitter::Profile> Fitter::profile(const JointFit& fit, std::size_t 
     return in_sequence(observations_, f * centred / centred.squaredNorm());
   };
   const Index own = first_column(fit, term) + amplitude;
-  if (!try_each(coarse)) return std::nullopt;
+  if (!try_each(criteria.profile_coarse)) return std::nullopt;
   const Matrix line = line_through();
   if (worth == Worth::jumps ? !jumps(f, out.steps, fit.design.reference[0])
-                            : (line - fit.design.fixed.col(own)).norm() < straight * line.norm())
+                            : (line - fit.design.fixed.col(own)).norm() < criteria.tangent_serves * line.norm())
     return std::nullopt;
-  if (!try_each(spacing)) return std::nullopt;
+  if (!try_each(criteria.profile_spacing)) return std::nullopt;
   const auto found = std::find(out.steps.begin(), out.steps.end(), 0.0);
   if (found == out.steps.end()) return std::nullopt;
   out.here = found - out.steps.begin();
-  // Beside all other unknowns.
+  // Given all other unknowns.
   Design rest = fit.design;
   std::vector<Index> others;
   for (Index j = 0; j < rest.fixed.cols(); ++j)
     if (j != own) others.push_back(j);
   rest.fixed = Matrix(fit.design.fixed(Eigen::all, others));
   const auto use = independent(rest, rows_);
-  const Whitened plain(rest, rows_, use, {}), prior(rest, rows_, use, fit.structure);
+  const Whitened plain(rest, rows_, use, {}), prior(rest, rows_, use, fit.covariance_model);
   const Matrix residual = in_sequence(observations_, (-f).colwise() + f.col(out.here).eval()).colwise() + fit.residual;
   const Matrix white = prior.whiten(plain.winsorised(plain.take(residual)));
   out.left = prior.left(white);
   const Matrix through = prior.whiten(prior.take(line_through()));
   out.u = std::sqrt(fit.variance / through.cwiseProduct(prior.project(through)).sum());
   out.freedom = static_cast<double>(prior.degrees_of_freedom());
-  for (const Index j : use) out.columns.push_back(others[static_cast<std::size_t>(j)]);
-  out.others = prior.solve_all(Matrix(white.rows(), 0), white).topRows(static_cast<Index>(out.columns.size()));
+  for (const Index j : use) out.columns.push_back(others[index(j)]);
+  out.others = prior.solve(white).topRows(index(out.columns.size()));
   return out;
 }
 
@@ -109,8 +103,8 @@ bool Fitter::explore(JointFit& fit) const {
     Index best = 0;
     if (!p || !(p->left.minCoeff(&best) < p->left[p->here] * (1 - 1e-6))) continue;
     Vector change = Vector::Zero(fit.design.fixed.cols());
-    for (std::size_t j = 0; j < p->columns.size(); ++j) change[p->columns[j]] = p->others(static_cast<Index>(j), best);
-    change[own] = p->steps[static_cast<std::size_t>(best)];
+    for (std::size_t j = 0; j < p->columns.size(); ++j) change[p->columns[j]] = p->others(index(j), best);
+    change[own] = p->steps[index(best)];
     JointFit next = fit;
     apply(next, change, 1);
     if (!linearise(next)) continue;
@@ -133,7 +127,7 @@ void Fitter::widen_jumping(JointFit& fit) const {
         widened = std::max(p->u, p->spread());
         if (p->u > 2 * unit || p->u < 0.5 * unit)
           unit = p->u; // the tangent's was of another size
-        else if (p->spread() > 0.4 * reach * unit)
+        else if (p->spread() > 0.4 * criteria.profile_reach * unit)
           unit *= 2; // the likelihood reaches beyond
         else
           break;

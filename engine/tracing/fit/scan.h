@@ -1,94 +1,94 @@
 #pragma once
-/// Every signature against many data sets at once: likelihood ratios, with the structure of the noise fitted anew each
-/// time, beside the model without and with the signature.
+/// Every signature against many data sets at once: likelihood ratios without and with the signature, each time under
+/// the covariance model of the noise that fits best.
 #include <limits>
-#include <memory>
 #include <vector>
 
 #include "tracing/candidates/candidates.h"
-#include "tracing/noise/design.h"
+#include "tracing/noise/whitened.h"
 
 namespace gumshoe::tracing {
 
-/// Below this share of a signature nothing is said of it: what is left is of the size of what a linearised model
-/// neglects.
-inline constexpr double absorbed_share = 1e-5;
-
-/// By how much no signature's gain on pure noise differs between two structures of it.
-inline constexpr double beyond_chance = 20;
-
-/// Of one data set or many (columns).
+/// For one data set or many (columns). "Model" is a covariance model, by its place in Scan::covariance_models().
 struct Statistics {
-  Matrix ratio;                             ///< [signature][set]: 2 ln of the likelihood ratio, at least 0
-  Matrix scatter;                           ///< [variance component][set]: the same for it
-  Vector scale;                             ///< [set]: of the noise, robust, relative to the design's
-  std::vector<std::size_t> structure;       ///< [set]: best without a signature
-  std::vector<std::size_t> cautious;        ///< [set]: serial correlation only where the data insist on it
-  std::vector<std::size_t> without_scatter; ///< [set]: the best of those without a variance component
-  Vector criterion;                         ///< [set]: minus 2 ln likelihood under `structure`, but for a constant
-  Vector variance;                          ///< [set]: s^2 under `structure`
-  Vector variance_cautious;                 ///< [set]: the same under `cautious`
-  Vector variance_without_scatter;          ///< [set]: and under `without_scatter`
+  Matrix ratio;                              ///< [signature][set]: 2 ln of the likelihood ratio, at least 0
+  Matrix scatter;                            ///< [variance component][set]: the same for it
+  Vector scale;                              ///< [set]: of the noise, robust, relative to the design's
+  std::vector<std::size_t> covariance_model; ///< [set]: the best without a signature
+  std::vector<std::size_t> cautious;         ///< [set]: serial correlation only where the data insist on it
+  std::vector<std::size_t> without_scatter;  ///< [set]: the best of those without a variance component
+  Vector criterion;                          ///< [set]: minus 2 ln likelihood under the best, but for a constant
+  Vector variance;                           ///< [set]: s^2 under `covariance_model`
+  Vector variance_cautious;                  ///< [set]: the same under `cautious`
+  Vector variance_without_scatter;           ///< [set]: and under `without_scatter`
 };
 
+/// One candidate in one data set.
 struct Fit {
-  Vector size, u;            ///< of each column, SI
-  double ratio = 0;          ///< 2 ln of the likelihood ratio
-  std::size_t structure = 0; ///< best with the signature
+  Vector size, u;                   ///< by column of the candidate, SI
+  double ratio = 0;                 ///< 2 ln of the likelihood ratio
+  std::size_t covariance_model = 0; ///< the best with the signature
 };
 
+/// Keeps references to the design and the candidates.
 class Scan {
 public:
-  /// @param rows readings that take part. Alternatives keep their order; those that are absorbed have no statistic.
-  Scan(const Design& design, const std::vector<Index>& rows, const std::vector<const Alternative*>& alternatives,
+  /// @param rows  chosen rows of the design. A candidate that is absorbed keeps its place and has no statistic.
+  Scan(const Design& design, const std::vector<Index>& rows, const std::vector<const Candidate*>& candidates,
        int threads);
 
-  /// @param residuals over the chosen rows, SI, a column per data set. Winsorised here.
-  /// @param reach     structures whose criterion is further above the best one's are not tried with a signature: for
-  ///                  noise alone, where none makes up for so much. Without it all are.
+  /// @param residuals  chosen rows x sets, SI. Winsorised here.
+  /// @param reach      covariance models whose criterion is further above the best one's are not tried with a
+  ///                   signature: for noise alone, where no signature makes up for so much
   Statistics run(const Matrix& residuals, double reach = std::numeric_limits<double>::infinity()) const;
-  /// Sizes of one alternative in one data set.
-  Fit fit(std::size_t alternative, const Vector& residuals) const;
-  /// Two alternatives together, under a given structure: 2 ln of the likelihood ratio against neither.
-  double pair_ratio(std::size_t a, std::size_t b, const Vector& residuals, std::size_t structure) const;
+  Fit fit(std::size_t candidate, const Vector& residuals) const;
+  /// Two candidates together, under a given covariance model: 2 ln of the likelihood ratio against neither.
+  double pair_ratio(std::size_t a, std::size_t b, const Vector& residuals, std::size_t model) const;
 
-  /// Residuals with what lies beyond 3.5 robust standard deviations drawn in; `weight` 1 where it was left alone.
+  /// As Whitened::winsorised, under the plain model.
   Matrix winsorised(const Matrix& residuals, Vector* scale = nullptr, Matrix* weight = nullptr) const {
     return whitened_[plain_].winsorised(residuals, scale, weight);
   }
-  /// How one data set's noise departs from normal numbers: the readings that are drawn in.
-  Departures departures(const Vector& residuals) const;
-  /// Share of the signature that fixed and declared parts leave, under the plainest structure.
-  double identifiable(std::size_t alternative) const { return share_[alternative]; }
-  /// The declared or estimated part that takes most of it away: index into fixed, then random columns.
-  int absorbed_by(std::size_t alternative) const { return absorbed_[alternative]; }
-  /// Cosine of two projected signatures (largest canonical correlation) under a structure.
-  double correlation(std::size_t a, std::size_t b, std::size_t structure) const;
-  /// g'WMg of one column of an alternative under a structure, per SI unit squared, with its noise at scale 1.
-  double information(std::size_t alternative, Index column, std::size_t structure) const;
+  /// How the noise of one data set differs from normal numbers: by the readings that are winsorised.
+  NoiseShape noise_shape(const Vector& residuals) const;
+  /// Share of a signature that fixed and declared columns leave, under the plain model: g'WMg / g'N^-1 g.
+  double identifiable(std::size_t candidate) const { return share_[candidate]; }
+  /// The fixed or declared column that takes most of it away: index into fixed, then random columns; -1: none does.
+  int absorbed_by(std::size_t candidate) const { return absorbed_[candidate]; }
+  /// Cosine of two projected signatures (largest canonical correlation) under a covariance model.
+  double correlation(std::size_t a, std::size_t b, std::size_t model) const;
+  /// g'WMg of one column of a candidate under a covariance model, per SI unit squared, with its noise at scale 1.
+  double information(std::size_t candidate, Index column, std::size_t model) const;
 
-  std::size_t alternatives() const { return alternatives_.size(); }
-  const std::vector<Structure>& all_structures() const { return structures_; }
-  const Whitened& whitened(std::size_t structure) const { return whitened_[structure]; }
+  const std::vector<CovarianceModel>& covariance_models() const { return models_; }
+  const Whitened& whitened(std::size_t model) const { return whitened_[model]; }
   std::size_t degrees_of_freedom() const { return freedom_; }
-  std::size_t plain() const { return plain_; } ///< structure without correlation or scatter
-  const std::vector<Index>& used() const { return use_; }
+  std::size_t plain() const { return plain_; }            ///< model without correlation or scatter
+  const std::vector<Index>& used() const { return use_; } ///< independent fixed columns
 
 private:
   struct Block {
     Index first = 0, count = 0; ///< columns of `signatures`
   };
   struct Prepared {
-    Matrix signatures; ///< orthonormal within each alternative, projected
+    Matrix signatures; ///< orthonormal within each candidate, projected
     std::vector<Block> blocks;
   };
-  double criterion(double left, std::size_t structure) const;
+  Matrix signature(std::size_t candidate, std::size_t model) const; ///< whitened
+  void prepare(std::size_t model, const Matrix& chosen);
+  void find_absorbed(std::size_t candidate, const Matrix& white, const Matrix& left);
+  double criterion(double left, std::size_t model) const;
+  /// Smallest criterion of each candidate in each set, over all models. @param without criteria [model][set]
+  Matrix with_signatures(const Matrix& data, const Matrix& without, double reach) const;
+  /// Squares left by a candidate of whitened data that leave `left` without it.
+  double left_with(std::size_t candidate, std::size_t model, const Vector& white, double left) const;
+  void choose_models(const Matrix& without, Index set, Statistics& out) const;
 
   const Design& design_;
   std::vector<Index> rows_, use_;
-  std::vector<const Alternative*> alternatives_;
+  std::vector<const Candidate*> candidates_;
   int threads_;
-  std::vector<Structure> structures_;
+  std::vector<CovarianceModel> models_;
   std::vector<Whitened> whitened_;
   std::vector<Prepared> prepared_;
   std::vector<double> share_;

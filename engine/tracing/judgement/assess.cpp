@@ -6,6 +6,8 @@
 #include <boost/math/distributions/gamma.hpp>
 #include <boost/math/distributions/normal.hpp>
 
+#include "tracing/criteria.h"
+
 namespace gumshoe::tracing {
 namespace {
 
@@ -27,6 +29,47 @@ double share_at_most(const std::vector<double>& draws, double value) {
   return (1.0 + static_cast<double>(below)) / (1.0 + static_cast<double>(draws.size()));
 }
 
+/// Of each statistic (row), by the first half of the draws.
+std::vector<Null> nulls_of(const Matrix& draws) {
+  std::vector<Null> out;
+  for (Index j = 0; j < draws.rows(); ++j) out.push_back(null_of(draws.row(j).head(draws.cols() / 2)));
+  return out;
+}
+
+/// The smallest p-value of the statistics of one data set.
+double least_p(const std::vector<Null>& nulls, const Matrix& statistics, Index set, double least = 1) {
+  for (std::size_t j = 0; j < nulls.size(); ++j) least = std::min(least, nulls[j].p(statistics(index(j), set)));
+  return least;
+}
+
+/// Size of the noise as a statistic, lognormal to the eye: a robust scale, but with few readings, where that is blunt,
+/// the root mean square.
+class NoiseSize {
+public:
+  NoiseSize(const Scan& scan, const Statistics& data, const Statistics& draws, double core, double declared) {
+    const bool few = scan.degrees_of_freedom() < criteria.robust_freedom;
+    const Vector size = few ? Vector(draws.variance_without_scatter.cwiseSqrt()) : draws.scale;
+    const double observed = few ? std::sqrt(data.variance_without_scatter[0]) : data.scale[0];
+    drawn_ = size.array().log() - 0.5 * std::log(data.variance_without_scatter[0]) - std::log(core);
+    const auto first = drawn_.head(drawn_.size() / 2);
+    middle_ = first.mean();
+    spread_ = std::sqrt((first.array() - middle_).square().mean());
+    judged_ = declared > 0 && spread_ > 0;
+    if (judged_) observed_ = std::log(observed / declared);
+  }
+  bool judged() const { return judged_; } ///< a noise is declared
+  double p() const { return judged_ ? p_of(observed_) : 1; }
+  double p_drawn(Index set) const { return judged_ ? p_of(drawn_[set]) : 1; }
+
+private:
+  double p_of(double log_size) const {
+    return boost::math::cdf(boost::math::complement(boost::math::normal(), (log_size - middle_) / spread_));
+  }
+  Vector drawn_;
+  double middle_ = 0, spread_ = 0, observed_ = 0;
+  bool judged_ = false;
+};
+
 } // namespace
 
 double Null::p(double statistic) const {
@@ -45,75 +88,39 @@ Assessment assess(const Scan& scan, const Vector& residuals, int draws, std::uin
                   double declared, const ScatterResponse& response) {
   Assessment out;
   out.data = scan.run(residuals);
-  const auto count = static_cast<std::size_t>(draws);
-  const std::size_t k0 = out.data.without_scatter[0], k1 = out.data.structure[0];
+  out.noise_shape = scan.noise_shape(residuals);
+  const std::size_t k0 = out.data.without_scatter[0], k1 = out.data.covariance_model[0];
   // Two lots: one tells how each statistic is distributed, the other, as new to that as the data are, how small the
   // least of all probabilities comes out by chance.
-  Departures& departures = out.departures;
-  departures = scan.departures(residuals);
+  const Index sets = draws;
   const auto null_draws = [&](std::size_t k, double variance, std::uint64_t key) {
-    return scan.run(std::sqrt(variance) * scan.whitened(k).draw(2 * count, key, departures), beyond_chance);
+    return scan.run(std::sqrt(variance) * scan.whitened(k).draw(2 * index(sets), key, out.noise_shape),
+                    criteria.beyond_chance);
   };
   // Nothing at all: no variance component either.
   const Statistics nothing = null_draws(k0, out.data.variance_without_scatter[0], seed);
-  const Index m = nothing.ratio.rows(), c = nothing.scatter.rows(), sets = draws;
-  std::vector<Null> signature, component;
-  for (Index j = 0; j < m; ++j) signature.push_back(null_of(nothing.ratio.row(j).head(sets)));
-  for (Index j = 0; j < c; ++j) component.push_back(null_of(nothing.scatter.row(j).head(sets)));
-  // The noise's size: a robust scale, lognormal to the eye.
-  // With few readings the robust scale is blunt: there the mean square serves.
-  const bool few = scan.degrees_of_freedom() < 30;
-  const Vector size = few ? Vector(nothing.variance_without_scatter.cwiseSqrt()) : nothing.scale;
-  const double observed = few ? std::sqrt(out.data.variance_without_scatter[0]) : out.data.scale[0];
-  const Vector sizes =
-      size.array().log() - 0.5 * std::log(out.data.variance_without_scatter[0]) - std::log(departures.core());
-  const double middle = sizes.head(sets).mean(),
-               spread = std::sqrt((sizes.head(sets).array() - middle).square().mean());
-  const boost::math::normal normal;
-  const auto p_noise = [&](double log_size) {
-    return boost::math::cdf(boost::math::complement(normal, (log_size - middle) / spread));
-  };
-  const double z = declared > 0 ? std::log(observed / declared) : 0;
-  if (declared > 0 && spread > 0) {
-    out.p_noise = p_noise(z);
-    out.noise_small = 1 - out.p_noise < 1e-3;
-  }
-  std::vector<double> least(static_cast<std::size_t>(sets));
-  for (Index i = 0; i < sets; ++i) {
-    double p = declared > 0 && spread > 0 ? p_noise(sizes[sets + i]) : 1;
-    for (Index j = 0; j < m; ++j) p = std::min(p, signature[static_cast<std::size_t>(j)].p(nothing.ratio(j, sets + i)));
-    for (Index j = 0; j < c; ++j)
-      p = std::min(p, component[static_cast<std::size_t>(j)].p(nothing.scatter(j, sets + i)));
-    least[static_cast<std::size_t>(i)] = p;
-  }
-  double p = out.p_noise;
-  for (Index j = 0; j < m; ++j) p = std::min(p, signature[static_cast<std::size_t>(j)].p(out.data.ratio(j, 0)));
-  for (Index j = 0; j < c; ++j) {
-    const double one = component[static_cast<std::size_t>(j)].p(out.data.scatter(j, 0));
-    out.p_component.push_back(share_at_most(least, one));
-    p = std::min(p, one);
-  }
-  out.p_anything = share_at_most(least, p);
+  out.null = nulls_of(nothing.ratio);
+  const auto component = nulls_of(nothing.scatter);
+  const NoiseSize size(scan, out.data, nothing, out.noise_shape.core(), declared);
+  out.p_noise = size.p();
+  out.noise_small = size.judged() && 1 - out.p_noise < criteria.noise_small_p;
+  std::vector<double> least;
+  for (Index i = sets; i < 2 * sets; ++i)
+    least.push_back(least_p(component, nothing.scatter, i, least_p(out.null, nothing.ratio, i, size.p_drawn(i))));
+  for (std::size_t j = 0; j < component.size(); ++j)
+    out.p_component.push_back(share_at_most(least, component[j].p(out.data.scatter(index(j), 0))));
+  out.p_anything =
+      share_at_most(least, least_p(component, out.data.scatter, 0, least_p(out.null, out.data.ratio, 0, out.p_noise)));
   out.p_noise_overall = share_at_most(least, out.p_noise);
-  // Signatures beside the noise as it seems to be, with its variance component.
+  // Signatures given the noise as it seems to be, with its variance component.
   if (k1 != k0) {
-    if (response) departures.scatter = response(scan.all_structures()[k1], out.data.variance[0]);
+    if (response) out.noise_shape.scatter = response(scan.covariance_models()[k1], out.data.variance[0]);
     const Statistics beside = null_draws(k1, out.data.variance[0], seed ^ 0x5ca77e5ull);
-    for (Index j = 0; j < m; ++j) signature[static_cast<std::size_t>(j)] = null_of(beside.ratio.row(j).head(sets));
-    for (Index i = 0; i < sets; ++i) {
-      double one = 1;
-      for (Index j = 0; j < m; ++j)
-        one = std::min(one, signature[static_cast<std::size_t>(j)].p(beside.ratio(j, sets + i)));
-      least[static_cast<std::size_t>(i)] = one;
-    }
+    out.null = nulls_of(beside.ratio);
+    for (Index i = 0; i < sets; ++i) least[index(i)] = least_p(out.null, beside.ratio, sets + i);
   }
-  double best = 1;
-  for (Index j = 0; j < m; ++j) {
-    out.p.push_back(signature[static_cast<std::size_t>(j)].p(out.data.ratio(j, 0)));
-    best = std::min(best, out.p.back());
-  }
-  out.null = signature;
-  out.p_signature = share_at_most(least, best);
+  for (std::size_t j = 0; j < out.null.size(); ++j) out.p.push_back(out.null[j].p(out.data.ratio(index(j), 0)));
+  out.p_signature = share_at_most(least, least_p(out.null, out.data.ratio, 0));
   std::sort(least.begin(), least.end());
   const auto rank = static_cast<std::size_t>(alpha * static_cast<double>(least.size() + 1));
   out.threshold = least[std::min(least.size() - 1, rank > 0 ? rank - 1 : 0)];

@@ -1,5 +1,5 @@
 #pragma once
-/// What was tried, best first, and what would have been seen.
+/// What was tried, best first, and what would have been detected.
 #include <map>
 
 #include "tracing/judgement/assess.h"
@@ -8,13 +8,13 @@
 namespace gumshoe::tracing {
 
 /// @param fit       the design that the scan is of: names of what absorbs a signature
-/// @param outcomes  by alternative, of those that came further than their own p value
-std::vector<Candidate> ranking(const Scan& scan, const Assessment& assessment,
-                               const std::vector<Alternative>& alternatives, const Design& fit,
-                               const std::map<std::size_t, std::string>& outcomes);
+/// @param outcomes  by candidate, for those that came further than their own p-value
+std::vector<RankedCandidate> ranking(const Scan& scan, const Assessment& assessment,
+                                     const std::vector<Candidate>& candidates, const Design& fit,
+                                     const std::map<std::size_t, std::string>& outcomes);
 
-/// Of each amplitude of each physical alternative: the size that passes the threshold in nine cases of ten, SI.
+/// Size of each amplitude of each physical candidate that passes the threshold in nine cases of ten, SI.
 std::vector<DetectionLimit> detection_limits(const Scan& scan, const Assessment& assessment,
-                                             const std::vector<Alternative>& alternatives);
+                                             const std::vector<Candidate>& candidates);
 
 } // namespace gumshoe::tracing

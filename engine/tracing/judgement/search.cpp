@@ -2,444 +2,291 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
-#include <set>
 
-#include "tracing/candidates/shapes.h"
-#include "tracing/judgement/cross_validation.h"
+#include "tracing/criteria.h"
+#include "tracing/judgement/decisions.h"
+#include "tracing/judgement/evidence.h"
 #include "tracing/judgement/ranking.h"
 
 namespace gumshoe::tracing {
 namespace {
 
-/// Likelihood ratios closer than this (2 ln, chi-squared 0.95 of one) decide nothing.
-constexpr double decisive = 3.84;
-/// Beyond this no simulation is needed.
-constexpr double beyond_doubt = 25;
-/// Projected signatures as alike as this are one and the same to any data of this design.
-constexpr double alike = 0.995;
-constexpr std::size_t most_findings = 5;
+std::string with_shape(const Candidate& a) { return a.name + (a.shape.empty() ? "" : " (" + a.shape + ")"); }
 
+constexpr const char* not_predicted = "refused: held-out blocks are predicted no better with it";
+
+/// Takes the steps that the decisions (decisions.h) ask for: fits, and keeps what was found.
 class Searcher {
 public:
-  explicit Searcher(const Circumstances& c) : c_(c) {}
+  explicit Searcher(const TraceContext& c) : c_(c) {}
 
   Search run() {
-    say("fits the declared model");
+    report_progress("fits the declared model");
     out_.base = out_.found = c_.fitter.fit({}, 0);
     const auto mean_square = [](const JointFit& fit) { return fit.noise * fit.noise * fit.variance; };
-    for (bool more = true; more && out_.steps.size() < most_findings;) {
+    for (bool more = true; search_goes_on(more, out_.findings.size());) {
       const double before = mean_square(out_.found);
-      const std::size_t known = out_.steps.size();
-      more = step();
-      for (std::size_t i = known; i < out_.steps.size(); ++i)
-        out_.steps[i].removed_share = (before - mean_square(out_.found)) / mean_square(out_.base) /
-                                      static_cast<double>(out_.steps.size() - known);
+      const std::size_t known = out_.findings.size();
+      more = round();
+      for (std::size_t i = known; i < out_.findings.size(); ++i)
+        out_.findings[i].finding.removed_share = (before - mean_square(out_.found)) / mean_square(out_.base) /
+                                                 static_cast<double>(out_.findings.size() - known);
     }
     c_.fitter.widen_jumping(out_.found);
     return std::move(out_);
   }
 
 private:
-  void say(const std::string& what) const {
+  void report_progress(const std::string& what) const {
     if (c_.progress) c_.progress(what);
   }
 
-  bool taken(const Alternative& a) const {
-    for (const Term& t : out_.found.terms)
-      if (t.alternative.name == a.name && (a.amplitudes[0].scenario_name.empty() ||
-                                           t.alternative.amplitudes[0].scenario_name == a.amplitudes[0].scenario_name))
-        return true;
-    return false;
-  }
-
-  void prepare() {
-    const JointFit& fit = out_.found;
-    const double size = std::sqrt(std::max(1e-300, fit.variance)) * fit.design.reference[0];
-    alternatives_ = physical_candidates(c_.experiment, c_.simulator, fit.at, c_.observations, 3 * size,
-                                        [&](const Alternative& a) { return taken(a); });
-    for (Alternative& a : shapes(c_.observations))
-      if (!taken(a)) alternatives_.push_back(std::move(a));
-    pointers_.clear();
-    for (const Alternative& a : alternatives_) pointers_.push_back(&a);
-    scan_ = std::make_unique<Scan>(fit.design, c_.fitter.rows(), pointers_, c_.threads);
-    data_ = scan_->whitened(scan_->plain()).take(fit.residual);
-  }
-
   /// Takes in one more effect; false if there is none.
-  bool step() {
-    say(out_.steps.empty() ? "looks for what the declared model lacks" : "looks for more");
-    prepare();
-    const double declared = c_.fitter.noise_declared() ? 1 / out_.found.noise : 0;
-    assessment_ = assess(*scan_, data_, c_.draws, c_.seed + out_.steps.size(), c_.alpha, declared,
-                         [&](const Structure& s, double variance) { return scatter_response(s, variance); });
-    const bool first = out_.steps.empty() && out_.first.p.empty();
+  bool round() {
+    report_progress(out_.findings.empty() ? "looks for what the declared model lacks" : "looks for more");
+    const bool first = out_.findings.empty() && out_.first.p.empty();
+    const Evidence evidence(c_, out_.found, out_.findings.size());
+    evidence_ = &evidence;
+    out_.last = evidence.assessment();
     if (first) {
-      out_.first = assessment_;
-      out_.alternatives = alternatives_;
-      out_.tried = static_cast<int>(alternatives_.size()) + static_cast<int>(c_.observations.redone.size());
-      out_.limits = detection_limits(*scan_, assessment_, alternatives_);
+      out_.first = evidence.assessment();
+      out_.tried = static_cast<int>(evidence.candidates().size() + c_.observations.replicate_groups.size());
+      out_.limits = detection_limits(evidence.scan(), evidence.assessment(), evidence.candidates());
     }
-    out_.last = assessment_;
-    bool more = false;
-    if (assessment_.p_anything <= c_.alpha && assessment_.p_signature <= c_.alpha) more = take_signature();
-    if (!more && assessment_.p_anything <= c_.alpha) more = take_component();
-    if (first) out_.candidates = ranking(*scan_, assessment_, alternatives_, out_.base.design, refused_);
+    bool more = look_for_signature(evidence.assessment(), c_.alpha) && take_signature();
+    if (!more && look_for_scatter(evidence.assessment(), c_.alpha)) more = take_component();
+    if (first)
+      out_.ranking =
+          ranking(evidence.scan(), evidence.assessment(), evidence.candidates(), out_.base.design, outcomes_);
     return more;
   }
 
-  /// Where a clamping's seat makes readings jump, its draws must jump, too.
-  Matrix scatter_response(const Structure& structure, double variance) const {
-    const JointFit& fit = out_.found;
-    const auto seat = seat_at_null(c_.experiment);
-    if (!seat || structure.scatter < 0 || fit.design.indications > 1) return {};
-    const double s = std::sqrt(variance), u = structure.ratio * fit.design.reference[0] * s;
-    const Matrix bent = bent_response(c_.simulator, fit.at, *seat, u);
-    return bent.size() > 0 ? Matrix(in_sequence(c_.observations, bent) / s) : bent;
+  const Candidate& candidate(std::size_t a) const { return evidence_->candidates()[a]; }
+
+  std::vector<std::size_t> best_of(const std::function<bool(const Candidate&)>& fits, std::size_t most) const {
+    std::vector<Scored> all;
+    for (std::size_t a = 0; a < evidence_->candidates().size(); ++a)
+      all.push_back({candidate(a).name, evidence_->score(a),
+                     fits(candidate(a)) && evidence_->assessment().data.ratio(index(a), 0) > 0});
+    return tracing::best_of(all, most);
   }
 
-  double score(std::size_t a) const {
-    return assessment_.data.ratio(static_cast<Index>(a), 0) - 2 * assessment_.null[a].mean;
-  }
-
-  /// The likelihood ratio of a term with the whole model, from the fit at hand; its size.
-  struct Finalist {
-    std::size_t alternative = 0;
-    JointFit fit;
-    double ratio = 0, score = 0;
-  };
-
-  Finalist refit(std::size_t a) const {
-    Finalist out;
-    out.alternative = a;
-    auto terms = out_.found.terms;
-    terms.push_back({alternatives_[a], scan_->fit(a, data_).size});
-    out.fit = c_.fitter.fit(terms, out_.found.noise, &out_.found);
-    if (!out.fit.valid) return out;
-    // At the fitted size, beside the same unknowns as without the term.
-    Design without = out.fit.design;
-    without.fixed = Matrix(without.fixed.leftCols(without.fixed.cols() - alternatives_[a].columns.cols()));
-    const Scan scan(without, c_.fitter.rows(), {}, c_.threads);
-    out.ratio =
-        assessment_.data.criterion[0] - scan.run(scan.whitened(scan.plain()).take(out.fit.residual)).criterion[0];
-    if (!std::isfinite(out.ratio)) out.ratio = 0;
-    out.score = out.ratio - 2 * assessment_.null[a].mean;
+  /// A finding by one candidate, the next term of the fit or the one `behind` that.
+  SearchFinding found_by(std::size_t a, Kind kind, std::size_t behind = 0) const {
+    SearchFinding out;
+    out.finding.kind = kind;
+    out.finding.p_value = evidence_->assessment().p_signature;
+    out.finding.depends_on = candidate(a).depends_on;
+    if (kind != Kind::not_in_catalogue) out.finding.members = {candidate(a).name};
+    out.threshold = evidence_->limit(a);
+    out.terms = {out_.found.terms.size() + behind};
     return out;
   }
 
-  double left_out(const JointFit& fit, const Structure& structure) const {
-    return cross_validated(c_.observations, c_.fitter.rows(), fit, structure);
-  }
+  /// The fit with the terms of another, its noise found anew.
+  void adopt(const JointFit& fit) { out_.found = c_.fitter.fit(fit.terms, 0, &fit); }
 
-  /// Parts of the training readings that are left out in turn: does the fit predict them better than without its term?
-  bool predicts_better(const JointFit& fit) const {
-    return left_out(fit, fit.structure) < left_out(out_.found, fit.structure);
-  }
-
-  /// The best alternatives of different names among those that `fits`, best first.
-  std::vector<std::size_t> best_of(const std::function<bool(const Alternative&)>& fits, std::size_t most) const {
-    std::vector<std::size_t> order;
-    for (std::size_t a = 0; a < alternatives_.size(); ++a)
-      if (fits(alternatives_[a]) && assessment_.data.ratio(static_cast<Index>(a), 0) > 0) order.push_back(a);
-    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return score(a) > score(b); });
-    std::vector<std::size_t> out;
-    std::set<std::string> names;
-    for (const std::size_t a : order) {
-      if (out.size() == most) break;
-      if (names.insert(alternatives_[a].name).second) out.push_back(a);
+  /// Candidates that could win, by the whole model, best first.
+  std::vector<Trial> trials() const {
+    const auto& assessment = evidence_->assessment();
+    const auto physical = best_of([](const Candidate& a) { return a.physical(); }, criteria.most_refitted);
+    std::vector<Trial> out;
+    for (const std::size_t a : physical) {
+      if (!out.empty() &&
+          !could_still_win(assessment.p[a], assessment.threshold, evidence_->score(a), evidence_->score(physical[0])))
+        break;
+      if (Trial one = evidence_->trial(a); one.fit.valid) out.push_back(std::move(one));
     }
+    std::sort(out.begin(), out.end(), [](const Trial& a, const Trial& b) { return a.score > b.score; });
     return out;
-  }
-
-  /// Chance that `better` would lead `than` by so much, were `than` the truth.
-  double chance_of_lead(std::size_t better, std::size_t than, double lead) const {
-    constexpr std::size_t sets = 199;
-    const Fit truth = scan_->fit(than, data_);
-    const Whitened& w = scan_->whitened(truth.structure);
-    const Vector signal = w.take(alternatives_[than].columns) * truth.size;
-    Departures departures = assessment_.departures;
-    departures.scatter = scatter_response(scan_->all_structures()[truth.structure], out_.found.variance);
-    Matrix drawn = w.draw(sets, c_.seed ^ 0x41a7ull, departures);
-    const double s = std::sqrt(out_.found.variance);
-    drawn = (s * drawn).colwise() + signal;
-    const Scan both(out_.found.design, c_.fitter.rows(), {&alternatives_[better], &alternatives_[than]}, c_.threads);
-    const Statistics statistics = both.run(drawn);
-    const double shift = 2 * (assessment_.null[than].mean - assessment_.null[better].mean);
-    int as_much = 0;
-    for (Index j = 0; j < static_cast<Index>(sets); ++j)
-      as_much += statistics.ratio(0, j) - statistics.ratio(1, j) + shift >= lead;
-    return (1.0 + as_much) / (1.0 + sets);
   }
 
   bool take_signature() {
-    const auto physical = best_of([](const Alternative& a) { return a.physical(); }, 12);
-    const auto plain = best_of([](const Alternative& a) { return a.family == Family::shape; }, 3);
-    // Finalists by the full model; only those that could still win are fitted.
-    std::vector<Finalist> finalists;
-    for (const std::size_t a : physical) {
-      if (assessment_.p[a] > assessment_.threshold && !finalists.empty()) break;
-      if (!finalists.empty() && score(a) < 0.6 * score(physical[0]) - 5) break;
-      finalists.push_back(refit(a));
-      if (!finalists.back().fit.valid) finalists.pop_back();
-    }
-    std::sort(finalists.begin(), finalists.end(), [](const auto& a, const auto& b) { return a.score > b.score; });
-    const bool significant =
-        !finalists.empty() &&
-        (assessment_.p[finalists[0].alternative] <= assessment_.threshold ||
-         finalists[0].ratio > assessment_.null[finalists[0].alternative].quantile(assessment_.threshold));
-    if (significant) {
-      const Finalist& best = finalists[0];
-      if (const auto better = refused_for(best, plain); better.empty()) {
-        if (predicts_better(best.fit)) return take(finalists);
-        refused_[best.alternative] = "refused: blocks held out are predicted no better with it";
-      } else {
-        if (take_pair(plain)) return true;
-        for (const Finalist& f : finalists)
-          refused_[f.alternative] = "refused: " + better + " fits better, as simple as it is";
-      }
+    const auto& assessment = evidence_->assessment();
+    const auto plain = best_of([](const Candidate& a) { return a.family == Family::shape; }, criteria.rival_shapes);
+    const std::vector<Trial> tried = trials();
+    if (tried.empty()) return take_shape();
+    const std::size_t best = tried[0].candidate;
+    if (!passes(assessment.p[best], assessment.threshold, tried[0].ratio, evidence_->limit(best))) return take_shape();
+    if (const auto shape = shape_instead(tried[0], plain)) {
+      if (take_pair(plain)) return true;
+      for (const Trial& t : tried)
+        outcomes_[t.candidate] = "refused: " + with_shape(candidate(*shape)) + " fits better, as simple as it is";
+    } else if (evidence_->predicts_better(tried[0].fit)) {
+      take(tried);
+      return true;
+    } else {
+      outcomes_[best] = not_predicted;
     }
     return take_shape();
   }
 
-  /// A plain shape of no more parameters that fits better than the effect could let it; empty if there is none.
-  std::string refused_for(const Finalist& best, const std::vector<std::size_t>& plain) const {
+  /// A plain shape of no more parameters that fits better than the effect could let it.
+  std::optional<std::size_t> shape_instead(const Trial& best, const std::vector<std::size_t>& plain) const {
     for (const std::size_t g : plain) {
-      const auto parameters = [&](std::size_t a) { return alternatives_[a].columns.cols(); };
-      if (parameters(g) > parameters(best.alternative)) continue;
-      const double lead = score(g) - best.score;
-      if (lead < decisive) continue;
-      if (lead > beyond_doubt || chance_of_lead(g, best.alternative, lead) < 0.01)
-        return alternatives_[g].name + (alternatives_[g].shape.empty() ? "" : " (" + alternatives_[g].shape + ")");
+      if (candidate(g).columns.cols() > candidate(best.candidate).columns.cols()) continue;
+      const double lead = evidence_->score(g) - best.score;
+      if (shape_excludes(lead, [&] { return evidence_->chance_of_lead(g, best.candidate, lead); })) return g;
     }
-    return {};
+    return std::nullopt;
   }
 
   /// One masks the other: two effects together that explain more than any shape alone.
   bool take_pair(const std::vector<std::size_t>& plain) {
-    const auto many = best_of([](const Alternative& a) { return a.physical(); }, 60);
-    const std::size_t k = assessment_.data.structure[0];
     double best = 0;
-    std::pair<std::size_t, std::size_t> pair{0, 0};
-    const auto all = physical_all();
-    for (const std::size_t a : many)
-      for (const std::size_t b : all) {
-        if (b == a || alternatives_[a].name == alternatives_[b].name) continue;
-        const double s = scan_->pair_ratio(a, b, data_, k) - 2 * (assessment_.null[a].mean + assessment_.null[b].mean);
-        if (s > best) best = s, pair = {a, b};
+    std::size_t pair[2] = {0, 0};
+    for (const std::size_t a : best_of([](const Candidate& x) { return x.physical(); }, criteria.most_paired))
+      for (std::size_t b = 0; b < evidence_->candidates().size(); ++b) {
+        if (!evidence_->testable(b) || candidate(a).name == candidate(b).name) continue;
+        if (const double s = evidence_->pair_score(a, b); s > best) best = s, pair[0] = a, pair[1] = b;
       }
-    const double shape = plain.empty() ? 0 : score(plain[0]);
-    if (!(best > shape + decisive)) return false;
-    for (const std::size_t a : {pair.first, pair.second}) {
-      // Each must count beside the other.
-      const std::size_t other = a == pair.first ? pair.second : pair.first;
-      if (best - score(other) < assessment_.null[a].quantile(assessment_.threshold)) return false;
+    if (!pair_found(best, {evidence_->score(pair[0]), evidence_->score(pair[1])},
+                    {evidence_->limit(pair[0]), evidence_->limit(pair[1])},
+                    plain.empty() ? 0 : evidence_->score(plain[0])))
+      return false;
+    std::vector<Term> both;
+    for (const std::size_t a : pair) both.push_back({candidate(a), Vector::Zero(candidate(a).columns.cols())});
+    const JointFit fit = evidence_->with(both);
+    if (!fit.valid || !evidence_->predicts_better(fit)) return false;
+    for (const std::size_t i : {0, 1}) {
+      out_.findings.push_back(found_by(pair[i], Kind::named, i));
+      out_.findings.back().finding.remarks.push_back("found together with " + candidate(pair[1 - i]).name +
+                                                     ": each hides the other");
+      outcomes_[pair[i]] = "named";
     }
-    auto terms = out_.found.terms;
-    for (const std::size_t a : {pair.first, pair.second}) {
-      Term t{alternatives_[a], scan_->fit(a, data_).size};
-      t.size.setZero();
-      terms.push_back(std::move(t));
-    }
-    JointFit fit = c_.fitter.fit(terms, out_.found.noise, &out_.found);
-    if (!fit.valid || !predicts_better(fit)) return false;
-    for (const std::size_t a : {pair.first, pair.second}) {
-      Step s;
-      s.kind = Kind::named;
-      s.members = {alternatives_[a].name};
-      s.p_value = assessment_.p_signature;
-      s.threshold = assessment_.null[a].quantile(assessment_.threshold);
-      s.depends_on = alternatives_[a].depends_on;
-      s.terms = {out_.found.terms.size() + (a == pair.first ? 0 : 1)};
-      s.remarks.push_back("found together with " + alternatives_[a == pair.first ? pair.second : pair.first].name +
-                          ": each hides the other");
-      out_.steps.push_back(std::move(s));
-      refused_[a] = "named";
-    }
-    out_.found = c_.fitter.fit(fit.terms, 0, &fit);
+    adopt(fit);
     return true;
   }
 
-  std::vector<std::size_t> physical_all() const {
-    std::vector<std::size_t> out;
-    for (std::size_t a = 0; a < alternatives_.size(); ++a)
-      if (alternatives_[a].physical() && scan_->identifiable(a) > absorbed_share) out.push_back(a);
-    return out;
-  }
-
-  /// The best of the finalists, alone or with those that these data cannot tell from it.
-  bool take(std::vector<Finalist>& finalists) {
-    const Finalist& best = finalists[0];
-    Step s;
-    s.members = {alternatives_[best.alternative].name};
-    s.p_value = assessment_.p_signature;
-    s.threshold = assessment_.null[best.alternative].quantile(assessment_.threshold);
-    s.depends_on = alternatives_[best.alternative].depends_on;
-    s.terms = {out_.found.terms.size()};
-    refused_[best.alternative] = "named";
-    const std::size_t k = assessment_.data.structure[0];
-    for (std::size_t i = 1; i < finalists.size(); ++i) {
-      const Finalist& rival = finalists[i];
-      const double lead = best.score - rival.score;
-      const double correlation = scan_->correlation(best.alternative, rival.alternative, k);
-      const bool same = correlation > alike && lead <= decisive; // by the whole model too
-      if (!same && (lead > beyond_doubt ||
-                    (lead > decisive && chance_of_lead(best.alternative, rival.alternative, lead) < 0.05))) {
-        refused_[rival.alternative] = "refused: " + alternatives_[best.alternative].name + " fits better";
-        continue;
+  /// The best of those tried, alone or with those that these data cannot distinguish from it.
+  void take(const std::vector<Trial>& tried) {
+    const Trial& best = tried[0];
+    const std::string& winner = candidate(best.candidate).name;
+    SearchFinding found = found_by(best.candidate, Kind::named);
+    std::vector<std::size_t> members{best.candidate};
+    for (std::size_t i = 1; i < tried.size(); ++i) {
+      const std::size_t rival = tried[i].candidate;
+      const double lead = best.score - tried[i].score;
+      switch (standing(
+          lead, evidence_->correlation(best.candidate, rival),
+          [&] { return evidence_->chance_of_lead(best.candidate, rival, lead); },
+          [&] { return evidence_->gain_beside(best.candidate, rival); }, evidence_->limit(rival))) {
+      case Standing::excluded:
+        outcomes_[rival] = "refused: " + winner + " fits better";
+        break;
+      case Standing::separate:
+        outcomes_[rival] = "counts in addition to " + winner;
+        break;
+      case Standing::member:
+        members.push_back(rival);
+        found.finding.members.push_back(candidate(rival).name);
+        found.rivals.push_back(tried[i].fit.terms.back());
       }
-      // What still counts beside the best is another effect, not the same under another name.
-      if (!same && scan_->pair_ratio(best.alternative, rival.alternative, data_, k) -
-                           scan_->pair_ratio(best.alternative, best.alternative, data_, k) >
-                       assessment_.null[rival.alternative].quantile(assessment_.threshold)) {
-        refused_[rival.alternative] = "counts beside " + alternatives_[best.alternative].name;
-        continue;
-      }
-      s.members.push_back(alternatives_[rival.alternative].name);
-      s.rivals.push_back(rival.fit.terms.back());
     }
-    if (s.members.size() > 1) {
-      s.kind = Kind::equivalence_class;
-      for (const Finalist& f : finalists)
-        if (std::find(s.members.begin(), s.members.end(), alternatives_[f.alternative].name) != s.members.end())
-          refused_[f.alternative] = "in the class";
-    }
-    out_.steps.push_back(std::move(s));
-    out_.found = c_.fitter.fit(best.fit.terms, 0, &best.fit);
-    return true;
+    if (members.size() > 1) found.finding.kind = Kind::equivalence_class;
+    for (const std::size_t a : members) outcomes_[a] = members.size() > 1 ? "in the class" : "named";
+    out_.findings.push_back(std::move(found));
+    adopt(best.fit);
   }
 
   /// No known effect: the dependence itself, as smooth as the data ask for.
   bool take_shape() {
-    const auto all = best_of([](const Alternative& a) { return !a.physical(); }, 6);
-    std::vector<std::pair<std::size_t, JointFit>> unconfirmed;
-    for (const std::size_t a : all) {
-      if (assessment_.p[a] > assessment_.threshold) continue;
-      auto terms = out_.found.terms;
-      terms.push_back({alternatives_[a], scan_->fit(a, data_).size});
-      JointFit fit = c_.fitter.fit(terms, out_.found.noise, &out_.found);
+    const auto& assessment = evidence_->assessment();
+    std::optional<std::pair<std::size_t, JointFit>> unconfirmed;
+    for (const std::size_t a : best_of([](const Candidate& x) { return !x.physical(); }, criteria.most_shapes)) {
+      if (assessment.p[a] > assessment.threshold) continue;
+      JointFit fit = evidence_->with({evidence_->linear_term(a)});
       if (!fit.valid) continue;
-      if (predicts_better(fit)) {
+      if (evidence_->predicts_better(fit)) {
         add_shape(a, fit, {});
         return true;
       }
-      refused_[a] = "refused: blocks held out are predicted no better with it";
-      unconfirmed.emplace_back(a, std::move(fit));
+      outcomes_[a] = not_predicted;
+      if (!unconfirmed) unconfirmed.emplace(a, std::move(fit));
     }
     // What shows in one block only cannot be predicted from the others: there it is nevertheless.
-    if (unconfirmed.empty() || !out_.steps.empty()) return false;
-    add_shape(unconfirmed[0].first, unconfirmed[0].second,
-              "blocks held out are predicted no better with it: it may belong to some of them only");
+    if (!unconfirmed || !out_.findings.empty()) return false;
+    add_shape(unconfirmed->first, unconfirmed->second,
+              "held-out blocks are predicted no better with it: it may belong to some of them only");
     return true;
   }
 
   void add_shape(std::size_t a, const JointFit& fit, const std::string& remark) {
-    Step s;
-    s.kind = Kind::not_in_catalogue;
-    s.p_value = assessment_.p_signature;
-    s.threshold = assessment_.null[a].quantile(assessment_.threshold);
-    s.depends_on = alternatives_[a].depends_on;
-    s.terms = {out_.found.terms.size()};
-    s.remarks.push_back("described by " + alternatives_[a].name +
-                        (alternatives_[a].shape.empty() ? "" : " (" + alternatives_[a].shape + ")"));
-    if (!remark.empty()) s.remarks.push_back(remark);
-    refused_[a] = "describes what is not in the catalogue";
-    out_.steps.push_back(std::move(s));
-    out_.found = c_.fitter.fit(fit.terms, 0, &fit);
+    SearchFinding found = found_by(a, Kind::not_in_catalogue);
+    found.finding.remarks.push_back("described by " + with_shape(candidate(a)));
+    if (!remark.empty()) found.finding.remarks.push_back(remark);
+    outcomes_[a] = "describes what is not in the catalogue";
+    out_.findings.push_back(std::move(found));
+    adopt(fit);
   }
 
-  /// A variance component, or an effect that these data cannot tell from it. True if an effect was taken in.
+  /// A variance component, or an effect that these data cannot distinguish from it. True if an effect was taken in.
   bool take_component() {
-    for (std::size_t c = 0; c < assessment_.p_component.size(); ++c) {
-      const bool largest =
-          assessment_.data.scatter(static_cast<Index>(c), 0) == assessment_.data.scatter.col(0).maxCoeff();
-      if (!largest || assessment_.p_component[c] > c_.alpha) continue;
-      Step s;
-      s.kind = Kind::scatter;
-      s.component = static_cast<int>(c);
-      s.p_value = assessment_.p_component[c];
-      s.depends_on = c_.observations.redone[c].labels;
-      s.members = {"scatter:" + c_.observations.redone[c].name};
-      if (take_instead(s)) return true;
-      out_.steps.push_back(std::move(s));
+    const auto& assessment = evidence_->assessment();
+    SearchFinding found;
+    found.finding.kind = Kind::scatter;
+    if (const auto c = scatter_found(assessment, c_.alpha)) {
+      const Grouping& group = c_.observations.replicate_groups[*c];
+      found.component = static_cast<int>(*c);
+      found.finding.p_value = assessment.p_component[*c];
+      found.finding.depends_on = group.labels;
+      found.finding.members = {"scatter:" + group.name};
+      if (take_instead(found)) return true;
+    } else if (larger_noise_found(assessment, c_.alpha, out_.findings.size())) {
+      found.finding.p_value = assessment.p_noise_overall;
+      found.finding.depends_on = {"reading"};
+      found.finding.members = {"scatter:reading"};
+    } else {
       return false;
     }
-    if (assessment_.p_noise_overall <= c_.alpha && assessment_.p_signature > c_.alpha && out_.steps.empty()) {
-      const bool scatters = std::any_of(assessment_.p_component.begin(), assessment_.p_component.end(),
-                                        [&](double p) { return p <= c_.alpha; });
-      if (scatters) return false;
-      Step s;
-      s.kind = Kind::scatter;
-      s.p_value = assessment_.p_noise_overall;
-      s.depends_on = {"reading"};
-      s.members = {"scatter:reading"};
-      out_.steps.push_back(std::move(s));
-    }
+    out_.findings.push_back(std::move(found));
     return false;
   }
 
-  /// A slow drift looks like scatter from one clamping to the next: beside the scatter it is not worth its name.
-  /// Effects that explain as much without the component, and predict what is left out, make a class with it. Not what
-  /// is declared of one label or another: of so many, some look like scatter by chance.
-  bool take_instead(const Step& scatter) {
-    Design alone = out_.found.design;
-    alone.scatter.clear();
-    const Scan scan(alone, c_.fitter.rows(), pointers_, c_.threads);
-    const Statistics without = scan.run(data_);
-    const double gain = assessment_.data.scatter(scatter.component, 0);
-    const auto more = [&](std::size_t a) {
-      return without.ratio(static_cast<Index>(a), 0) - 2 * assessment_.null[a].mean;
-    };
-    std::map<std::string, std::size_t> best;
-    for (const std::size_t a : physical_all()) {
-      if (alternatives_[a].family == Family::declared || !(more(a) >= gain)) continue;
-      const auto [at, first] = best.try_emplace(alternatives_[a].name, a);
-      if (!first && more(a) > more(at->second)) at->second = a;
-    }
-    Step s = scatter;
-    s.kind = Kind::equivalence_class;
-    s.members.clear();
-    std::vector<std::size_t> order;
-    for (const auto& [name, a] : best) order.push_back(a);
-    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return more(a) > more(b); });
-    JointFit taken;
-    for (const std::size_t a : order) {
-      const Fit linear = scan.fit(a, data_);
-      auto terms = out_.found.terms;
-      terms.push_back({alternatives_[a], linear.size});
-      JointFit fit = c_.fitter.fit(terms, out_.found.noise, &out_.found);
-      const Structure& structure = scan.all_structures()[linear.structure];
-      if (!fit.valid || left_out(fit, structure) >= left_out(out_.found, structure)) continue;
-      refused_[a] = "in the class";
-      s.members.push_back(alternatives_[a].name);
-      if (s.terms.empty()) {
-        s.terms = {out_.found.terms.size()};
-        s.threshold = assessment_.null[a].quantile(assessment_.threshold);
-        s.depends_on = alternatives_[a].depends_on;
-        taken = std::move(fit);
+  /// A slow drift looks like scatter from one clamping to the next: given the scatter it is not worth its name. Effects
+  /// that explain as much without the component, and predict held-out readings better, form a class with it. Quantities
+  /// declared by label do not: of so many, some look like scatter by chance.
+  bool take_instead(const SearchFinding& scatter) {
+    const WithoutScatter without(c_, *evidence_);
+    std::vector<Scored> all;
+    for (std::size_t a = 0; a < evidence_->candidates().size(); ++a)
+      all.push_back(
+          {candidate(a).name, without.score(a), evidence_->testable(a) && candidate(a).family != Family::declared});
+    SearchFinding found = scatter;
+    found.finding.kind = Kind::equivalence_class;
+    found.finding.members.clear();
+    JointFit best;
+    for (const std::size_t a : explain_scatter(all, evidence_->assessment().data.scatter(scatter.component, 0))) {
+      const Fit linear = without.fit(a);
+      JointFit fit = evidence_->with({{candidate(a), linear.size}});
+      if (!fit.valid || !evidence_->predicts_better(fit, without.model(linear))) continue;
+      outcomes_[a] = "in the class";
+      found.finding.members.push_back(candidate(a).name);
+      if (found.terms.empty()) {
+        found.terms = {out_.found.terms.size()};
+        found.threshold = evidence_->limit(a);
+        found.finding.depends_on = candidate(a).depends_on;
+        best = std::move(fit);
       } else {
-        s.rivals.push_back(fit.terms.back());
+        found.rivals.push_back(fit.terms.back());
       }
     }
-    if (s.terms.empty()) return false;
-    s.members.push_back(scatter.members[0]);
-    out_.steps.push_back(std::move(s));
-    out_.found = c_.fitter.fit(taken.terms, 0, &taken);
+    if (found.terms.empty()) return false;
+    found.finding.members.push_back(scatter.finding.members[0]);
+    out_.findings.push_back(std::move(found));
+    adopt(best);
     return true;
   }
 
-  const Circumstances& c_;
+  const TraceContext& c_;
   Search out_;
-  std::vector<Alternative> alternatives_;
-  std::vector<const Alternative*> pointers_;
-  std::unique_ptr<Scan> scan_;
-  Vector data_;
-  Assessment assessment_;
-  std::map<std::size_t, std::string> refused_;
+  const Evidence* evidence_ = nullptr; ///< of this round
+  std::map<std::size_t, std::string> outcomes_;
 };
 
 } // namespace
 
-Search search(const Circumstances& circumstances) { return Searcher(circumstances).run(); }
+Search search(const TraceContext& context) { return Searcher(context).run(); }
 
 } // namespace gumshoe::tracing

@@ -2,11 +2,12 @@
 
 #include <boost/math/special_functions/erf.hpp>
 
+#include "tracing/criteria.h"
+
 namespace gumshoe::tracing {
 namespace {
 
-constexpr double straight = 0.02;
-constexpr Index likely = 16; // equally likely values
+constexpr Index likely = criteria.response_nodes; // equally likely values
 
 /// Readings under shifts of one quantity; false if the model has no value somewhere.
 bool shifted(const Simulator& simulator, const Points& at, std::size_t quantity, const Vector& shifts, Matrix& f) {
@@ -30,7 +31,7 @@ DeclaredResponse declared_response(const Simulator& simulator, const Points& at,
   const Vector mean = f.rowwise().mean(), slope = f * z / z.squaredNorm();
   const Matrix line = slope * z.transpose(), off = (f - line).colwise() - (f - line).rowwise().mean();
   out.slope = slope / u;
-  if (off.norm() < straight * line.norm()) return out;
+  if (off.norm() < criteria.straight * line.norm()) return out;
   out.variance = off.array().square().matrix().rowwise().sum() / static_cast<double>(likely - 2);
   out.offset = mean - here;
   if (!tabled) return out;
@@ -54,8 +55,8 @@ Matrix bent_response(const Simulator& simulator, const Points& at, std::size_t q
 
 std::optional<std::size_t> seat_at_null(const propagation::Experiment& experiment) {
   const auto& all = experiment.scenario().quantities;
-  for (const effects::Active& active : experiment.active()) {
-    const std::size_t q = experiment.model_quantities() + active.first;
+  for (const effects::Active& active : experiment.forward().active()) {
+    const std::size_t q = experiment.layout().effects[active.first];
     if (effects::cards()[active.effect]->scatters_between_clampings && !all[q].estimated &&
         all[q].entries.size() == 1 && all[q].entries[0].components.empty() && all[q].entries[0].value == 0)
       return q;

@@ -1,6 +1,6 @@
 #pragma once
-/// What a quantity that scatters does to the readings over the values it takes, not by its derivative alone: a turning
-/// mill hardly moves by that while it stays on one tooth.
+/// How readings respond to a quantity that scatters, over the values it takes and not by its derivative alone: while a
+/// turning mill stays on one tooth, its derivative is nearly zero.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -19,13 +19,13 @@ struct DeclaredResponse {
   bool straight() const { return variance.size() == 0; }
 };
 
-/// Over equally likely values of a normal draw of standard deviation `u` about `at`. What bends by less than 2 % of its
-/// movement is straight.
+/// Response over equally likely values of a normal draw of standard deviation `u` (SI) about `at`.
+/// @param tabled  also tabulates what bends
 DeclaredResponse declared_response(const Simulator& simulator, const Points& at, std::size_t quantity, double u,
                                    bool tabled);
 
-/// Rows x nodes: what draws do to the readings of which the typical one, along the straight line, moves by `u`. Empty
-/// if that line says it all.
+/// Rows x nodes, SI: what bend_node(j) does to the readings, if a draw of one moves the typical reading by `u` along
+/// the straight line. Empty if that line says it all.
 Matrix bent_response(const Simulator& simulator, const Points& at, std::size_t quantity, double u);
 
 /// Draws at which bends are tabled, in standard deviations.

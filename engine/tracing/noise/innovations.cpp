@@ -55,7 +55,7 @@ void Innovations::whiten(Matrix& x) const {
   Matrix mean = Matrix::Zero(x.rows(), slots_);
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const Row& row = rows_[i];
-    auto one = x.col(static_cast<Index>(i));
+    auto one = x.col(index(i));
     for (const Index s : row.opened) mean.col(s).setZero();
     for (const auto& [s, factor] : row.moved) one -= factor * mean.col(s);
     for (const auto& [s, gain] : row.gain) mean.col(s) += gain * one;

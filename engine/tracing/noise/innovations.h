@@ -1,12 +1,12 @@
 #pragma once
-/// Rows beside random effects that each move a few of them: whitened one after the other by what the rows before tell
-/// of the effects (innovations, Kalman, J. Basic Eng. 82 (1960) 35). With x = Z b + e, b and e of unit variance, it is
-/// the solution by the Cholesky factor of I + Z Z', without forming it: the work grows with the effects that are open
-/// at once, not with all of them.
+/// Whitens rows that random effects move, each a few of them: one row after the other, given what the rows before say
+/// of the effects (innovations; Kalman, J. Basic Eng. 82 (1960) 35). With x = Z b + e, b and e of unit variance, this
+/// solves by the Cholesky factor of I + Z Z' without forming it: the work grows with the effects that are open at once,
+/// not with all of them.
 #include <utility>
 #include <vector>
 
-#include "tracing/simulator.h"
+#include "tracing/matrix.h"
 
 namespace gumshoe::tracing {
 

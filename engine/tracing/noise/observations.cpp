@@ -9,6 +9,7 @@
 
 #include "calibration/data.h"
 #include "quantities/cells.h"
+#include "tracing/criteria.h"
 
 namespace gumshoe::tracing {
 namespace {
@@ -65,7 +66,7 @@ std::vector<std::size_t> sequence_of(const Scenario& s) {
   return out;
 }
 
-/// A label that only says under which conditions a reading was taken stands for no act done anew.
+/// A label that only names the conditions of a reading stands for no repeated set-up step.
 bool says_conditions(const Scenario& s, const Grouping& g) {
   std::map<std::vector<double>, std::set<std::size_t>> groups;
   std::set<std::vector<double>> all;
@@ -77,7 +78,7 @@ bool says_conditions(const Scenario& s, const Grouping& g) {
   return std::all_of(groups.begin(), groups.end(), [](const auto& c) { return c.second.size() == 1; });
 }
 
-void find_redone(const Scenario& s, Observations& o) {
+void find_replicate_groups(const Scenario& s, Observations& o) {
   auto sets = s.trace.redone.value_or(std::vector<std::vector<std::string>>{});
   if (!s.trace.redone) {
     const auto names = label_names(s);
@@ -86,30 +87,31 @@ void find_redone(const Scenario& s, Observations& o) {
       for (std::size_t j = i + 1; j < names.size(); ++j) sets.push_back({names[i], names[j]});
     }
   }
-  const std::size_t least = s.trace.redone ? 5 : 6;
+  const std::size_t least = s.trace.redone ? criteria.stated_replicates : criteria.found_replicates;
   for (const auto& set : sets) {
     Grouping g = grouping(s, o.sequence, set);
     if (g.groups.size() < least) {
       if (s.trace.redone)
         o.statements.push_back(
-            fmt::format("{} was done {} times only: whether it scatters cannot be told (it takes {})", g.name,
+            fmt::format("{} was repeated only {} times; it takes at least {} to judge whether it scatters", g.name,
                         g.groups.size(), least));
       continue;
     }
     if (!s.trace.redone && says_conditions(s, g)) continue;
-    // One reading each: it cannot be told from the noise of a reading.
-    if (g.groups.size() * 5 > s.readings.size() * 4) continue;
-    const bool known =
-        std::any_of(o.redone.begin(), o.redone.end(), [&](const Grouping& h) { return h.group == g.group; });
-    if (!known && o.redone.size() < 3) o.redone.push_back(std::move(g));
+    // One reading each: it cannot be distinguished from the noise of a reading.
+    if (g.groups.size() * 5 > s.readings.size() * criteria.most_groups_of_five) continue;
+    const bool known = std::any_of(o.replicate_groups.begin(), o.replicate_groups.end(),
+                                   [&](const Grouping& h) { return h.group == g.group; });
+    if (!known && o.replicate_groups.size() < criteria.most_replicate_groups)
+      o.replicate_groups.push_back(std::move(g));
   }
 }
 
 void find_blocks(const Scenario& s, Observations& o) {
-  o.final.assign(o.readings, false);
+  o.held_out.assign(o.readings, false);
   if (s.trace.blocks.empty()) {
-    o.statements.push_back("no label of blocks is stated ([trace] blocks): nothing is held out to the end, and what is "
-                           "found is not confirmed on data that the search has not seen");
+    o.statements.push_back("no label of blocks is stated ([trace] blocks): no readings are held out, and findings are "
+                           "not confirmed on data that the search has not seen");
     return;
   }
   o.blocks = grouping(s, o.sequence, {s.trace.blocks});
@@ -121,38 +123,47 @@ void find_blocks(const Scenario& s, Observations& o) {
   };
   if (count == 1) {
     o.statements.push_back(
-        fmt::format("all readings are of one block ({}): nothing can be held out, and whether an effect "
-                    "comes back in another {} cannot be known from these data",
+        fmt::format("all readings are of one block ({}): nothing can be held out, and these data do not show "
+                    "whether an effect recurs in another {}",
                     o.blocks.groups[0], s.trace.blocks));
     return;
   }
   std::vector<std::string> chosen = s.trace.final_blocks;
-  if (chosen.empty() && count >= 4) {
-    // The last quarter in the order of measurement.
+  if (chosen.empty() && count >= criteria.blocks_for_holdout) {
+    // The last part in the order of measurement.
     std::vector<std::size_t> met;
     for (const std::size_t r : o.sequence)
       if (std::find(met.begin(), met.end(), o.blocks.group[r]) == met.end()) met.push_back(o.blocks.group[r]);
-    for (std::size_t i = count - std::max<std::size_t>(1, count / 4); i < count; ++i)
+    for (std::size_t i = count - std::max<std::size_t>(1, count / criteria.holdout_part); i < count; ++i)
       chosen.push_back(value_of(met[i]));
   }
-  if (chosen.empty() || chosen.size() + 2 > count) {
-    o.statements.push_back(fmt::format("{} blocks are too few to keep some apart to the end: each is left out in turn "
-                                       "instead, and the figures are of data that the search has seen in part",
-                                       count));
+  if (chosen.empty() || chosen.size() + criteria.least_training_blocks > count) {
+    o.statements.push_back(
+        fmt::format("{} blocks are too few to hold some out: each is left out in turn instead, and the "
+                    "figures are from data that the search has partly seen",
+                    count));
     return;
   }
   for (std::size_t r = 0; r < o.readings; ++r)
-    o.final[r] = std::find(chosen.begin(), chosen.end(), value_of(o.blocks.group[r])) != chosen.end();
-  o.final_blocks = chosen;
+    o.held_out[r] = std::find(chosen.begin(), chosen.end(), value_of(o.blocks.group[r])) != chosen.end();
+  o.holdout_blocks = chosen;
 }
 
 } // namespace
 
+std::vector<std::size_t> neighbours(const Covariate& c, std::size_t most) {
+  const std::size_t levels = c.levels.size(), groups = std::min(levels, most);
+  std::vector<std::size_t> out;
+  for (const double x : c.value)
+    out.push_back(index(std::lower_bound(c.levels.begin(), c.levels.end(), x) - c.levels.begin()) * groups / levels);
+  return out;
+}
+
 Matrix in_sequence(const Observations& o, const Matrix& rows) {
   Matrix out(rows.rows(), rows.cols());
-  const auto k = static_cast<Index>(o.indications);
+  const auto k = index(o.indications);
   for (std::size_t i = 0; i < o.sequence.size(); ++i)
-    out.middleRows(static_cast<Index>(i) * k, k) = rows.middleRows(static_cast<Index>(o.sequence[i]) * k, k);
+    out.middleRows(index(i) * k, k) = rows.middleRows(index(o.sequence[i]) * k, k);
   return out;
 }
 
@@ -191,7 +202,7 @@ Observations observe(const propagation::Experiment& e) {
     Grouping g = grouping(s, o.sequence, {label});
     if (g.groups.size() >= 2 && g.groups.size() < o.readings) o.labels.push_back(std::move(g));
   }
-  find_redone(s, o);
+  find_replicate_groups(s, o);
   find_blocks(s, o);
   return o;
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// The readings as the search sees them: in the order of measurement, in blocks, with what they may depend on.
+/// The readings as the search sees them: in the order of measurement, in blocks, with what residuals may depend on.
 #include <string>
 #include <vector>
 
@@ -15,6 +15,9 @@ struct Covariate {
   bool angle = false;
 };
 
+/// Number of the group of each reading, if the levels are cut into at most so many groups of neighbours.
+std::vector<std::size_t> neighbours(const Covariate& covariate, std::size_t most);
+
 /// A label, or a set of labels, with the group of each reading.
 struct Grouping {
   std::string name; ///< "setup", "rod,setup"
@@ -25,17 +28,18 @@ struct Grouping {
 
 struct Observations {
   std::size_t readings = 0, indications = 0;
-  /// Readings in the order of measurement. Equal for rows shuffled, where an order is stated.
+  /// Readings in the order of measurement, the same for shuffled rows where an order is stated.
   std::vector<std::size_t> sequence;
   std::vector<double> order; ///< by reading: as stated, or its number
   std::vector<Covariate> covariates;
   std::vector<Grouping> labels; ///< each label with two values or more
-  std::vector<Grouping> redone; ///< what may scatter: at least five groups
-  Grouping blocks;              ///< no groups: none stated
-  std::vector<bool> final;      ///< by reading
-  std::vector<std::string> final_blocks;
+  std::vector<Grouping>
+      replicate_groups;       ///< `[trace] redone`: set-up steps that were repeated, each of which may scatter
+  Grouping blocks;            ///< no groups: none stated
+  std::vector<bool> held_out; ///< by reading
+  std::vector<std::string> holdout_blocks;
   std::vector<double> measured;        ///< [reading][indication], SI
-  std::vector<std::string> statements; ///< what these data cannot tell, by their design
+  std::vector<std::string> statements; ///< what the design of the data leaves undetermined
   std::vector<std::string> names;      ///< of the indications
 };
 

@@ -1,8 +1,9 @@
-/// Residuals far out are drawn in, so that an outlier does not decide.
+/// Winsorises residuals, so that an outlier does not decide.
 #include <algorithm>
 #include <cmath>
 
-#include "tracing/noise/design.h"
+#include "tracing/criteria.h"
+#include "tracing/noise/whitened.h"
 
 namespace gumshoe::tracing {
 namespace {
@@ -11,7 +12,7 @@ double robust_scale(std::vector<double>& sizes) {
   const auto at = [&](double share) {
     const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(sizes.size()));
     std::nth_element(sizes.begin(), sizes.begin() + rank, sizes.end());
-    return sizes[static_cast<std::size_t>(rank)];
+    return sizes[index(rank)];
   };
   const double half = at(0.5) / 0.6744897501960817, most = at(0.9) / 1.6448536269514722;
   // Half the residuals equal but for rounding, as readouts in steps may be: those that differ tell the scale.
@@ -27,17 +28,17 @@ Matrix Whitened::winsorised(const Matrix& residuals, Vector* scale, Matrix* weig
   const double lost = freedom / static_cast<double>(residuals.rows());
   if (scale) scale->resize(residuals.cols());
   if (weight) *weight = Matrix::Ones(residuals.rows(), residuals.cols());
-  std::vector<double> sizes(static_cast<std::size_t>(residuals.rows()));
-  const auto k = static_cast<Index>(design_.indications);
+  std::vector<double> sizes(index(residuals.rows()));
+  const auto k = index(design_.indications);
   for (Index j = 0; j < residuals.cols(); ++j) {
-    for (Index i = 0; i < residuals.rows(); ++i) sizes[static_cast<std::size_t>(i)] = std::fabs(left(i, j));
+    for (Index i = 0; i < residuals.rows(); ++i) sizes[index(i)] = std::fabs(left(i, j));
     const double s = robust_scale(sizes) / std::sqrt(lost);
     const double rms = std::sqrt(left.col(j).squaredNorm() / freedom);
     // Nearly all equal: no robust scale.
     const double used = s > 1e-9 * rms ? s : rms;
     if (scale) (*scale)[j] = used;
     for (Index i = 0; i < residuals.rows(); ++i) {
-      const double size = std::fabs(left(i, j)), bound = far_out * used;
+      const double size = std::fabs(left(i, j)), bound = criteria.winsor_limit * used;
       if (size <= bound) continue;
       white(i, j) -= left(i, j) * (1 - bound / size);
       if (weight) (*weight)(i, j) = bound / size;
@@ -46,7 +47,7 @@ Matrix Whitened::winsorised(const Matrix& residuals, Vector* scale, Matrix* weig
   // Back to the readings' own units.
   Matrix out = white;
   for (Index i = 0; i < out.rows(); i += k) {
-    const auto place = static_cast<std::size_t>(rows_[static_cast<std::size_t>(i)]) / design_.indications;
+    const auto place = index(rows_[index(i)]) / design_.indications;
     out.middleRows(i, k) = (design_.local[place].triangularView<Eigen::Lower>() * white.middleRows(i, k)).eval();
   }
   return out;

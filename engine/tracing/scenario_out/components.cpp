@@ -11,9 +11,9 @@ namespace {
 
 class Components {
 public:
-  Components(const Circumstances& c, const Search& s, Trace& out) : c_(c), fit_(s.found), out_(out) {}
+  Components(const TraceContext& c, const Search& s, Trace& out) : c_(c), fit_(s.found), out_(out) {}
 
-  /// Of an indication's noise. Readings of different noise share no draw: there it is drawn for each.
+  /// A component of an indication's noise. Readings of different noise share no draw: there it is drawn for each.
   void of_noise(std::size_t indication, double u, std::vector<std::string> per, std::string source) {
     const auto& card = c_.experiment.model().card->indications[indication];
     if (!(u > 0)) return;
@@ -26,10 +26,10 @@ public:
                               std::string(card.si_unit), u, std::move(per), std::move(source)});
   }
 
-  void scatter(const Step& step, const Finding& f) {
+  void scatter(const SearchFinding& found, const Finding& f) {
     const auto& d = fit_.design;
     std::string source = fmt::format("scatter by {}, p = {:.2g}", fmt::join(f.depends_on, " and "), f.p_value);
-    if (step.component < 0) {
+    if (found.component < 0) {
       // The noise is larger than declared: what is missing in its square.
       const double scale = fit_.noise * std::sqrt(fit_.variance);
       for (std::size_t i = 0; i < d.indications; ++i)
@@ -47,22 +47,22 @@ public:
       out_.additions.push_back({q.name, q.unit, q.si_unit, u / loading, f.depends_on, source});
       return;
     }
-    const bool one = fit_.structure.scatter == step.component && fit_.structure.indication >= 0;
-    const auto only = one ? static_cast<std::size_t>(fit_.structure.indication) : 0;
+    const bool one = fit_.covariance_model.scatter == found.component && fit_.covariance_model.indication >= 0;
+    const auto only = one ? index(fit_.covariance_model.indication) : 0;
     for (std::size_t i = 0; i < d.indications; ++i)
       if (!one || i == only) of_noise(i, u * d.reference[i] / d.reference[only], f.depends_on, source);
   }
 
-  void not_in_catalogue(const Step& step, const Finding& f, const std::vector<Vector>& left) {
+  void not_in_catalogue(const SearchFinding& found, const Finding& f, const std::vector<Vector>& left) {
     std::vector<std::string> per{"reading"};
     for (const Grouping& g : c_.observations.labels)
       if (f.depends_on == std::vector<std::string>{g.name}) per = {g.name};
     for (std::size_t i = 0; i < fit_.design.indications; ++i) {
       double square = 0, count = 0;
       for (const Index row : c_.fitter.rows()) {
-        if (static_cast<std::size_t>(row) % fit_.design.indications != i) continue;
+        if (index(row) % fit_.design.indications != i) continue;
         double sum = 0;
-        for (const std::size_t t : step.terms) sum += left[t][row];
+        for (const std::size_t t : found.terms) sum += left[t][row];
         square += sum * sum;
         ++count;
       }
@@ -83,18 +83,19 @@ private:
     return std::sqrt(derivative.squaredNorm() / static_cast<double>(derivative.rows()));
   }
 
-  const Circumstances& c_;
+  const TraceContext& c_;
   const JointFit& fit_;
   Trace& out_;
 };
 
 } // namespace
 
-void add_components(const Circumstances& c, const Search& s, const std::vector<Vector>& left, Trace& out) {
+void add_components(const TraceContext& c, const Search& s, const std::vector<Vector>& left, Trace& out) {
   Components components(c, s, out);
-  for (std::size_t i = 0; i < s.steps.size() && i < out.findings.size(); ++i) {
-    if (s.steps[i].kind == Kind::scatter) components.scatter(s.steps[i], out.findings[i]);
-    if (s.steps[i].kind == Kind::not_in_catalogue) components.not_in_catalogue(s.steps[i], out.findings[i], left);
+  for (std::size_t i = 0; i < s.findings.size() && i < out.findings.size(); ++i) {
+    const Finding& f = out.findings[i];
+    if (f.kind == Kind::scatter) components.scatter(s.findings[i], f);
+    if (f.kind == Kind::not_in_catalogue) components.not_in_catalogue(s.findings[i], f, left);
   }
 }
 

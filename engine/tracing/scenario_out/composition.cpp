@@ -1,6 +1,6 @@
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
+#include <numeric>
 #include <set>
 
 #include <Eigen/QR>
@@ -33,7 +33,7 @@ std::string number(double si, double u, const std::string& unit, const std::stri
 
 class Composer {
 public:
-  Composer(const Circumstances& c, const Search& s, Trace& out) : c_(c), s_(s), out_(out), fit_(s.found) {}
+  Composer(const TraceContext& c, const Search& s, Trace& out) : c_(c), s_(s), out_(out), fit_(s.found) {}
 
   void compose() {
     c_.fitter.settle(fit_);
@@ -46,27 +46,26 @@ public:
   }
 
 private:
-  /// What is not in the catalogue is not corrected: as far as free unknowns can follow it they do.
+  /// What is not in the catalogue is not corrected for; free unknowns take as much of it as they can follow.
   void absorb_shapes() {
-    const auto n = fit_.design.fixed.rows(), p = static_cast<Index>(c_.fitter.unknowns().size());
+    const auto n = fit_.design.fixed.rows(), p = index(c_.fitter.unknowns().size());
     absorbed_ = Vector::Zero(p);
-    std::vector<Index> all(static_cast<std::size_t>(n));
-    for (Index i = 0; i < n; ++i) all[static_cast<std::size_t>(i)] = i;
+    std::vector<Index> all(index(n));
+    std::iota(all.begin(), all.end(), 0);
     Design own = fit_.design;
     own.fixed = Matrix(fit_.design.fixed.leftCols(p));
     const auto use = independent(own, all);
     Vector scale(n);
-    for (Index i = 0; i < n; ++i) scale[i] = 1 / own.reference[static_cast<std::size_t>(i) % own.indications];
+    for (Index i = 0; i < n; ++i) scale[i] = 1 / own.reference[index(i) % own.indications];
     const Matrix free = own.fixed(Eigen::all, use);
-    const Whitened plain(own, all, use, Structure{});
     for (const Term& t : fit_.terms) {
       left_.emplace_back(Vector::Zero(n));
-      if (!t.alternative.amplitudes[0].scenario_name.empty()) continue;
-      left_.back() = t.alternative.columns * t.size;
+      if (!t.candidate.amplitudes[0].scenario_name.empty()) continue;
+      left_.back() = t.candidate.columns * t.size;
       if (use.empty()) continue;
       const Vector x = (scale.asDiagonal() * free).colPivHouseholderQr().solve(scale.asDiagonal() * left_.back());
       left_.back() -= free * x;
-      for (std::size_t i = 0; i < use.size(); ++i) absorbed_[use[i]] += x[static_cast<Index>(i)];
+      for (std::size_t i = 0; i < use.size(); ++i) absorbed_[use[i]] += x[index(i)];
     }
   }
 
@@ -74,13 +73,8 @@ private:
     const auto& q = out_.extended.quantities[quantity];
     Labels labels = q.entries[entry].labels;
     std::sort(labels.begin(), labels.end()); // as draws are named
-    calibration::Unknown u;
-    u.name = q.name + (labels.empty() ? "" : "[" + quantities::text_of(labels) + "]");
-    u.quantity = quantity;
-    u.entry = entry;
-    u.unit = q.unit;
-    u.si_unit = q.si_unit;
-    return u;
+    const std::string name = q.name + (labels.empty() ? "" : "[" + quantities::text_of(labels) + "]");
+    return {.name = name, .quantity = quantity, .entry = entry, .unit = q.unit, .si_unit = q.si_unit};
   }
 
   /// At the first reading for which an entry holds.
@@ -90,41 +84,40 @@ private:
     return 0;
   }
 
-  /// The data's own constants.
+  /// Free unknowns, the offsets of blocks among them.
   void constants() {
     for (std::size_t u = 0; u < c_.fitter.unknowns().size(); ++u) {
       const FreeUnknown& free = c_.fitter.unknowns()[u];
-      const auto column = static_cast<Index>(u);
+      const auto column = index(u);
       if (!std::isfinite(fit_.covariance(column, column))) continue;
       const auto& entry = out_.extended.quantities[free.quantity].entries[free.entry];
       lines_.push_back({unknown(free.quantity, free.entry),
                         value_at(free.quantity, entry.labels) + absorbed_[column],
                         column,
-                        {true, entry.labels, "fitted to these readings beside what was found"}});
+                        {true, entry.labels, "fitted to these readings together with what was found"}});
     }
   }
 
   const Finding* finding_of(std::size_t term) const {
-    for (std::size_t i = 0; i < s_.steps.size() && i < out_.findings.size(); ++i)
-      if (std::find(s_.steps[i].terms.begin(), s_.steps[i].terms.end(), term) != s_.steps[i].terms.end())
-        return &out_.findings[i];
+    for (std::size_t i = 0; i < s_.findings.size() && i < out_.findings.size(); ++i)
+      if (std::ranges::find(s_.findings[i].terms, term) != s_.findings[i].terms.end()) return &out_.findings[i];
     return nullptr;
   }
 
   /// False if it is a description only.
   bool term(std::size_t t) {
     const Term& one = fit_.terms[t];
-    if (one.alternative.amplitudes[0].scenario_name.empty()) return false;
+    if (one.candidate.amplitudes[0].scenario_name.empty()) return false;
     const Finding* f = finding_of(t);
-    for (const auto& [shape, value] : one.alternative.held)
-      lines_.push_back({unknown(shape, 0), value, -1, {false, {}, "held: of the values tried the best"}});
-    for (std::size_t j = 0; j < one.alternative.amplitudes.size(); ++j) {
-      const Amplitude& a = one.alternative.amplitudes[j];
-      const Index column = first_column(fit_, t) + static_cast<Index>(j);
+    for (const auto& [shape, value] : one.candidate.held)
+      lines_.push_back({unknown(shape, 0), value, -1, {false, {}, "held at the best of the values tried"}});
+    for (std::size_t j = 0; j < one.candidate.amplitudes.size(); ++j) {
+      const Amplitude& a = one.candidate.amplitudes[j];
+      const Index column = first_column(fit_, t) + index(j);
       const std::string source = f ? source_of(*f, a) : "";
-      if (f && f->spread > 0) widen(*f, t, static_cast<Index>(j), column);
+      if (f && f->spread > 0) widen(*f, t, index(j), column);
       if (a.quantity == Amplitude::npos)
-        lines_.push_back({unknown(stated(a), 0), one.size[static_cast<Index>(j)], column, {false, {}, source}});
+        lines_.push_back({unknown(stated(a), 0), one.size[index(j)], column, {false, {}, source}});
       else
         shifted(a, column, source);
     }
@@ -135,7 +128,7 @@ private:
   void widen(const Finding& f, std::size_t t, Index j, Index column) {
     double square = 0;
     for (const Index row : c_.fitter.rows())
-      square += fit_.terms[t].alternative.columns(row, j) * fit_.terms[t].alternative.columns(row, j);
+      square += fit_.terms[t].candidate.columns(row, j) * fit_.terms[t].candidate.columns(row, j);
     if (!(square > 0)) return;
     fit_.covariance(column, column) += f.spread * f.spread * static_cast<double>(c_.fitter.rows().size()) / square;
   }
@@ -143,9 +136,10 @@ private:
   std::string source_of(const Finding& f, const Amplitude& a) const {
     std::string out = fmt::format("{}, p = {:.2g}", name(f.kind), f.p_value);
     if (f.kind == Kind::equivalence_class)
-      out += fmt::format(" of {}, which these data cannot tell apart: the first is written, u widened by how much they "
-                         "differ",
-                         fmt::join(f.members, ", "));
+      out +=
+          fmt::format(" of {}, which these data cannot distinguish: the first is written, with u widened by how much "
+                      "they differ",
+                      fmt::join(f.members, ", "));
     for (const SizedQuantity& q : f.quantities) {
       if (q.scenario_name != a.scenario_name) continue;
       const bool shift = q.name.starts_with("shift of ");
@@ -209,12 +203,10 @@ private:
       // Found off twice, for all and for some: the later shift comes on top, and the value holds both.
       const auto known =
           std::ranges::find_if(lines_, [&](const Line& l) { return l.unknown.name == line.unknown.name; });
-      if (known != lines_.end()) {
-        known->column = column;
-        known->taken = line.taken;
-      } else {
+      if (known == lines_.end())
         lines_.push_back(line);
-      }
+      else
+        known->column = column, known->taken = line.taken;
     }
   }
 
@@ -240,10 +232,10 @@ private:
       }
     }
     for (const Row& row : out_.rows)
-      if (!row.final) e.rows.push_back({row.reading, row.indication});
+      if (!row.held_out) e.rows.push_back({row.reading, row.indication});
   }
 
-  const Circumstances& c_;
+  const TraceContext& c_;
   const Search& s_;
   Trace& out_;
   JointFit fit_;
@@ -254,6 +246,6 @@ private:
 
 } // namespace
 
-void compose(const Circumstances& c, const Search& s, Trace& out) { Composer(c, s, out).compose(); }
+void compose(const TraceContext& c, const Search& s, Trace& out) { Composer(c, s, out).compose(); }
 
 } // namespace gumshoe::tracing

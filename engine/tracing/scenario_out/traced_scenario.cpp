@@ -84,7 +84,7 @@ private:
   std::size_t training() const {
     std::set<std::size_t> readings;
     for (const Row& row : t_.rows)
-      if (!row.final) readings.insert(row.reading);
+      if (!row.held_out) readings.insert(row.reading);
     return readings.size();
   }
 
@@ -97,7 +97,7 @@ private:
     const auto& labels = quantity.entries[p.unknown.entry].labels;
     Node& place = text_.entry(quantity.name, labels);
     auto components = kept(place, labels, taken.labels);
-    if (taken.own) constants_.insert(quantity.name);
+    if (taken.block_offset) constants_.insert(quantity.name);
     Node own;
     const Node u = measure_node(p.standard_uncertainty, p.unknown.unit, p.unknown.si_unit, true);
     own.members = {

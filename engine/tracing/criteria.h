@@ -1,0 +1,122 @@
+#pragma once
+/// Every threshold, cap and number of draws that a trace decides by, with its meaning, unit and reason.
+///
+/// "2 ln L" means twice the natural logarithm of a likelihood ratio, without unit. Values marked "tuned" were chosen on
+/// the synthetic data of tests/recovery; the others follow from the source or the argument given. Guards against
+/// rounding (1e-12 of a sum of squares, and the like) stand where they are used.
+#include <array>
+#include <cstddef>
+
+namespace gumshoe::tracing {
+
+struct Criteria {
+  // ---- Noise ----
+  /// Residuals beyond this many robust standard deviations are winsorised. Normal noise exceeds it once in 2,150.
+  double winsor_limit = 3.5;
+  /// Serial correlations tried, from one reading to the next in the order of measurement. Tuned.
+  std::array<double, 5> correlations{0.0, 0.2, 0.4, 0.6, 0.8};
+  /// Fewer readings than this do not distinguish serial correlation from a trend: only zero is tried. Tuned.
+  std::size_t readings_for_correlation = 12;
+  /// Standard deviations of a variance component tried, in units of the typical noise: steps of about a factor two,
+  /// because the likelihood is flat in the logarithm.
+  std::array<double, 7> scatter_ratios{0.35, 0.7, 1.4, 2.8, 6.0, 15.0, 50.0};
+  /// Ratios at which the component of one indication alone is tried, too: (low, high), the middle of the grid.
+  double single_scatter_low = 0.5, single_scatter_high = 10;
+  /// Readings that bend about a straight line by less than this share of their movement are taken as straight. Tuned.
+  double straight = 0.02;
+  /// Equally likely values of a scattering quantity at which the model is evaluated.
+  int response_nodes = 16;
+  /// Groups that a stated and an unstated replicate label need: fewer do not show a variance.
+  std::size_t stated_replicates = 5, found_replicates = 6;
+  std::size_t most_replicate_groups = 3; ///< labels or pairs tried as variance components, by cost
+  /// A label with more groups than so many per five readings cannot be distinguished from the noise of a reading.
+  std::size_t most_groups_of_five = 4;
+  std::size_t blocks_for_holdout = 4;    ///< at least: one is held out, three remain to train on
+  std::size_t holdout_part = 4;          ///< one block in so many is held out, the last in the order of measurement
+  std::size_t least_training_blocks = 2; ///< blocks that must remain to train on
+
+  // ---- Candidates ----
+  /// Finite steps of an effect's size move the indications by this many standard deviations of the noise, and are no
+  /// longer than this many typical sizes. Tuned.
+  double secant_step = 3;
+  /// Two signatures of one candidate whose cosine is above this are the same; a secant must differ more. Tuned.
+  double same_signature = 0.9995;
+  /// A signature that moves the readings by less than this share of `secant_step` per SI unit is rounding.
+  double least_signature = 1e-7;
+  std::size_t most_cells = 60;          ///< groups of readings for which a declared quantity is tried apart, by cost
+  double dependence_share = 0.1;        ///< share of a signature's variance that a condition must explain to be named
+  std::size_t dependence_bins = 8;      ///< groups of neighbouring values of a condition there
+  std::size_t most_label_groups = 30;   ///< groups of a label for which steps and dependence are tried
+  std::size_t most_omnibus_groups = 12; ///< groups of a label for which "any value per group" is tried
+  std::size_t most_harmonics = 6;
+  int omnibus_columns = 5, fine_omnibus_columns = 12; ///< columns of a smooth dependence, and of a finer one
+  std::size_t levels_for_fine_omnibus = 30;           ///< more levels than this for the finer one
+  double confounded = 0.98; ///< covariates correlated more than this have no product of their own
+
+  // ---- Fit ----
+  /// A signature of which the declared model leaves a smaller share is not tested: what is left is of the size of what
+  /// a linearised model neglects.
+  double absorbed_share = 1e-5;
+  /// 2 ln L by which no signature's gain on pure noise differs between two covariance models.
+  double beyond_chance = 20;
+  /// 2 ln L that decides between two explanations: the 95 % quantile of chi-squared with one degree of freedom.
+  double decisive = 3.84;
+  double as_good = 1e-6;           ///< 2 ln L within which covariance models are equal: far above rounding
+  int most_iterations = 14;        ///< of Gauss-Newton: smooth models take four, models that jump gain nothing by more
+  int most_offset_iterations = 20; ///< the same for offsets of blocks outside the fit
+  int most_optima = 4;             ///< optima left for a better one where readings jump
+  double converged = 1e-3;         ///< largest step of an unknown, in its standard uncertainty
+  double stalled = 0.1;            ///< the same where no shorter step reduces the residuals: still a fit
+  double noise_settled = 0.02;     ///< change of ln variance below which the scale of the noise is kept
+  double noise_prior = 4;          ///< readings that the declared size of the noise is worth beside the residuals
+  /// Sizes tried where readings jump: up to so many standard uncertainties either side, in these two spacings.
+  double profile_reach = 6, profile_spacing = 0.25, profile_coarse = 1.5;
+  /// Readings jump if they bend by more than this many standard deviations of the noise, and by less than this share of
+  /// their movement; beyond it some size would fit anything. Tuned.
+  double least_jump = 0.1, most_jump = 0.25;
+  double tangent_serves = 0.1; ///< largest difference of the tangent from the line through the steps, as its share
+
+  // ---- Judgement ----
+  std::size_t most_findings = 5;  ///< terms or scatter found in one trace
+  double beyond_doubt = 25;       ///< 2 ln L beyond which no simulation is needed: five standard deviations
+  double alike = 0.995;           ///< cosine of projected signatures that no data of this design distinguish. Tuned.
+  std::size_t rival_draws = 199;  ///< simulated data sets that judge a lead
+  double shape_lead_p = 0.01;     ///< p-value below which a shape's lead over an effect excludes the effect
+  double rival_lead_p = 0.05;     ///< p-value below which a lead excludes a rival from the class
+  std::size_t most_refitted = 12; ///< candidates refitted with the whole model, by cost
+  std::size_t rival_shapes = 3;   ///< plain shapes compared with the best effect
+  std::size_t most_shapes = 6;    ///< shapes tried where no effect passes
+  std::size_t most_paired = 60;   ///< candidates whose pairs with all others are tried, by cost
+  /// A candidate could still win if its score is at least this share of the best one's, less a constant (2 ln L).
+  /// Tuned.
+  double contender_share = 0.6, contender_margin = 5;
+  double noise_small_p = 1e-3;             ///< the noise is called smaller than declared below this
+  std::size_t robust_freedom = 30;         ///< degrees of freedom from which the robust scale measures the noise's size
+  std::size_t blocks_for_folds = 3;        ///< blocks from which cross-validation leaves out blocks
+  std::size_t stretches = 5;               ///< else stretches of the sequence
+  std::size_t readings_above_unknowns = 4; ///< readings needed beyond the number of unknowns
+  double exact = 1e-12;                    ///< residuals below this share of the largest reading are rounding
+  double detected = 1.2816;                ///< normal quantile of nine cases in ten, for detection limits
+  std::size_t compared = 40;               ///< ranked candidates whose correlation with the best is computed, by cost
+  double mostly_absorbed = 0.1; ///< identifiable share below which the ranking names what absorbs the signature
+
+  // ---- Findings ----
+  double veto_growth = 1.05;         ///< growth of the hold-out's root mean square that vetoes a finding
+  double insensitive = 1e-9;         ///< share of a signature in the hold-out blocks below which they cannot judge it
+  std::size_t noise_draws = 199;     ///< data sets of pure noise that "noise alone" is computed from
+  double implausible_size = 5;       ///< times the typical size of an effect that cause a remark
+  double implausible_shift = 10;     ///< times the declared standard uncertainty of a quantity that cause a remark
+  double reported_correlation = 0.2; ///< serial correlation from which the trace mentions it
+  /// A split must separate the members by this much (2 ln L: three standard deviations), and by this factor more than
+  /// the present data do.
+  double split = 9, split_gain = 1.5;
+  std::size_t split_readings = 24; ///< readings of the proposed measurement
+  std::size_t most_curve_points = 24;
+  /// Ratios of scatter to noise in the profile likelihood: from the lowest, over this factor, in equal steps of ln.
+  double scatter_low = 0.05, scatter_span = 4000;
+  int scatter_steps = 60;
+};
+
+inline constexpr Criteria criteria;
+
+} // namespace gumshoe::tracing

@@ -1,0 +1,241 @@
+#include "tracing/findings/comparison.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "propagation/experiment.h"
+#include "tracing/criteria.h"
+#include "tracing/judgement/decisions.h"
+#include "tracing/judgement/holdout.h"
+
+namespace gumshoe::tracing {
+namespace {
+
+struct Blocks {
+  std::vector<std::vector<Index>> rows; ///< held out in turn
+  std::vector<std::string> names;
+};
+
+/// The hold-out blocks; where there are too few to hold some out, every block in turn.
+Blocks blocks_of(const Observations& o) {
+  const bool any = std::find(o.held_out.begin(), o.held_out.end(), true) != o.held_out.end();
+  Blocks out;
+  for (std::size_t g = 0; g < o.blocks.groups.size() && (any || o.blocks.groups.size() > 1); ++g) {
+    std::vector<bool> chosen;
+    for (std::size_t r = 0; r < o.readings; ++r) chosen.push_back(o.blocks.group[r] == g && (!any || o.held_out[r]));
+    if (std::find(chosen.begin(), chosen.end(), true) == chosen.end()) continue;
+    out.rows.push_back(rows_where(o, chosen));
+    out.names.push_back(o.blocks.groups[g]);
+  }
+  return out;
+}
+
+/// Errors of blocks predicted from the others.
+struct Scores {
+  std::vector<double> rms; ///< by set of residuals, SI
+  double whitened = 0;     ///< sum of squares of the first set in units of all that is declared
+  double worst_block = Rms::none;
+  std::string worst_name;
+  Vector residual; ///< of the first set, all rows; NaN where not scored
+
+  bool scored() const { return !rms.empty() && std::isfinite(rms[0]); }
+  /// Row of the largest residual; -1: none was scored.
+  Index worst_row() const {
+    Index worst = -1;
+    for (Index i = 0; i < residual.size(); ++i)
+      if (std::isfinite(residual[i]) && (worst < 0 || std::fabs(residual[i]) > std::fabs(residual[worst]))) worst = i;
+    return worst;
+  }
+  double worst_point() const { return worst_row() < 0 ? Rms::none : std::fabs(residual[worst_row()]); }
+};
+
+Scores score(const JointFit& fit, const Matrix& residual, const std::vector<Index>& training, const Blocks& blocks) {
+  const double reference = fit.design.reference[0];
+  Scores out;
+  Vector squares = Vector::Zero(residual.cols());
+  double count = 0;
+  out.residual = Vector::Constant(residual.rows(), Rms::none);
+  for (std::size_t b = 0; b < blocks.rows.size(); ++b) {
+    std::vector<Index> train;
+    std::set_difference(training.begin(), training.end(), blocks.rows[b].begin(), blocks.rows[b].end(),
+                        std::back_inserter(train));
+    const HeldOut held = hold_out(fit.design, residual, train, blocks.rows[b], fit.covariance_model);
+    if (held.count <= 0) continue;
+    squares += held.squares;
+    out.whitened += held.whitened[0];
+    count += held.count;
+    const double rms = reference * std::sqrt(held.squares[0] / held.count);
+    if (!(rms <= out.worst_block)) out.worst_block = rms, out.worst_name = blocks.names[b];
+    out.residual(held.rows) = held.residual.col(0);
+  }
+  for (Index j = 0; j < residual.cols(); ++j)
+    out.rms.push_back(count > 0 ? reference * std::sqrt(squares[j] / count) : Rms::none);
+  return out;
+}
+
+/// The fit's own readings about the fitted unknowns, declared quantities as declared.
+struct InSample {
+  Matrix left; ///< residuals, training rows x sets, SI
+  Vector rms;  ///< by set, SI
+};
+
+InSample in_sample(const JointFit& fit, const std::vector<Index>& rows, const Matrix& residual) {
+  const auto use = independent(fit.design, rows);
+  const Whitened w(fit.design, rows, use, fit.covariance_model);
+  const Matrix x = w.solve(w.whiten_rows(residual));
+  InSample out{w.take(residual), {}};
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t j = 0; j < use.size(); ++j)
+      out.left.row(index(i)) -= fit.design.fixed(rows[i], use[j]) * x.row(index(j));
+  Design plain = fit.design;
+  plain.random.resize(plain.random.rows(), 0);
+  const Matrix white = Whitened(plain, rows, {}, {}).whiten(out.left);
+  out.rms = fit.design.reference[0] *
+            (white.colwise().squaredNorm() / static_cast<double>(rows.size() - use.size())).cwiseSqrt().transpose();
+  return out;
+}
+
+double root_mean_square(const std::vector<double>& x) {
+  double sum = 0;
+  for (const double v : x) sum += v * v;
+  return std::sqrt(sum / static_cast<double>(x.size()));
+}
+
+/// Root mean square and 95 % of what noise alone gives.
+void noise_alone(std::vector<double> sizes, double& middle, double& low, double& high) {
+  middle = root_mean_square(sizes);
+  std::sort(sizes.begin(), sizes.end());
+  const auto quantile = [&](double p) {
+    return sizes[std::min(sizes.size() - 1, static_cast<std::size_t>(p * static_cast<double>(sizes.size())))];
+  };
+  low = quantile(0.025);
+  high = quantile(0.975);
+}
+
+class Comparison {
+public:
+  Comparison(const TraceContext& c, const Search& s, Trace& out)
+      : c_(c), rows_(c.fitter.rows()), before_(s.base), after_(s.found), out_(out) {
+    // Both in the units of one noise: the fit without the effect takes it for noise.
+    before_.design.local = after_.design.local;
+    before_.design.reference = after_.design.reference;
+    before_.covariance_model = after_.covariance_model;
+    std::vector<Index> every(index(after_.residual.size()));
+    std::iota(every.begin(), every.end(), 0);
+    const Whitened w(after_.design, every, {}, after_.covariance_model);
+    noise_ = std::sqrt(after_.variance) * w.draw(criteria.noise_draws, c.seed ^ 0xf100full);
+  }
+
+  bool compare() {
+    const InSample before = in_sample(before_, rows_, before_.residual),
+                   after = in_sample(after_, rows_, after_.residual);
+    out_.rms.before = before.rms[0];
+    out_.rms.after = after.rms[0];
+    const Vector noise = in_sample(after_, rows_, noise_).rms;
+    noise_alone({noise.data(), noise.data() + noise.size()}, out_.rms.noise, out_.rms.noise_low, out_.rms.noise_high);
+    const Blocks blocks = blocks_of(c_.observations);
+    const bool held_out = !c_.observations.holdout_blocks.empty();
+    out_.rms.holdout = blocks.rows.empty() ? "none"
+                       : held_out          ? fmt::format("{}", fmt::join(blocks.names, ", "))
+                                           : "each block left out in turn, of data that the search has seen";
+    const bool refused = !blocks.rows.empty() && hold_out_blocks(blocks);
+    fill_rows(before.left, refused ? before.left : after.left, refused ? before_ : after_);
+    return refused;
+  }
+
+private:
+  /// True if they veto.
+  bool hold_out_blocks(const Blocks& blocks) {
+    Rms& rms = out_.rms;
+    scored_before_ = score(before_, before_.residual, rows_, blocks);
+    scored_after_ = score(after_, after_.residual, rows_, blocks);
+    if (scored_before_.scored())
+      noise_alone(score(after_, noise_, rows_, blocks).rms, rms.holdout_noise, rms.holdout_noise_low,
+                  rms.holdout_noise_high);
+    else
+      rms.holdout += ": no more readings than offsets of their own, not scored";
+    const bool refused = judge(blocks);
+    if (refused) {
+      scored_after_ = scored_before_;
+      rms.after = rms.before;
+    }
+    rms.holdout_before = scored_before_.rms[0];
+    rms.holdout_after = scored_after_.rms[0];
+    rms.worst_block_before = scored_before_.worst_block;
+    rms.worst_block_after = scored_after_.worst_block;
+    rms.worst_block = scored_after_.worst_name;
+    const auto square = [](double x) { return x * x; };
+    const double removable = square(rms.holdout_before) - square(rms.holdout_noise);
+    if (removable > 0) rms.share_removed = (square(rms.holdout_before) - square(rms.holdout_after)) / removable;
+    rms.worst_point_before = scored_before_.worst_point();
+    rms.worst_point_after = scored_after_.worst_point();
+    if (const Index row = scored_after_.worst_row(); row >= 0) {
+      const std::size_t r = after_.design.reading[index(row)];
+      const std::string name = propagation::reading_name(c_.experiment.scenario().readings[r]);
+      rms.worst_point = fmt::format("reading {}{}", r + 1, name.empty() ? "" : " (" + name + ")");
+    }
+    return refused;
+  }
+
+  /// Blocks that are insensitive to what was found can neither confirm nor reject it.
+  bool judge(const Blocks& blocks) {
+    if (c_.observations.holdout_blocks.empty() || !scored_before_.scored() || after_.terms.empty()) return false;
+    const bool sensitive = std::any_of(after_.terms.begin(), after_.terms.end(), [&](const Term& t) {
+      return std::any_of(blocks.rows.begin(), blocks.rows.end(), [&](const std::vector<Index>& rows) {
+        const Matrix& columns = t.candidate.columns;
+        return columns(rows, Eigen::all).norm() > criteria.insensitive * columns.norm();
+      });
+    });
+    if (!sensitive)
+      out_.statements.push_back(
+          "the hold-out blocks are insensitive to the finding and can neither confirm nor reject it");
+    return sensitive &&
+           vetoed({scored_before_.whitened, scored_before_.rms[0]}, {scored_after_.whitened, scored_after_.rms[0]});
+  }
+
+  /// Training residuals in sample, held-out ones as predicted.
+  void fill_rows(const Matrix& left_before, const Matrix& left_after, const JointFit& winsorised) {
+    const Observations& o = c_.observations;
+    out_.rows.resize(index(after_.residual.size()));
+    for (std::size_t i = 0; i < out_.rows.size(); ++i) {
+      Row& row = out_.rows[i];
+      row.reading = after_.design.reading[i];
+      row.indication = i % o.indications;
+      row.order = o.order[row.reading];
+      if (!o.blocks.groups.empty()) row.block = o.blocks.groups[o.blocks.group[row.reading]];
+      row.held_out = o.held_out[row.reading];
+      row.measured = o.measured[row.reading * o.indications + row.indication];
+      row.before = row.held_out ? scored_before_.residual[index(i)] : Rms::none;
+      row.after = row.held_out ? scored_after_.residual[index(i)] : Rms::none;
+      row.noise_u = after_.design.local[i / o.indications].row(index(row.indication)).norm();
+    }
+    Matrix weight;
+    const Whitened plain(after_.design, rows_, independent(after_.design, rows_), {});
+    plain.winsorised(plain.take(winsorised.residual), nullptr, &weight);
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      Row& row = out_.rows[index(rows_[i])];
+      row.before = left_before(index(i), 0);
+      row.after = left_after(index(i), 0);
+      row.weight = weight(index(i), 0);
+      if (row.weight < 1) ++out_.noise.outliers;
+    }
+  }
+
+  const TraceContext& c_;
+  const std::vector<Index>& rows_;
+  JointFit before_;
+  const JointFit& after_;
+  Trace& out_;
+  Matrix noise_; ///< draws of the fitted noise, all rows x sets
+  Scores scored_before_, scored_after_;
+};
+
+} // namespace
+
+bool compare(const TraceContext& c, const Search& s, Trace& out) { return Comparison(c, s, out).compare(); }
+
+} // namespace gumshoe::tracing

@@ -1,0 +1,73 @@
+#include "tracing/findings/sizes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/units.h"
+#include "quantities/cells.h"
+#include "tracing/criteria.h"
+#include "tracing/findings/interval.h"
+
+namespace gumshoe::tracing {
+
+std::string shown_size(double si, const std::string& unit, const std::string& si_unit) {
+  return fmt::format("{:.3g}{}", units::from_si(si, unit, si_unit, units::Kind::difference),
+                     unit == "1" ? "" : " " + unit);
+}
+
+std::string shown_rms(double si, const Rms& rms) {
+  return rms.si_unit == "m" ? fmt::format("{:.2g} um", si * 1e6) : shown_size(si, rms.unit, rms.si_unit);
+}
+
+std::vector<SizedQuantity> sizes(const TraceContext& c, const JointFit& fit, std::size_t term, double limit) {
+  const Term& t = fit.terms[term];
+  const Vector u = uncertainties(fit, term);
+  std::vector<SizedQuantity> out;
+  for (Index j = 0; j < t.size.size(); ++j) {
+    const Amplitude& a = t.candidate.amplitudes[index(j)];
+    if (a.scenario_name.empty()) continue;
+    SizedQuantity q{a.name, a.unit, a.si_unit, t.size[j], u[j], 0, 0, a.scenario_name, a.labels};
+    // A size alone was reported because it passed the limit; of a pair neither was.
+    const double least = t.size.size() == 1 ? std::sqrt(limit) * u[j] : 0;
+    std::tie(q.low95, q.high95) = interval_after_selection(q.value, q.u, least);
+    // A declared quantity is reported as it stands; by its shift where it differs from reading to reading.
+    if (t.candidate.family == Family::declared) {
+      double low = 1e300, high = -1e300;
+      for (std::size_t r = 0; r < fit.at.size(); ++r) {
+        if (!quantities::holds_for(a.labels, c.experiment.scenario().readings[r].labels)) continue;
+        low = std::min(low, fit.at[r][a.quantity]);
+        high = std::max(high, fit.at[r][a.quantity]);
+      }
+      if (low != high) {
+        q.name = "shift of " + q.name;
+      } else {
+        const double declared = low - q.value;
+        for (double* x : {&q.value, &q.low95, &q.high95}) *x += declared;
+      }
+    }
+    out.push_back(std::move(q));
+  }
+  return out;
+}
+
+void remark_on_size(const Term& term, Finding& finding) {
+  constexpr const char* suspicion = "something else may stand behind it";
+  for (Index j = 0; j < term.size.size(); ++j) {
+    const Amplitude& a = term.candidate.amplitudes[index(j)];
+    if (a.typical > 0 && std::fabs(term.size[j]) > criteria.implausible_size * a.typical)
+      finding.remarks.push_back(fmt::format("{} is far beyond what is usual (up to {}): {}",
+                                            shown_size(term.size[j], a.unit, a.si_unit),
+                                            shown_size(a.typical, a.unit, a.si_unit), suspicion));
+    if (const double times = std::fabs(term.size[j]) / a.declared; a.declared > 0 && times > criteria.implausible_shift)
+      finding.remarks.push_back(
+          fmt::format("{:.0f} times its declared standard uncertainty off: {}", times, suspicion));
+    if (term.size[j] == a.low || term.size[j] == a.high)
+      finding.remarks.push_back(fmt::format("{} is held by a limit of its card: {}", a.name, suspicion));
+  }
+  if (!term.candidate.held.empty() && !term.candidate.shape.empty())
+    finding.remarks.push_back("with " + term.candidate.shape + ", the best of the shapes tried");
+}
+
+} // namespace gumshoe::tracing

@@ -1,0 +1,19 @@
+#pragma once
+/// Sizes of a finding as they are reported.
+#include "tracing/fit/trace_context.h"
+
+namespace gumshoe::tracing {
+
+/// A length change in its own unit, "12.3 um"; two digits of a root mean square, lengths in um.
+std::string shown_size(double si, const std::string& unit, const std::string& si_unit);
+std::string shown_rms(double si, const Rms& rms);
+
+/// Sizes of a term with u and the interval after selection. A shape has none.
+/// @param limit  likelihood ratio (2 ln) that the term had to pass
+std::vector<SizedQuantity> sizes(const TraceContext& context, const JointFit& fit, std::size_t term, double limit);
+/// The size of what is not in the catalogue against each condition on which it depends, at the levels measured.
+void add_curves(const TraceContext& context, const JointFit& fit, std::size_t term, Finding& finding);
+/// Remarks on sizes that are implausible or at a limit.
+void remark_on_size(const Term& term, Finding& finding);
+
+} // namespace gumshoe::tracing

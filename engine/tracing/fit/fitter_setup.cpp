@@ -1,0 +1,87 @@
+/// What a fit needs to know of the scenario: its free unknowns, its declared draws, and how readings respond to those.
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "quantities/cells.h"
+#include "tracing/fit/joint_fit.h"
+
+namespace gumshoe::tracing {
+
+Fitter::Fitter(const propagation::Experiment& experiment, const Simulator& simulator, const Observations& observations,
+               std::vector<Index> rows, int threads)
+    : experiment_(experiment), simulator_(simulator), observations_(observations), rows_(std::move(rows)),
+      threads_(threads) {
+  find_unknowns();
+  find_draws();
+  std::set<std::size_t> needed;
+  for (const FreeUnknown& u : unknowns_) needed.insert(u.quantity);
+  for (const Draw& d : draws_)
+    for (const auto& [r, q] : d.moves)
+      if (experiment.layout().indications.contains(q))
+        noise_declared_ = true;
+      else
+        needed.insert(q);
+  needed_.assign(needed.begin(), needed.end());
+  find_responses();
+}
+
+Index Fitter::needed(std::size_t quantity) const {
+  return std::lower_bound(needed_.begin(), needed_.end(), quantity) - needed_.begin();
+}
+
+void Fitter::find_unknowns() {
+  const auto& s = experiment_.scenario();
+  for (std::size_t q = 0; q < s.quantities.size(); ++q) {
+    if (!s.quantities[q].estimated) continue;
+    for (std::size_t i = 0; i < s.quantities[q].entries.size(); ++i) {
+      const auto& entry = s.quantities[q].entries[i];
+      if (!entry.components.empty()) continue; // has a prior: a declared draw
+      FreeUnknown u{
+          s.quantities[q].name + (entry.labels.empty() ? "" : "[" + quantities::text_of(entry.labels) + "]"), q, i, {}};
+      for (const auto& reading : s.readings) u.holds.push_back(quantities::holds_for(entry.labels, reading.labels));
+      if (std::find(u.holds.begin(), u.holds.end(), true) != u.holds.end()) unknowns_.push_back(std::move(u));
+    }
+  }
+}
+
+void Fitter::find_draws() {
+  const auto& plan = experiment_.plan();
+  for (const auto& v : plan.variates) {
+    const double variance = v.distribution.variance();
+    draws_.push_back(
+        {v.name, std::isfinite(variance) ? std::sqrt(variance) : std::fabs(v.distribution.parameters[1]), {}, false});
+  }
+  for (std::size_t r = 0; r < observations_.readings; ++r)
+    for (std::size_t q = 0; q < plan.gather[r].size(); ++q)
+      for (const std::size_t v : plan.columns[plan.gather[r][q]].variates) draws_[v].moves.push_back({r, q});
+  for (Draw& d : draws_)
+    d.local =
+        std::all_of(d.moves.begin(), d.moves.end(), [&](const auto& m) { return m.first == d.moves.front().first; });
+}
+
+void Fitter::find_responses() {
+  responses_.assign(needed_.size(), {});
+  offset_ = Vector::Zero(index(simulator_.rows()));
+  for (std::size_t i = 0; i < needed_.size(); ++i) {
+    if (!experiment_.layout().effects.contains(needed_[i])) continue;
+    double u = 0;
+    // A table holds where each draw is by itself all that moves its readings by the quantity.
+    bool alone = true;
+    std::vector<int> moved(observations_.readings, 0);
+    for (std::size_t v = 0; v < draws_.size(); ++v) {
+      const Draw& d = draws_[v];
+      if (d.moves.empty() || d.moves.front().second != needed_[i]) continue;
+      alone = alone && !d.local && (u == 0 || d.u == u);
+      for (const auto& group : experiment_.plan().copulas)
+        alone = alone && std::find(group.variates.begin(), group.variates.end(), v) == group.variates.end();
+      for (const auto& [r, q] : d.moves) alone = alone && ++moved[r] == 1;
+      u = std::max(u, d.u);
+    }
+    if (!(u > 0)) continue;
+    responses_[i] = declared_response(simulator_, simulator_.estimates(), needed_[i], u, alone);
+    if (!responses_[i].straight()) offset_ += responses_[i].offset;
+  }
+}
+
+} // namespace gumshoe::tracing

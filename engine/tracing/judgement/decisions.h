@@ -1,0 +1,80 @@
+#pragma once
+/// Every decision of the search, as a function of statistics alone: no model, no fit, no random numbers.
+///
+/// A figure that costs a simulation is passed as a function and called only where the other figures leave the question
+/// open. Scores and leads are likelihood ratios (2 ln), less twice what chance gives (README.md). Thresholds:
+/// criteria.h.
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tracing/judgement/assess.h"
+#include "tracing/trace.h"
+
+namespace gumshoe::tracing {
+
+/// What a round of the search looks for, given the false-alarm rate alpha.
+bool look_for_signature(const Assessment& assessment, double alpha);
+bool look_for_scatter(const Assessment& assessment, double alpha);
+/// Whether another round follows one after which `findings` are known, and whether it took anything in.
+bool search_goes_on(bool took_one, std::size_t findings);
+
+/// A candidate as decisions see it.
+struct Scored {
+  std::string name;
+  double score = 0;
+  bool eligible = true;
+};
+/// Indices of the best eligible candidates of different names, best first, `most` at most.
+std::vector<std::size_t> best_of(const std::vector<Scored>& candidates, std::size_t most);
+/// Indices of the candidates, the best of each name, whose gain is at least that of a variance component: best first.
+std::vector<std::size_t> explain_scatter(const std::vector<Scored>& candidates, double gain_of_scatter);
+
+/// Whether a candidate is refitted with the whole model once another was. @param best score of the first in order
+bool could_still_win(double p, double threshold, double score, double best);
+/// Whether a refitted candidate counts: by its p-value in the linear fit, or its ratio in the whole model.
+bool passes(double p, double threshold, double ratio, double limit);
+
+/// Chance of so large a lead, were the one that is behind the truth.
+using Chance = std::function<double()>;
+
+/// Whether a plain shape's lead over the best effect excludes that effect.
+bool shape_excludes(double lead, const Chance& chance);
+
+/// How a rival stands to the best candidate.
+enum class Standing {
+  excluded, ///< the best fits better
+  separate, ///< it counts in addition to the best: another effect, which waits for its turn
+  member,   ///< these data cannot distinguish the two: one class
+};
+/// @param lead         of the best over the rival
+/// @param correlation  cosine of their projected signatures
+/// @param beside       likelihood ratio that the rival adds to the best
+/// @param limit        what that ratio must pass
+Standing standing(double lead, double correlation, const Chance& chance, const std::function<double()>& beside,
+                  double limit);
+
+/// Whether two effects together are found where neither passes alone: they explain more than any shape, and each counts
+/// in addition to the other. `scores` and `limits` of the two alone.
+bool pair_found(double pair, const double (&scores)[2], const double (&limits)[2], double best_shape);
+
+/// The variance component that was found: the largest, if its p-value allows it.
+std::optional<std::size_t> scatter_found(const Assessment& assessment, double alpha);
+/// Whether the noise of single readings is larger than declared and nothing else explains that.
+bool larger_noise_found(const Assessment& assessment, double alpha, std::size_t findings);
+
+/// Errors of the hold-out blocks: sum of squares in units of all that is declared, and root mean square.
+struct HoldoutError {
+  double whitened = 0, rms = 0;
+};
+/// Whether the hold-out blocks, sensitive to what was found, refuse it.
+bool vetoed(const HoldoutError& before, const HoldoutError& after);
+/// What a veto leaves of a finding: scatter where it was in the class and is no finding of its own; nothing of an
+/// effect.
+std::optional<Kind> left_by_veto(Kind kind, bool scatter_in_class, bool scatter_found_alone);
+
+/// Why a candidate came no further than its own p-value. @param absorbed_by what leaves next to nothing of it, or empty
+std::string refusal(double identifiable, const std::string& absorbed_by, double p, double threshold);
+
+} // namespace gumshoe::tracing

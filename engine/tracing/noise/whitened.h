@@ -1,0 +1,74 @@
+#pragma once
+/// Some rows of a design under one covariance model: whitening, projection, solution, draws of the noise.
+#include <optional>
+#include <vector>
+
+#include "tracing/noise/design.h"
+#include "tracing/noise/innovations.h"
+
+namespace gumshoe::tracing {
+
+/// How the noise of draws differs from normal numbers.
+struct NoiseShape {
+  double share = 0;          ///< of outlying readings
+  std::vector<double> sizes; ///< of those, in standard deviations of the others
+  /// Rows x nodes: what a draw bend_node(j) of the variance component does to each reading, in SI at scale 1; empty:
+  /// what the covariance model says.
+  Matrix scatter;
+
+  /// Standard deviation of the readings that are not outlying over that of all, winsorised as data are.
+  double core() const;
+};
+
+/// "Chosen rows" are those given to the constructor: whole readings, in order. Keeps a reference to the design.
+class Whitened {
+public:
+  /// @param rows  chosen rows, rising
+  /// @param use   columns of Design::fixed that take part
+  Whitened(const Design& design, std::vector<Index> rows, std::vector<Index> use, const CovarianceModel& model);
+
+  /// Chosen rows of a matrix over all rows.
+  Matrix take(const Matrix& all) const { return all(rows_, Eigen::all); }
+  /// Chosen rows in units of the noise, without serial correlation.
+  Matrix whiten(Matrix chosen) const;
+  Matrix whiten_rows(const Matrix& all) const { return whiten(take(all)); }
+  /// Part of whitened columns that the fixed and random columns leave: x - Q Q'x.
+  Matrix project(const Matrix& whitened) const { return whitened - basis_ * (basis_.transpose() * whitened); }
+  /// Residuals of the chosen rows (not whitened), winsorised at criteria.winsor_limit robust standard deviations.
+  /// For a covariance model without correlation or component.
+  /// @param scale   robust standard deviation by column, in units of the design's
+  /// @param weight  1 where a residual was left alone, below 1 where it was winsorised
+  Matrix winsorised(const Matrix& residuals, Vector* scale = nullptr, Matrix* weight = nullptr) const;
+  /// Sum of squares left of each whitened column, with the cost of the random columns.
+  Vector left(const Matrix& whitened) const;
+  /// Minus twice the logarithm of the density's factor that does not depend on the data.
+  double log_determinant() const { return log_determinant_; }
+  /// Best coefficients (fixed, random, extra) by column of whitened data. `covariance` of the coefficients, at scale 1.
+  Matrix solve(const Matrix& whitened, Matrix* covariance = nullptr, const Matrix& whitened_extra = {}) const;
+  /// n draws of the noise (columns), declared draws included, in SI. `seed` keys the stream.
+  Matrix draw(std::size_t n, std::uint64_t seed, const NoiseShape& shape = {}) const;
+  const std::vector<Index>& rows() const { return rows_; }
+  std::size_t degrees_of_freedom() const { return rows_.size() - use_.size(); }
+
+private:
+  /// Group of the variance component that moves each chosen row, or -1; empty without a component.
+  std::vector<int> scattered() const;
+  double scatter_unit(std::size_t row) const; ///< standard deviation of the component in a chosen row
+  void filter_scatter(const std::vector<int>& group);
+  void factorise();
+  void add_declared(std::size_t n, std::uint64_t seed, Matrix& out) const;
+  void add_scatter(std::size_t n, std::uint64_t seed, const NoiseShape& shape, Matrix& out) const;
+
+  const Design& design_;
+  std::vector<Index> rows_, use_;
+  CovarianceModel model_;
+  std::optional<Innovations> scatter_;
+  Matrix stacked_; ///< whitened fixed and random columns, over the unit rows of the latter
+  Matrix basis_;   ///< Q, the data's part
+  double log_determinant_ = 0;
+};
+
+/// Independent standard normal numbers: row i is stream (seed, i, purpose).
+Matrix normals(std::size_t rows, std::size_t columns, std::uint64_t seed, std::uint16_t purpose);
+
+} // namespace gumshoe::tracing
