@@ -6,8 +6,8 @@
 
 namespace gumshoe::tests {
 
-/// Adds a reading to a block; columns[i], in the order of the layout, holds one value or one per sample and must outlive
-/// the block.
+/// Adds a reading to a block; columns[i], in the order of the layout, holds one value or one per sample and must
+/// outlive the block.
 inline void add(propagation::Block& block, const propagation::ForwardModel& forward, std::size_t reading,
                 const std::vector<std::vector<double>>& columns) {
   std::vector<models::Column> row;

@@ -53,12 +53,12 @@ Derivatives differentiate(const propagation::Experiment& e, std::size_t reading,
     for (std::size_t q = at; q < std::min(n, at + chunk); ++q)
       x[q] = models::Gradient::variable(point[q], static_cast<int>(q - at));
     const auto outcome = e.forward().measurands(reading, x, y);
-    d.status = std::max(d.status, outcome.status);
+    d.status = std::max(d.status, static_cast<Status>(outcome.status));
     kink |= outcome.kink;
     d.value = y[m].v;
     for (std::size_t q = at; q < std::min(n, at + chunk); ++q) d.first[q] = y[m].d[q - at];
   }
-  if (d.status != 0) return d;
+  if (d.status != Status::ok) return d;
   if (kink) {
     one_sided(e, reading, m, point, d);
     return d;

@@ -8,7 +8,7 @@ namespace gumshoe::analysis {
 
 /// Of measurand m at a reading, by every quantity of the scenario (model, effects, indications, sizes), SI.
 struct Derivatives {
-  std::uint8_t status = 0;
+  Status status = Status::ok;
   double value = 0;
   std::vector<double> first;        ///< [quantity]
   std::vector<double> second;       ///< [quantity][quantity], if asked for

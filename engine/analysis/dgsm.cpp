@@ -33,7 +33,7 @@ void exact_slopes(const propagation::Experiment& e, const std::vector<double>& x
     for (std::size_t o = 0; o < slopes.by.size(); ++o) {
       const std::size_t reading = e.outputs()[o].reading;
       const Derivatives at = differentiate(e, reading, o % measurands, e.point(reading, variates.data()), false);
-      if (at.status != 0) continue;
+      if (at.status != Status::ok) continue;
       for (std::size_t k = 0; k < slopes.reach[o].size(); ++k)
         slopes.by[o][k][first + i] = at.first[slopes.reach[o][k].quantity];
     }

@@ -86,7 +86,7 @@ Derivatives differences(const propagation::Experiment& e, std::size_t reading, s
   d.first.assign(n, nan);
   d.differentiable.assign(n, true);
   if (!std::isfinite(d.value)) {
-    d.status = code(Status::model_failed);
+    d.status = Status::model_failed;
     return d;
   }
   bool smooth = true;

@@ -108,7 +108,7 @@ Derivatives linearise(const propagation::Experiment& e, std::size_t reading, std
   }
   Derivatives d = differentiate(e, reading, measurand, point, false);
   b.estimate = d.value;
-  if (d.status != 0) {
+  if (d.status != Status::ok) {
     b.applicable = false;
     b.reason = "the model has no value at the estimates";
   }

@@ -83,8 +83,8 @@ void Fit::covariance(Estimate& out) const {
       out.covariance[i * p_ + j] = factor * all.matrix[i * p_ + j];
       out.correlation[i * p_ + j] =
           i == j ? 1
-                 : std::clamp(all.matrix[i * p_ + j] / std::sqrt(all.matrix[i * p_ + i] * all.matrix[j * p_ + j]),
-                              -1.0, 1.0);
+                 : std::clamp(all.matrix[i * p_ + j] / std::sqrt(all.matrix[i * p_ + i] * all.matrix[j * p_ + j]), -1.0,
+                              1.0);
     }
   }
 }

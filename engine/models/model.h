@@ -47,8 +47,8 @@ struct BlockCall {
   std::size_t effect_quantities = 0;
   std::span<const effects::Active> active;
   const Column* conditions = nullptr;
-  Column* indications = nullptr;      ///< evaluate: read
-  double* const* simulated = nullptr; ///< simulate: [reading][indication] -> samples
+  const Column* indications = nullptr; ///< evaluate: read
+  double* const* simulated = nullptr;  ///< simulate: [reading][indication] -> samples
   /// [reading][measurand] -> samples, of a joint evaluation [measurand] -> samples (simulate: the true values).
   double* const* measurands = nullptr;
   const std::size_t* solved_as = nullptr; ///< [reading]: earlier reading with the same columns for the solve, or itself

@@ -79,7 +79,7 @@ models::BlockCall ForwardModel::call(const Block& block, double* const* simulate
   call.effect_quantities = layout_.effects.size();
   call.active = active_;
   call.conditions = block.conditions.data();
-  call.indications = const_cast<models::Column*>(block.indications.data()); // NOLINT: kernels read them
+  call.indications = block.indications.data();
   call.simulated = simulated;
   call.measurands = measurands;
   call.solved_as = block.solved_as.data();
@@ -196,8 +196,7 @@ models::PointOutcome ForwardModel::indications(std::size_t reading, const std::v
   call.measurands = truth.data();
   call.simulated = out.data();
   const auto outcome = model_->simulate_gradient(call);
-  for (const StatedSize& s : stated_)
-    out[s.indication] = out[s.indication] + point[s.quantity] * s.loading[reading];
+  for (const StatedSize& s : stated_) out[s.indication] = out[s.indication] + point[s.quantity] * s.loading[reading];
   return outcome;
 }
 

@@ -2,8 +2,8 @@
 /// The one way to ask a model: indications and measurands at given points, with derivatives.
 ///
 /// A ForwardModel is a model, the effects that act on it, one of its evaluations, the conditions of every reading and
-/// the stated effects. A simulation adds stated effects to the indications; an evaluation first subtracts them. No model
-/// knows of them. Values are SI throughout. Thread-safe.
+/// the stated effects. A simulation adds stated effects to the indications; an evaluation first subtracts them. No
+/// model knows of them. Values are SI throughout. Thread-safe.
 #include <memory>
 #include <span>
 #include <string>
@@ -73,8 +73,8 @@ public:
   models::PointOutcome indications(std::size_t reading, const std::vector<models::Gradient>& point,
                                    std::vector<models::Gradient>& out) const;
 
-  /// Adds a reading to a block: `row` holds its columns in the order of the layout. Conditions are the reading's, unless
-  /// columns are given for them; this then outlives the block.
+  /// Adds a reading to a block: `row` holds its columns in the order of the layout. Conditions are the reading's,
+  /// unless columns are given for them; this then outlives the block.
   void add(Block& block, std::size_t reading, std::span<const models::Column> row,
            std::span<const models::Column> conditions = {}) const;
   BlockValues simulate(const Block& block) const;
@@ -96,8 +96,8 @@ public:
   /// see.
   std::string check_together(const Points& at) const;
   std::vector<std::string> remarks(const Points& at) const;
-  /// Every intermediate value of the evaluation of a reading, in the order of computation. Stated effects are subtracted
-  /// already.
+  /// Every intermediate value of the evaluation of a reading, in the order of computation. Stated effects are
+  /// subtracted already.
   std::vector<models::Intermediate> explain(std::size_t reading, const std::vector<double>& point) const;
 
 private:

@@ -103,8 +103,7 @@ void evaluate_together(const TablePoints& at, const Csv& table, bool possible, P
     found = at.forward.measurands(at.points, {&none, 1});
   }
   result.joint = true;
-  for (std::size_t m = 0; m < measurands.size(); ++m)
-    add_column(measurands[m], {found.at(0, m)}, found.status, result);
+  for (std::size_t m = 0; m < measurands.size(); ++m) add_column(measurands[m], {found.at(0, m)}, found.status, result);
   result.status = {status_name(found.status[0])};
 }
 
@@ -137,8 +136,8 @@ void evaluate_rows(const TablePoints& at, const std::vector<Slot>& slots, const 
   };
   for (std::size_t i = 0; i < card.measurands.size(); ++i) {
     // Simulation repeats its input, the true measurand.
-    const bool is_quantity = std::ranges::find(card.quantities, card.measurands[i].name, &QuantityCard::name) !=
-                             card.quantities.end();
+    const bool is_quantity =
+        std::ranges::find(card.quantities, card.measurands[i].name, &QuantityCard::name) != card.quantities.end();
     if (indicated || !is_quantity) add_column(card.measurands[i], row(found.measurands, i), status, result);
   }
   if (!indicated)

@@ -63,8 +63,8 @@ struct Linearisation {
 /// stencil is. Columns refer to values that the caller keeps; stride 0: one value for all samples. Clearing keeps the
 /// memory.
 struct Block {
-  std::size_t samples = 0; ///< a multiple of 8
-  std::vector<std::size_t> readings; ///< [place]: reading of the model
+  std::size_t samples = 0;                                                         ///< a multiple of 8
+  std::vector<std::size_t> readings;                                               ///< [place]: reading of the model
   std::vector<models::Column> quantities, effects, indications, sizes, conditions; ///< [place][...]
   std::vector<std::size_t> solved_as; ///< [place]: earlier place with the same columns for the solve, or itself
   std::uint64_t first_sample = models::unnumbered;

@@ -15,8 +15,8 @@ constexpr Limits any{-std::numeric_limits<double>::infinity(), std::numeric_limi
 std::vector<Slot> slots_of(const models::Model& model) {
   std::vector<Slot> slots;
   const auto add = [&](const std::string& prefix, const auto& q, const Limits& limits, const EffectCard* effect) {
-    slots.push_back({prefix + std::string(q.name), std::string(q.unit), std::string(q.si_unit), q.default_value, limits,
-                     effect});
+    slots.push_back(
+        {prefix + std::string(q.name), std::string(q.unit), std::string(q.si_unit), q.default_value, limits, effect});
   };
   for (const auto& q : model.card->quantities) add("", q, q.limits, nullptr);
   for (const EffectCard* e : effects::cards())
@@ -107,9 +107,8 @@ TableColumns table_columns(const models::Model& model, const Csv& table) {
   for (const Slot& s : out.slots)
     if (s.effect && s.given_column >= 0 && std::ranges::find(out.acting, s.effect) == out.acting.end())
       out.acting.push_back(s.effect);
-  std::erase_if(out.slots, [&](const Slot& s) {
-    return s.effect && std::ranges::find(out.acting, s.effect) == out.acting.end();
-  });
+  std::erase_if(out.slots,
+                [&](const Slot& s) { return s.effect && std::ranges::find(out.acting, s.effect) == out.acting.end(); });
   return out;
 }
 

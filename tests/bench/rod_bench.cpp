@@ -6,8 +6,8 @@
 
 #include "asked.h"
 #include "base/instruction_set.h"
-#include "models/rod_gauging/shadow/trigger_height.h"
 #include "models/model.h"
+#include "models/rod_gauging/shadow/trigger_height.h"
 
 namespace {
 

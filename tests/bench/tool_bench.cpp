@@ -97,16 +97,17 @@ template <class F> void each(benchmark::State& state, const F& solve) {
   for (auto _ : state) {
     const auto v = [&](std::size_t q) { return block.values[q][i]; };
     const models::tool_length::Insert<double> insert{v(mill::tool_radius),
-                                       v(mill::insert_radius),
-                                       v(mill::insert_thickness),
-                                       v(mill::clearance),
-                                       v(mill::radial_angle),
-                                       v(mill::axial_angle),
-                                       0,
-                                       -v(mill::offset)};
+                                                     v(mill::insert_radius),
+                                                     v(mill::insert_thickness),
+                                                     v(mill::clearance),
+                                                     v(mill::radial_angle),
+                                                     v(mill::axial_angle),
+                                                     0,
+                                                     -v(mill::offset)};
     const models::tool_length::Flute<double> flutes[] = {{insert, 0, v(mill::wear)}, {insert, pi, v(mill::wear + 1)}};
     benchmark::DoNotOptimize(
-        solve(std::span<const models::tool_length::Flute<double>>(flutes), models::laser_setter::Beam<double>{0, 0, v(mill::beam_radius), 0.5},
+        solve(std::span<const models::tool_length::Flute<double>>(flutes),
+              models::laser_setter::Beam<double>{0, 0, v(mill::beam_radius), 0.5},
               models::tool_length::InsertMotion{block.angles[i], 5 * mm, block.condition[1] / block.condition[0]}));
     i = (i + 1) % n;
   }
@@ -124,7 +125,8 @@ void flute_alone(benchmark::State& state) {
   models::tool_length::TriggerSolver solver;
   double level = 0;
   Block block(2, false, false);
-  const models::tool_length::Insert<double> insert{10 * mm, 5 * mm, 3.2 * mm, 15 * deg, -12 * deg, 6 * deg, 0, -4.9 * mm};
+  const models::tool_length::Insert<double> insert{10 * mm,   5 * mm,  3.2 * mm, 15 * deg,
+                                                   -12 * deg, 6 * deg, 0,        -4.9 * mm};
   const double drop = block.condition[1] / block.condition[0];
   for (auto _ : state)
     benchmark::DoNotOptimize(solver.alone({insert, 0, 0}, {0, 0, 0.2 * mm, 0.5}, level += 0.01 * drop, drop));

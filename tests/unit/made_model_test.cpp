@@ -92,7 +92,7 @@ TEST_CASE("differences of a cubic are its derivatives, from one call of the mode
   const auto d = analysis::differentiate(e, 0, 0, e.point(0), true);
   CHECK(c.cubic->calls == 1);
   CHECK_FALSE(d.exact);
-  CHECK(d.status == 0);
+  CHECK(d.status == Status::ok);
   CHECK(d.value == 2 + 3 * a + a * a * b + b * b * b - a * b + 5);
   // Rounding: values of 20 have errors of 4e-15; divided by h = 0.06, h^2, h^3 and by the smaller half step.
   CHECK(d.first[0] == Approx(3 + 2 * a * b - b).margin(1e-12));
