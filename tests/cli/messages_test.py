@@ -6,7 +6,7 @@ import pathlib
 import tempfile
 import unittest
 
-from program import SCENARIO, complaint, gumshoe
+from program import ROOT, SCENARIO, complaint, gumshoe
 from choose_test import TEXT as CHOOSE
 
 # Six readings with labels and a condition, in the scenario itself.
@@ -51,6 +51,7 @@ y = "mm"
 [quantities]
 a = { value = "1 mm", u = "1 um" }
 """
+FEED_SPEED = (ROOT / "scenarios/choose_feed_speed.toml").read_text()
 PLAIN = 'value = "5 mm"\nu = "1 um"'
 CORRELATED = '[[correlations]]\nquantities = ["rod_radius", "beam_pitch"]\nkind = "copula"\n'
 
@@ -148,6 +149,7 @@ CHECKED = [
     (FORMULA, 'y = "a + b"', 'y = "(a b"', "an operator or ')' is missing before 'b'"),
     (FORMULA, None, '[conditions]\na = "1 mm"\n', "names must be unique"),
     (FORMULA, 'y = "a + b"', 'y = { formula = "a + b", unit = "s" }', "unit: 's' is not"),
+    (FORMULA, "[quantities]", '[model.intermediates]\n"a b" = "1"\n[quantities]', "cannot be the name of a formula"),
     (COMMAND, 'y = "mm"', "", "there is nothing to evaluate"),
     (COMMAND, 'y = "mm"', '"y,z" = "mm"', "cannot be a column"),
     ('schema = 1\n[model]\nname = "sphere_probing"\n[machine]\nworkpiece_side = ["C"]\ntool_side = ["X", "Y"]\n', None, "",
@@ -157,7 +159,7 @@ CHECKED = [
     ('schema = 1\n[model]\nname = "sphere_probing"\n[machine]\nworkpiece_side = [{ axis = "X", kind = "rotary" }]\ntool_side = ["Y", "Z"]\n',
      None, "", "X, Y, Z, U, V, W are linear"),
     # choices
-    (CHOOSE, "readings = [1, 2, 3]", "readings = [1, 1]", "stands twice"),
+    (CHOOSE, "readings = [1, 2, 3]", "readings = [1, 1]", "the value is listed twice"),
     (CHOOSE, "readings = [1, 2, 3]", 'evaluation = { low = "1", high = "2" }', "evaluations must be listed"),
     (CHOOSE, 'low = "10 mm/min"', 'low = "0 mm/min"', "not above 0"),
     (CHOOSE, "[choose.variables]\n", '[choose.variables]\nevaluation = ["fast"]\n', "has no evaluation 'fast'"),
@@ -167,6 +169,7 @@ CHECKED = [
     (ROD_CHOICE, '["4.9 mm"]', '["-5 mm"]', "outside the limits of rod_radius"),
     (CHOOSE, 'feed = "10 mm/min"', 'feed = { spread = ["10 mm/min", "20 mm/min"], readings = 1 }', "it is spread over the readings"),
     (CHOOSE, 'way = "5 mm"', 'way = "nan mm"', "not finite"),
+    (FEED_SPEED, 'orientation_time = "1 s"', 'orientation_time = "-1 s"', "the value is outside its limits"),
 ]
 
 
@@ -228,6 +231,9 @@ class Messages(unittest.TestCase):
              + '[[expected]]\nfigure = "fit.mien"\nvalue = 1\nsource = "x"\n', ["gauge", "S"], "figure of this fit"),
             (fit.replace('a = { value = "1 mm", u = "1 um" }', 'a = { value = "1 mm", estimated = true }')
              .replace('b = { value = "2 mm", u = "1 um" }', 'b = { value = "2 mm", estimated = true }'), ["estimate", "S"], "cannot determine"),
+            (SCENARIO + '[[expected]]\nfigure = "mean"\nof = "bottom_height"\nlabels = { rod = "none" }\nvalue = 1\nsource = "x"\n',
+             ["gauge", "S"], "no output matches"),
+            (SCENARIO, ["schema", "--options", "nothing"], "there is no section"),
             (SCENARIO + '[[expected]]\nfigure = "mien"\nof = "laser_z"\nvalue = 1\nsource = "x"\n', ["gauge", "S"], "figure of this result"),
             (CHOOSE.replace('way = "5 mm"', 'way = "-5 m"'), ["choose", "S", "--out", "O"], "the time is negative"),
             (CHOOSE.replace("steps = 5", "steps = 1000").replace("readings = [1, 2, 3]", f"readings = {list(range(1, 1001))}"),
