@@ -66,10 +66,15 @@ std::uint64_t DataFiles::hash(std::uint64_t hash) const {
   return hash;
 }
 
-std::vector<Key> data_column_keys() {
-  return {{"file", shape::text(), "CSV file, relative to the scenario", true},
-          {"column", shape::text(), "by its name in the file's first row", true},
+std::vector<Key> column_keys() {
+  return {{"column", shape::text(), "by its name in the file's first row", true},
           {"unit", shape::text(), "of the column's numbers; left out: a plain number"}};
+}
+
+std::vector<Key> data_column_keys() {
+  std::vector<Key> keys = column_keys();
+  keys.insert(keys.begin(), {"file", shape::text(), "CSV file, relative to the scenario", true});
+  return keys;
 }
 
 int find_column(Table& table, const std::string& key, const Csv& csv) {
@@ -132,19 +137,6 @@ bool Context::is_label(const Node& node, const std::string& path, const std::str
 
 void Context::note(const std::string& text) const {
   if (std::ranges::find(notes, text) == notes.end()) notes.push_back(text);
-}
-
-const std::string* find_label(const quantities::Labels& labels, const std::string& name) {
-  for (const auto& [key, value] : labels)
-    if (key == name) return &value;
-  return nullptr;
-}
-
-bool matches(const quantities::Labels& labels, const quantities::Labels& some) {
-  return std::all_of(some.begin(), some.end(), [&](const auto& label) {
-    const std::string* value = find_label(labels, label.first);
-    return value && *value == label.second;
-  });
 }
 
 std::string text_of(const quantities::Labels& labels) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/csv.h"
+#include "quantities/cells.h"
 #include "quantities/input_quantity.h"
 #include "scenario/reader.h"
 
@@ -47,6 +48,8 @@ struct DataColumn {
   std::string unit;
 };
 std::vector<Key> data_column_keys();
+/// The same without the file.
+std::vector<Key> column_keys();
 /// Finds the column named by `key` of the table; -1 and a problem if it is not there.
 int find_column(Table& table, const std::string& key, const Csv& csv);
 /// Reads file, column and unit; nullopt and problems if something is wrong.
@@ -73,10 +76,6 @@ struct Context {
   void note(const std::string& text) const;
 };
 
-/// The value of a label, or null.
-const std::string* find_label(const quantities::Labels& labels, const std::string& name);
-/// True if every one of `some` is among `labels`.
-bool matches(const quantities::Labels& labels, const quantities::Labels& some);
 /// "rod = rod 2, setup = 1"
 std::string text_of(const quantities::Labels& labels);
 

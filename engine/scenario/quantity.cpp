@@ -143,7 +143,7 @@ private:
     for (const Member& row : values->members()) {
       seen.insert(row.key);
       Labels here = labels;
-      if (find_label(here, label.key))
+      if (quantities::label_value(here, label.key))
         return context_.problems.add(row,
                                      fmt::format("{}: the label '{}' is nested within itself", by->path(), label.key));
       here.emplace_back(label.key, row.key);
@@ -165,8 +165,8 @@ private:
     if (!context_.readings_known) return;
     std::set<std::string> told;
     for (const Labels& reading : context_.readings) {
-      if (!matches(reading, labels)) continue;
-      const std::string* value = find_label(reading, label.key);
+      if (!quantities::holds_for(labels, reading)) continue;
+      const std::string* value = quantities::label_value(reading, label.key);
       if (value && seen.contains(*value)) continue;
       if (!told.insert(value ? *value : "").second) continue;
       context_.problems.add(label,
@@ -179,7 +179,7 @@ private:
   /// Entries that no reading uses are left out, and said so.
   void keep(Entry entry, const Node& node, const std::string& path) {
     check_limits(entry, card_, node, path, context_.problems);
-    const auto uses = [&](const Labels& reading) { return matches(reading, entry.labels); };
+    const auto uses = [&](const Labels& reading) { return quantities::holds_for(entry.labels, reading); };
     if (context_.readings_known && !entry.labels.empty() &&
         std::none_of(context_.readings.begin(), context_.readings.end(), uses)) {
       context_.notes.push_back(fmt::format("{}: not used, because no reading has {}", path, text_of(entry.labels)));

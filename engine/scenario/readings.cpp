@@ -67,7 +67,8 @@ private:
     for (std::size_t i = 0; i < readouts.size(); ++i) {
       for (const Readouts& r : readouts[i].used) {
         auto it = std::find_if(out_.readings.begin(), out_.readings.end(), [&](const Reading& known) {
-          return matches(known.labels, r.labels) && matches(r.labels, known.labels) && known.conditions == r.conditions;
+          return quantities::holds_for(r.labels, known.labels) && quantities::holds_for(known.labels, r.labels) &&
+                 known.conditions == r.conditions;
         });
         if (i == 0) it = out_.readings.insert(out_.readings.end(), {r.labels, r.conditions, {}, r.repeats});
         if (it == out_.readings.end()) {

@@ -21,17 +21,12 @@ void add_row(std::vector<Readouts>& groups, const Labels& labels, const std::vec
   groups.push_back({labels, conditions, {value}, 1, {row}});
 }
 
-std::vector<Key> condition_column_keys() {
-  return {{"column", shape::text(), "by its name in the file's first row", true},
-          {"unit", shape::text(), "of the column's numbers; left out: a plain number"}};
-}
-
 } // namespace
 
 std::vector<Key> readouts_file_keys() {
   std::vector<Key> keys = data_column_keys();
   keys.push_back({"labels", shape::map(shape::text()), "label = column"});
-  keys.push_back({"conditions", shape::map(shape::table(condition_column_keys())), "conditions that are columns"});
+  keys.push_back({"conditions", shape::map(shape::table(column_keys())), "conditions that are columns"});
   keys.push_back({"where", shape::reference("labels"), "only the rows with these labels"});
   return keys;
 }
@@ -75,7 +70,7 @@ public:
                                    {std::string(card_.si_unit)}, context_.problems);
       if (!value) continue;
       add_row(out.all, labels, here, *value, i);
-      if (matches(labels, where_)) add_row(out.used, labels, here, *value, i);
+      if (quantities::holds_for(where_, labels)) add_row(out.used, labels, here, *value, i);
     }
     if (out.used.empty() && context_.problems.size() == problems) nothing(*csv, out);
     return out;
@@ -113,7 +108,7 @@ private:
       }
       auto one = conditions->table(m.key);
       if (!one) continue;
-      one->declare(condition_column_keys());
+      one->declare(column_keys());
       if (one->require("column")) {
         const int column = find_column(*one, "column", csv);
         const std::string unit = one->text("unit").value_or("1"), si(model_.conditions[index].si_unit);
@@ -167,7 +162,7 @@ private:
     for (const auto& [label, value] : where_) {
       std::set<std::string> values;
       for (const Readouts& g : out.all)
-        if (const std::string* v = find_label(g.labels, label)) values.insert(*v);
+        if (const std::string* v = quantities::label_value(g.labels, label)) values.insert(*v);
       if (!values.contains(value)) remedy = did_you_mean(value, {values.begin(), values.end()});
     }
     const Node* at = table_.find("where");

@@ -110,7 +110,8 @@ ConformityTest read_conformity(Table table, const StudyScope& scope, Context& co
   const auto* measurand = read_subject(table, scope, context, out);
   if (!measurand) return out;
   read_options(table, conformity_options(std::string(measurand->si_unit)), out);
-  if (!table.has("lower") && !table.has("upper")) table.refuse("no tolerance limit is given", "", "give lower, upper or both");
+  if (!table.has("lower") && !table.has("upper"))
+    table.refuse("no tolerance limit is given", "", "give lower, upper or both");
   if (out.lower && out.upper && *out.lower >= *out.upper) table.refuse_key("lower", "lower must be below upper");
   if (table.has("guard_band") && table.has("guard_factor"))
     table.refuse("both guard_band and guard_factor are given", "both state the width", "leave one out");
@@ -168,7 +169,7 @@ quantities::Labels read_labels(Table& table, Context& context) {
     for (const Member& m : labels->members())
       if (const auto text = read_text(m.value, labels->path(m.key), context.problems)) out.emplace_back(m.key, *text);
   }
-  const auto fits = [&](const quantities::Labels& reading) { return matches(reading, out); };
+  const auto fits = [&](const quantities::Labels& reading) { return quantities::holds_for(out, reading); };
   if (context.readings_known && !out.empty() && std::ranges::none_of(context.readings, fits))
     table.refuse(fmt::format("no reading has {}", text_of(out)));
   return out;

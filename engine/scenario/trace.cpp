@@ -11,11 +11,6 @@ namespace {
 
 constexpr std::int64_t most_seed = std::int64_t{1} << 40;
 
-std::vector<Key> column_keys() {
-  return {{"column", shape::text(), "of the data file of the first indication", true},
-          {"unit", shape::text(), "1 without it"}};
-}
-
 class TraceReader {
 public:
   TraceReader(Table table, const TraceScope& scope, Context& context)
@@ -111,7 +106,7 @@ private:
       return;
     std::set<std::string> known;
     for (const quantities::Reading& r : scope_.readings) {
-      const std::string* value = find_label(r.labels, label);
+      const std::string* value = quantities::label_value(r.labels, label);
       if (!value)
         return table_.refuse_key("blocks", fmt::format("a reading has no label '{}'", label),
                                  "every reading belongs to a block");

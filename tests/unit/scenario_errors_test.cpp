@@ -149,7 +149,7 @@ TEST_CASE("data files that are missing or wrong", "[scenario][errors]") {
   CHECK_THAT(reading(good + ", labels = { rod = \"rod\" }, where = { rod = \"c\" }"), Contains("has rod = c"));
   CHECK_THAT(reading(good + ", labels = { rod = \"rod\" }, where = { rood = \"a\" }"), Contains("'rood' is not a label"));
   CHECK_THAT(reading(good + ", labels = { rod = \"rod\" }, where = { rod = 1 }"),
-             Contains("expected text, found an integer"));
+             Contains("text is expected, not an integer"));
   CHECK_THAT(reading(good + ", wheer = { rod = \"a\" }"), Contains("Did you mean 'where'?"));
   folder.write("d.csv", "rod,z\na,1,2\n");
   CHECK_THAT(reading(good), Contains("d.csv:2:1: error: the row has 3 cells, the header 2"));

@@ -106,7 +106,7 @@ TEST_CASE("mistakes in [trace] are located", "[scenario][trace][errors]") {
       {"[trace.columns]\nt = { column = \"Tt\" }", "has no column 'Tt'. Did you mean"},
       {"[trace.columns]\nt = { unit = \"s\" }", "s.toml:7:5: error: trace.columns.t.column is missing"},
       {"[trace.columns]\nt = { column = \"T\", unit = \"degX\" }", "'degX' is not a unit"},
-      {"[trace.columns]\nfeed = { column = \"T\" }", "s.toml:7:1: error: trace.columns.feed: the name has a meaning"},
+      {"[trace.columns]\nfeed = { column = \"T\" }", "s.toml:7:1: error: trace.columns.feed: the name already has a meaning"},
       {"[trace.columns]\n\"t x\" = { column = \"T\" }", "a formula cannot use this name"},
       {"[trace.columns]\nx = { column = \"rod\" }", "r.csv:2:1: error: 'a' is not a number"},
       {"[trace.columns]\nx = { column = \"z\" }", "s.toml:7:1: error: trace.columns.x: 'z' holds readings"},
