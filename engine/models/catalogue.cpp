@@ -4,7 +4,7 @@
 
 namespace gumshoe::models {
 
-#define GUMSHOE_MODEL(folder)                                                                                          \
+#define GUMSHOE_MODEL(folder, type)                                                                                    \
   namespace folder {                                                                                                   \
   extern const Model model;                                                                                            \
   }
@@ -12,7 +12,7 @@ namespace gumshoe::models {
 #undef GUMSHOE_MODEL
 
 namespace {
-#define GUMSHOE_MODEL(folder) &folder::model,
+#define GUMSHOE_MODEL(folder, type) &folder::model,
 const Model* const table[] = {
 #include "models/catalogue.def"
 };

@@ -67,7 +67,9 @@ template <class F> void scalar(benchmark::State& state, const F& solve) {
   }
   state.SetItemsProcessed(state.iterations());
 }
-void scalar_fast(benchmark::State& state) { scalar(state, models::rod_gauging::trigger_height); }
+void scalar_fast(benchmark::State& state) {
+  scalar(state, [](const auto& rod, const auto& beam) { return models::rod_gauging::trigger_height(rod, beam); });
+}
 void scalar_general(benchmark::State& state) { scalar(state, models::rod_gauging::general_height); }
 BENCHMARK(scalar_fast);
 BENCHMARK(scalar_general);

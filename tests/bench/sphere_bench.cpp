@@ -2,10 +2,11 @@
 #include <benchmark/benchmark.h>
 
 #include "asked.h"
-#include "models/sphere_calibration/sphere_calibration.h"
+#include "laws/sphere_rows.h"
 
 using namespace gumshoe;
-namespace sphere = gumshoe::models::sphere_calibration;
+namespace sphere = gumshoe::tests::sphere;
+using tests::Row, tests::Commanded;
 
 namespace {
 
@@ -14,14 +15,14 @@ void commands(benchmark::State& state) {
   const auto* model = models::find("sphere_calibration");
   std::vector<std::vector<double>> q;
   for (const auto& card : model->card->quantities) q.emplace_back(samples, card.default_value);
-  for (std::size_t i = 0; i < samples; ++i) q[sphere::E_CC][i] = 1e-9 * static_cast<double>(i);
+  for (std::size_t i = 0; i < samples; ++i) q[Row::E_CC][i] = 1e-9 * static_cast<double>(i);
   for (int k = 0; k < 3; ++k) q.push_back({0}); // the readouts
-  std::vector<std::vector<double>> conditions(readings, std::vector<double>(sphere::conditions));
+  std::vector<std::vector<double>> conditions(readings, std::vector<double>(tests::conditions));
   std::vector<double> out(readings * 6 * samples);
   std::vector<double*> simulated, truth;
   for (std::size_t r = 0; r < readings; ++r) {
-    conditions[r][sphere::B] = r < 19 ? 0 : 0.08 * (static_cast<double>(r) - 23);
-    conditions[r][sphere::C] = r < 19 ? 0.08 * static_cast<double>(r) : 1.5;
+    conditions[r][Commanded::B] = r < 19 ? 0 : 0.08 * (static_cast<double>(r) - 23);
+    conditions[r][Commanded::C] = r < 19 ? 0.08 * static_cast<double>(r) : 1.5;
     for (std::size_t k = 0; k < 3; ++k) {
       simulated.push_back(&out[(6 * r + k) * samples]);
       truth.push_back(&out[(6 * r + 3 + k) * samples]);
@@ -30,7 +31,7 @@ void commands(benchmark::State& state) {
   std::vector<std::uint8_t> status(samples, 0);
   const propagation::ForwardModel forward(*model, {}, static_cast<std::size_t>(state.range(0)), conditions);
   if (!state.range(1))
-    for (std::size_t j = sphere::S_XY; j < sphere::count; ++j) q[j].resize(1);
+    for (std::size_t j = Row::S_XY; j < tests::quantities; ++j) q[j].resize(1);
   propagation::Block block;
   block.clear(samples);
   for (std::size_t r = 0; r < readings; ++r) tests::add(block, forward, r, q);

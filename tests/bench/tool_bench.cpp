@@ -4,20 +4,21 @@
 
 #include <benchmark/benchmark.h>
 
-#include "models/tool_length/tool_length.h"
+#include "laws/mill_rows.h"
 #include "propagation/forward_model.h"
 
 namespace {
 
 using namespace gumshoe;
-namespace mill = models::tool_length;
+namespace mill = gumshoe::tests::mill;
+using gumshoe::tests::Row, gumshoe::tests::Commanded;
 
 constexpr std::size_t n = 4096;
 constexpr double pi = 3.14159265358979323846, deg = pi / 180, mm = 1e-3;
 
 /// The tool of Fang 2022, Tables 3.3 and 3.4, all of its geometry drawn; tilted beams and other shares if asked.
 struct Block {
-  std::vector<std::vector<double>> values = std::vector<std::vector<double>>(mill::count, std::vector<double>(n));
+  std::vector<std::vector<double>> values = std::vector<std::vector<double>>(tests::quantities, std::vector<double>(n));
   std::vector<double> outputs = std::vector<double>(3 * n), simulated = std::vector<double>(n), angles;
   std::vector<std::uint8_t> status = std::vector<std::uint8_t>(n);
   std::vector<double*> measurands{&outputs[0], &outputs[n], &outputs[2 * n]}, indications{&simulated[0]};
@@ -33,24 +34,24 @@ struct Block {
     const auto fill = [&](std::size_t q, double mean, double u) {
       for (double& x : values[q]) x = mean + (drawn ? u * normal(engine) : 0);
     };
-    for (std::size_t q = 0; q < mill::count; ++q) fill(q, cards[q].default_value, 0);
-    fill(mill::tool_radius, 10 * mm, 2e-6);
-    fill(mill::insert_radius, 5 * mm, 2e-6);
-    fill(mill::insert_thickness, 3.2 * mm, 1e-5);
-    fill(mill::clearance, 15 * deg, 1e-3);
-    fill(mill::radial_angle, -12 * deg, 1e-3);
-    fill(mill::axial_angle, 6 * deg, 1e-3);
-    fill(mill::inserts, inserts, 0);
-    for (std::size_t k = 0; k < chain::most_inserts; ++k) fill(mill::wear + k, 2e-6 * (k % 2), 1e-6);
-    fill(mill::offset, 4.9 * mm, 2e-5);
-    fill(mill::beam_radius, 0.2 * mm, 3e-6);
-    if (tilted) fill(mill::yaw, 0, 1e-4), fill(mill::pitch, 0, 1e-4), fill(mill::fraction, 0.5, 0.01);
+    for (std::size_t q = 0; q < tests::quantities; ++q) fill(q, cards[q].default_value, 0);
+    fill(Row::tool_radius, 10 * mm, 2e-6);
+    fill(Row::insert_radius, 5 * mm, 2e-6);
+    fill(Row::insert_thickness, 3.2 * mm, 1e-5);
+    fill(Row::clearance_angle, 15 * deg, 1e-3);
+    fill(Row::insert_radial_angle, -12 * deg, 1e-3);
+    fill(Row::insert_axial_angle, 6 * deg, 1e-3);
+    fill(Row::inserts, inserts, 0);
+    for (std::size_t k = 0; k < chain::most_inserts; ++k) fill(Row::wear_1 + k, 2e-6 * (k % 2), 1e-6);
+    fill(Row::offset, 4.9 * mm, 2e-5);
+    fill(Row::beam_radius, 0.2 * mm, 3e-6);
+    if (tilted) fill(Row::beam_yaw, 0, 1e-4), fill(Row::beam_pitch, 0, 1e-4), fill(Row::trigger_fraction, 0.5, 0.01);
     for (std::size_t i = 0; i < n; ++i) angles.push_back(2 * pi * static_cast<double>(i) / n);
     values.emplace_back(1); // the readout
     std::vector<models::Column> row, conditions;
     for (auto& v : values) row.push_back({v.data(), v.size() > 1 ? 1u : 0u});
     for (double& c : condition) conditions.push_back({&c, 0});
-    conditions[mill::start_angle] = {angles.data(), 1};
+    conditions[Commanded::start_angle] = {angles.data(), 1};
     columns.clear(n);
     forward.add(columns, 0, row, conditions);
     call = forward.call(columns, indications.data(), measurands.data(), status.data());
@@ -96,18 +97,17 @@ template <class F> void each(benchmark::State& state, const F& solve) {
   std::size_t i = 0;
   for (auto _ : state) {
     const auto v = [&](std::size_t q) { return block.values[q][i]; };
-    const models::tool_length::Insert<double> insert{v(mill::tool_radius),
-                                                     v(mill::insert_radius),
-                                                     v(mill::insert_thickness),
-                                                     v(mill::clearance),
-                                                     v(mill::radial_angle),
-                                                     v(mill::axial_angle),
-                                                     0,
-                                                     -v(mill::offset)};
-    const models::tool_length::Flute<double> flutes[] = {{insert, 0, v(mill::wear)}, {insert, pi, v(mill::wear + 1)}};
+    const models::tool_length::Insert<double> insert{v(Row::tool_radius),
+                                       v(Row::insert_radius),
+                                       v(Row::insert_thickness),
+                                       v(Row::clearance_angle),
+                                       v(Row::insert_radial_angle),
+                                       v(Row::insert_axial_angle),
+                                       0,
+                                       -v(Row::offset)};
+    const models::tool_length::Flute<double> flutes[] = {{insert, 0, v(Row::wear_1)}, {insert, pi, v(Row::wear_1 + 1)}};
     benchmark::DoNotOptimize(
-        solve(std::span<const models::tool_length::Flute<double>>(flutes),
-              models::laser_setter::Beam<double>{0, 0, v(mill::beam_radius), 0.5},
+        solve(std::span<const models::tool_length::Flute<double>>(flutes), models::laser_setter::Beam<double>{0, 0, v(Row::beam_radius), 0.5},
               models::tool_length::InsertMotion{block.angles[i], 5 * mm, block.condition[1] / block.condition[0]}));
     i = (i + 1) % n;
   }
@@ -125,8 +125,7 @@ void flute_alone(benchmark::State& state) {
   models::tool_length::TriggerSolver solver;
   double level = 0;
   Block block(2, false, false);
-  const models::tool_length::Insert<double> insert{10 * mm,   5 * mm,  3.2 * mm, 15 * deg,
-                                                   -12 * deg, 6 * deg, 0,        -4.9 * mm};
+  const models::tool_length::Insert<double> insert{10 * mm, 5 * mm, 3.2 * mm, 15 * deg, -12 * deg, 6 * deg, 0, -4.9 * mm};
   const double drop = block.condition[1] / block.condition[0];
   for (auto _ : state)
     benchmark::DoNotOptimize(solver.alone({insert, 0, 0}, {0, 0, 0.2 * mm, 0.5}, level += 0.01 * drop, drop));

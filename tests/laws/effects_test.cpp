@@ -19,9 +19,13 @@ double shift(const std::string& effect, const std::vector<double>& values, const
   while (effects::cards()[index]->name != effect) ++index;
   const std::vector<effects::Active> active{{index, 0}};
   const auto read = [&](std::span<const effects::Active> a) {
-    const auto event = rod::probing_event<double>(q.data(), condition.data(), values.data(), a);
-    const auto height = models::rod_gauging::trigger_height(rod::rod(q.data(), event), rod::beam(q.data()));
-    return rod::simulate(q.data(), height.value, event);
+    const rod::At<double> at{models::named<rod::Rows::Quantities>(q.data()),
+                             models::named<rod::Rows::Conditions>(condition.data()),
+                             {a, values.data()},
+                             rod::full,
+                             true};
+    models::Outcome<double> outcome;
+    return rod::RodGauging::simulate(at, rod::RodGauging::solve(at, outcome), outcome).indications.spindle_z;
   };
   return read(active) - read({});
 }

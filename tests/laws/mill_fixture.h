@@ -4,11 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "models/tool_length/tool_length.h"
+#include "laws/mill_rows.h"
+#include "models/adapter.h"
 
 namespace gumshoe::tests {
-
-namespace mill = models::tool_length;
 
 struct Draw {
   std::mt19937_64 engine{20261121};
@@ -26,24 +25,24 @@ struct Mill {
 
   Mill() {
     for (const auto& card : models::find("tool_length")->card->quantities) q.push_back(card.default_value);
-    q[mill::laser_z] = -0.5;
+    q[Row::laser_z] = -0.5;
   }
   /// A mill as shops have it, 1 to 6 inserts, worn or not.
   static Mill random(Draw& draw) {
     Mill m;
-    m.q[mill::tool_radius] = draw(6, 14) * mm;
-    m.q[mill::insert_radius] = draw(2, 6) * mm;
-    m.q[mill::insert_thickness] = draw(1, 5) * mm;
-    m.q[mill::clearance] = draw(5, 15) * deg;
-    m.q[mill::radial_angle] = draw(-15, 15) * deg;
-    m.q[mill::axial_angle] = draw(-10, 5) * deg;
-    m.q[mill::inserts] = std::floor(draw(1, 7));
-    for (int k = 0; k < 6; ++k) m.q[static_cast<std::size_t>(mill::wear + k)] = draw(0, 0.01) * mm;
-    m.q[mill::holder_angle] = draw(-3, 3);
-    m.q[mill::length] = draw(0.1, 0.25);
-    m.q[mill::offset] = m.q[mill::tool_radius] - draw(0.5, 1.5) * m.q[mill::insert_radius];
-    m.q[mill::yaw] = draw(-1, 1) * deg;
-    m.q[mill::pitch] = draw(-1, 1) * deg;
+    m.q[Row::tool_radius] = draw(6, 14) * mm;
+    m.q[Row::insert_radius] = draw(2, 6) * mm;
+    m.q[Row::insert_thickness] = draw(1, 5) * mm;
+    m.q[Row::clearance_angle] = draw(5, 15) * deg;
+    m.q[Row::insert_radial_angle] = draw(-15, 15) * deg;
+    m.q[Row::insert_axial_angle] = draw(-10, 5) * deg;
+    m.q[Row::inserts] = std::floor(draw(1, 7));
+    for (int k = 0; k < 6; ++k) m.q[Row::wear_1 + static_cast<std::size_t>(k)] = draw(0, 0.01) * mm;
+    m.q[Row::holder_angle] = draw(-3, 3);
+    m.q[Row::tool_length] = draw(0.1, 0.25);
+    m.q[Row::offset] = m.q[Row::tool_radius] - draw(0.5, 1.5) * m.q[Row::insert_radius];
+    m.q[Row::beam_yaw] = draw(-1, 1) * deg;
+    m.q[Row::beam_pitch] = draw(-1, 1) * deg;
     m.condition = {draw(300, 3000) * rpm, draw(3, 100) * mm / 60, draw(0, 6), draw(0.1, 0.6) * mm, draw(0, 3600), -1};
     return m;
   }
@@ -59,14 +58,14 @@ struct Mill {
     }
     return m;
   }
-  Mill where(int quantity, double value) const {
+  Mill where(std::size_t quantity, double value) const {
     Mill m = *this;
-    m.q[static_cast<std::size_t>(quantity)] = value;
+    m.q[quantity] = value;
     return m;
   }
-  Mill under(int which, double value) const {
+  Mill under(std::size_t which, double value) const {
     Mill m = *this;
-    m.condition[static_cast<std::size_t>(which)] = value;
+    m.condition[which] = value;
     return m;
   }
 
@@ -79,21 +78,31 @@ struct Mill {
     c.evaluation = evaluation;
     return c;
   }
-  mill::Outcome<double> simulated() const {
-    models::tool_length::TriggerSolver solver;
-    return mill::simulate(solver, call(q, effects));
+  mill::At<double> at() const { return models::reading_of<mill::ToolLength>(call(q, effects), false); }
+  mill::Readout<double> simulated() const {
+    mill::TriggerSolver solver;
+    return possible() ? mill::simulate(solver, at()) : refused();
   }
-  mill::Outcome<double> evaluated(double spindle_z) const {
-    models::tool_length::TriggerSolver solver;
-    auto c = call(q, effects);
-    c.indications = &spindle_z;
-    return mill::evaluate(solver, c);
+  mill::Readout<double> evaluated(double spindle_z) const {
+    mill::TriggerSolver solver;
+    return possible() ? mill::evaluate(solver, at(), spindle_z) : refused();
   }
   double reading() const { return simulated().spindle_z; }
   double height() const { return simulated().trigger.height.value; }
   bool triggers() const { return simulated().trigger.height.status == Status::ok; }
-  mill::Event<double> event() const {
-    return mill::probing_event<double>(q.data(), condition.data(), effects.data(), active);
+  mill::Event<double> event() const { return mill::probing_event(at()); }
+
+private:
+  bool possible() const {
+    models::Outcome<double> outcome;
+    models::check_all<mill::ToolLength>(at(), outcome);
+    return !outcome.failed;
+  }
+  static mill::Readout<double> refused() {
+    mill::Readout<double> o;
+    o.trigger.height = {std::nan(""), Status::out_of_domain};
+    o.spindle_z = o.length = o.effective_length = std::nan("");
+    return o;
   }
 };
 

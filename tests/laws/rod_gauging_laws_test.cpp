@@ -9,6 +9,7 @@
 
 using namespace gumshoe;
 namespace rod = gumshoe::models::rod_gauging;
+using Row = rod::Rows::QuantitiesRow;
 
 namespace {
 
@@ -47,7 +48,7 @@ struct Run {
 
 std::vector<std::vector<double>> random_columns(std::size_t n) {
   Draw draw;
-  std::vector<std::vector<double>> columns(rod::count, std::vector<double>(n));
+  std::vector<std::vector<double>> columns(models::rows_of<rod::Rows::Quantities>, std::vector<double>(n));
   for (std::size_t i = 0; i < n; ++i) {
     const auto q = random_quantities(draw);
     for (std::size_t j = 0; j < q.size(); ++j) columns[j][i] = q[j];
@@ -61,10 +62,10 @@ TEST_CASE("lanes give the bits of the scalar solve", "[laws][rod_gauging]") {
   const auto q = random_columns(4096);
   const Run run(q);
   for (std::size_t i = 0; i < 4096; ++i) {
-    const auto v = [&](int j) { return q[static_cast<std::size_t>(j)][i]; };
+    const auto v = [&](std::size_t j) { return q[j][i]; };
     const auto one = models::rod_gauging::trigger_height(
-        {v(rod::radius), v(rod::fillet), v(rod::elevation), v(rod::azimuth) + v(rod::holder_angle)},
-        {v(rod::yaw), v(rod::pitch), v(rod::beam_radius), v(rod::fraction)});
+        {v(Row::rod_radius), v(Row::fillet_radius), v(Row::bottom_elevation), v(Row::bottom_azimuth) + v(Row::holder_angle)},
+        {v(Row::beam_yaw), v(Row::beam_pitch), v(Row::beam_radius), v(Row::trigger_fraction)});
     REQUIRE(static_cast<std::uint8_t>(one.status) == run.status[i]);
     if (run.status[i] == 0) REQUIRE(one.value == run.bottom[i]);
   }
@@ -74,9 +75,9 @@ TEST_CASE("the fast and the general solve agree", "[laws][shadow]") {
   const auto q = random_columns(4096);
   std::size_t fast = 0;
   for (std::size_t i = 0; i < 4096; ++i) {
-    const auto v = [&](int j) { return q[static_cast<std::size_t>(j)][i]; };
-    const models::rod_gauging::Rod<double> r{v(rod::radius), v(rod::fillet), v(rod::elevation), v(rod::azimuth)};
-    const models::laser_setter::Beam<double> b{v(rod::yaw), v(rod::pitch), v(rod::beam_radius), v(rod::fraction)};
+    const auto v = [&](std::size_t j) { return q[j][i]; };
+    const models::rod_gauging::Rod<double> r{v(Row::rod_radius), v(Row::fillet_radius), v(Row::bottom_elevation), v(Row::bottom_azimuth)};
+    const models::laser_setter::Beam<double> b{v(Row::beam_yaw), v(Row::beam_pitch), v(Row::beam_radius), v(Row::trigger_fraction)};
     const auto chord = models::rod_gauging::solve_chord<double>(models::rod_gauging::shadow_edge(r, b), b.radius, b.fraction);
     if (chord.failed != 0) continue;
     ++fast;

@@ -5,10 +5,11 @@
 
 #include "asked.h"
 #include "chain/machine.h"
-#include "models/sphere_calibration/sphere_calibration.h"
+#include "laws/sphere_rows.h"
 
 using namespace gumshoe;
-namespace sphere = gumshoe::models::sphere_calibration;
+namespace sphere = gumshoe::tests::sphere;
+using tests::Row, tests::Commanded, tests::Found;
 
 namespace {
 
@@ -24,14 +25,16 @@ struct Draw {
 
 /// Any machine: links and probe up to 0.5 m, location errors up to a degree, all other errors at once.
 std::vector<double> random_quantities(Draw& draw) {
-  std::vector<double> q(sphere::count);
-  const auto fill = [&](int from, int to, double size) {
-    for (int j = from; j <= to; ++j) q[static_cast<std::size_t>(j)] = draw(-size, size);
+  std::vector<double> q(tests::quantities);
+  const auto fill = [&](std::size_t from, std::size_t to, double size) {
+    for (std::size_t j = from; j <= to; ++j) q[j] = draw(-size, size);
   };
-  fill(sphere::probe_x, sphere::probe_z, 0.5), fill(sphere::E_X0B, sphere::E_Y0C, 1e-3);
-  fill(sphere::E_A0B, sphere::E_B0C, 1 * deg), fill(sphere::link_B_x, sphere::link_C_y, 0.3);
-  fill(sphere::sphere_distance, sphere::sphere_z, 0.2), fill(sphere::E_AA, sphere::E_CC, 0.05 * deg);
-  fill(sphere::E_XX, sphere::E_ZZ, 5e-6), fill(sphere::S_XY, sphere::S_YZ, 5e-5);
+  fill(Row::probe_x, Row::probe_z, 0.5), fill(Row::E_X0B, Row::E_Y0C, 1e-3);
+  fill(Row::E_A0B, Row::E_B0C, 1 * deg), fill(Row::link_B_x, Row::link_C_y, 0.3);
+  fill(Row::sphere_distance, Row::sphere_z, 0.2);
+  for (const auto radius : {Row::sphere_radius, Row::tip_radius}) q[radius] = std::fabs(q[radius]);
+  fill(Row::E_AA, Row::E_CC, 0.05 * deg);
+  fill(Row::E_XX, Row::E_ZZ, 5e-6), fill(Row::S_XY, Row::S_YZ, 5e-5);
   return q;
 }
 std::vector<double> random_condition(Draw& draw) {
@@ -64,7 +67,7 @@ struct Run {
 };
 
 std::vector<std::vector<double>> random_columns(Draw& draw) {
-  std::vector<std::vector<double>> columns(sphere::count, std::vector<double>(samples));
+  std::vector<std::vector<double>> columns(tests::quantities, std::vector<double>(samples));
   for (std::size_t i = 0; i < samples; ++i) {
     const auto q = random_quantities(draw);
     for (std::size_t j = 0; j < q.size(); ++j) columns[j][i] = q[j];
@@ -74,9 +77,7 @@ std::vector<std::vector<double>> random_columns(Draw& draw) {
 
 template <class T>
 std::vector<T> simulated(const std::vector<T>& q, const std::vector<double>& condition, int variant) {
-  std::vector<T> x(condition.begin(), condition.end());
-  const auto v = sphere::simulate(
-      sphere::contact(variant, q.data(), sphere::links(q.data()), x.data(), sphere::is_pattern_II(condition.data())));
+  const auto v = sphere::simulate(sphere::contact(tests::reading(variant, q.data(), condition)));
   return {v.x, v.y, v.z};
 }
 
@@ -87,17 +88,17 @@ TEST_CASE("evaluate undoes simulate: the tip stands above the sphere", "[laws][s
   const auto q = random_columns(draw);
   for (const int variant : {sphere::exact, sphere::small_angle, sphere::closed_form}) {
     std::vector<std::vector<double>> condition{random_condition(draw), random_condition(draw)};
-    if (variant == sphere::closed_form) condition[0][sphere::B] = 0, condition[1][sphere::C] = 90 * deg;
+    if (variant == sphere::closed_form) condition[0][Commanded::B] = 0, condition[1][Commanded::C] = 90 * deg;
     const Run there(q, condition, variant), back(q, condition, variant, &there.simulated);
     for (std::size_t i = 0; i < samples; ++i) {
       REQUIRE(there.status[i] == 0);
       const auto column = [&](int j) { return q[static_cast<std::size_t>(j)][i]; };
       for (std::size_t r = 0; r < 2; ++r) {
-        const double A = condition[r][sphere::A] + column(sphere::E_AA);
-        const double y = column(sphere::sphere_y) * std::cos(A) - column(sphere::sphere_z) * std::sin(A);
-        const double z = column(sphere::sphere_y) * std::sin(A) + column(sphere::sphere_z) * std::cos(A) +
-                         column(sphere::sphere_radius) + column(sphere::tip_radius);
-        const double expected[] = {-column(sphere::sphere_distance), y, z};
+        const double A = condition[r][Commanded::A] + column(Row::E_AA);
+        const double y = column(Row::sphere_y) * std::cos(A) - column(Row::sphere_z) * std::sin(A);
+        const double z = column(Row::sphere_y) * std::sin(A) + column(Row::sphere_z) * std::cos(A) +
+                         column(Row::sphere_radius) + column(Row::tip_radius);
+        const double expected[] = {-column(Row::sphere_distance), y, z};
         for (std::size_t k = 0; k < 3; ++k) // lengths below 2 m, a few roundings
           REQUIRE(std::fabs(back.tip[(3 * r + k) * samples + i] - expected[k]) < 3e-15);
       }
@@ -132,7 +133,7 @@ TEST_CASE("the probe is linear in the seven lengths by the stated matrix", "[law
   Draw draw;
   for (int i = 0; i < 50; ++i) {
     const auto q = random_quantities(draw);
-    const auto l = sphere::links(q.data());
+    const auto l = tests::links(q);
     const double B = draw(-2, 2), C = draw(-3, 3);
     for (const auto& turns : {sphere::exact_turns(l.lines, B, C), sphere::small_angle_turns(l.tilted, B, C)}) {
       const auto columns = sphere::probe_by_lengths(turns);
@@ -156,28 +157,28 @@ TEST_CASE("the grinder's probe is that of the general chain", "[laws][sphere_cal
   Draw draw;
   for (int i = 0; i < 100; ++i) {
     auto q = random_quantities(draw);
-    for (int j = sphere::E_XX; j <= sphere::S_YZ; ++j) q[static_cast<std::size_t>(j)] = 0;
+    for (std::size_t j = Row::E_XX; j <= Row::S_YZ; ++j) q[static_cast<std::size_t>(j)] = 0;
     const auto at = [&](int j) { return q[static_cast<std::size_t>(j)]; };
     auto grinder = *chain::find_machine("grinder");
-    (*grinder.tool_side)[2].point = {at(sphere::link_B_x), 0, -at(sphere::link_B_z)};
-    (*grinder.tool_side)[3].point = {at(sphere::link_C_x), at(sphere::link_C_y), 0};
-    grinder.errors = {{"E_X0B", at(sphere::E_X0B)}, {"E_Z0B", -at(sphere::E_Z0B)}, // ISO's offset is along +Z
-                      {"E_X0C", at(sphere::E_X0C)}, {"E_Y0C", at(sphere::E_Y0C)},  {"E_A0B", at(sphere::E_A0B)},
-                      {"E_C0B", at(sphere::E_C0B)}, {"E_A0C", at(sphere::E_A0C)},  {"E_B0C", at(sphere::E_B0C)},
-                      {"E_AA", at(sphere::E_AA)},   {"E_BB", at(sphere::E_BB)},    {"E_CC", at(sphere::E_CC)}};
+    (*grinder.tool_side)[2].point = {at(Row::link_B_x), 0, -at(Row::link_B_z)};
+    (*grinder.tool_side)[3].point = {at(Row::link_C_x), at(Row::link_C_y), 0};
+    grinder.errors = {{"E_X0B", at(Row::E_X0B)}, {"E_Z0B", -at(Row::E_Z0B)}, // ISO's offset is along +Z
+                      {"E_X0C", at(Row::E_X0C)}, {"E_Y0C", at(Row::E_Y0C)},  {"E_A0B", at(Row::E_A0B)},
+                      {"E_C0B", at(Row::E_C0B)}, {"E_A0C", at(Row::E_A0C)},  {"E_B0C", at(Row::E_B0C)},
+                      {"E_AA", at(Row::E_AA)},   {"E_BB", at(Row::E_BB)},    {"E_CC", at(Row::E_CC)}};
     const chain::Machine machine(grinder);
     const auto condition = random_condition(draw);
     const auto xyz = simulated(q, condition, sphere::exact);
-    const double commands[] = {xyz[0], condition[sphere::A], xyz[1],
-                               xyz[2], condition[sphere::B], condition[sphere::C]};
-    const Vector3<double> probe{at(sphere::probe_x), -at(sphere::probe_y), -at(sphere::probe_z)};
+    const double commands[] = {xyz[0], condition[Commanded::A], xyz[1],
+                               xyz[2], condition[Commanded::B], condition[Commanded::C]};
+    const Vector3<double> probe{at(Row::probe_x), -at(Row::probe_y), -at(Row::probe_z)};
     const auto tip = machine.bed_from_tool(commands, machine.errors().data()) * probe;
     const auto centre = machine.bed_from_workpiece(commands, machine.errors().data()) *
-                        Vector3<double>{-at(sphere::sphere_distance), at(sphere::sphere_y), at(sphere::sphere_z)};
+                        Vector3<double>{-at(Row::sphere_distance), at(Row::sphere_y), at(Row::sphere_z)};
     // The tip stands above the sphere's centre, by both radii.
     REQUIRE(std::fabs(tip.x - centre.x) < 3e-15);
     REQUIRE(std::fabs(tip.y - centre.y) < 3e-15);
-    REQUIRE(std::fabs(tip.z - centre.z - at(sphere::sphere_radius) - at(sphere::tip_radius)) < 3e-15);
+    REQUIRE(std::fabs(tip.z - centre.z - at(Row::sphere_radius) - at(Row::tip_radius)) < 3e-15);
   }
 }
 
@@ -185,14 +186,14 @@ TEST_CASE("commands of one pattern lie on a circle about the actual axis", "[law
   Draw draw;
   for (int i = 0; i < 20; ++i) {
     auto q = random_quantities(draw);
-    for (int j = sphere::E_AA; j <= sphere::S_YZ; ++j) q[static_cast<std::size_t>(j)] = 0;
-    const auto l = sphere::links(q.data());
+    for (std::size_t j = Row::E_AA; j <= Row::S_YZ; ++j) q[static_cast<std::size_t>(j)] = 0;
+    const auto l = tests::links(q);
     for (const bool turns_C : {true, false}) {
       std::vector<Vector3<double>> at;
       for (int step = 0; step < 8; ++step) {
-        std::vector<double> condition(sphere::conditions, 0.0);
-        condition[turns_C ? sphere::C : sphere::B] = 0.4 * step;
-        if (!turns_C) condition[sphere::C] = 0.9;
+        std::vector<double> condition(tests::conditions, 0.0);
+        condition[turns_C ? Commanded::C : Commanded::B] = 0.4 * step;
+        if (!turns_C) condition[Commanded::C] = 0.9;
         const auto v = simulated(q, condition, sphere::exact);
         at.push_back({v[0], v[1], v[2]});
       }
@@ -213,8 +214,8 @@ TEST_CASE("a shift of the artefact along X is the probe and both axes, shifted b
   for (int i = 0; i < 20; ++i) {
     const auto q = random_quantities(draw);
     auto shifted = q;
-    shifted[sphere::sphere_distance] += 1e-5;
-    for (const int j : {sphere::probe_x, sphere::E_X0B, sphere::E_X0C}) shifted[static_cast<std::size_t>(j)] -= 1e-5;
+    shifted[Row::sphere_distance] += 1e-5;
+    for (const std::size_t j : {Row::probe_x, Row::E_X0B, Row::E_X0C}) shifted[static_cast<std::size_t>(j)] -= 1e-5;
     const auto condition = random_condition(draw);
     const auto a = simulated(q, condition, sphere::exact), b = simulated(shifted, condition, sphere::exact);
     for (std::size_t k = 0; k < 3; ++k) REQUIRE(std::fabs(a[k] - b[k]) < 3e-15);
@@ -224,11 +225,11 @@ TEST_CASE("a shift of the artefact along X is the probe and both axes, shifted b
 TEST_CASE("a reading of neither pattern has no closed form", "[laws][sphere_calibration]") {
   Draw draw;
   const auto q = random_columns(draw);
-  auto condition = std::vector<std::vector<double>>(2, std::vector<double>(sphere::conditions, 0.0));
-  condition[1][sphere::B] = 0.2, condition[1][sphere::C] = 1.0;
+  auto condition = std::vector<std::vector<double>>(2, std::vector<double>(tests::conditions, 0.0));
+  condition[1][Commanded::B] = 0.2, condition[1][Commanded::C] = 1.0;
   const Run run(q, condition, sphere::closed_form);
   for (const auto status : run.status) REQUIRE(status == 3); // out_of_domain
-  condition[1][sphere::C] = 90 * deg;
+  condition[1][Commanded::C] = 90 * deg;
   const Run fine(q, condition, sphere::closed_form);
   for (const auto status : fine.status) REQUIRE(status == 0);
 }

@@ -5,12 +5,13 @@
 #include <cmath>
 #include <random>
 
-#include "models/sphere_calibration/procedures.h"
+#include "laws/sphere_rows.h"
 
 namespace sphere_effects_case {
 
 using namespace gumshoe;
-namespace sphere = gumshoe::models::sphere_calibration;
+namespace sphere = gumshoe::tests::sphere;
+using tests::Row, tests::Commanded, tests::Found;
 
 inline constexpr double pi = 3.14159265358979323846, deg = pi / 180, um = 1e-6, arcsec = deg / 3600;
 
@@ -53,38 +54,39 @@ struct Grinder {
   std::vector<double> q, condition, e;
   std::vector<effects::Active> active;
 
-  Grinder() : condition(sphere::conditions, 0.0) {
+  Grinder() : condition(tests::conditions, 0.0) {
     for (const auto& card : models::find("sphere_calibration")->card->quantities) q.push_back(card.default_value);
-    for (int j = 0; j < sphere::conditions; ++j)
-      condition[static_cast<std::size_t>(j)] =
-          models::find("sphere_calibration")->card->conditions[static_cast<std::size_t>(j)].default_value;
+    for (std::size_t j = 0; j < tests::conditions; ++j)
+      condition[j] = sphere::condition_cards[j].default_value;
   }
   static Grinder random(Draw& draw) {
     Grinder g;
-    const auto fill = [&](int from, int to, double size) {
-      for (int j = from; j <= to; ++j) g.q[static_cast<std::size_t>(j)] = draw(-size, size);
+    const auto fill = [&](std::size_t from, std::size_t to, double size) {
+      for (std::size_t j = from; j <= to; ++j) g.q[j] = draw(-size, size);
     };
-    fill(sphere::probe_x, sphere::probe_z, 0.5), fill(sphere::E_X0B, sphere::E_Y0C, 1e-3);
-    fill(sphere::E_A0B, sphere::E_B0C, 1 * deg), fill(sphere::link_B_x, sphere::link_C_y, 0.3);
-    fill(sphere::sphere_distance, sphere::sphere_z, 0.2), fill(sphere::E_AA, sphere::E_CC, 0.05 * deg);
-    fill(sphere::E_XX, sphere::E_ZZ, 5e-6), fill(sphere::S_XY, sphere::S_YZ, 5e-5);
-    return g.under({{sphere::A, draw(-pi, pi)},
-                    {sphere::B, draw(-2, 2)},
-                    {sphere::C, draw(-pi, pi)},
-                    {sphere::direction, draw.sign()},
-                    {sphere::time, draw(0, 7200)},
-                    {sphere::feed, draw(1e-4, 1e-3)},
-                    {sphere::B_direction, draw.sign()},
-                    {sphere::C_direction, draw.sign()},
-                    {sphere::B_clamped, draw(0, 1) < 0.5},
-                    {sphere::C_clamped, draw(0, 1) < 0.5}});
+    fill(Row::probe_x, Row::probe_z, 0.5), fill(Row::E_X0B, Row::E_Y0C, 1e-3);
+    fill(Row::E_A0B, Row::E_B0C, 1 * deg), fill(Row::link_B_x, Row::link_C_y, 0.3);
+    fill(Row::sphere_distance, Row::sphere_z, 0.2);
+    for (const auto radius : {Row::sphere_radius, Row::tip_radius}) g.q[radius] = std::fabs(g.q[radius]);
+    fill(Row::E_AA, Row::E_CC, 0.05 * deg);
+    fill(Row::E_XX, Row::E_ZZ, 5e-6), fill(Row::S_XY, Row::S_YZ, 5e-5);
+    return g.under({{Commanded::A, draw(-pi, pi)},
+                    {Commanded::B, draw(-2, 2)},
+                    {Commanded::C, draw(-pi, pi)},
+                    {Commanded::direction, draw.sign()},
+                    {Commanded::time, draw(0, 7200)},
+                    {Commanded::feed, draw(1e-4, 1e-3)},
+                    {Commanded::B_direction, draw.sign()},
+                    {Commanded::C_direction, draw.sign()},
+                    {Commanded::B_clamped, draw(0, 1) < 0.5},
+                    {Commanded::C_clamped, draw(0, 1) < 0.5}});
   }
-  Grinder under(std::initializer_list<std::pair<sphere::Condition, double>> values) const {
+  Grinder under(std::initializer_list<std::pair<std::size_t, double>> values) const {
     Grinder g = *this;
     for (const auto& [which, value] : values) g.condition[which] = value;
     return g;
   }
-  Grinder where(sphere::Quantity which, double value) const {
+  Grinder where(std::size_t which, double value) const {
     Grinder g = *this;
     g.q[which] = value;
     return g;
@@ -108,10 +110,8 @@ struct Grinder {
   }
 
   template <class T> sphere::Contact<T> contact(const std::vector<T>& values, int variant = sphere::exact) const {
-    const std::vector<T> x(condition.begin(), condition.end());
-    return sphere::contact(variant, values.data(), sphere::links(values.data()), x.data(),
-                           sphere::is_pattern_II(condition.data()), true,
-                           sphere::Freed<T>{active, values.data() + q.size()});
+    return sphere::contact(
+        tests::reading<T>(variant, values.data(), condition, {active, values.data() + q.size()}));
   }
   std::vector<double> values() const {
     auto v = q;

@@ -8,9 +8,9 @@ TEST_CASE("error motions of B and C are those of the general chain", "[effects][
   Draw draw;
   for (int n = 0; n < 100; ++n) {
     Grinder g = Grinder::random(draw);
-    for (int j = sphere::E_XX; j <= sphere::S_YZ; ++j) g.q[static_cast<std::size_t>(j)] = 0;
-    g.condition[sphere::direction] = -1;
-    const double B = g.condition[sphere::B], C = g.condition[sphere::C], sag = draw(-1, 1) * 1e-4;
+    for (std::size_t j = Row::E_XX; j <= Row::S_YZ; ++j) g.q[static_cast<std::size_t>(j)] = 0;
+    g.condition[Commanded::direction] = -1;
+    const double B = g.condition[Commanded::B], C = g.condition[Commanded::C], sag = draw(-1, 1) * 1e-4;
     std::vector<double> a;
     for (int i = 0; i < 20; ++i) a.push_back(draw(-1, 1) * 1e-4);
     const auto pair = [&](std::size_t i, double angle) { return a[i] * std::cos(angle) + a[i + 1] * std::sin(angle); };
@@ -22,21 +22,21 @@ TEST_CASE("error motions of B and C are those of the general chain", "[effects][
 
     const auto at = [&](int j) { return g.q[static_cast<std::size_t>(j)]; };
     auto grinder = *chain::find_machine("grinder");
-    (*grinder.tool_side)[2].point = {at(sphere::link_B_x), 0, -at(sphere::link_B_z)};
-    (*grinder.tool_side)[3].point = {at(sphere::link_C_x), at(sphere::link_C_y), 0};
-    const double reversal = -g.condition[sphere::B_direction] * a[18] / 2,
-                 brake = g.condition[sphere::C_clamped] * a[19];
-    grinder.errors = {{"E_X0B", at(sphere::E_X0B)},
-                      {"E_Z0B", -at(sphere::E_Z0B)}, // ISO's offset is along +Z
-                      {"E_X0C", at(sphere::E_X0C)},
-                      {"E_Y0C", at(sphere::E_Y0C)},
-                      {"E_A0B", at(sphere::E_A0B)},
-                      {"E_C0B", at(sphere::E_C0B)},
-                      {"E_A0C", at(sphere::E_A0C)},
-                      {"E_B0C", at(sphere::E_B0C)},
-                      {"E_AA", at(sphere::E_AA)},
-                      {"E_BB", at(sphere::E_BB) + pair(2, B) + pair(6, 2 * B) + reversal},
-                      {"E_CC", at(sphere::E_CC) + pair(0, C) + pair(4, 2 * C) + brake},
+    (*grinder.tool_side)[2].point = {at(Row::link_B_x), 0, -at(Row::link_B_z)};
+    (*grinder.tool_side)[3].point = {at(Row::link_C_x), at(Row::link_C_y), 0};
+    const double reversal = -g.condition[Commanded::B_direction] * a[18] / 2,
+                 brake = g.condition[Commanded::C_clamped] * a[19];
+    grinder.errors = {{"E_X0B", at(Row::E_X0B)},
+                      {"E_Z0B", -at(Row::E_Z0B)}, // ISO's offset is along +Z
+                      {"E_X0C", at(Row::E_X0C)},
+                      {"E_Y0C", at(Row::E_Y0C)},
+                      {"E_A0B", at(Row::E_A0B)},
+                      {"E_C0B", at(Row::E_C0B)},
+                      {"E_A0C", at(Row::E_A0C)},
+                      {"E_B0C", at(Row::E_B0C)},
+                      {"E_AA", at(Row::E_AA)},
+                      {"E_BB", at(Row::E_BB) + pair(2, B) + pair(6, 2 * B) + reversal},
+                      {"E_CC", at(Row::E_CC) + pair(0, C) + pair(4, 2 * C) + brake},
                       {"E_XC", pair(8, 2 * C)},
                       {"E_YC", pair(10, 2 * C)},
                       {"E_ZC", pair(12, 2 * C)},
@@ -45,12 +45,12 @@ TEST_CASE("error motions of B and C are those of the general chain", "[effects][
                       {"E_ZB", -sag * std::sin(B)}};
     const chain::Machine machine(grinder);
     const auto xyz = g.commands();
-    const double commands[] = {xyz.x, g.condition[sphere::A], xyz.y, xyz.z, B, C};
-    const Vector3<double> probe{at(sphere::probe_x), -at(sphere::probe_y), -at(sphere::probe_z)};
+    const double commands[] = {xyz.x, g.condition[Commanded::A], xyz.y, xyz.z, B, C};
+    const Vector3<double> probe{at(Row::probe_x), -at(Row::probe_y), -at(Row::probe_z)};
     const auto tip = machine.bed_from_tool(commands, machine.errors().data()) * probe;
     auto top = machine.bed_from_workpiece(commands, machine.errors().data()) *
-               Vector3<double>{-at(sphere::sphere_distance), at(sphere::sphere_y), at(sphere::sphere_z)};
-    top.z += at(sphere::sphere_radius) + at(sphere::tip_radius);
+               Vector3<double>{-at(Row::sphere_distance), at(Row::sphere_y), at(Row::sphere_z)};
+    top.z += at(Row::sphere_radius) + at(Row::tip_radius);
     REQUIRE(distance(tip, top) < 5e-15);
     // The approach, turned into the probe's frame by the same chain without errors.
     grinder.errors = {};
@@ -61,7 +61,7 @@ TEST_CASE("error motions of B and C are those of the general chain", "[effects][
 }
 
 TEST_CASE("a slide that goes too far reads less", "[effects][sphere_calibration]") {
-  const Grinder g = Grinder().under({{sphere::B, 20 * deg}, {sphere::C, 50 * deg}, {sphere::time, 3600}});
+  const Grinder g = Grinder().under({{Commanded::B, 20 * deg}, {Commanded::C, 50 * deg}, {Commanded::time, 3600}});
   const auto read = g.commands();
   const auto shift = [&](std::string_view name, const std::vector<double>& values) {
     return g.with(name, values).commands() - read;
@@ -82,17 +82,17 @@ TEST_CASE("a slide that goes too far reads less", "[effects][sphere_calibration]
 }
 
 TEST_CASE("an axis that lags is an axis at another angle", "[effects][sphere_calibration]") {
-  const Grinder g = Grinder().under({{sphere::B, 20 * deg}, {sphere::C, 50 * deg}});
+  const Grinder g = Grinder().under({{Commanded::B, 20 * deg}, {Commanded::C, 50 * deg}});
   const auto turned = [&](double by_B, double by_C) {
-    return g.where(sphere::E_BB, by_B).where(sphere::E_CC, by_C).commands();
+    return g.where(Row::E_BB, by_B).where(Row::E_CC, by_C).commands();
   };
-  const auto up = g.with("c_axis_reversal", {6 * arcsec}), down = up.under({{sphere::C_direction, -1}});
+  const auto up = g.with("c_axis_reversal", {6 * arcsec}), down = up.under({{Commanded::C_direction, -1}});
   REQUIRE(distance(up.commands(), turned(0, -3 * arcsec)) < 1e-15);
   REQUIRE(distance(down.commands(), turned(0, 3 * arcsec)) < 1e-15);
-  REQUIRE(same(up.under({{sphere::C_direction, 0}}).commands(), g.commands()));
+  REQUIRE(same(up.under({{Commanded::C_direction, 0}}).commands(), g.commands()));
   const auto held = g.with("b_brake_shift", {4 * arcsec});
   REQUIRE(same(held.commands(), g.commands()));
-  REQUIRE(distance(held.under({{sphere::B_clamped, 1}}).commands(), turned(4 * arcsec, 0)) < 1e-15);
+  REQUIRE(distance(held.under({{Commanded::B_clamped, 1}}).commands(), turned(4 * arcsec, 0)) < 1e-15);
   // 5 um of eccentricity on 100 mm: 412 * 5 / 100 arcsec, 20.6.
   const double e = 5 * um / (100e-3 / 2);
   REQUIRE(e / arcsec == Approx(412.0 * 5 / 100).epsilon(2e-3));
@@ -100,7 +100,7 @@ TEST_CASE("an axis that lags is an axis at another angle", "[effects][sphere_cal
 }
 
 TEST_CASE("the probe triggers late", "[effects][sphere_calibration]") {
-  const auto at = [](double B, double C) { return Grinder().under({{sphere::B, B * deg}, {sphere::C, C * deg}}); };
+  const auto at = [](double B, double C) { return Grinder().under({{Commanded::B, B * deg}, {Commanded::C, C * deg}}); };
   const auto lower = [](const Grinder& g, std::string_view name, const std::vector<double>& values) {
     const auto moved = g.with(name, values).commands() - g.commands();
     REQUIRE(moved.x == 0);
@@ -113,7 +113,7 @@ TEST_CASE("the probe triggers late", "[effects][sphere_calibration]") {
       const double s = std::sin(B * deg);
       REQUIRE(std::fabs(lower(at(B, C), "pretravel", {7 * um}) - 7 * um) < rounding);
       REQUIRE(std::fabs(lower(at(B, C), "pretravel_bending", {7 * um}) - 7 * um * s * s) < rounding);
-      REQUIRE(std::fabs(lower(at(B, C).under({{sphere::feed, 0.5e-3}}), "trigger_latency", {2e-3}) - 1 * um) <
+      REQUIRE(std::fabs(lower(at(B, C).under({{Commanded::feed, 0.5e-3}}), "trigger_latency", {2e-3}) - 1 * um) <
               rounding);
       // Three lobes over the azimuth of the approach, which is that of -C, or opposite.
       REQUIRE(std::fabs(lower(at(B, C), "pretravel_lobing", {5 * um, 0}) - 5 * um * s * s * s * std::cos(3 * C * deg)) <

@@ -14,14 +14,14 @@ struct Study {
   explicit Study(const Grinder& machine) {
     const auto add = [&](double B, double C, double pattern) {
       const double n = static_cast<double>(poses.size());
-      poses.push_back(machine.under({{sphere::B, B * deg},
-                                     {sphere::C, C * deg},
-                                     {sphere::pattern, pattern},
-                                     {sphere::time, 60 * n},
-                                     {sphere::B_direction, std::fmod(n, 2) == 0 ? 1.0 : -1.0},
-                                     {sphere::C_direction, std::fmod(n, 3) == 0 ? 1.0 : -1.0},
-                                     {sphere::B_clamped, pattern == 1},
-                                     {sphere::C_clamped, pattern == 2}}));
+      poses.push_back(machine.under({{Commanded::B, B * deg},
+                                     {Commanded::C, C * deg},
+                                     {Commanded::pattern, pattern},
+                                     {Commanded::time, 60 * n},
+                                     {Commanded::B_direction, std::fmod(n, 2) == 0 ? 1.0 : -1.0},
+                                     {Commanded::C_direction, std::fmod(n, 3) == 0 ? 1.0 : -1.0},
+                                     {Commanded::B_clamped, pattern == 1},
+                                     {Commanded::C_clamped, pattern == 2}}));
       const auto c = poses.back().commands();
       for (const double command : {c.x, c.y, c.z}) x.emplace_back(8, command);
     };
@@ -47,7 +47,7 @@ struct Study {
     std::vector<double> theta;
     for (int j = 0; j < sphere::unknowns; ++j) {
       REQUIRE(found.status[0] == 0);
-      theta.push_back(found.measurands[8 * static_cast<std::size_t>(sphere::row_of[j])]);
+      theta.push_back(found.measurands[8 * tests::row_of(static_cast<std::size_t>(j))]);
     }
     return theta;
   }
@@ -61,7 +61,7 @@ TEST_CASE("joint evaluations find the machine behind any effect", "[laws][effect
     const Study study(truth);
     Grinder declared = truth;
     for (int j = 0; j < sphere::unknowns; ++j)
-      declared.q[static_cast<std::size_t>(j)] += (j < sphere::E_A0B ? 1e-3 : 0.2 * deg) * draw(-1, 1);
+      declared.q[static_cast<std::size_t>(j)] += (static_cast<std::size_t>(j) < Row::E_A0B ? 1e-3 : 0.2 * deg) * draw(-1, 1);
     const auto joint = study.found(declared, sphere::joint), sequential = study.found(declared, sphere::sequential);
     for (std::size_t j = 0; j < sphere::unknowns; ++j) {
       CAPTURE(j);
@@ -76,7 +76,7 @@ TEST_CASE("joint evaluations find the machine behind any effect", "[laws][effect
     check(Grinder().with(card->name, some(*card, draw)));
   }
   Grinder square = Grinder();
-  for (const auto s : {sphere::S_XY, sphere::S_XZ, sphere::S_YZ}) square.q[s] = draw(-5e-5, 5e-5);
+  for (const auto s : {Row::S_XY, Row::S_XZ, Row::S_YZ}) square.q[s] = draw(-5e-5, 5e-5);
   check(square.with_all(draw));
 }
 

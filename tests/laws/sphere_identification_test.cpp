@@ -5,10 +5,11 @@
 #include <random>
 
 #include "asked.h"
-#include "models/sphere_calibration/procedures.h"
+#include "laws/sphere_rows.h"
 
 using namespace gumshoe;
-namespace sphere = gumshoe::models::sphere_calibration;
+namespace sphere = gumshoe::tests::sphere;
+using tests::Row, tests::Commanded, tests::Found;
 
 namespace {
 
@@ -31,11 +32,11 @@ Quantities published() {
 }
 Quantities random_machine(Draw& draw) {
   Quantities q = published();
-  for (int j = 0; j < 3; ++j) q[sphere::probe_x + j] = draw(0.1, 0.5);
-  for (int j = sphere::E_X0B; j <= sphere::E_Y0C; ++j) q[j] = draw(-1e-3, 1e-3);
-  for (int j = sphere::E_A0B; j <= sphere::E_B0C; ++j) q[j] = draw(-1, 1) * deg;
-  for (int j = sphere::link_B_x; j <= sphere::link_C_y; ++j) q[j] = draw(-0.3, 0.3);
-  q[sphere::sphere_y] = draw(-1e-3, 1e-3), q[sphere::sphere_z] = draw(-1e-3, 1e-3);
+  for (int j = 0; j < 3; ++j) q[Row::probe_x + j] = draw(0.1, 0.5);
+  for (std::size_t j = Row::E_X0B; j <= Row::E_Y0C; ++j) q[j] = draw(-1e-3, 1e-3);
+  for (std::size_t j = Row::E_A0B; j <= Row::E_B0C; ++j) q[j] = draw(-1, 1) * deg;
+  for (std::size_t j = Row::link_B_x; j <= Row::link_C_y; ++j) q[j] = draw(-0.3, 0.3);
+  q[Row::sphere_y] = draw(-1e-3, 1e-3), q[Row::sphere_z] = draw(-1e-3, 1e-3);
   return q;
 }
 
@@ -66,10 +67,10 @@ struct Study {
 
   explicit Study(std::vector<Place> p) : poses(std::move(p)), x(3 * poses.size(), std::vector<double>(8)) {
     for (const Place& pose : poses) {
-      condition.emplace_back(sphere::conditions, 0.0);
-      condition.back()[sphere::B] = pose.B * deg;
-      condition.back()[sphere::C] = pose.C * deg;
-      condition.back()[sphere::pattern] = pose.label;
+      condition.emplace_back(tests::conditions, 0.0);
+      condition.back()[Commanded::B] = pose.B * deg;
+      condition.back()[Commanded::C] = pose.C * deg;
+      condition.back()[Commanded::pattern] = pose.label;
     }
   }
   propagation::BlockValues ask(const std::vector<Quantities>& q, int evaluation, bool simulates) {
@@ -94,7 +95,7 @@ struct Study {
   void identify(const Quantities& estimates, int evaluation) { take(ask({estimates}, evaluation, false)); }
   void take(const propagation::BlockValues& found) {
     results.clear();
-    for (std::size_t row = 0; row < sphere::joint_rows; ++row)
+    for (std::size_t row = 0; row < std::size(sphere::joint_cards); ++row)
       results.emplace_back(&found.measurands[8 * row], &found.measurands[8 * row] + 8);
     status = found.status;
   }
@@ -103,14 +104,14 @@ struct Study {
     declared = {};
     for (std::size_t r = 0; r < poses.size(); ++r) {
       declared.estimates.insert(declared.estimates.end(), estimates.begin(), estimates.end());
-      for (std::size_t k = 0; k < 3; ++k) declared.draws.push_back({linear, {{r, sphere::count + k}}});
+      for (std::size_t k = 0; k < 3; ++k) declared.draws.push_back({linear, {{r, tests::quantities + k}}});
       if (rotary > 0)
         declared.draws.push_back(
-            {rotary, {{r, static_cast<std::size_t>(poses[r].label == 1 ? sphere::E_CC : sphere::E_BB)}}});
+            {rotary, {{r, static_cast<std::size_t>(poses[r].label == 1 ? Row::E_CC : Row::E_BB)}}});
     }
   }
   double found(int unknown, std::size_t i = 0) const {
-    return results[static_cast<std::size_t>(sphere::row_of[unknown])][i];
+    return results[tests::row_of(static_cast<std::size_t>(unknown))][i];
   }
   std::vector<std::vector<double>> results;
   std::vector<std::uint8_t> status;
@@ -124,11 +125,11 @@ TEST_CASE("noiseless commands give the machine back by every method", "[laws][sp
     const auto truth = random_machine(draw);
     auto estimates = truth;
     // Links and artefact are known; the start is off by millimetres and a degree.
-    for (int j = 0; j <= sphere::E_Y0C; ++j) estimates[j] += draw(-5e-3, 5e-3);
-    for (int j = sphere::E_A0B; j <= sphere::E_B0C; ++j) estimates[j] = draw(-1, 1) * deg;
+    for (std::size_t j = 0; j <= Row::E_Y0C; ++j) estimates[j] += draw(-5e-3, 5e-3);
+    for (std::size_t j = Row::E_A0B; j <= Row::E_B0C; ++j) estimates[j] = draw(-1, 1) * deg;
     Study study(both());
     if (n % 2)
-      for (auto& condition : study.condition) condition[sphere::A] = draw(-3, 3);
+      for (auto& condition : study.condition) condition[Commanded::A] = draw(-3, 3);
     study.declare(estimates, 2 * um, 1e-4);
     study.measure({truth});
     for (const int method : methods) {
@@ -137,8 +138,8 @@ TEST_CASE("noiseless commands give the machine back by every method", "[laws][sp
       for (int i = 0; i < 8; ++i) REQUIRE(study.status[i] == 0);
       // 2e-16 of a length of 1 m, some 10 of these, times the condition number of 34 to 200.
       for (int j = 0; j < sphere::unknowns; ++j) CHECK(std::fabs(study.found(j) - truth[j]) < 1e-12);
-      CHECK(study.results[sphere::residual_row][0] < 1e-14);
-      CHECK(study.results[sphere::rank_row][0] == 11);
+      CHECK(study.results[Found::residual_rms][0] < 1e-14);
+      CHECK(study.results[Found::rank][0] == 11);
     }
   }
 }
@@ -148,14 +149,14 @@ TEST_CASE("rank and condition of the published poses", "[laws][sphere_calibratio
   Study study(both());
   study.measure({q});
   study.identify(q, sphere::joint);
-  CHECK(study.results[sphere::rank_row][0] == 11);
-  CHECK(std::fabs(study.results[sphere::condition_row][0] - 34) < 0.5); // by numpy's SVD: facts of the thesis' chapter
+  CHECK(study.results[Found::rank][0] == 11);
+  CHECK(std::fabs(study.results[Found::condition_number][0] - 34) < 0.5); // by numpy's SVD: facts of the thesis' chapter
 }
 
 TEST_CASE("what the poses cannot see stays as declared", "[laws][sphere_calibration][identification]") {
   const auto truth = published();
   auto estimates = truth;
-  estimates[sphere::probe_x] += 1e-3, estimates[sphere::E_A0B] = 0, estimates[sphere::E_X0B] = 2e-3;
+  estimates[Row::probe_x] += 1e-3, estimates[Row::E_A0B] = 0, estimates[Row::E_X0B] = 2e-3;
   struct Case {
     std::vector<Place> poses;
     int rank;
@@ -170,14 +171,14 @@ TEST_CASE("what the poses cannot see stays as declared", "[laws][sphere_calibrat
       study.identify(estimates, method);
       CAPTURE(poses.size(), method);
       REQUIRE(study.status[0] == 0);
-      if (rank > 0) CHECK(study.results[sphere::rank_row][0] == rank);
-      if (rank == 0) CHECK(study.results[sphere::rank_row][0] < 7); // two points, six numbers
+      if (rank > 0) CHECK(study.results[Found::rank][0] == rank);
+      if (rank == 0) CHECK(study.results[Found::rank][0] < 7); // two points, six numbers
       // Two poses are no planes: the wrong orientations declared stay in the sequential method.
-      if (rank > 0 || method != sphere::sequential) CHECK(study.results[sphere::residual_row][0] < 1e-13);
+      if (rank > 0 || method != sphere::sequential) CHECK(study.results[Found::residual_rms][0] < 1e-13);
       if (poses.size() == pattern_I().size()) { // at B = 0 nothing is seen of the B axis
-        for (const int j : {sphere::E_X0B, sphere::E_Z0B, sphere::E_A0B, sphere::E_C0B})
+        for (const std::size_t j : {Row::E_X0B, Row::E_Z0B, Row::E_A0B, Row::E_C0B})
           CHECK(study.found(j) == estimates[j]);
-        CHECK(std::fabs(study.found(sphere::E_A0C) - truth[sphere::E_A0C]) < 1e-12);
+        CHECK(std::fabs(study.found(Row::E_A0C) - truth[Row::E_A0C]) < 1e-12);
       }
     }
 }
@@ -186,17 +187,17 @@ TEST_CASE("a constant shift of the artefact goes into probe and axes without a r
           "[laws][sphere_calibration][identification]") {
   const auto truth = published();
   auto estimates = truth;
-  estimates[sphere::sphere_distance] += 10 * um;
+  estimates[Row::sphere_distance] += 10 * um;
   for (const int method : methods) {
     Study study(both());
     study.declare(estimates, 2 * um);
     study.measure({truth});
     study.identify(estimates, method);
     for (int j = 0; j < sphere::unknowns; ++j) {
-      const bool moves = j == sphere::probe_x || j == sphere::E_X0B || j == sphere::E_X0C;
+      const bool moves = j == Row::probe_x || j == Row::E_X0B || j == Row::E_X0C;
       CHECK(std::fabs(study.found(j) - truth[j] - (moves ? -10 * um : 0)) < 1e-12);
     }
-    CHECK(study.results[sphere::residual_row][0] < 1e-14);
+    CHECK(study.results[Found::residual_rms][0] < 1e-14);
   }
 }
 
@@ -206,11 +207,11 @@ TEST_CASE("planes are immune to the positioning of the axis that moves", "[laws]
   Study study(both());
   std::vector<Quantities> each(study.poses.size(), truth);
   for (std::size_t r = 0; r < each.size(); ++r)
-    each[r][study.poses[r].label == 1 ? sphere::E_CC : sphere::E_BB] = draw(-0.04, 0.04) * deg;
+    each[r][study.poses[r].label == 1 ? Row::E_CC : Row::E_BB] = draw(-0.04, 0.04) * deg;
   study.measure(each);
   study.identify(truth, sphere::sequential);
-  for (int j = sphere::E_A0B; j <= sphere::E_B0C; ++j) CHECK(std::fabs(study.found(j) - truth[j]) < 1e-13);
-  CHECK(std::fabs(study.found(sphere::E_X0C) - truth[sphere::E_X0C]) > 1 * um);
+  for (std::size_t j = Row::E_A0B; j <= Row::E_B0C; ++j) CHECK(std::fabs(study.found(j) - truth[j]) < 1e-13);
+  CHECK(std::fabs(study.found(Row::E_X0C) - truth[Row::E_X0C]) > 1 * um);
   study.identify(truth, sphere::joint); // here equal weights are worse
-  CHECK(std::fabs(study.found(sphere::E_B0C) - truth[sphere::E_B0C]) > 1e-4 * deg);
+  CHECK(std::fabs(study.found(Row::E_B0C) - truth[Row::E_B0C]) > 1e-4 * deg);
 }

@@ -7,14 +7,14 @@
 
 #include "asked.h"
 #include "base/error.h"
-#include "models/rod_gauging/shadow/shadow.h"
-#include "models/sphere_calibration/sphere_calibration.h"
+#include "laws/sphere_rows.h"
 #include "models/sphere_probing/sphere_probing.h"
 
 using namespace gumshoe;
 using models::Gradient;
 namespace probing = models::probing;
-namespace sphere = models::sphere_calibration;
+namespace sphere = gumshoe::tests::sphere;
+using tests::Row, tests::Commanded, tests::Found;
 
 namespace {
 
@@ -81,48 +81,48 @@ TEST_CASE("at the simulated commands the tip stands at the sphere, on any machin
 TEST_CASE("the grinder is that of sphere_calibration", "[laws][sphere_probing][sphere_calibration]") {
   Draw draw;
   for (int i = 0; i < 100; ++i) {
-    double q[sphere::count] = {};
-    for (int j = sphere::probe_x; j <= sphere::probe_z; ++j) q[j] = draw(0.05, 0.5);
-    for (int j = sphere::E_X0B; j <= sphere::E_Y0C; ++j) q[j] = draw(-1e-3, 1e-3);
-    for (int j = sphere::E_A0B; j <= sphere::E_B0C; ++j) q[j] = draw(-0.5, 0.5) * deg;
-    for (int j = sphere::link_B_x; j <= sphere::link_C_y; ++j) q[j] = draw(-0.2, 0.2);
-    for (const int j : {sphere::sphere_distance, sphere::sphere_y, sphere::sphere_z}) q[j] = draw(-0.2, 0.2);
-    for (const int j : {sphere::E_AA, sphere::E_BB, sphere::E_CC}) q[j] = draw(-0.1, 0.1) * deg;
-    for (int j = sphere::E_XX; j <= sphere::E_ZZ; ++j) q[j] = draw(-1e-5, 1e-5);
-    q[sphere::sphere_radius] = 0.0125, q[sphere::tip_radius] = 0.003;
-    double condition[sphere::conditions] = {draw(-2, 2), draw(-2, 2), draw(-2, 2)};
-    const auto wanted = sphere::simulate(sphere::contact(sphere::exact, q, sphere::links(q), condition, false));
+    double q[tests::quantities] = {};
+    for (std::size_t j = Row::probe_x; j <= Row::probe_z; ++j) q[j] = draw(0.05, 0.5);
+    for (std::size_t j = Row::E_X0B; j <= Row::E_Y0C; ++j) q[j] = draw(-1e-3, 1e-3);
+    for (std::size_t j = Row::E_A0B; j <= Row::E_B0C; ++j) q[j] = draw(-0.5, 0.5) * deg;
+    for (std::size_t j = Row::link_B_x; j <= Row::link_C_y; ++j) q[j] = draw(-0.2, 0.2);
+    for (const std::size_t j : {Row::sphere_distance, Row::sphere_y, Row::sphere_z}) q[j] = draw(-0.2, 0.2);
+    for (const std::size_t j : {Row::E_AA, Row::E_BB, Row::E_CC}) q[j] = draw(-0.1, 0.1) * deg;
+    for (std::size_t j = Row::E_XX; j <= Row::E_ZZ; ++j) q[j] = draw(-1e-5, 1e-5);
+    q[Row::sphere_radius] = 0.0125, q[Row::tip_radius] = 0.003;
+    double condition[tests::conditions] = {draw(-2, 2), draw(-2, 2), draw(-2, 2)};
+    const auto wanted = sphere::simulate(sphere::contact(tests::reading(sphere::exact, q, {condition, condition + tests::conditions})));
 
     auto d = *chain::find_machine("grinder");
-    (*d.tool_side)[2].point = {q[sphere::link_B_x], 0, -q[sphere::link_B_z]};
-    (*d.tool_side)[3].point = {q[sphere::link_C_x], q[sphere::link_C_y], 0};
+    (*d.tool_side)[2].point = {q[Row::link_B_x], 0, -q[Row::link_B_z]};
+    (*d.tool_side)[3].point = {q[Row::link_C_x], q[Row::link_C_y], 0};
     // There the errors of the slides add to the commands. By ISO those of X do so, too, as X carries the workpiece;
     // those of Y and Z, which carry the tool, count against them.
     const auto add = [&](const char* name, double value) { d.errors.emplace_back(name, value); };
-    add("E_X0B", q[sphere::E_X0B]), add("E_Z0B", -q[sphere::E_Z0B]), add("E_X0C", q[sphere::E_X0C]);
-    add("E_Y0C", q[sphere::E_Y0C]), add("E_A0B", q[sphere::E_A0B]), add("E_C0B", q[sphere::E_C0B]);
-    add("E_A0C", q[sphere::E_A0C]), add("E_B0C", q[sphere::E_B0C]), add("E_AA", q[sphere::E_AA]);
-    add("E_BB", q[sphere::E_BB]), add("E_CC", q[sphere::E_CC]);
+    add("E_X0B", q[Row::E_X0B]), add("E_Z0B", -q[Row::E_Z0B]), add("E_X0C", q[Row::E_X0C]);
+    add("E_Y0C", q[Row::E_Y0C]), add("E_A0B", q[Row::E_A0B]), add("E_C0B", q[Row::E_C0B]);
+    add("E_A0C", q[Row::E_A0C]), add("E_B0C", q[Row::E_B0C]), add("E_AA", q[Row::E_AA]);
+    add("E_BB", q[Row::E_BB]), add("E_CC", q[Row::E_CC]);
     for (const auto& [name, index, carried] :
-         {std::tuple{"E_XX", sphere::E_XX, true}, std::tuple{"E_YX", sphere::E_YX, true},
-          std::tuple{"E_ZX", sphere::E_ZX, true}, std::tuple{"E_XY", sphere::E_XY, false},
-          std::tuple{"E_YY", sphere::E_YY, false}, std::tuple{"E_ZY", sphere::E_ZY, false},
-          std::tuple{"E_XZ", sphere::E_XZ, false}, std::tuple{"E_YZ", sphere::E_YZ, false},
-          std::tuple{"E_ZZ", sphere::E_ZZ, false}})
+         {std::tuple<const char*, std::size_t, bool>{"E_XX", Row::E_XX, true}, std::tuple<const char*, std::size_t, bool>{"E_YX", Row::E_YX, true},
+          std::tuple<const char*, std::size_t, bool>{"E_ZX", Row::E_ZX, true}, std::tuple<const char*, std::size_t, bool>{"E_XY", Row::E_XY, false},
+          std::tuple<const char*, std::size_t, bool>{"E_YY", Row::E_YY, false}, std::tuple<const char*, std::size_t, bool>{"E_ZY", Row::E_ZY, false},
+          std::tuple<const char*, std::size_t, bool>{"E_XZ", Row::E_XZ, false}, std::tuple<const char*, std::size_t, bool>{"E_YZ", Row::E_YZ, false},
+          std::tuple<const char*, std::size_t, bool>{"E_ZZ", Row::E_ZZ, false}})
       add(name, carried ? q[index] : -q[index]);
     Case c(d, draw, 0);
     for (std::size_t j = 0; j < c.q.size(); ++j) c.q[j] = c.model->card->quantities[j].default_value;
-    const double points[] = {q[sphere::probe_x],
-                             -q[sphere::probe_y],
-                             -q[sphere::probe_z],
-                             -q[sphere::sphere_distance],
-                             q[sphere::sphere_y],
-                             q[sphere::sphere_z],
+    const double points[] = {q[Row::probe_x],
+                             -q[Row::probe_y],
+                             -q[Row::probe_z],
+                             -q[Row::sphere_distance],
+                             q[Row::sphere_y],
+                             q[Row::sphere_z],
                              0,
                              0,
                              0.0155};
     std::copy(std::begin(points), std::end(points), c.q.begin());
-    c.conditions = {condition[sphere::A], condition[sphere::B], condition[sphere::C]};
+    c.conditions = {condition[Commanded::A], condition[Commanded::B], condition[Commanded::C]};
     const auto xyz = c.simulated();
     CHECK(std::fabs(xyz[0] - wanted.x) < 1e-14);
     CHECK(std::fabs(xyz[1] - wanted.y) < 1e-14);

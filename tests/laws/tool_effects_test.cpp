@@ -6,7 +6,8 @@
 using namespace gumshoe;
 using tests::Draw;
 using tests::Mill;
-namespace mill = gumshoe::models::tool_length;
+namespace mill = gumshoe::tests::mill;
+using gumshoe::tests::Row, gumshoe::tests::Commanded, gumshoe::tests::Stated;
 
 namespace {
 
@@ -20,7 +21,7 @@ constexpr double rounding = 2e-14;
 TEST_CASE("a delay of the feed turns the curve by 6 N dt degrees", "[effects][tool_length]") {
   const Mill m;
   for (const double dt : {3 * ms, -20 * ms, 0.25}) {
-    const Mill turned = m.under(mill::start_angle, m.condition[mill::start_angle] + 6 * 1000 * dt * deg);
+    const Mill turned = m.under(Commanded::start_angle, m.condition[Commanded::start_angle] + 6 * 1000 * dt * deg);
     REQUIRE(std::fabs(m.with("feed_start_delay", {dt}).reading() - turned.reading()) < rounding);
     REQUIRE(std::fabs(m.reading() - turned.reading()) > 1e-9); // not for nothing
   }
@@ -30,7 +31,7 @@ TEST_CASE("an error of the spindle speed is another speed", "[effects][tool_leng
   const Mill m;
   for (const double e : {0.01, -0.002})
     REQUIRE(std::fabs(m.with("spindle_speed_error", {e}).reading() -
-                      m.under(mill::speed, m.condition[mill::speed] * (1 + e)).reading()) < rounding);
+                      m.under(Commanded::spindle_speed, m.condition[Commanded::spindle_speed] * (1 + e)).reading()) < rounding);
   // A delay is turned through at the true speed.
   REQUIRE(m.with("spindle_speed_error", {0.01}).with("feed_start_delay", {0.1}).event().tool.turns_before_feed ==
           Approx(1010 * rpm * 0.1).epsilon(1e-14));
@@ -39,9 +40,9 @@ TEST_CASE("an error of the spindle speed is another speed", "[effects][tool_leng
 TEST_CASE("what truly moves the tool's centre moves it at the start, too", "[effects][tool_length]") {
   // Tool longer by g: the reading of a feed from g lower, g higher. Axis lower by s than its scale says: likewise.
   const Mill m;
-  const double h = m.condition[mill::start_height];
-  const auto raised = [&](double by) { return m.under(mill::start_height, h - by).reading() + by; };
-  const double t = m.condition[mill::time];
+  const double h = m.condition[Commanded::start_height];
+  const auto raised = [&](double by) { return m.under(Commanded::start_height, h - by).reading() + by; };
+  const double t = m.condition[Commanded::time];
   REQUIRE(std::fabs(m.with("reclamp", {3 * um}).reading() - raised(3 * um)) < rounding);
   REQUIRE(std::fabs(m.with("rod_expansion", {11.5e-6, 5}).reading() - raised(0.150 * 11.5e-6 * 5)) < rounding);
   REQUIRE(std::fabs(m.with("thermal_growth", {2 * um / 3600, 0}).reading() - raised(2 * um / 3600 * t)) < rounding);
@@ -52,12 +53,12 @@ TEST_CASE("what truly moves the tool's centre moves it at the start, too", "[eff
   REQUIRE(std::fabs(m.with("spindle_axial_shift", {40 * um, 90 * um, 600}).reading() -
                     raised(spindle(40 * um, 90 * um))) < rounding);
   // Four times as much at twice the speed.
-  const Mill fast = m.under(mill::speed, 2000 * rpm);
+  const Mill fast = m.under(Commanded::spindle_speed, 2000 * rpm);
   REQUIRE(fast.with("spindle_axial_shift", {40 * um, 0}).event().z.error ==
           Approx(4 * m.with("spindle_axial_shift", {40 * um, 0}).event().z.error).epsilon(1e-14));
   // Scale: the axis stands E Z farther, at the start by the start's Z, and falls 1 + E as fast.
   const double E = 20e-6, start = -0.5 + 0.150 + h;
-  const Mill scaled = m.under(mill::start_height, h + E * start).under(mill::feed, m.condition[mill::feed] * (1 + E));
+  const Mill scaled = m.under(Commanded::start_height, h + E * start).under(Commanded::feed, m.condition[Commanded::feed] * (1 + E));
   REQUIRE(std::fabs(m.with("z_scale", {E}).reading() * (1 + E) - scaled.reading()) < rounding);
 }
 
@@ -70,22 +71,22 @@ TEST_CASE("latency lowers the reading and leaves height and phase", "[effects][t
 TEST_CASE("eccentricity along one flute's azimuth is that flute's radius, and a cosine for the others",
           "[effects][tool_length]") {
   const double e = 12 * um;
-  const Mill m = Mill().where(mill::inserts, 2);
+  const Mill m = Mill().where(Row::inserts, 2);
   const Mill seats = m.with("insert_seat_error", {e, -e});
   for (int i = 0; i < 36; ++i) {
     const double angle = 10 * deg * i;
-    REQUIRE(std::fabs(m.with("tool_runout", {e, 0}).under(mill::start_angle, angle).reading() -
-                      seats.under(mill::start_angle, angle).reading()) < rounding);
+    REQUIRE(std::fabs(m.with("tool_runout", {e, 0}).under(Commanded::start_angle, angle).reading() -
+                      seats.under(Commanded::start_angle, angle).reading()) < rounding);
   }
-  const Mill five = m.where(mill::inserts, 5).with("tool_runout", {3 * um, 4 * um});
+  const Mill five = m.where(Row::inserts, 5).with("tool_runout", {3 * um, 4 * um});
   const auto event = five.event();
   for (int k = 0; k < 5; ++k) {
-    const auto f = mill::flute(five.q.data(), event, k);
+    const auto f = mill::flute(tests::named(five.q), event, k);
     const double azimuth = 2 * pi * k / 5 - std::atan2(4, 3);
     REQUIRE(f.insert.tool_radius - 10 * mm == Approx(5 * um * std::cos(azimuth)).margin(1e-17));
     REQUIRE(f.insert.seat == Approx(-5 * um * std::sin(azimuth)).margin(1e-17));
     REQUIRE(f.raise == 0);
-    REQUIRE(f.insert.radial_angle == five.q[mill::radial_angle]);
+    REQUIRE(f.insert.radial_angle == five.q[Row::insert_radial_angle]);
   }
 }
 
@@ -98,9 +99,9 @@ TEST_CASE("a tilted tool's inserts are the same bodies, turned", "[effects][tool
     const double x = draw(-0.1, 0.1), y = draw(-0.1, 0.1), ex = draw(-0.5, 0.5) * mm, ey = draw(-0.5, 0.5) * mm;
     const Mill tilted = straight.with("tool_runout", {ex, ey, x, y});
     const models::laser_setter::Beam<double> level{0, 0, 2e-4, 0.5};
-    for (int k = 0; k < straight.q[mill::inserts]; ++k) {
-      auto before = mill::flute(straight.q.data(), straight.event(), k);
-      auto after = mill::flute(tilted.q.data(), tilted.event(), k);
+    for (int k = 0; k < straight.q[Row::inserts]; ++k) {
+      auto before = mill::flute(tests::named(straight.q), straight.event(), k);
+      auto after = mill::flute(tests::named(tilted.q), tilted.event(), k);
       REQUIRE(after.azimuth == before.azimuth);
       const auto a = models::tool_length::insert_body(before.insert, level), b = models::tool_length::insert_body(after.insert, level);
       const double c = std::cos(before.azimuth), s = std::sin(before.azimuth);
@@ -136,12 +137,12 @@ TEST_CASE("a tilted tool's inserts are the same bodies, turned", "[effects][tool
 
 TEST_CASE("errors that all inserts share are the tool's own quantities", "[effects][tool_length]") {
   Draw draw;
-  const std::tuple<const char*, mill::Quantity, double> cases[] = {
-      {"insert_radius_error", mill::insert_radius, 20 * um},
-      {"insert_seat_error", mill::tool_radius, -15 * um},
-      {"insert_pitch_error", mill::holder_angle, 0.4 * deg},
-      {"insert_radial_angle_error", mill::radial_angle, 0.3 * deg},
-      {"insert_axial_angle_error", mill::axial_angle, -0.2 * deg}};
+  const std::tuple<const char*, std::size_t, double> cases[] = {
+      {"insert_radius_error", Row::insert_radius, 20 * um},
+      {"insert_seat_error", Row::tool_radius, -15 * um},
+      {"insert_pitch_error", Row::holder_angle, 0.4 * deg},
+      {"insert_radial_angle_error", Row::insert_radial_angle, 0.3 * deg},
+      {"insert_axial_angle_error", Row::insert_axial_angle, -0.2 * deg}};
   int compared = 0;
   for (int n = 0; n < 12; ++n) {
     const Mill m = Mill::random(draw);
@@ -157,13 +158,13 @@ TEST_CASE("errors that all inserts share are the tool's own quantities", "[effec
 
 TEST_CASE("an insert alone has its own error", "[effects][tool_length]") {
   // Flute 2 worn away far beyond the descent from flute to flute: only flute 1 is seen, with its own errors.
-  Mill m = Mill().where(mill::wear + 1, 0.2 * mm);
-  const std::tuple<const char*, mill::Quantity, double> cases[] = {
-      {"insert_radius_error", mill::insert_radius, 20 * um},
-      {"insert_seat_error", mill::tool_radius, -15 * um},
-      {"insert_pitch_error", mill::holder_angle, 0.4 * deg},
-      {"insert_radial_angle_error", mill::radial_angle, 0.3 * deg},
-      {"insert_axial_angle_error", mill::axial_angle, -0.2 * deg}};
+  Mill m = Mill().where(Row::wear_1 + 1, 0.2 * mm);
+  const std::tuple<const char*, std::size_t, double> cases[] = {
+      {"insert_radius_error", Row::insert_radius, 20 * um},
+      {"insert_seat_error", Row::tool_radius, -15 * um},
+      {"insert_pitch_error", Row::holder_angle, 0.4 * deg},
+      {"insert_radial_angle_error", Row::insert_radial_angle, 0.3 * deg},
+      {"insert_axial_angle_error", Row::insert_axial_angle, -0.2 * deg}};
   for (const auto& [name, quantity, value] : cases) {
     INFO(name);
     const double own = m.where(quantity, m.q[static_cast<std::size_t>(quantity)] + value).reading();
@@ -189,31 +190,31 @@ TEST_CASE("a lagging feed from a low start, against all angles one after another
     Mill m = Mill::random(draw);
     models::tool_length::TriggerSolver solver;
     double highest = -1;
-    for (int k = 0; k < m.q[mill::inserts]; ++k) {
-      const auto f = mill::flute(m.q.data(), m.event(), k);
-      const auto& heights = solver.heights(f.insert, mill::beam(m.q.data()));
+    for (int k = 0; k < m.q[Row::inserts]; ++k) {
+      const auto f = mill::flute(tests::named(m.q), m.event(), k);
+      const auto& heights = solver.heights(f.insert, models::laser_setter::beam(tests::named(m.q)));
       if (heights.ever_covered()) highest = std::max(highest, heights.highest().height - f.raise);
     }
     if (highest == -1) continue;
-    const double tau = draw(5, 200) * ms, speed = m.condition[mill::speed], feed = m.condition[mill::feed];
-    m = m.under(mill::start_height, highest + draw(0, 2) * feed * tau + 1 * um).with("servo_lag", {tau});
+    const double tau = draw(5, 200) * ms, speed = m.condition[Commanded::spindle_speed], feed = m.condition[Commanded::feed];
+    m = m.under(Commanded::start_height, highest + draw(0, 2) * feed * tau + 1 * um).with("servo_lag", {tau});
     const auto o = m.simulated();
     if (o.trigger.height.status != Status::ok) continue;
     ++solved;
     const double t = o.trigger.turned / speed;
     transient += std::exp(-t / tau) > 0.01;
     const auto height = [&](double at) { // by another form of the same law
-      return m.condition[mill::start_height] - feed * at - feed * tau * std::expm1(-at / tau);
+      return m.condition[Commanded::start_height] - feed * at - feed * tau * std::expm1(-at / tau);
     };
     REQUIRE(std::fabs(height(t) - o.trigger.height.value) < 1e-15);
     // How far above its trigger height any flute stands.
     const auto above = [&](double at) {
       double least = 1;
-      for (int k = 0; k < m.q[mill::inserts]; ++k) {
-        const auto f = mill::flute(m.q.data(), m.event(), k);
+      for (int k = 0; k < m.q[Row::inserts]; ++k) {
+        const auto f = mill::flute(tests::named(m.q), m.event(), k);
         const auto node =
-            solver.heights(f.insert, mill::beam(m.q.data()))
-                .at(m.q[mill::holder_angle] + m.condition[mill::start_angle] + f.azimuth + speed * at, std::nan(""));
+            solver.heights(f.insert, models::laser_setter::beam(tests::named(m.q)))
+                .at(m.q[Row::holder_angle] + m.condition[Commanded::start_angle] + f.azimuth + speed * at, std::nan(""));
         if (node.covered) least = std::min(least, height(at) + f.raise - node.height);
       }
       return least;
@@ -230,14 +231,14 @@ TEST_CASE("a lagging feed from a low start, against all angles one after another
 
 TEST_CASE("latency within the transient of a lag", "[effects][tool_length]") {
   // 40 ms after the feed began, with a time constant of 60 ms; latched 25 ms later.
-  const Mill slow = Mill().under(mill::start_height, 0.005 * mm).with("servo_lag", {60 * ms});
+  const Mill slow = Mill().under(Commanded::start_height, 0.005 * mm).with("servo_lag", {60 * ms});
   const auto o = slow.simulated();
   REQUIRE(o.trigger.height.status == Status::ok);
   const double v = 30 * mm / 60, tau = 60 * ms, t = o.trigger.turned / (1000 * rpm), d = 25 * ms;
   const auto behind = [&](double at) { return v * tau * (1 - std::exp(-at / tau)); };
   REQUIRE(slow.with("trigger_latency", {d}).reading() - o.spindle_z ==
           Approx(-(v * d - behind(t + d) + behind(t))).epsilon(1e-8));
-  const Mill command = Mill().under(mill::start_height, 0.005 * mm).with("servo_lag", {60 * ms, 1});
+  const Mill command = Mill().under(Commanded::start_height, 0.005 * mm).with("servo_lag", {60 * ms, 1});
   REQUIRE(command.with("trigger_latency", {d}).reading() - o.spindle_z == Approx(-(v * d + behind(t))).epsilon(1e-8));
 }
 
@@ -247,14 +248,14 @@ TEST_CASE("a sampled receiver is late by less than a period", "[effects][tool_le
   double sum = 0, least = 1, most = 0;
   const int n = 150;
   for (int i = 0; i < n; ++i) {
-    const Mill m = Mill().under(mill::start_angle, draw(0, 2 * pi)), sampled = m.with("sampling_rate", {T, draw(0, 1)});
+    const Mill m = Mill().under(Commanded::start_angle, draw(0, 2 * pi)), sampled = m.with("sampling_rate", {T, draw(0, 1)});
     const double late = (m.reading() - sampled.reading()) / v;
     REQUIRE(sampled.height() == m.height());
     REQUIRE(late > -1e-9 * T);
     REQUIRE(late < T * (1 + 1e-9));
     sum += late, least = std::min(least, late), most = std::max(most, late);
     // It is read at a whole number of periods from the phase, wherever the trigger was.
-    const double read = (m.q[mill::laser_z] + m.q[mill::length] + 0.5 * mm - sampled.reading()) / v;
+    const double read = (m.q[Row::laser_z] + m.q[Row::tool_length] + 0.5 * mm - sampled.reading()) / v;
     const double periods = read / T - sampled.effects[1];
     REQUIRE(std::fabs(periods - std::round(periods)) < 1e-8);
   }
@@ -269,17 +270,17 @@ TEST_CASE("confirmation over n revolutions lowers by n times the descent", "[eff
   for (int i = 0; i < 20; ++i) {
     const Mill m = Mill::random(draw);
     if (!m.triggers()) continue;
-    const double n = std::floor(draw(1, 5)), speed = m.condition[mill::speed], v = m.condition[mill::feed];
+    const double n = std::floor(draw(1, 5)), speed = m.condition[Commanded::spindle_speed], v = m.condition[Commanded::feed];
     REQUIRE(m.reading() - m.with("revolution_confirm", {n}).reading() == Approx(n * v * 2 * pi / speed).epsilon(1e-8));
     // By definition: the first covered moment not before n revolutions after the trigger.
     models::tool_length::TriggerSolver solver;
     const auto o = m.simulated();
     std::vector<models::tool_length::Flute<double>> flutes;
-    for (int k = 0; k < m.q[mill::inserts]; ++k) flutes.push_back(mill::flute(m.q.data(), m.event(), k));
+    for (int k = 0; k < m.q[Row::inserts]; ++k) flutes.push_back(mill::flute(tests::named(m.q), m.event(), k));
     const double accepted = o.trigger.turned + 2 * pi * n;
-    const auto again = solver.solve(flutes, mill::beam(m.q.data()),
-                                    {m.q[mill::holder_angle] + m.condition[mill::start_angle],
-                                     m.condition[mill::start_height], v / speed, accepted});
+    const auto again = solver.solve(flutes, models::laser_setter::beam(tests::named(m.q)),
+                                    {m.q[Row::holder_angle] + m.condition[Commanded::start_angle],
+                                     m.condition[Commanded::start_height], v / speed, accepted});
     REQUIRE(again.status == Status::ok);
     REQUIRE(std::fabs(again.turned - accepted) < 1e-9);
   }

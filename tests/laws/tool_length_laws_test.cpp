@@ -7,19 +7,20 @@
 using namespace gumshoe;
 using tests::Draw;
 using tests::Mill;
-namespace mill = gumshoe::models::tool_length;
+namespace mill = gumshoe::tests::mill;
+using gumshoe::tests::Row, gumshoe::tests::Commanded, gumshoe::tests::Stated;
 
 TEST_CASE("dual numbers lose no bit of the flutes in the run-out's rotations", "[laws][effects][tool_length]") {
   Draw draw;
   for (int n = 0; n < 30; ++n) {
     const Mill plain = Mill::random(draw), m = plain.with("tool_runout", {});
-    const std::vector<models::Gradient> q(m.q.begin(), m.q.end()), condition(m.condition.begin(), m.condition.end());
+    const std::vector<models::Gradient> q(m.q.begin(), m.q.end());
     std::vector<models::Gradient> e;
     for (const double x : m.effects) e.push_back(models::Gradient::variable(x, 0));
-    const auto event = mill::probing_event<models::Gradient>(q.data(), condition.data(), e.data(), m.active);
-    for (int k = 0; k < m.q[mill::inserts]; ++k) {
-      const auto dual = mill::converted<double>(mill::flute(q.data(), event, k));
-      const auto flat = mill::flute(plain.q.data(), plain.event(), k);
+    const auto event = mill::probing_event(models::reading_of<mill::ToolLength>(m.call(q, e), false));
+    for (int k = 0; k < m.q[Row::inserts]; ++k) {
+      const auto dual = mill::converted<double>(mill::flute(tests::named(q), event, k));
+      const auto flat = mill::flute(tests::named(plain.q), plain.event(), k);
       REQUIRE(dual.insert.tool_radius == flat.insert.tool_radius);
       REQUIRE(dual.insert.seat == flat.insert.seat);
       REQUIRE(dual.insert.radial_angle == flat.insert.radial_angle);
@@ -39,10 +40,10 @@ TEST_CASE("the sampled receiver has the derivatives of its mean, and of its phas
   models::tool_length::TriggerSolver solver;
   auto call = m.call(q, e);
   call.indications = &reading;
-  const auto o = mill::evaluate(solver, call);
-  REQUIRE(std::fabs(o.length.v - m.q[mill::length]) < 1e-15);
+  const auto o = mill::evaluate(solver, models::reading_of<mill::ToolLength>(call, false), reading);
+  REQUIRE(std::fabs(o.length.v - m.q[Row::tool_length]) < 1e-15);
   // The reading falls by feed times latency, so the length that is stated rises with it.
-  const double v = m.condition[mill::feed];
+  const double v = m.condition[Commanded::feed];
   REQUIRE(o.length.d[0] == Approx(v / 2).epsilon(1e-12));
   REQUIRE(o.length.d[1] == Approx(v * 3e-3).epsilon(1e-12));
 }
@@ -61,12 +62,12 @@ TEST_CASE("what a mill's effects make impossible is said", "[effects][tool_lengt
            {m.with("sampling_rate", {-1e-3}), "sampling_rate"},
            {m.with("revolution_confirm", {-1.0}), "revolution_confirm"},
            {m.with("trigger_latency", {std::nan("")}).with("feed_start_delay", {std::nan("")}), "finite"},
-           {m.under(mill::feed, 0), "feed"},
-           {m.under(mill::speed, 0), "spindle_speed"},
-           {m.under(mill::direction, 1), "direction"},
-           {m.where(mill::inserts, 2.5), "inserts"},
-           {m.where(mill::inserts, 1e9), "inserts"},
-           {m.where(mill::wear, 7e-3), "wear"}}) {
+           {m.under(Commanded::feed, 0), "feed"},
+           {m.under(Commanded::spindle_speed, 0), "spindle_speed"},
+           {m.under(Commanded::direction, 1), "direction"},
+           {m.where(Row::inserts, 2.5), "inserts"},
+           {m.where(Row::inserts, 1e9), "inserts"},
+           {m.where(Row::wear_1, 7e-3), "wear"}}) {
     INFO(words);
     CHECK_THAT(says(bad), Catch::Contains(words));
     CHECK(status(bad) == Status::out_of_domain);

@@ -11,7 +11,7 @@ using namespace gumshoe::models::tool_length;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846, deg = pi / 180, mm = 1e-3;
+constexpr double pi = 3.14159265358979323846;
 
 struct Tool {
   std::vector<Flute<double>> flutes;
@@ -370,7 +370,8 @@ TEST_CASE("both ways see a characteristic curve jump at the same angle", "[refer
 }
 
 TEST_CASE("inserts that differ, and drops large and tiny, agree with the twin", "[references][tool_length]") {
-  namespace mill = models::tool_length;
+  namespace mill = gumshoe::tests::mill;
+using gumshoe::tests::Row, gumshoe::tests::Commanded, gumshoe::tests::Stated;
   Draw draw;
   int solved = 0;
   for (int n = 0; n < 84; n += 7) { // each insert its own
@@ -392,12 +393,12 @@ TEST_CASE("inserts that differ, and drops large and tiny, agree with the twin", 
     std::vector<std::vector<double>> q;
     for (const auto& f : t.flutes) {
       const Insert<double>& i = f.insert;
-      std::vector<double> values(mill::count, 0.0);
-      values[mill::tool_radius] = i.tool_radius, values[mill::insert_radius] = i.radius;
-      values[mill::insert_thickness] = i.thickness, values[mill::clearance] = i.clearance;
-      values[mill::radial_angle] = i.radial_angle, values[mill::axial_angle] = i.axial_angle;
-      values[mill::offset] = -i.axis_y, values[mill::yaw] = t.beam.yaw, values[mill::pitch] = t.beam.pitch;
-      values[mill::beam_radius] = t.beam.radius, values[mill::fraction] = t.beam.fraction;
+      std::vector<double> values(tests::quantities, 0.0);
+      values[Row::tool_radius] = i.tool_radius, values[Row::insert_radius] = i.radius;
+      values[Row::insert_thickness] = i.thickness, values[Row::clearance_angle] = i.clearance;
+      values[Row::insert_radial_angle] = i.radial_angle, values[Row::insert_axial_angle] = i.axial_angle;
+      values[Row::offset] = -i.axis_y, values[Row::beam_yaw] = t.beam.yaw, values[Row::beam_pitch] = t.beam.pitch;
+      values[Row::beam_radius] = t.beam.radius, values[Row::trigger_fraction] = t.beam.fraction;
       q.push_back(values);
     }
     const double target = t.beam.fraction * pi * t.beam.radius * t.beam.radius;

@@ -5,7 +5,8 @@
 
 namespace gumshoe::tests {
 
-namespace mill = models::tool_length;
+namespace mill = gumshoe::tests::mill;
+using gumshoe::tests::Row, gumshoe::tests::Commanded, gumshoe::tests::Stated;
 
 namespace {
 
@@ -22,20 +23,20 @@ Vec about_x(const Vec& v, double t) {
 } // namespace
 
 double covered_by_strips(const double* q, double psi, double h, int columns) {
-  const double beam = q[mill::beam_radius], yaw = q[mill::yaw], pitch = q[mill::pitch], radius = q[mill::insert_radius];
+  const double beam = q[Row::beam_radius], yaw = q[Row::beam_yaw], pitch = q[Row::beam_pitch], radius = q[Row::insert_radius];
   // A point of the insert's frame on the photodiode plane, by rotating everything instead of the beam.
   const auto turned = [&](Vec v, bool point) {
-    v = about_z(about_x(v, -q[mill::axial_angle]), -q[mill::radial_angle]);
-    if (point) v.x += q[mill::tool_radius];
+    v = about_z(about_x(v, -q[Row::insert_axial_angle]), -q[Row::insert_radial_angle]);
+    if (point) v.x += q[Row::tool_radius];
     v = about_z(v, psi);
-    if (point) v.y -= q[mill::offset], v.z += h;
+    if (point) v.y -= q[Row::offset], v.z += h;
     v = about_z(v, -yaw);
     return Vec{std::cos(pitch) * v.x + std::sin(pitch) * v.z, v.y, std::cos(pitch) * v.z - std::sin(pitch) * v.x};
   };
   const Vec front = turned({-radius, 0, radius}, true);
-  const Vec back = turned({-radius, q[mill::insert_thickness], radius}, true);
+  const Vec back = turned({-radius, q[Row::insert_thickness], radius}, true);
   const Vec u = turned({1, 0, 0}, false), w = turned({0, 0, 1}, false);
-  const double shrink = q[mill::insert_thickness] * std::tan(q[mill::clearance]);
+  const double shrink = q[Row::insert_thickness] * std::tan(q[Row::clearance_angle]);
   const double amplitude = std::hypot(u.y, w.y), phase = std::atan2(w.y, u.y);
   const double along = u.z * std::cos(phase) + w.z * std::sin(phase); // dz per dy's amplitude, in phase
   const double across = w.z * std::cos(phase) - u.z * std::sin(phase);

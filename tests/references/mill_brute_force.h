@@ -3,7 +3,7 @@
 /// edges in a column are found by a search over the stack, the covered area is a sum over columns.
 #include <vector>
 
-#include "models/tool_length/tool_length.h"
+#include "laws/mill_rows.h"
 
 namespace gumshoe::tests {
 

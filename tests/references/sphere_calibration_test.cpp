@@ -5,12 +5,13 @@
 #include <cmath>
 
 #include "base/csv.h"
-#include "models/sphere_calibration/sphere_calibration.h"
+#include "laws/sphere_rows.h"
 #include "places.h"
 #include "propagation/point_table.h"
 
 using namespace gumshoe;
-namespace sphere = gumshoe::models::sphere_calibration;
+namespace sphere = gumshoe::tests::sphere;
+using tests::Row, tests::Commanded, tests::Found;
 
 namespace {
 
@@ -25,7 +26,7 @@ Csv inputs(const Csv& table, const std::string& evaluation) {
 }
 
 Vector3<double> probe(int variant, const std::vector<double>& q, double B, double C) {
-  return sphere::probe_from_origin(variant, sphere::links(q.data()), B * deg, C * deg, B != 0);
+  return sphere::probe_from_origin(variant, tests::links(q), B * deg, C * deg, B != 0);
 }
 std::vector<double> defaults() {
   std::vector<double> q;
@@ -93,7 +94,7 @@ TEST_CASE("closed forms are the exact chain to first order, eq 4.38 as printed i
           "[references][sphere_calibration]") {
   const auto worst = [](double scale) {
     auto q = defaults();
-    for (int j = sphere::E_A0B; j <= sphere::E_B0C; ++j) q[static_cast<std::size_t>(j)] *= scale;
+    for (std::size_t j = Row::E_A0B; j <= Row::E_B0C; ++j) q[static_cast<std::size_t>(j)] *= scale;
     Largest difference;
     for (int C = 0; C <= 90; C += 15)
       difference.add(probe(sphere::closed_form, q, 0, C), probe(sphere::exact, q, 0, C));
@@ -106,7 +107,7 @@ TEST_CASE("closed forms are the exact chain to first order, eq 4.38 as printed i
   CHECK(std::fabs(worst(0.1) / worst(0.01) - 100) < 0.1);
 
   const auto q = defaults();
-  const auto l = sphere::links(q.data());
+  const auto l = tests::links(q);
   for (const double B : {-20.0, 0.0, 45.0}) {
     const auto right = sphere::closed_form_II(l.length, l.tilted, B * deg),
                printed = sphere::closed_form_II(l.length, l.tilted, B * deg, sphere::Equation438::printed);

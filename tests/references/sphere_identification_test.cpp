@@ -5,10 +5,11 @@
 #include <cmath>
 
 #include "math/symmetric.h"
-#include "models/sphere_calibration/sphere_calibration.h"
+#include "laws/sphere_rows.h"
 
 using namespace gumshoe;
-namespace sphere = gumshoe::models::sphere_calibration;
+namespace sphere = gumshoe::tests::sphere;
+using tests::Row, tests::Commanded, tests::Found;
 
 namespace {
 
@@ -48,7 +49,7 @@ void solve(int variant, sphere::Links<double>& links, const std::vector<int>& ke
 TEST_CASE("bias of the sequential method by the thesis' approximations", "[references][sphere_calibration]") {
   std::vector<double> q;
   for (const auto& card : models::find("sphere_calibration")->card->quantities) q.push_back(card.default_value);
-  const auto truth = sphere::links(q.data());
+  const auto truth = tests::links(q);
   std::vector<Pose33> poses;
   for (int C = 0; C <= 90; C += 5) poses.push_back({0, C * deg, false});
   for (int B = -20; B <= 45; B += 5) poses.push_back({B * deg, 90 * deg, true});

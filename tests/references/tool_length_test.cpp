@@ -8,7 +8,8 @@
 #include "references/mill_brute_force.h"
 
 using namespace gumshoe;
-namespace mill = gumshoe::models::tool_length;
+namespace mill = gumshoe::tests::mill;
+using gumshoe::tests::Row, gumshoe::tests::Commanded, gumshoe::tests::Stated;
 
 namespace {
 
@@ -31,7 +32,7 @@ Outcome trigger_si(const Values& q, double speed, double feed, double angle, dou
   const propagation::ForwardModel forward(*models::find("tool_length"), {}, 0, {{speed, feed, angle, height, 0, -1}});
   const auto columns = tests::columns_of(tests::joined(q, {0.0}));
   const auto found = forward.simulate(tests::block_of(forward, 8, columns));
-  return {found.measurands[8 * mill::trigger_height_row], found.status[0]};
+  return {found.measurands[8 * Stated::trigger_height], found.status[0]};
 }
 Outcome trigger(const Values& q, double angle_deg = 0, double height_mm = 0, double feed_mm_min = 30,
                 double speed_rpm = 1000) {
@@ -68,24 +69,24 @@ TEST_CASE("the trigger is the first moment at which the twin sees the share cove
   int solved = 0, beyond = 0, with_wear = 0;
   for (int n = 0; n < 40; ++n) {
     Values q = defaults();
-    q[mill::tool_radius] = draw(6, 14) * mm;
-    q[mill::insert_radius] = draw(1, 6) * mm;
-    q[mill::insert_thickness] = draw(1, 5) * mm;
-    q[mill::clearance] = draw(0, 11) * deg;
-    q[mill::radial_angle] = draw(-15, 15) * deg;
-    q[mill::axial_angle] = draw(-10, 10) * deg;
-    q[mill::inserts] = 1 + n % 6;
-    for (int k = 0; k < 6; ++k) q[mill::wear + k] = n % 2 ? draw(0, 0.02) * mm : 0;
-    q[mill::holder_angle] = draw(-3, 3);
-    const double lowest = q[mill::tool_radius] - q[mill::insert_radius]; // radius of the lowest point, about
-    q[mill::offset] = n % 4 == 3 ? draw(1.0, 1.3) * lowest + 0.5 * mm : draw(0, 1) * lowest;
-    q[mill::beam_radius] = draw(0.05, 0.4) * mm;
-    q[mill::fraction] = draw(0.2, 0.8);
-    if (n % 3 == 0) q[mill::yaw] = draw(-1, 1) * deg, q[mill::pitch] = draw(-1, 1) * deg;
+    q[Row::tool_radius] = draw(6, 14) * mm;
+    q[Row::insert_radius] = draw(1, 6) * mm;
+    q[Row::insert_thickness] = draw(1, 5) * mm;
+    q[Row::clearance_angle] = draw(0, 11) * deg;
+    q[Row::insert_radial_angle] = draw(-15, 15) * deg;
+    q[Row::insert_axial_angle] = draw(-10, 10) * deg;
+    q[Row::inserts] = 1 + n % 6;
+    for (int k = 0; k < 6; ++k) q[Row::wear_1 + k] = n % 2 ? draw(0, 0.02) * mm : 0;
+    q[Row::holder_angle] = draw(-3, 3);
+    const double lowest = q[Row::tool_radius] - q[Row::insert_radius]; // radius of the lowest point, about
+    q[Row::offset] = n % 4 == 3 ? draw(1.0, 1.3) * lowest + 0.5 * mm : draw(0, 1) * lowest;
+    q[Row::beam_radius] = draw(0.05, 0.4) * mm;
+    q[Row::trigger_fraction] = draw(0.2, 0.8);
+    if (n % 3 == 0) q[Row::beam_yaw] = draw(-1, 1) * deg, q[Row::beam_pitch] = draw(-1, 1) * deg;
     const double speed = draw(300, 3000) * rpm, feed = draw(3, 60) * mm / 60, angle = draw(0, 2 * pi);
     const double turn = 2 * pi * feed / speed;
     const chain::ProbingEvent<double> event;
-    const models::tool_length::InsertHeight heights(mill::insert(q.data(), event), mill::beam(q.data()));
+    const models::tool_length::InsertHeight heights(mill::insert(tests::named(q), event), models::laser_setter::beam(tests::named(q)));
     if (!heights.ever_covered()) continue;
     const double start = heights.highest().height + draw(0.1, 1.5) * turn;
     const Outcome ours = trigger_si(q, speed, feed, angle, start);
@@ -94,16 +95,16 @@ TEST_CASE("the trigger is the first moment at which the twin sees the share cove
       REQUIRE(ours.status == static_cast<int>(Status::already_covered));
       continue;
     }
-    ++solved, ++inserts[static_cast<int>(q[mill::inserts])];
-    beyond += q[mill::offset] > lowest, with_wear += n % 2;
-    const double target = q[mill::fraction] * pi * q[mill::beam_radius] * q[mill::beam_radius];
+    ++solved, ++inserts[static_cast<int>(q[Row::inserts])];
+    beyond += q[Row::offset] > lowest, with_wear += n % 2;
+    const double target = q[Row::trigger_fraction] * pi * q[Row::beam_radius] * q[Row::beam_radius];
     const double turned = (start - ours.height) / feed * speed;
     const auto most = [&](double s, double raised, int columns) {
       double area = 0;
-      for (int k = 0; k < q[mill::inserts]; ++k) {
-        const double psi = angle + q[mill::holder_angle] + s + 2 * pi * k / q[mill::inserts];
+      for (int k = 0; k < q[Row::inserts]; ++k) {
+        const double psi = angle + q[Row::holder_angle] + s + 2 * pi * k / q[Row::inserts];
         area = std::max(area, tests::covered_by_strips(q.data(), psi,
-                                                       start - feed / speed * s + q[mill::wear + k] + raised, columns));
+                                                       start - feed / speed * s + q[Row::wear_1 + k] + raised, columns));
       }
       return area;
     };
@@ -125,10 +126,10 @@ TEST_CASE("the trigger is the first moment at which the twin sees the share cove
 TEST_CASE("a face-on insert covers a lens of two circles", "[references][tool_length]") {
   for (const double fraction : {0.2, 0.5, 0.8}) {
     Values q = defaults();
-    q[mill::radial_angle] = q[mill::axial_angle] = 0;
-    q[mill::offset] = q[mill::tool_radius] - q[mill::insert_radius];
-    q[mill::fraction] = fraction;
-    const double a = q[mill::insert_radius], b = q[mill::beam_radius];
+    q[Row::insert_radial_angle] = q[Row::insert_axial_angle] = 0;
+    q[Row::offset] = q[Row::tool_radius] - q[Row::insert_radius];
+    q[Row::trigger_fraction] = fraction;
+    const double a = q[Row::insert_radius], b = q[Row::beam_radius];
     const auto lens = [&](double d) {
       return a * a * std::acos((d * d + a * a - b * b) / (2 * d * a)) +
              b * b * std::acos((d * d + b * b - a * a) / (2 * d * b)) -
@@ -137,7 +138,7 @@ TEST_CASE("a face-on insert covers a lens of two circles", "[references][tool_le
     double lo = a - b, hi = a + b;
     for (int i = 0; i < 100; ++i) (lens(0.5 * (lo + hi)) > fraction * pi * b * b ? lo : hi) = 0.5 * (lo + hi);
     const chain::ProbingEvent<double> event;
-    const models::tool_length::InsertHeight heights(mill::insert(q.data(), event), mill::beam(q.data()));
+    const models::tool_length::InsertHeight heights(mill::insert(tests::named(q), event), models::laser_setter::beam(tests::named(q)));
     // The lens loses digits: its terms are of size a^2, its slope the chord 2 b.
     REQUIRE(std::fabs(heights.at(0.5 * pi, std::nan("")).height - (lo - a)) < 1e-16 * 20 * a * a / b + 1e-14);
   }
@@ -178,21 +179,21 @@ TEST_CASE("peaks of a characteristic curve differ by the flutes' wear", "[refere
   };
   // A whole degree misses a hump of curvature 4e-3 mm/rad^2 at most by 4e-3 (0.5 deg)^2 / 2 = 2e-7 mm.
   Values q = defaults();
-  q[mill::wear + 1] = 0.005 * mm;
+  q[Row::wear_1 + 1] = 0.005 * mm;
   const auto second = peaks(q, 0, 1000);
   REQUIRE(lower_by(second, 0.005) == Approx(0.005).margin(1e-5));
   // Table 3.3, one tooth worn, set-up of Table 3.4.
   q = defaults();
-  q[mill::insert_radius] = 5 * mm, q[mill::insert_thickness] = 3.2 * mm;
-  q[mill::radial_angle] = -12 * deg, q[mill::axial_angle] = 6 * deg;
-  q[mill::holder_angle] = 140 * deg, q[mill::offset] = 4.9 * mm, q[mill::wear + 1] = 0.002 * mm;
+  q[Row::insert_radius] = 5 * mm, q[Row::insert_thickness] = 3.2 * mm;
+  q[Row::insert_radial_angle] = -12 * deg, q[Row::insert_axial_angle] = 6 * deg;
+  q[Row::holder_angle] = 140 * deg, q[Row::offset] = 4.9 * mm, q[Row::wear_1 + 1] = 0.002 * mm;
   const auto experiment = peaks(q, 5, 1000);
   REQUIRE(176.641 + experiment[0] == Approx(176.6397).epsilon(0).margin(0.6e-4));
   REQUIRE(176.641 + experiment[0] - lower_by(experiment, 0.002) == Approx(176.6377).epsilon(0).margin(0.6e-4));
   // Example 3, offset not printed.
   q = defaults();
-  q[mill::tool_radius] = 12 * mm, q[mill::insert_radius] = 5 * mm, q[mill::inserts] = 3, q[mill::offset] = 7 * mm;
-  q[mill::wear + 1] = 0.006 * mm, q[mill::wear + 2] = 0.010 * mm;
+  q[Row::tool_radius] = 12 * mm, q[Row::insert_radius] = 5 * mm, q[Row::inserts] = 3, q[Row::offset] = 7 * mm;
+  q[Row::wear_1 + 1] = 0.006 * mm, q[Row::wear_1 + 2] = 0.010 * mm;
   const auto third = peaks(q, 0, 500);
   REQUIRE(lower_by(third, 0.006) == Approx(0.006).margin(1e-5));
   REQUIRE(lower_by(third, 0.010) == Approx(0.010).margin(1e-5));
@@ -200,24 +201,24 @@ TEST_CASE("peaks of a characteristic curve differ by the flutes' wear", "[refere
 
 TEST_CASE("a trigger curve follows the laws of turning and wear", "[laws][tool_length]") {
   Values q = defaults();
-  q[mill::inserts] = 3;
+  q[Row::inserts] = 3;
   const double base = trigger(q, 40, 0.5).height;
   // Angles of hundreds of radians, a descent of 5e-6 m per rad: rounding far below 1e-14 m.
   REQUIRE(std::fabs(trigger(q, 160, 0.5).height - base) < 1e-14);
   Values held = q;
-  held[mill::holder_angle] = 40 * deg;
+  held[Row::holder_angle] = 40 * deg;
   REQUIRE(std::fabs(trigger(held, 0, 0.5).height - base) < 1e-14);
   Values worn = q;
-  for (int k = 0; k < 3; ++k) worn[mill::wear + k] = 0.004 * mm;
+  for (int k = 0; k < 3; ++k) worn[Row::wear_1 + k] = 0.004 * mm;
   REQUIRE(std::fabs(trigger(worn, 40, 0.496).height - (base - 0.004 * mm)) < 1e-14);
   // Flutes beyond `inserts` do not count.
   Values beyond = q;
-  beyond[mill::wear + 7] = 0.3 * mm;
+  beyond[Row::wear_1 + 7] = 0.3 * mm;
   REQUIRE(trigger(beyond, 40, 0.5).height == base);
   // A flute worn by more than the descent from one to the next never shows.
-  q[mill::inserts] = 2;
+  q[Row::inserts] = 2;
   Values hidden = q, more = q;
-  hidden[mill::wear + 1] = 0.1 * mm, more[mill::wear + 1] = 0.2 * mm;
+  hidden[Row::wear_1 + 1] = 0.1 * mm, more[Row::wear_1 + 1] = 0.2 * mm;
   for (int i = 0; i < 360; i += 15) REQUIRE(trigger(hidden, i, 0.5).height == trigger(more, i, 0.5).height);
 }
 
@@ -227,16 +228,16 @@ TEST_CASE("the tool's impossible settings have statuses", "[tool_length]") {
   REQUIRE(trigger(q, 0, 0.5, 0).status == status(Status::out_of_domain));
   REQUIRE(trigger(q, 0, 0.5, 30, 0).status == status(Status::out_of_domain));
   Values far = q;
-  far[mill::offset] = 30 * mm;
+  far[Row::offset] = 30 * mm;
   REQUIRE(trigger(far, 0, 0.5).status == status(Status::never_covered));
   Values half = q;
-  half[mill::inserts] = 2.5;
+  half[Row::inserts] = 2.5;
   REQUIRE(trigger(half, 0, 0.5).status == status(Status::out_of_domain));
   Values worn = q;
-  worn[mill::wear] = 7 * mm;
+  worn[Row::wear_1] = 7 * mm;
   REQUIRE(trigger(worn, 0, 0.5).status == status(Status::out_of_domain));
   Values pointed = q;
-  pointed[mill::clearance] = 80 * deg;
+  pointed[Row::clearance_angle] = 80 * deg;
   REQUIRE(trigger(pointed, 0, 0.5).status == status(Status::out_of_domain));
   int inside = 0;
   for (int i = 0; i < 360; ++i) inside += trigger(q, i, -0.5).status == status(Status::already_covered);
@@ -247,25 +248,25 @@ TEST_CASE("the tool's impossible settings have statuses", "[tool_length]") {
 TEST_CASE("evaluate undoes simulate, and derivatives agree with differences", "[laws][tool_length]") {
   const auto* model = models::find("tool_length");
   Values q = defaults();
-  q[mill::inserts] = 3;
-  q[mill::yaw] = 0.3 * deg, q[mill::pitch] = -0.2 * deg;
-  q[mill::wear] = 1e-6, q[mill::laser_z] = -0.4;
+  q[Row::inserts] = 3;
+  q[Row::beam_yaw] = 0.3 * deg, q[Row::beam_pitch] = -0.2 * deg;
+  q[Row::wear_1] = 1e-6, q[Row::laser_z] = -0.4;
   Values condition{1000 * rpm, 30 * mm / 60, 0.7, 0.5 * mm, 0, -1};
   const propagation::ForwardModel forward(*model, {}, 0, {condition});
   const double height = trigger_si(q, condition[0], condition[1], condition[2], condition[3]).height;
-  const double reading = q[mill::laser_z] + q[mill::length] + height;
-  for (int first = 0; first < mill::count; first += 8) {
+  const double reading = q[Row::laser_z] + q[Row::tool_length] + height;
+  for (std::size_t first = 0; first < tests::quantities; first += 8) {
     std::vector<models::Gradient> x, out;
-    for (int i = 0; i < mill::count; ++i)
-      x.push_back(i >= first && i < first + 8 ? models::Gradient::variable(q[static_cast<std::size_t>(i)], i - first)
+    for (std::size_t i = 0; i < tests::quantities; ++i)
+      x.push_back(i >= first && i < first + 8 ? models::Gradient::variable(q[i], static_cast<int>(i - first))
                                               : models::Gradient(q[static_cast<std::size_t>(i)]));
     x.emplace_back(reading);
     REQUIRE(forward.measurands(0, x, out).status == 0);
     // Sums of numbers below 1 m.
-    REQUIRE(std::fabs(out[mill::length_row].v - q[mill::length]) < 4e-16);
-    REQUIRE(std::fabs(out[mill::trigger_height_row].v - height) < 1e-15);
-    for (int i = first; i < std::min<int>(first + 8, mill::count); ++i) {
-      if (i == mill::inserts) continue;
+    REQUIRE(std::fabs(out[Stated::tool_length].v - q[Row::tool_length]) < 4e-16);
+    REQUIRE(std::fabs(out[Stated::trigger_height].v - height) < 1e-15);
+    for (std::size_t i = first; i < std::min(first + 8, tests::quantities); ++i) {
+      if (i == Row::inserts) continue;
       const auto at = [&](double h) {
         Values moved = q;
         moved[static_cast<std::size_t>(i)] += h;
@@ -274,7 +275,7 @@ TEST_CASE("evaluate undoes simulate, and derivatives agree with differences", "[
       const double h = 1e-7, difference = (at(h) - at(-h)) / (2 * h);
       INFO(model->card->quantities[static_cast<std::size_t>(i)].name);
       // Heights to 1e-15 m over steps of 1e-7, and the third derivative's share.
-      REQUIRE(out[mill::trigger_height_row].d[static_cast<std::size_t>(i - first)] ==
+      REQUIRE(out[Stated::trigger_height].d[i - first] ==
               Approx(difference).epsilon(1e-4).margin(5e-7));
     }
   }

@@ -9,18 +9,19 @@
 using namespace gumshoe;
 using tests::Draw;
 using tests::Mill;
-namespace mill = models::tool_length;
+namespace mill = gumshoe::tests::mill;
+using gumshoe::tests::Row, gumshoe::tests::Commanded, gumshoe::tests::Stated;
 
 TEST_CASE("a tabulated trigger curve agrees with the search along each line", "[references][tool_length]") {
   Draw draw;
   int compared = 0, jumps = 0;
   for (int n = 0; n < 40; ++n) {
     const Mill tool = Mill::random(draw);
-    const auto insert = mill::insert(tool.q.data(), tool.event());
-    const auto beam = mill::beam(tool.q.data());
+    const auto insert = mill::insert(tests::named(tool.q), tool.event());
+    const auto beam = models::laser_setter::beam(tests::named(tool.q));
     const models::tool_length::InsertHeight heights(insert, beam);
     if (!heights.ever_covered()) continue;
-    const double drop = tool.condition[mill::feed] / tool.condition[mill::speed];
+    const double drop = tool.condition[Commanded::feed] / tool.condition[Commanded::spindle_speed];
     const models::tool_length::TriggerCurve curve(heights, drop);
     const models::tool_length::Flute<double> flute{insert, 0, 0};
     models::tool_length::TriggerSolver solver;

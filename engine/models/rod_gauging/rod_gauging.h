@@ -5,59 +5,86 @@
 /// the spindle height Z'_s. With the rod's length L_r and the height Z'_d of its bottom's centre above
 /// the beam's axis at that moment, the axis lies at laser_z = Z'_s - L_r - Z'_d.
 /// Source: Fang 2022, chapter 2 (eq 2.38), solved anew: shadow/shadow.h.
+#include "models/model.h"
+#include "models/reading.h"
+#include "models/rod_gauging/card.h"
 #include "models/rod_gauging/shadow/trigger_height.h"
-#include "effects/act.h"
-#include "models/laser_setter.h"
 
 namespace gumshoe::models::rod_gauging {
 
-enum Quantity {
-  radius,
-  fillet,
-  elevation,
-  azimuth,
-  length,
-  holder_angle,
-  yaw,
-  pitch,
-  beam_radius,
-  fraction,
-  laser_z,
-  count
+/// The names of the card's rows.
+struct Rows {
+  GUMSHOE_NAMED(Quantities, rod_radius, fillet_radius, bottom_elevation, bottom_azimuth, rod_length, holder_angle,
+                beam_yaw, beam_pitch, beam_radius, trigger_fraction, laser_z);
+  GUMSHOE_NAMED(Conditions, feed, time, direction);
+  GUMSHOE_NAMED(Indications, spindle_z);
+  GUMSHOE_NAMED(Measurands, bottom_height, laser_z);
 };
-enum Condition { feed, time, direction, conditions };
-enum Measurand { bottom_height_row, laser_z_row, measurands };
-enum Evaluation { full, conventional };
+template <class T> using At = Reading<Rows, T>;
 
-/// The event as commanded, with all active effects applied.
-template <class T>
-chain::ProbingEvent<T> probing_event(const T* q, const T* condition, const T* effect_quantities,
-                                     std::span<const effects::Active> active) {
+/// The event as commanded, with all freed effects applied.
+template <class T> chain::ProbingEvent<T> probing_event(const At<T>& at) {
   chain::ProbingEvent<T> event;
-  event.z.feed = condition[feed];
-  event.time = condition[time];
-  event.z.direction = condition[direction];
-  event.holder_angle = q[holder_angle];
-  event.tool_length = q[length];
-  effects::act(active, effect_quantities, event);
+  event.z.feed = at.c.feed;
+  event.time = at.c.time;
+  event.z.direction = at.c.direction;
+  event.holder_angle = at.q.holder_angle;
+  event.tool_length = at.q.rod_length;
+  at.freed.act(event);
   return event;
 }
 
-template <class T> Rod<T> rod(const T* q, const chain::ProbingEvent<T>& event) {
-  return {q[radius], q[fillet], q[elevation], q[azimuth] + q[holder_angle], event.tool_x, event.tool_y};
-}
-template <class T> Beam<T> beam(const T* q) { return laser_setter::beam(q + yaw); }
-
-/// The machine: what the control reads when the beam's axis lies at q[laser_z].
-template <class T> T simulate(const T* q, const T& bottom_height, const chain::ProbingEvent<T>& event) {
-  const T actual = q[laser_z] + q[length] + event.tool_growth + bottom_height;
-  return chain::reading_of(actual, event);
+template <class T> Rod<T> rod(const Rows::Quantities<T>& q, const chain::ProbingEvent<T>& event) {
+  return {q.rod_radius, q.fillet_radius, q.bottom_elevation, q.bottom_azimuth + q.holder_angle,
+          event.tool_x, event.tool_y};
 }
 
-/// The measurement model: the beam's axis from the reading; the inverse of simulate.
-template <class T>
-T evaluate(const T& spindle_z, const T* q, const T& bottom_height, const chain::ProbingEvent<T>& event) {
-  return chain::actual_of(spindle_z, event) - (q[length] + event.tool_growth) - bottom_height;
-}
+struct RodGauging {
+  using Rows = rod_gauging::Rows;
+  static constexpr ModelCard card{
+      .name = "rod_gauging",
+      .title = "Gauging a laser tool setter with a measuring rod",
+      .summary =
+          "A rod in the spindle is lowered into a laser beam; the trigger fires when its shadow covers a share of the "
+          "beam's disc; from the spindle height at that moment follows the height of the beam's axis.",
+      .source = "Fang 2022, chapter 2 (eqs 2.3 to 2.38), derived anew; see reports/errata.md",
+      .quantities = quantity_cards,
+      .conditions = condition_cards,
+      .indications = laser_setter::indications,
+      .measurands = measurand_cards,
+      .evaluations = evaluation_cards,
+      .stages = stages,
+      .timing = timing_cards};
 
-} // namespace gumshoe::models::rod
+  template <class T> static void check(const At<T>& at, Outcome<T>& outcome) {
+    outcome.refuse(at.q.fillet_radius > at.q.rod_radius, "fillet_radius exceeds rod_radius");
+  }
+
+  /// bottom_height; the conventional evaluation takes it for zero.
+  template <class T> using Solution = T;
+  static constexpr std::string_view solve_ignores[] = {"rod_length", "laser_z"};
+  template <class T> static T solve(const At<T>& at, Outcome<T>& outcome) {
+    if (!at.simulating && at.evaluation == conventional) return T(0.0);
+    return trigger_height(rod(at.q, probing_event(at)), laser_setter::beam(at.q), outcome);
+  }
+
+  /// What the control reads when the beam's axis lies at q.laser_z.
+  template <class T> static Simulated<Rows, T> simulate(const At<T>& at, const T& bottom_height, Outcome<T>&) {
+    const auto event = probing_event(at);
+    const T actual = at.q.laser_z + at.q.rod_length + event.tool_growth + bottom_height;
+    return {{chain::reading_of(actual, event)}, {bottom_height, at.q.laser_z}};
+  }
+
+  /// The beam's axis from the reading.
+  template <class T>
+  static Rows::Measurands<T> evaluate(const At<T>& at, const T& bottom_height, const Rows::Indications<T>& read,
+                                      Outcome<T>&) {
+    const auto event = probing_event(at);
+    const T actual = chain::actual_of(read.spindle_z, event);
+    return {bottom_height, actual - (at.q.rod_length + event.tool_growth) - bottom_height};
+  }
+
+  static std::vector<Intermediate> explain(const At<double>& at, const Rows::Indications<double>& read);
+};
+
+} // namespace gumshoe::models::rod_gauging

@@ -35,4 +35,4 @@ Vector3<T> closed_form_II(const T* length, const Orientation<T>& e, const T& B,
   return {bx - q6 * c - q7 * s - e.C0B * q5, -(q8 * c + q9 * s + q10), q6 * s - q7 * c - bz + e.A0B * q5};
 }
 
-} // namespace gumshoe::models::sphere
+} // namespace gumshoe::models::sphere_calibration

@@ -1,7 +1,7 @@
 #pragma once
 /// Probe and axes from the commands of many poses, on lanes: each lane is one sample's identification.
 ///
-/// With t, r, e of sphere_calibration.h the commands are x = t - r(theta) + e. Unknowns theta are the seven lengths,
+/// With t, r, e of contact.h the commands are x = t - r(theta) + e. Unknowns theta are the seven lengths,
 /// in which r is linear, and the four orientation errors, in the order of the model's quantities. README.md has the
 /// mathematics.
 #include <vector>
@@ -47,8 +47,8 @@ template <class T> class Identification : public PoseRows<T> {
 
 public:
   using PoseRows<T>::poses, typename PoseRows<T>::Row;
-  Identification(std::size_t readings, const Patterns& patterns, const Whitening& whitening)
-      : PoseRows<T>(readings), patterns_(patterns), whitening_(whitening) {
+  Identification(std::size_t readings, Patterns patterns, Whitening whitening)
+      : PoseRows<T>(readings), patterns_(std::move(patterns)), whitening_(std::move(whitening)) {
     for (std::size_t i = 0; i < readings; ++i) all_.push_back(i);
   }
 
@@ -107,27 +107,28 @@ private:
       const auto plane = normal_of(patterns_.II, declared, n);
       n = num::select(n.y < zero, -one, one) * n;
       const auto upright = plane && (n.y > T(0.1));
-      e[E_A0B] = num::select(upright, num::atan2(n.z, n.y), e[E_A0B]);
-      e[E_C0B] = num::select(upright, num::atan2(-n.x, n.y), e[E_C0B]);
+      e[Q::E_A0B] = num::select(upright, num::atan2(n.z, n.y), e[Q::E_A0B]);
+      e[Q::E_C0B] = num::select(upright, num::atan2(-n.x, n.y), e[Q::E_C0B]);
     }
     if (patterns_.I.size() > 2) {
       Vector3<T> n;
       const auto plane = normal_of(patterns_.I, declared, n);
       // Seen before B turned it.
       const Pose<T>& pose = poses[patterns_.I[0]];
-      const auto lines = directions(Orientation<T>{e[E_A0B], e[E_C0B], e[E_A0C], e[E_B0C]});
+      const auto lines = directions(Orientation<T>{e[Q::E_A0B], e[Q::E_C0B], e[Q::E_A0C], e[Q::E_B0C]});
       n = rotation(lines.b, -pose.at_B) * n;
       n = num::select(n.z < zero, -one, one) * n;
       const auto upright = plane && (n.z > T(0.1));
-      e[E_A0C] = num::select(upright, num::atan2(-n.y, n.z), e[E_A0C]);
-      e[E_B0C] = num::select(upright, num::atan2(n.x, n.z), e[E_B0C]);
+      e[Q::E_A0C] = num::select(upright, num::atan2(-n.y, n.z), e[Q::E_A0C]);
+      e[Q::E_B0C] = num::select(upright, num::atan2(n.x, n.z), e[Q::E_B0C]);
     }
     return out;
   }
 
   /// Normal of the plane with the least squares of distances; false where the points lie on a line.
   auto normal_of(const std::vector<std::size_t>& which, const T* declared, Vector3<T>& normal) {
-    const auto lines = directions(Orientation<T>{declared[E_A0B], declared[E_C0B], declared[E_A0C], declared[E_B0C]});
+    const auto lines =
+        directions(Orientation<T>{declared[Q::E_A0B], declared[Q::E_C0B], declared[Q::E_A0C], declared[Q::E_B0C]});
     std::vector<Vector3<T>>& points = points_;
     points.clear();
     Vector3<T> middle;
@@ -277,11 +278,11 @@ private:
     out.finite = out.residual_rms < T(1e300);
   }
 
-  const Patterns& patterns_;
-  const Whitening& whitening_;
+  Patterns patterns_;
+  Whitening whitening_;
   std::vector<std::size_t> all_; ///< readings
   std::vector<Vector3<T>> points_;
   T squares_;
 };
 
-} // namespace gumshoe::models::sphere
+} // namespace gumshoe::models::sphere_calibration

@@ -3,30 +3,37 @@
 #include <array>
 #include <vector>
 
-#include "models/sphere_calibration/sphere_calibration.h"
+#include "models/sphere_calibration/contact.h"
 
 namespace gumshoe::models::sphere_calibration {
 
 /// The seven lengths and the four orientation errors, in the order of the model's quantities: theta.
-inline constexpr int unknowns = E_B0C + 1;
+inline constexpr int unknowns = Q::E_B0C + 1;
 static_assert(unknowns == lengths + 4);
 
-/// One reading of the lanes at hand.
+/// One reading.
 template <class T> struct Pose {
-  Vector3<T> measured;  ///< t + e - recorded, without squareness: where the probe stood from the origin
-  Vector3<T> tip;       ///< at the commanded A
-  T B, C, at_B, at_C;   ///< commanded; actual as declared
-  T link[4], square[3]; ///< declared; S_XY, S_XZ, S_YZ
+  At<T> at;            ///< as declared
+  Vector3<T> measured; ///< t + e - recorded, without squareness: where the probe stood from the origin
+  Vector3<T> tip;      ///< at the commanded A
+  T at_B, at_C;        ///< actual, as declared
   bool squareness = false;
-  /// Only where effects act; some follow the nominal commands, which are the machine's that is sought.
-  struct {
-    std::span<const effects::Active> active;
-    std::vector<T> quantities;
-    T condition[conditions];
-    Vector3<T> top, recorded; ///< t at the actual A; recorded commands less e
-  } freed;
-  bool effects() const { return !freed.active.empty(); }
+  Vector3<T> top, recorded; ///< only where effects act: t at the actual A; recorded commands less e
+  bool effects() const { return at.freed.any(); } ///< some follow the nominal commands, which are the machine's sought
 };
+/// @param recorded commands
+template <class T> Pose<T> pose_of(const At<T>& at, const Vector3<T>& recorded) {
+  const T zero(0.0);
+  Pose<T> pose{at, {}, tip_at_top(at.q, at.c.A), at.c.B + at.q.E_BB, at.c.C + at.q.E_CC, false, {}, {}};
+  pose.squareness = num::any(at.q.S_XY != zero) || num::any(at.q.S_XZ != zero) || num::any(at.q.S_YZ != zero);
+  // Squareness follows the nominal commands, which are the machine's that is sought.
+  Quantities<T> q = at.q;
+  q.S_XY = q.S_XZ = q.S_YZ = zero;
+  const auto top = tip_at_top(q, T(at.c.A + q.E_AA)), added = linear_errors(q, zero, zero);
+  pose.measured = top + added - recorded;
+  pose.top = top, pose.recorded = recorded - added;
+  return pose;
+}
 
 template <class T> class PoseRows {
 public:
@@ -37,7 +44,7 @@ public:
   /// Of all rows at theta, not whitened: 11 derivatives and the residual, [3 reading + axis][12].
   using Row = std::array<T, unknowns + 1>;
   const std::vector<Row>& linearise(const T* theta) {
-    const auto lines = directions(Orientation<T>{theta[E_A0B], theta[E_C0B], theta[E_A0C], theta[E_B0C]});
+    const auto lines = directions(Orientation<T>{theta[Q::E_A0B], theta[Q::E_C0B], theta[Q::E_A0C], theta[Q::E_B0C]});
     const T by_A0B = slope(lines.b.z, lines.b.y), by_C0B = -slope(lines.b.x, lines.b.y);
     const T by_A0C = -slope(lines.c.y, lines.c.z), by_B0C = slope(lines.c.x, lines.c.z);
     const Vector3<T> b_A0B = by_A0B * across(lines.b, {T(0.0), T(0.0), T(1.0)}),
@@ -58,10 +65,10 @@ public:
       if (pose.effects()) from_b = from_b + here.moved.shift_C;
       const auto behind = [&](const Matrix3<T>& tilt, const Vector3<T>& v) { return pose.effects() ? tilt * v : v; };
       for (int j = 0; j < lengths; ++j) put(i, j, columns[static_cast<std::size_t>(j)]);
-      put(i, E_A0B, behind(here.moved.tilt_B, tilted(lines.b, b_A0B, here.at_B, from_b)));
-      put(i, E_C0B, behind(here.moved.tilt_B, tilted(lines.b, b_C0B, here.at_B, from_b)));
-      put(i, E_A0C, turns.b * behind(here.moved.tilt_C, tilted(lines.c, c_A0C, here.at_C, from_c)));
-      put(i, E_B0C, turns.b * behind(here.moved.tilt_C, tilted(lines.c, c_B0C, here.at_C, from_c)));
+      put(i, Q::E_A0B, behind(here.moved.tilt_B, tilted(lines.b, b_A0B, here.at_B, from_b)));
+      put(i, Q::E_C0B, behind(here.moved.tilt_B, tilted(lines.b, b_C0B, here.at_B, from_b)));
+      put(i, Q::E_A0C, turns.b * behind(here.moved.tilt_C, tilted(lines.c, c_A0C, here.at_C, from_c)));
+      put(i, Q::E_B0C, turns.b * behind(here.moved.tilt_C, tilted(lines.c, c_B0C, here.at_C, from_c)));
       put(i, unknowns, here.measured - here.probe);
       if (pose.squareness)
         for (int j = 0; j < unknowns; ++j) put(i, j, get(i, j) + squared(pose, get(i, j)));
@@ -83,12 +90,12 @@ protected:
       h.probe = sphere_calibration::probe_from_origin(length, h.moved.turns);
       return h;
     }
-    const auto& freed = pose.freed;
-    const auto nominal = pose.tip - sphere_calibration::probe_from_origin(length, exact_turns(lines, pose.B, pose.C));
-    const auto t = touch<T>(freed.condition, nominal, {freed.active, freed.quantities.data()});
+    const auto nominal =
+        pose.tip - sphere_calibration::probe_from_origin(length, exact_turns(lines, pose.at.c.B, pose.at.c.C));
+    const auto t = touch<T>(pose.at.c, nominal, pose.at.freed);
     h.at_B = h.at_B + t.rotary.B.error[chain::E_B], h.at_C = h.at_C + t.rotary.C.error[chain::E_C];
     h.moved = moved(exact_turns(lines, h.at_B, h.at_C), t.rotary);
-    h.measured = freed.top - t.actual_of(freed.recorded - square(pose, theta, lines));
+    h.measured = pose.top - t.actual_of(pose.recorded - square(pose, theta, lines));
     h.probe = sphere_calibration::probe_from_origin(length, h.moved.turns) + h.moved.shift();
     return h;
   }
@@ -98,7 +105,8 @@ protected:
     T length[lengths];
     actual(theta, pose, length);
     const Here h = at(pose, theta, length, lines);
-    return h.measured - (h.probe - sphere_calibration::probe_from_origin(length, exact_turns(lines, pose.at_B, pose.at_C)));
+    return h.measured -
+           (h.probe - sphere_calibration::probe_from_origin(length, exact_turns(lines, pose.at_B, pose.at_C)));
   }
 
   /// Derivative of the slope's tangent, over the length of (slope, slope, 1).
@@ -115,17 +123,19 @@ protected:
   }
   static void actual(const T* theta, const Pose<T>& pose, T* length) {
     for (int j = 0; j < lengths; ++j) length[j] = theta[j];
-    for (int j = 0; j < 4; ++j) length[length_B_x + j] = length[length_B_x + j] + pose.link[j];
+    const T* link = &array_of(pose.at.q)[Q::link_B_x];
+    for (int j = 0; j < 4; ++j) length[length_B_x + j] = length[length_B_x + j] + link[j];
   }
   /// What squareness adds to the recorded commands, of nominal ones.
   static Vector3<T> squared(const Pose<T>& pose, const Vector3<T>& nominal) {
-    return {pose.square[1] * nominal.z - pose.square[0] * nominal.y, T(0.0) - pose.square[2] * nominal.z, T(0.0)};
+    return {pose.at.q.S_XZ * nominal.z - pose.at.q.S_XY * nominal.y, T(0.0) - pose.at.q.S_YZ * nominal.z, T(0.0)};
   }
   static Vector3<T> square(const Pose<T>& pose, const T* theta, const Directions<T>& lines) {
     if (!pose.squareness) return {};
     T length[lengths];
     actual(theta, pose, length);
-    return squared(pose, pose.tip - sphere_calibration::probe_from_origin(length, exact_turns(lines, pose.B, pose.C)));
+    return squared(
+        pose, pose.tip - sphere_calibration::probe_from_origin(length, exact_turns(lines, pose.at.c.B, pose.at.c.C)));
   }
 
   std::vector<Row> rows_;
@@ -141,4 +151,4 @@ private:
   }
 };
 
-} // namespace gumshoe::models::sphere
+} // namespace gumshoe::models::sphere_calibration

@@ -54,4 +54,4 @@ template <class T> std::array<Vector3<T>, lengths> probe_by_lengths(const Turns<
   return {probe.x, -probe.y, -probe.z, unit.x - q.b.x, q.b.z - unit.z, q.b.x - probe.x, q.b.y - probe.y};
 }
 
-} // namespace gumshoe::models::sphere
+} // namespace gumshoe::models::sphere_calibration

@@ -10,36 +10,35 @@
 namespace gumshoe::models::sphere_calibration {
 namespace {
 
-constexpr double deg = 3.14159265358979323846 / 180;
+/// B and C of the poses, and which one a pattern holds.
+struct Angles {
+  std::vector<double> B, C;
+  std::vector<bool> is_II;
+  explicit Angles(const Poses<double>& poses) {
+    for (const auto& at : poses.at) B.push_back(at.c.B), C.push_back(at.c.C), is_II.push_back(is_pattern_II(at.c));
+  }
+};
 
-std::vector<const double*> conditions_of(const BlockCall& call, std::vector<double>& values) {
-  values.clear();
-  for (std::size_t i = 0; i < call.readings * conditions; ++i) values.push_back(*call.conditions[i].data);
-  std::vector<const double*> out;
-  for (std::size_t r = 0; r < call.readings; ++r) out.push_back(&values[r * conditions]);
-  return out;
-}
-
-/// The first reading whose clamped axis stands elsewhere than that of the first of `which`, or which.size().
-std::size_t unlike(const std::vector<std::size_t>& which, const std::vector<const double*>& condition, int clamped) {
+/// The first of `which` whose held axis stands elsewhere than that of the first one, or which.size().
+std::size_t unlike(const std::vector<std::size_t>& which, const std::vector<double>& held) {
   for (std::size_t i = 1; i < which.size(); ++i)
-    if (std::fabs(condition[which[i]][clamped] - condition[which[0]][clamped]) > 1e-12) return i;
+    if (std::fabs(held[which[i]] - held[which[0]]) > 1e-12) return i;
   return which.size();
 }
 
-std::string plane_problem(const std::vector<std::size_t>& which, const std::vector<const double*>& condition,
-                          int clamped) {
-  const std::size_t i = unlike(which, condition, clamped);
+std::string plane_problem(const std::vector<std::size_t>& which, const std::vector<double>& held, char axis) {
+  const std::size_t i = unlike(which, held);
   if (i == which.size()) return "";
   return fmt::format(
       "{} of reading {} is {:g} deg, of reading {} {:g} deg: poses of pattern {} lie in a plane at one {} "
       "only (joint needs no planes)",
-      clamped == B ? 'B' : 'C', which[0] + 1, condition[which[0]][clamped] / deg, which[i] + 1,
-      condition[which[i]][clamped] / deg, clamped == B ? 1 : 2, clamped == B ? 'B' : 'C');
+      axis, which[0] + 1, held[which[0]] / deg, which[i] + 1, held[which[i]] / deg, axis == 'B' ? 1 : 2, axis);
 }
 
-void split(const std::vector<const double*>& condition, Patterns& out) {
-  for (std::size_t r = 0; r < condition.size(); ++r) (is_pattern_II(condition[r]) ? out.II : out.I).push_back(r);
+Patterns split(const Angles& angles) {
+  Patterns out;
+  for (std::size_t r = 0; r < angles.B.size(); ++r) (angles.is_II[r] ? out.II : out.I).push_back(r);
+  return out;
 }
 
 /// Largest less smallest value of one axis' commands, as recorded and of the declared machine.
@@ -52,16 +51,17 @@ struct Spread {
 
 /// Lengths in a wrong unit fit as well as others where all are: the machine found is a thousand times as large. Only
 /// the declared one tells.
-std::string unit_problem(const BlockCall& call, const std::vector<const double*>& condition) {
+std::string unit_problem(const Poses<double>& poses) {
+  constexpr std::size_t indications = rows_of<Rows::Indications>;
   Spread spread[indications];
   bool recorded = false;
-  for (std::size_t r = 0; r < call.readings; ++r) {
-    double q[count];
-    for (std::size_t j = 0; j < count; ++j) q[j] = *call.quantities[r * count + j].data;
-    const auto x = simulate(contact(exact, q, links(q), condition[r], false));
+  for (std::size_t r = 0; r < poses.size(); ++r) {
+    At<double> at = poses.at[r];
+    at.freed = {};
+    const auto x = simulate(contact(at, links(at.q), false));
     const double machine[] = {x.x, x.y, x.z};
     for (std::size_t k = 0; k < indications; ++k) {
-      const double read = *call.indications[r * indications + k].data;
+      const double read = array_of(poses.read[r])[k];
       recorded |= read != 0;
       Spread::add(spread[k].recorded, read);
       Spread::add(spread[k].declared, machine[k]);
@@ -80,49 +80,50 @@ std::string unit_problem(const BlockCall& call, const std::vector<const double*>
 
 } // namespace
 
-Patterns patterns(const std::vector<const double*>& condition) {
-  Patterns out;
-  split(condition, out);
-  if (unlike(out.I, condition, B) < out.I.size()) out.I.clear();
-  if (unlike(out.II, condition, C) < out.II.size()) out.II.clear();
+Patterns patterns(const Poses<double>& poses) {
+  const Angles angles(poses);
+  Patterns out = split(angles);
+  if (unlike(out.I, angles.B) < out.I.size()) out.I.clear();
+  if (unlike(out.II, angles.C) < out.II.size()) out.II.clear();
   return out;
 }
 
-std::string check_readings(const BlockCall& call) {
-  if (!is_joint(call.evaluation)) return "";
-  if (call.readings < 2) return "one pose says nothing of the axes: commands at several angles of B and C are needed";
-  std::vector<double> values;
-  const auto condition = conditions_of(call, values);
-  if (const std::string problem = unit_problem(call, condition); !problem.empty()) return problem;
-  if (call.evaluation == sequential) {
-    Patterns all;
-    split(condition, all);
-    for (const auto& problem : {plane_problem(all.I, condition, B), plane_problem(all.II, condition, C)})
+Whitening weights(const Poses<double>& poses) {
+  std::string problem;
+  const bool weighted = poses.at[0].evaluation == joint_weighted && poses.declared;
+  return weighted ? whitening(poses, problem) : Whitening{};
+}
+
+std::string Identify::check(const Poses<double>& poses) {
+  if (poses.size() < 2) return "one pose says nothing of the axes: commands at several angles of B and C are needed";
+  if (const std::string problem = unit_problem(poses); !problem.empty()) return problem;
+  const int evaluation = poses.at[0].evaluation;
+  if (evaluation == sequential) {
+    const Angles angles(poses);
+    const Patterns all = split(angles);
+    for (const auto& problem : {plane_problem(all.I, angles.B, 'B'), plane_problem(all.II, angles.C, 'C')})
       if (!problem.empty()) return problem;
-    if (!all.I.empty() && std::fabs(condition[all.I[0]][B]) > 1e-12)
+    if (!all.I.empty() && std::fabs(angles.B[all.I[0]]) > 1e-12)
       return fmt::format(
           "B is {:g} deg in pattern 1: probe and C axis follow from poses at B = 0 alone (joint needs none)",
-          condition[all.I[0]][B] / deg);
+          angles.B[all.I[0]] / deg);
   }
-  if (call.evaluation != joint_weighted) return "";
-  if (!call.declared) return "weights follow from what a scenario declares; a table declares nothing: joint?";
+  if (evaluation != joint_weighted) return "";
+  if (!poses.declared) return "weights follow from what a scenario declares; a table declares nothing: joint?";
   std::string problem;
-  whitening(call, problem);
+  whitening(poses, problem);
   return problem;
 }
 
-/// Directions that all commands together cannot see, among the unknowns and what is uncertain of links and artefact for
-/// all readings alike.
-std::vector<std::string> remarks(const BlockCall& call) {
-  if (!is_joint(call.evaluation)) return {};
+std::vector<std::string> Identify::remarks(const Poses<double>& poses) {
   std::vector<std::size_t> quantities;
   for (std::size_t j = 0; j < unknowns; ++j) quantities.push_back(j);
-  const std::size_t declared = call.declared ? call.declared->draws.size() : 0; // a table declares nothing
+  const std::size_t declared = poses.declared ? poses.declared->draws.size() : 0; // a table declares nothing
   for (std::size_t i = 0; i < declared; ++i)
-    if (const auto& draw = call.declared->draws[i];
-        draw.moves.size() == call.readings && draw.moves[0].column >= link_B_x && draw.moves[0].column < E_AA)
+    if (const auto& draw = poses.declared->draws[i];
+        draw.moves.size() == poses.size() && draw.moves[0].column >= Q::link_B_x && draw.moves[0].column < Q::E_AA)
       quantities.push_back(draw.moves[0].column);
-  const std::size_t p = quantities.size(), n = 3 * call.readings;
+  const std::size_t p = quantities.size(), n = 3 * poses.size();
   std::vector<double> jacobian(n * p), magnitude(p, 1e-3);
   const auto unseen_among = [&](std::size_t first) {
     std::vector<double> part;
@@ -130,14 +131,14 @@ std::vector<std::string> remarks(const BlockCall& call) {
     return least_squares::parameter_covariance(
         part, n, first, {magnitude.begin(), magnitude.begin() + static_cast<std::ptrdiff_t>(first)}, unseen_below);
   };
-  for (std::size_t r = 0; r < call.readings; ++r)
+  for (std::size_t r = 0; r < poses.size(); ++r)
     for (std::size_t j = 0; j < p; ++j) {
-      const auto d = derivative(call, r, quantities[j]);
+      const auto d = derivative(poses, r, quantities[j]);
       jacobian[3 * r * p + j] = d.x, jacobian[(3 * r + 1) * p + j] = d.y, jacobian[(3 * r + 2) * p + j] = d.z;
     }
   std::vector<least_squares::Parameter> names;
   for (const std::size_t q : quantities) {
-    const QuantityCard& card = find("sphere_calibration")->card->quantities[q];
+    const QuantityCard& card = quantity_cards[q];
     names.push_back({std::string(card.name), std::string(card.unit), std::string(card.si_unit)});
   }
   std::vector<std::string> out;
@@ -149,4 +150,4 @@ std::vector<std::string> remarks(const BlockCall& call) {
   return out;
 }
 
-} // namespace gumshoe::models::sphere
+} // namespace gumshoe::models::sphere_calibration

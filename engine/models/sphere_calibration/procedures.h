@@ -3,45 +3,72 @@
 #include <string>
 #include <vector>
 
+#include "models/block.h"
 #include "models/sphere_calibration/identification.h"
 
 namespace gumshoe::models::sphere_calibration {
 
-enum JointRow { residual_row = unknowns, rank_row, condition_row, joint_rows };
+template <class T> using Poses = Together<Rows, T>;
 
-/// The eleven in the order of the published tables, then how well they are known.
-inline constexpr VariableCard joint_measurands[] = {
-    {"probe_x", "mm", "m", 0, "from the origin O_r to the tip's centre, along X"},
-    {"probe_y", "mm", "m", 0, "from the origin O_r to the tip's centre, against Y"},
-    {"probe_z", "mm", "m", 0, "from the origin O_r to the tip's centre, against Z"},
-    {"E_X0B", "mm", "m", 0, "offset of the B axis along X"},
-    {"E_Z0B", "mm", "m", 0, "offset of the B axis against Z"},
-    {"E_A0B", "deg", "rad", 0, "squareness of B to Z"},
-    {"E_C0B", "deg", "rad", 0, "squareness of B to X"},
-    {"E_X0C", "mm", "m", 0, "offset of the C axis along X"},
-    {"E_Y0C", "mm", "m", 0, "offset of the C axis along Y"},
-    {"E_A0C", "deg", "rad", 0, "squareness of C to Y"},
-    {"E_B0C", "deg", "rad", 0, "squareness of C to X"},
-    {"residual_rms", "um", "m", 0, "root mean square of recorded commands less those of the identified machine"},
-    {"rank", "1", "1", 0, "how many of the eleven, or of their combinations, the poses see"},
-    {"condition_number", "1", "1", 0,
-     "of the derivatives by the eleven, columns of length one, on what the poses see; whitened if joint_weighted"},
+/// The names of joint_cards.
+struct JointRows {
+  GUMSHOE_NAMED(Measurands, probe_x, probe_y, probe_z, E_X0B, E_Z0B, E_A0B, E_C0B, E_X0C, E_Y0C, E_A0C, E_B0C,
+                residual_rms, rank, condition_number);
 };
-static_assert(std::size(joint_measurands) == joint_rows);
-/// Row of an unknown.
-inline constexpr int row_of[unknowns] = {0, 1, 2, 3, 4, 7, 8, 5, 6, 9, 10};
+/// The unknowns, in the order of the model's quantities, in the rows of the result.
+template <class T> JointRows::Measurands<T> in_rows(const T* theta) {
+  JointRows::Measurands<T> y{};
+  y.probe_x = theta[Q::probe_x], y.probe_y = theta[Q::probe_y], y.probe_z = theta[Q::probe_z];
+  y.E_X0B = theta[Q::E_X0B], y.E_Z0B = theta[Q::E_Z0B], y.E_X0C = theta[Q::E_X0C], y.E_Y0C = theta[Q::E_Y0C];
+  y.E_A0B = theta[Q::E_A0B], y.E_C0B = theta[Q::E_C0B], y.E_A0C = theta[Q::E_A0C], y.E_B0C = theta[Q::E_B0C];
+  y.residual_rms = y.rank = y.condition_number = T(0.0);
+  return y;
+}
 
-constexpr bool is_joint(int evaluation) { return evaluation >= variants; }
-
-/// @param condition [reading][conditions]
-Patterns patterns(const std::vector<const double*>& condition);
+Patterns patterns(const Poses<double>& poses);
 /// The commands of one reading by one quantity, at the declared estimates.
-Vector3<double> derivative(const BlockCall& call, std::size_t reading, std::size_t quantity);
-/// From what is declared of the data; throws nothing, empty rows beside `problem` if it leaves commands without noise.
-Whitening whitening(const BlockCall& call, std::string& problem);
+Vector3<double> derivative(const Poses<double>& poses, std::size_t reading, std::size_t quantity);
+/// From what is declared of the data; throws nothing, empty rows and a `problem` if it leaves commands without noise.
+Whitening whitening(const Poses<double>& poses, std::string& problem);
+/// Those of the evaluation at hand: none but for joint_weighted.
+Whitening weights(const Poses<double>& poses);
 
-/// Model::check_readings and Model::remarks.
-std::string check_readings(const BlockCall& call);
-std::vector<std::string> remarks(const BlockCall& call);
+/// All three: sequential, joint, joint_weighted.
+struct Identify {
+  template <class T> using Measurands = JointRows::Measurands<T>;
+  using Names = JointRows::MeasurandsRow;
 
-} // namespace gumshoe::models::sphere
+  /// What conditions and declarations fix, the same for all samples of a block.
+  template <class T> struct Memory : Identification<T> {
+    explicit Memory(const Poses<double>& poses) : Identification<T>(poses.size(), patterns(poses), weights(poses)) {}
+  };
+
+  template <class T>
+  static Measurands<T> evaluate(const Poses<T>& all, Memory<T>& identification, Outcome<T>& outcome) {
+    for (std::size_t r = 0; r < all.size(); ++r)
+      identification.poses[r] = pose_of(all.at[r], {all.read[r].X, all.read[r].Y, all.read[r].Z});
+    const T* declared = array_of(all.at[0].q);
+    const auto found =
+        all.at[0].evaluation == sequential ? identification.sequential(declared) : identification.joint(declared);
+    auto y = in_rows(found.theta);
+    y.residual_rms = found.residual_rms, y.rank = found.rank, y.condition_number = found.condition;
+    for (std::size_t i = 0; i < numbers_in<T>; ++i) {
+      if (!holds_at(found.finite, i)) outcome.fail(i, Status::out_of_domain);
+      if (!holds_at(found.converged, i)) outcome.fail(i, Status::not_converged);
+    }
+    return y;
+  }
+  /// The machine that should be found; readings agree in it.
+  template <class T, class Shown>
+  static Measurands<T> truth(const Poses<T>& poses, const std::vector<Shown>&, Outcome<T>&) {
+    return in_rows(array_of(poses.at[0].q));
+  }
+
+  /// What is impossible about all poses together; empty if nothing.
+  static std::string check(const Poses<double>& poses);
+  /// Directions that all commands together cannot see, among the unknowns and what is uncertain of links and artefact
+  /// for all readings alike.
+  static std::vector<std::string> remarks(const Poses<double>& poses);
+};
+
+} // namespace gumshoe::models::sphere_calibration

@@ -1,233 +1,62 @@
 #pragma once
-/// Calibrating a probe and two rotary axes with a sphere, on a six-axis belt grinder.
-///
-/// The probe touches the top of a sphere at many angles B and C, and the control records the commands X, Y, Z. With the
-/// tip's centre t above the sphere, the probe r from the commanded origin (probe.h) and the linear axes' errors e:
-///     (X, Y, Z) = t - r(B + E_BB, C + E_CC) + e.
-/// Source: Fang 2022, chapter 4, derived anew.
-#include <optional>
-
-#include "chain/rotary_probing.h"
-#include "effects/act.h"
-#include "models/model.h"
-#include "models/sphere_calibration/closed_form.h"
+/// Calibrating a probe and two rotary axes with a sphere: the model. Its physics stands in contact.h, its joint
+/// evaluations in procedures.h.
+#include "models/sphere_calibration/procedures.h"
 
 namespace gumshoe::models::sphere_calibration {
 
-/// The first seven in the order of enum Length; of the middle four the links are added.
-enum Quantity {
-  probe_x,
-  probe_y,
-  probe_z,
-  E_X0B,
-  E_Z0B,
-  E_X0C,
-  E_Y0C,
-  E_A0B,
-  E_C0B,
-  E_A0C,
-  E_B0C,
-  link_B_x,
-  link_B_z,
-  link_C_x,
-  link_C_y,
-  sphere_distance,
-  sphere_radius,
-  tip_radius,
-  sphere_y,
-  sphere_z,
-  E_AA,
-  E_BB,
-  E_CC,
-  E_XX,
-  E_XY,
-  E_XZ,
-  E_YX,
-  E_YY,
-  E_YZ,
-  E_ZX,
-  E_ZY,
-  E_ZZ,
-  S_XY,
-  S_XZ,
-  S_YZ,
-  count
-};
-enum Condition {
-  A,
-  B,
-  C,
-  pattern,
-  repeat,
-  direction,
-  time,
-  feed,
-  B_direction,
-  C_direction,
-  B_clamped,
-  C_clamped,
-  conditions
-};
-enum Reading { X, Y, Z, indications };
-enum Measurand { tip_x, tip_y, tip_z, measurands };
-/// How r is computed at each reading; then the joint evaluations (procedures.h).
-enum Variant { exact, small_angle, closed_form, variants, sequential = variants, joint, joint_weighted };
+struct SphereCalibration {
+  using Rows = sphere_calibration::Rows;
+  static constexpr ModelCard card{
+      .name = "sphere_calibration",
+      .title = "Calibrating a probe and two rotary axes with a sphere",
+      .summary = "A belt grinder's probe touches the top of a sphere at many angles of B and C; from the recorded "
+                 "commands follow the probe's position and the location errors of both axes.",
+      .source = "Fang 2022, chapter 4 (eqs 4.1 to 4.51), derived anew; see reports/errata.md",
+      .quantities = quantity_cards,
+      .conditions = condition_cards,
+      .indications = indication_cards,
+      .measurands = measurand_cards,
+      .evaluations = evaluation_cards,
+      .stages = stages};
 
-/// Actual lengths: the design distances and their errors (eqs 4.3 to 4.6).
-template <class T> void actual_lengths(const T* q, T* length) {
-  for (int i = 0; i < lengths; ++i) length[i] = q[probe_x + i];
-  for (int i = 0; i < 4; ++i) length[length_B_x + i] = q[link_B_x + i] + q[E_X0B + i];
-}
-template <class T> Orientation<T> orientation(const T* q) { return {q[E_A0B], q[E_C0B], q[E_A0C], q[E_B0C]}; }
-
-/// The machine behind the origin, the same at all readings of a sample that share these quantities.
-template <class T> struct Links {
-  T length[lengths];
-  Orientation<T> tilted;
-  Directions<T> lines;
-};
-template <class T> Links<T> links(const T* q) {
-  Links<T> l;
-  actual_lengths(q, l.length);
-  l.tilted = orientation(q);
-  l.lines = directions(l.tilted);
-  return l;
-}
-
-/// Whether a reading is of pattern II (B moves at C = 90 deg), for the closed forms: as its label `pattern` says, else
-/// where B is not 0. A bool, or a mask of lanes.
-template <class T> auto is_pattern_II(const T* condition) {
-  return (condition[pattern] == T(2.0)) || ((condition[pattern] != T(1.0)) && (condition[B] != T(0.0)));
-}
-/// Whether the closed form of its pattern exists at a reading.
-template <class T> auto has_closed_form(const T* condition) {
-  const T right_angle(1.57079632679489661923), tolerance(1e-12);
-  const auto second = is_pattern_II(condition);
-  return (second && (num::abs(condition[C] - right_angle) < tolerance)) ||
-         (!second && (num::abs(condition[B]) < tolerance));
-}
-
-template <class T> Vector3<T> choose(bool first, const Vector3<T>& a, const Vector3<T>& b) { return first ? a : b; }
-inline Vector3<Lanes> choose(const Lanes::batch_bool_type& first, const Vector3<Lanes>& a, const Vector3<Lanes>& b) {
-  return {xsimd::select(first, a.x, b.x), xsimd::select(first, a.y, b.y), xsimd::select(first, a.z, b.z)};
-}
-
-/// The freed effects and their quantities; none by default.
-template <class T> struct Freed {
-  std::span<const effects::Active> active;
-  const T* quantities = nullptr;
-  bool any() const { return !active.empty(); }
-};
-
-/// One touch, along Z, as the stages of the measuring chain see it.
-template <class T> struct Touch {
-  chain::ProbingEvent<T> event;
-  chain::RotaryProbing<T> rotary;
-
-  Vector3<T> reading_of(const Vector3<T>& actual) const { return chain::reading_of(actual, event); }
-  Vector3<T> actual_of(const Vector3<T>& reading) const { return chain::actual_of(reading, event); }
-};
-/// @param nominal commands by the quantities, without errors of positioning or effects, m
-template <class T> Touch<T> touch(const T* condition, const Vector3<T>& nominal, const Freed<T>& freed) {
-  Touch<T> t;
-  t.event.time = condition[time];
-  t.event.x.position = nominal.x, t.event.y.position = nominal.y, t.event.z.position = nominal.z;
-  t.event.z.direction = condition[direction];
-  t.event.z.feed = condition[feed];
-  t.event.approach.z = condition[direction];
-  t.event.approach_in_probe = chain::approach_in_probe(condition[direction], condition[B], condition[C]);
-  t.rotary.B.angle = condition[B], t.rotary.C.angle = condition[C];
-  t.rotary.B.direction = condition[B_direction], t.rotary.C.direction = condition[C_direction];
-  t.rotary.B.clamped = condition[B_clamped], t.rotary.C.clamped = condition[C_clamped];
-  t.event.rotary = &t.rotary;
-  effects::act(freed.active, freed.quantities, t.event);
-  t.event.rotary = nullptr; // the touch may be copied
-  return t;
-}
-
-/// Turns of B and C with error motions: about the axes' lines, then tilted; `shift` is what moves the lines, from the
-/// origin. At null the turns are as they were, bit for bit.
-template <class T> struct Moved {
-  Matrix3<T> tilt_B, tilt_C;
-  Vector3<T> shift_B, shift_C;
-  Turns<T> turns;
-  Vector3<T> shift() const { return shift_B + turns.b * shift_C; }
-};
-template <class T> Moved<T> moved(const Turns<T>& turns, const chain::RotaryProbing<T>& rotary) {
-  const auto b = chain::error_motion(rotary.B.error, 1), c = chain::error_motion(rotary.C.error, 2);
-  return {b.tilt, c.tilt, b.shift, c.shift, {b.tilt * turns.b, c.tilt * turns.c}};
-}
-
-/// The probe from the commanded origin at actual angles. @param pattern_II read by the closed form only  @param rotary
-/// error motions, which the closed form has no place for; null: none
-template <class T, class Mask>
-Vector3<T> probe_from_origin(int variant, const Links<T>& l, const T& at_B, const T& at_C, const Mask& pattern_II,
-                             const chain::RotaryProbing<T>* rotary = nullptr) {
-  if (variant == closed_form)
-    return choose(pattern_II, closed_form_II(l.length, l.tilted, at_B), closed_form_I(l.length, l.tilted, at_C));
-  const Turns<T> turns =
-      variant == small_angle ? small_angle_turns(l.tilted, at_B, at_C) : exact_turns(l.lines, at_B, at_C);
-  if (!rotary) return probe_from_origin(l.length, turns);
-  const Moved<T> m = moved(turns, *rotary);
-  return probe_from_origin(l.length, m.turns) + m.shift();
-}
-
-/// The tip's centre at the trigger, from the commanded origin of the A axis' flange in machine axes: the top of the
-/// sphere and the tip's radius. The sphere's centre stands at (-d_s, sphere_y, sphere_z), turned by A about +X
-/// (eq 4.1). @param at_A actual angle, rad
-template <class T> Vector3<T> tip_at_top(const T* q, const T& at_A) {
-  const T c = num::cos(at_A), s = num::sin(at_A);
-  return {-q[sphere_distance], q[sphere_y] * c - q[sphere_z] * s,
-          q[sphere_y] * s + q[sphere_z] * c + (q[sphere_radius] + q[tip_radius])};
-}
-
-/// What the linear axes add to the recorded commands, eq 4.51. @param y, z nominal commands, m
-template <class T> Vector3<T> linear_errors(const T* q, const T& y, const T& z) {
-  return {q[E_XX] + q[E_XY] + q[E_XZ] + (q[S_XZ] * z - q[S_XY] * y), q[E_YX] + q[E_YY] + q[E_YZ] - q[S_YZ] * z,
-          q[E_ZX] + q[E_ZY] + q[E_ZZ]};
-}
-
-/// One contact with the sphere's top.
-template <class T> struct Contact {
-  Vector3<T> tip;                ///< tip_at_top
-  Vector3<T> probe;              ///< r, at the actual angles
-  Vector3<T> nominal;            ///< commands without positioning errors of A, B, C, without linear errors and effects
-  Vector3<T> added;              ///< linear_errors
-  std::optional<Touch<T>> touch; ///< only if effects act
-};
-/// @param q          quantities, SI
-/// @param condition  SI
-/// @param pattern_II is_pattern_II of the condition
-/// @param squareness false: S_XY, S_XZ, S_YZ are all 0, and nominal commands are left at 0 unless effects act
-template <class T, class Mask>
-Contact<T> contact(int variant, const T* q, const Links<T>& l, const T* condition, const Mask& pattern_II,
-                   bool squareness = true, const Freed<T>& freed = {}) {
-  Contact<T> at;
-  at.tip = tip_at_top(q, condition[A] + q[E_AA]);
-  if (squareness || freed.any())
-    at.nominal = tip_at_top(q, condition[A]) - probe_from_origin(variant, l, condition[B], condition[C], pattern_II);
-  at.added = linear_errors(q, at.nominal.y, at.nominal.z);
-  T at_B = condition[B] + q[E_BB], at_C = condition[C] + q[E_CC];
-  if (!freed.any()) {
-    at.probe = probe_from_origin(variant, l, at_B, at_C, pattern_II);
-    return at;
+  template <class T> static void check_commanded(const At<T>& at, Outcome<T>& outcome) {
+    const auto& c = at.c;
+    const T zero(0.0), one(1.0);
+    if (at.evaluation == closed_form) {
+      outcome.refuse(!has_closed_form(c), "closed_form holds at B = 0 (pattern 1) or at C = 90 deg (pattern 2) only");
+      if (at.freed.any()) outcome.refuse(one == one, "closed_form has no place for effects");
+    }
+    outcome.refuse(c.feed < zero, "feed is negative");
+    const auto no_side = [&](const T& x) { return (x != one) && (x != -one) && (x != zero); };
+    outcome.refuse(no_side(c.B_direction), "B_direction is none of 1, -1, 0");
+    outcome.refuse(no_side(c.C_direction), "C_direction is none of 1, -1, 0");
+    outcome.refuse((c.B_clamped != one) && (c.B_clamped != zero), "B_clamped is neither 0 nor 1");
+    outcome.refuse((c.C_clamped != one) && (c.C_clamped != zero), "C_clamped is neither 0 nor 1");
   }
-  at.touch = touch(condition, at.nominal, freed);
-  at_B = at_B + at.touch->rotary.B.error[chain::E_B], at_C = at_C + at.touch->rotary.C.error[chain::E_C];
-  at.probe = probe_from_origin(variant, l, at_B, at_C, pattern_II, &at.touch->rotary);
-  return at;
-}
 
-/// The machine: the commands that the control records.
-template <class T> Vector3<T> simulate(const Contact<T>& at) {
-  if (at.touch) return at.touch->reading_of(at.tip - at.probe) + at.added;
-  return at.tip - at.probe + at.added;
-}
+  template <class T> using Memory = KnownLinks<T>;
+  template <class T> static Contact<T> contact(const At<T>& at, KnownLinks<T>& known) {
+    // A derivative by squareness does not vanish with its value.
+    const bool squareness = num::derivative_levels<T> > 0 || num::any(at.q.S_XY != T(0.0)) ||
+                            num::any(at.q.S_XZ != T(0.0)) || num::any(at.q.S_YZ != T(0.0));
+    return sphere_calibration::contact(at, known.of(at.q), squareness);
+  }
+  template <class T> static Simulated<Rows, T> simulate(const At<T>& reading, KnownLinks<T>& known, Outcome<T>&) {
+    const auto at = contact(reading, known);
+    const auto x = sphere_calibration::simulate(at);
+    return {{x.x, x.y, x.z}, {at.tip.x, at.tip.y, at.tip.z}};
+  }
+  template <class T>
+  static Rows::Measurands<T> evaluate(const At<T>& at, KnownLinks<T>& known, const Rows::Indications<T>& read,
+                                      Outcome<T>&) {
+    const auto tip = sphere_calibration::evaluate({read.X, read.Y, read.Z}, contact(at, known));
+    return {tip.x, tip.y, tip.z};
+  }
 
-/// The measurement model: where the tip's centre stood by the recorded commands; the inverse of simulate.
-template <class T> Vector3<T> evaluate(const Vector3<T>& recorded, const Contact<T>& at) {
-  if (at.touch) return at.touch->actual_of(recorded - at.added) + at.probe;
-  return recorded - at.added + at.probe;
-}
+  static std::vector<Intermediate> explain(const At<double>& at, const Rows::Indications<double>& read);
 
-} // namespace gumshoe::models::sphere
+  using Joint = std::tuple<Identify, Identify, Identify>;
+};
+
+} // namespace gumshoe::models::sphere_calibration

@@ -7,14 +7,16 @@
 
 namespace gumshoe::models::sphere_calibration {
 
-Vector3<double> derivative(const BlockCall& call, std::size_t reading, std::size_t quantity) {
-  using D = Dual<double, 1>;
-  D q[count], condition[conditions];
-  for (std::size_t j = 0; j < count; ++j) // of a scenario the estimates, of a table what it states
-    q[j] = D(call.declared ? call.declared->estimates[reading * count + j] : *call.quantities[reading * count + j].data);
-  for (std::size_t j = 0; j < conditions; ++j) condition[j] = D(*call.conditions[reading * conditions + j].data);
-  q[quantity].d[0] = 1;
-  const auto x = simulate(contact(exact, q, links(q), condition, false));
+Vector3<double> derivative(const Poses<double>& poses, std::size_t reading, std::size_t quantity) {
+  constexpr std::size_t count = rows_of<Quantities>;
+  const At<double>& at = poses.at[reading];
+  // Of a scenario the estimates, of a table what it states.
+  const double* estimates = poses.declared ? &poses.declared->estimates[reading * count] : array_of(at.q);
+  At<Gradient> moved;
+  for (std::size_t j = 0; j < count; ++j) array_of(moved.q)[j] = Gradient(estimates[j]);
+  for (std::size_t j = 0; j < rows_of<Conditions>; ++j) array_of(moved.c)[j] = Gradient(array_of(at.c)[j]);
+  array_of(moved.q)[quantity].d[0] = 1;
+  const auto x = simulate(contact(moved));
   return {x.x.d[0], x.y.d[0], x.z.d[0]};
 }
 
@@ -23,24 +25,24 @@ namespace {
 /// Moves the commands as some unknowns do: no weight depends on it.
 bool as_unknowns_do(const Declared::Draw& draw, std::size_t readings) {
   const std::size_t q = draw.moves.front().column;
-  return q < link_B_x || (q <= sphere_distance && draw.moves.size() == readings);
+  return q < Q::link_B_x || (q <= Q::sphere_distance && draw.moves.size() == readings);
 }
 
 } // namespace
 
-Whitening whitening(const BlockCall& call, std::string& problem) {
-  const auto n = static_cast<Eigen::Index>(3 * call.readings);
+Whitening whitening(const Poses<double>& poses, std::string& problem) {
+  const auto n = static_cast<Eigen::Index>(3 * poses.size());
   Eigen::MatrixXd V = Eigen::MatrixXd::Zero(n, n);
-  for (const auto& draw : call.declared->draws) {
-    if (draw.moves.empty() || as_unknowns_do(draw, call.readings)) continue;
+  for (const auto& draw : poses.declared->draws) {
+    if (draw.moves.empty() || as_unknowns_do(draw, poses.size())) continue;
     std::vector<std::pair<Eigen::Index, double>> moved;
     for (const auto& [reading, column, by] : draw.moves) {
       const auto first = static_cast<Eigen::Index>(3 * reading);
-      if (column >= count) {
-        moved.emplace_back(first + static_cast<Eigen::Index>(column - count), draw.u * by);
+      if (column >= rows_of<Quantities>) {
+        moved.emplace_back(first + static_cast<Eigen::Index>(column - rows_of<Quantities>), draw.u * by);
         continue;
       }
-      const auto d = derivative(call, reading, column);
+      const auto d = derivative(poses, reading, column);
       moved.emplace_back(first, draw.u * d.x);
       moved.emplace_back(first + 1, draw.u * d.y);
       moved.emplace_back(first + 2, draw.u * d.z);
@@ -70,4 +72,4 @@ Whitening whitening(const BlockCall& call, std::string& problem) {
   return out;
 }
 
-} // namespace gumshoe::models::sphere
+} // namespace gumshoe::models::sphere_calibration

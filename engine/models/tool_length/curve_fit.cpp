@@ -315,4 +315,4 @@ CurveFit fit_curve(const CurveReadings& d) {
   return fit;
 }
 
-} // namespace gumshoe::models::mill
+} // namespace gumshoe::models::tool_length

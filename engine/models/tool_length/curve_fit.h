@@ -15,10 +15,10 @@ namespace gumshoe::models::tool_length {
 
 struct CurveReadings {
   std::size_t readings = 0, flutes = 0;
-  double drop = 0;                                ///< m per rad; of all readings, about
+  double drop = 0;                         ///< m per rad; of all readings, about
   std::vector<const TriggerCurve*> curves; ///< [reading][flute]
-  std::vector<double> lines;                      ///< [reading][flute], m
-  std::vector<double> heights;                    ///< [reading], m
+  std::vector<double> lines;               ///< [reading][flute], m
+  std::vector<double> heights;             ///< [reading], m
   bool alike = false; ///< flutes differ in nothing but height, evenly spread: a phase of a flute's pitch renumbers them
 };
 
@@ -36,4 +36,4 @@ CurveFit fit_curve(const CurveReadings& data);
 /// Model's heights at given phase and heights; flutes that are not `seen` do not count. For tests and plots.
 void curve_heights(const CurveReadings& data, double phase, const double* heights, const bool* seen, double* out);
 
-} // namespace gumshoe::models::mill
+} // namespace gumshoe::models::tool_length

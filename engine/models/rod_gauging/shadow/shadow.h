@@ -74,9 +74,10 @@ template <class T> EdgePoint<T> edge_point(const ShadowEdge<T>& e, const T& sin_
   return p;
 }
 
-/// Height of the bottom's centre above the beam's axis at the trigger, m. Absolute error below 1e-12 m
-/// for every rod and beam; `never_covered` where the shadow cannot reach the fraction; out_of_domain for
-/// fillet > radius, non-positive radii, |pitch| >= pi/2, elevation outside (0, pi), fraction outside (0, 1).
+/// Height of the bottom's centre above the beam's axis at the trigger, m. Absolute error below 1e-12 m.
+///
+/// Domain: rods and beams within the limits of the model's card, with a fillet that is no larger than the rod.
+/// `never_covered` where the shadow cannot reach the fraction.
 Solved<double> trigger_height(const Rod<double>& rod, const Beam<double>& beam);
 
 } // namespace gumshoe::models::rod_gauging

@@ -5,7 +5,6 @@
 namespace gumshoe::models::rod_gauging {
 
 Solved<double> trigger_height(const Rod<double>& rod, const Beam<double>& beam) {
-  if (!in_domain(rod, beam)) return {std::nan(""), Status::out_of_domain};
   const auto fast = solve_chord<double>(shadow_edge(rod, beam), beam.radius, beam.fraction);
   if (fast.failed == 0) return {bottom_height_of(fast.k, rod, beam), Status::ok};
   return general_height(rod, beam);

@@ -1,21 +1,18 @@
 #pragma once
 /// The trigger height in any scalar: fast chord solve, the general solve where that fails, derivatives.
+#include "models/reading.h"
 #include "models/rod_gauging/shadow/shadow_area.h"
 #include "models/rod_gauging/shadow/shadow_newton.h"
 
 namespace gumshoe::models::rod_gauging {
 
-inline bool in_domain(const Rod<double>& rod, const Beam<double>& beam) {
-  return rod.radius > 0 && rod.fillet_radius >= 0 && rod.fillet_radius <= rod.radius && rod.bottom_elevation > 0 &&
-         rod.bottom_elevation < pi && beam.radius > 0 && beam.fraction > 0 && beam.fraction < 1 &&
-         std::fabs(beam.pitch) < 0.5 * pi && std::isfinite(rod.radius + beam.radius + beam.yaw + rod.bottom_azimuth) &&
-         std::isfinite(rod.axis_x + rod.axis_y);
-}
+inline bool finite(const ShadowEdge<double>& e) { return std::isfinite(e.rho + e.depth + e.shear + e.side); }
 
 /// The general solve for one rod; the fallback of the lanes, too.
 inline Solved<double> general_height(const Rod<double>& rod, const Beam<double>& beam) {
-  if (!in_domain(rod, beam)) return {std::nan(""), Status::out_of_domain};
-  const BoundarySolve s = solve_boundary(shadow_edge(rod, beam), beam.radius, beam.fraction);
+  const ShadowEdge<double> edge = shadow_edge(rod, beam);
+  if (!finite(edge)) return {std::nan(""), Status::out_of_domain};
+  const BoundarySolve s = solve_boundary(edge, beam.radius, beam.fraction);
   if (s.status != Status::ok) return {std::nan(""), s.status};
   return {bottom_height_of(s.k, rod, beam), Status::ok};
 }
@@ -40,8 +37,8 @@ inline BoundarySolve crossings_of(const ChordSolve<double>& chord) {
 template <class T> Solved<T> differentiable_height(const Rod<T>& rod, const Beam<T>& beam) {
   const Rod<double> r = value(rod);
   const Beam<double> b = value(beam);
-  if (!in_domain(r, b)) return {T(std::nan("")), Status::out_of_domain};
   const ShadowEdge<double> plain = shadow_edge(r, b);
+  if (!finite(plain)) return {T(std::nan("")), Status::out_of_domain};
   const auto chord = solve_chord<double>(plain, b.radius, b.fraction);
   const BoundarySolve s = chord.failed == 0 ? crossings_of(chord) : solve_boundary(plain, b.radius, b.fraction);
   if (s.status != Status::ok) return {T(std::nan("")), s.status};
@@ -50,6 +47,36 @@ template <class T> Solved<T> differentiable_height(const Rod<T>& rod, const Beam
   // depth is an absolute value and rho ends at zero: no derivative there.
   const bool kink = plain.depth <= 1e-13 * plain.rho || plain.rho <= 1e-13 * r.radius;
   return {bottom_height_of(k, rod, beam), Status::ok, kink};
+}
+
+/// The trigger height in any scalar, of what has not failed yet.
+template <class T> T trigger_height(const Rod<T>& rod, const Beam<T>& beam, Outcome<T>& outcome) {
+  const Solved<T> solved = differentiable_height(rod, beam);
+  outcome.fail(solved.status);
+  outcome.kink = solved.kink;
+  return solved.value;
+}
+inline double trigger_height(const Rod<double>& rod, const Beam<double>& beam, Outcome<double>& outcome) {
+  const auto solved = trigger_height(rod, beam);
+  outcome.fail(solved.status);
+  return solved.value;
+}
+inline Lanes trigger_height(const Rod<Lanes>& rod, const Beam<Lanes>& beam, Outcome<Lanes>& outcome) {
+  const auto chord = solve_chord<Lanes>(shadow_edge(rod, beam), beam.radius, beam.fraction);
+  const Lanes fast = bottom_height_of(chord.k, rod, beam);
+  const auto general = !(chord.failed < Lanes(0.5));
+  if (!num::any(general)) return fast;
+  double height[Lanes::size];
+  fast.store_unaligned(height);
+  for (std::size_t l = 0; l < Lanes::size; ++l) {
+    if (!general.get(l) || outcome.status[l] != Status::ok) continue;
+    const auto solved = general_height({rod.radius.get(l), rod.fillet_radius.get(l), rod.bottom_elevation.get(l),
+                                        rod.bottom_azimuth.get(l), rod.axis_x.get(l), rod.axis_y.get(l)},
+                                       {beam.yaw.get(l), beam.pitch.get(l), beam.radius.get(l), beam.fraction.get(l)});
+    height[l] = solved.value;
+    outcome.fail(l, solved.status);
+  }
+  return Lanes::load_unaligned(height);
 }
 
 } // namespace gumshoe::models::rod_gauging

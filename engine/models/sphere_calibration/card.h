@@ -1,0 +1,140 @@
+#pragma once
+/// What the sphere model says of itself.
+#include "models/cards.h"
+
+namespace gumshoe::models::sphere_calibration {
+
+using si::deg, si::minute, si::mm, si::um;
+
+// clang-format off: a row of a card stays together
+inline constexpr QuantityCard quantity_cards[] = {
+    in_mm({.name = "probe_x", .default_value = 85.564 * mm, .symbol = "d_rpx",
+           .meaning = "from the origin O_r to the tip's centre, along X"}),
+    in_mm({.name = "probe_y", .default_value = 287.428 * mm, .symbol = "d_rpy",
+           .meaning = "from the origin O_r to the tip's centre, against Y"}),
+    in_mm({.name = "probe_z", .default_value = 454.220 * mm, .symbol = "d_rpz",
+           .meaning = "from the origin O_r to the tip's centre, against Z"}),
+    in_mm({.name = "E_X0B", .default_value = -0.406 * mm, .symbol = "E_X0B",
+           .meaning = "offset of the B axis: D_rbx - d_rbx, along X"}),
+    in_mm({.name = "E_Z0B", .default_value = 0.544 * mm, .symbol = "E_Z0B",
+           .meaning = "offset of the B axis: D_rbz - d_rbz, so against Z; minus ISO's"}),
+    in_mm({.name = "E_X0C", .default_value = 0.230 * mm, .symbol = "E_X0C",
+           .meaning = "offset of the C axis: D_rcx - d_rcx, along X"}),
+    in_mm({.name = "E_Y0C", .default_value = 0.369 * mm, .symbol = "E_Y0C",
+           .meaning = "offset of the C axis: D_rcy - d_rcy, along Y"}),
+    in_deg({.name = "E_A0B", .default_value = -0.267 * deg, .limits = below_90, .symbol = "E_A0B",
+            .meaning = "squareness of B to Z; b ~ (-tan E_C0B, 1, tan E_A0B)"}),
+    in_deg({.name = "E_C0B", .default_value = -0.184 * deg, .limits = below_90, .symbol = "E_C0B",
+            .meaning = "squareness of B to X; b ~ (-tan E_C0B, 1, tan E_A0B)"}),
+    in_deg({.name = "E_A0C", .default_value = 0.0433 * deg, .limits = below_90, .symbol = "E_A0C",
+            .meaning = "squareness of C to Y; c ~ (tan E_B0C, -tan E_A0C, 1)"}),
+    in_deg({.name = "E_B0C", .default_value = 0.0121 * deg, .limits = below_90, .symbol = "E_B0C",
+            .meaning = "squareness of C to X; c ~ (tan E_B0C, -tan E_A0C, 1)"}),
+    in_mm({.name = "link_B_x", .default_value = -120 * mm, .symbol = "d_rbx",
+           .meaning = "design, O_r to the B axis along X; inferred, not printed"}),
+    in_mm({.name = "link_B_z", .default_value = 110 * mm, .symbol = "d_rbz",
+           .meaning = "design, O_r to the B axis against Z; inferred, not printed"}),
+    in_mm({.name = "link_C_x", .default_value = 50 * mm, .symbol = "d_rcx",
+           .meaning = "design, O_r to the C axis along X; inferred, not printed"}),
+    in_mm({.name = "link_C_y", .default_value = 180 * mm, .symbol = "d_rcy",
+           .meaning = "design, O_r to the C axis along Y; inferred, not printed"}),
+    in_mm({.name = "sphere_distance", .default_value = 184.183 * mm, .symbol = "d_s",
+           .meaning = "from the A axis' flange to the sphere's centre"}),
+    in_mm({.name = "sphere_radius", .default_value = 12.5 * mm, .limits = positive, .symbol = "R_c",
+           .meaning = "of the sphere"}),
+    in_mm({.name = "tip_radius", .default_value = 3 * mm, .limits = positive, .symbol = "R_p",
+           .meaning = "of the probe's tip"}),
+    in_mm({.name = "sphere_y", .meaning = "sphere's centre beside the A axis, along Y at A = 0; turns with A"}),
+    in_mm({.name = "sphere_z", .meaning = "sphere's centre beside the A axis, along Z at A = 0; turns with A"}),
+    in_deg({.name = "E_AA", .symbol = "E_AA",
+            .meaning = "positioning error of A; only a sphere beside the axis feels it"}),
+    in_deg({.name = "E_BB", .symbol = "E_BB", .meaning = "positioning error of B, actual minus commanded (eq 4.49)"}),
+    in_deg({.name = "E_CC", .symbol = "E_CC", .meaning = "positioning error of C, actual minus commanded (eq 4.50)"}),
+    in_mm({.name = "E_XX", .symbol = "E_XX", .meaning = "positioning of X; adds to the recorded X (eq 4.51)"}),
+    in_mm({.name = "E_XY", .symbol = "E_XY", .meaning = "straightness of Y along X; adds to the recorded X"}),
+    in_mm({.name = "E_XZ", .symbol = "E_XZ", .meaning = "straightness of Z along X; adds to the recorded X"}),
+    in_mm({.name = "E_YX", .symbol = "E_YX", .meaning = "straightness of X along Y; adds to the recorded Y"}),
+    in_mm({.name = "E_YY", .symbol = "E_YY", .meaning = "positioning of Y; adds to the recorded Y"}),
+    in_mm({.name = "E_YZ", .symbol = "E_YZ", .meaning = "straightness of Z along Y; adds to the recorded Y"}),
+    in_mm({.name = "E_ZX", .symbol = "E_ZX", .meaning = "straightness of X along Z; adds to the recorded Z"}),
+    in_mm({.name = "E_ZY", .symbol = "E_ZY", .meaning = "straightness of Y along Z; adds to the recorded Z"}),
+    in_mm({.name = "E_ZZ", .symbol = "E_ZZ", .meaning = "positioning of Z; adds to the recorded Z"}),
+    {.name = "S_XY", .unit = "um/m", .si_unit = "rad", .limits = any, .symbol = "S_XY",
+     .meaning = "squareness of Y to X: adds -S_XY times the nominal Y to the recorded X"},
+    {.name = "S_XZ", .unit = "um/m", .si_unit = "rad", .limits = any, .symbol = "S_XZ",
+     .meaning = "squareness of Z to X: adds S_XZ times the nominal Z to the recorded X"},
+    {.name = "S_YZ", .unit = "um/m", .si_unit = "rad", .limits = any, .symbol = "S_YZ",
+     .meaning = "squareness of Z to Y: adds -S_YZ times the nominal Z to the recorded Y"},
+};
+inline constexpr VariableCard condition_cards[] = {
+    shown_in_deg({.name = "A", .meaning = "commanded; turns the workpiece about +X (eq 4.1)"}),
+    shown_in_deg({.name = "B", .meaning = "commanded; about +Y"}),
+    shown_in_deg({.name = "C", .meaning = "commanded; about +Z"}),
+    shown_pure(
+        {.name = "pattern",
+         .meaning = "a label: 1 where C moves at B = 0, 2 where B moves at C = 90 deg; only closed_form reads it"}),
+    shown_pure({.name = "repeat", .meaning = "a label: which repetition"}),
+    shown_pure({.name = "direction", .default_value = -1, .meaning = "of approach along Z: -1 downwards"}),
+    shown_in_s({.name = "time", .meaning = "since the start of the work"}),
+    {.name = "feed", .unit = "mm/min", .si_unit = "m/s", .default_value = 30 * mm / minute,
+     .meaning = "of the approach; only effects read this and what follows"},
+    shown_pure({.name = "B_direction", .default_value = 1,
+                .meaning = "from which B was reached: 1 or -1, upwards or downwards; 0: neither"}),
+    shown_pure({.name = "C_direction", .default_value = 1,
+                .meaning = "from which C was reached: 1 or -1, upwards or downwards; 0: neither"}),
+    shown_pure({.name = "B_clamped", .meaning = "1 where the brake of B holds"}),
+    shown_pure({.name = "C_clamped", .meaning = "1 where the brake of C holds"}),
+};
+inline constexpr VariableCard indication_cards[] = {
+    shown_in_mm({.name = "X", .meaning = "command recorded at the trigger"}),
+    shown_in_mm({.name = "Y", .meaning = "command recorded at the trigger"}),
+    shown_in_mm({.name = "Z", .meaning = "command recorded at the trigger"}),
+};
+inline constexpr VariableCard measurand_cards[] = {
+    shown_in_mm(
+        {.name = "tip_x", .meaning = "where the tip's centre stood by X, Y, Z: from the A axis' flange, along X"}),
+    shown_in_mm({.name = "tip_y", .meaning = "where the tip's centre stood by X, Y, Z: from the A axis, along Y"}),
+    shown_in_mm({.name = "tip_z", .meaning = "where the tip's centre stood by X, Y, Z: from the A axis, along Z"}),
+};
+/// The eleven in the order of the published tables, then how well they are known.
+inline constexpr VariableCard joint_cards[] = {
+    shown_in_mm({.name = "probe_x", .meaning = "from the origin O_r to the tip's centre, along X"}),
+    shown_in_mm({.name = "probe_y", .meaning = "from the origin O_r to the tip's centre, against Y"}),
+    shown_in_mm({.name = "probe_z", .meaning = "from the origin O_r to the tip's centre, against Z"}),
+    shown_in_mm({.name = "E_X0B", .meaning = "offset of the B axis along X"}),
+    shown_in_mm({.name = "E_Z0B", .meaning = "offset of the B axis against Z"}),
+    shown_in_deg({.name = "E_A0B", .meaning = "squareness of B to Z"}),
+    shown_in_deg({.name = "E_C0B", .meaning = "squareness of B to X"}),
+    shown_in_mm({.name = "E_X0C", .meaning = "offset of the C axis along X"}),
+    shown_in_mm({.name = "E_Y0C", .meaning = "offset of the C axis along Y"}),
+    shown_in_deg({.name = "E_A0C", .meaning = "squareness of C to Y"}),
+    shown_in_deg({.name = "E_B0C", .meaning = "squareness of C to X"}),
+    {.name = "residual_rms", .unit = "um", .si_unit = "m", .default_value = 0,
+     .meaning = "root mean square of recorded commands less those of the identified machine"},
+    shown_pure({.name = "rank", .meaning = "how many of the eleven, or of their combinations, the poses see"}),
+    shown_pure({.name = "condition_number",
+                .meaning = "of the derivatives by the eleven, columns of length one, on what the poses see; whitened "
+                           "if joint_weighted"}),
+};
+/// How the probe is computed at each reading; then the joint evaluations.
+enum Evaluation { exact, small_angle, closed_form, sequential, joint, joint_weighted };
+constexpr bool is_joint(int evaluation) { return evaluation >= sequential; }
+inline constexpr EvaluationCard evaluation_cards[] = {
+    {.name = "exact", .meaning = "exact rotations about the actual axes"},
+    {.name = "small_angle",
+     .meaning = "the thesis' product (4.7) to (4.10); for the reproduction study, 12 to 20 um off"},
+    {.name = "closed_form",
+     .meaning = "eqs 4.23 to 4.25 at B = 0 and 4.30 to 4.38, corrected, at C = 90 deg; for the reproduction study"},
+    {.name = "sequential",
+     .meaning = "orientations by planes through each pattern's poses, then the seven lengths by linear least squares",
+     .measurands = joint_cards},
+    {.name = "joint",
+     .meaning = "all eleven at once by least squares, every command of equal weight", .measurands = joint_cards},
+    {.name = "joint_weighted",
+     .meaning = "all eleven at once, weighted with the covariance matrix of all that the scenario declares",
+     .measurands = joint_cards},
+};
+inline constexpr Stage stages[] = {Stage::motion, Stage::rotary, Stage::slides, Stage::contact, Stage::trigger};
+// clang-format on
+
+} // namespace gumshoe::models::sphere_calibration

@@ -1,0 +1,201 @@
+#pragma once
+/// One readout of a turning mill in the beam: its event, its flutes, its true motion, its trigger.
+#include <cmath>
+#include <numbers>
+
+#include "models/model.h"
+#include "models/reading.h"
+#include "models/tool_length/card.h"
+#include "models/tool_length/trigger/lagging_feed.h"
+#include "models/tool_length/trigger/latch.h"
+#include "models/tool_length/trigger/run_out.h"
+
+namespace gumshoe::models::tool_length {
+
+/// The names of the card's rows.
+struct Rows {
+  GUMSHOE_NAMED(Quantities, tool_radius, insert_radius, insert_thickness, clearance_angle, insert_radial_angle,
+                insert_axial_angle, inserts, wear_1, wear_2, wear_3, wear_4, wear_5, wear_6, wear_7, wear_8, wear_9,
+                wear_10, wear_11, wear_12, holder_angle, tool_length, offset, beam_yaw, beam_pitch, beam_radius,
+                trigger_fraction, laser_z);
+  GUMSHOE_NAMED(Conditions, spindle_speed, feed, start_angle, start_height, time, direction);
+  GUMSHOE_NAMED(Indications, spindle_z);
+  GUMSHOE_NAMED(Measurands, trigger_height, tool_length, effective_length);
+};
+template <class T> using Quantities = Rows::Quantities<T>;
+template <class T> using At = Reading<Rows, T>;
+
+/// Flutes are counted from 0.
+template <class T> const T& wear(const Quantities<T>& q, int flute) {
+  return array_of(q)[static_cast<int>(Rows::QuantitiesRow::wear_1) + flute];
+}
+template <class T> int flutes(const Quantities<T>& q) { return static_cast<int>(num::value(q.inserts)); }
+
+/// What the stages of the measuring chain, the tool's own included, say of one readout.
+template <class T> struct Event : chain::ProbingEvent<T> { chain::TurningTool<T> tool; };
+
+/// The event as commanded, with all freed effects applied.
+template <class T> Event<T> probing_event(const At<T>& at) {
+  Event<T> event;
+  event.z.feed = at.c.feed;
+  event.time = at.c.time;
+  event.z.direction = at.c.direction;
+  event.holder_angle = at.q.holder_angle;
+  event.tool_length = at.q.tool_length;
+  event.tool.speed = at.c.spindle_speed;
+  event.turning = &event.tool;
+  at.freed.act(event);
+  event.turning = nullptr; // the event may be copied
+  return event;
+}
+
+template <class T> Insert<T> insert(const Quantities<T>& q, const chain::ProbingEvent<T>& event) {
+  return {q.tool_radius,         q.insert_radius,      q.insert_thickness, q.clearance_angle,
+          q.insert_radial_angle, q.insert_axial_angle, event.tool_x,       event.tool_y - q.offset};
+}
+template <class T> Flute<T> flute(const Quantities<T>& q, const Event<T>& event, int k) {
+  return deviating<T>({insert(q, event), T(2 * std::numbers::pi * k / num::value(q.inserts)), wear(q, k)}, event.tool,
+                      k);
+}
+
+/// The true motion. The control commands the spindle height at which, as the quantities say, the tool's centre stands
+/// start_height above the beam. What truly moves the tool's centre therefore moves it at the start, too, and turns the
+/// phase.
+template <class T> InsertMotionOf<T> motion(const At<T>& at, const Event<T>& event) {
+  const auto& [q, c, freed, evaluation, simulating] = at;
+  const T commanded = q.laser_z + q.tool_length + c.start_height;
+  return {q.holder_angle + c.start_angle + event.tool.turns_before_feed,
+          c.start_height + (event.z.scale * commanded + event.z.error - event.tool_growth),
+          c.feed * (1.0 + event.z.scale) / event.tool.speed, event.tool.servo_lag * event.tool.speed};
+}
+template <class T> bool finite(const InsertMotionOf<T>& m) {
+  return std::isfinite(num::value(m.angle) + num::value(m.height) + num::value(m.drop));
+}
+
+/// Refuses conditions; they are exact.
+template <class T> void check_commanded(const Rows::Conditions<T>& c, Outcome<T>& outcome) {
+  outcome.refuse(!(c.feed > T(0.0)), "feed is not positive: the tool never comes down");
+  outcome.refuse(!(c.spindle_speed > T(0.0)),
+                 "spindle_speed is not positive: the tool has to turn, counter-clockwise from above");
+  outcome.refuse(c.direction != T(-1.0), "direction is not -1: a mill is fed downwards");
+}
+
+/// Refuses what is impossible about quantities and effects together. Limits are the card's; effects may leave them.
+template <class T> void check_together(const At<T>& at, Outcome<T>& outcome) {
+  const auto& q = at.q;
+  const double n = num::value(q.inserts);
+  outcome.refuse(n != std::floor(n), "inserts is not a whole number");
+  if (outcome.failed) return;
+  const Event<T> event = probing_event(at);
+  for (int k = 0; k < flutes(q); ++k) {
+    const auto f = converted<double>(flute(q, event, k));
+    const auto& i = f.insert;
+    outcome.refuse(!tool_radius.limits.contain(i.tool_radius), "tool_radius with its errors is not positive");
+    outcome.refuse(!insert_radius.limits.contain(i.radius), "insert_radius with its errors is not positive");
+    outcome.refuse(!(i.thickness * std::tan(i.clearance) < i.radius),
+                   "insert_thickness times tan(clearance_angle) reaches insert_radius: the flank ends in a point");
+    outcome.refuse(!insert_axial_angle.limits.contain(i.axial_angle), "insert_axial_angle with its errors is upright");
+    outcome.refuse(!(std::fabs(num::value(wear(q, k))) < i.radius),
+                   "wear_1 to wear_n: a wear is not below insert_radius");
+  }
+  const chain::TurningTool<T>& tool = event.tool;
+  const T zero(0.0);
+  outcome.refuse(!(tool.speed > zero), "spindle_speed with its error is not positive");
+  outcome.refuse(!(event.z.scale > T(-1.0)), "z_scale turns the axis round");
+  outcome.refuse(!(tool.servo_lag >= zero), "servo_lag.time_constant is negative");
+  outcome.refuse(!(tool.sampling_period >= zero), "sampling_rate.period is negative");
+  // Whole in a receiver; between whole numbers for fits.
+  outcome.refuse(!(tool.confirmations >= zero), "revolution_confirm.revolutions is negative");
+  outcome.refuse(!finite(motion(at, event)), "a quantity of an effect is not finite");
+}
+
+/// The height of the unworn tool's centre above the beam's axis at the first trigger.
+template <class T> struct Trigger {
+  Solved<T> height{T(0.0)};
+  int insert = 0;
+  T turned = T(0.0); ///< rad, from the feed's begin
+};
+/// Completes the event's latch delay by what depends on the trigger.
+template <class T> Trigger<T> trigger(TriggerSolver& solver, const At<T>& at, Event<T>& event) {
+  Trigger<T> result;
+  result.height.value = T(std::nan(""));
+  const auto m = motion(at, event);
+  if (!finite(m)) {
+    result.height.status = Status::out_of_domain;
+    return result;
+  }
+  const auto n = static_cast<std::size_t>(flutes(at.q));
+  Flute<double> all[chain::most_inserts];
+  for (std::size_t k = 0; k < n; ++k) all[k] = converted<double>(flute(at.q, event, static_cast<int>(k)));
+  const Beam<T> beam = laser_setter::beam(at.q);
+  const auto solved =
+      lagging_trigger(solver, {all, n}, converted<double>(beam),
+                      {num::value(m.angle), num::value(m.height), num::value(m.drop)}, num::value(m.lag));
+  result.height.status = solved.status;
+  result.insert = solved.insert;
+  if (solved.status != Status::ok) return result;
+  result.turned = differentiable_turned<T>(flute(at.q, event, solved.insert), beam, m, solved);
+  result.height.value = m.height_at(result.turned);
+  event.latch_delay = delay_of_latch<T>(event.tool, event.latch_delay, &result.turned);
+  return result;
+}
+
+/// A readout with all that belongs to it.
+template <class T> struct Readout {
+  Event<T> event;
+  Trigger<T> trigger;
+  T spindle_z = T(0.0), length = T(0.0);
+  T effective_length = T(0.0); ///< of the longest flute
+};
+
+/// The trigger at given values, or none where its height is taken for zero.
+template <class T> Readout<T> readout_at(TriggerSolver& solver, const At<T>& at, bool with_solve) {
+  Readout<T> o{probing_event(at), {}};
+  if (with_solve)
+    o.trigger = trigger(solver, at, o.event);
+  else
+    o.event.latch_delay = delay_of_latch<T>(o.event.tool, o.event.latch_delay, nullptr);
+  return o;
+}
+
+/// How much shorter than the unworn tool its longest flute is.
+template <class T> T least_raise(const Quantities<T>& q, const Event<T>& event) {
+  T least = flute(q, event, 0).raise;
+  for (int k = 1; k < flutes(q); ++k)
+    if (const T raise = flute(q, event, k).raise; raise < least) least = raise;
+  return least;
+}
+
+/// The machine: what the control reads when the tool is q.tool_length long.
+template <class T> Readout<T> simulate(TriggerSolver& solver, const At<T>& at) {
+  Readout<T> o = readout_at(solver, at, true);
+  o.spindle_z =
+      chain::reading_of<T>(at.q.laser_z + at.q.tool_length + o.event.tool_growth + o.trigger.height.value, o.event);
+  o.length = at.q.tool_length;
+  o.effective_length = o.length - least_raise(at.q, o.event);
+  return o;
+}
+
+/// The measurement model: the tool's length from the reading z; undoes simulate. Effects that grow with the length do
+/// so by the length that comes out, found by repetition; an expansion of 1e-4 gains four digits a pass.
+template <class T> Readout<T> evaluate(TriggerSolver& solver, At<T> at, const T& z) {
+  at.q.tool_length = z - at.q.laser_z;
+  Readout<T> o;
+  for (int pass = 0, settled = 0; pass < 20; ++pass) {
+    o = readout_at(solver, at, at.evaluation == full);
+    o.length = chain::actual_of<T>(z, o.event) - at.q.laser_z - o.event.tool_growth - o.trigger.height.value;
+    if (!at.freed.any() || o.trigger.height.status != Status::ok) break;
+    const double height = num::value(motion(at, o.event).height);
+    at.q.tool_length = o.length;
+    const Event<T> next = readout_at(solver, at, false).event;
+    const bool same = num::value(next.tool_growth) == num::value(o.event.tool_growth) &&
+                      num::value(motion(at, next).height) == height;
+    settled = same ? settled + 1 : 0;
+    if (settled > 3 * std::min(1, num::derivative_levels<T>)) break; // derivatives follow the values
+  }
+  o.spindle_z = z;
+  o.effective_length = o.length - least_raise(at.q, o.event);
+  return o;
+}
+
+} // namespace gumshoe::models::tool_length
