@@ -1,5 +1,6 @@
 #pragma once
 /// The readings of a block call under their names, one group of samples at a time.
+#include <cmath>
 #include <type_traits>
 #include <vector>
 
@@ -50,7 +51,10 @@ public:
     for (std::size_t r = 0; r < call.readings; ++r) {
       for (std::size_t j = 0; j < quantities; ++j) {
         const Column& c = call.quantities[r * quantities + j];
-        if (c.stride != 0 || !M::card.quantities[j].limits.contain(*c.data)) limited_[r].push_back(j);
+        const Limits& l = M::card.quantities[j].limits;
+        if (c.stride != 0 || !l.contain(*c.data))
+          limited_[r].push_back({j, l.low_open ? std::nextafter(l.low, l.high) : l.low,
+                                 l.high_open ? std::nextafter(l.high, l.low) : l.high});
       }
       Outcome<double> outcome;
       check_commanded<M>(loaded<double>(r, 0), outcome);
@@ -75,8 +79,12 @@ public:
   }
   /// Refuses the samples of which a quantity lies beyond the card's limits, or that M refuses.
   void check(std::size_t r, const Reading<Rows, T>& at, Outcome<T>& outcome) const {
-    for (const std::size_t j : limited_[r])
-      outcome.refuse(!contain(M::card.quantities[j].limits, array_of(at.q)[j]), "a quantity lies beyond its limits");
+    auto fine = T(0.0) == T(0.0);
+    for (const Closed& l : limited_[r]) {
+      const T& x = array_of(at.q)[l.quantity];
+      fine = fine && (x >= T(l.low)) && (x <= T(l.high));
+    }
+    outcome.refuse(!fine, "a quantity lies beyond its limits");
     if (commanded_[r] == Commanded::wrongly) outcome.refuse(T(0.0) == T(0.0), "a condition is impossible");
     if (commanded_[r] == Commanded::each_sample) check_commanded<M>(at, outcome);
     if constexpr (requires { M::check(at, outcome); })
@@ -94,12 +102,16 @@ private:
     return x;
   }
 
+  struct Closed {
+    std::size_t quantity;
+    double low, high; ///< that are in
+  };
   enum class Commanded : char { well, wrongly, each_sample };
   const BlockCall& call_;
   bool simulating_;
   std::vector<T> effects_;
-  std::vector<std::vector<std::size_t>> limited_; ///< by reading: quantities that may leave their limits in this block
-  std::vector<Commanded> commanded_;              ///< by reading
+  std::vector<std::vector<Closed>> limited_; ///< by reading: quantities that may leave their limits in this block
+  std::vector<Commanded> commanded_;         ///< by reading
 };
 
 /// All readings of one sample, as numbers.

@@ -66,11 +66,4 @@ template <class T> struct Outcome {
   }
 };
 
-/// Whether limits contain a value: a bool, or a mask of lanes.
-template <class T> auto contain(const Limits& limits, const T& x) {
-  const T low(limits.low), high(limits.high);
-  if (limits.low_open) return limits.high_open ? (x > low) && (x < high) : (x > low) && (x <= high);
-  return limits.high_open ? (x >= low) && (x < high) : (x >= low) && (x <= high);
-}
-
 } // namespace gumshoe::models
