@@ -89,7 +89,7 @@ class Adaptive(unittest.TestCase):
                 part.write_bytes(content[:int(share * len(content))])
                 again = run(scenario, part)
                 self.assertEqual(again.returncode, 0, again.stderr)
-                self.assertRegex(again.stderr, r"cannot be read .*truncated.*from the start\n$")
+                self.assertRegex(again.stderr, r"cannot be read .*truncated.*from the beginning\n$")
                 self.assertEqual(part.read_bytes(), content)
 
     def test_giving_up_is_said(self):

@@ -116,7 +116,7 @@ class Report(unittest.TestCase):
     def test_none_meets_the_target(self):
         page, _ = self.report(TEXT.replace('target = "3 um"', 'target = "1 um"'))
         words = words_of(page)
-        self.assertIn("No setting that was tried meets the target U = 1 µm. The nearest: set feed to", words)
+        self.assertIn("No setting that was tried meets the target U = 1 µm. The nearest is: set feed to", words)
         self.assertFalse("recommended</td>" in page)
 
     def test_worst_case_limit_of_the_bias_and_no_correction(self):
@@ -136,7 +136,7 @@ class Report(unittest.TestCase):
         failing = [c for c in answer["candidates"] if c["average"]["failed"]]
         self.assertTrue(failing and answer["skipped"]["count"])
         words = words_of(page)
-        self.assertIn(f"{answer['skipped']['count']} combinations cannot be and were skipped: ", words)
+        self.assertIn(f"{answer['skipped']['count']} combinations are impossible and were skipped: ", words)
         self.assertIn("the square root of a negative number", words)
         left_out = words[words.index("Left out"):]
         self.assertRegex(left_out, rf"{len(failing)} candidates? ha(s|ve) samples without a value")

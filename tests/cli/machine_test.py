@@ -179,7 +179,7 @@ class Machine(unittest.TestCase):
                 ("no tool side", good.replace(tool, ""), 5, "the machine has no tool_side", "spindle"),
                 ("no workpiece side", good.replace("workpiece_side", "#"), 5, "the machine has no workpiece_side"),
                 ("unknown letter", good.replace('"A2"', '"Q"'), 11, "'Q' is not an axis"),
-                ("a number for an axis", good.replace('"W"]', "3]"), 7, "machine.workpiece_side[3]: expected text"),
+                ("a number for an axis", good.replace('"W"]', "3]"), 7, "machine.workpiece_side[3]: text is expected"),
                 ("kind against letter", good.replace('"linear"', '"rotary"'), 10, "axis Y is linear, not 'rotary'"),
                 ("zero sense", good.replace("sense = -1", "sense = 0"), 11, "neither 1 nor -1"),
                 ("sense as text", good.replace("sense = -1", 'sense = "up"'), 11, "sense"),

@@ -182,7 +182,7 @@ class EveryStudy(unittest.TestCase):
     def test_numbers_are_rounded_by_the_gum(self):
         self.assertIn("2.448 <span", self.text)  # k_p = 2.4477 with a standard error of 0.011
         self.assertRegex(self.text, r"<td class=\"n\">171</td><td class=\"n\">11</td>")  # circular, u to two digits
-        self.assertIn("U = 0.0041\u202fmm has to come down to 0.0030\u202fmm", self.text)
+        self.assertIn("U = 0.0041\u202fmm must be reduced to 0.0030\u202fmm", self.text)
 
     def test_heavy_tails_are_prominent(self):
         banner = self.text.index('class="warning banner">no standard uncertainty: Hill')
@@ -309,7 +309,7 @@ class Curve(unittest.TestCase):
         cls.temporary.cleanup()
 
     def test_what_never_varies_is_one_line_and_no_distribution(self):
-        line = re.search("The same in all samples: ([^<]*)", self.text)[1]
+        line = re.search("Constant in all samples: ([^<]*)", self.text)[1]
         still = {name for name, row in self.summary.items() if float(row["standard_uncertainty"]) == 0}
         self.assertIn("degrees_of_freedom", still)
         self.assertEqual({item.split(" = ")[0] for item in line.rstrip(".").split("; ")}, still)

@@ -189,7 +189,7 @@ class Page(Made):
         for reason in ("the same as trigger_latency, which is a cause", "within its uncertainty", "absorbed by laser_z"):
             self.assertIn(reason, tried)
         self.assertEqual(self.pages["named"].count('<tr class="chosen"><th scope="row"><code>'), 1)
-        self.assertRegex(text, r"z_scale ?scale ?not at all by these data")
+        self.assertRegex(text, r"z_scale ?scale ?undetectable in these data")
 
     def test_both_budgets_side_by_side(self):
         text = words_of(self.pages["named"])
@@ -256,7 +256,7 @@ class Text(unittest.TestCase):
         self.assertIn("to split them: let the spindle rest", text)
         self.assertIn("z_scale, scale: undetectable in these data", made("nothing_found", "--text"))
         text = made("insufficient_data", "--text")
-        self.assertIn("these data cannot tell", text)
+        self.assertIn("these data cannot decide", text)
         for kind in KINDS:
             self.assertFalse({"nan", "inf"} & set(re.split(r"\W+", made(kind, "--text"))), kind)
 
