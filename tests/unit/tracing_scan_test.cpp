@@ -34,7 +34,7 @@ double dense_determinant(const Design& d, const std::vector<Index>& rows, const 
           f(i, j) / d.reference[static_cast<std::size_t>(rows[static_cast<std::size_t>(i)]) % d.indications], 2);
     f.col(j) /= std::sqrt(square);
   }
-  return out + ln_determinant(f.transpose() * v.llt().solve(f));
+  return out + ln_determinant(f.transpose() * solved(v, f));
 }
 
 /// Residuals that nothing needs to be drawn in of.
