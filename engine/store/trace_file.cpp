@@ -141,7 +141,7 @@ void write_residuals(hid_t file, const scenario::Scenario& s, const ModelCard& c
   Table table(group, "row", rows.size());
   write_fields(table, residual_fields, rows);
   table.numbers("final", column(rows, [](const Row& row) { return static_cast<std::uint8_t>(row.held_out ? 1 : 0); }), "1",
-                "whether it was kept apart until the end");
+                "whether it was held out");
   if (rows.empty()) return;
   const hdf5::Handle flags = hdf5::own(H5Dopen2(group, "final", H5P_DEFAULT), H5Dclose, "describe the flags");
   hdf5::write_attribute(flags, "flag_values", std::vector<std::uint8_t>{0, 1});

@@ -235,7 +235,7 @@ TEST_CASE("readings that no curve goes through are refused", "[tool_length][proc
   REQUIRE(says(problem([](auto&) {}, 2), "2 readings for 3 unknowns: 2 flute heights and the phase"));
   REQUIRE(says(problem([](auto&) {}, 0), "no reading"));
   REQUIRE(says(problem([](auto& c) { std::swap(c[1], c[2]); }), "increasing order"));
-  REQUIRE(says(problem([](auto& c) { c[3] = c[2]; }), "none twice"));
+  REQUIRE(says(problem([](auto& c) { c[3] = c[2]; }), "without repetitions"));
   REQUIRE(says(problem([](auto& c) { c[5][Commanded::start_angle] = 7; }), "a turn or more after the first"));
   REQUIRE(says(problem([](auto& c) { c[4][Commanded::feed] *= 2; }), "feed differs between readings 1 and 5"));
   REQUIRE(says(problem([](auto& c) { c[4][Commanded::spindle_speed] *= 2; }), "spindle_speed differs"));

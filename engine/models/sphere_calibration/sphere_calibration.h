@@ -24,8 +24,8 @@ struct SphereCalibration {
     const auto& c = at.c;
     const T zero(0.0), one(1.0);
     if (at.evaluation == closed_form) {
-      outcome.refuse(!has_closed_form(c), "closed_form holds at B = 0 (pattern 1) or at C = 90 deg (pattern 2) only");
-      if (at.freed.any()) outcome.refuse(one == one, "closed_form has no place for effects");
+      outcome.refuse(!has_closed_form(c), "closed_form holds only at B = 0 (pattern 1) or at C = 90 deg (pattern 2)");
+      if (at.freed.any()) outcome.refuse(one == one, "closed_form cannot include effects");
     }
     outcome.refuse(c.feed < zero, "feed is negative");
     const auto no_side = [&](const T& x) { return (x != one) && (x != -one) && (x != zero); };

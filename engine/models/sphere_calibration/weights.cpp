@@ -56,8 +56,8 @@ Whitening whitening(const Poses<double>& poses, std::string& problem) {
   for (Eigen::Index i = 0; i < n; ++i)
     if (factor.info() != Eigen::Success || !(L(i, i) > 1e-6 * std::sqrt(V(i, i)))) {
       constexpr const char* names[] = {"X", "Y", "Z"};
-      problem = std::string("what is declared leaves ") + names[i % 3] + " of reading " + std::to_string(i / 3 + 1) +
-                " without noise of its own: no weights (linear errors or noise of the indications, per reading)";
+      problem = std::string("the declaration leaves ") + names[i % 3] + " of reading " + std::to_string(i / 3 + 1) +
+                " without independent noise, so that there are no weights (declare linear errors or noise of the indications per reading)";
       return out;
     }
   const Eigen::MatrixXd W = L.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(n, n));

@@ -11,12 +11,12 @@ using si::deg, si::minute, si::mm, si::rpm;
 // clang-format off: a row of a card stays together
 inline constexpr QuantityCard tool_radius =
     in_mm({.name = "tool_radius", .default_value = 10 * mm, .limits = positive, .symbol = "r",
-           .meaning = "from the tool's axis to an insert's virtual cutting point"});
+           .meaning = "distance from the tool's axis to the virtual cutting point of an insert"});
 inline constexpr QuantityCard insert_radius = in_mm({.name = "insert_radius",
                                                      .default_value = 6 * mm,
                                                      .limits = positive,
                                                      .symbol = "R",
-                                                     .meaning = "of the round cutting edge"});
+                                                     .meaning = "radius of the round cutting edge"});
 inline constexpr QuantityCard insert_axial_angle = in_deg({.name = "insert_axial_angle",
                                                            .default_value = -5 * deg,
                                                            .limits = below_90,
@@ -28,10 +28,10 @@ inline constexpr QuantityCard quantity_cards[] = {
     tool_radius,
     insert_radius,
     in_mm({.name = "insert_thickness", .default_value = 3.97 * mm, .limits = not_negative, .symbol = "d_i",
-           .meaning = "from the rake face to the far end of the flank"}),
+           .meaning = "distance from the rake face to the far end of the flank"}),
     in_deg({.name = "clearance_angle", .default_value = 15 * deg, .limits = {0, 90 * deg, false, true},
             .symbol = "tau",
-            .meaning = "of the conical flank"}),
+            .meaning = "clearance angle of the conical flank"}),
     in_deg({.name = "insert_radial_angle", .default_value = -8 * deg, .limits = {-90 * deg, 90 * deg},
             .symbol = "theta_r",
             .meaning = "of the rake face"}),
@@ -40,11 +40,11 @@ inline constexpr QuantityCard quantity_cards[] = {
           .symbol = "n",
           .meaning = "number of inserts, evenly spread; a whole number"}),
     GUMSHOE_FOR_EACH_INSERT(GUMSHOE_WEAR),
-    in_deg({.name = "holder_angle", .symbol = "theta_t", .meaning = "from the spindle's X to the first insert"}),
+    in_deg({.name = "holder_angle", .symbol = "theta_t", .meaning = "angle from the spindle's X axis to the first insert"}),
     in_mm({.name = "tool_length", .default_value = 150 * mm, .limits = positive, .symbol = "L_t",
-           .meaning = "from the spindle reference point to the unworn tool's centre; only simulation reads it"}),
+           .meaning = "distance from the spindle reference point to the centre of the unworn tool; used only in simulation"}),
     in_mm({.name = "offset", .default_value = 4 * mm, .symbol = "d",
-           .meaning = "of the spindle axis beside the beam: it stands at Y = -d"}),
+           .meaning = "lateral offset d of the spindle axis from the beam; the axis is at Y = -d"}),
     laser_setter::beam_yaw,
     laser_setter::beam_pitch,
     laser_setter::beam_radius,
@@ -54,12 +54,12 @@ inline constexpr QuantityCard quantity_cards[] = {
 #undef GUMSHOE_WEAR
 inline constexpr VariableCard condition_cards[] = {
     {.name = "spindle_speed", .unit = "rpm", .si_unit = "rad/s", .default_value = 1000 * rpm,
-     .meaning = "counter-clockwise seen from above"},
+     .meaning = "spindle speed, counter-clockwise seen from above"},
     {.name = "feed", .unit = "mm/min", .si_unit = "m/s", .default_value = 30 * mm / minute,
-     .meaning = "of the spindle towards the beam"},
+     .meaning = "feed of the spindle towards the beam"},
     shown_in_deg({.name = "start_angle", .meaning = "spindle angle when the feed begins"}),
     shown_in_mm({.name = "start_height", .default_value = 5 * mm,
-                 .meaning = "of the tool's centre above the beam's axis when the feed begins"}),
+                 .meaning = "height of the tool's centre above the beam's axis when the feed begins"}),
     laser_setter::time,
     laser_setter::direction,
 };
@@ -67,8 +67,8 @@ inline constexpr VariableCard measurand_cards[] = {
     shown_in_mm({.name = "trigger_height",
                  .meaning = "height of the unworn tool's centre above the beam's axis at the trigger, Z_t"}),
     shown_in_mm(
-        {.name = "tool_length", .meaning = "to the unworn tool's centre: spindle_z - laser_z - trigger_height"}),
-    shown_in_mm({.name = "effective_length", .meaning = "of the longest flute: tool_length less the least wear"}),
+        {.name = "tool_length", .meaning = "length to the centre of the unworn tool: spindle_z - laser_z - trigger_height"}),
+    shown_in_mm({.name = "effective_length", .meaning = "length of the longest flute: tool_length minus the smallest wear"}),
 };
 
 // Joint evaluations.

@@ -63,7 +63,7 @@ template <class All> std::size_t with_flutes(const Quantities<double>& q) {
 }
 
 std::string problem_of_turn(const Readings& all, bool one_height) {
-  if (all.size() == 0) return "no reading: at least one readout is needed";
+  if (all.size() == 0) return "there is no reading; at least one is needed";
   const auto differs = [](double a, double b) { return std::fabs(a - b) > 1e-12 * std::fabs(b); };
   const auto& first = all.at[0];
   for (std::size_t r = 1; r < all.size(); ++r) {
@@ -77,8 +77,8 @@ std::string problem_of_turn(const Readings& all, bool one_height) {
       return fmt::format("start_height differs between readings 1 and {}: their points cannot be connected", r + 1);
     if (!differs(c.start_height, before.start_height) && !(c.start_angle > before.start_angle))
       return fmt::format(
-          "start_angle of reading {} ({:g} deg) does not follow that of reading {} ({:g} deg): increasing "
-          "order, none twice",
+          "start_angle of reading {} ({:g} deg) does not exceed that of reading {} ({:g} deg): increasing "
+          "order without repetitions is needed",
           r + 1, c.start_angle / deg, r, before.start_angle / deg);
     if (c.start_angle - first.c.start_angle > 2 * pi * (1 - 1e-12))
       return fmt::format("start_angle of reading {} is a turn or more after the first: angles repeat", r + 1);
@@ -98,7 +98,7 @@ LengthRows Single::truth(const Readings& all, const std::vector<Shown>& shown, O
   return {all.at[0].q.tool_length, *std::max_element(lengths, lengths + n)};
 }
 std::string Single::check(const Readings& all) {
-  if (all.size() == 0) return "no reading: at least one readout is needed";
+  if (all.size() == 0) return "there is no reading; at least one is needed";
   if (all.size() == 1) return "";
   return fmt::format("{} readings, where one readout is the measurement; peaks and characteristic_curve use several",
                      all.size());

@@ -141,7 +141,7 @@ public:
     const bool held_out = !c_.observations.holdout_blocks.empty();
     out_.rms.holdout = blocks.rows.empty() ? "none"
                        : held_out          ? fmt::format("{}", fmt::join(blocks.names, ", "))
-                                           : "each block left out in turn, of data that the search has seen";
+                                           : "each block left out in turn; the search has used these data";
     const bool refused = !blocks.rows.empty() && hold_out_blocks(blocks);
     fill_rows(before.left, refused ? before.left : after.left, refused ? before_ : after_);
     return refused;

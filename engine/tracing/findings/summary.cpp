@@ -21,7 +21,7 @@ std::string what_was_found(const Finding& f) {
     if (const std::string declared = "declared:"; f.name.starts_with(declared))
       return fmt::format("The readings contradict a value that the scenario declares: {}{}.",
                          f.name.substr(declared.size()), size);
-    return fmt::format("The machine does something that the model leaves out: {}{}.", f.name, size);
+    return fmt::format("The model lacks an effect of the machine: {}{}.", f.name, size);
   case Kind::equivalence_class:
     return fmt::format("The machine does something that the model leaves out. It is one of: {}. These data cannot "
                        "distinguish them.",
@@ -29,7 +29,7 @@ std::string what_was_found(const Finding& f) {
   case Kind::scatter:
     return fmt::format("The readings scatter more than declared from one {} to the next{}.", depends_on, size);
   case Kind::not_in_catalogue:
-    return fmt::format("Something that no known effect explains changes the readings with {}.", depends_on);
+    return fmt::format("An unknown effect changes the readings with {}.", depends_on);
   }
   return {};
 }

@@ -110,7 +110,7 @@ constexpr Field<R> residuals[] = {
     {"units", nullptr, units, "", {.csv = "unit"}},
     {"order", of<&R::order>, analysis::Unit("see order_name"), "order of measurement"},
     {"block", of<&R::block>, one, "block"},
-    {"measured", of<&R::measured>, point, "what was read", in_csv},
+    {"measured", of<&R::measured>, point, "readings of the indications", in_csv},
     {"before", of<&R::before>, difference,
      "measured minus simulated, the data's own constants taken off; NaN if not scored", in_csv},
     {"after", of<&R::after>, difference, "the same with what was found added to the model", in_csv},

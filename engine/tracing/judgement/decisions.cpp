@@ -88,7 +88,7 @@ std::optional<Kind> left_by_veto(Kind kind, bool scatter_in_class, bool scatter_
 std::string refusal(double identifiable, const std::string& absorbed_by, double p, double threshold) {
   if (identifiable <= criteria.absorbed_share)
     return "not testable: absorbed by " + (absorbed_by.empty() ? std::string("the fit") : absorbed_by);
-  return p > threshold ? "refused: no more than chance" : "refused: another explains it better";
+  return p > threshold ? "refused: no more than chance" : "refused: another candidate explains the residuals better";
 }
 
 } // namespace gumshoe::tracing

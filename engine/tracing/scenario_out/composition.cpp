@@ -150,8 +150,8 @@ private:
       out += fmt::format("; 95 % interval{} [{}, {}]{}, {}", shift ? " of the shift" : "",
                          number(q.low95, q.u, q.unit, q.si_unit, kind), number(q.high95, q.u, q.unit, q.si_unit, kind),
                          q.unit == "1" ? "" : " " + q.unit,
-                         f.quantities.size() == 1 ? "which allows for the search as u, of the fit, does not"
-                                                  : "of the fit as u is");
+                         f.quantities.size() == 1 ? "which allows for the search, whereas u comes from the fit and does not"
+                                                  : "of the fit, like u");
     }
     return out;
   }
@@ -183,7 +183,7 @@ private:
             }))
           out_.statements.push_back(
               fmt::format("in the traced scenario {} has values by label, and what is declared of "
-                          "all at once counts for each apart",
+                          "all together applies to each separately",
                           out_.extended.quantities[a.quantity].name));
       std::set<Labels> seen;
       for (const auto& reading : c_.experiment.scenario().readings) {
