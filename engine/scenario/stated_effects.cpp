@@ -125,7 +125,7 @@ private:
     }
   }
 
-  /// Only what was commanded or recorded beside the readings.
+  /// Adds a problem for each name that is neither a condition nor a recorded column.
   void names(const formula::Formula& f) {
     std::vector<Problem> found;
     std::vector<std::string> known;

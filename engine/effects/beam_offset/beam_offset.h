@@ -13,9 +13,9 @@ struct BeamOffset {
   };
   static constexpr EffectCard card{
       .name = "beam_offset",
-      .title = "Spindle axis beside the laser reference point",
+      .title = "Offset of the spindle axis from the laser reference point",
       .stage = Stage::pose,
-      .meaning = "The spindle axis passes beside the laser reference point: x along, y across the nominal beam "
+      .meaning = "The spindle axis does not pass through the laser reference point: x along, y across the nominal beam "
                  "(machine X and Y). The measurand is then the height of the reference point.",
       .adds = "tool_x += x; tool_y += y",
       .confused_with = "beam_pitch (a pitch of 0.2836 deg gives 4.95 um per mm along the beam)",

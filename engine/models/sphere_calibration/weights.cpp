@@ -10,7 +10,7 @@ namespace gumshoe::models::sphere_calibration {
 Vector3<double> derivative(const Poses<double>& poses, std::size_t reading, std::size_t quantity) {
   constexpr std::size_t count = rows_of<Quantities>;
   const At<double>& at = poses.at[reading];
-  // Of a scenario the estimates, of a table what it states.
+  // The estimates of a scenario, or the values that a table states.
   const double* estimates = poses.declared ? &poses.declared->estimates[reading * count] : array_of(at.q);
   At<Gradient> moved;
   for (std::size_t j = 0; j < count; ++j) array_of(moved.q)[j] = Gradient(estimates[j]);

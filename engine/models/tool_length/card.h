@@ -101,7 +101,7 @@ inline constexpr VariableCard peak_cards[] = {
     GUMSHOE_FOR_EACH_INSERT(GUMSHOE_FLUTE)};
 #undef GUMSHOE_FLUTE
 
-// Of a readout: the spindle comes to speed, the tool is fed into the beam and drawn back; an oriented one stops first.
+// One reading: the spindle comes to speed, the tool is fed into the beam and retracted. An oriented tool stops first.
 #define GUMSHOE_RUN "spindle_speed/spindle_acceleration + start_height/feed + start_height/rapid_feed"
 inline constexpr std::string_view per_run = GUMSHOE_RUN, per_oriented_run = "orientation_time + " GUMSHOE_RUN,
                                   once = "2*approach_distance/rapid_feed + safety_time";

@@ -9,8 +9,8 @@ std::vector<Intermediate> ToolLength::explain(const At<double>& at, const Rows::
   const auto& event = o.event;
   const auto m = motion(at, event);
   std::vector<Intermediate> out{
-      {"tool axis beside the beam's reference point, X", "mm", event.tool_x / mm},
-      {"tool axis beside the beam's reference point, Y", "mm", (event.tool_y - q.offset) / mm},
+      {"offset of the tool axis from the beam's reference point, X", "mm", event.tool_x / mm},
+      {"offset of the tool axis from the beam's reference point, Y", "mm", (event.tool_y - q.offset) / mm},
       {"tool growth", "mm", event.tool_growth / mm},
       {"axis error", "mm", event.z.error / mm},
       {"axis scale", "um/m", event.z.scale * 1e6},

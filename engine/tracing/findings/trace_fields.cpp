@@ -112,7 +112,7 @@ constexpr Field<R> residuals[] = {
     {"block", of<&R::block>, one, "block"},
     {"measured", of<&R::measured>, point, "readings of the indications", in_csv},
     {"before", of<&R::before>, difference,
-     "measured minus simulated, the data's own constants taken off; NaN if not scored", in_csv},
+     "measured minus simulated, block offsets subtracted; NaN if not scored", in_csv},
     {"after", of<&R::after>, difference, "the same with what was found added to the model", in_csv},
     {"noise_u", of<&R::noise_u>, difference, "standard uncertainty of its noise", in_csv},
     {"weight", of<&R::weight>, one, "below 1: taken for an outlier", in_csv}};
