@@ -6,7 +6,8 @@
 
 namespace gumshoe::analysis {
 
-/// Derivatives of one measurand at one reading by every quantity of the scenario (model, effects, indications, sizes), SI.
+/// Derivatives of one measurand at one reading by every quantity of the scenario (model, effects, indications, sizes),
+/// SI.
 struct Derivatives {
   Status status = Status::ok;
   double value = 0;

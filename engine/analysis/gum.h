@@ -5,11 +5,11 @@
 
 namespace gumshoe::analysis {
 
-/// The budget of one output by the law of propagation of uncertainty. It has one row per variate that reaches the output
-/// (analysis/reach.h, in order). c_i comes from dual numbers through the solver, or from differences near a kink. The
-/// second-order terms of the note to 5.1.2 use differences of exact first derivatives as third derivatives. Where the
-/// model has no derivative at the estimate, the row says so and the framework does not apply. A virtual experiment has
-/// no measurement model of its inputs; its budget is "not applicable".
+/// The budget of one output by the law of propagation of uncertainty. It has one row per variate that reaches the
+/// output (analysis/reach.h, in order). c_i comes from dual numbers through the solver, or from differences near a
+/// kink. The second-order terms of the note to 5.1.2 use differences of exact first derivatives as third derivatives.
+/// Where the model has no derivative at the estimate, the row says so and the framework does not apply. A virtual
+/// experiment has no measurement model of its inputs; its budget is "not applicable".
 Budget budget(const propagation::Experiment& experiment, std::size_t output, double coverage_probability);
 
 /// JCGM 101 clause 8: compares d_low and d_high with the numerical tolerance delta of u at `digits`. The result is

@@ -48,7 +48,7 @@ inline constexpr StageRow stage_table[] = {
     {Stage::slides, "slides", "the slides X, Y and Z where all three are read"},
     {Stage::slide_directions, "slide_directions", "the slides X and Y where it is known from which side each came"},
     {Stage::contact, "contact", "a probe's tip, from contact to trigger"},
-    {Stage::trigger, "trigger", "from the trigger to the latch"},
+    {Stage::trigger, "trigger", "delay from the trigger to the latch"},
 };
 constexpr std::string_view name(Stage stage) { return stage_table[static_cast<std::size_t>(stage)].name; }
 
@@ -112,7 +112,7 @@ struct ModelCard {
   std::span<const VariableCard> indications;
   std::span<const VariableCard> measurands;
   std::span<const EvaluationCard> evaluations;
-  std::span<const Stage> stages;             ///< stages of the measuring chain that the model has: effects of these stages apply
+  std::span<const Stage> stages;             ///< stages of the measuring chain; only their effects apply
   std::span<const QuantityCard> timing = {}; ///< further inputs of the measuring time: rapid feed, orientation time
 };
 

@@ -108,7 +108,7 @@ Data data_of(const Experiment& e) {
   bool finite = true;
   for (std::size_t r = 0; r < s.readings.size(); ++r) {
     if (s.readings[r].indications.size() != indications)
-      refuse(s.file, "there are no readings to fit", "nothing was read",
+      refuse(s.file, "there are no readings to fit", "no indication has readings",
              "add [indications.NAME] with readings and method = \"propagation\"");
     const auto point = e.reading_point(r);
     for (std::size_t k = 0; k < indications; ++k) {

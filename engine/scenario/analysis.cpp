@@ -110,7 +110,8 @@ Options<AnalysisOptions> analysis_options() {
     return option::by_hand<AnalysisOptions>(key, shape::list(row), meaning);
   };
   return {
-      option::share("coverage_probability", &AnalysisOptions::coverage_probability, true, "coverage probability of all coverage intervals"),
+      option::share("coverage_probability", &AnalysisOptions::coverage_probability, true, "coverage probability of "
+                                                                                          "all coverage intervals"),
       option::whole("validation_digits", &AnalysisOptions::validation_digits, 1, 6, "n_dig of JCGM 101 8.1"),
       option::by_hand<AnalysisOptions>("sensitivity", table_shape(sensitivity_options()),
                                        "studies, each with its size"),

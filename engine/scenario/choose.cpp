@@ -54,8 +54,10 @@ Options<Choose> choose_options() {
       option::whole("confirm_samples", &Choose::confirm_samples, 200, most_samples,
                     "samples of the fresh run of the recommended setting"),
       option::share("confirm_probability", &Choose::confirm_probability, true,
-                    "required probability of meeting the target in the fresh run; otherwise the next-fastest setting is tried"),
-      option::whole("refinements", &Choose::refinements, 0, 20, "number of refinements, each of which halves the steps of the ranges"),
+                    "required probability of meeting the target in the fresh run; otherwise the next-fastest setting "
+                    "is tried"),
+      option::whole("refinements", &Choose::refinements, 0, 20, "number of refinements, each of which halves the "
+                                                                "steps of the ranges"),
       option::share("near", &Choose::near, true,
                     "share of the time, or of U, within which settings count as near the optimum"),
       option::whole("sobol", &Choose::sobol, 0, most_samples,
@@ -64,7 +66,8 @@ Options<Choose> choose_options() {
               "variables: conditions, quantities, readings or evaluation, each with its values or their range")
           .needed("[choose.variables] feed = [\"10 mm/min\", \"100 mm/min\"]"),
       by_hand("time", time_shape(),
-              "formulas for the time, with conditions, quantities, readings and the constants given here; the default is "
+              "formulas for the time, with conditions, quantities, readings and the constants given here; the default "
+              "is "
               "that of the model"),
       by_hand("cases", shape::list(table_shape(case_options())), "cases of unknown true values; U is given for each"),
       by_hand("compare", shape::list(table_shape(compare_options())), "settings shown next to the recommended one"),

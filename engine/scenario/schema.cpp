@@ -116,7 +116,8 @@ std::vector<Key> model_keys() {
   return {
       {"name", text(), "one that gumshoe models lists; or " + described, true},
       {"method", words({"propagation", "virtual_experiment"}),
-       "propagation of distributions (JCGM 101), or virtual experiment: draw the true value, simulate and evaluate", false,
+       "propagation of distributions (JCGM 101), or virtual experiment: draw the true value, simulate and evaluate", "
+       "false,
        quoted("propagation")},
       {"evaluation", text(), "evaluation of the model; default: the first"},
       {"intermediates", map(formula), "expression: formulas used by others, in any order"},
@@ -147,12 +148,15 @@ const std::vector<Key>& sections() {
       {"estimate", table_shape(estimate_options()), "options of gumshoe estimate"},
       {"run", table_shape(run_options()), "number and kind of samples"},
       {"analysis", table_shape(analysis_options()), "studies of the samples"},
-      {"expected", list(expected_shape()), "published or exact figures; gumshoe gauge compares the computed ones with them"},
-      {"choose", choose_shape(), "options of gumshoe choose: the fastest settings within a target expanded uncertainty"},
+      {"expected", list(expected_shape()), "published or exact figures; gumshoe gauge compares the computed ones with "
+                                           "them"},
+      {"choose", choose_shape(), "options of gumshoe choose: the fastest settings within a target expanded "
+                                 "uncertainty"},
       {"trace", trace_shape(),
        "options of gumshoe trace: blocks, order, re-done set-up steps, and what was recorded with the readings"},
       {"stated_effects", stated_effects_shape(),
-       "effects as formulas: size times formula is added to an indication; without a size, a candidate of gumshoe trace"},
+       "effects as formulas: size times formula is added to an indication; without a size, a candidate of gumshoe "
+       "trace"},
   };
   return all;
 }

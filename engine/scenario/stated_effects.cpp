@@ -21,11 +21,13 @@ Options<StatedEffect> stated_effect_options() {
   };
   return {
       by_hand("indication", shape::text(), "indication to which the effect is added; required if there are several"),
-      by_hand("formula", R"("type": ["string", "number"])", "formula of conditions and columns of [trace.columns], in SI units")
+      by_hand("formula", R"("type": ["string", "number"])", "formula of conditions and columns of [trace.columns], in "
+                                                            "SI units")
           .needed("formula = \"1 / feed\""),
       by_hand("unit", shape::text(), "unit of the size; size times formula has the dimension of the indication")
           .needed("unit = \"um\""),
-      by_hand("size", shape::reference("quantity"), "size of the effect; default: its null value, as a candidate of gumshoe trace"),
+      by_hand("size", shape::reference("quantity"), "size of the effect; default: its null value, as a candidate of "
+                                                    "gumshoe trace"),
       option::text("meaning", &StatedEffect::meaning, ""),
       option::source(&StatedEffect::source),
   };

@@ -190,7 +190,8 @@ Options<TraceOptions> trace_options() {
       option::texts("final", &TraceOptions::final_blocks, R"("minItems": 1)",
                     "hold-out blocks; default: the last quarter, at least one"),
       option::by_hand<TraceOptions>("order", shape::text(),
-                                    "order of measurement: a condition or a column; default: the order of the readings"),
+                                    "order of measurement: a condition or a column; default: the order of the "
+                                    "readings"),
       option::by_hand<TraceOptions>(
           "redone", shape::list(act),
           "labels that identify one redone set-up step, such as a clamping, which may leave scatter behind. Empty: "
@@ -198,11 +199,13 @@ Options<TraceOptions> trace_options() {
           "was redone. Left out: every set of one or two labels with at least six combinations"),
       option::texts("free", &TraceOptions::free, "",
                     "quantities whose stated values come from these data: fitted again, as if marked estimated"),
-      option::share("alpha", &TraceOptions::alpha, true, "false-alarm rate: probability of any finding if there is nothing to find"),
+      option::share("alpha", &TraceOptions::alpha, true, "false-alarm rate: probability of any finding if there is "
+                                                         "nothing to find"),
       option::whole("draws", &TraceOptions::draws, 99, 1'000'000, "number of draws of the parametric bootstrap"),
       option::whole("seed", &TraceOptions::seed, 0, most_seed, "seed of the bootstrap"),
       option::by_hand<TraceOptions>("columns", shape::map(shape::table(column_keys())),
-                                    "quantities recorded with the readings, in the same data file, such as a temperature"),
+                                    "quantities recorded with the readings, in the same data file, such as a "
+                                    "temperature"),
   };
 }
 

@@ -150,7 +150,7 @@ CHECKED = [
     (FORMULA, None, '[conditions]\na = "1 mm"\n', "names must be unique"),
     (FORMULA, 'y = "a + b"', 'y = { formula = "a + b", unit = "s" }', "unit: 's' is not"),
     (FORMULA, "[quantities]", '[model.intermediates]\n"a b" = "1"\n[quantities]', "cannot be the name of a formula"),
-    (COMMAND, 'y = "mm"', "", "there is nothing to evaluate"),
+    (COMMAND, 'y = "mm"', "", "nothing can be evaluated"),
     (COMMAND, 'y = "mm"', '"y,z" = "mm"', "cannot be a column"),
     ('schema = 1\n[model]\nname = "sphere_probing"\n[machine]\nworkpiece_side = ["C"]\ntool_side = ["X", "Y"]\n', None, "",
      "three slides bring the tip to the sphere"),

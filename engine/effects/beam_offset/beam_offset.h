@@ -7,9 +7,9 @@ namespace gumshoe::effects {
 struct BeamOffset {
   static constexpr QuantityCard quantities[] = {
       {.name = "x", .unit = "mm", .si_unit = "m", .limits = {-0.05, 0.05},
-       .meaning = "along the nominal beam, machine X", .role = Role::pair, .typical = {1e-5, 1e-3}},
+       .meaning = "offset along the nominal beam, machine X", .role = Role::pair, .typical = {1e-5, 1e-3}},
       {.name = "y", .unit = "mm", .si_unit = "m", .limits = {-0.05, 0.05},
-       .meaning = "across the nominal beam, machine Y", .role = Role::pair, .typical = {1e-5, 1e-3}},
+       .meaning = "offset across the nominal beam, machine Y", .role = Role::pair, .typical = {1e-5, 1e-3}},
   };
   static constexpr EffectCard card{
       .name = "beam_offset",

@@ -19,7 +19,8 @@ inline constexpr QuantityCard quantity_cards[] = {
             .meaning = "azimuth of the bottom plane's normal in the tool-holder frame"}),
     in_mm({.name = "rod_length", .default_value = 150 * mm, .limits = positive, .symbol = "L_r",
            .meaning = "distance from the spindle reference point to the centre of the bottom, at 20 degC"}),
-    in_deg({.name = "holder_angle", .symbol = "theta_th", .meaning = "angle from machine X to the X axis of the tool holder"}),
+    in_deg({.name = "holder_angle", .symbol = "theta_th", .meaning = "angle from machine X to the X axis of the tool "
+                                                                     "holder"}),
     laser_setter::beam_yaw,
     laser_setter::beam_pitch,
     laser_setter::beam_radius,

@@ -44,8 +44,10 @@ inline constexpr QuantityCard quantity_cards[] = {
            .meaning = "radius of the sphere"}),
     in_mm({.name = "tip_radius", .default_value = 3 * mm, .limits = positive, .symbol = "R_p",
            .meaning = "radius of the probe's tip"}),
-    in_mm({.name = "sphere_y", .meaning = "offset of the sphere's centre from the A axis along Y at A = 0; turns with A"}),
-    in_mm({.name = "sphere_z", .meaning = "offset of the sphere's centre from the A axis along Z at A = 0; turns with A"}),
+    in_mm({.name = "sphere_y", .meaning = "offset of the sphere's centre from the A axis along Y at A = 0; turns with "
+                                          "A"}),
+    in_mm({.name = "sphere_z", .meaning = "offset of the sphere's centre from the A axis along Z at A = 0; turns with "
+                                          "A"}),
     in_deg({.name = "E_AA", .symbol = "E_AA",
             .meaning = "positioning error of A; it matters only if the sphere is off the axis"}),
     in_deg({.name = "E_BB", .symbol = "E_BB", .meaning = "positioning error of B, actual minus commanded (eq 4.49)"}),
@@ -67,12 +69,12 @@ inline constexpr QuantityCard quantity_cards[] = {
      .meaning = "squareness of Z to Y: adds -S_YZ times the nominal Z to the recorded Y"},
 };
 inline constexpr VariableCard condition_cards[] = {
-    shown_in_deg({.name = "A", .meaning = "commanded; turns the workpiece about +X (eq 4.1)"}),
+    shown_in_deg({.name = "A", .meaning = "commanded angle; turns the workpiece about +X (eq 4.1)"}),
     shown_in_deg({.name = "B", .meaning = "commanded; about +Y"}),
     shown_in_deg({.name = "C", .meaning = "commanded; about +Z"}),
     shown_pure(
         {.name = "pattern",
-         .meaning = "a label: 1 where C moves at B = 0, 2 where B moves at C = 90 deg; only closed_form reads it"}),
+         .meaning = "a label: 1 if C moves at B = 0, 2 if B moves at C = 90 deg; only closed_form uses it"}),
     shown_pure({.name = "repeat", .meaning = "a label: number of the repetition"}),
     shown_pure({.name = "direction", .default_value = -1, .meaning = "direction of approach along Z: -1 downwards"}),
     shown_in_s({.name = "time", .meaning = "time since the start of the work"}),
@@ -92,9 +94,9 @@ inline constexpr VariableCard indication_cards[] = {
 };
 inline constexpr VariableCard measurand_cards[] = {
     shown_in_mm(
-        {.name = "tip_x", .meaning = "where the tip's centre stood by X, Y, Z: from the A axis' flange, along X"}),
-    shown_in_mm({.name = "tip_y", .meaning = "where the tip's centre stood by X, Y, Z: from the A axis, along Y"}),
-    shown_in_mm({.name = "tip_z", .meaning = "where the tip's centre stood by X, Y, Z: from the A axis, along Z"}),
+        {.name = "tip_x", .meaning = "position of the tip's centre by X, Y, Z, from the flange of the A axis along X"}),
+    shown_in_mm({.name = "tip_y", .meaning = "position of the tip's centre by X, Y, Z, from the A axis along Y"}),
+    shown_in_mm({.name = "tip_z", .meaning = "position of the tip's centre by X, Y, Z, from the A axis along Z"}),
 };
 /// The eleven in the order of the published tables, then how well they are known.
 inline constexpr VariableCard joint_cards[] = {
@@ -110,8 +112,8 @@ inline constexpr VariableCard joint_cards[] = {
     shown_in_deg({.name = "E_A0C", .meaning = "squareness of C to Y"}),
     shown_in_deg({.name = "E_B0C", .meaning = "squareness of C to X"}),
     {.name = "residual_rms", .unit = "um", .si_unit = "m", .default_value = 0,
-     .meaning = "root mean square of recorded commands less those of the identified machine"},
-    shown_pure({.name = "rank", .meaning = "how many of the eleven, or of their combinations, the poses see"}),
+     .meaning = "root mean square difference between the recorded commands and those of the identified machine"},
+    shown_pure({.name = "rank", .meaning = "number of the eleven unknowns, or combinations, that the poses determine"}),
     shown_pure({.name = "condition_number",
                 .meaning = "of the derivatives by the eleven, columns of length one, on what the poses see; whitened "
                            "if joint_weighted"}),
@@ -129,9 +131,9 @@ inline constexpr EvaluationCard evaluation_cards[] = {
      .meaning = "orientations by planes through each pattern's poses, then the seven lengths by linear least squares",
      .measurands = joint_cards},
     {.name = "joint",
-     .meaning = "all eleven at once by least squares, every command of equal weight", .measurands = joint_cards},
+     .meaning = "all eleven unknowns by least squares, with equal weights of all commands", .measurands = joint_cards},
     {.name = "joint_weighted",
-     .meaning = "all eleven at once, weighted with the covariance matrix of all that the scenario declares",
+     .meaning = "all eleven unknowns by least squares, weighted with the covariance matrix that the scenario declares",
      .measurands = joint_cards},
 };
 inline constexpr Stage stages[] = {Stage::motion, Stage::rotary, Stage::slides, Stage::contact, Stage::trigger};

@@ -57,7 +57,8 @@ Whitening whitening(const Poses<double>& poses, std::string& problem) {
     if (factor.info() != Eigen::Success || !(L(i, i) > 1e-6 * std::sqrt(V(i, i)))) {
       constexpr const char* names[] = {"X", "Y", "Z"};
       problem = std::string("the declaration leaves ") + names[i % 3] + " of reading " + std::to_string(i / 3 + 1) +
-                " without independent noise, so that there are no weights (declare linear errors or noise of the indications per reading)";
+                " without independent noise, so that there are no weights (declare linear errors or noise of the "
+                "indications per reading)";
       return out;
     }
   const Eigen::MatrixXd W = L.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(n, n));

@@ -157,7 +157,7 @@ private:
       noise_alone(score(after_, noise_, rows_, blocks).rms, rms.holdout_noise, rms.holdout_noise_low,
                   rms.holdout_noise_high);
     else
-      rms.holdout += ": no more readings than offsets of their own, not scored";
+      rms.holdout += "; not scored, because it has no more readings than block offsets";
     const bool refused = judge(blocks);
     if (refused) {
       scored_after_ = scored_before_;

@@ -19,8 +19,8 @@ const Grouping& replicates(const TraceContext& c, int component) {
 }
 
 void state_veto(const Search& s, Trace& out) {
-  out.statements.push_back("an effect was found in the training data, but the hold-out blocks are predicted no better "
-                           "with it, so that nothing is added");
+  out.statements.push_back("an effect was found in the training data, but it does not improve the prediction of the "
+                           "hold-out blocks; nothing is added");
   for (const SearchFinding& one : s.findings)
     if (const Finding& f = one.finding; f.kind == Kind::named || f.kind == Kind::equivalence_class)
       out.statements.push_back(
@@ -71,7 +71,7 @@ void describe_class(const TraceContext& c, const Search& s, const SearchFinding&
     if (!f.suggestion.empty()) f.suggestion += "; and ";
     f.suggestion += split_from_scatter(replicates(c, found.component), f.depends_on);
   }
-  if (f.suggestion.empty()) f.remarks.push_back("no change of a condition that was tried would distinguish them");
+  if (f.suggestion.empty()) f.remarks.push_back("no tried change of a condition would distinguish them");
 }
 
 } // namespace

@@ -42,7 +42,8 @@ std::vector<Proposal> proposals(const ModelCard& card, const Scenario& s) {
     } else if (v.si_unit == "rad") {
       for (const double turn : {0.5 * std::numbers::pi, std::numbers::pi})
         out.push_back({c, turn, Proposal::add,
-                       fmt::format("also measure with {} turned by {:.0f} deg", v.name, turn * 180 / std::numbers::pi)});
+                       fmt::format("also measure with {} turned by {:.0f} deg", v.name,
+                                   turn * 180 / std::numbers::pi)});
     } else if (v.name == "time") {
       const double range = *levels.rbegin() - *levels.begin();
       if (range > 0)

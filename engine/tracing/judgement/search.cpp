@@ -14,7 +14,7 @@ namespace {
 
 std::string with_shape(const Candidate& a) { return a.name + (a.shape.empty() ? "" : " (" + a.shape + ")"); }
 
-constexpr const char* not_predicted = "refused: held-out blocks are predicted no better with it";
+constexpr const char* not_predicted = "refused: it does not improve the prediction of held-out blocks";
 
 /// Takes the steps that the decisions (decisions.h) ask for: fits, and keeps what was found.
 class Searcher {
@@ -44,7 +44,8 @@ private:
 
   /// Takes in one more effect; false if there is none.
   bool round() {
-    report_progress(out_.findings.empty() ? "searching for what is missing from the declared model" : "searching for more");
+    report_progress(out_.findings.empty() ? "searching for what is missing from the declared model" : "searching for "
+                                                                                                      "more");
     const bool first = out_.findings.empty() && out_.first.p.empty();
     const Evidence evidence(c_, out_.found, out_.findings.size());
     evidence_ = &evidence;
@@ -152,7 +153,7 @@ private:
     for (const std::size_t i : {0, 1}) {
       out_.findings.push_back(found_by(pair[i], Kind::named, i));
       out_.findings.back().finding.remarks.push_back("found together with " + candidate(pair[1 - i]).name +
-                                                     ": each masks the other");
+                                                     "; each masks the other");
       outcomes_[pair[i]] = "named";
     }
     adopt(fit);
@@ -208,7 +209,7 @@ private:
     // What shows in one block only cannot be predicted from the others: there it is nevertheless.
     if (!unconfirmed || !out_.findings.empty()) return false;
     add_shape(unconfirmed->first, unconfirmed->second,
-              "held-out blocks are predicted no better with it: it may belong to some of them only");
+              "it does not improve the prediction of held-out blocks; it may belong to some blocks only");
     return true;
   }
 
