@@ -143,7 +143,7 @@ void drop_standard_errors(Summary& s) {
   for (Interval* i : {&s.symmetric, &s.shortest}) i->low_se = i->high_se = std::nan("");
 }
 
-/// First-order indices beside the GUM contributions, and what is left for interactions.
+/// Puts first-order indices next to the GUM contributions, and the remainder under interactions.
 void add_monte_carlo_column(Results& r) {
   for (std::size_t o = 0; o < r.sensitivities.size(); ++o) {
     double sum = 0;

@@ -44,7 +44,7 @@ CircularSummary circular_summary(std::span<const double> angles, double p) {
   const double y = ordered_sum(m, [&](std::size_t i) { return std::sin(valid[i]); }) / n;
   c.mean_direction = std::atan2(y, x);
   c.resultant_length = std::min(1.0, std::hypot(x, y));
-  // Of close angles 1 - R loses its digits, so that R comes from the deviations.
+  // For close angles 1 - R loses its digits; R is therefore computed from the deviations.
   const double versed = ordered_sum(m,
                                     [&](std::size_t i) {
                                       const double half = std::sin(0.5 * (valid[i] - c.mean_direction));

@@ -4,10 +4,10 @@
 
 namespace gumshoe::analysis {
 
-/// Of every output by every variate that reaches it, from the first `samples` of the run: inputs are drawn again by
-/// the run's design and seed, outputs are `values`. Failed samples are dropped and counted. Dependent inputs are
-/// allowed: an index then says what knowing this input would tell, also of those tied to it, and first-order indices
-/// need not add up to at most 1.
+/// Indices of every output with respect to every variate that reaches it, from the first `samples` of the run: inputs
+/// are drawn again from the run's design and seed, outputs are `values`. Failed samples are dropped and counted.
+/// Dependent inputs are allowed: an index then includes what the input tells about those correlated with it, and the
+/// sum of the first-order indices may exceed 1.
 ///   first: var E[Y|X] / V by ranks: 1 - sum (y_(i+1) - y_(i))^2 / (2 n V), y in the order of x, ties of x in random
 ///          order (Chatterjee 2021; Gamboa, Gremaud, Klein, Lagnoux 2022, in differences). Interval: its terms are
 ///          1-dependent given x, so with g_k the autocovariances of their influences in the order of x the variance is

@@ -5,16 +5,16 @@
 
 namespace gumshoe::analysis {
 
-/// The budget of one output by the law of propagation of uncertainty. One row per variate that reaches
-/// the output (analysis/reach.h, in order); c_i by dual numbers through the solver (beside a kink by
-/// differences); second-order terms of 5.1.2 note, with the
-/// third derivatives as differences of exact first ones. Where the model has no derivative at the
-/// estimate the row says so and the framework does not apply. A virtual experiment has no measurement
-/// model of its inputs, so its budget is "not applicable".
+/// The budget of one output by the law of propagation of uncertainty. It has one row per variate that reaches the
+/// output (analysis/reach.h, in order). c_i comes from dual numbers through the solver, or from differences near a
+/// kink. The second-order terms of the note to 5.1.2 use differences of exact first derivatives as third derivatives.
+/// Where the model has no derivative at the estimate, the row says so and the framework does not apply. A virtual
+/// experiment has no measurement model of its inputs; its budget is "not applicable".
 Budget budget(const propagation::Experiment& experiment, std::size_t output, double coverage_probability);
 
-/// JCGM 101 clause 8: d_low, d_high against the numerical tolerance of u at `digits`. Undecided if the Monte Carlo
-/// tolerance exceeds a fifth of it, unless an end differs by more than both together, or if an end differs by more than delta alone.
+/// JCGM 101 clause 8: compares d_low and d_high with the numerical tolerance delta of u at `digits`. The result is
+/// undecided if the Monte Carlo tolerance exceeds delta / 5 (unless an end differs by more than the sum of both), or if
+/// an end differs by more than delta alone.
 Validation validate(const Budget& budget, const Summary& summary, int digits);
 
 /// Pearson's coefficient of two variates, 0 if no copula ties them.

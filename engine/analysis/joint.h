@@ -16,8 +16,8 @@ using ValuesOf = std::function<std::vector<double>(std::size_t output)>;
 /// as it stands. k_p is NaN, with a remark, if the correlation matrix is singular to within the samples' rounding.
 JointRegion joint_region(const std::vector<std::vector<double>>& values, double coverage_probability);
 
-/// Of the scenario's groups (AnalysisOptions::joint), at each reading. Where a measurand has no standard uncertainty
-/// there is no region, and the remark says so.
+/// Joint regions of the scenario's groups (AnalysisOptions::joint), at each reading. A group with a measurand without
+/// standard uncertainty has no region, and a remark says so.
 std::vector<JointRegion> joint_regions(const propagation::Experiment& experiment, const ValuesOf& values,
                                        const std::vector<Summary>& summaries, const std::vector<Budget>& budgets,
                                        int threads);

@@ -148,7 +148,7 @@ private:
   propagation::Workspace workspace_;
 };
 
-/// Of rows A, B, AB_i and BA_i.
+/// Outputs of rows A, B, AB_i and BA_i.
 struct Outputs {
   std::vector<double> a, b, c, d;
 };

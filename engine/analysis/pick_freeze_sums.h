@@ -34,7 +34,7 @@ struct PickFreezeKernels {
                std::size_t rows, std::size_t per_group, double* out);
 };
 
-/// Of the best instruction set here.
+/// Kernels for the best instruction set of this processor.
 const PickFreezeKernels& pick_freeze_kernels();
 
 } // namespace gumshoe::analysis

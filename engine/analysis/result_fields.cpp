@@ -12,7 +12,7 @@ constexpr Shown in_csv{.csv = same}, in_both{.json = same, .csv = same};
 
 constexpr Field<InputRecord> inputs[] = {
     {"name", of<&InputRecord::name>, one, "input quantity"},
-    {"labels", of<&InputRecord::labels>, one, "label values it holds for"},
+    {"labels", of<&InputRecord::labels>, one, "label values for which it holds"},
     {"units", nullptr, units, ""},
     {"value", of<&InputRecord::value>, point, "estimate"},
     {"standard_uncertainty", of<&InputRecord::standard_uncertainty>, difference, "standard uncertainty"},

@@ -39,7 +39,7 @@ std::vector<Game> games(const propagation::Experiment& e) {
   return all;
 }
 
-/// Of every row of a block: w of the empty set and what each player adds, [output][player][row].
+/// For every row of a block, w of the empty set and the increment of each player, [output][player][row].
 class BlockOfRows {
 public:
   BlockOfRows(const propagation::Experiment& e, const ConditionalDraws& draws, const Game& game, std::uint64_t first,

@@ -11,7 +11,7 @@ namespace gumshoe::analysis {
 /// design of pick_freeze.h; n (d + 2) model runs, or n (2 d + 2) with `second_order`. V is the variance of y.
 ///   total:        Jansen 1999, mean (y_A - y_AB_i)^2 / 2 V.
 ///   first order:  correlation of y_B and y_AB_i, which share only x_i (Martinez 2011; Janon 2014), with
-///                 (1 - total) corr(y_A, y_B), which is zero in the mean, taken off as a control variate.
+///                 (1 - total) corr(y_A, y_B), which is zero in the mean, subtracted as a control variate.
 ///   second order: mean (y_AB_i - y_A) (y_BA_j - y_B) / V. Of the four products' means, y_AB_i y_BA_j share x_i and
 ///                 x_j, y_AB_i y_B share x_i, y_A y_BA_j share x_j and y_A y_B nothing, so V_ij + V_i + V_j, V_i and
 ///                 V_j cancel to V_ij; the mean over (i, j) and (j, i) is taken.

@@ -19,7 +19,8 @@ constexpr std::uint64_t none = std::numeric_limits<std::uint64_t>::max();
 
 double variance(const std::vector<double>& x) { return x.size() < 2 ? nan : moments(x).variance; }
 
-/// Of all blocks together, from their means and standard deviations: blocks are equally long but for failed samples.
+/// Standard uncertainty of all blocks together, from their means and standard deviations; blocks are equally long
+/// except for failed samples.
 double pooled_uncertainty(const std::vector<double>& mean, const std::vector<double>& u) {
   double within = 0;
   for (const double v : u) within += v * v / static_cast<double>(u.size());

@@ -48,7 +48,7 @@ inline constexpr StageRow stage_table[] = {
     {Stage::slides, "slides", "the slides X, Y and Z where all three are read"},
     {Stage::slide_directions, "slide_directions", "the slides X and Y where it is known from which side each came"},
     {Stage::contact, "contact", "a probe's tip, from contact to trigger"},
-    {Stage::trigger, "trigger", "from the trigger to the latch"},
+    {Stage::trigger, "trigger", "delay from the trigger to the latch"},
 };
 constexpr std::string_view name(Stage stage) { return stage_table[static_cast<std::size_t>(stage)].name; }
 
@@ -92,11 +92,11 @@ struct VariableCard {
 struct EvaluationCard {
   std::string_view name;
   std::string_view meaning;
-  /// Of a *joint* evaluation, which uses all readings together and yields these once. Empty: the model's measurands at
-  /// each reading.
+  /// Measurands of a *joint* evaluation, which uses all readings together and yields these once. Empty: the model's
+  /// measurands, at each reading.
   std::span<const VariableCard> measurands = {};
-  /// How long measuring takes so, for `gumshoe choose`: formulas of the expression language over the conditions, the
-  /// quantities and ModelCard::timing; of every reading, and once.
+  /// Measuring time, for `gumshoe choose`: formulas of the expression language with the conditions, the quantities and
+  /// ModelCard::timing; per reading, and once.
   std::string_view time_per_reading = {};
   std::string_view time_once = {};
   constexpr bool joint() const { return !measurands.empty(); }
@@ -112,8 +112,8 @@ struct ModelCard {
   std::span<const VariableCard> indications;
   std::span<const VariableCard> measurands;
   std::span<const EvaluationCard> evaluations;
-  std::span<const Stage> stages;             ///< of the measuring chain that the model has: effects acting there apply
-  std::span<const QuantityCard> timing = {}; ///< what else the duration depends on: rapid feed, orientation time
+  std::span<const Stage> stages;             ///< stages of the measuring chain; only their effects apply
+  std::span<const QuantityCard> timing = {}; ///< further inputs of the measuring time: rapid feed, orientation time
 };
 
 struct EffectCard {

@@ -16,7 +16,7 @@ namespace {
 
 using propagation::Experiment;
 
-/// Of the size of a stated effect, whose unit the scenario states.
+/// Card of the size of a stated effect; its unit is in the scenario.
 constexpr QuantityCard size_card{"size", "", "", 0, {-HUGE_VAL, HUGE_VAL}, "", "", Role::amplitude};
 
 /// The card of a quantity of the model, of an active effect or of a stated one.
@@ -38,7 +38,7 @@ std::size_t column_of(const Experiment& e, std::size_t quantity, std::size_t ent
   return e.plan().columns.size(); // no reading uses it
 }
 
-/// Of the deviation; the scale of a t that has no standard deviation.
+/// Variance of the deviation, or the squared scale of a t distribution without a variance (`finite` is then false).
 double variance(const quantities::Distribution& d, bool& finite) {
   const double v = d.variance();
   finite = std::isfinite(v);
@@ -108,7 +108,7 @@ Data data_of(const Experiment& e) {
   bool finite = true;
   for (std::size_t r = 0; r < s.readings.size(); ++r) {
     if (s.readings[r].indications.size() != indications)
-      refuse(s.file, "there are no readings to fit", "nothing was read",
+      refuse(s.file, "there are no readings to fit", "no indication has readings",
              "add [indications.NAME] with readings and method = \"propagation\"");
     const auto point = e.reading_point(r);
     for (std::size_t k = 0; k < indications; ++k) {

@@ -59,7 +59,7 @@ public:
     std::size_t reading = 0;
     Status status = Status::ok;
   };
-  /// Of the last call that returned false.
+  /// Failure of the last call that returned false.
   Failure failure() const { return failure_; }
 
 private:

@@ -126,7 +126,7 @@ double Fit::freedom() const {
   return static_cast<double>(n_) + data_.pure_freedom - (jacobian * matrix).cwiseProduct(jacobian).sum();
 }
 
-/// Noise unknown, beside priors or a robust loss: its scale and the fit in turns until both stand still.
+/// For unknown noise with priors or a robust loss: alternates between the scale and the fit until both converge.
 void Fit::find_scale() {
   if (n_ > p_ || priors_.target.empty()) solve_with(Loss::squared, 1, 1, false);
   double sigma = 0;

@@ -31,7 +31,7 @@ private:
   void solve_with(Loss loss, double width, double sigma, bool with_priors);
   void solve_at(double sigma);
   bool defined() const;
-  /// Of the whitened residuals, in the unit of sigma = 1.
+  /// Scale of the whitened residuals, in units of sigma = 1.
   double scale_of_residuals() const;
   /// n minus the trace of the data's share in the fit: n - p without priors.
   double freedom() const;

@@ -157,7 +157,8 @@ std::optional<ErrorPlace> Machine::error(std::string_view name) const { return f
 
 std::span<const MachineDescription> machines() {
   using Axes = std::vector<AxisDescription>;
-  // Of the grinder: eq 4.1 turns the workpiece by +A where the text says -A; the links are inferred, none is printed.
+  // For the grinder, eq 4.1 turns the workpiece by +A although the text says -A; the links are inferred, none is
+  // printed.
   static const std::vector<MachineDescription> table{
       {"grinder", Axes{{"X"}, {"A", "", {}, 1}},
        Axes{{"Y"}, {"Z"}, {"B", "", {-0.120, 0, -0.110}}, {"C", "", {0.050, 0.180, 0}}}},

@@ -23,7 +23,7 @@ constexpr Shown in_json{.json = same}, in_csv{.csv = same}, in_both{.json = same
 template <auto member> constexpr auto asked_for = of<&Result::asked, member>;
 constexpr Field<Result> question[] = {
     {"measurand", asked_for<&Choose::measurand>, one, "measurand whose error is judged", in_json},
-    {"target", asked_for<&Choose::target>, difference, "expanded uncertainty to be reached", in_json},
+    {"target", asked_for<&Choose::target>, difference, "target expanded uncertainty", in_json},
     {"target_of", [](const Result& r) -> Value { return std::string(r.asked.worst_case ? "worst_case" : "average"); },
      one, "average or worst_case", in_json},
     {"bias_limit", [](const Result& r) -> Value { return r.asked.bias.value_or(std::nan("")); }, difference,

@@ -9,10 +9,10 @@
 
 namespace gumshoe::choice {
 
-/// Of the error e = stated - true, over all uncertain quantities, or with those of a case at its values.
+/// Statistics of the error e = stated - true over all uncertain quantities, or with those of a case at its values.
 struct Figures {
-  double mean = 0, mean_se = 0;         ///< of e: the bias
-  double standard_deviation = 0;        ///< of e
+  double mean = 0, mean_se = 0;         ///< mean of e: the bias
+  double standard_deviation = 0;        ///< standard deviation of e
   double left = 0;                      ///< mean of what remains after the correction; uncorrected: the mean
   double expanded = 0, expanded_se = 0; ///< U and its Monte Carlo standard error
   std::uint64_t valid = 0, failed = 0;

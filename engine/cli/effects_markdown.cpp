@@ -15,7 +15,7 @@ std::string in_unit(const QuantityCard& q, double x) {
   return fmt::format("{:g}", units::from_si(x, std::string(q.unit), std::string(q.si_unit), units::Kind::difference));
 }
 
-/// Quantities that a table need not tell apart stand together.
+/// Whether two quantities may share a cell of the table.
 bool alike(const QuantityCard& a, const QuantityCard& b) { return a.unit == b.unit && a.role == b.role; }
 
 /// "`x`, `y`" or "`radius_1` ... `radius_12`".

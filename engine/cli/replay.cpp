@@ -25,8 +25,8 @@ scenario::Scenario scenario_of(const store::Identity& identity, const std::strin
 }
 
 /// In a virtual experiment the drawn values are the truth: the indications are simulated from them, and
-/// the evaluation uses the estimates. `simulated`: the reading's indications as evaluated: noise included, stated
-/// effects taken off.
+/// the evaluation uses the estimates. `simulated`: the reading's indications as evaluated, with noise included and
+/// stated effects subtracted.
 void print_reading(const propagation::Experiment& e, std::size_t r, const std::vector<double>& variates,
                    const std::vector<double>& simulated) {
   const auto& s = e.scenario();

@@ -53,7 +53,7 @@ private:
   std::chrono::steady_clock::time_point started_, shown_;
 };
 
-/// What of an adaptive run fixes its numbers, beside the scenario.
+/// The options of an adaptive run that determine its results, in addition to the scenario.
 std::string adaptive_text(const scenario::Adaptive& a) {
   if (a.rule == scenario::StoppingRule::fixed) return {};
   return fmt::format("{} {} {}", name(a.rule), a.digits, a.most);

@@ -10,7 +10,7 @@
 namespace gumshoe::formula {
 namespace {
 
-/// Of one node: its kind, and its value if that is fixed.
+/// Kind of one node, and its value if that is fixed.
 struct Known : Kind {
   std::optional<double> value;
 };

@@ -54,7 +54,7 @@ struct Attempt {
   double cost() const { return 0.5 * r.squaredNorm(); }
 };
 
-/// Columns whose change by one magnitude is lost beside the others'.
+/// False for columns whose effect of one magnitude is negligible compared with the others.
 std::vector<bool> acting(const Matrix& jacobian, const Vector& z) {
   Vector effect(jacobian.cols());
   for (Eigen::Index j = 0; j < jacobian.cols(); ++j)

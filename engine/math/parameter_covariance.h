@@ -20,9 +20,9 @@ struct ParameterCovariance {
   Direction weakest;             ///< of the smallest singular value kept
 };
 
-/// jacobian[n][p], rows whitened. Columns that are lost beside the others when a parameter changes by its magnitude
-/// count as zero; singular values below tolerance x the largest count as zero. By QR and SVD (Golub and Van Loan,
-/// chapter 5), never by J'J.
+/// jacobian[n][p], rows whitened. A column counts as zero if a change of its parameter by `magnitude` is negligible
+/// compared with the other columns; singular values below tolerance x the largest count as zero. Uses QR and SVD
+/// (Golub and Van Loan, chapter 5), never J'J.
 ParameterCovariance parameter_covariance(const std::vector<double>& jacobian, std::size_t n, std::size_t p,
                                          const std::vector<double>& magnitude, double tolerance = 1e-11);
 

@@ -95,7 +95,7 @@ template <class M, class T> Reading<typename M::Rows, T> reading_of(const PointC
 template <class M, class T> void check_all(const Reading<typename M::Rows, T>& at, Outcome<T>& outcome) {
   for (std::size_t i = 0; i < M::card.quantities.size(); ++i)
     outcome.refuse(!M::card.quantities[i].limits.contain(num::value(array_of(at.q)[i])),
-                   "a quantity lies beyond its limits");
+                   "a quantity is outside its limits");
   detail::check_commanded<M>(at, outcome);
   if constexpr (requires { M::check(at, outcome); })
     if (!outcome.failed) M::check(at, outcome);
@@ -151,7 +151,7 @@ template <class M> std::vector<Intermediate> explain(const PointCall<double>& ca
 template <class M> std::string check(const PointCall<double>& call) {
   for (std::size_t i = 0; i < M::card.quantities.size(); ++i)
     if (!M::card.quantities[i].limits.contain(call.quantities[i]))
-      return fmt::format("{} lies beyond its limits", M::card.quantities[i].name);
+      return fmt::format("{} is outside its limits", M::card.quantities[i].name);
   Outcome<double> outcome;
   check_all<M>(reading_of<M>(call, false), outcome);
   return outcome.why ? outcome.why : "";

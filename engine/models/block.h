@@ -84,7 +84,7 @@ public:
       const T& x = array_of(at.q)[l.quantity];
       fine = fine && (x >= T(l.low)) && (x <= T(l.high));
     }
-    outcome.refuse(!fine, "a quantity lies beyond its limits");
+    outcome.refuse(!fine, "a quantity is outside its limits");
     if (commanded_[r] == Commanded::wrongly) outcome.refuse(T(0.0) == T(0.0), "a condition is impossible");
     if (commanded_[r] == Commanded::each_sample) check_commanded<M>(at, outcome);
     if constexpr (requires { M::check(at, outcome); })

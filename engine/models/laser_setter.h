@@ -8,26 +8,26 @@
 namespace gumshoe::models::laser_setter {
 
 inline constexpr QuantityCard beam_yaw =
-    in_deg({.name = "beam_yaw", .symbol = "alpha", .meaning = "of the beam about Z, from machine X"});
+    in_deg({.name = "beam_yaw", .symbol = "alpha", .meaning = "yaw of the beam: angle about Z from machine X"});
 inline constexpr QuantityCard beam_pitch =
     in_deg({.name = "beam_pitch",
             .limits = below_90,
             .symbol = "beta",
-            .meaning = "of the beam out of the horizontal, positive upwards along the beam"});
+            .meaning = "pitch of the beam out of the horizontal, positive if the beam rises"});
 inline constexpr QuantityCard beam_radius = in_mm({.name = "beam_radius",
                                                    .default_value = 0.2 * si::mm,
                                                    .limits = positive,
                                                    .symbol = "R_l",
-                                                   .meaning = "radius of the beam's disc on the receiver"});
+                                                   .meaning = "radius of the beam's cross-section at the receiver"});
 inline constexpr QuantityCard trigger_fraction =
     pure({.name = "trigger_fraction",
           .default_value = 0.5,
           .limits = {0, 1, true, true},
           .symbol = "eta",
-          .meaning = "share of the disc that is covered when the trigger fires"});
-inline constexpr VariableCard time = shown_in_s({.name = "time", .meaning = "since the start of the work"});
+          .meaning = "fraction of the beam's cross-section that is covered when the trigger fires"});
+inline constexpr VariableCard time = shown_in_s({.name = "time", .meaning = "time since the start of the work"});
 inline constexpr VariableCard direction =
-    shown_pure({.name = "direction", .default_value = -1, .meaning = "of approach along Z: -1 downwards"});
+    shown_pure({.name = "direction", .default_value = -1, .meaning = "direction of approach along Z: -1 downwards"});
 inline constexpr VariableCard indications[] = {
     shown_in_mm({.name = "spindle_z", .meaning = "spindle height latched at the trigger, Z'_s"})};
 

@@ -93,7 +93,7 @@ struct Intermediate {
 
 struct Model {
   const ModelCard* card;
-  const Kernels* (*kernels)(); ///< of the best instruction set here
+  const Kernels* (*kernels)(); ///< for the best instruction set of this processor
   /// Exact derivatives of one reading's measurands; null for a model that has none (a plugin, a command). There, and
   /// for joint evaluations, the engine takes differences.
   PointOutcome (*evaluate_gradient)(const PointCall<Gradient>&);
@@ -102,20 +102,20 @@ struct Model {
   PointOutcome (*simulate_gradient)(const PointCall<Gradient>&);
   /// Every intermediate value of one evaluation, in the order of computation.
   std::vector<Intermediate> (*explain)(const PointCall<double>&);
-  /// What is impossible about the estimates, beyond each quantity's own limits; empty if nothing. May throw an
-  /// InputError that names the place (a formula's character).
+  /// Message if the estimates are impossible although each is within its limits; empty otherwise. May throw an
+  /// InputError that names the place (a character of a formula).
   std::string (*check)(const PointCall<double>&);
   /// True if the solve reads this quantity; readings that agree in these share one solve.
   bool (*solve_reads)(std::size_t quantity);
-  /// What a model made at run time needs; handed back in every call. Null for models of the catalogue.
+  /// Data of a model made at run time, passed in every call. Null for models of the catalogue.
   const void* context = nullptr;
-  std::size_t block = 0; ///< samples it wants per call, at least; 0: no wish. Numbers do not depend on it.
-  /// Of a joint evaluation, how many of its measurands (the first ones) have a meaning at these estimates: the flutes
-  /// that there are. Null: all.
+  std::size_t block = 0; ///< preferred smallest number of samples per call; 0: none. Results do not depend on it.
+  /// Number of measurands (the first ones) that a joint evaluation defines at these estimates, such as one per flute.
+  /// Null: all.
   std::size_t (*measurands_in_use)(int evaluation, const double* quantities) = nullptr;
-  /// What is impossible about all readings together, one sample at the estimates; empty if nothing. May be null.
+  /// Message if all readings together, one sample at the estimates, are impossible; empty otherwise. May be null.
   std::string (*check_readings)(const BlockCall&) = nullptr;
-  /// What a reader must know of all readings together, one sample at the estimates: directions that they cannot see.
+  /// Remarks on all readings together, one sample at the estimates, such as directions that they do not determine.
   std::vector<std::string> (*remarks)(const BlockCall&) = nullptr;
 };
 

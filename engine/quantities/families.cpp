@@ -93,7 +93,9 @@ std::string invalid_numbers(const Distribution& d) {
     if (!(p[1] > 0)) return "u must be positive";
     if (!(p[2] < p[3])) return "low must be below high";
     const double nearest = p[2] > p[0] ? p[2] - p[0] : p[3] < p[0] ? p[0] - p[3] : 0;
-    return nearest <= 37 * p[1] ? "" : "both limits lie more than 37 u from the mean, where a normal distribution has practically no probability";
+    return nearest <= 37 * p[1] ? ""
+                                : "both limits lie more than 37 u from the mean, where the probability of a normal "
+                                  "distribution is negligible";
   }
   default:
     return {};

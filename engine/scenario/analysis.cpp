@@ -95,13 +95,13 @@ Options<SensitivityOptions> sensitivity_options() {
   };
   return {
       size("sobol", &Studies::sobol, "base size of the pick-freeze design; 0: no Sobol' indices"),
-      size("shapley", &Studies::shapley, "rows of the Shapley design, for correlated inputs too; 0: none"),
-      size("given_data", &Studies::given_data, "stored samples that given-data indices are computed from; 0: none"),
+      size("shapley", &Studies::shapley, "rows of the Shapley design; inputs may be correlated; 0: none"),
+      size("given_data", &Studies::given_data, "number of stored samples used for given-data indices; 0: none"),
       size("morris", &Studies::morris, "base points of the screening by elementary effects; 0: none"),
       size("dgsm", &Studies::dgsm, "points of the derivative-based measures; 0: none"),
-      option::flag("second_order", &Studies::second_order, "second-order Sobol' indices too; needs sobol"),
+      option::flag("second_order", &Studies::second_order, "adds second-order Sobol' indices; needs sobol"),
       option::word("by", &Studies::by_quantity, {{"draw", false}, {"quantity", true}},
-                   "what a factor of the Sobol' indices is: one draw, or all draws of a quantity together"),
+                   "factor of the Sobol' indices: a single draw, or all draws of a quantity together"),
   };
 }
 
@@ -110,18 +110,19 @@ Options<AnalysisOptions> analysis_options() {
     return option::by_hand<AnalysisOptions>(key, shape::list(row), meaning);
   };
   return {
-      option::share("coverage_probability", &AnalysisOptions::coverage_probability, true, "of every coverage interval"),
+      option::share("coverage_probability", &AnalysisOptions::coverage_probability, true, "coverage probability of "
+                                                                                          "all coverage intervals"),
       option::whole("validation_digits", &AnalysisOptions::validation_digits, 1, 6, "n_dig of JCGM 101 8.1"),
       option::by_hand<AnalysisOptions>("sensitivity", table_shape(sensitivity_options()),
                                        "studies, each with its size"),
       rows("joint", shape::list(shape::text(), R"("minItems": 2, "uniqueItems": true)"),
-           "measurands whose joint coverage regions are wanted; left out: those of each reading"),
+           "groups of measurands for joint coverage regions; default: the measurands of each reading"),
       rows("comparisons", table_shape(comparison_options()), "differences between readings, with E_n"),
-      rows("printed", table_shape(printed_options("1")), "figures printed elsewhere, shown next to ours"),
+      rows("printed", table_shape(printed_options("1")), "published figures, shown next to the computed ones"),
       rows("one_at_a_time", one_at_a_time_shape(),
-           "each quantity in turn moved up and down by its step, the others at their estimates"),
+           "moves each quantity in turn up and down by its step, with the others at their estimates"),
       rows("conformity", conformity_shape(), "does a measurand conform to its tolerance limits? JCGM 106"),
-      rows("targets", target_shape(), "which standard uncertainties would give this U?"),
+      rows("targets", target_shape(), "target uncertainties: which standard uncertainties would give this U?"),
   };
 }
 

@@ -41,32 +41,35 @@ Options<Choose> choose_options() {
     return option::by_hand<Choose>(key, shape, meaning);
   };
   return {
-      by_hand("measurand", shape::text(), "one that every evaluation in question yields; needed if there are several"),
-      by_hand("target", shape::reference("width"), "expanded uncertainty to be reached").needed("target = \"3 um\""),
+      by_hand("measurand", shape::text(), "measurand that every evaluation yields; required if there are several"),
+      by_hand("target", shape::reference("width"), "target expanded uncertainty").needed("target = \"3 um\""),
       option::word("target_of", &Choose::worst_case, {{"average", false}, {"worst_case", true}},
-                   "whose U must meet the target: over all uncertain quantities, or of the worst case"),
-      by_hand("bias", shape::reference("width"), "limit of the mean error's magnitude; left out: none"),
+                   "which U must meet the target: that over all uncertain quantities, or that of the worst case"),
+      by_hand("bias", shape::reference("width"), "limit of the magnitude of the mean error; default: none"),
       option::word("definition", &Choose::definition,
                    std::vector{Choose::Definition::corrected, Choose::Definition::uncorrected},
                    "corrected: the mean error is corrected for, U is half the shortest interval of what remains; "
                    "uncorrected: U is the quantile of the error's magnitude"),
-      option::whole("samples", &Choose::samples, 200, most_samples, "samples of each candidate"),
+      option::whole("samples", &Choose::samples, 200, most_samples, "samples per candidate"),
       option::whole("confirm_samples", &Choose::confirm_samples, 200, most_samples,
                     "samples of the fresh run of the recommended setting"),
       option::share("confirm_probability", &Choose::confirm_probability, true,
-                    "of meeting the target, by the fresh run; with less the next fastest is tried"),
-      option::whole("refinements", &Choose::refinements, 0, 20, "each halves the steps of the ranges"),
+                    "required probability of meeting the target in the fresh run; otherwise the next-fastest setting "
+                    "is tried"),
+      option::whole("refinements", &Choose::refinements, 0, 20, "number of refinements, each of which halves the "
+                                                                "steps of the ranges"),
       option::share("near", &Choose::near, true,
                     "share of the time, or of U, within which settings count as near the optimum"),
       option::whole("sobol", &Choose::sobol, 0, most_samples,
-                    "rows of the design for what limits the optimum; 0: none"),
+                    "rows of the sensitivity design at the optimum; 0: none"),
       by_hand("variables", variables_shape(),
-              "what may be chosen: conditions, quantities, readings or evaluation, each with its values or their range")
+              "variables: conditions, quantities, readings or evaluation, each with its values or their range")
           .needed("[choose.variables] feed = [\"10 mm/min\", \"100 mm/min\"]"),
       by_hand("time", time_shape(),
-              "how long it takes: formulas of conditions, quantities, readings and the constants here; what is left "
-              "out is the model's"),
-      by_hand("cases", shape::list(table_shape(case_options())), "true values that nobody knows: U is stated for each"),
+              "formulas for the time, with conditions, quantities, readings and the constants given here; the default "
+              "is "
+              "that of the model"),
+      by_hand("cases", shape::list(table_shape(case_options())), "cases of unknown true values; U is given for each"),
       by_hand("compare", shape::list(table_shape(compare_options())), "settings shown next to the recommended one"),
   };
 }

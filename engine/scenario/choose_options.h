@@ -29,12 +29,12 @@ struct Setting {
 /// A knob that the choice turns.
 struct Variable {
   Knob knob;
-  std::vector<double> values; ///< as Setting::value; of a range rising: the coarse grid
-  bool range = false;         ///< between its values there are others
-  int steps = 0;              ///< of a range: values of the coarse grid, ends included
-  bool logarithmic = false;   ///< a range's values lie evenly on a logarithmic scale
+  std::vector<double> values; ///< as Setting::value; for a range the coarse grid, ascending
+  bool range = false;         ///< other values lie between these
+  int steps = 0;              ///< number of values of a range's coarse grid, ends included
+  bool logarithmic = false;   ///< the values of a range are evenly spaced on a logarithmic scale
 
-  /// Of a range: the value at i of n equal parts of it on its scale.
+  /// Value of a range at i of n equal parts on its scale.
   double at(int i, int n) const {
     const double low = values.front(), high = values.back(), t = static_cast<double>(i) / n;
     const double x = i == n ? high : logarithmic ? low * std::pow(high / low, t) : low + (high - low) * t;
@@ -48,7 +48,7 @@ struct ChooseCase {
   std::vector<Setting> values;
 };
 
-/// A setting shown beside the recommended one; knobs it does not name are as the scenario says.
+/// A setting shown next to the recommended one; knobs that it does not name are as in the scenario.
 struct ChooseCompare {
   std::string name, source;
   std::vector<Setting> settings;

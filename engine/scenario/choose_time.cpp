@@ -177,8 +177,8 @@ private:
 
 Shape time_shape() {
   const Shape formula = shape::reference("formula");
-  return shape::table({{"per_reading", formula, "of every readout of every reading"},
-                       {"once", formula, "once, before the first reading"}},
+  return shape::table({{"per_reading", formula, "time per reading"},
+                       {"once", formula, "time before the first reading"}},
                       "", shape::reference("measure"));
 }
 

@@ -15,10 +15,11 @@ struct Range {
 
 Options<Range> range_options() {
   return {
-      option::by_hand<Range>("low", shape::reference("measure"), "least value").needed(),
+      option::by_hand<Range>("low", shape::reference("measure"), "smallest value").needed(),
       option::by_hand<Range>("high", shape::reference("measure"), "largest value").needed(),
       option::whole("steps", &Range::steps, 2, 1000, "values of the coarse grid, both ends included"),
-      option::word("scale", &Range::logarithmic, {{"linear", false}, {"log", true}}, "on which the values lie evenly"),
+      option::word("scale", &Range::logarithmic, {{"linear", false}, {"log", true}}, "scale on which the values are "
+                                                                                     "evenly spaced"),
   };
 }
 

@@ -24,7 +24,7 @@ double spread_value(const Spread& s, std::size_t i, std::size_t n) {
 std::vector<Key> spread_keys() {
   return {{"spread", shape::list(shape::reference("measure"), R"("minItems": 2, "maxItems": 2)"),
            "first and last value; the last is excluded", true},
-          {"readings", shape::whole(1, most_readings), "how many values", true}};
+          {"readings", shape::whole(1, most_readings), "number of values", true}};
 }
 
 class Reader {

@@ -67,8 +67,8 @@ std::uint64_t DataFiles::hash(std::uint64_t hash) const {
 }
 
 std::vector<Key> column_keys() {
-  return {{"column", shape::text(), "by its name in the file's first row", true},
-          {"unit", shape::text(), "of the column's numbers; left out: a plain number"}};
+  return {{"column", shape::text(), "column name in the first row of the file", true},
+          {"unit", shape::text(), "unit of the numbers in the column; default: a plain number"}};
 }
 
 std::vector<Key> data_column_keys() {

@@ -16,12 +16,12 @@ Options<Correlation> correlation_options() {
   const Shape coefficient = shape::interval(-1, 1, false);
   return {
       option::texts("quantities", &Correlation::quantities, R"("minItems": 2)",
-                    "two quantities or more: \"name\", \"name.component\" or \"name[label value]\"")
+                    "at least two quantities: \"name\", \"name.component\" or \"name[label value]\"")
           .needed(),
       option::word("kind", &Correlation::kind, {{"copula", copula}, {"pearson", pearson}, {"spearman", spearman}},
-                   "whose coefficient it is; there is no default")
+                   "kind of the coefficient; there is no default")
           .needed("use copula, pearson or spearman"),
-      option::by_hand<Correlation>("coefficient", coefficient, "of two quantities"),
+      option::by_hand<Correlation>("coefficient", coefficient, "correlation coefficient of two quantities"),
       option::by_hand<Correlation>("matrix", shape::list(shape::list(coefficient)),
                                    "a row and a column per quantity; symmetric, 1 on the diagonal"),
       option::by_hand<Correlation>("source", shape::reference("source"), ""),

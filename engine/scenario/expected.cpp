@@ -24,14 +24,14 @@ Options<Expected> expected_options() {
           "figure", &Expected::figure,
           "standard_uncertainty, gum.expanded_uncertainty, first[x1] ...: scenarios/gauge/README.md lists them")
           .needed("figure = \"standard_uncertainty\""),
-      option::by_hand<Expected>("of", shape::text(), "measurand; may be left out where there is one"),
+      option::by_hand<Expected>("of", shape::text(), "measurand; may be left out if there is only one"),
       option::by_hand<Expected>(labels_key()),
-      figure("value", &Expected::value, "with its unit; the last digit sets the tolerance").needed(),
+      figure("value", &Expected::value, "value with its unit; the last digit sets the tolerance").needed(),
       option::source(&Expected::source),
       figure("tolerance", &Expected::tolerance,
-             "instead of half a unit of the last digit: \"0.01 mg\" or \"1e-6 relative\""),
-      option::text("why", &Expected::why, "reason of the tolerance"),
-      option::text("note", &Expected::note, "why ours is known to differ: then a difference is a NOTE"),
+             "tolerance, such as \"0.01 mg\" or \"1e-6 relative\"; default: half a unit of the last digit"),
+      option::text("why", &Expected::why, "reason for the tolerance"),
+      option::text("note", &Expected::note, "known reason for a difference, which is then reported as NOTE"),
   };
 }
 

@@ -15,10 +15,10 @@ constexpr std::string_view axis_name = R"("type": "string", "pattern": "^[XYZUVW
 
 std::vector<Key> axis_keys() {
   return {
-      {"axis", Shape(axis_name), "X, Y, Z, U, V, W are slides, A, B, C turn; a number may follow", true},
+      {"axis", Shape(axis_name), "X, Y, Z, U, V, W are linear axes, A, B, C rotary axes; a number may follow", true},
       {"kind", shape::words({"linear", "rotary"}), "may be stated and is checked"},
       {"point", shape::list(shape::reference("measure"), R"("minItems": 3, "maxItems": 3)"),
-       "a design point on the axis, machine at zero"},
+       "design point on the axis, with the machine at zero"},
       {"sense", R"("enum": [1, -1])",
        "of the component's motion at a positive command; by default 1 on the tool side, -1 on the workpiece side "
        "(ISO 841)"},
@@ -34,10 +34,10 @@ std::vector<Key> machine_keys() {
   return {
       {"name", shape::text() + R"(, "examples": )" + shape::quoted(names_of(chain::machines())),
        known + "; with the two sides any other"},
-      {"workpiece_side", axes, "axes that carry the workpiece, from the bed outwards; [] where nothing moves"},
-      {"tool_side", axes, "axes that carry the tool, from the bed outwards; [] where nothing moves"},
+      {"workpiece_side", axes, "axes that carry the workpiece, from the bed outwards; [] if nothing moves"},
+      {"tool_side", axes, "axes that carry the tool, from the bed outwards; [] if nothing moves"},
       {"errors", shape::table({}, errors),
-       "known errors by ISO 230-1 and -7, defaults of the quantities of these names"},
+       "known errors by their names in ISO 230-1 and -7; defaults of the quantities with these names"},
   };
 }
 

@@ -10,7 +10,7 @@ namespace gumshoe::scenario {
 Shape machine_shape();
 
 /// nullopt and problems, each at its place, if the section is missing or wrong.
-///     name = "TTTRR"                                       # a known machine, or any name beside the two sides
+///     name = "TTTRR"                                       # a predefined machine, or any name if both sides are given
 ///     workpiece_side = ["Y", { axis = "C", point = ["0 mm", "0 mm", "-50 mm"], sense = 1 }]   # from the bed outwards
 ///     tool_side = ["X", "Z"]
 ///     errors = { E_A0C = "0.01 deg" }                      # defaults of the quantities of these names

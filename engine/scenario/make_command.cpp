@@ -44,7 +44,7 @@ std::vector<Symbol> read_measurands(Table& model, Problems& problems) {
     }
     out.push_back(s);
   }
-  if (out.empty()) table->add("model.measurands: no measurand is named", "there is nothing to evaluate", "y = \"mm\"");
+  if (out.empty()) table->add("model.measurands: no measurand is named", "nothing can be evaluated", "y = \"mm\"");
   return out;
 }
 

@@ -10,7 +10,7 @@
 namespace gumshoe::scenario {
 namespace {
 
-/// Of the text's first character; the node lies at its quote.
+/// Place of the first character of the text; the node's place is that of its quote.
 Location place_of(const Node& node, const std::string& file) { return {file, node.line, node.column + 1}; }
 
 formula::Stated read_formula(const Node& node, const std::string& path, bool with_unit, Problems& problems) {

@@ -175,9 +175,9 @@ private:
 std::vector<Key> noise_keys() {
   return {
       {"resolution", shape::reference("width"),
-       "step of the readout: rectangular, half a step either way, one draw per mean"},
+       "step of the display: a rectangular distribution of half a step on either side, with one draw per mean"},
       repeatability_key(),
-      {"components", shape::list(shape::reference("component")), "further deviations of the readouts' mean"},
+      {"components", shape::list(shape::reference("component")), "further deviations of the mean of the readings"},
   };
 }
 

@@ -14,24 +14,24 @@ Options<Adaptive> adaptive_options() {
   rule.usual = shape::quoted(name(stein)); // of a table that is there: without one the rule is none of them
   return {
       rule,
-      option::whole("digits", &Adaptive::digits, 1, 4, "n_dig, significant digits of u that count"),
-      option::whole("max_samples", &Adaptive::most, 20'000, most, "samples at which the rule gives up and says so"),
+      option::whole("digits", &Adaptive::digits, 1, 4, "n_dig, number of meaningful significant digits of u"),
+      option::whole("max_samples", &Adaptive::most, 20'000, most, "number of samples at which the rule gives up"),
   };
 }
 
 Options<RunOptions> run_options() {
   using enum Design;
   return {
-      option::whole("samples", &RunOptions::samples, 2, most, "number of samples; not together with adaptive"),
+      option::whole("samples", &RunOptions::samples, 2, most, "number of samples; excludes adaptive"),
       option::whole("seed", &RunOptions::seed, 0, most, "the same seed gives the same samples"),
       option::word("design", &RunOptions::design, std::vector{monte_carlo, latin_hypercube, sobol},
                    "how the samples are drawn; adaptive runs need monte_carlo"),
       option::share("max_failed_share", &RunOptions::max_failed_share, false,
                     "share of failed samples above which the run fails"),
       option::flag("store_samples", &RunOptions::store_samples,
-                   "keep every sample in the result file, not the summary alone"),
+                   "keep every sample in the result file, not only the summary"),
       option::by_hand<RunOptions>("adaptive", table_shape(adaptive_options()),
-                                  "as many samples as the results need for a number of digits"),
+                                  "adaptive run: as many samples as the results need for the stated digits"),
   };
 }
 
@@ -39,13 +39,13 @@ Options<EstimateOptions> estimate_options() {
   using enum least_squares::Loss;
   return {
       option::word("loss", &EstimateOptions::loss, std::vector{squared, huber, cauchy, tukey},
-                   "loss function; all but squared tolerate outliers"),
+                   "loss function; all except squared tolerate outliers"),
       option::positive("width", &EstimateOptions::width,
-                       "width of the loss in standard deviations of a residual; left out: 95 % efficiency"),
+                       "width of the loss in standard deviations of a residual; default: that of 95 % efficiency"),
       option::whole("iterations", &EstimateOptions::iterations, 1, 1'000'000,
-                    "iterations of each attempt of the solver, at most"),
+                    "largest number of iterations per attempt of the solver"),
       option::word("posterior", &EstimateOptions::t, {{"normal", false}, {"t", true}},
-                   "distributions of the written scenario where the noise is estimated"),
+                   "distributions in the written scenario if the noise is estimated"),
   };
 }
 

@@ -14,8 +14,8 @@ using quantities::Labels;
 constexpr std::int64_t most_repeats = 1'000'000;
 
 std::vector<Key> row_keys() {
-  return {{"values", shape::list(shape::reference("measure"), R"("minItems": 1)"), "readouts of this reading"},
-          {"repeats", shape::whole(1, most_repeats), "number of readouts in a virtual experiment; not together with values"}};
+  return {{"values", shape::list(shape::reference("measure"), R"("minItems": 1)"), "values of this reading"},
+          {"repeats", shape::whole(1, most_repeats), "number of repeats in a virtual experiment; excludes values"}};
 }
 
 std::vector<double> read_list(const std::vector<Node>& items, const std::string& path, const VariableCard& card,
@@ -86,7 +86,7 @@ std::vector<Key> readout_keys() {
        "repeats of one reading, or a data file"},
       {"rows", shape::list(shape::table(row_keys(), "", text_or_number), R"("minItems": 1)"),
        "labels and conditions of readings, with their values"},
-      {"labels", shape::reference("labels"), "of the readings in `readings`"},
+      {"labels", shape::reference("labels"), "labels of the readings in `readings`"},
   };
 }
 

@@ -6,8 +6,8 @@ namespace gumshoe::scenario {
 namespace {
 
 std::vector<Key> declared_keys() {
-  return {{"s", shape::reference("width"), "experimental standard deviation of one readout", true},
-          {"degrees_of_freedom", shape::reference("positive"), "of s; left out: infinite"}};
+  return {{"s", shape::reference("width"), "experimental standard deviation of one reading", true},
+          {"degrees_of_freedom", shape::reference("positive"), "degrees of freedom of s; default: infinite"}};
 }
 
 /// Also together with { pooled = true }.
@@ -15,7 +15,7 @@ std::vector<Key> repeatability_keys() {
   return {{"evaluation", shape::words({"A", "B"})}, {"source", shape::reference("source")}};
 }
 
-Key pooled_key() { return {"pooled", R"("const": true)", "from all cells of the data (GUM 4.2.4)", true}; }
+Key pooled_key() { return {"pooled", R"("const": true)", "pools s over all cells of the data (GUM 4.2.4)", true}; }
 
 class Reader {
 public:
@@ -96,7 +96,7 @@ Key repeatability_key() {
   std::vector<Key> declared = declared_keys(), pooled = {pooled_key()};
   for (const Key& key : repeatability_keys()) declared.push_back(key), pooled.push_back(key);
   return {"repeatability", shape::any_of({R"("const": "readings")", shape::table(declared), shape::table(pooled)}),
-          "\"readings\": from each reading's own repeats; or declared; or pooled over all cells of the data"};
+          "\"readings\": from the repeats of each reading; or declared; or pooled over all cells of the data"};
 }
 
 Repeatability read_repeatability(Table& table, const VariableCard& card, const IndicationReadouts& readouts,

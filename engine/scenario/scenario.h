@@ -57,7 +57,7 @@ struct Comparison {
   std::string within;  ///< label held fixed, e.g. "setup"; may be empty
 };
 
-/// A printed figure shown beside ours, e.g. from the paper that reported the readings.
+/// A published figure shown next to the computed one, e.g. from the paper that reported the readings.
 struct Printed {
   std::string measurand;
   quantities::Labels labels;
@@ -168,13 +168,13 @@ struct Scenario {
   std::optional<Choose> choose;
   std::vector<StatedEffect> stated_effects;
   TraceOptions trace;
-  /// Of an evaluation at single readings: the measurand is the mean over all readings, stated once (`gumshoe choose`).
+  /// True if the evaluation acts on single readings and its result is the mean over all of them (`gumshoe choose`).
   bool mean_of_readings = false;
   std::vector<std::string>
       notes; ///< decisions and warnings a reader must see ("resolution used, not repeatability: ...")
 };
 
-/// What a parser must know of models and effects; handed in, since this layer lies beside them.
+/// What a parser must know of models and effects; passed in, because this layer may not include them.
 struct Catalogue {
   std::vector<const ModelCard*> models;
   std::vector<const EffectCard*> effects; ///< in the order in which they act

@@ -31,22 +31,22 @@ std::vector<Key> definitions() {
   const Shape above_zero = number() + R"(, "exclusiveMinimum": 0)";
   return {
       {"measure", any_of({number(), measure_text("+-")}),
-       "a number with its unit, \"0.6 um\"; bare numbers only without a dimension"},
+       "a number with its unit, such as \"0.6 um\"; a bare number only if it has no dimension"},
       {"width", any_of({above_zero, measure_text("+")}), "above 0, with its unit"},
       {"positive", above_zero, "above 0"},
       {"source", R"("type": ["string", "object", "array"])",
-       "where the number comes from: text, or a table such as { certificate = \"...\", date = 2026-01-15 }"},
+       "source of the number: text, or a table such as { certificate = \"...\", date = 2026-01-15 }"},
       {"labels", map(text(), R"("propertyNames": {"not": {"const": "reading"}})"), "label = value"},
       {"formula", R"("type": ["string", "number"])",
        "+ - * / ^ ( ), functions, pi, e, and names of quantities, conditions, indications and intermediates"},
       {"component", component_shape(), "a deviation from the value"},
-      {"quantity", quantity_shape(), "an input quantity: a value alone, or with what is known of it"},
+      {"quantity", quantity_shape(), "an input quantity: a value alone, or with its uncertainty"},
       {"by", map(map(reference("quantity")), R"("minProperties": 1, "maxProperties": 1)"),
-       "one label, with a quantity for each of its values"},
+       "a label with a quantity for each of its values"},
       {"condition", condition_shape(),
        "one value, a list with a value for each reading, or values evenly spread over n readings, the last value "
        "excluded"},
-      {"indication", indication_shape(), "what was read, and its noise"},
+      {"indication", indication_shape(), "readings of an indication, and their noise"},
   };
 }
 
@@ -111,24 +111,25 @@ std::vector<Key> model_keys() {
     described += fmt::format("{}{} ({})", described.empty() ? "" : ", ", row.name, row.what);
   const Shape formula = reference("formula");
   const Shape measurand = table({{"formula", formula},
-                                 {"unit", text(), "in which it is shown"},
-                                 {"meaning", text(), "of a command: what it is"}});
+                                 {"unit", text(), "unit in which it is shown"},
+                                 {"meaning", text(), "command: description of the measurand"}});
   return {
       {"name", text(), "one that gumshoe models lists; or " + described, true},
       {"method", words({"propagation", "virtual_experiment"}),
-       "propagation of distributions (JCGM 101), or draw the truth, simulate and evaluate", false,
+       "propagation of distributions (JCGM 101), or virtual experiment: draw the true value, simulate and evaluate", "
+       "false,
        quoted("propagation")},
-      {"evaluation", text(), "one of the model's evaluations; left out: the first"},
+      {"evaluation", text(), "evaluation of the model; default: the first"},
       {"intermediates", map(formula), "expression: formulas used by others, in any order"},
       {"measurands", map(any_of({formula, measurand})),
        "expression: name = formula, or { formula, unit }; command: name = unit, or { unit, meaning }"},
-      {"indications", map(formula), "expression: what the readouts would be, for virtual experiments and fits"},
+      {"indications", map(formula), "expression: the simulated readings, for virtual experiments and fits"},
       {"library", text(), "plugin: the shared library, relative to the scenario's folder"},
       {"command", list(text(), R"("minItems": 1)"),
        "command: the program and its arguments; run in the scenario's folder, points as CSV on standard input, results "
        "as CSV on standard output"},
-      {"batch", whole(1, 10'000'000), "command: points per call, at most", false, "10000"},
-      {"time_limit", reference("width"), "command: per call; left out: 60 s"},
+      {"batch", whole(1, 10'000'000), "command: largest number of points per call", false, "10000"},
+      {"time_limit", reference("width"), "command: time limit per call; default: 60 s"},
   };
 }
 
@@ -137,22 +138,25 @@ const std::vector<Key>& sections() {
   static const std::vector<Key> all = {
       {"schema", R"("const": 1)", "version of this format", true},
       {"title", text(), "one line, shown in the report"},
-      {"model", table(model_keys()), "what is measured with, and how it is evaluated", true},
-      {"machine", machine_shape(), "sphere_probing: a known machine by its name, or the axes of one's own"},
-      {"conditions", map(reference("condition")), "what was commanded, exact"},
-      {"quantities", map(reference("quantity")), "the model's quantities; what is left out stays at its default"},
+      {"model", table(model_keys()), "the model, and how it is evaluated", true},
+      {"machine", machine_shape(), "sphere_probing: the name of a predefined machine, or the axes of your own"},
+      {"conditions", map(reference("condition")), "what was commanded; exact"},
+      {"quantities", map(reference("quantity")), "quantities of the model; those left out keep their defaults"},
       {"effects", "", "effects left out stay at their null value"},
-      {"indications", map(reference("indication")), "what was read"},
+      {"indications", map(reference("indication")), "readings of the indications"},
       {"correlations", list(correlation_shape()), "dependence between input quantities"},
-      {"estimate", table_shape(estimate_options()), "how gumshoe estimate fits"},
-      {"run", table_shape(run_options()), "how many samples, and which"},
-      {"analysis", table_shape(analysis_options()), "what is computed from the samples"},
-      {"expected", list(expected_shape()), "published or exact figures; gumshoe gauge compares them with ours"},
-      {"choose", choose_shape(), "gumshoe choose: the fastest settings within a target expanded uncertainty"},
+      {"estimate", table_shape(estimate_options()), "options of gumshoe estimate"},
+      {"run", table_shape(run_options()), "number and kind of samples"},
+      {"analysis", table_shape(analysis_options()), "studies of the samples"},
+      {"expected", list(expected_shape()), "published or exact figures; gumshoe gauge compares the computed ones with "
+                                           "them"},
+      {"choose", choose_shape(), "options of gumshoe choose: the fastest settings within a target expanded "
+                                 "uncertainty"},
       {"trace", trace_shape(),
-       "gumshoe trace: blocks, order, redone set-up steps, and what was recorded along with the readings"},
+       "options of gumshoe trace: blocks, order, re-done set-up steps, and what was recorded with the readings"},
       {"stated_effects", stated_effects_shape(),
-       "effects as formulas: size times formula adds to an indication; without a size a candidate of gumshoe trace"},
+       "effects as formulas: size times formula is added to an indication; without a size, a candidate of gumshoe "
+       "trace"},
   };
   return all;
 }

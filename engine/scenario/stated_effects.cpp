@@ -20,12 +20,14 @@ Options<StatedEffect> stated_effect_options() {
     return option::by_hand<StatedEffect>(key, shape, meaning);
   };
   return {
-      by_hand("indication", shape::text(), "to which it adds; needed if there are several"),
-      by_hand("formula", R"("type": ["string", "number"])", "of conditions and columns of [trace.columns], SI")
+      by_hand("indication", shape::text(), "indication to which the effect is added; required if there are several"),
+      by_hand("formula", R"("type": ["string", "number"])", "formula of conditions and columns of [trace.columns], in "
+                                                            "SI units")
           .needed("formula = \"1 / feed\""),
-      by_hand("unit", shape::text(), "of its size: size times formula is what the indication is")
+      by_hand("unit", shape::text(), "unit of the size; size times formula has the dimension of the indication")
           .needed("unit = \"um\""),
-      by_hand("size", shape::reference("quantity"), "left out: a candidate of gumshoe trace, at its null value"),
+      by_hand("size", shape::reference("quantity"), "size of the effect; default: its null value, as a candidate of "
+                                                    "gumshoe trace"),
       option::text("meaning", &StatedEffect::meaning, ""),
       option::source(&StatedEffect::source),
   };
@@ -125,7 +127,7 @@ private:
     }
   }
 
-  /// Only what was commanded or recorded beside the readings.
+  /// Adds a problem for each name that is neither a condition nor a recorded column.
   void names(const formula::Formula& f) {
     std::vector<Problem> found;
     std::vector<std::string> known;

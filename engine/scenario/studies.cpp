@@ -26,10 +26,10 @@ Options<ConformityTest> conformity_options(const std::string& si_unit) {
       option::measure("lower", &Test::lower, {si_unit}, "lower tolerance limit"),
       option::measure("upper", &Test::upper, {si_unit}, "upper tolerance limit"),
       option::measure("guard_band", &Test::guard_band, {si_unit, units::Kind::difference},
-                      "w, by which the acceptance limits lie inside the tolerance limits; below 0: outside"),
+                      "w, distance of the acceptance limits inside the tolerance limits; below 0: outside"),
       option::number("guard_factor", &Test::guard_factor, "r of w = r U"),
       option::by_hand<Test>("process", shape::reference("quantity"),
-                            "what is known of the measurand before measuring, as one distribution: gives global risks"),
+                            "prior knowledge of the measurand, as one distribution; gives the global risks"),
   };
 }
 
@@ -37,7 +37,7 @@ Options<Target> target_options(const std::string& si_unit) {
   return {
       option::by_hand<Target>(measurand_key()),
       option::by_hand<Target>(labels_key()),
-      option::width("U", &Target::expanded_uncertainty, si_unit, "wanted expanded uncertainty").needed("U = \"5 um\""),
+      option::width("U", &Target::expanded_uncertainty, si_unit, "target expanded uncertainty").needed("U = \"5 um\""),
       option::by_hand<Target>("costs", shape::map(shape::reference("positive")),
                               "cost of a quantity at its present u; half of u costs twice as much"),
   };
@@ -154,8 +154,8 @@ Shape conformity_shape() {
                                               R"("not": {"required": ["guard_band", "guard_factor"]})");
 }
 
-Key measurand_key() { return {"measurand", shape::text(), "one of the measurands of the model's evaluation", true}; }
-Key labels_key() { return {"labels", shape::reference("labels"), "of the readings meant; left out: all"}; }
+Key measurand_key() { return {"measurand", shape::text(), "measurand of the evaluation", true}; }
+Key labels_key() { return {"labels", shape::reference("labels"), "labels of the readings; default: all"}; }
 
 const VariableCard* read_measurand(Table& table, const ModelCard& model) {
   if (!table.require("measurand")) return nullptr;

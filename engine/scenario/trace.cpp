@@ -186,11 +186,12 @@ private:
 Options<TraceOptions> trace_options() {
   const Shape act = shape::texts(R"("minItems": 1)");
   return {
-      option::text("blocks", &TraceOptions::blocks, "label whose values are blocks: set-ups, days, clampings"),
+      option::text("blocks", &TraceOptions::blocks, "label whose values define the blocks: set-ups, days, clampings"),
       option::texts("final", &TraceOptions::final_blocks, R"("minItems": 1)",
-                    "hold-out blocks; left out: the last quarter, at least one"),
+                    "hold-out blocks; default: the last quarter, at least one"),
       option::by_hand<TraceOptions>("order", shape::text(),
-                                    "order of measurement: a condition or a column; left out: as the readings stand"),
+                                    "order of measurement: a condition or a column; default: the order of the "
+                                    "readings"),
       option::by_hand<TraceOptions>(
           "redone", shape::list(act),
           "labels that identify one redone set-up step, such as a clamping, which may leave scatter behind. Empty: "
@@ -198,11 +199,13 @@ Options<TraceOptions> trace_options() {
           "was redone. Left out: every set of one or two labels with at least six combinations"),
       option::texts("free", &TraceOptions::free, "",
                     "quantities whose stated values come from these data: fitted again, as if marked estimated"),
-      option::share("alpha", &TraceOptions::alpha, true, "chance that anything is found where nothing is"),
-      option::whole("draws", &TraceOptions::draws, 99, 1'000'000, "draws of the parametric bootstrap"),
+      option::share("alpha", &TraceOptions::alpha, true, "false-alarm rate: probability of any finding if there is "
+                                                         "nothing to find"),
+      option::whole("draws", &TraceOptions::draws, 99, 1'000'000, "number of draws of the parametric bootstrap"),
       option::whole("seed", &TraceOptions::seed, 0, most_seed, "seed of the bootstrap"),
       option::by_hand<TraceOptions>("columns", shape::map(shape::table(column_keys())),
-                                    "recorded along with the readings, in the same data file: a temperature, an order"),
+                                    "quantities recorded with the readings, in the same data file, such as a "
+                                    "temperature"),
   };
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Reads [trace]: what of the readings is a block, an order, one act done anew, and what was recorded beside them.
+/// Reads [trace]: blocks, order, re-done set-up steps, and the quantities recorded with the readings.
 #include "base/card.h"
 #include "scenario/option.h"
 #include "scenario/readouts.h"

@@ -8,8 +8,8 @@
 
 namespace gumshoe::scenario {
 
-/// What was recorded beside the readings: a temperature, an order. One value a reading, SI (the mean over its
-/// readouts).
+/// A quantity recorded with the readings, such as a temperature or an order. One value per reading, SI (the mean over
+/// its repeats).
 struct TraceColumn {
   std::string name, unit, si_unit;
   std::vector<double> values;

@@ -102,13 +102,13 @@ std::vector<Key> uncertainty_keys() {
   const Shape measure = reference("measure"), width = reference("width"), positive = reference("positive");
   const std::string some = R"("minItems": 1)";
   return {
-      {"distribution", words(distribution_names()), "JCGM 101:2008, Table 1, and a few more; left out: normal"},
+      {"distribution", words(distribution_names()), "JCGM 101:2008, Table 1, and a few more; default: normal"},
       {"u", width, "standard uncertainty; for a t distribution the scale s/sqrt(n)"},
       {"U", width, "expanded uncertainty, with its coverage factor k"},
       {"k", positive, "coverage factor of U"},
-      {"half_width", width, "half the width about the value"},
-      {"low", measure, "lower limit; of a component: of the deviation"},
-      {"high", measure, "upper limit; of a component: of the deviation"},
+      {"half_width", width, "half-width about the value"},
+      {"low", measure, "lower limit; for a component, of the deviation"},
+      {"high", measure, "upper limit; for a component, of the deviation"},
       {"inexactness", width, "curvilinear trapezoid: half-width of each limit's range"},
       {"top_ratio", interval(0, 1, false), "trapezoid: width of the top over that of the base"},
       {"mean", measure, "exponential: expectation"},
@@ -119,13 +119,13 @@ std::vector<Key> uncertainty_keys() {
       {"sigma", positive, "lognormal: standard deviation of ln x"},
       {"values", any_of({list(measure, some), table(data_column_keys())}),
        "discrete and empirical: the values, or a column of a data file"},
-      {"probabilities", list(interval(0, 1, false)), "discrete: one per value, adding up to 1"},
+      {"probabilities", list(interval(0, 1, false)), "discrete: one probability per value; their sum is 1"},
       {"observations", list(measure, R"("minItems": 2)"),
-       "Type A: repeated observations; a t with n - 1 degrees of freedom"},
+       "Type A evaluation: repeated observations, giving a t distribution with n - 1 degrees of freedom"},
       {"evaluation", words({"A", "B"}), "Type A or Type B evaluation (GUM 2.3.2, 2.3.3)"},
-      {"degrees_of_freedom", positive, "left out: infinite"},
+      {"degrees_of_freedom", positive, "default: infinite"},
       {"per", any_of({text(), list(text())}),
-       "scope: one draw per combination of these labels, or per \"reading\"; left out: one draw"},
+       "scope: one draw per combination of these labels, or per \"reading\"; default: a single draw"},
       {"source", reference("source")},
   };
 }

@@ -82,7 +82,7 @@ void write_choice_group(hid_t file, const Result& r) {
   if (!r.shapley.effects.empty()) shapley.push_back(r.shapley);
   write_sensitivity(group, sobol, shapley);
   write_list(group, "evaluations", r.evaluations, "evaluations of the model, by position");
-  write_list(group, "skipped_why", r.skipped_why, "why some combinations cannot be");
+  write_list(group, "skipped_why", r.skipped_why, "why some combinations are impossible");
   write_list(file, "notes", r.notes, "decisions and warnings a reader must see");
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// The result file of `gumshoe choose` (layout: README.md beside this file).
+/// The result file of `gumshoe choose` (layout: README.md in this folder).
 #include <string>
 
 #include "choice/results.h"

@@ -1,6 +1,6 @@
 #pragma once
-/// The tables of the result file as their fields describe them: the middle part of README.md beside this file, and the
-/// columns of the report's CSV tables. Printed by the hidden command `gumshoe fields`.
+/// The tables of the result file as their fields describe them: the middle part of README.md in this folder, and the
+/// columns of the report's CSV tables. The hidden command `gumshoe fields` prints them.
 #include <string>
 
 namespace gumshoe::store {

@@ -12,13 +12,13 @@ namespace gumshoe::store {
 /// unwritable folder. Returns the path to write; throws OutputError.
 std::string destination(const std::string& path);
 
-/// A name beside `path` under which a new file is built before it takes its place.
+/// Name in the folder of `path` under which a new file is built before it is moved to `path`.
 std::string temporary_name(const std::string& path);
 
-/// Removes what processes that were killed left under such names of theirs.
+/// Removes files with such names that killed processes left behind.
 void remove_leftovers(const std::string& path);
 
-/// Whether another process holds the file locked, as HDF5 does with what it has open.
+/// Whether another process holds a lock on the file, as HDF5 does on every open file.
 bool held_by_another(const std::string& path);
 
 /// Throws OutputError unless the disk of `path` has that many bytes free.

@@ -50,7 +50,7 @@ struct ResultFile::Impl {
   void create(Impl* before = nullptr, const analysis::Results* results = nullptr);
   /// Whether the file at the path is an unfinished one of the same run, which then goes on.
   bool resume();
-  /// Of the same run, with another number of samples, and no file yet.
+  /// The same run with another number of samples, and no file yet.
   std::unique_ptr<Impl> successor(std::uint64_t count) const;
   void take_over(Impl& before);
   void open_samples();

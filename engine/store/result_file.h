@@ -1,5 +1,5 @@
 #pragma once
-/// The result file (layout: README.md beside this file). The only door to HDF5.
+/// The result file (layout: README.md in this folder). The only door to HDF5.
 #include <memory>
 #include <optional>
 #include <string>

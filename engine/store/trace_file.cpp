@@ -48,7 +48,7 @@ void write_curve(hid_t group, const Curve& c) {
 
 void write_finding(hid_t group, const Finding& f) {
   write_attributes(group, finding_fields, f);
-  write_list(group, "members", f.members, "effects that these data cannot tell apart, the best first");
+  write_list(group, "members", f.members, "effects that these data cannot distinguish, the best first");
   write_list(group, "depends_on", f.depends_on, "conditions, columns or labels that it depends on");
   write_list(group, "remarks", f.remarks, "what a reader must know of it");
   write_quantities(group, f);
@@ -124,7 +124,7 @@ void write_data(hid_t file, const scenario::Scenario& s, const ModelCard& card) 
   filled("columns", [&](hid_t group, Table& table) {
     for (const auto& c : s.trace.columns)
       if (c.values.size() == readings.size())
-        write_column(group, table, c.name, c.values, c.unit, c.si_unit, "recorded beside the readings");
+        write_column(group, table, c.name, c.values, c.unit, c.si_unit, "recorded with the readings");
   });
 }
 
@@ -141,7 +141,7 @@ void write_residuals(hid_t file, const scenario::Scenario& s, const ModelCard& c
   Table table(group, "row", rows.size());
   write_fields(table, residual_fields, rows);
   table.numbers("final", column(rows, [](const Row& row) { return static_cast<std::uint8_t>(row.held_out ? 1 : 0); }), "1",
-                "whether it was kept apart until the end");
+                "whether it was held out");
   if (rows.empty()) return;
   const hdf5::Handle flags = hdf5::own(H5Dopen2(group, "final", H5P_DEFAULT), H5Dclose, "describe the flags");
   hdf5::write_attribute(flags, "flag_values", std::vector<std::uint8_t>{0, 1});

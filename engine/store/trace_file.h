@@ -1,5 +1,5 @@
 #pragma once
-/// The result file of `gumshoe trace` (layout: README.md beside this file).
+/// The result file of `gumshoe trace` (layout: README.md in this folder).
 #include <string>
 #include <vector>
 

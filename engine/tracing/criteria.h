@@ -62,13 +62,13 @@ struct Criteria {
   /// 2 ln L that decides between two explanations: the 95 % quantile of chi-squared with one degree of freedom.
   double decisive = 3.84;
   double as_good = 1e-6;           ///< 2 ln L within which covariance models are equal: far above rounding
-  int most_iterations = 14;        ///< of Gauss-Newton: smooth models take four, models that jump gain nothing by more
+  int most_iterations = 14;        ///< Gauss-Newton iterations: smooth models need four, jumping ones gain nothing by more
   int most_offset_iterations = 20; ///< the same for offsets of blocks outside the fit
   int most_optima = 4;             ///< optima left for a better one where readings jump
   double converged = 1e-3;         ///< largest step of an unknown, in its standard uncertainty
   double stalled = 0.1;            ///< the same where no shorter step reduces the residuals: still a fit
   double noise_settled = 0.02;     ///< change of ln variance below which the scale of the noise is kept
-  double noise_prior = 4;          ///< readings that the declared size of the noise is worth beside the residuals
+  double noise_prior = 4;          ///< weight of the declared size of the noise, as a number of readings
   /// Sizes tried where readings jump: up to so many standard uncertainties either side, in these two spacings.
   double profile_reach = 6, profile_spacing = 0.25, profile_coarse = 1.5;
   /// Readings jump if they bend by more than this many standard deviations of the noise, and by less than this share of

@@ -27,7 +27,8 @@ void state_what_design_rules_out(const TraceContext& c, const scenario::Scenario
       continue;
     const std::string unit(card.conditions[i].unit);
     out.statements.push_back(
-        fmt::format("{} is {:.6g}{} in every reading: whatever grows with it cannot be distinguished from a constant",
+        fmt::format("{} is {:.6g}{} in every reading; an effect that grows with it cannot be distinguished from a "
+                    "constant",
                     card.conditions[i].name, units::from_si(first, unit, std::string(card.conditions[i].si_unit)),
                     unit == "1" ? "" : " " + unit));
   }
@@ -42,17 +43,18 @@ bool enough(const TraceContext& c, Trace& out) {
     const auto& readings = c.experiment.scenario().readings;
     const bool repeated = std::any_of(readings.begin(), readings.end(), [](const auto& r) { return r.repeats > 1; });
     out.statements.push_back(
-        fmt::format("{} readings{} determine {} unknowns; it takes at least four readings more than unknowns to "
+        fmt::format("{} readings{} determine {} unknowns; at least four more readings than unknowns are needed to "
                     "judge the residuals",
-                    rows.size(), repeated ? " (readouts of equal labels and conditions count as one)" : "", unknowns));
+                    rows.size(), repeated ? " (readings with equal labels and conditions count as one)" : "", "
+                                            "unknowns));
     out.outcome = Outcome::insufficient_data;
     return false;
   }
   const double size = std::fabs(*std::max_element(c.observations.measured.begin(), c.observations.measured.end(),
                                                   [](double a, double b) { return std::fabs(a) < std::fabs(b); }));
   if (fit.residual(rows).cwiseAbs().maxCoeff() > criteria.exact * size) return true;
-  out.statements.push_back("the readings agree with the model to their last digit: they do not scatter, so "
-                           "nothing can be distinguished from chance (a readout in steps too wide, or copied rows?)");
+  out.statements.push_back("the readings agree with the model to their last digit; they do not scatter, and nothing "
+                           "can be distinguished from chance (is the display step too coarse, or are rows copied?)");
   out.outcome = Outcome::insufficient_data;
   return false;
 }
@@ -79,7 +81,8 @@ Trace trace(const scenario::Scenario& scenario, const Settings& settings) {
   const propagation::Experiment experiment(out.extended);
   const auto& model = experiment.model();
   if (!model.simulate_gradient && !(model.kernels && model.kernels() && model.kernels()->simulate))
-    calibration::refuse(scenario.file, fmt::format("model {}: it cannot simulate its indications", scenario.model),
+    calibration::refuse(scenario.file, fmt::format("model {}: the model cannot simulate its indications", "
+                                                   "scenario.model),
                         "residuals are measured minus simulated indications",
                         scenario.made ? "add [model.indications] with a formula for each" : "");
   const Observations observations = observe(experiment);
@@ -105,10 +108,10 @@ Trace trace(const scenario::Scenario& scenario, const Settings& settings) {
   out.candidates = found.ranking;
   out.detection_limits = found.limits;
   if (!found.base.converged)
-    out.statements.push_back("the fit of the declared model did not converge: do not rely on any figure");
+    out.statements.push_back("the fit of the declared model did not converge; none of the figures is reliable");
   if (found.base.kink)
     out.statements.push_back(
-        "the model has a kink where it was linearised: its derivatives there hold for one side only");
+        "the model has a kink at the point of linearisation; its derivatives hold for one side only");
   out.vetoed = compare(c, found, out);
   describe_noise(c, found, out);
   collect(c, found, out);

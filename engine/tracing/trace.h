@@ -67,7 +67,7 @@ struct RankedCandidate {
   double identifiable = 1; ///< share of its signature that the declared model does not absorb
   std::string absorbed_by; ///< estimated or declared quantity, where next to nothing is left
   double correlation = 0;  ///< of its projected signature with that of the best
-  std::string outcome;     ///< "named", "in the class", "refused: ..."
+  std::string outcome;     ///< "named", "member of the class", "refused: ..."
 };
 
 /// The smallest size that is detected in nine cases of ten.

@@ -116,7 +116,7 @@ CHECKED = [
     # correlations
     (SCENARIO, None, CORRELATED, "either a coefficient or a matrix is needed"),
     (SCENARIO, None, CORRELATED + "matrix = [[1, 0.5], [0.4, 1]]\n", "correlations are symmetric"),
-    (SCENARIO, None, CORRELATED.replace(', "beam_pitch"', "") + "coefficient = 0.5\n", "two quantities or more"),
+    (SCENARIO, None, CORRELATED.replace(', "beam_pitch"', "") + "coefficient = 0.5\n", "at least two quantities"),
     (SCENARIO, None, '[quantities.beam_yaw]\nu = "1 deg"\n' + CORRELATED.replace('"beam_pitch"', '"beam_pitch", "beam_yaw"')
      + "coefficient = 0.5\n", "one coefficient for 3 quantities"),
     (SCENARIO, None, CORRELATED.replace('"beam_pitch"', '"rod_radius"') + "coefficient = 0.5\n", "is named twice"),
@@ -150,7 +150,7 @@ CHECKED = [
     (FORMULA, None, '[conditions]\na = "1 mm"\n', "names must be unique"),
     (FORMULA, 'y = "a + b"', 'y = { formula = "a + b", unit = "s" }', "unit: 's' is not"),
     (FORMULA, "[quantities]", '[model.intermediates]\n"a b" = "1"\n[quantities]', "cannot be the name of a formula"),
-    (COMMAND, 'y = "mm"', "", "there is nothing to evaluate"),
+    (COMMAND, 'y = "mm"', "", "nothing can be evaluated"),
     (COMMAND, 'y = "mm"', '"y,z" = "mm"', "cannot be a column"),
     ('schema = 1\n[model]\nname = "sphere_probing"\n[machine]\nworkpiece_side = ["C"]\ntool_side = ["X", "Y"]\n', None, "",
      "three slides bring the tip to the sphere"),

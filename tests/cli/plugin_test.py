@@ -206,7 +206,7 @@ class Plugin(unittest.TestCase):
     def test_bad_libraries(self):
         cases = [
             (["-DABI=2"], ["version 2 of the plugin interface", "this program uses version 1"]),
-            (["-DNAME=other"], ["is not a plugin (it exports no function gumshoe_plugin)"]),
+            (["-DNAME=other"], ["is not a plugin (it does not export a function gumshoe_plugin)"]),
             (["-DMEASURANDS={\"y\", \"foo\", 0, 0, 0, 0}"], ["y: 'foo' is not a unit"]),
             (['-DQUANTITIES={"a", "mm", 0, 0, 0, 0}, {"a", "mm", 0, 0, 0, 0}'], ["the name 'a' is used twice"]),
             (['-DQUANTITIES={"a", "mm", 0, 0, 0, 0}, {"feed", "1", 0, 0, 0, 0}'], ["the name 'feed' is used twice"]),

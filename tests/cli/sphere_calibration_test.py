@@ -215,11 +215,11 @@ class SphereCalibration(unittest.TestCase):
             wrong = [[x * factor if k in axes else x for k, x in enumerate(row)] for row in data]
             self.rows(header, *wrong, evaluation="joint", code=2)
             self.assertIn("X spreads over", self.run.stderr)
-            self.assertIn("a wrong unit?", self.run.stderr)
+            self.assertIn("is a unit wrong?", self.run.stderr)
         self.rows(header[:4], *(row[:4] for row in data), evaluation="joint", code=2)
         self.assertIn("column 'Z' is missing", self.run.stderr)
         self.rows(header, data[0], evaluation="joint", code=2)
-        self.assertIn("one pose says nothing of the axes", self.run.stderr)
+        self.assertIn("one pose cannot determine the axes", self.run.stderr)
         # Poses repeated, or at one B only: an answer, and how much of it the data bear.
         rank = lambda rows: self.rows(header, *rows, evaluation="joint")[0]["rank (1)"]
         self.assertEqual(rank(data + data[-3:]), "11")

@@ -47,14 +47,14 @@ MISTAKES = {
     "standing spindle": (swap("1000 rpm", "0 rpm"), 5, ["conditions: spindle_speed is not positive"]),
     "turning backwards": (swap("1000 rpm", "-1000 rpm"), 5, ["spindle_speed is not positive"]),
     "fed upwards": (swap('start_height = "0.5 mm"', 'direction = "1"'), 8, ["direction is not -1"]),
-    "two and a half inserts": (swap("inserts = 2", "inserts = 2.5"), 10, ["inserts is not a whole number"]),
+    "two and a half inserts": (swap("inserts = 2", "inserts = 2.5"), 10, ["inserts is not an integer"]),
     "no inserts": (swap("inserts = 2", "inserts = 0"), 10, ["inserts"]),
     "thirteen inserts": (swap("inserts = 2", "inserts = 13"), 10, ["inserts", "12"]),
     "wear larger than the insert": (swap('wear_1 = "0 mm"', 'wear_1 = "7 mm"'), 12, ["wear", "insert_radius"]),
     "effect of a standing tool": (SCENARIO + '[effects.rod_runout]\nx = "1 um"\n', 19, ["tool_length cannot carry it"]),
     "speed error beyond limits": (SCENARIO + '[effects.spindle_speed_error]\nerror = "-100 %"\n', 20, ["spindle_speed_error.error", "-50"]),
     "an insert that is not there": (SCENARIO + '[effects.insert_radius_error]\nradius_13 = "1 um"\n', 20, ["radius_13", "Did you mean 'radius_1"]),
-    "an insert of no radius": (SCENARIO + '[effects.insert_radius_error]\nradius_2 = "-6 mm"\n', None, ["insert_radius with its errors is not positive"]),
+    "an insert of no radius": (SCENARIO + '[effects.insert_radius_error]\nradius_2 = "-6 mm"\n', None, ["insert_radius including its errors is not positive"]),
 }
 
 

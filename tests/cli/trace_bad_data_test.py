@@ -96,7 +96,7 @@ class BadData(unittest.TestCase):
             said = self.verdict(rows(setups, feeds), setups)
             self.assertEqual(said["verdict"], "insufficient_data")
             self.assertEqual(said["findings"], [])
-            self.stated(said, "four readings more than unknowns")
+            self.stated(said, "at least four more readings than unknowns")
             self.assertIsNone(said["rms"]["before"])
         # Twelve readouts alike in all but the round are twelve; without the round they are one reading.
         said = self.verdict([[s, 0, f, z] for s, _, f, z in rows((1,), (20,) * 12)], (1,))
@@ -142,7 +142,7 @@ class BadData(unittest.TestCase):
         for noise in (NOISE, ""):
             said = self.verdict(rows(), noise=noise, trace="[trace]\ndraws = 99")
             self.assertEqual(said["findings"][0]["name"], "trigger_latency")
-            self.stated(said, "no label of blocks is stated")
+            self.stated(said, "[trace] blocks names no label")
         self.assertEqual(self.verdict(rows(), trace="")["draws"], 999)
 
     def test_order_with_ties(self):

@@ -48,7 +48,7 @@ public:
   std::size_t first_effect() const { return model_.card->quantities.size(); }
   std::size_t first_indication() const { return cards_.size(); }
   std::size_t size() const { return first_indication() + model_.card->indications.size(); }
-  /// Of a quantity: x[i] with i below first_indication().
+  /// Card of the quantity x[i], i below first_indication().
   const QuantityCard& card(std::size_t i) const { return *cards_[i]; }
   std::string name(std::size_t i) const;
   bool simulates() const { return model_.kernels()->simulate != nullptr; }

@@ -313,7 +313,7 @@ class Trace(unittest.TestCase):
                 seen |= labels
             self.assertLess(len(kept) - 1, 8 + 4)  # eight heights of the beam
             return kept
-        self.says(self.cut(every_label_once), "insufficient_data", "four readings more than unknowns")
+        self.says(self.cut(every_label_once), "insufficient_data", "at least four more readings than unknowns")
 
     def test_not_a_number(self):
         def change(lines):

@@ -123,7 +123,7 @@ TEST_CASE("names mean one thing and formulas do not go round in a circle", "[exp
                              inputs;
   CHECK(complaint(circle).starts_with("s.toml:7:6: error: model.intermediates.w: 'u' depends on itself (u -> v -> w -> u)"));
   const std::string twice = start + "[model.intermediates]\nn = \"t\"\n[model.measurands]\ny = \"n\"\n" + inputs;
-  CHECK(complaint(twice).starts_with("s.toml:5:6: error: model.intermediates.n: 'n' is a quantity already"));
+  CHECK(complaint(twice).starts_with("s.toml:5:6: error: model.intermediates.n: 'n' is already a quantity"));
   // In any order, and a chain longer than the program's stack would hold.
   std::string chain = start + "[model.measurands]\ny = \"i0\"\n[model.intermediates]\n";
   for (int i = 0; i < 20000; ++i) chain += "i" + std::to_string(i) + " = \"i" + std::to_string(i + 1) + " + 1\"\n";

@@ -318,8 +318,8 @@ TEST_CASE("a wrong description is told by place and reason", "[machine]") {
   told({"", Axes{{"X"}}, std::nullopt}, "tool_side", "spindle");
   told({"", std::nullopt, Axes{{"X"}}}, "workpiece_side", "workpiece");
   told({"", Axes{{"Q"}}, Axes{{"X"}}}, "workpiece_side[0]", "'Q' is not an axis");
-  told({"", Axes{}, Axes{{"XY"}}}, "tool_side[0]", "no axis");
-  told({"", Axes{}, Axes{{""}, {"X"}}}, "tool_side[0]", "no axis");
+  told({"", Axes{}, Axes{{"XY"}}}, "tool_side[0]", "is not an axis");
+  told({"", Axes{}, Axes{{""}, {"X"}}}, "tool_side[0]", "is not an axis");
   told({"", Axes{}, Axes{{"X", "rotary"}}}, "tool_side[0].kind", "axis X is linear");
   told({"", Axes{}, Axes{{"C", "linear"}}}, "tool_side[0].kind", "axis C is rotary");
   told({"", Axes{}, Axes{{"C", "", {0, std::nan(""), 0}}}}, "tool_side[0].point", "not finite");

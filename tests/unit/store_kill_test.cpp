@@ -152,7 +152,7 @@ TEST_CASE("a result of ours that cannot be read gives way to a run from the star
     std::string remark;
     run(path, &remark);
     CHECK(remark.find("truncated") != std::string::npos);
-    CHECK(remark.find("from the start") != std::string::npos);
+    CHECK(remark.find("from the beginning") != std::string::npos);
     CHECK((bytes(path) == whole)); // bracketed: not to be printed
   }
 }

@@ -147,5 +147,5 @@ TEST_CASE("the ranking says why a candidate came no further", "[tracing]") {
   CHECK(refusal(1e-6, "laser_z", 1e-9, 0.01) == "not testable: absorbed by laser_z");
   CHECK(refusal(1e-6, "", 1e-9, 0.01) == "not testable: absorbed by the fit");
   CHECK(refusal(0.5, "", 0.02, 0.01) == "refused: no more than chance");
-  CHECK(refusal(0.5, "", 0.001, 0.01) == "refused: another explains it better");
+  CHECK(refusal(0.5, "", 0.001, 0.01) == "refused: another candidate explains the residuals better");
 }

@@ -23,7 +23,7 @@ struct BAxisReversal : On<AxisReversal, axis_B> {
   static constexpr EffectCard card =
       on({.name = "b_axis_reversal", .title = "Reversal error of the B axis", .iso230 = "E_BB",
           .adds = "E_BB -= B.direction backlash / 2",
-          .confused_with = "E_BB where every angle was reached from one side; time, if the sides were measured one "
+          .confused_with = "E_BB if every angle was reached from one side; time, if the sides were measured one "
                            "after the other"},
          AxisReversal::common);
 };
@@ -31,7 +31,7 @@ struct CAxisReversal : On<AxisReversal, axis_C> {
   static constexpr EffectCard card =
       on({.name = "c_axis_reversal", .title = "Reversal error of the C axis", .iso230 = "E_CC",
           .adds = "E_CC -= C.direction backlash / 2",
-          .confused_with = "any constant turn of the probe where every angle was reached from one side; time, if the "
+          .confused_with = "any constant rotation of the probe if every angle was reached from one side; time, if the "
                            "sides were measured one after the other"},
          AxisReversal::common);
 };

@@ -7,15 +7,15 @@ namespace gumshoe::effects {
 struct BeamOffset {
   static constexpr QuantityCard quantities[] = {
       {.name = "x", .unit = "mm", .si_unit = "m", .limits = {-0.05, 0.05},
-       .meaning = "along the nominal beam, machine X", .role = Role::pair, .typical = {1e-5, 1e-3}},
+       .meaning = "offset along the nominal beam, machine X", .role = Role::pair, .typical = {1e-5, 1e-3}},
       {.name = "y", .unit = "mm", .si_unit = "m", .limits = {-0.05, 0.05},
-       .meaning = "across the nominal beam, machine Y", .role = Role::pair, .typical = {1e-5, 1e-3}},
+       .meaning = "offset across the nominal beam, machine Y", .role = Role::pair, .typical = {1e-5, 1e-3}},
   };
   static constexpr EffectCard card{
       .name = "beam_offset",
-      .title = "Spindle axis beside the laser reference point",
+      .title = "Offset of the spindle axis from the laser reference point",
       .stage = Stage::pose,
-      .meaning = "The spindle axis passes beside the laser reference point: x along, y across the nominal beam "
+      .meaning = "The spindle axis does not pass through the laser reference point: x along, y across the nominal beam "
                  "(machine X and Y). The measurand is then the height of the reference point.",
       .adds = "tool_x += x; tool_y += y",
       .confused_with = "beam_pitch (a pitch of 0.2836 deg gives 4.95 um per mm along the beam)",

@@ -20,9 +20,10 @@ template <int order> struct EncoderHarmonic {
 struct EncoderEccentricity : EncoderHarmonic<1> {
   static constexpr Common common{
       .stage = Stage::rotary,
-      .meaning = "The centre of the graduation lies off its bearing's centre: the angular positioning error is cosine "
+      .meaning = "The centre of the graduation does not coincide with that of the bearing: the angular positioning "
+                 "error is cosine "
                  "cos(angle) + sine sin(angle) of the commanded angle. An eccentricity of e um on a graduation of D "
-                 "mm makes 412 e / D arcsec.",
+                 "mm gives 412 e / D arcsec.",
       .source = "HEIDENHAIN, angle encoders without bearing: error 412 e / D; ISO 230-1",
       .quantities = quantities};
 };

@@ -7,7 +7,7 @@ namespace gumshoe::effects {
 struct FeedStartDelay {
   static constexpr QuantityCard quantities[] = {
       {.name = "delay", .unit = "ms", .si_unit = "s", .limits = {-10.0, 10.0},
-       .meaning = "from the start angle to the feed's begin", .role = Role::amplitude,
+       .meaning = "delay from the start angle to the start of the feed", .role = Role::amplitude,
        .typical = {1e-3, 20e-3, "6 deg per ms at 1000 rpm"}},
   };
   static constexpr EffectCard card{

@@ -6,15 +6,16 @@ namespace gumshoe::effects {
 
 struct GravitySag {
   static constexpr QuantityCard quantities[] = {
-      {.name = "drop", .unit = "um", .si_unit = "m", .limits = {-1e-3, 1e-3}, .meaning = "of the B axis at 90 deg",
+      {.name = "drop", .unit = "um", .si_unit = "m", .limits = {-1e-3, 1e-3}, .meaning = "drop of the B axis at B = "
+                                                                                         "90 deg",
        .role = Role::amplitude, .typical = {1e-6, 20e-6}},
   };
   static constexpr EffectCard card{
       .name = "gravity_sag",
-      .title = "Gravity sag of what B carries",
+      .title = "Gravity sag of the components carried by B",
       .stage = Stage::rotary,
       .iso230 = "E_ZB",
-      .meaning = "The weight that B carries swings out with sin B and its carrier gives way: the B axis stands lower "
+      .meaning = "The weight carried by B moves outwards with sin B and its carrier deflects: the B axis is lower "
                  "by drop sin(B).",
       .adds = "E_ZB -= drop sin B",
       .confused_with = "E_X0B and E_Z0B over a short range of B; the sine of b_encoder_eccentricity",

@@ -7,14 +7,15 @@ namespace gumshoe::effects {
 struct Reclamp {
   static constexpr QuantityCard quantities[] = {
       {.name = "shift", .unit = "um", .si_unit = "m", .limits = {-1e-3, 1e-3},
-       .meaning = "tool longer by this much in this clamping", .role = Role::amplitude, .typical = {1e-6, 3e-6}},
+       .meaning = "additional length of the tool in this clamping", .role = Role::amplitude, .typical = {1e-6, 3e-6}},
   };
   static constexpr EffectCard card{
       .name = "reclamp",
       .title = "Seat of the tool holder",
       .stage = Stage::pose,
-      .meaning = "Where the taper seats at this clamping; positive is a longer tool. Give it a standard uncertainty "
-                 "per clamping: that scatter is what matters.",
+      .meaning = "Position of the taper in its seat at this clamping; positive for a longer tool. State its standard "
+                 "uncertainty "
+                 "per clamping, since its scatter is what matters.",
       .adds = "tool_growth += shift",
       .confused_with = "everything constant within a clamping if each rod is clamped once",
       .source = "engineering knowledge; Fang 2022, section 2.5 for the kinematic chain",

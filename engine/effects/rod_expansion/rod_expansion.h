@@ -20,7 +20,7 @@ struct RodExpansion {
       .meaning = "The rod or tool is longer than at 20 degC (ISO 1): length times coefficient times temperature "
                  "difference.",
       .adds = "tool_growth += tool_length coefficient temperature_difference",
-      .confused_with = "z_scale (exactly collinear where spindle_z minus rod_length is constant), drift in time",
+      .confused_with = "z_scale (exactly collinear if spindle_z minus rod_length is constant); drift in time",
       .source = "engineering knowledge; Fang 2022, section 2.5 for the kinematic chain; coefficient of steel 11.5 "
                 "um/(m K)",
       .quantities = quantities};

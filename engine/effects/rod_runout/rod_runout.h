@@ -15,7 +15,8 @@ struct RodRunout {
       .name = "rod_runout",
       .title = "Radial run-out of the rod",
       .stage = Stage::standing,
-      .meaning = "The axis of the rod lies off the spindle axis, in the tool-holder frame, so it turns with the "
+      .meaning = "The axis of the rod is displaced from the spindle axis in the tool-holder frame, so that it turns "
+                 "with the "
                  "holder angle.",
       .adds = "tool_x += x cos theta - y sin theta; tool_y += x sin theta + y cos theta (theta: holder angle)",
       .confused_with =

@@ -6,19 +6,20 @@ namespace gumshoe::effects {
 
 struct SamplingRate {
   static constexpr QuantityCard quantities[] = {
-      {.name = "period", .unit = "ms", .si_unit = "s", .limits = {0.0, 1.0}, .symbol = "T", .meaning = "of sampling",
+      {.name = "period", .unit = "ms", .si_unit = "s", .limits = {0.0, 1.0}, .symbol = "T", .meaning = "sampling "
+                                                                                                       "period",
        .role = Role::amplitude, .typical = {0.1e-3, 4e-3}},
       {.name = "phase", .unit = "1", .si_unit = "1", .limits = {0.0, 1.0},
-       .meaning = "share of a period from the feed's begin to the first sampling", .role = Role::shape,
+       .meaning = "time from the start of the feed to the first sample, as a share of the period", .role = Role::shape,
        .typical = {0, 1, "rectangular where the clocks are free"}},
   };
   static constexpr EffectCard card{
       .name = "sampling_rate",
       .title = "Sampling of the receiver",
       .stage = Stage::timing,
-      .meaning = "The receiver holds the trigger, none is missed, until it is next looked at: a latency between "
-                 "nothing and a period. A phase drawn from 0 to 1 makes it rectangular. The reading is a staircase "
-                 "and has no derivative; the engine gives those of its mean (half a period) and, for the phase, one "
+      .meaning = "The receiver holds a trigger, so that none is missed, until it is sampled next: a latency between "
+                 "zero and one period. A phase drawn from 0 to 1 makes it rectangular. The reading is a step function "
+                 "without a derivative; the engine gives that of its mean (half a period) and, for the phase, one "
                  "period, which for a phase from 0 to 1 is the rectangle's uncertainty.",
       .adds = "sampling_period += period; sampling_phase += phase",
       .confused_with = "trigger_latency, of half a period",

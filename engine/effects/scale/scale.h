@@ -11,7 +11,7 @@ struct Scale {
   static constexpr Common common(std::span<const QuantityCard> quantities) {
     return {.stage = Stage::slides,
             .meaning = "Actual minus commanded position grows in proportion to the command. A model's quantity of "
-                       "this symbol is an error at one place and adds to the reading.",
+                       "this symbol is an error at one place and is added to the reading.",
             .source = "engineering knowledge; ISO 230-1",
             .quantities = quantities};
   }
@@ -45,7 +45,7 @@ struct ZScale : On<Scale, slide_Z> {
       .iso230 = "E_ZZ",
       .meaning = "Actual minus commanded position grows in proportion to the commanded Z.",
       .adds = "z.scale += E_ZZ",
-      .confused_with = "rod_expansion (exactly collinear where spindle_z minus rod_length is constant)",
+      .confused_with = "rod_expansion (exactly collinear if spindle_z minus rod_length is constant)",
       .source = "engineering knowledge; Fang 2022, section 2.5 for the kinematic chain; ISO 230-1",
       .quantities = quantities};
 };

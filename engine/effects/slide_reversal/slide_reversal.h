@@ -24,19 +24,19 @@ struct SlideReversal {
 struct XReversal : On<SlideReversal, slide_X> {
   static constexpr EffectCard card =
       on({.name = "x_reversal", .title = "Reversal error of X", .adds = "x.error -= x.direction backlash / 2",
-          .confused_with = "any constant while X comes from one side"},
+          .confused_with = "any constant if X is always reached from one side"},
          SlideReversal::common(Stage::slide_directions));
 };
 struct YReversal : On<SlideReversal, slide_Y> {
   static constexpr EffectCard card =
       on({.name = "y_reversal", .title = "Reversal error of Y", .adds = "y.error -= y.direction backlash / 2",
-          .confused_with = "any constant while Y comes from one side"},
+          .confused_with = "any constant if Y is always reached from one side"},
          SlideReversal::common(Stage::slide_directions));
 };
 struct ZReversal : On<SlideReversal, slide_Z> {
   static constexpr EffectCard card =
       on({.name = "z_reversal", .title = "Reversal error of Z", .adds = "z.error -= z.direction backlash / 2",
-          .confused_with = "any constant while all approaches come from one side"},
+          .confused_with = "any constant if all approaches are from one side"},
          SlideReversal::common(Stage::motion));
 };
 

@@ -11,12 +11,12 @@ struct SpindleSpeedError {
   };
   static constexpr EffectCard card{
       .name = "spindle_speed_error",
-      .title = "Speed of the spindle",
+      .title = "Speed error of the spindle",
       .stage = Stage::spindle,
       .meaning = "True speed = commanded speed (1 + error). The tool descends feed / true speed per revolution, which "
-                 "scales the grid of heights, and it has turned by another angle when it reaches the beam.",
+                 "scales the grid of heights, and it reaches the beam at another angle.",
       .adds = "speed *= 1 + error",
-      .confused_with = "spindle_speed, exactly; the start of the feed (the phase runs away with the start height)",
+      .confused_with = "spindle_speed, exactly; the start of the feed (the phase error grows with the start height)",
       .source = "engineering knowledge; Fang 2022, chapter 3 for the measurement",
       .quantities = quantities};
   template <class T> static void apply(const T* q, chain::ProbingEvent<T>& event) {

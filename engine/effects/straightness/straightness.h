@@ -19,7 +19,7 @@ struct Straightness {
             .stage = Stage::slides,
             .iso230 = symbols,
             .meaning = "The guideway is bowed: actual minus commanded position across it grows with the square of the "
-                       "commanded position along it. 80 um/m2 are 5 um over 0.5 m. What is linear is squareness.",
+                       "commanded position along it. 80 um/m2 give 5 um over 0.5 m. The linear part is squareness.",
             .adds = adds,
             .confused_with = "second harmonics of C, as a square is one on a circle; squareness and offsets over a "
                              "short travel",

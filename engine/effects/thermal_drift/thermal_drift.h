@@ -22,7 +22,7 @@ struct ThermalDrift {
       DriftRow::amplitude("amplitude_x", "final drift of the first-order part along X"),
       DriftRow::amplitude("amplitude_y", "final drift of the first-order part along Y"),
       {.name = "time_constant", .unit = "min", .si_unit = "s", .default_value = 1800.0, .limits = {1.0, 1e6},
-       .meaning = "of the first-order part", .role = Role::shape, .typical = {600, 3600}},
+       .meaning = "time constant of the first-order part", .role = Role::shape, .typical = {600, 3600}},
   };
   static constexpr EffectCard card{
       .name = "thermal_drift",

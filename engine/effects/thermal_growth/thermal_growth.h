@@ -11,7 +11,7 @@ struct ThermalGrowth {
       {.name = "amplitude", .unit = "um", .si_unit = "m", .limits = {-1e-3, 1e-3},
        .meaning = "final growth of the first-order part", .role = Role::amplitude, .typical = {5e-6, 50e-6}},
       {.name = "time_constant", .unit = "min", .si_unit = "s", .default_value = 1800.0, .limits = {1.0, 1e6},
-       .meaning = "of the first-order part", .role = Role::shape, .typical = {600, 3600}},
+       .meaning = "time constant of the first-order part", .role = Role::shape, .typical = {600, 3600}},
   };
   static constexpr EffectCard card{
       .name = "thermal_growth",

@@ -12,15 +12,16 @@ struct ToolRunout {
       {.name = "y", .unit = "um", .si_unit = "m", .limits = {-1e-3, 1e-3},
        .meaning = "displacement a quarter turn ahead, counter-clockwise", .role = Role::pair, .typical = {1e-6, 20e-6}},
       {.name = "tilt_x", .unit = "mrad", .si_unit = "rad", .limits = {-0.1, 0.1},
-       .meaning = "turn of the tool about its X, through its centre", .role = Role::pair, .typical = {2e-5, 2e-4}},
+       .meaning = "rotation of the tool about its X through its centre", .role = Role::pair, .typical = {2e-5, 2e-4}},
       {.name = "tilt_y", .unit = "mrad", .si_unit = "rad", .limits = {-0.1, 0.1},
-       .meaning = "then about the Y of the spindle", .role = Role::pair, .typical = {2e-5, 2e-4}},
+       .meaning = "subsequent rotation about the Y of the spindle", .role = Role::pair, .typical = {2e-5, 2e-4}},
   };
   static constexpr EffectCard card{
       .name = "tool_runout",
       .title = "Run-out of a turning tool",
       .stage = Stage::insert,
-      .meaning = "The tool's axis lies off the spindle axis by (x, y) and is tilted by (tilt_x, tilt_y), in a frame "
+      .meaning = "The tool's axis is displaced from the spindle axis by (x, y) and tilted by (tilt_x, tilt_y), in a "
+                 "frame "
                  "that turns with the tool: X through the first seat, origin in the unworn tool's centre. Every "
                  "insert changes its radius, tangential seat, height and angles, exactly.",
       .adds = "runout_x += x; runout_y += y; tilt_x, tilt_y likewise, in the frame that turns with the tool",

@@ -153,7 +153,7 @@ extern const gumshoe::models::Kernels GUMSHOE_KERNEL(gumshoe_expression_),
     GUMSHOE_KERNEL(gumshoe_expression_evaluating_);
 const gumshoe::models::Kernels GUMSHOE_KERNEL(gumshoe_expression_){&gumshoe::models::expression::simulate,
                                                                    &gumshoe::models::expression::evaluate};
-/// Of a statement that does not say what its readouts would be.
+/// Kernels of a statement without [model.indications], which cannot simulate.
 const gumshoe::models::Kernels GUMSHOE_KERNEL(gumshoe_expression_evaluating_){nullptr,
                                                                               &gumshoe::models::expression::evaluate};
 }

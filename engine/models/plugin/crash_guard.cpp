@@ -26,11 +26,11 @@ struct Caught {
   int signal;
   const char* words;
 };
-constexpr Caught caught[] = {{SIGSEGV, "SIGSEGV: memory that is not there, or the stack is full"},
-                             {SIGBUS, "SIGBUS: memory that is not there"},
-                             {SIGFPE, "SIGFPE: a whole number divided by zero"},
-                             {SIGILL, "SIGILL: an instruction this processor does not have"},
-                             {SIGABRT, "SIGABRT: it gave up by abort()"}};
+constexpr Caught caught[] = {{SIGSEGV, "SIGSEGV: invalid memory address, or stack overflow"},
+                             {SIGBUS, "SIGBUS: invalid memory address"},
+                             {SIGFPE, "SIGFPE: integer division by zero"},
+                             {SIGILL, "SIGILL: instruction not available on this processor"},
+                             {SIGABRT, "SIGABRT: it called abort()"}};
 struct sigaction before[std::size(caught)];
 
 // Only what is safe in a signal handler from here on.

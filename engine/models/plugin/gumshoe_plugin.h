@@ -1,4 +1,4 @@
-/* Gumshoe plugin interface, version 1. Plain C: copy this file beside your model and include it.
+/* Gumshoe plugin interface, version 1. Plain C: copy this file next to your model and include it.
  *
  * A plugin is a shared library that exports one function, gumshoe_plugin(), which returns the description of one
  * model. A scenario names it:

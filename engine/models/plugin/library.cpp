@@ -39,7 +39,7 @@ const gumshoe_model& open_library(const std::string& path, const PluginPlace& pl
   }
   void* const symbol = dlsym(library, "gumshoe_plugin");
   if (!symbol)
-    place.refuse("is not a plugin", "it exports no function gumshoe_plugin",
+    place.refuse("is not a plugin", "it does not export a function gumshoe_plugin",
                  "in C++, export it within extern \"C\" (see engine/models/plugin/gumshoe_plugin.h)");
   const gumshoe_model* const model = reinterpret_cast<const gumshoe_model* (*)()>(symbol)();
   if (!model) place.refuse("describes no model", "gumshoe_plugin() returns null", "");
@@ -136,7 +136,7 @@ CardTexts card_of(const gumshoe_model& m, const PluginPlace& place) {
   card.conditions = reader.read(m.conditions, m.condition_count, "conditions", inputs);
   card.indications = reader.read(m.indications, m.indication_count, "indications", inputs);
   card.measurands = reader.read(m.measurands, m.measurand_count, "measurands", outputs);
-  if (m.measurand_count == 0) reader.problem("it has no measurands", "there is nothing to evaluate");
+  if (m.measurand_count == 0) reader.problem("it has no measurands", "nothing can be evaluated");
   reader.raise();
   return card;
 }

@@ -18,14 +18,15 @@ inline constexpr QuantityCard quantity_cards[] = {
     in_deg({.name = "bottom_azimuth", .symbol = "tau",
             .meaning = "azimuth of the bottom plane's normal in the tool-holder frame"}),
     in_mm({.name = "rod_length", .default_value = 150 * mm, .limits = positive, .symbol = "L_r",
-           .meaning = "from the spindle reference point to the bottom's centre, at 20 degC"}),
-    in_deg({.name = "holder_angle", .symbol = "theta_th", .meaning = "from machine X to the tool holder's X"}),
+           .meaning = "distance from the spindle reference point to the centre of the bottom, at 20 degC"}),
+    in_deg({.name = "holder_angle", .symbol = "theta_th", .meaning = "angle from machine X to the X axis of the tool "
+                                                                     "holder"}),
     laser_setter::beam_yaw,
     laser_setter::beam_pitch,
     laser_setter::beam_radius,
     laser_setter::trigger_fraction,
     in_mm({.name = "laser_z", .symbol = "Z_ts",
-           .meaning = "true height of the beam's axis where it passes the spindle axis; only simulation reads it"}),
+           .meaning = "true height of the beam's axis where it passes the spindle axis; used only in simulation"}),
 };
 inline constexpr VariableCard condition_cards[] = {
     {.name = "feed", .unit = "mm/min", .si_unit = "m/s", .default_value = 4 * mm / minute,
@@ -44,21 +45,21 @@ enum Evaluation { full, conventional };
 inline constexpr std::string_view per_reading = "approach / feed + retract", once = "rod_change";
 inline constexpr EvaluationCard evaluation_cards[] = {
     {.name = "full",
-     .meaning = "the geometry of rod and beam solved: Fang 2022, section 2.4",
+     .meaning = "exact geometry of rod and beam: Fang 2022, section 2.4",
      .time_per_reading = per_reading,
      .time_once = once},
     {.name = "conventional",
-     .meaning = "square rod, aligned beam: bottom_height = 0; what ignoring the geometry costs",
+     .meaning = "square rod and aligned beam, bottom_height = 0: the geometry is ignored",
      .time_per_reading = per_reading,
      .time_once = once},
 };
 inline constexpr QuantityCard timing_cards[] = {
     in_mm({.name = "approach", .default_value = 2 * mm, .limits = not_negative,
-           .meaning = "way at the feed before the trigger"}),
+           .meaning = "distance at the feed before the trigger"}),
     in_s({.name = "retract", .default_value = 2, .limits = not_negative,
-          .meaning = "back up at rapid, and settling, of every reading"}),
+          .meaning = "retraction at rapid and settling, for every reading"}),
     in_s({.name = "rod_change", .default_value = 60, .limits = not_negative,
-          .meaning = "the rod into the spindle and over the beam, once"}),
+          .meaning = "mounting the rod and moving over the beam, once"}),
 };
 inline constexpr Stage stages[] = {Stage::standing, Stage::pose, Stage::motion, Stage::trigger};
 // clang-format on

@@ -45,8 +45,8 @@ struct RodGauging {
       .name = "rod_gauging",
       .title = "Gauging a laser tool setter with a measuring rod",
       .summary =
-          "A rod in the spindle is lowered into a laser beam; the trigger fires when its shadow covers a share of the "
-          "beam's disc; from the spindle height at that moment follows the height of the beam's axis.",
+          "A rod in the spindle is lowered into a laser beam; the trigger fires when its shadow covers a given "
+          "fraction of the beam; the spindle height at that moment gives the height of the beam's axis.",
       .source = "Fang 2022, chapter 2 (eqs 2.3 to 2.38), derived anew; see reports/errata.md",
       .quantities = quantity_cards,
       .conditions = condition_cards,

@@ -9,11 +9,11 @@ using si::deg, si::minute, si::mm, si::um;
 // clang-format off: a row of a card stays together
 inline constexpr QuantityCard quantity_cards[] = {
     in_mm({.name = "probe_x", .default_value = 85.564 * mm, .symbol = "d_rpx",
-           .meaning = "from the origin O_r to the tip's centre, along X"}),
+           .meaning = "position of the tip's centre from the origin O_r along X"}),
     in_mm({.name = "probe_y", .default_value = 287.428 * mm, .symbol = "d_rpy",
-           .meaning = "from the origin O_r to the tip's centre, against Y"}),
+           .meaning = "position of the tip's centre from the origin O_r against Y"}),
     in_mm({.name = "probe_z", .default_value = 454.220 * mm, .symbol = "d_rpz",
-           .meaning = "from the origin O_r to the tip's centre, against Z"}),
+           .meaning = "position of the tip's centre from the origin O_r against Z"}),
     in_mm({.name = "E_X0B", .default_value = -0.406 * mm, .symbol = "E_X0B",
            .meaning = "offset of the B axis: D_rbx - d_rbx, along X"}),
     in_mm({.name = "E_Z0B", .default_value = 0.544 * mm, .symbol = "E_Z0B",
@@ -39,15 +39,17 @@ inline constexpr QuantityCard quantity_cards[] = {
     in_mm({.name = "link_C_y", .default_value = 180 * mm, .symbol = "d_rcy",
            .meaning = "design, O_r to the C axis along Y; inferred, not printed"}),
     in_mm({.name = "sphere_distance", .default_value = 184.183 * mm, .symbol = "d_s",
-           .meaning = "from the A axis' flange to the sphere's centre"}),
+           .meaning = "distance from the flange of the A axis to the sphere's centre"}),
     in_mm({.name = "sphere_radius", .default_value = 12.5 * mm, .limits = positive, .symbol = "R_c",
-           .meaning = "of the sphere"}),
+           .meaning = "radius of the sphere"}),
     in_mm({.name = "tip_radius", .default_value = 3 * mm, .limits = positive, .symbol = "R_p",
-           .meaning = "of the probe's tip"}),
-    in_mm({.name = "sphere_y", .meaning = "sphere's centre beside the A axis, along Y at A = 0; turns with A"}),
-    in_mm({.name = "sphere_z", .meaning = "sphere's centre beside the A axis, along Z at A = 0; turns with A"}),
+           .meaning = "radius of the probe's tip"}),
+    in_mm({.name = "sphere_y", .meaning = "offset of the sphere's centre from the A axis along Y at A = 0; turns with "
+                                          "A"}),
+    in_mm({.name = "sphere_z", .meaning = "offset of the sphere's centre from the A axis along Z at A = 0; turns with "
+                                          "A"}),
     in_deg({.name = "E_AA", .symbol = "E_AA",
-            .meaning = "positioning error of A; only a sphere beside the axis feels it"}),
+            .meaning = "positioning error of A; it matters only if the sphere is off the axis"}),
     in_deg({.name = "E_BB", .symbol = "E_BB", .meaning = "positioning error of B, actual minus commanded (eq 4.49)"}),
     in_deg({.name = "E_CC", .symbol = "E_CC", .meaning = "positioning error of C, actual minus commanded (eq 4.50)"}),
     in_mm({.name = "E_XX", .symbol = "E_XX", .meaning = "positioning of X; adds to the recorded X (eq 4.51)"}),
@@ -67,23 +69,23 @@ inline constexpr QuantityCard quantity_cards[] = {
      .meaning = "squareness of Z to Y: adds -S_YZ times the nominal Z to the recorded Y"},
 };
 inline constexpr VariableCard condition_cards[] = {
-    shown_in_deg({.name = "A", .meaning = "commanded; turns the workpiece about +X (eq 4.1)"}),
+    shown_in_deg({.name = "A", .meaning = "commanded angle; turns the workpiece about +X (eq 4.1)"}),
     shown_in_deg({.name = "B", .meaning = "commanded; about +Y"}),
     shown_in_deg({.name = "C", .meaning = "commanded; about +Z"}),
     shown_pure(
         {.name = "pattern",
-         .meaning = "a label: 1 where C moves at B = 0, 2 where B moves at C = 90 deg; only closed_form reads it"}),
-    shown_pure({.name = "repeat", .meaning = "a label: which repetition"}),
-    shown_pure({.name = "direction", .default_value = -1, .meaning = "of approach along Z: -1 downwards"}),
-    shown_in_s({.name = "time", .meaning = "since the start of the work"}),
+         .meaning = "a label: 1 if C moves at B = 0, 2 if B moves at C = 90 deg; only closed_form uses it"}),
+    shown_pure({.name = "repeat", .meaning = "a label: number of the repetition"}),
+    shown_pure({.name = "direction", .default_value = -1, .meaning = "direction of approach along Z: -1 downwards"}),
+    shown_in_s({.name = "time", .meaning = "time since the start of the work"}),
     {.name = "feed", .unit = "mm/min", .si_unit = "m/s", .default_value = 30 * mm / minute,
-     .meaning = "of the approach; only effects read this and what follows"},
+     .meaning = "feed of the approach; used only by effects, like the conditions below"},
     shown_pure({.name = "B_direction", .default_value = 1,
-                .meaning = "from which B was reached: 1 or -1, upwards or downwards; 0: neither"}),
+                .meaning = "direction from which B was reached: 1 upwards, -1 downwards, 0 neither"}),
     shown_pure({.name = "C_direction", .default_value = 1,
-                .meaning = "from which C was reached: 1 or -1, upwards or downwards; 0: neither"}),
-    shown_pure({.name = "B_clamped", .meaning = "1 where the brake of B holds"}),
-    shown_pure({.name = "C_clamped", .meaning = "1 where the brake of C holds"}),
+                .meaning = "direction from which C was reached: 1 upwards, -1 downwards, 0 neither"}),
+    shown_pure({.name = "B_clamped", .meaning = "1 if the brake of B is closed"}),
+    shown_pure({.name = "C_clamped", .meaning = "1 if the brake of C is closed"}),
 };
 inline constexpr VariableCard indication_cards[] = {
     shown_in_mm({.name = "X", .meaning = "command recorded at the trigger"}),
@@ -92,15 +94,15 @@ inline constexpr VariableCard indication_cards[] = {
 };
 inline constexpr VariableCard measurand_cards[] = {
     shown_in_mm(
-        {.name = "tip_x", .meaning = "where the tip's centre stood by X, Y, Z: from the A axis' flange, along X"}),
-    shown_in_mm({.name = "tip_y", .meaning = "where the tip's centre stood by X, Y, Z: from the A axis, along Y"}),
-    shown_in_mm({.name = "tip_z", .meaning = "where the tip's centre stood by X, Y, Z: from the A axis, along Z"}),
+        {.name = "tip_x", .meaning = "position of the tip's centre by X, Y, Z, from the flange of the A axis along X"}),
+    shown_in_mm({.name = "tip_y", .meaning = "position of the tip's centre by X, Y, Z, from the A axis along Y"}),
+    shown_in_mm({.name = "tip_z", .meaning = "position of the tip's centre by X, Y, Z, from the A axis along Z"}),
 };
 /// The eleven in the order of the published tables, then how well they are known.
 inline constexpr VariableCard joint_cards[] = {
-    shown_in_mm({.name = "probe_x", .meaning = "from the origin O_r to the tip's centre, along X"}),
-    shown_in_mm({.name = "probe_y", .meaning = "from the origin O_r to the tip's centre, against Y"}),
-    shown_in_mm({.name = "probe_z", .meaning = "from the origin O_r to the tip's centre, against Z"}),
+    shown_in_mm({.name = "probe_x", .meaning = "position of the tip's centre from the origin O_r along X"}),
+    shown_in_mm({.name = "probe_y", .meaning = "position of the tip's centre from the origin O_r against Y"}),
+    shown_in_mm({.name = "probe_z", .meaning = "position of the tip's centre from the origin O_r against Z"}),
     shown_in_mm({.name = "E_X0B", .meaning = "offset of the B axis along X"}),
     shown_in_mm({.name = "E_Z0B", .meaning = "offset of the B axis against Z"}),
     shown_in_deg({.name = "E_A0B", .meaning = "squareness of B to Z"}),
@@ -110,8 +112,8 @@ inline constexpr VariableCard joint_cards[] = {
     shown_in_deg({.name = "E_A0C", .meaning = "squareness of C to Y"}),
     shown_in_deg({.name = "E_B0C", .meaning = "squareness of C to X"}),
     {.name = "residual_rms", .unit = "um", .si_unit = "m", .default_value = 0,
-     .meaning = "root mean square of recorded commands less those of the identified machine"},
-    shown_pure({.name = "rank", .meaning = "how many of the eleven, or of their combinations, the poses see"}),
+     .meaning = "root mean square difference between the recorded commands and those of the identified machine"},
+    shown_pure({.name = "rank", .meaning = "number of the eleven unknowns, or combinations, that the poses determine"}),
     shown_pure({.name = "condition_number",
                 .meaning = "of the derivatives by the eleven, columns of length one, on what the poses see; whitened "
                            "if joint_weighted"}),
@@ -129,9 +131,9 @@ inline constexpr EvaluationCard evaluation_cards[] = {
      .meaning = "orientations by planes through each pattern's poses, then the seven lengths by linear least squares",
      .measurands = joint_cards},
     {.name = "joint",
-     .meaning = "all eleven at once by least squares, every command of equal weight", .measurands = joint_cards},
+     .meaning = "all eleven unknowns by least squares, with equal weights of all commands", .measurands = joint_cards},
     {.name = "joint_weighted",
-     .meaning = "all eleven at once, weighted with the covariance matrix of all that the scenario declares",
+     .meaning = "all eleven unknowns by least squares, weighted with the covariance matrix that the scenario declares",
      .measurands = joint_cards},
 };
 inline constexpr Stage stages[] = {Stage::motion, Stage::rotary, Stage::slides, Stage::contact, Stage::trigger};

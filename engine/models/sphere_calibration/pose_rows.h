@@ -41,7 +41,7 @@ public:
 
   std::vector<Pose<T>> poses;
 
-  /// Of all rows at theta, not whitened: 11 derivatives and the residual, [3 reading + axis][12].
+  /// 11 derivatives and the residual of every row at theta, not whitened: [3 reading + axis][12].
   using Row = std::array<T, unknowns + 1>;
   const std::vector<Row>& linearise(const T* theta) {
     const auto lines = directions(Orientation<T>{theta[Q::E_A0B], theta[Q::E_C0B], theta[Q::E_A0C], theta[Q::E_B0C]});

@@ -31,7 +31,7 @@ std::string plane_problem(const std::vector<std::size_t>& which, const std::vect
   if (i == which.size()) return "";
   return fmt::format(
       "{} of reading {} is {:g} deg, of reading {} {:g} deg: poses of pattern {} lie in a plane at one {} "
-      "only (joint needs no planes)",
+      "only (joint does not need planes)",
       axis, which[0] + 1, held[which[0]] / deg, which[i] + 1, held[which[i]] / deg, axis == 'B' ? 1 : 2, axis);
 }
 
@@ -72,7 +72,8 @@ std::string unit_problem(const Poses<double>& poses) {
   for (std::size_t k = 0; recorded && k < indications; ++k) {
     const double ratio = spread[k].recorded_size() / spread[k].declared_size();
     if (spread[k].declared_size() > 0.1 * largest && (ratio > 30 || ratio < 1.0 / 30))
-      return fmt::format("{} spreads over {:.4g} mm, by the declared machine over {:.4g} mm: a wrong unit?", "XYZ"[k],
+      return fmt::format("{} spreads over {:.4g} mm, but over {:.4g} mm for the declared machine; is a unit wrong?", "
+                         ""XYZ"[k],
                          spread[k].recorded_size() * 1e3, spread[k].declared_size() * 1e3);
   }
   return "";
@@ -95,7 +96,7 @@ Whitening weights(const Poses<double>& poses) {
 }
 
 std::string Identify::check(const Poses<double>& poses) {
-  if (poses.size() < 2) return "one pose says nothing of the axes: commands at several angles of B and C are needed";
+  if (poses.size() < 2) return "one pose cannot determine the axes; commands at several angles of B and C are needed";
   if (const std::string problem = unit_problem(poses); !problem.empty()) return problem;
   const int evaluation = poses.at[0].evaluation;
   if (evaluation == sequential) {
@@ -105,11 +106,11 @@ std::string Identify::check(const Poses<double>& poses) {
       if (!problem.empty()) return problem;
     if (!all.I.empty() && std::fabs(angles.B[all.I[0]]) > 1e-12)
       return fmt::format(
-          "B is {:g} deg in pattern 1: probe and C axis follow from poses at B = 0 alone (joint needs none)",
+          "B is {:g} deg in pattern 1, but probe and C axis follow only from poses at B = 0 (joint does not need them)",
           angles.B[all.I[0]] / deg);
   }
   if (evaluation != joint_weighted) return "";
-  if (!poses.declared) return "weights follow from what a scenario declares; a table declares nothing: joint?";
+  if (!poses.declared) return "weights follow from what a scenario declares, and a table declares nothing; use joint";
   std::string problem;
   whitening(poses, problem);
   return problem;
@@ -145,7 +146,8 @@ std::vector<std::string> Identify::remarks(const Poses<double>& poses) {
   const auto machine = unseen_among(unknowns), all = unseen_among(p);
   if (machine.rank < unknowns)
     out.push_back(
-        fmt::format("the poses see {} of 11 directions; along the others the unknowns stay as declared", machine.rank));
+        fmt::format("the poses determine {} of 11 directions; along the others the unknowns keep their declared "
+                    "values", machine.rank));
   for (const auto& direction : all.unseen) out.push_back(in_words(direction, names));
   return out;
 }

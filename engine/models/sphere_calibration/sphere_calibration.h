@@ -10,8 +10,8 @@ struct SphereCalibration {
   static constexpr ModelCard card{
       .name = "sphere_calibration",
       .title = "Calibrating a probe and two rotary axes with a sphere",
-      .summary = "A belt grinder's probe touches the top of a sphere at many angles of B and C; from the recorded "
-                 "commands follow the probe's position and the location errors of both axes.",
+      .summary = "A probe on a belt grinder touches the top of a sphere at many angles of B and C; the recorded "
+                 "commands give the probe's position and the location errors of both axes.",
       .source = "Fang 2022, chapter 4 (eqs 4.1 to 4.51), derived anew; see reports/errata.md",
       .quantities = quantity_cards,
       .conditions = condition_cards,
@@ -24,15 +24,15 @@ struct SphereCalibration {
     const auto& c = at.c;
     const T zero(0.0), one(1.0);
     if (at.evaluation == closed_form) {
-      outcome.refuse(!has_closed_form(c), "closed_form holds at B = 0 (pattern 1) or at C = 90 deg (pattern 2) only");
-      if (at.freed.any()) outcome.refuse(one == one, "closed_form has no place for effects");
+      outcome.refuse(!has_closed_form(c), "closed_form holds only at B = 0 (pattern 1) or at C = 90 deg (pattern 2)");
+      if (at.freed.any()) outcome.refuse(one == one, "closed_form cannot include effects");
     }
     outcome.refuse(c.feed < zero, "feed is negative");
     const auto no_side = [&](const T& x) { return (x != one) && (x != -one) && (x != zero); };
-    outcome.refuse(no_side(c.B_direction), "B_direction is none of 1, -1, 0");
-    outcome.refuse(no_side(c.C_direction), "C_direction is none of 1, -1, 0");
-    outcome.refuse((c.B_clamped != one) && (c.B_clamped != zero), "B_clamped is neither 0 nor 1");
-    outcome.refuse((c.C_clamped != one) && (c.C_clamped != zero), "C_clamped is neither 0 nor 1");
+    outcome.refuse(no_side(c.B_direction), "B_direction must be 1, -1 or 0");
+    outcome.refuse(no_side(c.C_direction), "C_direction must be 1, -1 or 0");
+    outcome.refuse((c.B_clamped != one) && (c.B_clamped != zero), "B_clamped must be 0 or 1");
+    outcome.refuse((c.C_clamped != one) && (c.C_clamped != zero), "C_clamped must be 0 or 1");
   }
 
   template <class T> using Memory = KnownLinks<T>;

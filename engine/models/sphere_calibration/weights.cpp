@@ -10,7 +10,7 @@ namespace gumshoe::models::sphere_calibration {
 Vector3<double> derivative(const Poses<double>& poses, std::size_t reading, std::size_t quantity) {
   constexpr std::size_t count = rows_of<Quantities>;
   const At<double>& at = poses.at[reading];
-  // Of a scenario the estimates, of a table what it states.
+  // The estimates of a scenario, or the values that a table states.
   const double* estimates = poses.declared ? &poses.declared->estimates[reading * count] : array_of(at.q);
   At<Gradient> moved;
   for (std::size_t j = 0; j < count; ++j) array_of(moved.q)[j] = Gradient(estimates[j]);
@@ -56,8 +56,9 @@ Whitening whitening(const Poses<double>& poses, std::string& problem) {
   for (Eigen::Index i = 0; i < n; ++i)
     if (factor.info() != Eigen::Success || !(L(i, i) > 1e-6 * std::sqrt(V(i, i)))) {
       constexpr const char* names[] = {"X", "Y", "Z"};
-      problem = std::string("what is declared leaves ") + names[i % 3] + " of reading " + std::to_string(i / 3 + 1) +
-                " without noise of its own: no weights (linear errors or noise of the indications, per reading)";
+      problem = std::string("the declaration leaves ") + names[i % 3] + " of reading " + std::to_string(i / 3 + 1) +
+                " without independent noise, so that there are no weights (declare linear errors or noise of the "
+                "indications per reading)";
       return out;
     }
   const Eigen::MatrixXd W = L.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(n, n));

@@ -77,7 +77,7 @@ std::vector<Intermediate> explain(const PointCall<double>& call) {
         : s == 1 ? c.slides.y
                  : c.slides.z,
         "1", 1);
-  out.push_back({"volume that the slides span", "1", span_of(c.slides)});
+  out.push_back({"volume spanned by the slides", "1", span_of(c.slides)});
   add(out, "command at the sphere", closing(contact<double>(p, q, call.conditions, {})));
   const auto d = deviation(c);
   out.insert(out.end(),
@@ -95,7 +95,7 @@ std::string check(const PointCall<double>& call) {
     at += fmt::format("{}{} = {:.6g} {}", at.empty() ? " at " : ", ", c.name,
                       call.conditions[&c - p.card->card().conditions.data()] / (c.unit == "deg" ? deg : mm), c.unit);
   const auto name = [&](std::size_t s) { return p.machine.axes()[p.slides[s]].name; };
-  return fmt::format("the slides {}, {}, {} move in one plane{}: the sphere is out of reach", name(0), name(1), name(2),
+  return fmt::format("the slides {}, {}, {} move in one plane{}; the sphere is out of reach", name(0), name(1), name(2),
                      at);
 }
 
@@ -126,16 +126,17 @@ CardTexts texts_of(const SphereProbing& p, const chain::MachineDescription& d) {
   t.name = "sphere_probing";
   t.title = "Probing a sphere on a described machine";
   t.summary = fmt::format("The slides of {} bring the tip to a sphere on the workpiece side at commanded angles; their "
-                          "commands are read.",
+                          "commands are recorded.",
                           d.name.empty() ? "a machine" : "the machine " + d.name);
   t.source = "exact kinematic chain, errors by ISO 230-1 and ISO 230-7";
   const auto triple = [&](auto& out, const std::string& name, const std::string& what) {
     for (const char c : {'x', 'y', 'z'})
       out.push_back({name + c, "mm", "m", fmt::format("{}, {}", what, static_cast<char>(c - 'x' + 'X')), 0, any});
   };
-  triple(t.quantities, "probe_", "the tip's centre from the spindle's reference point at zero");
-  triple(t.quantities, "sphere_", "the sphere's centre in the workpiece's frame");
-  triple(t.quantities, "contact_", "the tip's centre from the sphere's at the reading, in the frame of the bed");
+  triple(t.quantities, "probe_", "position of the tip's centre from the spindle's reference point at zero");
+  triple(t.quantities, "sphere_", "position of the sphere's centre in the workpiece's frame");
+  triple(t.quantities, "contact_",
+         "position of the tip's centre from the sphere's centre at the reading, in the frame of the bed");
   for (const std::size_t at : p.error_of) {
     const chain::Axis& axis = p.machine.axes()[at / chain::error_kinds];
     const int kind = static_cast<int>(at % chain::error_kinds);
@@ -150,9 +151,9 @@ CardTexts texts_of(const SphereProbing& p, const chain::MachineDescription& d) {
       t.conditions.push_back({axis.name, axis.rotary ? "deg" : "mm", axis.rotary ? "rad" : "m", "commanded", 0});
   }
   for (const std::size_t s : p.slides)
-    t.indications.push_back({p.machine.axes()[s].name, "mm", "m", "command at which the tip stands at the sphere", 0});
+    t.indications.push_back({p.machine.axes()[s].name, "mm", "m", "command at which the tip is at the sphere", 0});
   triple(t.measurands, "deviation_",
-         "the tip from where it should stand, by the recorded commands, in the workpiece's frame");
+         "deviation of the tip from its nominal position by the recorded commands, in the workpiece's frame");
   return t;
 }
 
@@ -162,7 +163,7 @@ std::string unreachable(const chain::MachineDescription& description) {
   const chain::Machine machine(description);
   const auto slides = slides_of(machine.axes());
   for (std::size_t d = 0; d < 3; ++d)
-    if (slides[d] == SIZE_MAX) return fmt::format("no slide along {}", letters[d]);
+    if (slides[d] == SIZE_MAX) return fmt::format("the machine has no slide along {}", letters[d]);
   return {};
 }
 

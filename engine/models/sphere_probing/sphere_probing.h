@@ -26,7 +26,7 @@ struct SphereProbing {
   Model model{};
 };
 
-/// Why the three slides cannot be found: "no slide along Y"; empty if they can. Of a valid description.
+/// Reason why a valid description lacks one of the three slides ("the machine has no slide along Y"), or empty.
 std::string unreachable(const chain::MachineDescription& description);
 
 /// Errors that the description states are the quantities' defaults. Throws InputError if the description is wrong or a

@@ -11,40 +11,42 @@ using si::deg, si::minute, si::mm, si::rpm;
 // clang-format off: a row of a card stays together
 inline constexpr QuantityCard tool_radius =
     in_mm({.name = "tool_radius", .default_value = 10 * mm, .limits = positive, .symbol = "r",
-           .meaning = "from the tool's axis to an insert's virtual cutting point"});
+           .meaning = "distance from the tool's axis to the virtual cutting point of an insert"});
 inline constexpr QuantityCard insert_radius = in_mm({.name = "insert_radius",
                                                      .default_value = 6 * mm,
                                                      .limits = positive,
                                                      .symbol = "R",
-                                                     .meaning = "of the round cutting edge"});
+                                                     .meaning = "radius of the round cutting edge"});
 inline constexpr QuantityCard insert_axial_angle = in_deg({.name = "insert_axial_angle",
                                                            .default_value = -5 * deg,
                                                            .limits = below_90,
                                                            .symbol = "theta_a",
-                                                           .meaning = "of the rake face"});
+                                                           .meaning = "axial angle of the rake face"});
 #define GUMSHOE_WEAR(k)                                                                                                \
   in_mm({.name = "wear_" #k, .symbol = "W_" #k, .meaning = "flute " #k " is shorter by this; ignored beyond `inserts`"})
 inline constexpr QuantityCard quantity_cards[] = {
     tool_radius,
     insert_radius,
     in_mm({.name = "insert_thickness", .default_value = 3.97 * mm, .limits = not_negative, .symbol = "d_i",
-           .meaning = "from the rake face to the far end of the flank"}),
+           .meaning = "distance from the rake face to the far end of the flank"}),
     in_deg({.name = "clearance_angle", .default_value = 15 * deg, .limits = {0, 90 * deg, false, true},
             .symbol = "tau",
-            .meaning = "of the conical flank"}),
+            .meaning = "clearance angle of the conical flank"}),
     in_deg({.name = "insert_radial_angle", .default_value = -8 * deg, .limits = {-90 * deg, 90 * deg},
             .symbol = "theta_r",
-            .meaning = "of the rake face"}),
+            .meaning = "radial angle of the rake face"}),
     insert_axial_angle,
     pure({.name = "inserts", .default_value = 2, .limits = {1, chain::most_inserts},
           .symbol = "n",
-          .meaning = "number of inserts, evenly spread; a whole number"}),
+          .meaning = "number of evenly spaced inserts; an integer"}),
     GUMSHOE_FOR_EACH_INSERT(GUMSHOE_WEAR),
-    in_deg({.name = "holder_angle", .symbol = "theta_t", .meaning = "from the spindle's X to the first insert"}),
+    in_deg({.name = "holder_angle", .symbol = "theta_t", .meaning = "angle from the spindle's X axis to the first "
+                                                                    "insert"}),
     in_mm({.name = "tool_length", .default_value = 150 * mm, .limits = positive, .symbol = "L_t",
-           .meaning = "from the spindle reference point to the unworn tool's centre; only simulation reads it"}),
+           .meaning = "distance from the spindle reference point to the centre of the unworn tool; used only in "
+                      "simulation"}),
     in_mm({.name = "offset", .default_value = 4 * mm, .symbol = "d",
-           .meaning = "of the spindle axis beside the beam: it stands at Y = -d"}),
+           .meaning = "lateral offset d of the spindle axis from the beam; the axis is at Y = -d"}),
     laser_setter::beam_yaw,
     laser_setter::beam_pitch,
     laser_setter::beam_radius,
@@ -54,12 +56,12 @@ inline constexpr QuantityCard quantity_cards[] = {
 #undef GUMSHOE_WEAR
 inline constexpr VariableCard condition_cards[] = {
     {.name = "spindle_speed", .unit = "rpm", .si_unit = "rad/s", .default_value = 1000 * rpm,
-     .meaning = "counter-clockwise seen from above"},
+     .meaning = "spindle speed, counter-clockwise seen from above"},
     {.name = "feed", .unit = "mm/min", .si_unit = "m/s", .default_value = 30 * mm / minute,
-     .meaning = "of the spindle towards the beam"},
+     .meaning = "feed of the spindle towards the beam"},
     shown_in_deg({.name = "start_angle", .meaning = "spindle angle when the feed begins"}),
     shown_in_mm({.name = "start_height", .default_value = 5 * mm,
-                 .meaning = "of the tool's centre above the beam's axis when the feed begins"}),
+                 .meaning = "height of the tool's centre above the beam's axis when the feed begins"}),
     laser_setter::time,
     laser_setter::direction,
 };
@@ -67,69 +69,76 @@ inline constexpr VariableCard measurand_cards[] = {
     shown_in_mm({.name = "trigger_height",
                  .meaning = "height of the unworn tool's centre above the beam's axis at the trigger, Z_t"}),
     shown_in_mm(
-        {.name = "tool_length", .meaning = "to the unworn tool's centre: spindle_z - laser_z - trigger_height"}),
-    shown_in_mm({.name = "effective_length", .meaning = "of the longest flute: tool_length less the least wear"}),
+        {.name = "tool_length", .meaning = "length to the centre of the unworn tool: spindle_z - laser_z - "
+                                           "trigger_height"}),
+    shown_in_mm({.name = "effective_length", .meaning = "length of the longest flute: tool_length minus the smallest "
+                                                        "wear"}),
 };
 
 // Joint evaluations.
 inline constexpr VariableCard joint_length = shown_in_mm(
                                   {.name = "tool_length",
                                    .meaning =
-                                       "to the unworn tool's centre: effective_length plus the least declared wear"}),
+                                       "length to the centre of the unworn tool: effective_length plus the smallest "
+                                       "declared wear"}),
                               joint_effective = shown_in_mm({.name = "effective_length",
-                                                             .meaning = "of the longest flute that the readings show"});
+                                                             .meaning = "length of the longest flute that the "
+                                                                        "readings determine"});
 #define GUMSHOE_FLUTE(k)                                                                                               \
   shown_in_mm({.name = "flute_length_" #k,                                                                             \
-               .meaning = "of flute " #k "; of a hidden one the greatest that the readings allow"}),                   \
+               .meaning = "length of flute " #k "; for a hidden flute the largest that the readings allow"}),          \
       shown_in_mm(                                                                                                     \
-          {.name = "wear_difference_" #k, .meaning = "the longest flute less this one; of a hidden one at least"}),    \
-      shown_pure({.name = "seen_" #k, .meaning = "1: the readings show this flute, 0: it is hidden"})
+          {.name = "wear_difference_" #k, .meaning = "longest flute minus this one; for a hidden flute at least"}),    \
+      shown_pure({.name = "seen_" #k, .meaning = "1: the readings determine this flute; 0: it is hidden"})
 inline constexpr VariableCard length_cards[] = {joint_length, joint_effective};
 inline constexpr VariableCard curve_cards[] = {
     joint_length,
     joint_effective,
     shown_in_deg({.name = "phase",
-                  .meaning = "from the spindle's X to the longest flute, if start_height is right: a micrometre turns "
-                             "it by degrees"}),
-    shown_pure({.name = "seen_flutes", .meaning = "how many flutes the readings show"}),
+                  .meaning = "angle from the spindle's X axis to the longest flute, if start_height is correct: a "
+                             "micrometre changes "
+                             "it by several degrees"}),
+    shown_pure({.name = "seen_flutes", .meaning = "number of flutes that the readings determine"}),
     {.name = "residual_rms", .unit = "um", .si_unit = "m", .default_value = 0,
-     .meaning = "root mean square of readouts less the fitted curve"},
-    shown_pure({.name = "degrees_of_freedom", .meaning = "readings less seen flutes less one for the phase"}),
+     .meaning = "root mean square difference between readings and fitted curve"},
+    shown_pure({.name = "degrees_of_freedom", .meaning = "readings minus determined flutes minus one for the phase"}),
     GUMSHOE_FOR_EACH_INSERT(GUMSHOE_FLUTE)};
 inline constexpr VariableCard peak_cards[] = {
-    joint_length, joint_effective, shown_pure({.name = "peaks", .meaning = "local maxima of the connected readouts"}),
+    joint_length, joint_effective, shown_pure({.name = "peaks", .meaning = "number of local maxima of the connected "
+                                                                           "readings"}),
     GUMSHOE_FOR_EACH_INSERT(GUMSHOE_FLUTE)};
 #undef GUMSHOE_FLUTE
 
-// Of a readout: the spindle comes to speed, the tool is fed into the beam and drawn back; an oriented one stops first.
+// One reading: the spindle comes to speed, the tool is fed into the beam and retracted. An oriented tool stops first.
 #define GUMSHOE_RUN "spindle_speed/spindle_acceleration + start_height/feed + start_height/rapid_feed"
 inline constexpr std::string_view per_run = GUMSHOE_RUN, per_oriented_run = "orientation_time + " GUMSHOE_RUN,
                                   once = "2*approach_distance/rapid_feed + safety_time";
 #undef GUMSHOE_RUN
 inline constexpr QuantityCard timing_cards[] = {
     {.name = "rapid_feed", .unit = "mm/min", .si_unit = "m/s", .default_value = 10000 * mm / minute, .limits = positive,
-     .meaning = "of approach and retraction"},
+     .meaning = "rapid feed of approach and retraction"},
     in_mm({.name = "approach_distance", .default_value = 200 * mm, .limits = not_negative,
-           .meaning = "from where the tool waits to above the beam, there and back"}),
+           .meaning = "distance from the waiting position to a point above the beam; travelled twice"}),
     in_s({.name = "orientation_time", .default_value = 1, .limits = not_negative,
-          .meaning = "to stop the spindle at the start angle"}),
+          .meaning = "time to stop the spindle at the start angle"}),
     {.name = "spindle_acceleration",
      .unit = "rad/s2",
      .si_unit = "rad/s2",
      .default_value = 200,
      .limits = {0, 1e6, true},
-     .meaning = "of the spindle coming to speed"},
+     .meaning = "acceleration of the spindle to its speed"},
     in_s({.name = "safety_time", .default_value = 2, .limits = not_negative,
-          .meaning = "checks of the tool setter, dwell, air blast"}),
+          .meaning = "time for checks of the tool setter, dwell and air blast"}),
 };
 enum Evaluation { full, conventional, single, slow, characteristic_curve, peaks };
 inline constexpr EvaluationCard evaluation_cards[] = {
-    {.name = "full", .meaning = "the trigger of the turning tool solved: Fang 2022, chapter 3"},
+    {.name = "full", .meaning = "exact trigger of the turning tool: Fang 2022, chapter 3"},
     {.name = "conventional",
-     .meaning = "trigger_height = 0: the readout less the laser's height; what ignoring the geometry costs"},
+     .meaning = "trigger_height = 0, the reading minus the laser's height: the geometry is ignored"},
     {.name = "single",
      .meaning =
-         "one readout at any start angle, no curve known: effective_length is the readout less the laser's height",
+         "one reading at any start angle, without a known curve: effective_length is the reading minus the laser's "
+         "height",
      .measurands = length_cards,
      .time_per_reading = per_run,
      .time_once = once},
@@ -139,13 +148,13 @@ inline constexpr EvaluationCard evaluation_cards[] = {
      .time_per_reading = per_run,
      .time_once = once},
     {.name = "characteristic_curve",
-     .meaning = "readouts at several start angles: the model's curve fitted, its phase free",
+     .meaning = "readings at several start angles: fits the model's curve and its phase",
      .measurands = curve_cards,
      .time_per_reading = per_oriented_run,
      .time_once = once},
     {.name = "peaks",
      .meaning =
-         "readouts at several start angles, connected by lines: the highest peaks are the flutes (Fang 2022, 3.5.2)",
+         "readings at several start angles, connected by lines: the highest peaks are the flutes (Fang 2022, 3.5.2)",
      .measurands = peak_cards,
      .time_per_reading = per_oriented_run,
      .time_once = once},

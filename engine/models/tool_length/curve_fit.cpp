@@ -155,7 +155,7 @@ private:
     return sum;
   }
 
-  /// Gauss-Newton's step within the box from now_; how much of the squares it promises to take off.
+  /// Gauss-Newton step within the box from now_. Returns the predicted reduction of the sum of squares.
   double best_step(const Unknowns& x, Unknowns& step) const {
     const std::size_t n = d_.flutes;
     Unknowns square{}, mixed{}, gradient{};

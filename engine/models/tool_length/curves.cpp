@@ -13,7 +13,7 @@ void find_heights(const Together<Rows, double>& all, Heights& out, Outcome<doubl
     x.event = readout_at(unused, x.at, false).event;
     x.height = chain::actual_of(z, x.event) - x.at.q.laser_z - x.event.tool_growth;
     outcome.refuse(x.at.q.inserts != all.at[0].q.inserts, "inserts differ between readings");
-    outcome.refuse(!std::isfinite(x.height), "a readout is not finite");
+    outcome.refuse(!std::isfinite(x.height), "a reading is not finite");
   }
 }
 

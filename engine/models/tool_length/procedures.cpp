@@ -63,7 +63,7 @@ template <class All> std::size_t with_flutes(const Quantities<double>& q) {
 }
 
 std::string problem_of_turn(const Readings& all, bool one_height) {
-  if (all.size() == 0) return "no reading: at least one readout is needed";
+  if (all.size() == 0) return "there is no reading; at least one is needed";
   const auto differs = [](double a, double b) { return std::fabs(a - b) > 1e-12 * std::fabs(b); };
   const auto& first = all.at[0];
   for (std::size_t r = 1; r < all.size(); ++r) {
@@ -77,8 +77,8 @@ std::string problem_of_turn(const Readings& all, bool one_height) {
       return fmt::format("start_height differs between readings 1 and {}: their points cannot be connected", r + 1);
     if (!differs(c.start_height, before.start_height) && !(c.start_angle > before.start_angle))
       return fmt::format(
-          "start_angle of reading {} ({:g} deg) does not follow that of reading {} ({:g} deg): increasing "
-          "order, none twice",
+          "start_angle of reading {} ({:g} deg) does not exceed that of reading {} ({:g} deg): the angles must "
+          "increase",
           r + 1, c.start_angle / deg, r, before.start_angle / deg);
     if (c.start_angle - first.c.start_angle > 2 * pi * (1 - 1e-12))
       return fmt::format("start_angle of reading {} is a turn or more after the first: angles repeat", r + 1);
@@ -98,9 +98,10 @@ LengthRows Single::truth(const Readings& all, const std::vector<Shown>& shown, O
   return {all.at[0].q.tool_length, *std::max_element(lengths, lengths + n)};
 }
 std::string Single::check(const Readings& all) {
-  if (all.size() == 0) return "no reading: at least one readout is needed";
+  if (all.size() == 0) return "there is no reading; at least one is needed";
   if (all.size() == 1) return "";
-  return fmt::format("{} readings, where one readout is the measurement; peaks and characteristic_curve use several",
+  return fmt::format("there are {} readings, but this evaluation uses only one; peaks and characteristic_curve use "
+                     "several",
                      all.size());
 }
 
@@ -152,7 +153,7 @@ std::string Curve::check(const Readings& all) {
   if (outcome.failed) return "";
   Curves curves;
   CurveReadings data;
-  if (!prepare(heights, curves, data)) return "no flute ever covers the beam: the offset is too large";
+  if (!prepare(heights, curves, data)) return "no flute covers the beam at any angle: the offset is too large";
   // From above all flutes the curve repeats every turn of the start angle.
   for (std::size_t r = 0; r < all.size(); ++r)
     for (int k = 0; k < n; ++k) {
@@ -160,8 +161,8 @@ std::string Curve::check(const Readings& all) {
                             flute(heights[r].at.q, heights[r].event, k).raise;
       const double start_height = all.at[r].c.start_height;
       if (start_height < needed)
-        return fmt::format("start_height of reading {} is {:g} mm, where flute {} may already be in the beam: above "
-                           "{:.4f} mm the curve repeats every turn",
+        return fmt::format("start_height of reading {} is {:g} mm, where flute {} may already be in the beam: the "
+                           "feed must start above {:.4f} mm",
                            r + 1, start_height / mm, k + 1, needed / mm);
     }
   return "";

@@ -74,9 +74,9 @@ template <class T> bool finite(const InsertMotionOf<T>& m) {
 
 /// Refuses conditions; they are exact.
 template <class T> void check_commanded(const Rows::Conditions<T>& c, Outcome<T>& outcome) {
-  outcome.refuse(!(c.feed > T(0.0)), "feed is not positive: the tool never comes down");
+  outcome.refuse(!(c.feed > T(0.0)), "feed is not positive: the tool does not descend");
   outcome.refuse(!(c.spindle_speed > T(0.0)),
-                 "spindle_speed is not positive: the tool has to turn, counter-clockwise from above");
+                 "spindle_speed is not positive: the tool must turn, counter-clockwise seen from above");
   outcome.refuse(c.direction != T(-1.0), "direction is not -1: a mill is fed downwards");
 }
 
@@ -84,24 +84,26 @@ template <class T> void check_commanded(const Rows::Conditions<T>& c, Outcome<T>
 template <class T> void check_together(const At<T>& at, Outcome<T>& outcome) {
   const auto& q = at.q;
   const double n = num::value(q.inserts);
-  outcome.refuse(n != std::floor(n), "inserts is not a whole number");
+  outcome.refuse(n != std::floor(n), "inserts is not an integer");
   if (outcome.failed) return;
   const Event<T> event = probing_event(at);
   for (int k = 0; k < flutes(q); ++k) {
     const auto f = converted<double>(flute(q, event, k));
     const auto& i = f.insert;
-    outcome.refuse(!tool_radius.limits.contain(i.tool_radius), "tool_radius with its errors is not positive");
-    outcome.refuse(!insert_radius.limits.contain(i.radius), "insert_radius with its errors is not positive");
+    outcome.refuse(!tool_radius.limits.contain(i.tool_radius), "tool_radius including its errors is not positive");
+    outcome.refuse(!insert_radius.limits.contain(i.radius), "insert_radius including its errors is not positive");
     outcome.refuse(!(i.thickness * std::tan(i.clearance) < i.radius),
-                   "insert_thickness times tan(clearance_angle) reaches insert_radius: the flank ends in a point");
-    outcome.refuse(!insert_axial_angle.limits.contain(i.axial_angle), "insert_axial_angle with its errors is upright");
+                   "insert_thickness times tan(clearance_angle) is not below insert_radius: the flank would end in a "
+                   "point");
+    outcome.refuse(!insert_axial_angle.limits.contain(i.axial_angle), "insert_axial_angle including its errors is not "
+                                                                      "below 90 deg");
     outcome.refuse(!(std::fabs(num::value(wear(q, k))) < i.radius),
-                   "wear_1 to wear_n: a wear is not below insert_radius");
+                   "a wear of wear_1 to wear_n is not below insert_radius");
   }
   const chain::TurningTool<T>& tool = event.tool;
   const T zero(0.0);
-  outcome.refuse(!(tool.speed > zero), "spindle_speed with its error is not positive");
-  outcome.refuse(!(event.z.scale > T(-1.0)), "z_scale turns the axis round");
+  outcome.refuse(!(tool.speed > zero), "spindle_speed including its error is not positive");
+  outcome.refuse(!(event.z.scale > T(-1.0)), "z_scale reverses the axis");
   outcome.refuse(!(tool.servo_lag >= zero), "servo_lag.time_constant is negative");
   outcome.refuse(!(tool.sampling_period >= zero), "sampling_rate.period is negative");
   // Whole in a receiver; between whole numbers for fits.

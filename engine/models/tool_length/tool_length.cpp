@@ -9,8 +9,8 @@ std::vector<Intermediate> ToolLength::explain(const At<double>& at, const Rows::
   const auto& event = o.event;
   const auto m = motion(at, event);
   std::vector<Intermediate> out{
-      {"tool axis beside the beam's reference point, X", "mm", event.tool_x / mm},
-      {"tool axis beside the beam's reference point, Y", "mm", (event.tool_y - q.offset) / mm},
+      {"offset of the tool axis from the beam's reference point, X", "mm", event.tool_x / mm},
+      {"offset of the tool axis from the beam's reference point, Y", "mm", (event.tool_y - q.offset) / mm},
       {"tool growth", "mm", event.tool_growth / mm},
       {"axis error", "mm", event.z.error / mm},
       {"axis scale", "um/m", event.z.scale * 1e6},
@@ -24,7 +24,7 @@ std::vector<Intermediate> ToolLength::explain(const At<double>& at, const Rows::
     const double highest = solver.heights(flute.insert, laser_setter::beam(q)).highest().height;
     out.insert(out.end(), {{"highest trigger height of this insert, unworn", "mm", highest / mm},
                            {"insert that triggers", "1", o.trigger.insert + 1.0},
-                           {"spindle turned until the trigger", "deg", o.trigger.turned / deg}});
+                           {"rotation of the spindle until the trigger", "deg", o.trigger.turned / deg}});
   }
   out.insert(out.end(), {{"trigger_height", "mm", o.trigger.height.value / mm},
                          {"spindle height, effects removed", "mm", chain::actual_of(read.spindle_z, event) / mm},

@@ -17,9 +17,8 @@ struct ToolLength {
       .name = "tool_length",
       .title = "Length of a round-insert mill on a laser tool setter",
       .summary =
-          "A turning mill with round inserts is fed into a laser beam; the trigger fires the first time that an "
-          "insert's shadow covers a share of the beam's disc; from the spindle height at that moment follows the "
-          "tool's length.",
+          "A turning mill with round inserts is fed into a laser beam; the trigger fires when the shadow of an insert "
+          "first covers a given fraction of the beam; the spindle height at that moment gives the tool's length.",
       .source = "Fang 2022, chapter 3 (eqs 3.1 to 3.29), derived anew; see reports/errata.md#fang-3",
       .quantities = quantity_cards,
       .conditions = condition_cards,

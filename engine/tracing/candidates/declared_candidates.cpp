@@ -12,7 +12,7 @@ namespace {
 using quantities::InputQuantity;
 using Cell = std::vector<std::pair<std::string, std::string>>;
 
-/// Sets of labels by which a quantity may be off: all readings, then what its entries and scopes tell apart.
+/// Sets of labels by which a quantity may be wrong: all readings, then those that its entries and scopes distinguish.
 std::vector<std::vector<std::string>> label_sets(const InputQuantity& q) {
   std::set<std::vector<std::string>> out;
   const auto add = [&](std::vector<std::string> labels) {

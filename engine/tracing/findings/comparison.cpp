@@ -141,7 +141,7 @@ public:
     const bool held_out = !c_.observations.holdout_blocks.empty();
     out_.rms.holdout = blocks.rows.empty() ? "none"
                        : held_out          ? fmt::format("{}", fmt::join(blocks.names, ", "))
-                                           : "each block left out in turn, of data that the search has seen";
+                                           : "each block left out in turn; the search has used these data";
     const bool refused = !blocks.rows.empty() && hold_out_blocks(blocks);
     fill_rows(before.left, refused ? before.left : after.left, refused ? before_ : after_);
     return refused;
@@ -157,7 +157,7 @@ private:
       noise_alone(score(after_, noise_, rows_, blocks).rms, rms.holdout_noise, rms.holdout_noise_low,
                   rms.holdout_noise_high);
     else
-      rms.holdout += ": no more readings than offsets of their own, not scored";
+      rms.holdout += "; not scored, because it has no more readings than block offsets";
     const bool refused = judge(blocks);
     if (refused) {
       scored_after_ = scored_before_;

@@ -19,8 +19,8 @@ const Grouping& replicates(const TraceContext& c, int component) {
 }
 
 void state_veto(const Search& s, Trace& out) {
-  out.statements.push_back("an effect was found in the training data, but the hold-out blocks are predicted no better "
-                           "with it: nothing is added");
+  out.statements.push_back("an effect was found in the training data, but it does not improve the prediction of the "
+                           "hold-out blocks; nothing is added");
   for (const SearchFinding& one : s.findings)
     if (const Finding& f = one.finding; f.kind == Kind::named || f.kind == Kind::equivalence_class)
       out.statements.push_back(
@@ -48,8 +48,8 @@ bool survives_veto(const TraceContext& c, const Search& s, SearchFinding& found)
 std::string split_from_scatter(const Grouping& group, const std::vector<std::string>& depends_on) {
   const auto label = fmt::format("{}", fmt::join(group.labels, " and "));
   if (depends_on == std::vector<std::string>{"time"})
-    return fmt::format("measure the same again within one {}, as much later as the next one is", label);
-  return fmt::format("within one {} vary {} as much as from one to the next", label, fmt::join(depends_on, " and "));
+    return fmt::format("repeat the measurement within one {}, after the time that passes until the next one", label);
+  return fmt::format("within one {}, vary {} as much as from one to the next", label, fmt::join(depends_on, " and "));
 }
 
 /// The same sizes for every member, how much their predictions differ, and how to distinguish them.
@@ -71,7 +71,7 @@ void describe_class(const TraceContext& c, const Search& s, const SearchFinding&
     if (!f.suggestion.empty()) f.suggestion += "; and ";
     f.suggestion += split_from_scatter(replicates(c, found.component), f.depends_on);
   }
-  if (f.suggestion.empty()) f.remarks.push_back("no change of a condition that was tried would distinguish them");
+  if (f.suggestion.empty()) f.remarks.push_back("no tried change of a condition would distinguish them");
 }
 
 } // namespace

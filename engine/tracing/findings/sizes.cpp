@@ -53,21 +53,21 @@ std::vector<SizedQuantity> sizes(const TraceContext& c, const JointFit& fit, std
 }
 
 void remark_on_size(const Term& term, Finding& finding) {
-  constexpr const char* suspicion = "something else may stand behind it";
+  constexpr const char* suspicion = "it may have another cause";
   for (Index j = 0; j < term.size.size(); ++j) {
     const Amplitude& a = term.candidate.amplitudes[index(j)];
     if (a.typical > 0 && std::fabs(term.size[j]) > criteria.implausible_size * a.typical)
-      finding.remarks.push_back(fmt::format("{} is far beyond what is usual (up to {}): {}",
+      finding.remarks.push_back(fmt::format("{} is far above typical sizes (up to {}); {}",
                                             shown_size(term.size[j], a.unit, a.si_unit),
                                             shown_size(a.typical, a.unit, a.si_unit), suspicion));
     if (const double times = std::fabs(term.size[j]) / a.declared; a.declared > 0 && times > criteria.implausible_shift)
       finding.remarks.push_back(
-          fmt::format("{:.0f} times its declared standard uncertainty off: {}", times, suspicion));
+          fmt::format("the value differs by {:.0f} times its declared standard uncertainty; {}", times, suspicion));
     if (term.size[j] == a.low || term.size[j] == a.high)
-      finding.remarks.push_back(fmt::format("{} is held by a limit of its card: {}", a.name, suspicion));
+      finding.remarks.push_back(fmt::format("{} is at a limit of its range; {}", a.name, suspicion));
   }
   if (!term.candidate.held.empty() && !term.candidate.shape.empty())
-    finding.remarks.push_back("with " + term.candidate.shape + ", the best of the shapes tried");
+    finding.remarks.push_back("with " + term.candidate.shape + ", which fits best of the shapes tried");
 }
 
 } // namespace gumshoe::tracing

@@ -38,19 +38,20 @@ std::vector<Proposal> proposals(const ModelCard& card, const Scenario& s) {
         levels.size() == 1 ? fmt::format(" (all readings are at {})", shown(*levels.begin(), v)) : "";
     if (v.name == "direction" || v.name.ends_with("_direction")) {
       if (levels.size() == 1)
-        out.push_back({c, 0, Proposal::reverse, fmt::format("measure with the other {} too{}", v.name, all)});
+        out.push_back({c, 0, Proposal::reverse, fmt::format("also measure with the other {}{}", v.name, all)});
     } else if (v.si_unit == "rad") {
       for (const double turn : {0.5 * std::numbers::pi, std::numbers::pi})
         out.push_back({c, turn, Proposal::add,
-                       fmt::format("measure with {} turned by {:.0f} deg too", v.name, turn * 180 / std::numbers::pi)});
+                       fmt::format("also measure with {} turned by {:.0f} deg", v.name,
+                                   turn * 180 / std::numbers::pi)});
     } else if (v.name == "time") {
       const double range = *levels.rbegin() - *levels.begin();
       if (range > 0)
-        out.push_back({c, range, Proposal::add, fmt::format("measure the same again {} later", shown(range, v))});
+        out.push_back({c, range, Proposal::add, fmt::format("repeat the measurement {} later", shown(range, v))});
     } else if (v.si_unit != "1" && *levels.begin() > 0) {
       for (const double factor : {0.5, 2.0, 4.0}) {
         const double value = factor < 1 ? factor * *levels.begin() : factor * *levels.rbegin();
-        out.push_back({c, value, Proposal::set, fmt::format("measure at {} {} too{}", v.name, shown(value, v), all)});
+        out.push_back({c, value, Proposal::set, fmt::format("also measure at {} {}{}", v.name, shown(value, v), all)});
       }
     }
   }

@@ -21,15 +21,15 @@ std::string what_was_found(const Finding& f) {
     if (const std::string declared = "declared:"; f.name.starts_with(declared))
       return fmt::format("The readings contradict a value that the scenario declares: {}{}.",
                          f.name.substr(declared.size()), size);
-    return fmt::format("The machine does something that the model leaves out: {}{}.", f.name, size);
+    return fmt::format("The model lacks an effect of the machine: {}{}.", f.name, size);
   case Kind::equivalence_class:
-    return fmt::format("The machine does something that the model leaves out. It is one of: {}. These data cannot "
+    return fmt::format("The model lacks an effect of the machine. It is one of: {}. These data cannot "
                        "distinguish them.",
                        fmt::join(f.members, ", "));
   case Kind::scatter:
     return fmt::format("The readings scatter more than declared from one {} to the next{}.", depends_on, size);
   case Kind::not_in_catalogue:
-    return fmt::format("Something that no known effect explains changes the readings with {}.", depends_on);
+    return fmt::format("An unknown effect changes the readings with {}.", depends_on);
   }
   return {};
 }
@@ -54,13 +54,14 @@ void summarise(Trace& out) {
   } else if (!out.findings.empty()) {
     out.plain = {what_was_found(out.findings.front()), what_to_do(out.findings.front(), r)};
   } else if (out.vetoed) {
-    out.plain = {"Something was found in the training data, but held-out readings are predicted no better with it.",
-                 "Nothing is added to the model. Measure more blocks to decide."};
+    out.plain = {
+        "An effect was found in the training data, but it does not improve the prediction of held-out readings.",
+        "Nothing is added to the model. Measure more blocks to decide."};
   } else {
     out.plain = {
         fmt::format("The measured values agree with the model: the residuals ({}) are no larger than noise alone ({}).",
                     shown_rms(r.before, r), shown_rms(r.noise, r)),
-        "Effects smaller than the detection limits may still be there; the table lists those limits."};
+        "Effects smaller than the detection limits may still be present; the table lists those limits."};
   }
 }
 

@@ -19,19 +19,19 @@ constexpr Shown in_csv{.csv = analysis::same};
 constexpr Field<Trace> search[] = {
     {"verdict", [](const Trace& t) -> Value { return verdict(t); }, one,
      "kind of the first finding, else nothing_found or insufficient_data"},
-    {"p_anything", of<&Trace::p_anything>, one, "p-value of the one verdict over all tests"},
-    {"alpha", of<&Trace::alpha>, one, "rate of false alarms that was asked for"},
+    {"p_anything", of<&Trace::p_anything>, one, "p-value of the verdict over all tests"},
+    {"alpha", of<&Trace::alpha>, one, "requested false-alarm rate"},
     {"tried", of<&Trace::tried>, one, "candidates tried"},
     {"draws", of<&Trace::draws>, one, "draws of the bootstrap"},
-    {"vetoed", of<&Trace::vetoed>, one, "1 if the hold-out blocks rejected what was found"}};
+    {"vetoed", of<&Trace::vetoed>, one, "1 if the hold-out blocks rejected the findings"}};
 
 using F = Finding;
 constexpr Field<F> finding[] = {
     {"kind", [](const F& f) -> Value { return std::string(name(f.kind)); }, one,
      "named, class, scatter or not_in_catalogue"},
     {"name", of<&F::name>, one, "effect, declared quantity or scatter"},
-    {"suggestion", of<&F::suggestion>, one, "the measurement that would split the class"},
-    {"p_value", of<&F::p_value>, one, "p-value of the largest statistic over all that was tried"},
+    {"suggestion", of<&F::suggestion>, one, "measurement that would distinguish the members of the class"},
+    {"p_value", of<&F::p_value>, one, "p-value of the largest statistic over all candidates tried"},
     {"removed_share", of<&F::removed_share>, one, "share of the residuals' mean square that it removes"}};
 
 using Q = SizeRow;
@@ -39,26 +39,26 @@ constexpr Field<Q> sizes[] = {
     {"name", of<&Q::name>, one, "quantity"},
     {"member", of<&Q::member>, one, "effect whose size it is"},
     {"scenario_name", of<&Q::scenario_name>, one,
-     "where it stands in a scenario; empty: nowhere, and the value is a difference"},
-    {"labels", of<&Q::label_values>, one, "label values it holds for"},
+     "name in a scenario; empty: none, and the value is a difference"},
+    {"labels", of<&Q::label_values>, one, "label values for which it holds"},
     {"units", nullptr, units, ""},
     {"value", of<&Q::value>, point, "estimate"},
     {"standard_uncertainty", of<&Q::u>, difference, "standard uncertainty"},
     {"low", of<&Q::low95>, point, "lower end of the 95 % interval that allows for the search"},
-    {"high", of<&Q::high95>, point, "upper end of it"}};
+    {"high", of<&Q::high95>, point, "upper end of that interval"}};
 
 using C = RankedCandidate;
 constexpr Field<C> candidates[] = {
-    {"absorbed_by", of<&C::absorbed_by>, one, "quantity that absorbs it, where next to nothing is left", in_csv},
+    {"absorbed_by", of<&C::absorbed_by>, one, "quantity that absorbs its signature, if almost nothing is left", in_csv},
     {"correlation", of<&C::correlation>, one, "correlation of its projected signature with that of the best", in_csv},
     {"family", of<&C::family>, one, "effect, declared, stated, shape, omnibus or scatter", in_csv},
     {"identifiable", of<&C::identifiable>, one, "share of its signature that the declared model does not absorb",
      in_csv},
     {"name", of<&C::name>, one, "candidate", in_csv},
-    {"outcome", of<&C::outcome>, one, "what became of it, and why", in_csv},
-    {"p_single", of<&C::p_single>, one, "p-value, were it the only one tried", in_csv},
-    {"parameters", of<&C::parameters>, one, "number of sizes", in_csv},
-    {"shape", of<&C::shape>, one, "what was held fixed", in_csv},
+    {"outcome", of<&C::outcome>, one, "outcome, and its reason", in_csv},
+    {"p_single", of<&C::p_single>, one, "p-value if it were the only candidate tried", in_csv},
+    {"parameters", of<&C::parameters>, one, "number of fitted sizes", in_csv},
+    {"shape", of<&C::shape>, one, "shape parameters that were held fixed", in_csv},
     {"statistic", of<&C::statistic>, one, "twice the logarithm of the likelihood ratio", in_csv}};
 
 using D = DetectionLimit;
@@ -67,40 +67,41 @@ constexpr Field<D> limits[] = {
     {"quantity", of<&D::quantity>, one, "its size", in_csv},
     {"units", nullptr, units, "", {.csv = "unit"}},
     {"value", of<&D::value>, difference,
-     "smallest size that would have been seen in nine cases of ten; infinite: none by these data", in_csv}};
+     "smallest size that would be detected in nine cases of ten; infinite: these data cannot detect it", in_csv}};
 
 constexpr Field<Rms> rms[] = {
     {"units", nullptr, units, ""},
-    {"before", of<&Rms::before>, difference, "root mean square of the training data, in sample"},
-    {"after", of<&Rms::after>, difference, "the same with what was found added to the model"},
-    {"noise", of<&Rms::noise>, difference, "what noise alone gives"},
-    {"noise_low", of<&Rms::noise_low>, difference, "what noise alone gives, lower 95 % limit"},
-    {"noise_high", of<&Rms::noise_high>, difference, "what noise alone gives, upper 95 % limit"},
-    {"holdout_before", of<&Rms::holdout_before>, difference, "root mean square of the hold-out"},
-    {"holdout_after", of<&Rms::holdout_after>, difference, "the same with what was found added to the model"},
-    {"holdout_noise", of<&Rms::holdout_noise>, difference, "what noise alone gives in the hold-out"},
+    {"before", of<&Rms::before>, difference, "root mean square residual of the training data, in sample"},
+    {"after", of<&Rms::after>, difference, "the same with the findings added to the model"},
+    {"noise", of<&Rms::noise>, difference, "the same for noise alone"},
+    {"noise_low", of<&Rms::noise_low>, difference, "the same for noise alone, lower 95 % limit"},
+    {"noise_high", of<&Rms::noise_high>, difference, "the same for noise alone, upper 95 % limit"},
+    {"holdout_before", of<&Rms::holdout_before>, difference, "root mean square residual of the hold-out readings"},
+    {"holdout_after", of<&Rms::holdout_after>, difference, "the same with the findings added to the model"},
+    {"holdout_noise", of<&Rms::holdout_noise>, difference, "the same for noise alone"},
     {"holdout_noise_low", of<&Rms::holdout_noise_low>, difference, "the same, lower 95 % limit"},
     {"holdout_noise_high", of<&Rms::holdout_noise_high>, difference, "the same, upper 95 % limit"},
-    {"worst_block_before", of<&Rms::worst_block_before>, difference, "largest root mean square of a hold-out block"},
-    {"worst_block_after", of<&Rms::worst_block_after>, difference, "the same with what was found"},
-    {"worst_point_before", of<&Rms::worst_point_before>, difference, "largest residual of one reading there"},
-    {"worst_point_after", of<&Rms::worst_point_after>, difference, "the same with what was found"},
+    {"worst_block_before", of<&Rms::worst_block_before>, difference,
+     "largest root mean square residual of a hold-out block"},
+    {"worst_block_after", of<&Rms::worst_block_after>, difference, "the same with the findings added"},
+    {"worst_point_before", of<&Rms::worst_point_before>, difference, "largest residual of one hold-out reading"},
+    {"worst_point_after", of<&Rms::worst_point_after>, difference, "the same with the findings added"},
     {"share_removed", of<&Rms::share_removed>, one,
-     "(before^2 - after^2) / (before^2 - noise^2) of the hold-out"},
-    {"worst_block", of<&Rms::worst_block>, one, "which block it is"},
-    {"worst_point", of<&Rms::worst_point>, one, "which reading it is"},
-    {"holdout", of<&Rms::holdout>, one, "what the hold-out is"}};
+     "(before^2 - after^2) / (before^2 - noise^2) of the hold-out readings"},
+    {"worst_block", of<&Rms::worst_block>, one, "name of that block"},
+    {"worst_point", of<&Rms::worst_point>, one, "name of that reading"},
+    {"holdout", of<&Rms::holdout>, one, "description of the hold-out"}};
 
 constexpr Field<Noise> noise[] = {
     {"scale", of<&Noise::scale>, one,
-     "factor on the declared standard uncertainties; none declared: standard uncertainty of a readout, SI"},
-    {"correlation", of<&Noise::correlation>, one, "from a reading to the next in the order of measurement"},
+     "factor on the declared standard uncertainties; if none is declared, standard uncertainty of one reading, SI"},
+    {"correlation", of<&Noise::correlation>, one, "correlation of successive readings in the order of measurement"},
     {"scatter_u", of<&Noise::scatter_u>, difference, "standard uncertainty of the variance component"},
     {"chi_squared_p", of<&Noise::chi_squared_p>, one,
-     "p-value of residuals as large as these, were the declared noise true"},
+     "p-value of residuals as large as these under the declared noise"},
     {"scatter", of<&Noise::scatter>, one, "labels of the variance component in use, or empty"},
     {"declared", of<&Noise::declared>, one, "1 if the scenario declares the noise"},
-    {"outliers", of<&Noise::outliers>, one, "readings that were down-weighted"}};
+    {"outliers", of<&Noise::outliers>, one, "number of readings that were down-weighted"}};
 
 using R = ResidualRow;
 constexpr Field<R> residuals[] = {
@@ -110,12 +111,12 @@ constexpr Field<R> residuals[] = {
     {"units", nullptr, units, "", {.csv = "unit"}},
     {"order", of<&R::order>, analysis::Unit("see order_name"), "order of measurement"},
     {"block", of<&R::block>, one, "block"},
-    {"measured", of<&R::measured>, point, "what was read", in_csv},
+    {"measured", of<&R::measured>, point, "readings of the indications", in_csv},
     {"before", of<&R::before>, difference,
-     "measured minus simulated, the data's own constants taken off; NaN if not scored", in_csv},
-    {"after", of<&R::after>, difference, "the same with what was found added to the model", in_csv},
-    {"noise_u", of<&R::noise_u>, difference, "standard uncertainty of its noise", in_csv},
-    {"weight", of<&R::weight>, one, "below 1: taken for an outlier", in_csv}};
+     "measured minus simulated, block offsets subtracted; NaN if not scored", in_csv},
+    {"after", of<&R::after>, difference, "the same with the findings added to the model", in_csv},
+    {"noise_u", of<&R::noise_u>, difference, "standard uncertainty of the noise of the reading", in_csv},
+    {"weight", of<&R::weight>, one, "weight of the reading; below 1: treated as an outlier", in_csv}};
 
 } // namespace
 // clang-format on

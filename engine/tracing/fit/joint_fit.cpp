@@ -55,7 +55,7 @@ void Fitter::apply(JointFit& fit, const Vector& change, double share) const {
     }
 }
 
-/// Of the residuals, winsorised as the step saw them: an outlier must not hold the fit back.
+/// Sum of squares of the residuals, winsorised as in the step, so that an outlier cannot stop the fit.
 double Fitter::objective(const JointFit& fit, const Whitened& prior, const Scan& scan) const {
   return prior.left(prior.whiten(scan.winsorised(prior.take(fit.residual))))[0];
 }

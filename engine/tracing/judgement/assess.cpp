@@ -29,7 +29,7 @@ double share_at_most(const std::vector<double>& draws, double value) {
   return (1.0 + static_cast<double>(below)) / (1.0 + static_cast<double>(draws.size()));
 }
 
-/// Of each statistic (row), by the first half of the draws.
+/// Null distribution of each statistic (row), from the first half of the draws.
 std::vector<Null> nulls_of(const Matrix& draws) {
   std::vector<Null> out;
   for (Index j = 0; j < draws.rows(); ++j) out.push_back(null_of(draws.row(j).head(draws.cols() / 2)));
@@ -115,9 +115,9 @@ Assessment assess(const Scan& scan, const Vector& residuals, int draws, std::uin
   // Signatures given the noise as it seems to be, with its variance component.
   if (k1 != k0) {
     if (response) out.noise_shape.scatter = response(scan.covariance_models()[k1], out.data.variance[0]);
-    const Statistics beside = null_draws(k1, out.data.variance[0], seed ^ 0x5ca77e5ull);
-    out.null = nulls_of(beside.ratio);
-    for (Index i = 0; i < sets; ++i) least[index(i)] = least_p(out.null, beside.ratio, sets + i);
+    const Statistics given_scatter = null_draws(k1, out.data.variance[0], seed ^ 0x5ca77e5ull);
+    out.null = nulls_of(given_scatter.ratio);
+    for (Index i = 0; i < sets; ++i) least[index(i)] = least_p(out.null, given_scatter.ratio, sets + i);
   }
   for (std::size_t j = 0; j < out.null.size(); ++j) out.p.push_back(out.null[j].p(out.data.ratio(index(j), 0)));
   out.p_signature = share_at_most(least, least_p(out.null, out.data.ratio, 0));

@@ -52,12 +52,12 @@ bool shape_excludes(double lead, const Chance& chance) {
   return lead >= criteria.decisive && (lead > criteria.beyond_doubt || chance() < criteria.shape_lead_p);
 }
 
-Standing standing(double lead, double correlation, const Chance& chance, const std::function<double()>& beside,
+Standing standing(double lead, double correlation, const Chance& chance, const std::function<double()>& added,
                   double limit) {
   const bool decided = lead > criteria.decisive;
   if (correlation > criteria.alike && !decided) return Standing::member; // by the whole model, too
   if (lead > criteria.beyond_doubt || (decided && chance() < criteria.rival_lead_p)) return Standing::excluded;
-  return beside() > limit ? Standing::separate : Standing::member;
+  return added() > limit ? Standing::separate : Standing::member;
 }
 
 bool pair_found(double pair, const double (&scores)[2], const double (&limits)[2], double best_shape) {
@@ -88,7 +88,7 @@ std::optional<Kind> left_by_veto(Kind kind, bool scatter_in_class, bool scatter_
 std::string refusal(double identifiable, const std::string& absorbed_by, double p, double threshold) {
   if (identifiable <= criteria.absorbed_share)
     return "not testable: absorbed by " + (absorbed_by.empty() ? std::string("the fit") : absorbed_by);
-  return p > threshold ? "refused: no more than chance" : "refused: another explains it better";
+  return p > threshold ? "refused: no more than chance" : "refused: another candidate explains the residuals better";
 }
 
 } // namespace gumshoe::tracing

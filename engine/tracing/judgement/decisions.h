@@ -48,11 +48,11 @@ enum class Standing {
   separate, ///< it counts in addition to the best: another effect, which waits for its turn
   member,   ///< these data cannot distinguish the two: one class
 };
-/// @param lead         of the best over the rival
+/// @param lead         lead of the best over the rival, 2 ln L
 /// @param correlation  cosine of their projected signatures
-/// @param beside       likelihood ratio that the rival adds to the best
-/// @param limit        what that ratio must pass
-Standing standing(double lead, double correlation, const Chance& chance, const std::function<double()>& beside,
+/// @param added        likelihood ratio that the rival adds to the best
+/// @param limit        smallest ratio at which the rival counts as another effect
+Standing standing(double lead, double correlation, const Chance& chance, const std::function<double()>& added,
                   double limit);
 
 /// Whether two effects together are found where neither passes alone: they explain more than any shape, and each counts

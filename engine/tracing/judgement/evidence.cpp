@@ -69,7 +69,7 @@ JointFit Evidence::with(const std::vector<Term>& more) const {
 Trial Evidence::trial(std::size_t a) const {
   Trial out{a, with({linear_term(a)})};
   if (!out.fit.valid) return out;
-  // At the fitted size, beside the same unknowns as without the term.
+  // At the fitted size, with the same unknowns as without the term.
   Design without = out.fit.design;
   without.fixed = Matrix(without.fixed.leftCols(without.fixed.cols() - candidates_[a].columns.cols()));
   const Scan scan(without, c_.fitter.rows(), {}, c_.threads);

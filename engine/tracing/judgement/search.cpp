@@ -14,7 +14,7 @@ namespace {
 
 std::string with_shape(const Candidate& a) { return a.name + (a.shape.empty() ? "" : " (" + a.shape + ")"); }
 
-constexpr const char* not_predicted = "refused: held-out blocks are predicted no better with it";
+constexpr const char* not_predicted = "refused: it does not improve the prediction of held-out blocks";
 
 /// Takes the steps that the decisions (decisions.h) ask for: fits, and keeps what was found.
 class Searcher {
@@ -22,7 +22,7 @@ public:
   explicit Searcher(const TraceContext& c) : c_(c) {}
 
   Search run() {
-    report_progress("fits the declared model");
+    report_progress("fitting the declared model");
     out_.base = out_.found = c_.fitter.fit({}, 0);
     const auto mean_square = [](const JointFit& fit) { return fit.noise * fit.noise * fit.variance; };
     for (bool more = true; search_goes_on(more, out_.findings.size());) {
@@ -44,7 +44,8 @@ private:
 
   /// Takes in one more effect; false if there is none.
   bool round() {
-    report_progress(out_.findings.empty() ? "looks for what the declared model lacks" : "looks for more");
+    report_progress(out_.findings.empty() ? "searching for what is missing from the declared model" : "searching for "
+                                                                                                      "more");
     const bool first = out_.findings.empty() && out_.first.p.empty();
     const Evidence evidence(c_, out_.found, out_.findings.size());
     evidence_ = &evidence;
@@ -112,7 +113,7 @@ private:
     if (const auto shape = shape_instead(tried[0], plain)) {
       if (take_pair(plain)) return true;
       for (const Trial& t : tried)
-        outcomes_[t.candidate] = "refused: " + with_shape(candidate(*shape)) + " fits better, as simple as it is";
+        outcomes_[t.candidate] = "refused: " + with_shape(candidate(*shape)) + " fits better and is as simple";
     } else if (evidence_->predicts_better(tried[0].fit)) {
       take(tried);
       return true;
@@ -152,7 +153,7 @@ private:
     for (const std::size_t i : {0, 1}) {
       out_.findings.push_back(found_by(pair[i], Kind::named, i));
       out_.findings.back().finding.remarks.push_back("found together with " + candidate(pair[1 - i]).name +
-                                                     ": each hides the other");
+                                                     "; each masks the other");
       outcomes_[pair[i]] = "named";
     }
     adopt(fit);
@@ -208,7 +209,7 @@ private:
     // What shows in one block only cannot be predicted from the others: there it is nevertheless.
     if (!unconfirmed || !out_.findings.empty()) return false;
     add_shape(unconfirmed->first, unconfirmed->second,
-              "held-out blocks are predicted no better with it: it may belong to some of them only");
+              "it does not improve the prediction of held-out blocks; it may belong to some blocks only");
     return true;
   }
 
@@ -216,7 +217,7 @@ private:
     SearchFinding found = found_by(a, Kind::not_in_catalogue);
     found.finding.remarks.push_back("described by " + with_shape(candidate(a)));
     if (!remark.empty()) found.finding.remarks.push_back(remark);
-    outcomes_[a] = "describes what is not in the catalogue";
+    outcomes_[a] = "describes an unknown effect";
     out_.findings.push_back(std::move(found));
     adopt(fit);
   }

@@ -14,8 +14,8 @@ struct DeclaredResponse {
   Vector slope;    ///< straight line through the readings, per unit of the quantity; empty: the derivative serves
   Vector variance; ///< about that line
   Vector offset;   ///< mean of the readings over the draws less the readings at the point itself
-  Matrix table;    ///< rows x nodes: what bend_node(j) standard deviations do beside line and mean; empty: no bend, or
-                   ///< not asked for
+  Matrix table;    ///< rows x nodes: effect of bend_node(j) standard deviations that line and mean leave out; empty: no
+                   ///< bend, or not requested
   bool straight() const { return variance.size() == 0; }
 };
 

@@ -93,7 +93,7 @@ void find_replicate_groups(const Scenario& s, Observations& o) {
     if (g.groups.size() < least) {
       if (s.trace.redone)
         o.statements.push_back(
-            fmt::format("{} was repeated only {} times; it takes at least {} to judge whether it scatters", g.name,
+            fmt::format("{} was repeated only {} times; at least {} are needed to judge whether it scatters", g.name,
                         g.groups.size(), least));
       continue;
     }
@@ -110,8 +110,8 @@ void find_replicate_groups(const Scenario& s, Observations& o) {
 void find_blocks(const Scenario& s, Observations& o) {
   o.held_out.assign(o.readings, false);
   if (s.trace.blocks.empty()) {
-    o.statements.push_back("no label of blocks is stated ([trace] blocks): no readings are held out, and findings are "
-                           "not confirmed on data that the search has not seen");
+    o.statements.push_back("[trace] blocks names no label; therefore no readings are held out, and findings are "
+                           "not confirmed on data that the search has not used");
     return;
   }
   o.blocks = grouping(s, o.sequence, {s.trace.blocks});
@@ -123,7 +123,7 @@ void find_blocks(const Scenario& s, Observations& o) {
   };
   if (count == 1) {
     o.statements.push_back(
-        fmt::format("all readings are of one block ({}): nothing can be held out, and these data do not show "
+        fmt::format("all readings are of one block ({}); nothing can be held out, and these data do not show "
                     "whether an effect recurs in another {}",
                     o.blocks.groups[0], s.trace.blocks));
     return;
@@ -139,8 +139,8 @@ void find_blocks(const Scenario& s, Observations& o) {
   }
   if (chosen.empty() || chosen.size() + criteria.least_training_blocks > count) {
     o.statements.push_back(
-        fmt::format("{} blocks are too few to hold some out: each is left out in turn instead, and the "
-                    "figures are from data that the search has partly seen",
+        fmt::format("{} blocks are too few to hold some out; each is left out in turn instead, and the "
+                    "figures are from data that the search has partly used",
                     count));
     return;
   }
@@ -176,7 +176,7 @@ Observations observe(const propagation::Experiment& e) {
   for (const auto& i : card.indications) o.names.emplace_back(i.name);
   for (const auto& r : s.readings) {
     if (r.indications.size() != o.indications)
-      calibration::refuse(s.file, "there are no readings to trace", "nothing was read",
+      calibration::refuse(s.file, "there are no readings to trace", "no indication has readings",
                           "add [indications.NAME] with readings, or use --data");
     o.measured.insert(o.measured.end(), r.indications.begin(), r.indications.end());
   }

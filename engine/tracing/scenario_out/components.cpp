@@ -68,8 +68,8 @@ public:
       }
       of_noise(
           i, std::sqrt(square / count), per,
-          fmt::format("not in the catalogue, p = {:.2g}: depends on {}; not corrected (JCGM 100:2008, F.2.4.5), u is "
-                      "the root mean square of what was found",
+          fmt::format("not in the catalogue, p = {:.2g}: depends on {}; not corrected (JCGM 100:2008, F.2.4.5); u is "
+                      "the root mean square of the effect found",
                       f.p_value, fmt::join(f.depends_on, " and ")));
     }
   }

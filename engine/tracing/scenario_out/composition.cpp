@@ -137,8 +137,8 @@ private:
     std::string out = fmt::format("{}, p = {:.2g}", name(f.kind), f.p_value);
     if (f.kind == Kind::equivalence_class)
       out +=
-          fmt::format(" of {}, which these data cannot distinguish: the first is written, with u widened by how much "
-                      "they differ",
+          fmt::format(" of {}, which these data cannot distinguish; the first is written, with u enlarged by the "
+                      "difference between them",
                       fmt::join(f.members, ", "));
     for (const SizedQuantity& q : f.quantities) {
       if (q.scenario_name != a.scenario_name) continue;
@@ -150,8 +150,9 @@ private:
       out += fmt::format("; 95 % interval{} [{}, {}]{}, {}", shift ? " of the shift" : "",
                          number(q.low95, q.u, q.unit, q.si_unit, kind), number(q.high95, q.u, q.unit, q.si_unit, kind),
                          q.unit == "1" ? "" : " " + q.unit,
-                         f.quantities.size() == 1 ? "which allows for the search as u, of the fit, does not"
-                                                  : "of the fit as u is");
+                         f.quantities.size() == 1 ? "which allows for the search, whereas u comes from the fit and "
+                                                    "does not"
+                                                  : "of the fit, like u");
     }
     return out;
   }
@@ -182,8 +183,8 @@ private:
               return std::find(component.per.begin(), component.per.end(), l.first) == component.per.end();
             }))
           out_.statements.push_back(
-              fmt::format("in the traced scenario {} has values by label, and what is declared of "
-                          "all at once counts for each apart",
+              fmt::format("in the traced scenario {} has values by label; what was declared for all of "
+                          "them together applies to each separately",
                           out_.extended.quantities[a.quantity].name));
       std::set<Labels> seen;
       for (const auto& reading : c_.experiment.scenario().readings) {

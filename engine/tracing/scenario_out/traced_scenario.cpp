@@ -37,7 +37,7 @@ bool replaced(Node& component, const quantities::Labels& entry, const quantities
   return cell == names(shift);
 }
 
-/// What is declared beside it stays.
+/// The other components of the leaf, which stay as declared.
 std::vector<Node> kept(Node& leaf, const quantities::Labels& entry, const quantities::Labels& shift) {
   std::vector<Node> all;
   if (Node* components = find_member(leaf, "components")) {

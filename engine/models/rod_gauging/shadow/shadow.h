@@ -22,7 +22,7 @@ template <class T> struct Rod {
   T fillet_radius;
   T bottom_elevation; ///< phi, of the bottom plane's normal that points into the metal; pi/2 = square end
   T bottom_azimuth;   ///< tau + theta_th
-  T axis_x = T(0.0);  ///< the rod's axis beside the laser reference point
+  T axis_x = T(0.0);  ///< offset of the rod's axis from the laser reference point
   T axis_y = T(0.0);
 };
 

@@ -66,8 +66,8 @@ template <class T> BoundaryPoint<T> boundary_point(const ShadowEdge<T>& e, const
 }
 
 /// Arc length of the half-ellipse between w = a and b. The integrand's singularities lie at distance
-/// `pinch_width` beside the directions `pinch` + m pi, where the ellipse turns fastest: panels of 12
-/// nodes are halved until they are no longer than their distance to them (error below 1e-14).
+/// `pinch_width` from the directions `pinch` + m pi, where the ellipse turns fastest: panels of 12
+/// nodes are halved until none is longer than its distance to them (error below 1e-14).
 template <class T> class ArcLength {
 public:
   explicit ArcLength(const ShadowEdge<T>& e) : edge_(e) {

@@ -79,7 +79,8 @@ struct RakeChord {
 };
 
 /// Absolute error below 1e-15 m, times the insert's size in metres if that is more. Not solved where the chord is long
-/// against the insert, or the beam beside it. With `more`, an area: the height at which the share less that is covered.
+/// compared with the insert, or the insert misses the beam. With `more`, an area: the height at which the share minus
+/// that area is covered.
 inline RakeChord rake_chord(const RakeView& v, double rho, const DiscShare& disc, double more = 0) {
   RakeChord chord;
   const double beam = disc.radius, alpha = 1 - v.ny * v.ny, extent = rho * std::sqrt(alpha),

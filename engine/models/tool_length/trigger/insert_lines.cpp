@@ -37,8 +37,8 @@ double InsertLines::line(const RakeView& v, double t, double half, double fall) 
   return most + disc_.radius * disc_.depth * std::sqrt(q2) + fall * half;
 }
 
-/// The whole insert beside the beam.
-bool InsertLines::beside(const RakeView& v, double half) const {
+/// Whether the whole insert misses the beam.
+bool InsertLines::misses(const RakeView& v, double half) const {
   const double extent = std::sqrt(1 - v.ny * v.ny);
   double left = HUGE_VAL, right = -HUGE_VAL;
   for (int back = 0; back < 2; ++back) {
@@ -70,7 +70,7 @@ template <class F> void InsertLines::tangents(const RakeView& v, const F& use) c
 
 double InsertLines::at(double angle) const {
   const RakeView v(rake_, angle);
-  if (beside(v, 0)) return -HUGE_VAL;
+  if (misses(v, 0)) return -HUGE_VAL;
   double least = HUGE_VAL;
   tangents(v, [&](double t) {
     least = std::min(least, line(v, t, 0, 0));
@@ -82,7 +82,7 @@ double InsertLines::at(double angle) const {
 bool InsertLines::below(double from, double to, double fall, double limit) const {
   const double half = 0.5 * (to - from);
   const RakeView v(rake_, from + half);
-  if (beside(v, half)) return true;
+  if (misses(v, half)) return true;
   bool proved = false;
   tangents(v, [&](double t) { return proved = line(v, t, half, fall) < limit; });
   return proved;

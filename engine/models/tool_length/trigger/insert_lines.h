@@ -11,13 +11,13 @@ namespace gumshoe::models::tool_length {
 class InsertLines {
 public:
   InsertLines(const InsertBody<double>& body, const DiscShare& disc);
-  /// At one angle; minus infinity beside the beam.
+  /// Height at one angle; minus infinity where the insert misses the beam.
   double at(double angle) const;
   /// True only if k(angle) + fall (angle - from) < limit at all angles from `from` to `to`.
   bool below(double from, double to, double fall, double limit) const;
 
 private:
-  bool beside(const RakeView& v, double half) const;
+  bool misses(const RakeView& v, double half) const;
   template <class F> void tangents(const RakeView& v, const F& use) const;
   double line(const RakeView& v, double t, double half, double fall) const;
   RakeBody rake_;

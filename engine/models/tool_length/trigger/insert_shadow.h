@@ -18,7 +18,7 @@ template <class T> struct Insert {
   T thickness;
   T clearance; ///< tau
   T radial_angle, axial_angle;
-  T axis_x = T(0.0), axis_y = T(0.0); ///< the tool's axis beside the laser reference point
+  T axis_x = T(0.0), axis_y = T(0.0); ///< offset of the tool's axis from the laser reference point
   T seat = T(0.0);                    ///< tangential displacement of the seat, towards the insert's Y at no tilt
   bool operator==(const Insert&) const = default;
 };

@@ -10,7 +10,7 @@ constexpr double turn = 2 * 3.14159265358979323846;
 /// Midpoint error at which a cell is halved once more and then good: 16 times less.
 constexpr double tolerance = 1.6e-11;
 constexpr double narrowest = 1e-10; ///< rad: cover begins at once
-/// Of a piece's t: heights are read off the line, x - drop psi, so 1e-9 of 0.1 rad leaves 1e-10 drop.
+/// Tolerance of a piece's t: heights are read from the line, x - drop psi, so 1e-9 of 0.1 rad leaves 1e-10 drop.
 constexpr double settled = 1e-9;
 
 /// Angles that see every pass of the insert: four while it passes, 72 in a turn at least.
