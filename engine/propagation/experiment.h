@@ -1,5 +1,5 @@
 #pragma once
-/// A scenario made ready to run: its forward model, the plan of variates and columns, and the wiring between them.
+/// A scenario prepared for a run: its forward model, its plan of variates and columns, and the links between them.
 #include <memory>
 
 #include "propagation/forward_model.h"
@@ -14,10 +14,10 @@ struct Workspace {
   std::vector<double> columns, truth;
   std::vector<double> indications;        ///< [reading][indication][sample] as the last block's evaluation read them
   std::vector<double> single;             ///< outputs of the single readings, where their mean is wanted
-  std::vector<models::Column> drawn, row; ///< by the plan's columns; of one reading
+  std::vector<models::Column> drawn, row; ///< one per column of the plan; one per value of a reading
   Block block;
   std::vector<double*> simulated, measurands, true_measurands;
-  std::uint64_t first_sample = models::unnumbered; ///< of the run, for messages
+  std::uint64_t first_sample = models::unnumbered; ///< number in the run, for messages
 };
 
 class Experiment {
@@ -30,7 +30,7 @@ public:
   /// The scenario's model at points given by the caller; its points hold values in the order of the scenario's
   /// quantities.
   const ForwardModel& forward() const { return forward_; }
-  /// Where the scenario's quantities stand.
+  /// Places of the scenario's quantities.
   const Layout& layout() const { return forward_.layout(); }
   const quantities::SamplePlan& plan() const { return plan_; }
   const std::vector<Output>& outputs() const { return outputs_; }
@@ -39,14 +39,14 @@ public:
   bool joint() const { return joint_; }
   /// Measurands of one reading, or of the joint evaluation; output o is measurand o % measurands().size().
   std::span<const VariableCard> measurands() const { return measurands_; }
-  /// By Output::reading: the readings' names, or "all readings".
+  /// Names of the readings, or "all readings"; indexed by Output::reading.
   std::vector<std::string> place_names() const;
   /// Columns of the plan that the outputs of `reading` depend on: one per scenario quantity, or all columns for a joint
   /// evaluation.
   const std::vector<std::size_t>& columns_at(std::size_t reading) const {
     return joint_ ? every_column_ : plan_.gather[reading];
   }
-  /// What the model says of all readings of a joint evaluation together.
+  /// Remarks of the model on all readings of a joint evaluation together.
   const std::vector<std::string>& remarks() const { return remarks_; }
 
   /// Outputs for given variates (variates[v] points to n values, n a multiple of 8):
@@ -55,8 +55,8 @@ public:
   void run(std::span<const double* const> variates, std::size_t n, Workspace& w, double* outputs, std::uint8_t* status,
            const std::vector<std::size_t>* changed = nullptr) const;
 
-  /// The same for given values of the plan's columns: columns[c] points to n values, null for the estimate. What
-  /// differs from the estimates is the truth of a virtual experiment and the input of a propagation.
+  /// The same for given values of the plan's columns: columns[c] points to n values, null for the estimate. Values that
+  /// differ from the estimates are true values in a virtual experiment and inputs in a propagation.
   void run_columns(std::span<const double* const> columns, std::size_t n, Workspace& w, double* outputs,
                    std::uint8_t* status) const;
 
@@ -73,8 +73,8 @@ public:
   std::vector<double> reading_point(std::size_t reading, const double* variates = nullptr) const;
   /// The estimates of all readings.
   Points estimates() const;
-  /// What the outputs at a reading depend on, in the order of columns_at: reading_point; of a joint evaluation the
-  /// values of the plan's columns, indications as deviations from what was read.
+  /// Values on which the outputs at a reading depend, in the order of columns_at: reading_point, or for a joint
+  /// evaluation the values of the plan's columns, with indications as deviations from the readings.
   std::vector<double> point(std::size_t reading, const double* variates = nullptr) const;
 
 private:
@@ -90,14 +90,14 @@ private:
   void add_noise(std::size_t n, Workspace& w) const;
 
   const scenario::Scenario& scenario_;
-  models::MadeModel made_; ///< keeps a model alive that was made from the scenario
+  models::MadeModel made_; ///< owns the model if it was made from the scenario
   ForwardModel forward_;
   quantities::SamplePlan plan_;
   std::vector<Output> outputs_;
   std::span<const VariableCard> measurands_;
   bool virtual_ = false; ///< a virtual experiment
   bool joint_ = false;
-  bool mean_ = false; ///< the outputs are means of the model's over the readings
+  bool mean_ = false; ///< the outputs are the model's measurands averaged over the readings
   std::vector<std::size_t> solved_as_, every_column_;
   std::vector<double> column_estimates_;
   std::vector<std::string> remarks_;
@@ -108,10 +108,10 @@ private:
 /// described by the scenario counts by its name only.
 std::string design_hash(const Experiment& experiment);
 
-/// "rod 2, 1": the label values of a reading, or "" where it has none.
+/// Label values of a reading, such as "rod 2, 1"; "" if it has none.
 std::string reading_name(const quantities::Reading& reading);
 
-/// The first line of the scenario's text that begins with `start`, for messages on what was read.
+/// The first line of the scenario's text that begins with `start`, for messages.
 Location find_line(const scenario::Scenario& scenario, const std::string& start);
 
 } // namespace gumshoe::propagation

@@ -1,5 +1,5 @@
 #pragma once
-/// The one way to ask a model: indications and measurands at given points, with derivatives.
+/// The only interface to a model: indications and measurands at given points, with derivatives.
 ///
 /// A ForwardModel is a model, the effects that act on it, one of its evaluations, the conditions of every reading and
 /// the stated effects. A simulation adds stated effects to the indications; an evaluation first subtracts them. No
@@ -15,7 +15,7 @@
 
 namespace gumshoe::propagation {
 
-/// A stated effect that has a size: the quantity that is its size, and what it adds to.
+/// A stated effect with a size: the quantity that is its size, and the indication to which it is added.
 struct StatedSize {
   std::size_t quantity = 0, indication = 0;
   std::vector<double> loading; ///< [reading]: change of the indication by the size, SI
@@ -29,10 +29,10 @@ public:
   explicit ForwardModel(const models::Model& model, std::span<const EffectCard* const> effects = {},
                         std::size_t evaluation = 0, std::vector<std::vector<double>> conditions = {{}},
                         std::vector<StatedSize> stated = {});
-  /// The same, with readings shared out to so many threads (0: all processors). A model made from a scenario (a plugin,
-  /// a command) may not be safe to call from several; it is called from one.
+  /// The same, with the readings distributed over so many threads (0: all processors). A model made from a scenario (a
+  /// plugin, a command) may not be thread-safe and is called from one thread only.
   ForwardModel on_threads(int threads) const;
-  /// What a joint evaluation weights its readings by.
+  /// Sets the declared uncertainties by which a joint evaluation weights its readings.
   void declare(models::Declared declared);
 
   const models::Model& model() const { return *model_; }
@@ -42,18 +42,18 @@ public:
   std::size_t readings() const { return conditions_.size(); }
   std::span<const double> conditions(std::size_t reading) const { return conditions_[reading]; }
   std::span<const StatedSize> stated() const { return stated_; }
-  /// All readings together give one set of measurands.
+  /// True if all readings together give one set of measurands.
   bool joint() const;
-  /// Measurands of one reading; of a joint evaluation, those that have a meaning where a reading has these quantities.
+  /// Measurands of one reading; for a joint evaluation, those that are defined for these quantities of a reading.
   std::span<const VariableCard> measurands(const double* quantities) const;
   bool has_simulation() const;
-  /// Whether linearise gives exact derivatives.
+  /// True if linearise gives exact derivatives.
   bool has_derivatives() const { return model_->simulate_gradient != nullptr; }
 
-  /// Indications of all readings at the points, under each variation. Readings of equal quantities are placed next to
-  /// each other: a model may remember what it computed for the one before.
+  /// Indications of all readings at the points, under each variation. Readings with equal quantities are placed next to
+  /// each other, because a model may reuse the results of the previous reading.
   Responses indications(const Points& at, std::span<const Variation> variations) const;
-  /// The same without variations.
+  /// Indications of all readings at the points.
   Responses indications(const Points& at) const;
   /// Measurands of all readings, evaluated from the points' indications.
   Responses measurands(const Points& at, std::span<const Variation> variations) const;
@@ -90,10 +90,10 @@ public:
       indication = indication - point[s.quantity] * s.loading[reading];
     }
   }
-  /// What is impossible about a reading's point beyond the limits of single quantities; empty if nothing.
+  /// Message if a reading's point is impossible although each quantity is within its limits; empty otherwise.
   std::string check(std::size_t reading, std::vector<double> point) const;
-  /// What is impossible about all readings together, and what a reader must know of them: directions that they cannot
-  /// see.
+  /// Message if all readings together are impossible; and remarks on them, such as directions that they do not
+  /// determine.
   std::string check_together(const Points& at) const;
   std::vector<std::string> remarks(const Points& at) const;
   /// Every intermediate value of the evaluation of a reading, in the order of computation. Stated effects are

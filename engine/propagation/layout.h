@@ -1,5 +1,5 @@
 #pragma once
-/// The row of values that a reading of a model has: model quantities | effects | indications | stated sizes.
+/// Layout of the row of values at a reading: model quantities | effects | indications | stated sizes.
 #include <cstddef>
 
 namespace gumshoe::propagation {
@@ -9,7 +9,7 @@ struct Range {
   std::size_t begin = 0, end = 0;
   constexpr std::size_t size() const { return end - begin; }
   constexpr bool contains(std::size_t place) const { return place >= begin && place < end; }
-  /// Place in the row of the range's i-th value.
+  /// Place of the i-th value of the range in the row.
   constexpr std::size_t operator[](std::size_t i) const { return begin + i; }
 };
 
@@ -23,7 +23,7 @@ struct Layout {
   constexpr Layout(std::size_t m, std::size_t e, std::size_t i, std::size_t s)
       : model{0, m}, effects{m, m + e}, indications{m + e, m + e + i}, sizes{m + e + i, m + e + i + s} {}
   constexpr std::size_t size() const { return sizes.end; }
-  /// What a simulation reads.
+  /// Places that a simulation reads.
   constexpr Range simulated_from() const { return {model.begin, effects.end}; }
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-/// The samples of a run in memory: for studies that keep no file, and for tests.
+/// Keeps the samples of a run in memory, for studies without a file and for tests.
 #include "propagation/run.h"
 
 namespace gumshoe::propagation {

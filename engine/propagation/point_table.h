@@ -1,5 +1,5 @@
 #pragma once
-/// The forward model at given points, no sampling: what `gumshoe evaluate` does with a table.
+/// The forward model at given points, without sampling: the work of `gumshoe evaluate`.
 #include <string>
 #include <vector>
 
@@ -9,16 +9,16 @@
 namespace gumshoe::propagation {
 
 struct PointTable {
-  std::vector<std::string> header;          ///< of the columns that are added: "bottom_height (mm)"
+  std::vector<std::string> header;          ///< headers of the added columns: "bottom_height (mm)"
   std::vector<std::vector<double>> columns; ///< in those units; NaN where the status is not ok
   std::vector<std::string> status;          ///< "ok" or why there is no value
-  std::vector<std::string> notes;           ///< of a joint evaluation: what its readings cannot see
+  std::vector<std::string> notes;           ///< remarks of a joint evaluation on what its readings leave undetermined
   bool joint = false;                       ///< the table's rows were evaluated together: one row of results
   std::vector<Problem> impossible;          ///< cells outside the model's limits, by row; their rows have no value
 };
 
 /// Header cells are `name (unit)`: quantities, conditions, effects' quantities (effect.quantity) and
-/// indications, in any order; what is left out stays at its default. Without indications the added
+/// indications, in any order; those left out keep their defaults. Without indications the added
 /// columns are the solved measurands and the simulated indications; with them, the measurands
 /// evaluated from them, row by row or, by a joint evaluation, from all rows together. Throws InputError for headers and
 /// cells that cannot be read.

@@ -1,5 +1,5 @@
 #pragma once
-/// Points at which a model is asked, and what it answers.
+/// Points at which a model is evaluated, and its results there.
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -25,7 +25,7 @@ struct Variation {
   std::vector<Change> changes;
 };
 
-/// What a model gives at points under variations. Rows are [reading][indication] or [reading][measurand]; of a joint
+/// Results of a model at points under variations. Rows are [reading][indication] or [reading][measurand]; for a joint
 /// evaluation [measurand].
 struct Responses {
   std::size_t rows = 0;
@@ -39,28 +39,28 @@ struct Responses {
   double at(std::size_t variation, std::size_t row) const { return values[variation * rows + row]; }
 };
 
-/// A derivative to be taken by one quantity, and the step to take where the model has no derivatives of its own: from
-/// `down` to `up`.
+/// A derivative by one quantity, with the step for a difference, from `down` to `up`, if the model has no exact
+/// derivatives.
 struct Partial {
   std::size_t quantity = 0;
   double up = 0, down = 0;             ///< SI
   bool absolute = false;               ///< values of the quantity; else shifts of it
-  std::vector<std::size_t> readings{}; ///< ascending; those whose quantity it is; empty: all. Elsewhere it is 0.
+  std::vector<std::size_t> readings{}; ///< ascending: readings at which the quantity acts; empty: all. Elsewhere 0.
 };
 
 /// Indications and their derivatives.
 struct Linearisation {
   std::size_t rows = 0;            ///< [reading][indication]
   std::vector<double> values;      ///< [row], SI
-  std::vector<double> derivatives; ///< [partial][row], SI; 0 where there is none to be had
-  Status status = Status::ok;      ///< why a point has no value: of the first such reading
-  std::size_t failed_reading = 0;  ///< that reading; 0 where the model does not tell which
+  std::vector<double> derivatives; ///< [partial][row], SI; 0 where none exists
+  Status status = Status::ok;      ///< why the first reading without a value has none
+  std::size_t failed_reading = 0;  ///< that reading; 0 if the model does not report it
   std::vector<Status> by_partial;  ///< [partial]: why a difference could not be taken
   bool kink = false;               ///< some reading has values but no derivatives here
 };
 
-/// Points of some readings as columns over samples, split as kernels take them: what a Monte Carlo block, a table or a
-/// stencil is. Columns refer to values that the caller keeps; stride 0: one value for all samples. Clearing keeps the
+/// Points of some readings as columns over samples, arranged as kernels need them: a Monte Carlo block, a table or a
+/// stencil. Columns refer to values owned by the caller; stride 0: one value for all samples. clear() keeps the
 /// memory.
 struct Block {
   std::size_t samples = 0;                                                         ///< a multiple of 8
@@ -71,15 +71,15 @@ struct Block {
   void clear(std::size_t samples_wanted);
 };
 
-/// What a model gives for a block. Rows are [place][indication] and [place][measurand]; of a joint evaluation
+/// Results of a model for a block. Rows are [place][indication] and [place][measurand]; for a joint evaluation
 /// [measurand].
 struct BlockValues {
-  std::vector<double> indications;  ///< [row][sample], SI; of a simulation
-  std::vector<double> measurands;   ///< [row][sample], SI; of a simulation the true ones
+  std::vector<double> indications;  ///< [row][sample], SI; only from a simulation
+  std::vector<double> measurands;   ///< [row][sample], SI; from a simulation the true ones
   std::vector<std::uint8_t> status; ///< [sample]: code of a Status
 };
 
-/// Samples that hold `count` points: kernels work in groups of eight.
+/// Number of samples that hold `count` points: kernels work in groups of eight.
 constexpr std::size_t padded(std::size_t count) { return (count + 7) / 8 * 8; }
 
 } // namespace gumshoe::propagation

@@ -1,5 +1,5 @@
 #pragma once
-/// The columns of a table of points, matched to what a model takes.
+/// The columns of a table of points, matched to the inputs of a model.
 #include <string>
 #include <vector>
 
@@ -11,23 +11,23 @@ namespace gumshoe::propagation {
 /// One value of the model that a table column may set.
 struct Slot {
   std::string name, unit, si_unit;
-  double value = 0; ///< SI: where no column gives it
+  double value = 0; ///< SI, used if no column gives it
   Limits limits{};
-  const EffectCard* effect = nullptr; ///< whose quantity it is
+  const EffectCard* effect = nullptr; ///< effect that owns the quantity
   std::vector<double> column{};       ///< given values, SI; empty: the default
   int given_column = -1;
   const double& at(std::size_t row) const { return column.empty() ? value : column[row]; }
 };
 
 struct TableColumns {
-  /// In the order of Layout, then the conditions. Only effects that the table names are among them.
+  /// Slots in the order of Layout, then the conditions. Of the effects, only those that the table names are included.
   std::vector<Slot> slots;
   std::vector<const EffectCard*> acting;
   std::vector<Problem> problems;   ///< headers and cells that cannot be read
   std::vector<Problem> impossible; ///< cells outside the model's limits
   std::vector<bool> bad_row;       ///< rows with such a cell
 
-  /// The slot of this name, if the table has a column for it; else null.
+  /// Slot with this name if the table has a column for it; otherwise null.
   const Slot* given(std::string_view name) const;
 };
 

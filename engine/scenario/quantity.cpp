@@ -22,8 +22,8 @@ const std::vector<Key>& quantity_keys() {
         {"value", shape::reference("measure"), "estimate; may be left out if an uncertainty is given"},
         {"unit", shape::text(), "unit in which it is shown, if no number has one (for models that a scenario states)"},
         {"estimated", shape::flag(),
-         "gumshoe estimate fits it to the readings; value is the start value, u or a distribution the prior", false, "
-         ""false"},
+         "gumshoe estimate fits it to the readings; value is the start value, u or a distribution the prior", false,
+         "false"},
         {"components", shape::list(shape::reference("component")), "deviations that add up"},
         {"by", shape::reference("by"), "values per label"},
     };

@@ -62,7 +62,7 @@ struct Criteria {
   /// 2 ln L that decides between two explanations: the 95 % quantile of chi-squared with one degree of freedom.
   double decisive = 3.84;
   double as_good = 1e-6;           ///< 2 ln L within which covariance models are equal: far above rounding
-  int most_iterations = 14;        ///< Gauss-Newton iterations: smooth models need four, jumping ones gain nothing by more
+  int most_iterations = 14;        ///< Gauss-Newton iterations: smooth models need four, others gain nothing by more
   int most_offset_iterations = 20; ///< the same for offsets of blocks outside the fit
   int most_optima = 4;             ///< optima left for a better one where readings jump
   double converged = 1e-3;         ///< largest step of an unknown, in its standard uncertainty

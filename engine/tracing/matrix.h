@@ -10,7 +10,7 @@ using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 using Index = Eigen::Index;
 
-/// The same place, for a matrix or for a container. Numbers that are neither (double, int) do not compile.
+/// Converts an index between matrices and containers.
 constexpr Index index(std::size_t i) { return static_cast<Index>(i); }
 constexpr std::size_t index(Index i) { return static_cast<std::size_t>(i); }
 constexpr std::size_t index(int i) { return static_cast<std::size_t>(i); }

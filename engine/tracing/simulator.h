@@ -1,5 +1,5 @@
 #pragma once
-/// The forward model of a scenario as tracing asks it: in matrices, on several threads.
+/// The forward model of a scenario for tracing: in matrices, on several threads.
 #include <vector>
 
 #include "propagation/experiment.h"
@@ -15,7 +15,7 @@ class Simulator {
 public:
   Simulator(const propagation::Experiment& experiment, int threads);
   std::size_t rows() const { return forward_.readings() * forward_.layout().indications.size(); }
-  /// Values of the scenario: estimates of all quantities.
+  /// Estimates of all quantities of the scenario.
   Points estimates() const { return experiment_.estimates(); }
   /// f[rows]; false if the model has no value somewhere.
   bool simulate(const Points& at, Vector& f) const;

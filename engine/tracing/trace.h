@@ -1,6 +1,6 @@
 #pragma once
-/// Finds what is left after a scenario's model is fitted to its readings, and traces it to an effect that the scenario
-/// holds at null. All values SI, next to names and units as shown to people. Method: README.md.
+/// Analyses the residuals of a scenario's model fitted to its readings, and traces them to effects that the scenario
+/// holds at null. All values are SI; names and units are those shown to people. Method: README.md.
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -26,12 +26,12 @@ struct SizedQuantity {
   std::string name; ///< "delay"; for a declared quantity its name
   std::string unit, si_unit;
   double value = 0, u = 0, low95 = 0, high95 = 0;
-  /// Where it stands in a scenario: "trigger_latency.delay", "rod_length"; empty: nowhere (scatter, a shape).
+  /// Name in a scenario: "trigger_latency.delay", "rod_length"; empty: none (scatter, a shape).
   std::string scenario_name;
-  std::vector<std::pair<std::string, std::string>> labels; ///< holds where the readings have these; empty: everywhere
+  std::vector<std::pair<std::string, std::string>> labels; ///< readings with these labels have it; empty: all
 };
 
-/// A table that can be plotted: the size of what is not in the catalogue against one condition.
+/// A table for plotting: size of an unknown effect against one condition.
 struct Curve {
   std::string against, unit, si_unit; ///< condition or column; or a label, then `levels` name the points
   std::vector<std::string> levels;
@@ -42,8 +42,8 @@ struct Curve {
 struct Finding {
   Kind kind = Kind::named;
   std::string name; ///< "trigger_latency", "declared:rod_length[rod 2]", "scatter:rod,setup", "not in the catalogue"
-  std::vector<std::string> members;    ///< of a class, the best first; else the effect itself
-  double p_value = 1;                  ///< of the largest statistic, over all that was tried
+  std::vector<std::string> members;    ///< members of a class, the best first; otherwise the effect itself
+  double p_value = 1;                  ///< p-value of the largest statistic over all candidates tried
   std::vector<std::string> depends_on; ///< conditions, columns or labels
   std::string suggestion;              ///< the measurement that would distinguish the members
   std::vector<SizedQuantity> quantities;
@@ -52,44 +52,44 @@ struct Finding {
   /// Root mean square by which the members' predictions differ over the training data, SI of the first indication.
   double spread = 0;
   double removed_share = 0;         ///< share of the residuals' mean square in the training data that it explains
-  std::vector<Curve> curves;        ///< of what is not in the catalogue
+  std::vector<Curve> curves;        ///< curves of an unknown effect
   std::vector<std::string> remarks; ///< implausible size, kept shapes, also described by ...
 };
 
 /// A candidate as the ranking lists it.
 struct RankedCandidate {
   std::string name;   ///< "trigger_latency", "declared:rod_length[rod 2]", "polynomial:feed^2"
-  std::string shape;  ///< what was held fixed: "time_constant 30 min"
+  std::string shape;  ///< shape parameters held fixed: "time_constant 30 min"
   std::string family; ///< effect, declared, stated, shape, omnibus, scatter
   int parameters = 1;
   double statistic = 0;    ///< likelihood ratio, 2 ln
-  double p_single = 1;     ///< were it the only one tried
+  double p_single = 1;     ///< p-value if it were the only candidate tried
   double identifiable = 1; ///< share of its signature that the declared model does not absorb
-  std::string absorbed_by; ///< estimated or declared quantity, where next to nothing is left
-  double correlation = 0;  ///< of its projected signature with that of the best
-  std::string outcome;     ///< "named", "member of the class", "refused: ..."
+  std::string absorbed_by; ///< estimated or declared quantity that absorbs almost all of it
+  double correlation = 0;  ///< correlation of its projected signature with that of the best
+  std::string outcome;     ///< "named", "in the class", "refused: ..."
 };
 
 /// The smallest size that is detected in nine cases of ten.
 struct DetectionLimit {
   std::string effect, quantity, unit, si_unit;
-  double value = 0; ///< infinity: not detectable by these data
+  double value = 0; ///< infinity: not detectable with these data
 };
 
 /// Root mean squares of residuals, SI of the first indication. NaN where there is none.
 struct Rms {
   static constexpr double none = std::numeric_limits<double>::quiet_NaN();
   std::string unit, si_unit;
-  double before = none, after = none, noise = none; ///< of the training data, in sample
-  double noise_low = none, noise_high = none;       ///< 95 % of what noise alone gives
+  double before = none, after = none, noise = none; ///< training data, in sample
+  double noise_low = none, noise_high = none;       ///< 95 % limits for noise alone
   double holdout_before = none, holdout_after = none, holdout_noise = none;
   double holdout_noise_low = none, holdout_noise_high = none;
-  double worst_block_before = none, worst_block_after = none; ///< largest of the hold-out blocks
+  double worst_block_before = none, worst_block_after = none; ///< hold-out block with the largest
   std::string worst_block;
-  double worst_point_before = none, worst_point_after = none; ///< largest residual of one reading there
+  double worst_point_before = none, worst_point_after = none; ///< largest residual of a hold-out reading
   std::string worst_point;
   double share_removed = none; ///< (before^2 - after^2) / (before^2 - noise^2) of the hold-out
-  std::string holdout;         ///< what the hold-out is: "setup 3, 4", "each block left out in turn", "none: one block"
+  std::string holdout;         ///< the hold-out: "setup 3, 4", "each block left out in turn", "none: one block"
 };
 
 /// One reading of one indication.
@@ -99,7 +99,7 @@ struct Row {
   std::string block;
   bool held_out = false; ///< "final" in the result file
   double measured = 0;
-  double before = 0, after = 0; ///< residuals less the block offsets; NaN if not scored
+  double before = 0, after = 0; ///< residuals minus the block offsets; NaN if not scored
   double noise_u = 0;
   double weight = 1; ///< below 1: winsorised
 };
@@ -108,23 +108,23 @@ struct Row {
 struct Noise {
   double scale = 1; ///< factor on the declared standard uncertainties; SI where none are declared
   bool declared = true;
-  double correlation = 0;   ///< from a reading to the next in the order of measurement
+  double correlation = 0;   ///< correlation of successive readings in the order of measurement
   std::string scatter;      ///< labels of the variance component in use, or empty
   double scatter_u = 0;     ///< SI
-  double chi_squared_p = 1; ///< p-value of the residuals' size, were the declared noise true
+  double chi_squared_p = 1; ///< p-value of the size of the residuals under the declared noise
   int outliers = 0;
 };
 
-/// How one parameter of the estimate goes into the traced scenario.
+/// How one parameter of the estimate enters the traced scenario.
 struct Taken {
   bool block_offset = false; ///< offset of a block, or another free unknown: free again in a further trace
-  quantities::Labels labels; ///< readings at which the quantity was found off; empty: all
+  quantities::Labels labels; ///< readings at which the quantity is shifted; empty: all
   std::string source;
 };
 
 /// A variance component that the scenario lacks.
 struct Addition {
-  std::string quantity; ///< "reclamp.shift", or an indication: of its noise
+  std::string quantity; ///< "reclamp.shift", or an indication for its noise
   std::string unit, si_unit;
   double u = 0;
   std::vector<std::string> per;
@@ -140,11 +140,11 @@ struct Trace {
   Rms rms;
   Noise noise;
   std::vector<DetectionLimit> detection_limits;
-  std::vector<RankedCandidate> candidates; ///< of the first round, best first
+  std::vector<RankedCandidate> candidates; ///< candidates of the first round, best first
   std::vector<Row> rows;
   int tried = 0, draws = 0;
   double alpha = 0.05;
-  bool vetoed = false;                 ///< by the hold-out blocks: nothing was added
+  bool vetoed = false;                 ///< true if the hold-out blocks rejected the findings: nothing was added
   std::vector<std::string> statements; ///< what these data leave undetermined, and every decision a reader must see
   std::vector<std::string> plain;      ///< two sentences for a machinist
   /// The scenario with the effects found marked as estimated quantities, and what traced_scenario.h writes: their joint
@@ -160,7 +160,7 @@ struct Settings {
   std::function<void(const std::string& what)> progress = {};
 };
 
-/// Traces a scenario with readings. Throws InputError: bad input. What the data leave undetermined is in the result.
+/// Traces a scenario with readings. Throws InputError for bad input. The result says what the data leave undetermined.
 Trace trace(const scenario::Scenario& scenario, const Settings& settings);
 
 } // namespace gumshoe::tracing

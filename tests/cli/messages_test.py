@@ -55,6 +55,15 @@ FEED_SPEED = (ROOT / "scenarios/choose_feed_speed.toml").read_text()
 PLAIN = 'value = "5 mm"\nu = "1 um"'
 CORRELATED = '[[correlations]]\nquantities = ["rod_radius", "beam_pitch"]\nkind = "copula"\n'
 
+# One result for all readings: its outputs have no labels.
+TOOL = """schema = 1
+[model]
+name = "tool_length"
+evaluation = "single"
+[indications.spindle_z]
+rows = [{ n = "1", values = ["-1000 mm"] }]
+"""
+
 # Two indications of a model, of which one lacks a reading.
 SPHERE = """schema = 1
 [model]
@@ -112,7 +121,10 @@ CHECKED = [
     (DATA, ', labels = { rod = "rod" } }', ' }\n[conditions]\nfeed = ["1 mm/min", "2 mm/min"]', "conditions are listed, one per reading"),
     (ROWS, None, '[quantities.beam_yaw.by.rod.a.by.rod.b]\nvalue = "0 deg"\n', "is nested within itself"),
     (ROWS, None, '[quantities.beam_yaw]\nvalue = "0 deg"\nu = "1 deg"\nper = "rood"\n', "Did you mean 'rod'?"),
+    (ROWS.replace('rod = "b", setup = "1"', 'rod = "b"'), None,
+     '[quantities.beam_yaw]\nvalue = "0 deg"\nu = "1 deg"\nper = "setup"\n', "does not have this label"),
     (SPHERE, None, "", "lacks an indication"),
+    (SCENARIO, None, '[quantities.fillet_radius]\nvalue = "6 mm"\n', "fillet_radius exceeds rod_radius"),
     # correlations
     (SCENARIO, None, CORRELATED, "either a coefficient or a matrix is needed"),
     (SCENARIO, None, CORRELATED + "matrix = [[1, 0.5], [0.4, 1]]\n", "correlations are symmetric"),
@@ -144,6 +156,7 @@ CHECKED = [
     (ROWS, None, "[trace]\nredone = [[]]\n", "a set-up step needs at least one label"),
     (SCENARIO, None, '[stated_effects.film]\nunit = "degC"\nformula = "feed"\n', "has its own zero"),
     (SCENARIO, None, '[stated_effects.film]\nunit = "um*s"\nformula = "1 / time"\nsize = { value = "1 um*s" }\n', "the formula has no finite value at reading"),
+    (SCENARIO, None, '[stated_effects.film]\nunit = "um"\nformula = "feed"\n', "multiplied by a size in um, it gives"),
     # formulas, programs, machines
     (FORMULA, 'y = "a + b"', "", "no formula"),
     (FORMULA, 'y = "a + b"', 'y = "(a b"', "an operator or ')' is missing before 'b'"),
@@ -166,7 +179,10 @@ CHECKED = [
     (CHOOSE, CHOOSE[CHOOSE.index("feed = {"):CHOOSE.index("[choose.time]")], "", "nothing to choose from"),
     (CHOOSE, 'feed = "10 mm/min"', 'feed = ["10 mm/min", "20 mm/min"]', "it differs between the readings"),
     (CHOOSE, 'feed = "10 mm/min"', 'feed = ["10 mm/min", "20 mm/min"]', "the readings are listed"),
-    (ROD_CHOICE, '["4.9 mm"]', '["-5 mm"]', "outside the limits of rod_radius"),
+    (ROD_CHOICE, '["4.9 mm"]', '["-5 mm"]', "the value is outside the limits of rod_radius"),
+    (ROD_CHOICE.replace("resolution", 'rows = [{ rod = "a", repeats = 1 }, { rod = "b", repeats = 1 }]\nresolution'), 'rod_radius = ["4.9 mm"]',
+     'rod_length = ["5 mm"]\n[quantities.rod_length.by.rod]\na = "4 mm"\nb = "5 mm"', "its value differs between the readings"),
+    (FEED_SPEED, 'measurand       = "effective_length"', 'measurand = "phase"', "does not yield 'phase'"),
     (CHOOSE, 'feed = "10 mm/min"', 'feed = { spread = ["10 mm/min", "20 mm/min"], readings = 1 }', "it is spread over the readings"),
     (CHOOSE, 'way = "5 mm"', 'way = "nan mm"', "not finite"),
     (FEED_SPEED, 'orientation_time = "1 s"', 'orientation_time = "-1 s"', "the value is outside its limits"),
@@ -208,9 +224,18 @@ class Messages(unittest.TestCase):
             ("sphere_calibration", "X (mm)", [], "the other indications are given"),
             ("sphere_calibration", "sphere_distance (mm)", ["--evaluation", "joint"], "no column of readings"),
             ("rod_gauging", "spindle_z (mm)", ["--evaluation", "full", "--out", "none/x.csv"], "cannot be written"),
+            ("sphere_calibration", "B (deg)", ["--evaluation", "closed_form"], "closed_form holds only at B = 0"),
+            ("sphere_calibration", "thermal_growth.rate (um/h)", ["--evaluation", "closed_form"], "closed_form cannot include effects"),
+            ("sphere_calibration", "feed (mm/min)=-1", [], "feed is negative"),
+            ("sphere_calibration", "B_direction=2", [], "B_direction must be 1, -1 or 0"),
+            ("sphere_calibration", "C_direction=2", [], "C_direction must be 1, -1 or 0"),
+            ("sphere_calibration", "B_clamped=2", [], "B_clamped must be 0 or 1"),
+            ("sphere_calibration", "C_clamped=2", [], "C_clamped must be 0 or 1"),
+            ("tool_length", "inserts,spindle_z (mm)=2,0\n3,0", ["--evaluation", "peaks"], "inserts differ between readings"),
         ]:
             with self.subTest(words):
-                table.write_text(header + "\n" + ",".join(["1"] * (header.count(",") + 1)) + "\n")
+                header, _, rows = header.partition("=")
+                table.write_text(header + "\n" + (rows or ",".join(["1"] * (header.count(",") + 1))) + "\n")
                 run = gumshoe("evaluate", model, "--table", table, *more)
                 self.assertIsNone(complaint(run), run.stderr)
                 self.assertIn(words, run.stderr)
@@ -231,8 +256,10 @@ class Messages(unittest.TestCase):
              + '[[expected]]\nfigure = "fit.mien"\nvalue = 1\nsource = "x"\n', ["gauge", "S"], "figure of this fit"),
             (fit.replace('a = { value = "1 mm", u = "1 um" }', 'a = { value = "1 mm", estimated = true }')
              .replace('b = { value = "2 mm", u = "1 um" }', 'b = { value = "2 mm", estimated = true }'), ["estimate", "S"], "cannot determine"),
-            (SCENARIO + '[[expected]]\nfigure = "mean"\nof = "bottom_height"\nlabels = { rod = "none" }\nvalue = 1\nsource = "x"\n',
+            (TOOL + '[[expected]]\nfigure = "mean"\nof = "tool_length"\nlabels = { n = "1" }\nvalue = "1 mm"\nsource = "x"\n',
              ["gauge", "S"], "no output matches"),
+            (ROWS + '[[expected]]\nfigure = "mean"\nof = "laser_z"\nlabels = { rod = "none" }\nvalue = "1 mm"\nsource = "x"\n',
+             ["gauge", "S"], "no reading has rod = none"),
             (SCENARIO, ["schema", "--options", "nothing"], "there is no section"),
             (SCENARIO + '[[expected]]\nfigure = "mien"\nof = "laser_z"\nvalue = 1\nsource = "x"\n', ["gauge", "S"], "figure of this result"),
             (CHOOSE.replace('way = "5 mm"', 'way = "-5 m"'), ["choose", "S", "--out", "O"], "the time is negative"),
@@ -240,6 +267,9 @@ class Messages(unittest.TestCase):
              ["choose", "S", "--out", "O"], "choose.variables: more than"),
             (ROD_CHOICE.replace('rod_radius = ["4.9 mm"]', 'fillet_radius = ["6 mm"]'), ["choose", "S", "--out", "O"],
              "choose: no combination of the variables"),
+            (CHOOSE.replace("feed * delay", "feed * delay * sqrt(1 - spread * spread)", 1).replace(
+                'length = "100 mm"', 'length = "100 mm"\nspread = { value = 0, u = 10 }'), ["choose", "S", "--out", "O"],
+             "choose: every candidate fails"),
             (fit_two.replace("NOISE", ""), ["estimate", "S"], "no noise is declared, but"),
             (fit_two.replace("NOISE", 'components = [ { distribution = "normal", u = "1 um" } ]').replace(
                 'repeatability = { s = "1 um" }', 'components = [ { distribution = "normal", u = "1 um" } ]').replace('readings = ["1 mm"]', 'rows = [{ n = "1", values = ["1 mm"] }, { n = "2", values = ["1 mm"] }]').replace(
@@ -248,6 +278,22 @@ class Messages(unittest.TestCase):
         ]:
             with self.subTest(words):
                 self.refused(text, command, words)
+
+    def test_estimates_without_a_scenario(self):
+        text = FORMULA.replace('u = "1 um"', "estimated = true") + (
+            '[model.indications]\nz = "a + b"\n[indications.z]\nrepeatability = { s = "1 um" }\n'
+            'rows = [{ n = "1", values = ["3 mm"] }, { n = "2", values = ["3 mm"] }]\n')
+        self.file.write_text(text)
+        run = gumshoe("estimate", self.file)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn("no scenario is written", run.stderr)
+        self.assertIn("the data do not determine it", run.stderr)
+
+    def test_noise_shared_by_many_readings(self):
+        text = DATA.replace('labels = { rod = "rod" } }', 'labels = { n = "n" } }\ncomponents = [ { u = "1 um" } ]')
+        (self.file.parent / "z.csv").write_text("z,n\n" + "".join(f"-329.932,{n}\n" for n in range(5001)))
+        self.refused(text + '[quantities]\nrod_length = { value = "100 mm", estimated = true }\n', ["estimate", "S"],
+                     "5001 readings share draws of their noise")
 
     def test_traced_scenario_of_another(self):
         self.file.write_text(ROWS)

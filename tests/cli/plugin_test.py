@@ -229,10 +229,28 @@ class Plugin(unittest.TestCase):
     def test_no_measurands_and_null(self):
         self.build(code=PLUGIN.replace("m, sizeof m / sizeof *m", "m, 0"))
         self.refused(gumshoe("check", self.scenario), "no measurands")
+        self.build(code=PLUGIN.replace('"mine"', '"my model"'))
+        self.refused(gumshoe("check", self.scenario), "it has no valid name", "Correct the plugin's description.")
         self.build(code=PLUGIN.replace("return &model;", "return 0;"))
         self.refused(gumshoe("check", self.scenario), "returns null")
         self.build(code=PLUGIN.replace(", evaluate, simulate}", ", 0, simulate}"))
         self.refused(gumshoe("check", self.scenario), "no evaluate")
+
+    @unittest.skipUnless(shutil.which("c++"), "no C++ compiler")
+    def test_an_exception_does_not_cross_the_interface(self):
+        source = self.folder / "mine.cpp"
+        source.write_text("""
+#include "gumshoe_plugin.h"
+static int evaluate(const gumshoe_batch*) { throw 1; }
+static const gumshoe_variable q{"a", "mm", "", 10, 0, 100}, m{"y", "mm", "", 0, 0, 0};
+static const gumshoe_model model{GUMSHOE_PLUGIN_ABI, 1, "mine", "", "", "", &q, 1, 0, 0, 0, 0, &m, 1, evaluate, 0};
+extern "C" GUMSHOE_EXPORT const gumshoe_model* gumshoe_plugin(void) { return &model; }
+""")
+        subprocess.run(["c++", "-shared", "-fPIC", f"-I{HEADER}", str(source), "-o", str(self.folder / "libmine.so")],
+                       check=True)
+        self.scenario.write_text(SCENARIO[:SCENARIO.index("[quantities.b]")])
+        self.refused(gumshoe("check", self.scenario), "threw an exception at a point outside the run",
+                     "Return a code and a text instead.")
 
     def test_no_library(self):
         library = self.folder / "libmine.so"

@@ -323,7 +323,7 @@ TEST_CASE("a wrong description is told by place and reason", "[machine]") {
   told({"", Axes{}, Axes{{"X", "rotary"}}}, "tool_side[0].kind", "axis X is linear");
   told({"", Axes{}, Axes{{"C", "linear"}}}, "tool_side[0].kind", "axis C is rotary");
   told({"", Axes{}, Axes{{"C", "", {0, std::nan(""), 0}}}}, "tool_side[0].point", "not finite");
-  told({"", Axes{}, Axes{{"C", "", {}, 2}}}, "tool_side[0].sense", "1 or -1");
+  told({"", Axes{}, Axes{{"C", "", {}, 2}}}, "tool_side[0].sense", "sense must be 1 or -1");
   told({"", Axes{}, Axes{}}, "", "no axes");
   const Axes xc{{"X"}, {"C"}};
   told({"", Axes{}, xc, {{"E_A0D", 0}}}, "errors.E_A0D", "no axis 'D'");

@@ -316,7 +316,7 @@ TEST_CASE("plans refuse what cannot be meant, and say why", "[sampler][plan]") {
   CHECK_THAT(tie(Correlation::Kind::copula, {"a", "b"}, {1, 1, 1, 1}), Contains("not positive definite"));
   CHECK_THAT(tie(Correlation::Kind::copula, {"a", "b"}, {1, .5, .4, 1}), Contains("not symmetric"));
   CHECK_THAT(tie(Correlation::Kind::copula, {"a", "b"}, {1, 2, 2, 1}), Contains("between -1 and 1"));
-  CHECK_THAT(tie(Correlation::Kind::copula, {"a", "b"}, {1, .5, .5}), Contains("2 x 2"));
+  CHECK_THAT(tie(Correlation::Kind::copula, {"a", "b"}, {1, .5, .5}), Contains("the matrix needs 2 x 2 numbers, not 3"));
   CHECK_THAT(tie(Correlation::Kind::copula, {"a", "zz"}, {1, .5, .5, 1}), Contains("'zz' is not a quantity"));
   CHECK_THAT(tie(Correlation::Kind::copula, {"a", "a"}, {1, .5, .5, 1}), Contains("named twice"));
   // Two exponentials reach no Pearson coefficient below 1 - pi^2/6 = -0.645; a normal and one, none above 0.9032.

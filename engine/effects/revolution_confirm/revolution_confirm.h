@@ -7,7 +7,7 @@ namespace gumshoe::effects {
 struct RevolutionConfirm {
   static constexpr QuantityCard quantities[] = {
       {.name = "revolutions", .unit = "1", .si_unit = "1", .limits = {0.0, 1000.0}, .symbol = "n",
-       .meaning = "number of further revolutions; an integer in a receiver, any value in a fit", .role = Role::amplitude,
+       .meaning = "further revolutions; an integer in a receiver, any value in a fit", .role = Role::amplitude,
        .typical = {0, 2}},
   };
   static constexpr EffectCard card{

@@ -72,8 +72,8 @@ std::string unit_problem(const Poses<double>& poses) {
   for (std::size_t k = 0; recorded && k < indications; ++k) {
     const double ratio = spread[k].recorded_size() / spread[k].declared_size();
     if (spread[k].declared_size() > 0.1 * largest && (ratio > 30 || ratio < 1.0 / 30))
-      return fmt::format("{} spreads over {:.4g} mm, but over {:.4g} mm for the declared machine; is a unit wrong?", "
-                         ""XYZ"[k],
+      return fmt::format("{} spreads over {:.4g} mm, but over {:.4g} mm for the declared machine; is a unit wrong?",
+                         "XYZ"[k],
                          spread[k].recorded_size() * 1e3, spread[k].declared_size() * 1e3);
   }
   return "";

@@ -1,19 +1,19 @@
 #pragma once
-/// How candidates are made: what every family of them goes through, and one function a family.
+/// Makes candidates: the steps common to all families, and one function per family.
 #include "tracing/candidates/candidates.h"
 #include "tracing/candidates/signatures.h"
 
 namespace gumshoe::tracing {
 
-/// Makes candidates at a point; `step` and `skip` as of physical_candidates.
+/// Makes candidates at a point; `step` and `skip` as in physical_candidates.
 class CandidateMaker {
 public:
   CandidateMaker(const propagation::Experiment& experiment, const Simulator& simulator, const Points& at,
                  const Observations& observations, double step, const std::function<bool(const Candidate&)>& skip);
 
-  /// Adds a candidate to its family unless it is skipped, moves nothing, or equals one of its name already there.
+  /// Adds a candidate to its family unless it is skipped, has no effect, or equals one with its name.
   void add(Candidate a, std::vector<Candidate>& family) const;
-  /// Adds a candidate of a single amplitude: by its tangent, then by finite steps where those differ from it.
+  /// Adds a candidate of a single amplitude: its tangent, then finite steps that differ from the tangent.
   /// @param mask  readings at which it acts; null: all
   void add_single(Candidate a, std::size_t quantity, const std::vector<bool>* mask,
                   std::vector<Candidate>& family) const;
@@ -30,11 +30,11 @@ private:
   const std::function<bool(const Candidate&)>& skip_;
 };
 
-/// Effects of the catalogue, at every value of their shape quantities' grids.
+/// Effects of the catalogue, at every value of the grids of their shape quantities.
 std::vector<Candidate> effect_candidates(const CandidateMaker& make);
-/// Declared quantities that are off, at all readings or where their entries and scopes tell readings apart.
+/// Shifts of declared quantities, at all readings or at those that their entries and scopes distinguish.
 std::vector<Candidate> declared_candidates(const CandidateMaker& make);
-/// Formulas that the user states.
+/// Effects stated as formulas.
 std::vector<Candidate> stated_candidates(const CandidateMaker& make);
 
 } // namespace gumshoe::tracing

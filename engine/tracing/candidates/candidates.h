@@ -1,5 +1,5 @@
 #pragma once
-/// What the model might lack: effects held at null, declared quantities off their value, effects stated as formulas.
+/// Candidates for what the model lacks: effects at null, shifted declared quantities, effects stated as formulas.
 #include <functional>
 #include <string>
 #include <utility>
@@ -10,29 +10,29 @@
 namespace gumshoe::tracing {
 
 enum class Family {
-  effect,   ///< of the catalogue, at null in the scenario
+  effect,   ///< an effect of the catalogue, at null in the scenario
   declared, ///< a quantity that is not what was declared
-  stated,   ///< a formula of the user's
-  shape,    ///< polynomial, harmonic, step, ...: a description, no cause
+  stated,   ///< a formula stated by the user
+  shape,    ///< polynomial, harmonic, step, ...: a description without a cause
   omnibus,  ///< any dependence on one or two conditions
 };
 const char* name(Family family);
 
-/// Which quantity of the extended scenario an amplitude moves, and at which readings.
+/// The quantity of the extended scenario that an amplitude changes, and the readings at which it does.
 struct Amplitude {
-  std::size_t quantity = 0; ///< npos: belongs to a shape, which is no quantity
+  std::size_t quantity = 0; ///< npos: the amplitude of a shape, which is not a quantity
   std::string name, unit, si_unit, scenario_name;
   std::vector<std::pair<std::string, std::string>> labels; ///< only where readings have these
   double low = -1e300, high = 1e300;                       ///< limits of its card, SI
   double typical = 0;  ///< upper end of the card's typical magnitude, SI; 0: not stated
-  double declared = 0; ///< standard uncertainty declared for a quantity that may be off, SI
+  double declared = 0; ///< standard uncertainty declared for a quantity that may be shifted, SI
   static constexpr std::size_t npos = ~std::size_t{0};
 };
 
 /// One signature that is tried.
 struct Candidate {
   std::string name;  ///< "trigger_latency", "declared:rod_length[rod 2]", "polynomial:feed^2"
-  std::string shape; ///< what is held fixed, in words; or "at +5 um" of a signature taken over a finite step
+  std::string shape; ///< shape parameters held fixed, in words; or "at +5 um" for a signature taken over a finite step
   Family family = Family::effect;
   Matrix columns; ///< rows in the order of measurement x amplitudes, per SI unit of each
   std::vector<Amplitude> amplitudes;
@@ -42,9 +42,9 @@ struct Candidate {
   bool physical() const { return family == Family::effect || family == Family::declared || family == Family::stated; }
 };
 
-/// Signatures of all physical candidates at a point, from exact derivatives and, where the model bends, over finite
-/// steps, too.
-/// @param step  what finite steps move the indications by, SI
+/// Signatures of all physical candidates at a point, from exact derivatives and, where the model is not linear, also
+/// over finite steps.
+/// @param step  change of the indications by a finite step, SI
 /// @param skip  true for candidates that are terms already
 std::vector<Candidate> physical_candidates(const propagation::Experiment& experiment, const Simulator& simulator,
                                            const Points& at, const Observations& observations, double step,

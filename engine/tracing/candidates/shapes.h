@@ -1,5 +1,5 @@
 #pragma once
-/// Shapes without a cause: what a residual may look like against conditions, labels and the order of measurement.
+/// Shapes without a cause: possible dependences of residuals on conditions, labels and the order of measurement.
 #include "tracing/candidates/candidates.h"
 
 namespace gumshoe::tracing {

@@ -1,5 +1,5 @@
 #pragma once
-/// What a unit of each quantity moves in the indications, at a point.
+/// Signatures: change of the indications with each quantity, at a point.
 #include "tracing/simulator.h"
 
 namespace gumshoe::tracing {

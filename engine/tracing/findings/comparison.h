@@ -1,11 +1,11 @@
 #pragma once
-/// Errors before and after: of the training readings, and of the hold-out blocks, which are opened here once.
+/// Errors before and after, for the training readings and for the hold-out blocks, which are used here only.
 #include "tracing/judgement/search.h"
 
 namespace gumshoe::tracing {
 
-/// Fills out.rms, out.rows and the number of outliers. True if the hold-out blocks veto what was found: then the
-/// figures after are those before.
+/// Fills out.rms, out.rows and the number of outliers. Returns true if the hold-out blocks veto the findings; the
+/// figures "after" then equal those "before".
 bool compare(const TraceContext& context, const Search& search, Trace& out);
 
 } // namespace gumshoe::tracing

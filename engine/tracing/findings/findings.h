@@ -1,5 +1,5 @@
 #pragma once
-/// From what the search found to what is reported.
+/// Converts the results of the search into reported findings.
 #include "tracing/judgement/search.h"
 
 namespace gumshoe::tracing {

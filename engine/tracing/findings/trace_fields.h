@@ -1,5 +1,5 @@
 #pragma once
-/// The fields of a trace that its result file holds (analysis/fields.h).
+/// Fields of the result file of a trace (analysis/fields.h).
 #include "analysis/fields.h"
 #include "tracing/trace.h"
 

@@ -9,8 +9,8 @@ namespace gumshoe::tracing {
 /// Kind of the first finding, else "nothing_found", else "insufficient_data".
 std::string verdict(const Trace& trace);
 
-/// A size in the unit people are shown; in SI where its unit does not convert: no finished search is lost over that.
-/// What stands in a scenario is a point on its scale (20 degC), anything else a difference.
+/// A size in its display unit, or in SI if the conversion fails, so that a finished search is never lost. A quantity of
+/// the scenario is a point on its scale (20 degC); any other size is a difference.
 struct ShownSize {
   std::string unit;
   double value = 0, u = 0, low95 = 0, high95 = 0;
@@ -18,7 +18,7 @@ struct ShownSize {
 ShownSize shown(const SizedQuantity& quantity);
 ShownSize shown(const DetectionLimit& limit); ///< value only
 
-/// One JSON object. Root mean squares are SI, sizes in their shown units; what is no finite number is null.
+/// One JSON object. Root mean squares are SI, sizes in their shown units; numbers that are not finite are null.
 std::string verdict_json(const Trace& trace);
 
 } // namespace gumshoe::tracing

@@ -11,7 +11,7 @@ namespace gumshoe::tracing {
 /// A candidate that is part of the fit, with its sizes.
 struct Term {
   Candidate candidate;
-  Vector size; ///< by amplitude, SI
+  Vector size; ///< one per amplitude, SI
 };
 
 struct JointFit {
@@ -19,17 +19,17 @@ struct JointFit {
   Points at;                        ///< all quantities, sizes of terms included
   Vector residual;                  ///< measured minus simulated, SI, in the order of measurement, all readings
   Design design;                    ///< linearised there; the terms' columns are its last fixed ones
-  Matrix covariance;                ///< of all fixed columns, SI; NaN for those to which no reading is sensitive
+  Matrix covariance;                ///< covariance of all fixed columns, SI; NaN if no reading is sensitive
   double noise = 1;                 ///< scale of the declared noise that the design holds
-  CovarianceModel covariance_model; ///< of the noise
-  double variance = 1;              ///< of the whitened residuals, in units of the design's noise
+  CovarianceModel covariance_model; ///< model of the noise
+  double variance = 1;              ///< variance of the whitened residuals, in units of the design's noise
   double criterion = 0;             ///< minus 2 ln likelihood, comparable between fits of equal noise
   bool valid = true;                ///< false: the model has no value there
   bool converged = true, kink = false;
   int iterations = 0;
 };
 
-/// Where a term's columns start among the fit's fixed ones.
+/// First column of a term among the fixed columns of the fit.
 Index first_column(const JointFit& fit, std::size_t term);
 /// Standard uncertainty of each size of a term, SI.
 Vector uncertainties(const JointFit& fit, std::size_t term);
@@ -44,8 +44,8 @@ struct FreeUnknown {
 /// Fits the declared model and terms to some of the readings, with the whole non-linear model.
 class Fitter {
 public:
-  /// @param experiment  of the extended scenario
-  /// @param rows        of the readings that are fitted
+  /// @param experiment  experiment of the extended scenario
+  /// @param rows        rows of the readings that are fitted
   Fitter(const propagation::Experiment& experiment, const Simulator& simulator, const Observations& observations,
          std::vector<Index> rows, int threads);
 
@@ -53,38 +53,38 @@ public:
   JointFit fit(const std::vector<Term>& terms, double noise, const JointFit* start = nullptr) const;
   /// The declared model at its estimates, not fitted.
   JointFit linearised(double noise) const;
-  /// Fits unknowns to which only readings outside the fit are sensitive, such as the offset of a held-out block, all
-  /// else as fitted. The covariance takes them in.
+  /// Fits unknowns to which only readings outside the fit are sensitive, such as the offset of a held-out block, with
+  /// all others as fitted, and adds them to the covariance.
   void settle(JointFit& fit) const;
-  /// Where readings jump with a term's size, the tangent says nothing of its uncertainty. Replaces it in the covariance
-  /// by that of the likelihood along the size, or by that of the straight line through the jumps, whichever is larger.
+  /// If readings jump with a term's size, its tangent does not give its uncertainty. Replaces it in the covariance by
+  /// that of the likelihood along the size or of the straight line through the jumps, whichever is larger.
   void widen_jumping(JointFit& fit) const;
   const std::vector<FreeUnknown>& unknowns() const { return unknowns_; }
   bool noise_declared() const { return noise_declared_; }
   const std::vector<Index>& rows() const { return rows_; }
 
 private:
-  /// A declared draw with all that it moves: by reading of the scenario, quantity.
+  /// A declared draw with the (reading, quantity) pairs that it changes.
   struct Draw {
     std::string name;
     double u = 0;
     std::vector<std::pair<std::size_t, std::size_t>> moves;
-    bool local = false; ///< of one reading only
+    bool local = false; ///< acts on one reading only
   };
   struct Profile;
-  /// When a profile is worth its simulations: readings jump with the size, or do not follow its tangent.
+  /// True if a profile is needed: readings jump with the size, or do not follow its tangent.
   enum class Worth { jumps, tangent_wrong };
 
   void find_unknowns();
   void find_draws();
-  /// What declared draws of effects do over the values they take, at the estimates.
+  /// Computes the responses to declared draws of effects over their values, at the estimates.
   void find_responses();
 
   bool linearise(JointFit& fit) const;
   void set_fixed(const Matrix& derivative, const std::vector<std::size_t>& wanted, JointFit& fit) const;
   void set_local_noise(const Matrix& derivative, JointFit& fit) const;
   void set_declared(const Matrix& derivative, JointFit& fit) const;
-  /// Whether a draw binds a quantity that a term has found off: then it does no more.
+  /// True if a draw belongs to a quantity that is a term; its prior is then released.
   bool released(const Draw& draw, const JointFit& fit) const;
   /// Column of a quantity among the derivatives of `needed_`.
   Index needed(std::size_t quantity) const;
@@ -94,10 +94,10 @@ private:
   Points without_terms(JointFit fit) const;
   void apply(JointFit& fit, const Vector& change, double share) const;
   double objective(const JointFit& fit, const Whitened& prior, const Scan& scan) const;
-  /// Gauss-Newton ends in the next best optimum where readings jump: takes a size of the last term, near the one found,
-  /// that fits better, all else fitted. False if there is none or nothing jumps.
+  /// If readings jump, Gauss-Newton may end in a poor optimum: sets the last term to a nearby size that fits better,
+  /// with all others fitted. Returns false if there is none or nothing jumps.
   bool explore(JointFit& fit) const;
-  /// @param unit  what the size may be uncertain by
+  /// @param unit  scale of the uncertainty of the size
   std::optional<Profile> profile(const JointFit& fit, std::size_t term, Index amplitude, double unit,
                                  Worth worth) const;
 
@@ -109,9 +109,9 @@ private:
   std::vector<FreeUnknown> unknowns_;
   std::vector<Draw> draws_;
   bool noise_declared_ = false;
-  std::vector<std::size_t> needed_;         ///< quantities whose derivatives are used, rising
-  std::vector<DeclaredResponse> responses_; ///< by column of `needed_`
-  Vector offset_;                           ///< of the readings' mean over these draws, by row of the simulator
+  std::vector<std::size_t> needed_;         ///< quantities whose derivatives are used, ascending
+  std::vector<DeclaredResponse> responses_; ///< one per column of `needed_`
+  Vector offset_;                           ///< shift of the readings' mean over these draws, by row of the simulator
 };
 
 } // namespace gumshoe::tracing

@@ -1,16 +1,16 @@
 #pragma once
-/// What every part of one trace works on.
+/// Data shared by all parts of one trace.
 #include "tracing/fit/joint_fit.h"
 #include "tracing/trace.h"
 
 namespace gumshoe::tracing {
 
 struct TraceContext {
-  const propagation::Experiment& experiment; ///< of the extended scenario
+  const propagation::Experiment& experiment; ///< experiment of the extended scenario
   const Simulator& simulator;
   const Observations& observations;
-  const Fitter& fitter; ///< of the training readings
-  double alpha;         ///< probability of any finding where there is nothing
+  const Fitter& fitter; ///< fits the training readings
+  double alpha;         ///< probability of any finding if there is nothing to find
   int draws;
   std::uint64_t seed;
   int threads;

@@ -1,5 +1,5 @@
 #pragma once
-/// How unusual is the largest of all statistics, were nothing there? By parametric bootstrap.
+/// Significance of the largest of all statistics under the null hypothesis, by parametric bootstrap.
 #include <cstdint>
 #include <functional>
 
@@ -15,26 +15,26 @@ struct Null {
 };
 
 struct Assessment {
-  Statistics data;                 ///< of the one data set
+  Statistics data;                 ///< statistics of the measured data
   std::vector<Null> null;          ///< by signature
-  std::vector<double> p;           ///< p-value by signature, were it the only one tried
+  std::vector<double> p;           ///< p-value by signature, if it were the only one tried
   double p_anything = 1;           ///< p-value of signatures, components and the noise's size together
   double p_signature = 1;          ///< p-value of the largest signature, given the noise as fitted
-  std::vector<double> p_component; ///< p-value by variance component, over all that was tried
-  double p_noise = 1;              ///< p-value of the residuals' size, were the declared noise true
-  double p_noise_overall = 1;      ///< the same over all that was tried
-  bool noise_small = false;        ///< smaller than declared, 1 in 1000
+  std::vector<double> p_component; ///< p-value by variance component, over all candidates tried
+  double p_noise = 1;              ///< p-value of the size of the residuals under the declared noise
+  double p_noise_overall = 1;      ///< the same over all candidates tried
+  bool noise_small = false;        ///< true if the noise is smaller than declared, at a level of 1 in 1000
   double threshold = 0;            ///< p-value below which a single signature counts
-  NoiseShape noise_shape;          ///< of the draws
+  NoiseShape noise_shape;          ///< shape of the draws
 };
 
-/// What draws of a variance component do to the readings, tabulated as NoiseShape::scatter, given the variance of the
-/// noise; empty: what the covariance model says.
+/// Response of the readings to draws of a variance component, tabulated as NoiseShape::scatter, given the variance of
+/// the noise; empty: as in the covariance model.
 using ScatterResponse = std::function<Matrix(const CovarianceModel&, double variance)>;
 
 /// Assesses one data set (residuals of the scan's rows, SI) against 2 x `draws` sets of the fitted noise.
-/// @param alpha     probability of any finding where there is nothing
-/// @param declared  true standard deviation over the design's, were the declared noise true; 0: none is declared
+/// @param alpha     probability of any finding if there is nothing to find
+/// @param declared  ratio of the true standard deviation to the design's under the declared noise; 0: none is declared
 Assessment assess(const Scan& scan, const Vector& residuals, int draws, std::uint64_t seed, double alpha,
                   double declared, const ScatterResponse& response = {});
 

@@ -2,7 +2,7 @@
 /// Every decision of the search, as a function of statistics alone: no model, no fit, no random numbers.
 ///
 /// A figure that costs a simulation is passed as a function and called only where the other figures leave the question
-/// open. Scores and leads are likelihood ratios (2 ln), less twice what chance gives (README.md). Thresholds:
+/// open. Scores and leads are likelihood ratios (2 ln) minus twice their expectation by chance (README.md). Thresholds:
 /// criteria.h.
 #include <functional>
 #include <optional>
@@ -14,13 +14,13 @@
 
 namespace gumshoe::tracing {
 
-/// What a round of the search looks for, given the false-alarm rate alpha.
+/// Target of one round of the search, given the false-alarm rate alpha.
 bool look_for_signature(const Assessment& assessment, double alpha);
 bool look_for_scatter(const Assessment& assessment, double alpha);
-/// Whether another round follows one after which `findings` are known, and whether it took anything in.
+/// True if another round follows, given the number of findings and whether the last round added one.
 bool search_goes_on(bool took_one, std::size_t findings);
 
-/// A candidate as decisions see it.
+/// The figures of a candidate that decisions use.
 struct Scored {
   std::string name;
   double score = 0;
@@ -36,16 +36,16 @@ bool could_still_win(double p, double threshold, double score, double best);
 /// Whether a refitted candidate counts: by its p-value in the linear fit, or its ratio in the whole model.
 bool passes(double p, double threshold, double ratio, double limit);
 
-/// Chance of so large a lead, were the one that is behind the truth.
+/// Probability of so large a lead if the trailing candidate were true.
 using Chance = std::function<double()>;
 
 /// Whether a plain shape's lead over the best effect excludes that effect.
 bool shape_excludes(double lead, const Chance& chance);
 
-/// How a rival stands to the best candidate.
+/// Relation of a rival to the best candidate.
 enum class Standing {
   excluded, ///< the best fits better
-  separate, ///< it counts in addition to the best: another effect, which waits for its turn
+  separate, ///< it counts in addition to the best: another effect, for a later round
   member,   ///< these data cannot distinguish the two: one class
 };
 /// @param lead         lead of the best over the rival, 2 ln L
@@ -68,13 +68,13 @@ bool larger_noise_found(const Assessment& assessment, double alpha, std::size_t 
 struct HoldoutError {
   double whitened = 0, rms = 0;
 };
-/// Whether the hold-out blocks, sensitive to what was found, refuse it.
+/// True if the hold-out blocks are sensitive to the findings and reject them.
 bool vetoed(const HoldoutError& before, const HoldoutError& after);
-/// What a veto leaves of a finding: scatter where it was in the class and is no finding of its own; nothing of an
+/// Kind of a finding after a veto: scatter if it was a member of the class and is not another finding; none for an
 /// effect.
 std::optional<Kind> left_by_veto(Kind kind, bool scatter_in_class, bool scatter_found_alone);
 
-/// Why a candidate came no further than its own p-value. @param absorbed_by what leaves next to nothing of it, or empty
+/// Reason why a candidate was not pursued. @param absorbed_by  quantity that absorbs almost all of it, or empty
 std::string refusal(double identifiable, const std::string& absorbed_by, double p, double threshold);
 
 } // namespace gumshoe::tracing

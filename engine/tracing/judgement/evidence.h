@@ -1,5 +1,5 @@
 #pragma once
-/// What one round of the search can know: its candidates, the bootstrap's assessment of them, and figures that cost a
+/// Evidence of one round of the search: its candidates, their assessment by the bootstrap, and figures that require a
 /// fit or a simulation.
 #include "tracing/fit/trace_context.h"
 #include "tracing/judgement/assess.h"
@@ -11,7 +11,7 @@ struct Trial {
   std::size_t candidate = 0;
   JointFit fit;
   double ratio = 0; ///< likelihood ratio (2 ln) against the fit without it
-  double score = 0; ///< less twice what chance gives
+  double score = 0; ///< the ratio minus twice its expectation by chance
 };
 
 class Evidence {
@@ -25,11 +25,11 @@ public:
   const std::vector<const Candidate*>& pointers() const { return pointers_; }
   const JointFit& fit() const { return fit_; }
 
-  double score(std::size_t candidate) const; ///< its likelihood ratio in the linear fit, less twice what chance gives
-  double limit(std::size_t candidate) const; ///< likelihood ratio that it has to pass
-  /// Physical candidates of which the declared model leaves enough.
+  double score(std::size_t candidate) const; ///< its linear fit's ratio minus twice that by chance
+  double limit(std::size_t candidate) const; ///< likelihood ratio that it must exceed
+  /// Physical candidates that the declared model does not absorb almost completely.
   bool testable(std::size_t candidate) const;
-  /// The linear fit of one candidate: its sizes start the whole model's.
+  /// The linear fit of one candidate; its sizes are the start values for the whole model.
   Term linear_term(std::size_t candidate) const;
   /// The fit with one more term, or more, by the whole model. Not `valid` where the model has no value.
   JointFit with(const std::vector<Term>& more) const;
@@ -39,17 +39,17 @@ public:
   /// covariance model.
   bool predicts_better(const JointFit& other, const CovarianceModel& model) const;
   bool predicts_better(const JointFit& other) const { return predicts_better(other, other.covariance_model); }
-  /// Chance that `better` would lead `than` by so much, were `than` the truth: by simulation.
+  /// Probability that `better` would lead `than` by so much if `than` were true; by simulation.
   double chance_of_lead(std::size_t better, std::size_t than, double lead) const;
   /// Cosine of two projected signatures.
   double correlation(std::size_t a, std::size_t b) const;
-  /// Likelihood ratio of two together, less twice what chance gives; and what the second adds to the first.
+  /// Likelihood ratio of two together, minus twice its expectation by chance; and the increment of the second.
   double pair_score(std::size_t a, std::size_t b) const;
   double gain_beside(std::size_t best, std::size_t other) const;
-  const Vector& residuals() const { return data_; } ///< of the training readings
+  const Vector& residuals() const { return data_; } ///< residuals of the training readings
 
 private:
-  /// Where a clamping's seat makes readings jump, its draws must jump, too.
+  /// Shape of draws of the seat of a clamping: if readings jump with the seat, so do the draws.
   Matrix scatter_response(const CovarianceModel& model, double variance) const;
 
   const TraceContext& c_;

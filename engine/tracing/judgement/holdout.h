@@ -1,5 +1,5 @@
 #pragma once
-/// Errors of readings that a fit has not seen.
+/// Prediction errors of readings that were not fitted.
 #include "tracing/fit/joint_fit.h"
 
 namespace gumshoe::tracing {
@@ -7,8 +7,8 @@ namespace gumshoe::tracing {
 /// Errors of one held-out block, for one residual or many (columns).
 struct HeldOut {
   Matrix residual;  ///< test rows x sets, SI; the block's offsets are subtracted
-  Vector squares;   ///< [set], in units of the noise of single readings
-  Vector whitened;  ///< [set], in units of all that is declared together; expected: count
+  Vector squares;   ///< sum of squares by set, in units of the noise of single readings
+  Vector whitened;  ///< sum of squares by set, in units of the whole declared covariance; expectation: count
   double count = 0; ///< rows minus the block's offsets; 0: not scored
   std::vector<Index> rows;
 };
@@ -27,8 +27,8 @@ std::vector<Index> rows_where(const Observations& observations, const std::vecto
 /// Parts of the training rows to be left out in turn: by block if there are enough, else stretches of the sequence.
 std::vector<std::vector<Index>> folds(const Observations& observations, const std::vector<Index>& rows);
 
-/// Whether a fit predicts what it has not seen: sum of squares of each fold predicted from the others, whitened by what
-/// is declared and the given covariance model. Fits are compared under one covariance model.
+/// Cross-validation: sum of squares of each fold predicted from the others, whitened by the declared uncertainties and
+/// the given covariance model. Compare fits under one covariance model.
 double cross_validated(const Observations& observations, const std::vector<Index>& rows, const JointFit& fit,
                        const CovarianceModel& model);
 

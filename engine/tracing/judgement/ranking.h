@@ -1,5 +1,5 @@
 #pragma once
-/// What was tried, best first, and what would have been detected.
+/// Candidates tried, best first, and detection limits.
 #include <map>
 
 #include "tracing/judgement/assess.h"
@@ -7,8 +7,8 @@
 
 namespace gumshoe::tracing {
 
-/// @param fit       the design that the scan is of: names of what absorbs a signature
-/// @param outcomes  by candidate, for those that came further than their own p-value
+/// @param fit       fit whose design was scanned; it names the quantity that absorbs a signature
+/// @param outcomes  by candidate, for those pursued beyond their p-value
 std::vector<RankedCandidate> ranking(const Scan& scan, const Assessment& assessment,
                                      const std::vector<Candidate>& candidates, const Design& fit,
                                      const std::map<std::size_t, std::string>& outcomes);

@@ -1,6 +1,6 @@
 #pragma once
-/// How readings respond to a quantity that scatters, over the values it takes and not by its derivative alone: while a
-/// turning mill stays on one tooth, its derivative is nearly zero.
+/// Response of readings to a scattering quantity over its values, not by its derivative alone: while a turning mill
+/// stays on one tooth, its derivative is nearly zero.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -12,23 +12,23 @@ namespace gumshoe::tracing {
 /// Rows of the simulator.
 struct DeclaredResponse {
   Vector slope;    ///< straight line through the readings, per unit of the quantity; empty: the derivative serves
-  Vector variance; ///< about that line
-  Vector offset;   ///< mean of the readings over the draws less the readings at the point itself
+  Vector variance; ///< variance about that line
+  Vector offset;   ///< mean of the readings over the draws minus the readings at the point itself
   Matrix table;    ///< rows x nodes: effect of bend_node(j) standard deviations that line and mean leave out; empty: no
                    ///< bend, or not requested
   bool straight() const { return variance.size() == 0; }
 };
 
 /// Response over equally likely values of a normal draw of standard deviation `u` (SI) about `at`.
-/// @param tabled  also tabulates what bends
+/// @param tabled  also tabulates the deviation from the line
 DeclaredResponse declared_response(const Simulator& simulator, const Points& at, std::size_t quantity, double u,
                                    bool tabled);
 
-/// Rows x nodes, SI: what bend_node(j) does to the readings, if a draw of one moves the typical reading by `u` along
-/// the straight line. Empty if that line says it all.
+/// Rows x nodes, SI: response of the readings to bend_node(j), if a draw of one changes the typical reading by `u`
+/// along the straight line. Empty if the response is straight.
 Matrix bent_response(const Simulator& simulator, const Points& at, std::size_t quantity, double u);
 
-/// Draws at which bends are tabled, in standard deviations.
+/// Draws at which bends are tabulated, in standard deviations.
 inline constexpr Index bend_middle = 50, bend_nodes = 2 * bend_middle + 1;
 inline double bend_node(Index j) { return 0.1 * static_cast<double>(j - bend_middle); }
 inline Index nearest_bend_node(double z) {

@@ -1,5 +1,5 @@
 #pragma once
-/// The linearised fit: which columns it estimates, which are declared, and how the readings scatter.
+/// The linearised fit: its estimated columns, its declared columns, and the noise of the readings.
 #include <string>
 #include <vector>
 
@@ -15,14 +15,14 @@ struct Design {
   std::vector<std::string> fixed_names;
   Matrix random; ///< U, rows x declared draws shared by readings, each of unit variance
   std::vector<std::string> random_names;
-  /// By reading of the sequence: lower Cholesky factor of its own noise, indications x indications. What declared draws
-  /// do beyond U, such as jumps, is part of it.
+  /// Lower Cholesky factor of the noise of each reading of the sequence, indications x indications. It includes the
+  /// response to declared draws beyond U, such as jumps.
   std::vector<Matrix> local;
-  std::vector<Matrix> straight;  ///< the same without what `bends` draw; empty: they draw nothing
-  std::vector<Matrix> bends;     ///< rows x nodes: what a draw of bend_node(j) does beyond U
+  std::vector<Matrix> straight;  ///< the same without the part that `bends` draw; empty: they draw nothing
+  std::vector<Matrix> bends;     ///< rows x nodes: response to a draw of bend_node(j) in addition to U
   std::vector<int> bent;         ///< by column of U: its table of `bends`, or -1
   std::vector<double> reference; ///< by indication: typical standard uncertainty of its noise
-  std::vector<Grouping> scatter; ///< what may scatter; group by reading of the scenario
+  std::vector<Grouping> scatter; ///< possible variance components; group by reading of the scenario
 };
 
 /// Columns of Design::fixed that the chosen rows can distinguish, in the order in which they are declared: a column
@@ -31,8 +31,8 @@ std::vector<Index> independent(const Design& design, const std::vector<Index>& r
 
 /// Covariance of the noise in addition to what is declared: serial correlation and one variance component.
 struct CovarianceModel {
-  double correlation = 0; ///< from one reading to the next
-  int scatter = -1;       ///< of Design::scatter; -1: none
+  double correlation = 0; ///< correlation of successive readings
+  int scatter = -1;       ///< index into Design::scatter; -1: none
   double ratio = 0;       ///< standard deviation of the component over that of the noise
   int indication = -1;    ///< the only one that the component moves; -1: each by itself
 };

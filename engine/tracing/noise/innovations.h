@@ -1,8 +1,8 @@
 #pragma once
-/// Whitens rows that random effects move, each a few of them: one row after the other, given what the rows before say
-/// of the effects (innovations; Kalman, J. Basic Eng. 82 (1960) 35). With x = Z b + e, b and e of unit variance, this
-/// solves by the Cholesky factor of I + Z Z' without forming it: the work grows with the effects that are open at once,
-/// not with all of them.
+/// Whitens rows with random effects that each change a few rows: one row after the other, given the estimate of the
+/// effects from the rows before (innovations; Kalman, J. Basic Eng. 82 (1960) 35). With x = Z b + e, b and e of unit
+/// variance, this solves by the Cholesky factor of I + Z Z' without forming it. The work grows with the number of
+/// effects that are open at the same time, not with their total.
 #include <utility>
 #include <vector>
 
@@ -12,7 +12,7 @@ namespace gumshoe::tracing {
 
 class Innovations {
 public:
-  /// By row: effects that move it, and by how much.
+  /// Effects that change each row, with their loadings.
   using Rows = std::vector<std::vector<std::pair<std::size_t, double>>>;
 
   explicit Innovations(const Rows& z);
@@ -21,7 +21,7 @@ public:
   double log_determinant() const { return log_determinant_; } ///< of I + Z Z'
 
 private:
-  /// An effect takes a slot with the first row that it moves and leaves it with the last.
+  /// An effect occupies a slot from the first row that it changes to the last.
   struct Row {
     std::vector<Index> opened;
     std::vector<std::pair<Index, double>> moved, gain; ///< slot and factor

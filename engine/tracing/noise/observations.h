@@ -1,5 +1,5 @@
 #pragma once
-/// The readings as the search sees them: in the order of measurement, in blocks, with what residuals may depend on.
+/// The readings prepared for the search: in the order of measurement, in blocks, with their covariates.
 #include <string>
 #include <vector>
 
@@ -7,11 +7,11 @@
 
 namespace gumshoe::tracing {
 
-/// A condition, a column of the data or the order of measurement: what a residual may depend on. It varies.
+/// A covariate on which residuals may depend: a condition, a column of the data or the order of measurement. It varies.
 struct Covariate {
   std::string name, unit, si_unit;
   std::vector<double> value;  ///< by reading of the scenario, SI
-  std::vector<double> levels; ///< distinct values, rising
+  std::vector<double> levels; ///< distinct values, ascending
   bool angle = false;
 };
 
@@ -40,13 +40,13 @@ struct Observations {
   std::vector<std::string> holdout_blocks;
   std::vector<double> measured;        ///< [reading][indication], SI
   std::vector<std::string> statements; ///< what the design of the data leaves undetermined
-  std::vector<std::string> names;      ///< of the indications
+  std::vector<std::string> names;      ///< names of the indications
 };
 
 /// Rows of the scenario, [reading][indication], in the order of measurement.
 Matrix in_sequence(const Observations& observations, const Matrix& rows);
 
-/// Throws InputError: nothing was read, a block that is not there.
+/// Throws InputError if there are no readings, or a stated block does not exist.
 Observations observe(const propagation::Experiment& experiment);
 
 } // namespace gumshoe::tracing

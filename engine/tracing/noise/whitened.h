@@ -8,23 +8,23 @@
 
 namespace gumshoe::tracing {
 
-/// How the noise of draws differs from normal numbers.
+/// Deviation of the noise of draws from a normal distribution.
 struct NoiseShape {
-  double share = 0;          ///< of outlying readings
-  std::vector<double> sizes; ///< of those, in standard deviations of the others
-  /// Rows x nodes: what a draw bend_node(j) of the variance component does to each reading, in SI at scale 1; empty:
-  /// what the covariance model says.
+  double share = 0;          ///< share of outlying readings
+  std::vector<double> sizes; ///< their sizes, in standard deviations of the others
+  /// Rows x nodes: response of each reading to a draw bend_node(j) of the variance component, in SI at scale 1; empty:
+  /// as in the covariance model.
   Matrix scatter;
 
-  /// Standard deviation of the readings that are not outlying over that of all, winsorised as data are.
+  /// Ratio of the standard deviation of the readings that are not outlying to that of all, winsorised like data.
   double core() const;
 };
 
 /// "Chosen rows" are those given to the constructor: whole readings, in order. Keeps a reference to the design.
 class Whitened {
 public:
-  /// @param rows  chosen rows, rising
-  /// @param use   columns of Design::fixed that take part
+  /// @param rows  chosen rows, ascending
+  /// @param use   columns of Design::fixed that are used
   Whitened(const Design& design, std::vector<Index> rows, std::vector<Index> use, const CovarianceModel& model);
 
   /// Chosen rows of a matrix over all rows.
@@ -37,7 +37,7 @@ public:
   /// Residuals of the chosen rows (not whitened), winsorised at criteria.winsor_limit robust standard deviations.
   /// For a covariance model without correlation or component.
   /// @param scale   robust standard deviation by column, in units of the design's
-  /// @param weight  1 where a residual was left alone, below 1 where it was winsorised
+  /// @param weight  1 where a residual was not changed, below 1 where it was winsorised
   Matrix winsorised(const Matrix& residuals, Vector* scale = nullptr, Matrix* weight = nullptr) const;
   /// Sum of squares left of each whitened column, with the cost of the random columns.
   Vector left(const Matrix& whitened) const;
