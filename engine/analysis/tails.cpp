@@ -45,8 +45,8 @@ void check_tails(std::span<const double> values, Summary& s, int threads) {
   const double median = some[some.size() / 2];
   const OrderedTails ordered = ordered_tails(values, s.valid, k + 1, threads);
   bool heavy = false;
-  const auto below = [](double index, std::size_t values, double errors, double limit) {
-    return index * (1 + errors / std::sqrt(static_cast<double>(values))) < limit;
+  const auto below = [](double index, std::size_t used, double errors, double limit) {
+    return index * (1 + errors / std::sqrt(static_cast<double>(used))) < limit;
   };
   for (const double side : {1.0, -1.0}) {
     const auto tail = largest(ordered, median, side, k);

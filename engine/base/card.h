@@ -130,6 +130,8 @@ struct EffectCard {
   bool scatters_between_clampings = false;
   /// Where readings have a derivative by its amplitudes they follow it over the whole typical range, without jumps.
   bool follows_derivative = false;
+  /// Readings move in steps: the derivatives are those of their mean, which no difference of two readings shows.
+  bool moves_in_steps = false;
 };
 
 } // namespace gumshoe

@@ -20,8 +20,8 @@
 ///       what simulate and evaluate remember from reading to reading, as their second argument, by reference. It
 ///       changes no bit.
 ///   static constexpr bool scalar = true                      blocks run on doubles: the physics branches too much for
-///   lanes using Joint = std::tuple<...>                            its joint evaluations, in the order of the card
-///   (below)
+///                                                            lanes
+///   using Joint = std::tuple<...>                            its joint evaluations, in the order of the card
 /// The card's limits are checked here, for points and for samples: a model states them once, in its card.
 #include <cmath>
 #include <limits>
@@ -59,24 +59,23 @@ auto solve(const Reading<typename M::Rows, T>& at, Outcome<T>& outcome) -> typen
   if constexpr (Solves<M>) return M::solve(at, outcome);
   return {};
 }
-template <class M, class T, class Solution, class Memory>
-auto simulate(const Reading<typename M::Rows, T>& at, const Solution& solution, Memory& memory, Outcome<T>& outcome) {
+/// f(at, what M solved or remembers, if it does, more...)
+template <class M, class F, class At, class Solution, class Memory, class... More>
+auto given(const F& f, const At& at, const Solution& solution, Memory& memory, More&... more) {
   if constexpr (Solves<M>)
-    return M::simulate(at, solution, outcome);
+    return f(at, solution, more...);
   else if constexpr (Remembers<M>)
-    return M::simulate(at, memory, outcome);
+    return f(at, memory, more...);
   else
-    return M::simulate(at, outcome);
+    return f(at, more...);
 }
-template <class M, class T, class Solution, class Memory>
-auto evaluate(const Reading<typename M::Rows, T>& at, const Solution& solution, Memory& memory,
-              const typename M::Rows::template Indications<T>& read, Outcome<T>& outcome) {
-  if constexpr (Solves<M>)
-    return M::evaluate(at, solution, read, outcome);
-  else if constexpr (Remembers<M>)
-    return M::evaluate(at, memory, read, outcome);
-  else
-    return M::evaluate(at, read, outcome);
+template <class M, class At, class Solution, class Memory, class Outcome>
+auto simulate(const At& at, const Solution& solution, Memory& memory, Outcome& outcome) {
+  return given<M>([](auto&... with) { return M::simulate(with...); }, at, solution, memory, outcome);
+}
+template <class M, class At, class Solution, class Memory, class Read, class Outcome>
+auto evaluate(const At& at, const Solution& solution, Memory& memory, const Read& read, Outcome& outcome) {
+  return given<M>([](auto&... with) { return M::evaluate(with...); }, at, solution, memory, read, outcome);
 }
 
 /// The reading of a point call.
@@ -103,10 +102,6 @@ template <class M, class T> void check_all(const Reading<typename M::Rows, T>& a
 
 namespace detail {
 
-template <class T, class Named> void store(const Named& values, T* out) {
-  for (std::size_t i = 0; i < sizeof(Named) / sizeof(T); ++i) out[i] = array_of(values)[i];
-}
-
 /// `compute(at, solution, memory, outcome)` at a point within all limits; NaN elsewhere.
 template <class M, class T, class Compute>
 PointOutcome at_point(const PointCall<T>& call, bool simulating, T* out, const Compute& compute) {
@@ -114,16 +109,10 @@ PointOutcome at_point(const PointCall<T>& call, bool simulating, T* out, const C
   const auto at = reading_of<M>(call, simulating);
   Outcome<T> outcome;
   check_all<M>(at, outcome);
-  if (!outcome.failed) {
-    const auto solution = solve<M>(at, outcome);
-    const auto values = compute(at, solution, memory, outcome);
-    store(values, out);
-    if (outcome.failed)
-      for (std::size_t i = 0; i < sizeof(values) / sizeof(T); ++i) out[i] = T(std::nan(""));
-  } else {
-    using Values = decltype(compute(at, solve<M>(at, outcome), memory, outcome));
-    for (std::size_t i = 0; i < sizeof(Values) / sizeof(T); ++i) out[i] = T(std::nan(""));
-  }
+  decltype(compute(at, solve<M>(at, outcome), memory, outcome)) values{};
+  if (!outcome.failed) values = compute(at, solve<M>(at, outcome), memory, outcome);
+  for (std::size_t i = 0; i < sizeof(values) / sizeof(T); ++i)
+    out[i] = outcome.failed ? T(std::nan("")) : array_of(values)[i];
   return {code(outcome.status[0]), outcome.kink};
 }
 
@@ -174,18 +163,13 @@ template <class M> std::size_t measurands_in_use(int evaluation, const double* q
 }
 template <class M> std::string check_readings(const BlockCall& call) {
   std::string problem;
-  with_joint<M>(call.evaluation, [&]<class J>() {
-    Group<M, double> group(call, false);
-    problem = J::check(first_sample<M>(call, group));
-  });
+  with_joint<M>(call.evaluation, [&]<class J>() { problem = J::check(first_sample<M>(call)); });
   return problem;
 }
 template <class M> std::vector<std::string> remarks(const BlockCall& call) {
   std::vector<std::string> out;
   with_joint<M>(call.evaluation, [&]<class J>() {
-    Group<M, double> group(call, false);
-    if constexpr (requires { J::remarks(first_sample<M>(call, group)); })
-      out = J::remarks(first_sample<M>(call, group));
+    if constexpr (requires { J::remarks(first_sample<M>(call)); }) out = J::remarks(first_sample<M>(call));
   });
   return out;
 }

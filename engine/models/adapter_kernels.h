@@ -1,5 +1,7 @@
 #pragma once
 /// Block loops of a model (adapter.h), compiled once per instruction set.
+#include <optional>
+
 #include "models/adapter.h"
 
 namespace gumshoe::models::detail {
@@ -33,13 +35,16 @@ template <class M, bool simulating> void run_single(const BlockCall& call) {
   using T = typename ScalarOf<M>::type;
   constexpr std::size_t shown = rows_of<Rows::template Indications>, stated = rows_of<Rows::template Measurands>;
   Group<M, T> group(call, simulating);
+  Refusals<M, T> refusals(call, group.quantities());
   typename MemoryOf<M, T>::type memory{};
   std::vector<typename SolutionOf<M, T>::type> solutions(call.readings);
-  for (std::size_t i = 0; i < call.samples; i += numbers_in<T>)
+  Reading<Rows, T> at;
+  for (std::size_t i = 0; i < call.samples; i += numbers_in<T>) {
+    refusals.pass(i);
     for (std::size_t r = 0; r < call.readings; ++r) {
-      const auto at = group.at(r, i);
+      group.turn(r, i, at);
       Outcome<T> outcome;
-      group.check(r, at, outcome);
+      refusals.check(r, at, outcome);
       const bool possible = numbers_in<T> > 1 || !outcome.failed; // a lane that is not takes nothing from the others
       if (possible) solutions[r] = call.solved_as[r] == r ? solve<M>(at, outcome) : solutions[call.solved_as[r]];
       double* const* measurands = call.measurands + r * stated;
@@ -55,6 +60,7 @@ template <class M, bool simulating> void run_single(const BlockCall& call) {
       }
       store_status(call, i, outcome);
     }
+  }
 }
 
 /// All readings of a sample together.
@@ -64,35 +70,35 @@ template <class M, bool simulating> void run_together(const BlockCall& call) {
   constexpr std::size_t shown = rows_of<Rows::template Indications>;
   with_joint<M>(call.evaluation, [&]<class J>() {
     Group<M, T> group(call, simulating);
-    Group<M, double> numbers(call, simulating);
+    Refusals<M, T> refusals(call, group.quantities());
     typename MemoryOf<M, T>::type memory{};
-    typename J::template Memory<T> together(first_sample<M>(call, numbers));
-    Together<Rows, T> all{std::vector<Reading<Rows, T>>(call.readings), {}, call.declared};
-    if (!simulating) all.read.resize(call.readings);
+    std::optional<typename J::template Memory<T>> together;
+    if constexpr (!simulating) together.emplace(first_sample<M>(call));
+    Together<Rows, T> all;
     using Shown = decltype(simulate<M>(all.at[0], Nothing{}, memory, std::declval<Outcome<T>&>()));
     std::vector<Shown> truth(simulating ? call.readings : 0);
     for (std::size_t i = 0; i < call.samples; i += numbers_in<T>) {
+      refusals.pass(i);
+      group.together(i, all);
       Outcome<T> outcome;
       for (std::size_t l = 0; l < numbers_in<T>; ++l) outcome.fail(l, static_cast<Status>(call.status[i + l]));
       for (std::size_t r = 0; r < call.readings; ++r) {
-        all.at[r] = group.at(r, i);
-        group.check(r, all.at[r], outcome);
+        refusals.check(r, all.at[r], outcome);
         if constexpr (simulating) {
           if (numbers_in < T >> 1 || !outcome.failed) truth[r] = simulate<M>(all.at[r], Nothing{}, memory, outcome);
           store(truth[r].indications, shown, call.simulated + r * shown, i, outcome);
-        } else
-          all.read[r] = group.read(r, i);
+        }
       }
       typename J::template Measurands<T> found{};
       if (numbers_in < T >> 1 || !outcome.failed) {
         if constexpr (simulating)
           found = J::truth(all, truth, outcome);
         else
-          found = J::evaluate(all, together, outcome);
+          found = J::evaluate(all, *together, outcome);
       }
-      std::size_t rows = sizeof(found) / sizeof(T);
-      if constexpr (requires { J::in_use(numbers.at(0, i).q); }) rows = J::in_use(numbers.at(0, i).q);
-      store(found, rows, call.measurands, i, outcome);
+      double quantities[rows_of<Rows::template Quantities>];
+      for (std::size_t j = 0; j < std::size(quantities); ++j) quantities[j] = load<double>(call.quantities[j], i);
+      store(found, measurands_in_use<M>(call.evaluation, quantities), call.measurands, i, outcome);
       store_status(call, i, outcome);
     }
   });

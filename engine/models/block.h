@@ -1,10 +1,9 @@
 #pragma once
 /// The readings of a block call under their names, one group of samples at a time.
-#include <cmath>
-#include <type_traits>
+#include <algorithm>
 #include <vector>
 
-#include "models/model.h"
+#include "models/columns.h"
 #include "models/reading.h"
 
 namespace gumshoe::models {
@@ -13,20 +12,12 @@ namespace gumshoe::models {
 template <class Rows, class T> struct Together {
   std::vector<Reading<Rows, T>> at;
   std::vector<typename Rows::template Indications<T>> read; ///< empty while simulating
+  std::vector<T> effects;                                   ///< quantities of the freed effects, by reading
   const Declared* declared = nullptr;                       ///< null where nothing is declared: a table
   std::size_t size() const { return at.size(); }
 };
 
 namespace detail {
-
-template <class T> T load(const Column& c, std::size_t i) {
-  if constexpr (std::is_same_v<T, Lanes>)
-    return c.stride == 0 ? Lanes(c.data[0]) : Lanes::load_unaligned(c.data + i);
-  else
-    return c.data[c.stride * i];
-}
-inline void store_at(const Lanes& value, double* to) { value.store_unaligned(to); }
-inline void store_at(double value, double* to) { *to = value; }
 
 /// Refuses conditions that are not finite, or that M refuses.
 template <class M, class T> void check_commanded(const Reading<typename M::Rows, T>& at, Outcome<T>& outcome) {
@@ -35,56 +26,104 @@ template <class M, class T> void check_commanded(const Reading<typename M::Rows,
   if constexpr (requires { M::check_commanded(at, outcome); }) M::check_commanded(at, outcome);
 }
 
-/// @tparam T double, or Lanes
+/// Where x lies within limits: a bool, or a mask of lanes.
+template <class T> auto within(const Limits& limits, const T& x) {
+  const T low(limits.low), high(limits.high);
+  return (limits.low_open ? x > low : x >= low) && (limits.high_open ? x < high : x <= high);
+}
+
+/// The readings of a call under their names. @tparam T double, or Lanes
 template <class M, class T> class Group {
   using Rows = typename M::Rows;
-  static constexpr std::size_t quantities = rows_of<Rows::template Quantities>,
-                               conditions = rows_of<Rows::template Conditions>,
-                               shown = rows_of<Rows::template Indications>;
+  static constexpr std::size_t shown = rows_of<Rows::template Indications>;
 
 public:
   using Indications = typename Rows::template Indications<T>;
 
   Group(const BlockCall& call, bool simulating)
-      : call_(call), simulating_(simulating), effects_(call.readings * call.effect_quantities), limited_(call.readings),
-        commanded_(call.readings, Commanded::well) {
-    for (std::size_t r = 0; r < call.readings; ++r) {
-      for (std::size_t j = 0; j < quantities; ++j) {
-        const Column& c = call.quantities[r * quantities + j];
-        const Limits& l = M::card.quantities[j].limits;
-        if (c.stride != 0 || !l.contain(*c.data))
-          limited_[r].push_back({j, l.low_open ? std::nextafter(l.low, l.high) : l.low,
-                                 l.high_open ? std::nextafter(l.high, l.low) : l.high});
-      }
-      Outcome<double> outcome;
-      check_commanded<M>(loaded<double>(r, 0), outcome);
-      if (outcome.failed) commanded_[r] = Commanded::wrongly;
-      for (std::size_t j = 0; j < conditions; ++j)
-        if (call.conditions[r * conditions + j].stride != 0) commanded_[r] = Commanded::each_sample;
-    }
-  }
+      : call_(call), simulating_(simulating),
+        quantities_(call.quantities, call.readings, rows_of<Rows::template Quantities>),
+        conditions_(call.conditions, call.readings, rows_of<Rows::template Conditions>),
+        effects_(call.effect_quantities) {}
 
-  /// Reading r of the samples from i on. Its effects' quantities stay until the next call for r.
-  Reading<Rows, T> at(std::size_t r, std::size_t i) {
-    auto x = loaded<T>(r, i);
-    const std::size_t n = call_.effect_quantities;
-    for (std::size_t j = 0; j < n; ++j) effects_[r * n + j] = load<T>(call_.effects[r * n + j], i);
-    x.freed = {call_.active, effects_.data() + r * n};
-    return x;
-  }
+  const Columns& quantities() const { return quantities_; }
+  /// Turns the reading before into reading r, of the samples from i on; reading 0 may be made of any. The quantities of
+  /// its effects stay until the next call.
+  void turn(std::size_t r, std::size_t i, Reading<Rows, T>& x) { turn(r, i, x, effects_.data()); }
   Indications read(std::size_t r, std::size_t i) const {
     Indications x;
     for (std::size_t k = 0; k < shown; ++k) array_of(x)[k] = load<T>(call_.indications[r * shown + k], i);
     return x;
   }
+  /// All readings of the samples from i on; `all` is empty, or holds those of other samples.
+  void together(std::size_t i, Together<Rows, T>& all) {
+    all.declared = call_.declared;
+    all.at.resize(call_.readings);
+    all.effects.resize(call_.readings * effects_.size());
+    for (std::size_t r = 0; r < call_.readings; ++r) {
+      if (r > 0) all.at[r] = all.at[r - 1];
+      turn(r, i, all.at[r], all.effects.data() + r * effects_.size());
+    }
+    if (simulating_ || !call_.indications) return;
+    all.read.resize(call_.readings);
+    for (std::size_t r = 0; r < call_.readings; ++r) all.read[r] = read(r, i);
+  }
+
+private:
+  void turn(std::size_t r, std::size_t i, Reading<Rows, T>& x, T* effects) const {
+    quantities_.load(r, i, array_of(x.q));
+    conditions_.load(r, i, array_of(x.c));
+    for (std::size_t j = 0; j < effects_.size(); ++j) effects[j] = load<T>(call_.effects[r * effects_.size() + j], i);
+    x.freed = {call_.active, effects};
+    x.evaluation = call_.evaluation;
+    x.simulating = simulating_;
+  }
+
+  const BlockCall& call_;
+  bool simulating_;
+  Columns quantities_, conditions_;
+  std::vector<T> effects_;
+};
+
+/// What is impossible in a block. Few samples leave the limits of few quantities: a stretch of samples is looked
+/// through column by column, those that readings share once, and only quantities that leave are checked reading by
+/// reading.
+template <class M, class T> class Refusals {
+  using Rows = typename M::Rows;
+  static constexpr std::size_t conditions = rows_of<Rows::template Conditions>, stretch = 256;
+
+public:
+  Refusals(const BlockCall& call, const Columns& columns)
+      : samples_(call.samples), columns_(columns), leaving_(call.readings), commanded_(call.readings) {
+    Group<M, double> first(call, false);
+    Reading<Rows, double> at;
+    for (std::size_t r = 0; r < call.readings; ++r) {
+      first.turn(r, 0, at);
+      Outcome<double> outcome;
+      check_commanded<M>(at, outcome);
+      commanded_[r] = outcome.failed ? Commanded::wrongly : Commanded::well;
+      for (std::size_t j = 0; j < conditions; ++j)
+        if (call.conditions[r * conditions + j].stride != 0) commanded_[r] = Commanded::each_sample;
+    }
+  }
+
+  /// Before the samples from i on are checked, for every i in turn.
+  void pass(std::size_t i) {
+    if (i % stretch != 0) return;
+    bool leaves[rows_of<Rows::template Quantities>];
+    for (std::size_t r = 0; r < leaving_.size(); ++r) {
+      for (const auto& [at, column] : columns_.changed(r))
+        leaves[at] = leaves_limits(column, i, std::min(i + stretch, samples_), M::card.quantities[at].limits);
+      leaving_[r].clear();
+      for (std::size_t j = 0; j < std::size(leaves); ++j)
+        if (leaves[j]) leaving_[r].push_back(j);
+    }
+  }
+
   /// Refuses the samples of which a quantity lies beyond the card's limits, or that M refuses.
   void check(std::size_t r, const Reading<Rows, T>& at, Outcome<T>& outcome) const {
-    auto fine = T(0.0) == T(0.0);
-    for (const Closed& l : limited_[r]) {
-      const T& x = array_of(at.q)[l.quantity];
-      fine = fine && (x >= T(l.low)) && (x <= T(l.high));
-    }
-    outcome.refuse(!fine, "a quantity is outside its limits");
+    for (const std::size_t j : leaving_[r])
+      outcome.refuse(!within(M::card.quantities[j].limits, array_of(at.q)[j]), "a quantity is outside its limits");
     if (commanded_[r] == Commanded::wrongly) outcome.refuse(T(0.0) == T(0.0), "a condition is impossible");
     if (commanded_[r] == Commanded::each_sample) check_commanded<M>(at, outcome);
     if constexpr (requires { M::check(at, outcome); })
@@ -92,36 +131,24 @@ public:
   }
 
 private:
-  template <class U> Reading<Rows, U> loaded(std::size_t r, std::size_t i) const {
-    Reading<Rows, U> x;
-    for (std::size_t j = 0; j < quantities; ++j) array_of(x.q)[j] = load<U>(call_.quantities[r * quantities + j], i);
-    for (std::size_t j = 0; j < conditions; ++j) array_of(x.c)[j] = load<U>(call_.conditions[r * conditions + j], i);
-    x.freed.active = call_.active;
-    x.evaluation = call_.evaluation;
-    x.simulating = simulating_;
-    return x;
+  static bool leaves_limits(const Column& c, std::size_t i, std::size_t end, const Limits& limits) {
+    auto fine = within(limits, load<T>(c, i));
+    if (c.stride != 0)
+      while ((i += numbers_in<T>) < end) fine = fine && within(limits, load<T>(c, i));
+    return num::any(!fine);
   }
 
-  struct Closed {
-    std::size_t quantity;
-    double low, high; ///< that are in
-  };
   enum class Commanded : char { well, wrongly, each_sample };
-  const BlockCall& call_;
-  bool simulating_;
-  std::vector<T> effects_;
-  std::vector<std::vector<Closed>> limited_; ///< by reading: quantities that may leave their limits in this block
-  std::vector<Commanded> commanded_;         ///< by reading
+  std::size_t samples_;
+  const Columns& columns_;                        ///< of quantities
+  std::vector<std::vector<std::size_t>> leaving_; ///< by reading: quantities that leave their limits in this stretch
+  std::vector<Commanded> commanded_;              ///< by reading
 };
 
-/// All readings of one sample, as numbers.
-template <class M> Together<typename M::Rows, double> first_sample(const BlockCall& call, Group<M, double>& group) {
+/// All readings of the first sample.
+template <class M> Together<typename M::Rows, double> first_sample(const BlockCall& call) {
   Together<typename M::Rows, double> all;
-  all.declared = call.declared;
-  for (std::size_t r = 0; r < call.readings; ++r) {
-    all.at.push_back(group.at(r, 0));
-    if (call.indications) all.read.push_back(group.read(r, 0));
-  }
+  Group<M, double>(call, false).together(0, all);
   return all;
 }
 

@@ -4,6 +4,7 @@
 
 #include "models/cards.h"
 #include "models/laser_beam.h"
+#include "models/model.h"
 
 namespace gumshoe::models::laser_setter {
 
@@ -34,6 +35,25 @@ inline constexpr VariableCard indications[] = {
 /// The beam of a model whose quantities have the names above.
 template <class Quantities> auto beam(const Quantities& q) -> Beam<std::decay_t<decltype(q.beam_yaw)>> {
   return {q.beam_yaw, q.beam_pitch, q.beam_radius, q.trigger_fraction};
+}
+
+/// Fills in an event as the conditions `feed`, `time` and `direction` command it, then lets the freed effects act.
+template <class T, class At> void act(const At& at, const T& tool_length, chain::ProbingEvent<T>& event) {
+  event.z.feed = at.c.feed;
+  event.time = at.c.time;
+  event.z.direction = at.c.direction;
+  event.holder_angle = at.q.holder_angle;
+  event.tool_length = tool_length;
+  at.freed.act(event);
+}
+
+/// What an event moves, as the first intermediate values. @param tool_y from the beam's reference point, m
+inline std::vector<Intermediate> intermediates(const chain::ProbingEvent<double>& event, double tool_y) {
+  return {{"offset of the tool axis from the beam's reference point, X", "mm", event.tool_x / si::mm},
+          {"offset of the tool axis from the beam's reference point, Y", "mm", tool_y / si::mm},
+          {"tool growth", "mm", event.tool_growth / si::mm},
+          {"axis error", "mm", event.z.error / si::mm},
+          {"axis scale", "um/m", event.z.scale * 1e6}};
 }
 
 } // namespace gumshoe::models::laser_setter

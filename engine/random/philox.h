@@ -22,7 +22,7 @@ inline double unit_from_bits(std::uint64_t bits) {
 /// Counter: (sample / 2 low, sample / 2 high, reading, purpose << 16 | draw); each call serves two samples.
 [[gnu::always_inline]] inline void fill_uniforms(const Stream& stream, std::uint64_t first, std::size_t n,
                                                  double* __restrict out) {
-  const std::uint32_t key0 = static_cast<std::uint32_t>(stream.key), key1 = stream.key >> 32;
+  const std::uint32_t key0 = static_cast<std::uint32_t>(stream.key), key1 = static_cast<std::uint32_t>(stream.key >> 32);
   const std::uint32_t purpose = static_cast<std::uint32_t>(stream.purpose) << 16 | stream.draw;
   const std::uint32_t reading = stream.reading;
   const std::uint64_t start = first / 2;

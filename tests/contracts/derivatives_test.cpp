@@ -29,10 +29,10 @@ Point moved(Point p, std::size_t i, double by) {
   return p;
 }
 
-/// Effects that move readings by jumps have the derivatives of their mean, which no difference shows.
+/// Effects whose derivatives differences show.
 std::vector<const EffectCard*> smooth_effects(const models::Model& model) {
   auto out = effects_on(model);
-  std::erase_if(out, [](const EffectCard* e) { return e->name == "sampling_rate"; });
+  std::erase_if(out, [](const EffectCard* e) { return e->moves_in_steps; });
   return out;
 }
 
@@ -96,8 +96,7 @@ TEST_CASE("curvatures agree with differences of gradients", "[contracts][laws][m
       if (!at.ok() || at.kink) continue;
       const auto rounding = s.rounding(at, *p);
       std::vector<std::size_t> by;
-      for (std::size_t j = 0; j < std::min<std::size_t>(8, s.size()); ++j)
-        by.push_back((n * 8 + j) % s.size());
+      for (std::size_t j = 0; j < std::min<std::size_t>(8, s.size()); ++j) by.push_back((n * 8 + j) % s.size());
       const auto second = s.curvature(*p, by);
       for (std::size_t b = 0; b < by.size(); ++b) {
         const double h = 1e-2 * s.spread(by[b], *p);

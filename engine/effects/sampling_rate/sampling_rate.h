@@ -24,7 +24,8 @@ struct SamplingRate {
       .adds = "sampling_period += period; sampling_phase += phase",
       .confused_with = "trigger_latency, of half a period",
       .source = "engineering knowledge; Fang 2022, chapter 3 for the measurement",
-      .quantities = quantities};
+      .quantities = quantities,
+      .moves_in_steps = true};
   template <class T> static void apply(const T* q, chain::ProbingEvent<T>& event) {
     chain::TurningTool<T>& tool = *event.turning;
     tool.sampling_period = tool.sampling_period + q[0];

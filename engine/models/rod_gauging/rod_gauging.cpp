@@ -6,14 +6,8 @@ std::vector<Intermediate> RodGauging::explain(const At<double>& at, const Rows::
   const auto event = probing_event(at);
   const auto body = rod(at.q, event);
   const auto beam = laser_setter::beam(at.q);
-  std::vector<Intermediate> out{
-      {"offset of the tool axis from the beam's reference point, X", "mm", event.tool_x / mm},
-      {"offset of the tool axis from the beam's reference point, Y", "mm", event.tool_y / mm},
-      {"tool growth", "mm", event.tool_growth / mm},
-      {"axis error", "mm", event.z.error / mm},
-      {"axis scale", "um/m", event.z.scale * 1e6},
-      {"latch delay", "s", event.latch_delay},
-  };
+  auto out = laser_setter::intermediates(event, event.tool_y);
+  out.push_back({"latch delay", "s", event.latch_delay});
   Outcome<double> outcome;
   check(at, outcome);
   if (at.evaluation == full && !outcome.failed) {

@@ -25,12 +25,7 @@ template <class T> using At = Reading<Rows, T>;
 /// The event as commanded, with all freed effects applied.
 template <class T> chain::ProbingEvent<T> probing_event(const At<T>& at) {
   chain::ProbingEvent<T> event;
-  event.z.feed = at.c.feed;
-  event.time = at.c.time;
-  event.z.direction = at.c.direction;
-  event.holder_angle = at.q.holder_angle;
-  event.tool_length = at.q.rod_length;
-  at.freed.act(event);
+  laser_setter::act(at, at.q.rod_length, event);
   return event;
 }
 

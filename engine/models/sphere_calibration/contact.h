@@ -138,6 +138,10 @@ template <class T> Vector3<T> linear_errors(const Quantities<T>& q, const T& y, 
           q.E_ZX + q.E_ZY + q.E_ZZ};
 }
 
+template <class T> bool has_squareness(const Quantities<T>& q) {
+  return num::any((q.S_XY != T(0.0)) || (q.S_XZ != T(0.0)) || (q.S_YZ != T(0.0)));
+}
+
 /// One contact with the sphere's top.
 template <class T> struct Contact {
   Vector3<T> tip;                ///< tip_at_top
@@ -187,9 +191,11 @@ template <class T> struct KnownLinks {
   bool known = false;
   const Links<T>& of(const Quantities<T>& quantities) {
     const T* q = array_of(quantities);
-    bool same = known && num::derivative_levels<T> == 0; // equal values may differ in their derivatives
-    for (std::size_t j = 0; same && j <= Q::link_C_y; ++j) same = !num::any(q[j] != made_of[j]);
-    if (same) return links;
+    if (known && num::derivative_levels<T> == 0) { // equal values may differ in their derivatives
+      auto same = q[0] == made_of[0];
+      for (std::size_t j = 1; j <= Q::link_C_y; ++j) same = same && (q[j] == made_of[j]);
+      if (!num::any(!same)) return links;
+    }
     for (std::size_t j = 0; j <= Q::link_C_y; ++j) made_of[j] = q[j];
     known = true;
     return links = sphere_calibration::links(quantities);

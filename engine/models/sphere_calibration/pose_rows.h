@@ -13,19 +13,18 @@ static_assert(unknowns == lengths + 4);
 
 /// One reading.
 template <class T> struct Pose {
-  At<T> at;            ///< as declared
+  const At<T>* at;     ///< as declared
   Vector3<T> measured; ///< t + e - recorded, without squareness: where the probe stood from the origin
   Vector3<T> tip;      ///< at the commanded A
   T at_B, at_C;        ///< actual, as declared
   bool squareness = false;
   Vector3<T> top, recorded; ///< only where effects act: t at the actual A; recorded commands less e
-  bool effects() const { return at.freed.any(); } ///< some follow the nominal commands, which are the machine's sought
+  bool effects() const { return at->freed.any(); } ///< some follow the nominal commands, which are the machine's sought
 };
-/// @param recorded commands
+/// @param at outlives the pose  @param recorded commands
 template <class T> Pose<T> pose_of(const At<T>& at, const Vector3<T>& recorded) {
   const T zero(0.0);
-  Pose<T> pose{at, {}, tip_at_top(at.q, at.c.A), at.c.B + at.q.E_BB, at.c.C + at.q.E_CC, false, {}, {}};
-  pose.squareness = num::any(at.q.S_XY != zero) || num::any(at.q.S_XZ != zero) || num::any(at.q.S_YZ != zero);
+  Pose<T> pose{&at, {}, tip_at_top(at.q, at.c.A), at.c.B + at.q.E_BB, at.c.C + at.q.E_CC, has_squareness(at.q), {}, {}};
   // Squareness follows the nominal commands, which are the machine's that is sought.
   Quantities<T> q = at.q;
   q.S_XY = q.S_XZ = q.S_YZ = zero;
@@ -91,8 +90,8 @@ protected:
       return h;
     }
     const auto nominal =
-        pose.tip - sphere_calibration::probe_from_origin(length, exact_turns(lines, pose.at.c.B, pose.at.c.C));
-    const auto t = touch<T>(pose.at.c, nominal, pose.at.freed);
+        pose.tip - sphere_calibration::probe_from_origin(length, exact_turns(lines, pose.at->c.B, pose.at->c.C));
+    const auto t = touch<T>(pose.at->c, nominal, pose.at->freed);
     h.at_B = h.at_B + t.rotary.B.error[chain::E_B], h.at_C = h.at_C + t.rotary.C.error[chain::E_C];
     h.moved = moved(exact_turns(lines, h.at_B, h.at_C), t.rotary);
     h.measured = pose.top - t.actual_of(pose.recorded - square(pose, theta, lines));
@@ -123,19 +122,19 @@ protected:
   }
   static void actual(const T* theta, const Pose<T>& pose, T* length) {
     for (int j = 0; j < lengths; ++j) length[j] = theta[j];
-    const T* link = &array_of(pose.at.q)[Q::link_B_x];
+    const T* link = &array_of(pose.at->q)[Q::link_B_x];
     for (int j = 0; j < 4; ++j) length[length_B_x + j] = length[length_B_x + j] + link[j];
   }
   /// What squareness adds to the recorded commands, of nominal ones.
   static Vector3<T> squared(const Pose<T>& pose, const Vector3<T>& nominal) {
-    return {pose.at.q.S_XZ * nominal.z - pose.at.q.S_XY * nominal.y, T(0.0) - pose.at.q.S_YZ * nominal.z, T(0.0)};
+    return {pose.at->q.S_XZ * nominal.z - pose.at->q.S_XY * nominal.y, T(0.0) - pose.at->q.S_YZ * nominal.z, T(0.0)};
   }
   static Vector3<T> square(const Pose<T>& pose, const T* theta, const Directions<T>& lines) {
     if (!pose.squareness) return {};
     T length[lengths];
     actual(theta, pose, length);
     return squared(
-        pose, pose.tip - sphere_calibration::probe_from_origin(length, exact_turns(lines, pose.at.c.B, pose.at.c.C)));
+        pose, pose.tip - sphere_calibration::probe_from_origin(length, exact_turns(lines, pose.at->c.B, pose.at->c.C)));
   }
 
   std::vector<Row> rows_;

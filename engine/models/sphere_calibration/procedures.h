@@ -40,7 +40,7 @@ struct Identify {
 
   /// What conditions and declarations fix, the same for all samples of a block.
   template <class T> struct Memory : Identification<T> {
-    explicit Memory(const Poses<double>& poses) : Identification<T>(poses.size(), patterns(poses), weights(poses)) {}
+    explicit Memory(const Poses<double>& all) : Identification<T>(all.size(), patterns(all), weights(all)) {}
   };
 
   template <class T>

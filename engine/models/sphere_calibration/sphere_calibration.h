@@ -38,8 +38,7 @@ struct SphereCalibration {
   template <class T> using Memory = KnownLinks<T>;
   template <class T> static Contact<T> contact(const At<T>& at, KnownLinks<T>& known) {
     // A derivative by squareness does not vanish with its value.
-    const bool squareness = num::derivative_levels<T> > 0 || num::any(at.q.S_XY != T(0.0)) ||
-                            num::any(at.q.S_XZ != T(0.0)) || num::any(at.q.S_YZ != T(0.0));
+    const bool squareness = num::derivative_levels<T> > 0 || has_squareness(at.q);
     return sphere_calibration::contact(at, known.of(at.q), squareness);
   }
   template <class T> static Simulated<Rows, T> simulate(const At<T>& reading, KnownLinks<T>& known, Outcome<T>&) {

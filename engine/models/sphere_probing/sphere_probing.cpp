@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "models/cards.h"
 #include "models/kernel_choice.h"
 
 GUMSHOE_DECLARE_KERNELS(sphere_probing)
@@ -14,8 +15,7 @@ namespace gumshoe::models::probing {
 
 namespace {
 
-constexpr double mm = 1e-3, deg = 3.14159265358979323846 / 180;
-constexpr Limits below_90{-90 * deg, 90 * deg, true, true}, any{-1e3, 1e3};
+using si::deg, si::mm;
 constexpr char letters[] = "XYZ";
 constexpr auto out_of_domain = code(Status::out_of_domain);
 

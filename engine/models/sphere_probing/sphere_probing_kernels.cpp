@@ -2,6 +2,7 @@
 /// all samples moves once per reading.
 #include <algorithm>
 
+#include "models/columns.h"
 #include "models/sphere_probing/sphere_probing.h"
 
 namespace gumshoe::models::probing {
@@ -9,9 +10,7 @@ namespace {
 
 constexpr std::size_t width = Lanes::size;
 
-Lanes load(const Column& c, std::size_t i) {
-  return c.stride == 0 ? Lanes(c.data[0]) : Lanes::load_unaligned(c.data + i);
-}
+Lanes load(const Column& c, std::size_t i) { return detail::load<Lanes>(c, i); }
 void store(const Vector3<Lanes>& v, double* const* rows, std::size_t i) {
   v.x.store_unaligned(rows[0] + i);
   v.y.store_unaligned(rows[1] + i);

@@ -37,14 +37,9 @@ template <class T> struct Event : chain::ProbingEvent<T> { chain::TurningTool<T>
 /// The event as commanded, with all freed effects applied.
 template <class T> Event<T> probing_event(const At<T>& at) {
   Event<T> event;
-  event.z.feed = at.c.feed;
-  event.time = at.c.time;
-  event.z.direction = at.c.direction;
-  event.holder_angle = at.q.holder_angle;
-  event.tool_length = at.q.tool_length;
   event.tool.speed = at.c.spindle_speed;
   event.turning = &event.tool;
-  at.freed.act(event);
+  laser_setter::act<T>(at, at.q.tool_length, event);
   event.turning = nullptr; // the event may be copied
   return event;
 }

@@ -8,23 +8,17 @@ std::vector<Intermediate> ToolLength::explain(const At<double>& at, const Rows::
   const auto o = tool_length::evaluate(solver, at, read.spindle_z);
   const auto& event = o.event;
   const auto m = motion(at, event);
-  std::vector<Intermediate> out{
-      {"offset of the tool axis from the beam's reference point, X", "mm", event.tool_x / mm},
-      {"offset of the tool axis from the beam's reference point, Y", "mm", (event.tool_y - q.offset) / mm},
-      {"tool growth", "mm", event.tool_growth / mm},
-      {"axis error", "mm", event.z.error / mm},
-      {"axis scale", "um/m", event.z.scale * 1e6},
-      {"true height when the feed begins", "mm", m.height / mm},
-      {"true angle of the first insert when the feed begins", "deg", m.angle / deg},
-      {"descent per revolution", "mm", 2 * std::numbers::pi * m.drop / mm},
-      {"delay from the trigger to the latch", "s", event.latch_delay},
-  };
+  auto out = laser_setter::intermediates(event, event.tool_y - q.offset);
+  out.insert(out.end(), {{"true height when the feed begins", "mm", m.height / mm},
+                         {"true angle of the first insert when the feed begins", "deg", m.angle / deg},
+                         {"descent per revolution", "mm", 2 * std::numbers::pi * m.drop / mm},
+                         {"delay from the trigger to the latch", "s", event.latch_delay}});
   if (at.evaluation == full && o.trigger.height.status == Status::ok) {
     const auto flute = tool_length::flute(q, event, o.trigger.insert);
     const double highest = solver.heights(flute.insert, laser_setter::beam(q)).highest().height;
     out.insert(out.end(), {{"highest trigger height of this insert, unworn", "mm", highest / mm},
                            {"insert that triggers", "1", o.trigger.insert + 1.0},
-                           {"rotation of the spindle until the trigger", "deg", o.trigger.turned / deg}});
+                           {"spindle turned until the trigger", "deg", o.trigger.turned / deg}});
   }
   out.insert(out.end(), {{"trigger_height", "mm", o.trigger.height.value / mm},
                          {"spindle height, effects removed", "mm", chain::actual_of(read.spindle_z, event) / mm},

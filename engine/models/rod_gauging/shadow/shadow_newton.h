@@ -2,6 +2,8 @@
 /// Fast trigger solve for the common case: both ends of the covered chord lie on the smooth part of
 /// the rod's lower edge. One joint Newton iteration in (left end, right end, height), lane by lane;
 /// a lane that it cannot take says so and goes to the general solver (shadow_boundary.h).
+#include <numbers>
+
 #include "models/rod_gauging/shadow/shadow.h"
 
 namespace gumshoe::models::rod_gauging {
@@ -22,12 +24,11 @@ inline constexpr double gauss4_weight[2] = {0.65214515486254614, 0.3478548451374
 /// 2 area = R^2 alpha + integral of X x dX, where X x P' = depth rho + fillet n + side tz - k ty.
 /// Off the solution the boundary is closed by radial slivers, so the error is of second order.
 template <class V> ChordSolve<V> solve_chord(const ShadowEdge<V>& e, const V& beam_radius, const V& fraction) {
-  constexpr double pi = 3.14159265358979323846;
   const V r2 = beam_radius * beam_radius;
-  const V target = fraction * (pi * r2);
+  const V target = fraction * (std::numbers::pi * r2);
 
   // Start from the tangent at w = 0: a straight edge at distance R sin(beta) from the beam's centre.
-  const V x = 0.5 * pi * (0.5 - fraction);
+  const V x = 0.5 * std::numbers::pi * (0.5 - fraction);
   const V beta = x * (1.0 + x * x * (1.0 / 3.0));
   const V q = num::sqrt(1.0 + e.shear * e.shear);
   const V distance = beam_radius * beta * (1.0 - beta * beta * (1.0 / 6.0));

@@ -34,60 +34,19 @@ template <class F> double safe_root(const F& f, double lo, double hi, bool risin
   return x;
 }
 
-/// Where an ellipse runs inside the disc: stationary points of the distance to the beam's axis are isolated quadrant
-/// by quadrant, with the distance monotone between them.
-Inside inside_of(const InsertShadow<double>& s, bool back, double k, double beam_radius) {
-  Inside result;
-  const double radius = back ? s.back_radius : s.rake_radius;
-  const Planar<double> centre{back ? s.back.y : s.rake.y, (back ? s.back.z : s.rake.z) + k};
-  if (radius == 0) {
-    result.full = std::hypot(centre.y, centre.z) < beam_radius;
-    return result;
-  }
-  const double w0 = 0.5 * std::atan2(2 * dot(s.a, s.b), dot(s.a, s.a) - dot(s.b, s.b));
-  const double c0 = std::cos(w0), s0 = std::sin(w0);
-  const Planar<double> p{s.a.y * c0 + s.b.y * s0, s.a.z * c0 + s.b.z * s0};
-  const double length = std::hypot(p.y, p.z);
-  const Planar<double> p1{p.y / length, p.z / length}, q1{-p1.z, p1.y};
-  const double a = radius * length, b = radius * std::max(0.0, cross(s.a, s.b) / length);
-  // the beam's axis seen from the ellipse's centre, along its axes
-  const double x = -dot(centre, p1), z = -dot(centre, q1);
-  const double ax = a * std::fabs(x), bz = b * std::fabs(z), e = a * a - b * b;
-  const double sx = x < 0 ? -1 : 1, sz = z < 0 ? -1 : 1, r2 = beam_radius * beam_radius;
-  const auto excess = [&](double u) {
+/// An ellipse along its axes and the beam's disc, seen from the ellipse's centre.
+struct Ellipse {
+  double a, b; ///< half axes
+  double x, z; ///< the beam's axis
+  double r2;   ///< of the beam
+
+  /// Distance of a point to the beam's axis squared, less that of the disc.
+  double excess(double u) const {
     const double c = a * std::cos(u) - x, n = b * std::sin(u) - z;
     return c * c + n * n - r2;
-  };
-  // Quadrants by the signs of cos and sin relative to the axis' own; u' in [0, pi/2].
-  const auto full_angle = [&](double u, double kx, double kz) {
-    return std::atan2(kz * sz * std::sin(u), kx * sx * std::cos(u));
-  };
-  const auto stationary = [&](double kx, double kz, double lo, double hi, bool rising, double start) {
-    const auto f = [&](double u) {
-      const double c = std::cos(u), n = std::sin(u);
-      return std::pair{-e * n * c + kx * ax * n - kz * bz * c, -e * (c * c - n * n) + kx * ax * c + kz * bz * n};
-    };
-    return safe_root(f, lo, hi, rising, start);
-  };
-  const double nearest =
-      full_angle(stationary(1, 1, 0, 0.5 * pi, true, std::atan2(a * std::fabs(z), b * std::fabs(x) + 1e-300)), 1, 1);
-  if (excess(nearest) >= 0) return result;
-  const double farthest = full_angle(stationary(-1, -1, 0, 0.5 * pi, false, 0.25 * pi), -1, -1);
-  std::array<double, 4> at{nearest, farthest};
-  std::size_t count = 2;
-  if (ax > 0 || bz > 0) {
-    const double t = std::cbrt(bz / ax), ustar = std::isfinite(t) ? std::atan(t) : 0.5 * pi;
-    const double c = std::cos(ustar), n = std::sin(ustar);
-    if (-e * n * c + ax * n + bz * c < 0) {
-      at[2] = full_angle(stationary(1, -1, 0, ustar, false, 0.5 * ustar), 1, -1);
-      at[3] = full_angle(stationary(1, -1, ustar, 0.5 * pi, true, 0.5 * (ustar + 0.5 * pi)), 1, -1);
-      count = 4;
-    }
   }
-  std::sort(at.begin(), at.begin() + static_cast<std::ptrdiff_t>(count));
-  std::array<double, 4> value{};
-  for (std::size_t i = 0; i < count; ++i) value[i] = excess(at[i]);
-  const auto crossing = [&](double from, double to, bool rising) {
+  /// Where the ellipse crosses the circle between a point inside and one outside.
+  double crossing(double from, double to, bool rising) const {
     const auto f = [&](double u) {
       const double c = std::cos(u), n = std::sin(u), dx = a * c - x, dz = b * n - z;
       return std::pair{dx * dx + dz * dz - r2, 2 * (b * c * dz - a * n * dx)};
@@ -98,29 +57,88 @@ Inside inside_of(const InsertShadow<double>& s, bool back, double k, double beam
     const double bend = a * a * n * n + b * b * c * c - a * c * (a * c - x) - b * n * (b * n - z);
     const double step = bend > 0 ? std::sqrt(-v / bend) : 0;
     return safe_root(f, from, to, rising, rising ? from + step : to - step);
+  }
+};
+
+struct Stationary {
+  std::array<double, 4> at{};
+  std::size_t size = 0;
+};
+
+/// Stationary points of the distance to the beam's axis, in order, isolated quadrant by quadrant; none where even the
+/// nearest point is outside.
+Stationary stationary_points(const Ellipse& ellipse) {
+  constexpr double right = 0.5 * pi;
+  const auto& [a, b, x, z, r2] = ellipse;
+  const double ax = a * std::fabs(x), bz = b * std::fabs(z), e = a * a - b * b;
+  const double sx = x < 0 ? -1 : 1, sz = z < 0 ? -1 : 1;
+  // Quadrants by the signs kx, kz of cos and sin relative to the axis' own; u' in [0, pi/2].
+  const auto in_quadrant = [&](double kx, double kz, double lo, double hi, bool rising, double start) {
+    const auto f = [&](double u) {
+      const double c = std::cos(u), n = std::sin(u);
+      return std::pair{-e * n * c + kx * ax * n - kz * bz * c, -e * (c * c - n * n) + kx * ax * c + kz * bz * n};
+    };
+    const double u = safe_root(f, lo, hi, rising, start);
+    return std::atan2(kz * sz * std::sin(u), kx * sx * std::cos(u));
   };
+  Stationary out;
+  out.at[0] = in_quadrant(1, 1, 0, right, true, std::atan2(a * std::fabs(z), b * std::fabs(x) + 1e-300));
+  if (ellipse.excess(out.at[0]) >= 0) return out;
+  out.at[1] = in_quadrant(-1, -1, 0, right, false, 0.25 * pi);
+  out.size = 2;
+  if (ax > 0 || bz > 0) {
+    const double t = std::cbrt(bz / ax), ustar = std::isfinite(t) ? std::atan(t) : right;
+    const double c = std::cos(ustar), n = std::sin(ustar);
+    if (-e * n * c + ax * n + bz * c < 0) {
+      out.at[2] = in_quadrant(1, -1, 0, ustar, false, 0.5 * ustar);
+      out.at[3] = in_quadrant(1, -1, ustar, right, true, 0.5 * (ustar + right));
+      out.size = 4;
+    }
+  }
+  std::sort(out.at.begin(), out.at.begin() + static_cast<std::ptrdiff_t>(out.size));
+  return out;
+}
+
+/// Where the ellipse runs inside the disc: between stationary points the distance is monotone. @param turned of the
+/// ellipse's axes
+Inside intervals(const Ellipse& ellipse, double turned) {
+  Inside result;
+  const auto [at, count] = stationary_points(ellipse);
+  if (count == 0) return result;
+  std::array<double, 4> value{};
+  for (std::size_t i = 0; i < count; ++i) value[i] = ellipse.excess(at[i]);
   std::array<double, 2> enter{}, leave{};
   std::size_t enters = 0, leaves = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t j = (i + 1) % count;
     const double to = j == 0 ? at[0] + 2 * pi : at[j];
-    if (value[i] >= 0 && value[j] < 0 && enters < 2) enter[enters++] = crossing(at[i], to, false);
-    if (value[i] < 0 && value[j] >= 0 && leaves < 2) leave[leaves++] = crossing(at[i], to, true);
+    if (value[i] >= 0 && value[j] < 0 && enters < 2) enter[enters++] = ellipse.crossing(at[i], to, false);
+    if (value[i] < 0 && value[j] >= 0 && leaves < 2) leave[leaves++] = ellipse.crossing(at[i], to, true);
   }
-  if (enters == 0 || enters != leaves) {
-    result.full = true;
-    return result;
-  }
+  result.full = enters == 0 || enters != leaves;
+  if (result.full) return result;
   for (std::size_t i = 0; i < enters; ++i) {
     double to = 1e300; // the next leaving after this entering
-    for (std::size_t l = 0; l < leaves; ++l) {
-      const double behind = leave[l] + (leave[l] < enter[i] ? 2 * pi : 0);
-      to = std::min(to, behind);
-    }
-    result.interval[i] = {enter[i] + w0, to + w0};
+    for (std::size_t l = 0; l < leaves; ++l) to = std::min(to, leave[l] + (leave[l] < enter[i] ? 2 * pi : 0));
+    result.interval[i] = {enter[i] + turned, to + turned};
   }
   result.size = static_cast<int>(enters);
   return result;
+}
+
+/// Where the rake's or the back's ellipse runs inside the disc.
+Inside inside_of(const InsertShadow<double>& s, bool back, double k, double beam_radius) {
+  const double radius = back ? s.back_radius : s.rake_radius;
+  const Planar<double> centre{back ? s.back.y : s.rake.y, (back ? s.back.z : s.rake.z) + k};
+  if (radius == 0) return {{}, 0, std::hypot(centre.y, centre.z) < beam_radius};
+  const double w0 = 0.5 * std::atan2(2 * dot(s.a, s.b), dot(s.a, s.a) - dot(s.b, s.b));
+  const double c0 = std::cos(w0), s0 = std::sin(w0);
+  const Planar<double> p{s.a.y * c0 + s.b.y * s0, s.a.z * c0 + s.b.z * s0};
+  const double length = std::hypot(p.y, p.z);
+  const Planar<double> p1{p.y / length, p.z / length}, q1{-p1.z, p1.y};
+  return intervals({radius * length, radius * std::max(0.0, cross(s.a, s.b) / length), -dot(centre, p1),
+                    -dot(centre, q1), beam_radius * beam_radius},
+                   w0);
 }
 
 void add(InsertParts& parts, const InsertPart& p) {

@@ -95,6 +95,7 @@ private:
   };
   Pass& pass(std::size_t flute, const Insert<double>& insert, const Beam<double>& beam);
   std::array<Pass, most_inserts> passes_;
+  class Walk;
 };
 
 /// Motion for derivatives. The axis may lag behind its command (lagging_feed.h).
