@@ -45,7 +45,7 @@ template <class V> ChordSolve<V> solve_chord(const ShadowEdge<V>& e, const V& be
     const EdgePoint<V> a = edge_point(e, s1, c1), b = edge_point(e, s2, c2);
     const V za = a.z + k, zb = b.z + k;
     const V cross = b.y * za - zb * a.y, dot = a.y * b.y + za * zb;
-    const V alpha = pi + num::atan2(-cross, -dot);
+    const V alpha = std::numbers::pi + num::atan2(-cross, -dot);
 
     const V mid = 0.5 * (s1 + s2), span = 0.5 * (s2 - s1);
     const V swept = e.depth * e.rho;
