@@ -60,7 +60,7 @@ using Effect = std::function<double(const scenario::Scenario&, std::size_t)>; //
 double feed_at(const scenario::Scenario& s, std::size_t i) { return s.readings[i].conditions[0]; }
 double time_at(const scenario::Scenario& s, std::size_t i) { return s.readings[i].conditions[1]; }
 
-/// Rows in the order of time; the mean of each set-up, its own constant, is taken off.
+/// Rows in the order of time; the mean of each set-up, its offset, is subtracted.
 void add_rows(Traced& t, const Effect& there, const Effect& found) {
   const scenario::Scenario& s = t.scenario;
   std::map<std::string, std::pair<double, double>> sums;
