@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Report of a result file: one self-contained HTML page and CSV tables beside it.
+"""Report of a result file: one self-contained HTML page and CSV tables next to it.
 
 report.py RESULT.h5 [--out FILE.html] [--csv DIR] [--page-only]
 """
@@ -14,8 +14,8 @@ from gumshoe_report import csv_tables, page, read
 def main():
     parser = argparse.ArgumentParser(description="One self-contained HTML page and CSV tables from a result file.")
     parser.add_argument("result", type=pathlib.Path, help="result file (HDF5)")
-    parser.add_argument("--out", type=pathlib.Path, help="HTML file (default: beside the result)")
-    parser.add_argument("--csv", type=pathlib.Path, help="folder for the CSV tables (default: beside the HTML)")
+    parser.add_argument("--out", type=pathlib.Path, help="HTML file (default: next to the result)")
+    parser.add_argument("--csv", type=pathlib.Path, help="folder for the CSV tables (default: next to the HTML)")
     parser.add_argument("--page-only", action="store_true", help="no CSV tables, no list of what was written")
     arguments = parser.parse_args()
     out = arguments.out or arguments.result.with_suffix(".html")

@@ -1,5 +1,5 @@
 #pragma once
-/// What the models of a laser tool setter share in their cards: the beam's rows, conditions, the indication.
+/// Rows that the cards of laser-tool-setter models share: quantities of the beam, conditions, the indication.
 #include <type_traits>
 
 #include "models/cards.h"

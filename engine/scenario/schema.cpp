@@ -116,8 +116,8 @@ std::vector<Key> model_keys() {
   return {
       {"name", text(), "one that gumshoe models lists; or " + described, true},
       {"method", words({"propagation", "virtual_experiment"}),
-       "propagation of distributions (JCGM 101), or virtual experiment: draw the true value, simulate and evaluate", "
-       "false,
+       "propagation of distributions (JCGM 101), or virtual experiment: draw the true value, simulate and evaluate",
+       false,
        quoted("propagation")},
       {"evaluation", text(), "evaluation of the model; default: the first"},
       {"intermediates", map(formula), "expression: formulas used by others, in any order"},

@@ -45,8 +45,8 @@ bool enough(const TraceContext& c, Trace& out) {
     out.statements.push_back(
         fmt::format("{} readings{} determine {} unknowns; at least four more readings than unknowns are needed to "
                     "judge the residuals",
-                    rows.size(), repeated ? " (readings with equal labels and conditions count as one)" : "", "
-                                            "unknowns));
+                    rows.size(), repeated ? " (readings with equal labels and conditions count as one)" : "",
+                    unknowns));
     out.outcome = Outcome::insufficient_data;
     return false;
   }
@@ -81,8 +81,8 @@ Trace trace(const scenario::Scenario& scenario, const Settings& settings) {
   const propagation::Experiment experiment(out.extended);
   const auto& model = experiment.model();
   if (!model.simulate_gradient && !(model.kernels && model.kernels() && model.kernels()->simulate))
-    calibration::refuse(scenario.file, fmt::format("model {}: the model cannot simulate its indications", "
-                                                   "scenario.model),
+    calibration::refuse(scenario.file, fmt::format("model {}: the model cannot simulate its indications",
+                                                   scenario.model),
                         "residuals are measured minus simulated indications",
                         scenario.made ? "add [model.indications] with a formula for each" : "");
   const Observations observations = observe(experiment);

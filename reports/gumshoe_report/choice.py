@@ -63,7 +63,7 @@ class Choice:
         self.chooses_evaluation = any(v.kind == "evaluation" for v in c.variables)
 
     def digits(self, U):
-        """Places of two digits of U, of three beside the target: else 2.96 and 3.04 were both 3.0."""
+        """Decimal places for two digits of U, for three near the target: otherwise 2.96 and 3.04 would both be 3.0."""
         close = math.isfinite(U) and abs(U / self.c.target - 1) < 0.05
         return decimals(spread(self.c, U), 3 if close else 2)
 

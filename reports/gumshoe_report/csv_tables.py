@@ -35,7 +35,7 @@ def line(group, row, study=None, r=None):
 
 
 def plain(r):
-    """Summary, budget and what stands beside them."""
+    """Summary, budget and the tables of the other studies."""
     return {
         "summary": [line("summary", o, r=r) for o in r.outputs],
         "budget": [{"output": b.output, **line("budget", c, b), "degrees_of_freedom": c.degrees_of_freedom or math.inf}

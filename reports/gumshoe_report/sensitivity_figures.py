@@ -76,7 +76,7 @@ def index_bars(axes, rows, order, bars):
 
 
 def side_by_side(budget, sobol, shapley, name):
-    """Tornado plot of the budget and, if there are any, the indices of the same quantities beside it."""
+    """Tornado plot of the budget, next to the indices of the same quantities if there are any."""
     contributions = {c.name: c for c in budget.rows} if budget else {}
     indices = sobol or shapley
     rows = {i.input: i for i in indices.rows} if indices else {}
@@ -125,7 +125,7 @@ def side_by_side(budget, sobol, shapley, name):
 
 
 def name_points(axes, points, width, height):
-    """Names beside their points, in the first place where they cover no other name and no point."""
+    """Names next to their points, in the first place where they cover no other name and no point."""
     taken = [(x - 0.01 * width, y - 0.02 * height, x + 0.01 * width, y + 0.02 * height) for x, y, _ in points]
     for x, y, name in points:
         name = name if len(name) <= 26 else name[:25] + "…"

@@ -37,7 +37,7 @@ def pairs(sobol, most=10):
 
 
 def given_data(study, sobol):
-    """Rank-based first order and delta, with the pick-freeze first order beside them where there is one."""
+    """Rank-based first order and delta, next to the pick-freeze first order if it exists."""
     frozen = {i.input: i for i in sobol.rows} if sobol else {}
     known = lambda r: [v for v in (getattr(r, "first", -1), getattr(r, "delta", -1), -1) if math.isfinite(v)]
     lines = sorted(study.rows, key=lambda r: -max(known(r)))
@@ -124,7 +124,7 @@ def joint(region):
 
 
 def circular(row, output):
-    """Circular statistics beside the linear ones of the same output."""
+    """Circular statistics next to the linear ones of the same output."""
     places = decimals(spread(row, row.standard_deviation))
     show = lambda value: fixed(point(row, value), places)
     return types.SimpleNamespace(

@@ -64,7 +64,7 @@ def trigger_height(tool, start_angle, vertices, step, beam_vertices=1000):
         turned = np.radians(start_angle + t["holder_angle"]) + 2 * np.pi * t["spindle_speed"] / 60 * step * i
         for k in range(n):
             angle = turned + 2 * np.pi * k / n
-            # Within 32 deg of square to the beam; elsewhere these inserts stand beside or high above it.
+            # Within 32 deg of square to the beam; elsewhere these inserts miss it or are far above it.
             if np.sin(angle) > 0.85 and covered(edge, angle, t["offset"], height + t[f"wear_{k + 1}"], beam, b) \
                     > 0.5 * np.pi * b**2:
                 return height

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Fang 2022, Tables 2.2 to 2.7: our numbers beside the printed ones. Writes rods.md next to this file.
+"""Fang 2022, Tables 2.2 to 2.7: computed numbers compared with the printed ones. Writes rods.md next to this file.
 
     rods.py [PROGRAM]      # default: build/release/gumshoe of this checkout
 """

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Fang 2022, chapter 4: our numbers beside the printed ones, and what they say about the method. Writes
-sphere_calibration.md next to this file and figures/sphere_*.svg beside it.
+"""Fang 2022, chapter 4: computed numbers compared with the printed ones, and conclusions on the method. Writes
+sphere_calibration.md and figures/sphere_*.svg next to this file.
 
     sphere_calibration.py [PROGRAM]      # default: build/release/gumshoe of this checkout; half a minute
 """

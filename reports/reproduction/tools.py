@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Fang 2022, chapter 3: our curves and numbers beside the printed ones, and what they say about feed, speed and start
-angles. Writes tools.md next to this file and figures/tool_*.svg beside it.
+"""Fang 2022, chapter 3: computed curves and numbers compared with the printed ones, and conclusions on feed, speed and
+start angles. Writes tools.md and figures/tool_*.svg next to this file.
 
     tools.py [PROGRAM]      # default: build/release/gumshoe of this checkout; a few minutes
 """

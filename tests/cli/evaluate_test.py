@@ -238,7 +238,7 @@ class Evaluate(unittest.TestCase):
             self.assertAlmostEqual(there["spindle_z (mm)"], 150 + there["bottom_height (mm)"], delta=PRINTED)
 
     def test_beam_offset_across_the_beam(self):
-        # Bottom tilted across the beam: z = -cot(phi) y beside its centre, a straight line as seen along the beam, sharp rim.
+        # Bottom tilted across the beam: z = -cot(phi) y from its centre, a straight line as seen along the beam, sharp rim.
         # With the axis at y the line passes the beam's centre when the bottom's centre stands at -cot(phi) y.
         row = self.row(fillet_radius_in_mm=0, bottom_elevation_in_deg=88, bottom_azimuth_in_deg=90, beam_offset__y_in_mm=0.05)
         self.assertAlmostEqual(row["bottom_height (mm)"], -0.05 / math.tan(88 * DEG), delta=1e-9)

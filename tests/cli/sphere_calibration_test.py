@@ -61,7 +61,7 @@ class SphereCalibration(unittest.TestCase):
         point = [-17, 33, 0.04, 2, 90]
         x, y, z = self.xyz(self.rows(header, point)[0])
         row = self.rows([*header, "X (mm)", "Y (mm)", "Z (mm)"], [*point, repr(x), repr(y), repr(z + 0.01)])[0]
-        # A = 90 deg lifts a sphere that stands beside the axis along Y.
+        # A = 90 deg lifts a sphere that is offset from the axis along Y.
         for name, want in (("tip_x", -184.183), ("tip_y", 0), ("tip_z", 15.5 + 2 + 0.01)):
             self.assertAlmostEqual(float(row[f"{name} (mm)"]), want, delta=1e-11)
 

@@ -119,7 +119,7 @@ class Closing(unittest.TestCase):
         self.assertAlmostEqual(number(delay["u"]), size["u"], delta=1e-9)
         for word in ("named, p = ", "95 % interval [", "72 readings", "hash of scenario and data "):
             self.assertIn(word, delay["source"])
-        # Every set-up has its constant, those kept apart too: they differ by the means of readings corrected by the latency.
+        # Every set-up has its offset, also those held out: they differ by the means of readings corrected by the latency.
         self.assertEqual(s["trace"]["free"], ["laser_z"])
         self.assertNotIn("estimated", s["quantities"]["laser_z"])
         heights = {k: in_mm(v["value"]) for k, v in s["quantities"]["laser_z"]["by"]["setup"].items()}

@@ -60,7 +60,7 @@ using Effect = std::function<double(const scenario::Scenario&, std::size_t)>; //
 double feed_at(const scenario::Scenario& s, std::size_t i) { return s.readings[i].conditions[0]; }
 double time_at(const scenario::Scenario& s, std::size_t i) { return s.readings[i].conditions[1]; }
 
-/// Rows in the order of time; the mean of each set-up, its own constant, is taken off.
+/// Rows in the order of time; the mean of each set-up, its offset, is subtracted.
 void add_rows(Traced& t, const Effect& there, const Effect& found) {
   const scenario::Scenario& s = t.scenario;
   std::map<std::string, std::pair<double, double>> sums;
@@ -207,9 +207,9 @@ Traced named() {
   t.trace.findings = {latency()};
   t.trace.candidates = ranking();
   t.trace.plain = {"The control latches the position 1.5 ms too late, so that fast approaches read too low.",
-                   "Taking this into account brings the error on the two set-ups kept apart down to what the readout "
+                   "Taking this into account brings the error on the two held-out set-ups down to what the readout "
                    "scatters by itself."};
-  t.trace.statements = {"setup 7 and 8 were kept apart to the end and opened once",
+  t.trace.statements = {"setup 7 and 8 were held out to the end and used once",
                         "z_scale: absorbed by laser_z, nothing can be said of it"};
   t.budgets = {{budget(0)}, {budget(0.041 * ms)}};
   return t;

@@ -66,7 +66,7 @@ def displacement(surface, radius, C, setup, errors, centred=True):
 
 
 def profile(setup, errors, centred=True, angles=ANGLES):
-    """[line][angle], mm, of the change that these errors make beside those of the machine."""
+    """[line][angle], mm, of the change that these errors make in addition to those of the machine."""
     return np.array([[displacement(s, r, np.radians(a), setup, errors, centred) - displacement(s, r, np.radians(a), setup, {}, centred)
                       for a in angles] for s, r in LINES])
 

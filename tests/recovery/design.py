@@ -31,7 +31,7 @@ class Design:
     system: str
     labels: dict                                    # label -> array of str, one a reading
     conditions: dict                                # name -> (array, unit)
-    columns: dict = field(default_factory=dict)     # recorded beside: name -> (array, unit)
+    columns: dict = field(default_factory=dict)     # recorded with the readings: name -> (array, unit)
     cells: list = field(default_factory=list)
     blocks: str = "setup"
     final: tuple = ()
@@ -85,7 +85,7 @@ class Design:
 
 
 def room_temperature(rng, time):
-    """degC: the air conditioning's swing, and a walk beside it."""
+    """degC: the swing of the air conditioning plus a random walk."""
     hours = time / 3600
     return 21 + 0.6 * np.sin(2 * np.pi * hours / 0.83 + rng.uniform(0, 6)) + 0.25 * np.cumsum(rng.standard_normal(len(time))) / 4
 
@@ -111,7 +111,7 @@ def evaluate(program, model, columns, outputs):
 
 
 def by_program(program, d, outputs, vectors, extra=()):
-    """um, (number of vectors, readings, outputs). `extra`: {"effect.quantity (unit)": value} beside each vector."""
+    """um, (number of vectors, readings, outputs). `extra`: {"effect.quantity (unit)": value} for each vector."""
     tables = [d.gather(v) for v in vectors]
     columns = {f"{n} ({u})": np.concatenate([t[n, u] for t in tables]) for n, u in tables[0]}
     for name, (values, unit) in d.conditions.items():

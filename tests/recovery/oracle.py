@@ -1,5 +1,5 @@
 """Who knows the truth's shape, the noise and the catalogue: generalised least squares in numpy, with nothing of the
-engine's search. Its strength, power and the rivals that no one could tell apart are what a verdict is judged by."""
+engine's search. A verdict is judged by its strength, its power and the rivals that cannot be distinguished."""
 import math
 
 import numpy as np
@@ -46,7 +46,7 @@ class Oracle:
         return np.linalg.solve(self.lower, columns[self.keep] if len(columns) == self.keep.size else columns)
 
     def projected(self, shift):
-        """Whitened training rows of a shift, what the free quantities explain taken off."""
+        """Whitened training rows of a shift, minus the part that the free quantities explain."""
         w = self._white(np.asarray(shift, float).reshape(self.keep.size, -1))
         return w - self.span @ (self.span.T @ w)
 

@@ -213,7 +213,7 @@ class Trace(unittest.TestCase):
         self.assertGreater(sum(naming), 0, naming)
 
     def test_scatter_of_a_mill_that_jumps_with_it_from_tooth_to_tooth(self):
-        # Sets in which draws that do not jump leave something beside the scatter; at 0.05 each, two or more of three come in
+        # Sets in which draws that do not jump leave something in addition to the scatter; at 0.05 each, two or more of three come in
         # less than one of a hundred selections.
         alarms = [seed for seed in (605, 610, 611) if self.judged(mills, "null", "", 0, seed, "clamp_undeclared")[0]["false_alarm"]]
         self.assertLessEqual(len(alarms), 1, alarms)

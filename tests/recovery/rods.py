@@ -98,7 +98,7 @@ ALIASES = ((dict(feeds=(30.0,)), "trigger_latency", ("trigger_latency", "z_rever
            (dict(feeds=(30.0,), directions=(-1.0,)), "trigger_latency", ()),
            (dict(), "z_scale", ("z_scale", "rod_expansion")))
 
-# What the oracle knows beside the declared quantities: engine effects by their columns, at these shapes.
+# What the oracle knows in addition to the declared quantities: engine effects by their columns, at these shapes.
 CATALOGUE = [("trigger_latency", "trigger_latency.delay (ms)", 1.0, {}), ("z_reversal", "z_reversal.backlash (um)", 1.0, {}),
              ("z_scale", "z_scale.E_ZZ (um/m)", 10.0, {}), ("rod_expansion", "rod_expansion.temperature_difference (K)", 1.0, {}),
              ("thermal_growth", "thermal_growth.rate (um/h)", 1.0, {}),

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What a verdict is worth beside the truth. Reads the public verdict file only.
+"""Scores a verdict against the truth. Reads the public verdict file only.
 
     score.py VERDICT.json TRUTH.json
 """

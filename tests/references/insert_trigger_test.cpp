@@ -125,7 +125,7 @@ TEST_CASE("no height is above its bound over an interval", "[laws][tool_length]"
 
 namespace {
 
-/// Four-flute mills with positive axial angles and the axis well beside the beam, so that flanks show.
+/// Four-flute mills with positive axial angles and the axis well off the beam, so that flanks are in it.
 Tool leaning_mill(Draw& u) {
   const double r = u(8, 16) * mm, radius = u(4, 6) * mm;
   const Insert<double> insert{

@@ -187,7 +187,7 @@ TEST_CASE("a solver that found no minimum says so", "[least_squares]") {
 }
 
 TEST_CASE("bounds hold and are told", "[least_squares]") {
-  // (b - 3)^2 with b at most 2, beside a free parameter: the bound holds, the other is solved.
+  // (b - 3)^2 with b at most 2, and a free parameter: the bound holds, the other is solved.
   least_squares::Problem problem;
   problem.residuals = problem.parameters = 2;
   problem.start = {1, 1};

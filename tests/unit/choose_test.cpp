@@ -57,7 +57,7 @@ readings = [1, 2, 3, 4, 6]
 /// Values at the middle of n parts of equal probability: a sample without chance.
 template <class Quantile> std::vector<double> even(std::size_t n, const Quantile& quantile) {
   std::vector<double> x;
-  // Far parts beside each other, so that either half of the sample is even too.
+  // Distant parts next to each other, so that either half of the sample is also even.
   for (std::size_t i = 0; i < n; ++i) x.push_back(quantile((static_cast<double>(i) + 0.5) / static_cast<double>(n)));
   return x;
 }
@@ -199,7 +199,7 @@ TEST_CASE("fresh numbers decide, and their probability is calibrated", "[choose]
 }
 
 TEST_CASE("cases: the truth changes, the evaluation and the correction do not", "[choose]") {
-  // feed 1 mm/s turns a delay of 9 ms into 9 um; on average 6 um are expected and taken off: 3 um are left.
+  // feed 1 mm/s turns a delay of 9 ms into 9 um; on average 6 um are expected and subtracted: 3 um remain.
   const auto s = read(R"(
 [[choose.cases]]
 name = "late"

@@ -161,7 +161,7 @@ struct Plain {
 };
 } // namespace
 
-TEST_CASE("the definitions stand beside the numbers", "[conformity]") {
+TEST_CASE("numbers are accompanied by their definitions", "[conformity]") {
   auto s = scenario_of<Plain>({{1, {normal(0.1)}}}, 20'000);
   ConformityTest t;
   t.measurand = "y", t.upper = 1.1, t.guard_factor = 1, t.process = gauss(1, 0.05);

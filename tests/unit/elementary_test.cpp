@@ -51,7 +51,7 @@ TEST_CASE("functions of one argument agree with the C library to a few units in 
       } else if (std::isinf(theirs)) {
         if (ours != theirs) FAIL_CHECK(c.name << "(" << x << ") = " << ours);
       } else if (!(std::fabs(ours - theirs) <= c.units * ulp(theirs) + 1e-30)) {
-        // beside a zero sin and cos keep about 118 bits of pi/2: 1e-30 absolute
+        // near a zero, sin and cos keep about 118 bits of pi/2: 1e-30 absolute
         FAIL_CHECK(c.name << "(" << x << ") is off by " << std::fabs(ours - theirs) / ulp(theirs) << " ulp");
       }
     }

@@ -137,7 +137,7 @@ TEST_CASE("pulls of a rod's fit have mean 0 and standard deviation 1", "[calibra
   of_pitch.check();
 }
 
-TEST_CASE("a prior beside noise that nobody declared is weighed by the noise found", "[calibration]") {
+TEST_CASE("with undeclared noise, a prior is weighted by the noise found", "[calibration]") {
   // A weak prior must leave the fit as it is without one, a strong one must hold the quantity.
   const std::vector<double> x{0, 1, 2, 3, 4, 5}, y{1.1, 2.9, 5.2, 6.8, 9.1, 11.05};
   const Case alone(line(x, y, free_line));

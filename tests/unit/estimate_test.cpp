@@ -67,14 +67,14 @@ TEST_CASE("derivatives of the simulated indications equal differences", "[calibr
     REQUIRE(simulation(down.data(), below.data(), nullptr));
     for (std::size_t i = 0; i < y.size(); ++i) {
       INFO(unknowns[j].name << ", row " << i);
-      // The height is solved to 1e-15 m: over 2 h that is the error of the difference; beside it h^2 of the value.
+      // The height is solved to 1e-15 m: over 2 h that is the error of the difference, in addition to h^2 of the value.
       const double tolerance = 4e-15 / h + 1e-7 * std::fabs(jacobian[i * x.size() + j]);
       CHECK(std::fabs((above[i] - below[i]) / (2 * h) - jacobian[i * x.size() + j]) < tolerance);
     }
   }
 }
 
-TEST_CASE("what the data cannot tell apart is named", "[calibration]") {
+TEST_CASE("quantities that the data cannot distinguish are named", "[calibration]") {
   const auto readings = simulated(-350, 0.5);
   const std::string two = "[quantities.laser_z]\nestimated = true\nvalue = \"-350.001 mm\"\n"
                           "[quantities.rod_length]\nestimated = true\nvalue = \"150 mm\"\n";

@@ -120,7 +120,7 @@ TEST_CASE("linearly dependent or constant measurands have no ellipsoid, whatever
   CHECK(scaled.k_p == Approx(2.4477).epsilon(0.03));
 }
 
-TEST_CASE("JCGM 102 9.3: from Cartesian to polar, with statistics on the circle beside", "[references][joint]") {
+TEST_CASE("JCGM 102 9.3: from Cartesian to polar, with statistics on the circle", "[references][joint]") {
   struct Row {
     double x1, r, radius, u_radius, angle, u_angle, correlation, gum_radius, gum_u_angle;
   };

@@ -122,7 +122,7 @@ TEST_CASE("second-order terms by differences: few calls of the model", "[differe
   CHECK(budget.second_order_uncertainty == Approx(std::sqrt(ca * ca * ua2 + cb * cb * ub2 + extra)).epsilon(1e-9));
 }
 
-TEST_CASE("differences find a kink at the estimate and none beside it", "[differences]") {
+TEST_CASE("differences find a kink at the estimate and none near it", "[differences]") {
   Case c;
   {
     const propagation::Experiment e(c.s);

@@ -103,7 +103,7 @@ TEST_CASE("derivatives by a size, exact and by differences", "[stated]") {
   CHECK(exact.second[size * point.size() + size] == Approx(0).margin(1e-9));
 }
 
-TEST_CASE("the evaluation takes off what the simulation adds", "[stated][law]") {
+TEST_CASE("the evaluation subtracts what the simulation adds", "[stated][law]") {
   const std::vector<double> moves{-1e-5, 0, 1e-5, 2e-5, 3e-5, 4e-5, 5e-5, 6e-5};
   const std::string one = "[quantities]\nbeam_yaw = { u = \"0.001 deg\" }\n";
   const Case bare(virtual_head + places), exact(virtual_head + places + stated("\"40 ms\""));

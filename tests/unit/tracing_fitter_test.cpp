@@ -269,7 +269,7 @@ TEST_CASE("no signature comes from the measured response", "[tracing]") {
   for (std::size_t i = 0; i < ca.size(); ++i) CHECK(ca[i].columns == cb[i].columns);
   REQUIRE(sa.size() == sb.size());
   for (std::size_t i = 0; i < sa.size(); ++i) CHECK(sa[i].columns == sb[i].columns);
-  // And none of them explains noise: the largest squared correlation of a signature with it, beside the constants, is
+  // And none of them explains noise: the largest squared correlation of a signature with it, given the constants, is
   // that of a few directions among 36.
   std::vector<const Candidate*> pointers;
   for (const auto& c : cb) pointers.push_back(&c);

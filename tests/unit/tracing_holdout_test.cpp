@@ -35,7 +35,7 @@ TEST_CASE("a block is predicted from the others, its own constant projected out"
   for (const CovarianceModel& s : {CovarianceModel{}, CovarianceModel{0.4, -1, 0}, CovarianceModel{0.2, 0, 1.4}}) {
     const HeldOut held = hold_out(d, residual, train, test, s);
     CHECK(held.count == 6); // seven readings, one constant
-    // By dense matrices: coefficients of the training rows, without the column that none of them feels.
+    // By dense matrices: coefficients of the training rows, without the column to which none of them is sensitive.
     const Matrix f = chosen(d.fixed, train).leftCols(4),
                  local = local_factor(d, test) * local_factor(d, test).transpose();
     const Matrix own = chosen(d.fixed, test).col(4);
@@ -83,7 +83,7 @@ TEST_CASE("a block with no more readings than constants of its own is not scored
   d.fixed(25, 5) = 1;
   CHECK(hold_out(d, Matrix::Ones(28, 1), range(0, 21), {21, 22}, {}).count == 0);
   CHECK(hold_out(d, Matrix::Ones(28, 1), range(0, 21), {21, 22, 23}, {}).count == 1);
-  // Constants that these readings cannot tell apart count once.
+  // Constants that these readings cannot distinguish count once.
   d.fixed.col(5) = d.fixed.col(4);
   CHECK(hold_out(d, Matrix::Ones(28, 1), range(0, 21), {21, 22, 23}, {}).count == 2);
 }

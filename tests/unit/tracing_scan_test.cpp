@@ -37,7 +37,7 @@ double dense_determinant(const Design& d, const std::vector<Index>& rows, const 
   return out + ln_determinant(f.transpose() * solved(v, f));
 }
 
-/// Residuals that nothing needs to be drawn in of.
+/// Residuals none of which needs to be winsorised.
 Vector tame(const Scan& scan, const Design& d, const std::vector<Index>& rows, std::uint64_t seed) {
   for (;; ++seed) {
     std::mt19937_64 chance(seed);
@@ -90,7 +90,7 @@ TEST_CASE("likelihood, sizes and information are those of dense generalised leas
           const Gls both = gls(v, joined(f, g), y);
           if (const double x = freedom * std::log(both.squares) + determinant; x < with[a])
             with[a] = x, best_with[a] = k;
-          // Whitened::solve, beside the declared and scattering parts.
+          // Whitened::solve, together with the declared and scattering parts.
           Matrix covariance_of_all;
           const Vector x = w.solve(w.whiten(y), &covariance_of_all, w.whiten(g));
           const Index m = g.cols(), p = f.cols();
@@ -101,7 +101,7 @@ TEST_CASE("likelihood, sizes and information are those of dense generalised leas
           }
           for (Index j = 0; j < p; ++j)
             CHECK(x[j] == Approx(both.size[j]).margin(1e-8 * std::sqrt(both.covariance(j, j))));
-          // g'WMg of one column: one over the variance of its size beside nothing but the fixed columns.
+          // g'WMg of one column: one over the variance of its size, given only the fixed columns.
           const Gls alone = gls(v, joined(f, g.col(0)), y);
           CHECK(scan.information(a, 0, k) == Approx(1 / alone.covariance(p, p)).epsilon(1e-8));
         }
@@ -174,7 +174,7 @@ TEST_CASE("draws of the noise have the dense covariance", "[tracing]") {
   }
 }
 
-TEST_CASE("residuals far out are drawn in to 3.5 robust standard deviations", "[tracing]") {
+TEST_CASE("outlying residuals are winsorised to 3.5 robust standard deviations", "[tracing]") {
   const Design d = random_design(60, 1, 2, 0, 0, 4);
   const std::vector<Index> rows = all_rows(d);
   const Scan scan(d, rows, {}, 1);
@@ -217,7 +217,7 @@ TEST_CASE("readings far out are put among the draws in their share", "[tracing]"
   const auto found = Scan(d, rows, {}, 1).noise_shape(y);
   REQUIRE(found.sizes.size() == 2);
   CHECK(found.share == Approx(2.0 / 60 - std::erfc(3.5 / std::sqrt(2.0))));
-  // Of four values one in ten far out: the rest are normal, and smaller by what those take of the variance.
+  // One value in ten is outlying: the rest are normal, and smaller by the share of the variance that these have.
   d = {};
   d.reading = {0, 1, 2, 3};
   d.fixed = Matrix(4, 0);

@@ -11,11 +11,11 @@ namespace gumshoe::models {
 
 struct CommandSpec {
   std::vector<std::string> words; ///< program and arguments
-  std::string folder;             ///< it runs there; empty: where we are
-  std::size_t batch = 10000;      ///< points per call, at most
+  std::string folder;             ///< working directory; empty: the current one
+  std::size_t batch = 10000;      ///< largest number of points per call
   double time_limit = 60;         ///< s, per call
   CardTexts card;
-  Location where; ///< of the command in the scenario
+  Location where; ///< place of the command in the scenario
 };
 
 /// Nothing runs yet: `Model::check` runs it once.

@@ -1,5 +1,5 @@
 #pragma once
-/// The tables that go to a command and come back.
+/// The tables that are sent to a command and returned by it.
 #include <cstdint>
 #include <string>
 #include <vector>

@@ -1,5 +1,5 @@
 #pragma once
-/// Runs a program once: text in, text out, within a time. Nothing here knows of models.
+/// Runs a program once: text in, text out, within a time limit. Independent of models.
 #include <cstddef>
 #include <string>
 #include <vector>

@@ -1,8 +1,8 @@
 #pragma once
 /// A model that a scenario states as formulas.
 ///
-/// Measurands are formulas of quantities, conditions, indications and intermediates; formulas of indications say what
-/// the readouts would be, for virtual experiments and fits. All values are SI.
+/// Measurands are formulas of quantities, conditions, indications and intermediates; formulas of indications give the
+/// simulated readings, for virtual experiments and fits. All values are SI.
 #include <memory>
 
 #include "formula/compile.h"
@@ -11,10 +11,10 @@
 
 namespace gumshoe::models::expression {
 
-/// What Model::context points to.
+/// Data of a model, to which Model::context points.
 struct Expression {
   formula::Compiled formulas;
-  bool virtual_experiment = false; ///< the estimates give no readouts: `check` does not evaluate at them
+  bool virtual_experiment = false; ///< there are no readings at the estimates: `check` does not evaluate there
   std::unique_ptr<MadeCard> card;
   Model model{};
 };

@@ -1,13 +1,13 @@
 #pragma once
-/// Says whose fault it was when a plugin crashes. A process cannot be trusted to go on after a memory error, so the
-/// guard reports and ends it; the result file is then as after a kill: good up to its marker.
+/// Reports the cause when a plugin crashes. A process cannot be trusted after a memory error; the guard therefore ends
+/// it. The result file is then as after a kill: valid up to its marker.
 #include <cfenv>
 #include <cstdint>
 #include <string>
 
 namespace gumshoe::models {
 
-/// While it lives, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT and exit() on this thread end the program with exit code 2
+/// In its lifetime, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT and exit() on this thread end the program with exit code 2
 /// and "START at samples FIRST to LAST (the signal ...)". It also restores the floating-point environment, which a
 /// library built with -ffast-math changes when it is loaded. Do not nest.
 class CrashGuard {

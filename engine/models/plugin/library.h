@@ -8,9 +8,9 @@
 
 namespace gumshoe::models {
 
-/// What messages about a plugin begin with.
+/// Start of the messages about a plugin.
 struct PluginPlace {
-  std::string name; ///< of the library, as the scenario calls it
+  std::string name; ///< name of the library in the scenario
   Location where;
   /// For CrashGuard: "s.toml:3:11: error: model.library: 'libmine.so' crashed".
   std::string crashed() const;

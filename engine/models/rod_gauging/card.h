@@ -1,5 +1,5 @@
 #pragma once
-/// What the rod model says of itself.
+/// Card of the rod model: quantities, conditions, measurands, evaluations.
 #include "models/laser_setter.h"
 
 namespace gumshoe::models::rod_gauging {

@@ -1,7 +1,7 @@
 #pragma once
 /// Gauging the height of a laser tool setter's beam with a measuring rod.
 ///
-/// The spindle lowers the rod until its shadow covers a share of the beam's disc; the control latches
+/// The spindle lowers the rod until its shadow covers a given fraction of the beam; the control latches
 /// the spindle height Z'_s. With the rod's length L_r and the height Z'_d of its bottom's centre above
 /// the beam's axis at that moment, the axis lies at laser_z = Z'_s - L_r - Z'_d.
 /// Source: Fang 2022, chapter 2 (eq 2.38), solved anew: shadow/shadow.h.
@@ -55,7 +55,7 @@ struct RodGauging {
     outcome.refuse(at.q.fillet_radius > at.q.rod_radius, "fillet_radius exceeds rod_radius");
   }
 
-  /// bottom_height; the conventional evaluation takes it for zero.
+  /// bottom_height; the conventional evaluation assumes that it is zero.
   template <class T> using Solution = T;
   static constexpr std::string_view solve_ignores[] = {"rod_length", "laser_z"};
   template <class T> static T solve(const At<T>& at, Outcome<T>& outcome) {
@@ -63,14 +63,14 @@ struct RodGauging {
     return trigger_height(rod(at.q, probing_event(at)), laser_setter::beam(at.q), outcome);
   }
 
-  /// What the control reads when the beam's axis lies at q.laser_z.
+  /// Indication of the control if the beam's axis is at q.laser_z.
   template <class T> static Simulated<Rows, T> simulate(const At<T>& at, const T& bottom_height, Outcome<T>&) {
     const auto event = probing_event(at);
     const T actual = at.q.laser_z + at.q.rod_length + event.tool_growth + bottom_height;
     return {{chain::reading_of(actual, event)}, {bottom_height, at.q.laser_z}};
   }
 
-  /// The beam's axis from the reading.
+  /// Height of the beam's axis from the reading.
   template <class T>
   static Rows::Measurands<T> evaluate(const At<T>& at, const T& bottom_height, const Rows::Indications<T>& read,
                                       Outcome<T>&) {

@@ -1,5 +1,5 @@
 #pragma once
-/// What the sphere model says of itself.
+/// Card of the sphere model: quantities, conditions, measurands, evaluations.
 #include "models/cards.h"
 
 namespace gumshoe::models::sphere_calibration {

@@ -53,8 +53,8 @@ template <class T> Links<T> links(const Quantities<T>& q) {
   return l;
 }
 
-/// Whether a reading is of pattern II (B moves at C = 90 deg), for the closed forms: as its label `pattern` says, else
-/// where B is not 0. A bool, or a mask of lanes.
+/// True if a reading is of pattern II (B moves at C = 90 deg), for the closed forms: according to its label `pattern`,
+/// otherwise if B is not 0. A bool, or a mask of lanes.
 template <class T> auto is_pattern_II(const Conditions<T>& c) {
   return (c.pattern == T(2.0)) || ((c.pattern != T(1.0)) && (c.B != T(0.0)));
 }
@@ -132,7 +132,7 @@ template <class T> Vector3<T> tip_at_top(const Quantities<T>& q, const T& at_A) 
           q.sphere_y * s + q.sphere_z * c + (q.sphere_radius + q.tip_radius)};
 }
 
-/// What the linear axes add to the recorded commands, eq 4.51. @param y, z nominal commands, m
+/// Errors of the linear axes, added to the recorded commands, eq 4.51. @param y, z nominal commands, m
 template <class T> Vector3<T> linear_errors(const Quantities<T>& q, const T& y, const T& z) {
   return {q.E_XX + q.E_XY + q.E_XZ + (q.S_XZ * z - q.S_XY * y), q.E_YX + q.E_YY + q.E_YZ - q.S_YZ * z,
           q.E_ZX + q.E_ZY + q.E_ZZ};
@@ -169,7 +169,7 @@ template <class T> Contact<T> contact(const At<T>& reading, const Links<T>& l, b
   at.probe = probe_from_origin(variant, l, at_B, at_C, pattern_II, &at.touch->rotary);
   return at;
 }
-/// The same with everything behind the origin computed here.
+/// The same, with the machine behind the origin computed here.
 template <class T> Contact<T> contact(const At<T>& reading) { return contact(reading, links(reading.q)); }
 
 /// The commands that the control records.
@@ -178,13 +178,13 @@ template <class T> Vector3<T> simulate(const Contact<T>& at) {
   return at.tip - at.probe + at.added;
 }
 
-/// Where the tip's centre stood by the recorded commands; undoes simulate.
+/// Position of the tip's centre according to the recorded commands; the inverse of simulate.
 template <class T> Vector3<T> evaluate(const Vector3<T>& recorded, const Contact<T>& at) {
   if (at.touch) return at.touch->actual_of(recorded - at.added) + at.probe;
   return recorded - at.added + at.probe;
 }
 
-/// The links of the reading before, which most readings share.
+/// The links of the previous reading, which most readings share.
 template <class T> struct KnownLinks {
   T made_of[Q::link_C_y + 1];
   Links<T> links;

@@ -98,7 +98,7 @@ protected:
     h.probe = sphere_calibration::probe_from_origin(length, h.moved.turns) + h.moved.shift();
     return h;
   }
-  /// Where the probe would have stood without effects, by those at theta.
+  /// Position of the probe without effects, from the effects at theta.
   static Vector3<T> undisturbed(const Pose<T>& pose, const T* theta, const Directions<T>& lines) {
     if (!pose.effects()) return pose.measured + square(pose, theta, lines);
     T length[lengths];
@@ -125,7 +125,7 @@ protected:
     const T* link = &array_of(pose.at->q)[Q::link_B_x];
     for (int j = 0; j < 4; ++j) length[length_B_x + j] = length[length_B_x + j] + link[j];
   }
-  /// What squareness adds to the recorded commands, of nominal ones.
+  /// Part of the recorded commands due to squareness, from the nominal commands.
   static Vector3<T> squared(const Pose<T>& pose, const Vector3<T>& nominal) {
     return {pose.at->q.S_XZ * nominal.z - pose.at->q.S_XY * nominal.y, T(0.0) - pose.at->q.S_YZ * nominal.z, T(0.0)};
   }

@@ -1,6 +1,6 @@
 #pragma once
-/// Where the probe of the belt grinder stands, seen from the commanded origin O_r: behind the rotary axes B (carried by
-/// Z) and C (carried by B). Fang 2022, section 4.2.3, in any scalar.
+/// Position of the probe of the belt grinder from the commanded origin O_r, behind the rotary axes B (carried by Z) and
+/// C (carried by B). Fang 2022, section 4.2.3, in any scalar.
 ///
 /// The C axis' line passes through Dc = (D_rcx, D_rcy, 0), the B axis' line through Db = (D_rbx, 0, -D_rbz), the probe
 /// stands at p = (probe_x, -probe_y, -probe_z), all from O_r at B = C = 0. With the turns Q about the actual axes,
@@ -18,7 +18,7 @@ enum Length { length_probe_x, length_probe_y, length_probe_z, length_B_x, length
 /// Orientation errors of B and C, rad.
 template <class T> struct Orientation { T A0B, C0B, A0C, B0C; };
 
-/// What B and C do to a vector. Rotations; in the small-angle product only nearly.
+/// Action of B and C on a vector: rotations, or nearly so in the small-angle product.
 template <class T> struct Turns { Matrix3<T> b, c; };
 
 /// Actual directions of the axes: chain::actual_direction.

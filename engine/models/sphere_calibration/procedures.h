@@ -10,7 +10,7 @@ namespace gumshoe::models::sphere_calibration {
 
 template <class T> using Poses = Together<Rows, T>;
 
-/// The names of joint_cards.
+/// Names of the rows of joint_cards.
 struct JointRows {
   GUMSHOE_NAMED(Measurands, probe_x, probe_y, probe_z, E_X0B, E_Z0B, E_A0B, E_C0B, E_X0C, E_Y0C, E_A0C, E_B0C,
                 residual_rms, rank, condition_number);
@@ -28,9 +28,9 @@ template <class T> JointRows::Measurands<T> in_rows(const T* theta) {
 Patterns patterns(const Poses<double>& poses);
 /// The commands of one reading by one quantity, at the declared estimates.
 Vector3<double> derivative(const Poses<double>& poses, std::size_t reading, std::size_t quantity);
-/// From what is declared of the data; throws nothing, empty rows and a `problem` if it leaves commands without noise.
+/// Weights from the declared uncertainties. Does not throw: empty rows and a `problem` if a command has no noise.
 Whitening whitening(const Poses<double>& poses, std::string& problem);
-/// Those of the evaluation at hand: none but for joint_weighted.
+/// Weights of the present evaluation: none except for joint_weighted.
 Whitening weights(const Poses<double>& poses);
 
 /// All three: sequential, joint, joint_weighted.
@@ -38,7 +38,7 @@ struct Identify {
   template <class T> using Measurands = JointRows::Measurands<T>;
   using Names = JointRows::MeasurandsRow;
 
-  /// What conditions and declarations fix, the same for all samples of a block.
+  /// Data fixed by conditions and declarations, the same for all samples of a block.
   template <class T> struct Memory : Identification<T> {
     explicit Memory(const Poses<double>& all) : Identification<T>(all.size(), patterns(all), weights(all)) {}
   };
@@ -58,16 +58,16 @@ struct Identify {
     }
     return y;
   }
-  /// The machine that should be found; readings agree in it.
+  /// The true machine, which is the same at all readings.
   template <class T, class Shown>
   static Measurands<T> truth(const Poses<T>& poses, const std::vector<Shown>&, Outcome<T>&) {
     return in_rows(array_of(poses.at[0].q));
   }
 
-  /// What is impossible about all poses together; empty if nothing.
+  /// Message if all poses together are impossible; empty otherwise.
   static std::string check(const Poses<double>& poses);
-  /// Directions that all commands together cannot see, among the unknowns and what is uncertain of links and artefact
-  /// for all readings alike.
+  /// Directions that all commands together do not determine, among the unknowns and those quantities of links and
+  /// artefact whose uncertainty all readings share.
   static std::vector<std::string> remarks(const Poses<double>& poses);
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-/// A tip brought to a sphere on any serial machine, in any scalar: where both stand at given commands, and the commands
-/// of three slides at which they meet.
+/// A tip brought to a sphere on any serial machine, in any scalar: positions of both at given commands, and the
+/// commands of three slides at which they meet.
 ///
 /// The turns of the chain do not depend on the slides, so in the frame of the bed the gap between tip and sphere is
 /// affine in their commands, whatever stands between them: gap(x) = gap(0) + J x. J's columns are the slides' actual
@@ -63,7 +63,7 @@ Contact<T> contact(const Moved<T>* moved, const std::vector<int>& slide_of, std:
 template <class T> T span_of(const Matrix3<T>& J) { return dot(J.x, cross(J.y, J.z)); }
 inline constexpr double least_span = 1e-6;
 
-/// What to add to the slides' commands so that the gap closes, by Cramer's rule.
+/// Increments of the slides' commands that close the gap, by Cramer's rule.
 template <class T> Vector3<T> closing(const Contact<T>& c) {
   const Matrix3<T>& J = c.slides;
   const Vector3<T> yz = cross(J.y, J.z), wanted = T(1.0) / dot(J.x, yz) * -c.gap;

@@ -14,14 +14,14 @@ namespace gumshoe::models::probing {
 enum Quantity { probe_x, probe_y, probe_z, sphere_x, sphere_y, sphere_z, contact_x, contact_y, contact_z, first_error };
 enum Measurand { deviation_x, deviation_y, deviation_z, measurands };
 
-/// What Model::context points to.
+/// Data of a model, to which Model::context points.
 struct SphereProbing {
   explicit SphereProbing(const chain::MachineDescription& description) : machine(description) {}
   chain::Machine machine;
   std::array<std::size_t, 3> slides{};   ///< axes whose commands are the indications X, Y, Z
-  std::vector<int> slide_of;             ///< of each axis: which slide, or -1
-  std::vector<std::size_t> condition_of; ///< of each axis that is no slide: which condition
-  std::vector<std::size_t> error_of;     ///< of each quantity from first_error on: its place in the row of errors
+  std::vector<int> slide_of;             ///< slide of each axis, or -1
+  std::vector<std::size_t> condition_of; ///< condition of each axis that is not a slide
+  std::vector<std::size_t> error_of;     ///< place in the row of errors of each quantity from first_error on
   std::unique_ptr<MadeCard> card;
   Model model{};
 };

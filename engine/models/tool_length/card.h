@@ -1,5 +1,5 @@
 #pragma once
-/// What the mill model says of itself.
+/// Card of the mill model: quantities, conditions, measurands, evaluations, times.
 #include "chain/turning_tool.h"
 #include "models/laser_setter.h"
 

@@ -1,8 +1,8 @@
 #pragma once
 /// Flute heights and phase of a characteristic curve from readouts at several start angles, by least squares.
 ///
-/// Seen from the spindle, flute k is a curve F_k (trigger/trigger_curve.h) hung at its height H_k; reading i comes down
-/// on a line known but for the phase, which all readings share, and shows the flute that triggers first:
+/// In the frame of the spindle, flute k is a curve F_k (trigger/trigger_curve.h) at its height H_k; reading i descends
+/// on a line that is known except for the phase, which all readings share, and shows the flute that triggers first:
 ///     height_i = max over k of H_k + F_k(line_ik + phase - H_k).
 /// README.md has the mathematics.
 #include <array>

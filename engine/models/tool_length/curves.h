@@ -17,19 +17,19 @@ struct Height {
 };
 using Heights = std::vector<Height>;
 
-/// Fills in the heights of a sample. Refuses readings that differ in their inserts, and readouts that are no numbers.
+/// Fills in the heights of a sample. Refuses readings that differ in their inserts or are not finite.
 void find_heights(const Together<Rows, double>& all, Heights& out, Outcome<double>& outcome);
 
 /// Descent, m per rad.
 double drop(const Height& r);
-/// Where the line on which a reading comes down stands among all, m, but for what all share.
+/// Position of the line on which a reading descends, m, up to a constant that all readings share.
 double line_of(const Height& r);
 double least_raise(const Height& r);
 
-/// Trigger curves of the flutes at hand. Equal ones are tabulated once, also from sample to sample.
+/// Trigger curves of the flutes. Equal ones are tabulated once, also from sample to sample.
 class Curves {
 public:
-  /// Null if no cover is ever reached.
+  /// Null if the flute never covers the beam.
   const TriggerCurve* at(const Insert<double>& insert, const Beam<double>& beam, double drop);
   /// Keeps the pointers of one sample alive.
   void next_sample() {
@@ -47,7 +47,7 @@ private:
   std::list<Known> known_;
 };
 
-/// The data of a fit. False if no flute ever covers the beam.
+/// Collects the data of a fit. Returns false if a flute never covers the beam.
 bool prepare(const Heights& all, Curves& curves, CurveReadings& data);
 
 } // namespace gumshoe::models::tool_length

@@ -11,10 +11,10 @@ namespace gumshoe::models::tool_length {
 
 using Readings = Together<Rows, double>;
 
-/// What simulate gives for a reading, and what tells the procedures the truth there.
+/// Result of simulate for a reading, with the true values for the procedures.
 struct Shown : Simulated<Rows, double> {
   Event<double> event;
-  int insert = 0; ///< that triggers
+  int insert = 0; ///< insert that triggers
 };
 
 /// Rows of the measurands of single, slow, characteristic_curve and peaks.
@@ -35,7 +35,7 @@ struct PeakRows : LengthRows {
 static_assert(sizeof(CurveRows) == std::size(curve_cards) * sizeof(double));
 static_assert(sizeof(PeakRows) == std::size(peak_cards) * sizeof(double));
 
-/// single and slow: one readout is the measurement.
+/// single and slow: the measurement is one reading.
 struct Single {
   template <class> using Measurands = LengthRows;
   struct Workspace {
@@ -48,7 +48,7 @@ struct Single {
   static std::string check(const Readings& all);
 };
 
-/// characteristic_curve: the model's curve fitted, its phase free.
+/// characteristic_curve: fits the model's curve and its phase.
 struct Curve {
   template <class> using Measurands = CurveRows;
   struct Workspace {
@@ -61,11 +61,11 @@ struct Curve {
   static CurveRows evaluate(const Readings& all, Workspace& work, Outcome<double>& outcome);
   static CurveRows truth(const Readings& all, const std::vector<Shown>& shown, Outcome<double>& outcome);
   static std::string check(const Readings& all);
-  /// How many measurands have a meaning: those of the flutes that there are.
+  /// Number of defined measurands: those of the existing flutes.
   static std::size_t in_use(const Quantities<double>& q);
 };
 
-/// peaks: readouts connected by lines; the highest peaks are the flutes.
+/// peaks: readings connected by lines; the highest peaks are the flutes.
 struct Peaks {
   template <class> using Measurands = PeakRows;
   template <class> using Memory = Single::Workspace;

@@ -31,7 +31,7 @@ template <class T> const T& wear(const Quantities<T>& q, int flute) {
 }
 template <class T> int flutes(const Quantities<T>& q) { return static_cast<int>(num::value(q.inserts)); }
 
-/// What the stages of the measuring chain, the tool's own included, say of one readout.
+/// One reading as the stages of the measuring chain see it, including the part of the tool.
 template <class T> struct Event : chain::ProbingEvent<T> { chain::TurningTool<T> tool; };
 
 /// The event as commanded, with all freed effects applied.
@@ -53,9 +53,9 @@ template <class T> Flute<T> flute(const Quantities<T>& q, const Event<T>& event,
                       k);
 }
 
-/// The true motion. The control commands the spindle height at which, as the quantities say, the tool's centre stands
-/// start_height above the beam. What truly moves the tool's centre therefore moves it at the start, too, and turns the
-/// phase.
+/// The true motion. The control commands the spindle height at which, according to the quantities, the tool's centre is
+/// start_height above the beam. An effect that moves the tool's centre therefore also moves it at the start and changes
+/// the phase.
 template <class T> InsertMotionOf<T> motion(const At<T>& at, const Event<T>& event) {
   const auto& [q, c, freed, evaluation, simulating] = at;
   const T commanded = q.laser_z + q.tool_length + c.start_height;
@@ -75,7 +75,7 @@ template <class T> void check_commanded(const Rows::Conditions<T>& c, Outcome<T>
   outcome.refuse(c.direction != T(-1.0), "direction is not -1: a mill is fed downwards");
 }
 
-/// Refuses what is impossible about quantities and effects together. Limits are the card's; effects may leave them.
+/// Refuses impossible combinations of quantities and effects: with effects, values may leave the limits of the card.
 template <class T> void check_together(const At<T>& at, Outcome<T>& outcome) {
   const auto& q = at.q;
   const double n = num::value(q.inserts);
@@ -145,7 +145,7 @@ template <class T> struct Readout {
   T effective_length = T(0.0); ///< of the longest flute
 };
 
-/// The trigger at given values, or none where its height is taken for zero.
+/// The trigger at given values, or none if its height is assumed to be zero.
 template <class T> Readout<T> readout_at(TriggerSolver& solver, const At<T>& at, bool with_solve) {
   Readout<T> o{probing_event(at), {}};
   if (with_solve)
@@ -155,7 +155,7 @@ template <class T> Readout<T> readout_at(TriggerSolver& solver, const At<T>& at,
   return o;
 }
 
-/// How much shorter than the unworn tool its longest flute is.
+/// Difference in length between the unworn tool and its longest flute.
 template <class T> T least_raise(const Quantities<T>& q, const Event<T>& event) {
   T least = flute(q, event, 0).raise;
   for (int k = 1; k < flutes(q); ++k)
@@ -163,7 +163,7 @@ template <class T> T least_raise(const Quantities<T>& q, const Event<T>& event) 
   return least;
 }
 
-/// The machine: what the control reads when the tool is q.tool_length long.
+/// The machine: indication of the control for a tool of length q.tool_length.
 template <class T> Readout<T> simulate(TriggerSolver& solver, const At<T>& at) {
   Readout<T> o = readout_at(solver, at, true);
   o.spindle_z =
@@ -173,8 +173,8 @@ template <class T> Readout<T> simulate(TriggerSolver& solver, const At<T>& at) {
   return o;
 }
 
-/// The measurement model: the tool's length from the reading z; undoes simulate. Effects that grow with the length do
-/// so by the length that comes out, found by repetition; an expansion of 1e-4 gains four digits a pass.
+/// The measurement model: the tool's length from the reading z; the inverse of simulate. Effects that grow with the
+/// length use the resulting length, found by iteration; an expansion of 1e-4 gains four digits per pass.
 template <class T> Readout<T> evaluate(TriggerSolver& solver, At<T> at, const T& z) {
   at.q.tool_length = z - at.q.laser_z;
   Readout<T> o;

@@ -15,8 +15,8 @@
 
 namespace gumshoe::models::tool_length {
 
-/// How the share of the beam's disc above a line falls as the line rises. J(x) = asin x + x sqrt(1 - x^2) is half the
-/// disc (of radius 1) less what lies above a line at height x.
+/// Share of the beam's disc above a line as a function of its height. J(x) = asin x + x sqrt(1 - x^2) is half the disc
+/// (of radius 1) minus the part above a line at height x.
 struct DiscShare {
   double radius = 0;
   double depth = 0;               ///< height of the level line above which the trigger's share lies, in radii

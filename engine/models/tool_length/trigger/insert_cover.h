@@ -1,5 +1,5 @@
 #pragma once
-/// How much of the beam's disc an insert's shadow covers: in closed form, given where its outline crosses the circle.
+/// Area of the beam's disc that an insert's shadow covers: in closed form, given the crossings of outline and circle.
 ///
 /// The outline runs counter-clockwise over an arc of the back ellipse, a straight line, an arc of the rake ellipse and
 /// a straight line back. Both ellipses have one shape, so a line touches both at equal w.

@@ -47,8 +47,8 @@ inline double guess(double angle, const HeightNode& n) {
   return n.covered ? n.height + n.slope * (angle - n.angle) : std::nan("");
 }
 
-/// Where d(height + drift angle)/d(angle) changes from + to -, between two nodes where it does. Given `wanted`, no
-/// further than it takes to know whether height + drift angle comes up to it.
+/// Angle at which d(height + drift angle)/d(angle) changes from + to -, between two nodes where it does. With `wanted`,
+/// only as precisely as needed to decide whether height + drift angle reaches it.
 HeightNode hump(const InsertHeight& heights, HeightNode a, HeightNode b, double drift, double wanted = std::nan(""));
 
 } // namespace gumshoe::models::tool_length

@@ -1,5 +1,5 @@
 #pragma once
-/// Where in a turn one insert can trigger at all, and a rigorous search there for its first trigger.
+/// The parts of a turn in which one insert can trigger, and a rigorous search there for its first trigger.
 ///
 /// An insert passes the beam in one or two *windows* of angle: outside them it covers the share at no height above
 /// `highest - below`. Inside, where it can be proved that only the cutting edge shows in the beam, the height is that
@@ -12,8 +12,8 @@ namespace gumshoe::models::tool_length {
 
 class InsertPass {
 public:
-  /// Where the cutting edge's lowest point is nearest to the beam's axis: about the top of a hump of k. For first
-  /// guesses.
+  /// Angle at which the lowest point of the cutting edge is nearest to the beam's axis: near the top of a hump of k.
+  /// For start values.
   struct Crest {
     double angle;
     double y;     ///< of the lowest point
@@ -38,7 +38,7 @@ public:
   /// No height k at any angle is above it.
   double highest() const { return highest_; }
   double below() const { return below_; }
-  /// What a hump's top may at most lie below `highest()`, about.
+  /// Approximate limit of the distance of a hump's top below `highest()`.
   double slack() const { return slack_; }
   int size() const { return size_; }
   const Window& window(int i) const { return window_[static_cast<std::size_t>(i)]; }
@@ -64,7 +64,7 @@ private:
   /// By Phi alone, of the share less an area `more`.
   Crossing walk(const Window& w, double level, double fall, double shift, double first, double last,
                 double more = 0) const;
-  /// What shows within the beam's width below the insert, at all angles of an interval.
+  /// Part of the insert visible within the beam's width below it, at all angles of an interval.
   struct Shows {
     int facing = 0;   ///< 1 or -1 as the cutting edge's normal points along the beam or against it; 0: nothing proved
     double flank = 0; ///< area between the cutting edge and the flank below it, at most; 0: only the edge shows

@@ -1,5 +1,5 @@
 #pragma once
-/// From the moment at which a turning tool covers the beam to the position that the control latches.
+/// Delay between the moment at which a turning tool covers the beam and the latch of the position by the control.
 #include <cmath>
 #include <numbers>
 
@@ -30,7 +30,7 @@ template <class T> T delay_of_latch(const chain::TurningTool<T>& tool, const T& 
   }
   const T delay = confirmed + sampled + latch_delay;
   if (!turned) return delay + tool.latches_command * tool.servo_lag;
-  // What the axis is behind its command, at the trigger and at the latch.
+  // Lag of the axis behind its command, at the trigger and at the latch.
   const T at = *turned / tool.speed;
   const T before = behind(at, tool.servo_lag), after = behind(T(at + delay), tool.servo_lag);
   const T actual = delay - (after - before);

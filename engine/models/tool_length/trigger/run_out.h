@@ -1,5 +1,5 @@
 #pragma once
-/// A flute as it truly sits: with its own deviations, in a tool that runs out.
+/// The true seat of a flute: with its own deviations, in a tool with run-out.
 #include <type_traits>
 
 #include "models/tool_length/trigger/insert_trigger.h"
