@@ -76,7 +76,7 @@ class SphereCalibration(unittest.TestCase):
         bad = self.rows(header, [20, 33, 0], [20, 90, 1], [0, 33, 2], evaluation="closed_form", code=2)
         self.assertEqual([row["status"] for row in bad], ["out_of_domain"] * 3)
         self.assertIsNone(complaint(self.run))
-        self.assertIn("points.csv:2:1: error: closed_form holds at B = 0", self.run.stderr)
+        self.assertIn("points.csv:2:1: error: closed_form holds only at B = 0", self.run.stderr)
 
     def test_a_virtual_experiment_shows_the_bias_of_an_approximation(self):
         # The machine stays exact whatever the evaluation; at one pose the error is the difference of the two commands.

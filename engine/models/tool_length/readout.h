@@ -93,7 +93,7 @@ template <class T> void check_together(const At<T>& at, Outcome<T>& outcome) {
     outcome.refuse(!insert_axial_angle.limits.contain(i.axial_angle), "insert_axial_angle including its errors is not "
                                                                       "below 90 deg");
     outcome.refuse(!(std::fabs(num::value(wear(q, k))) < i.radius),
-                   "a wear of wear_1 to wear_n is not below insert_radius");
+                   "wear_1 to wear_n: a wear is not below insert_radius");
   }
   const chain::TurningTool<T>& tool = event.tool;
   const T zero(0.0);
