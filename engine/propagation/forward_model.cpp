@@ -170,12 +170,12 @@ BlockValues ForwardModel::evaluate(const Block& block) const {
 
 template <class T>
 models::PointOutcome ForwardModel::evaluate_point(std::size_t reading, std::vector<T> point, std::vector<T>& out,
-                                                  models::PointOutcome (*evaluate)(const models::PointCall<T>&)) const {
+                                                  models::PointOutcome (*function)(const models::PointCall<T>&)) const {
   subtract_stated(reading, point.data());
   out.resize(model_->card->measurands.size());
   auto call = point_call(reading, point.data());
   call.measurands = out.data();
-  return evaluate(call);
+  return function(call);
 }
 
 models::PointOutcome ForwardModel::measurands(std::size_t reading, std::vector<models::Gradient> point,

@@ -159,12 +159,12 @@ SamplePlan make_plan(std::span<const InputQuantity> quantities, std::span<const 
   return plan;
 }
 
-void SamplePlan::assemble_column(std::size_t c, std::span<const double* const> variates, std::size_t n,
+void SamplePlan::assemble_column(std::size_t c, std::span<const double* const> drawn, std::size_t n,
                                  double* out) const {
   const double value = columns[c].value;
   bool first = true;
   for (const std::size_t v : columns[c].variates) {
-    const double* deviation = variates[v];
+    const double* deviation = drawn[v];
     if (first)
       for (std::size_t i = 0; i < n; ++i) out[i] = value + deviation[i];
     else
@@ -173,9 +173,9 @@ void SamplePlan::assemble_column(std::size_t c, std::span<const double* const> v
   }
 }
 
-void SamplePlan::assemble(std::span<const double* const> variates, std::size_t n, double* out,
+void SamplePlan::assemble(std::span<const double* const> drawn, std::size_t n, double* out,
                           std::size_t stride) const {
-  for (std::size_t c = 0; c < columns.size(); ++c) assemble_column(c, variates, n, out + c * stride);
+  for (std::size_t c = 0; c < columns.size(); ++c) assemble_column(c, drawn, n, out + c * stride);
 }
 
 } // namespace gumshoe::quantities

@@ -95,25 +95,25 @@ void write_data(hid_t file, const scenario::Scenario& s, const ModelCard& card) 
   table.numbers("repeats", column(readings, &quantities::Reading::repeats), "1", "readouts averaged in the reading");
   const auto filled = [&](const char* name, auto fill) {
     const hdf5::Handle group = hdf5::create_group(data, name);
-    Table table(group, "reading", readings.size());
-    fill(group, table);
+    Table own(group, "reading", readings.size());
+    fill(group, own);
   };
-  filled("labels", [&](hid_t group, Table& table) {
+  filled("labels", [&](hid_t group, Table& own) {
     std::vector<std::string> names;
     for (const auto& reading : readings)
       for (const auto& [name, value] : reading.labels)
         if (std::ranges::find(names, name) == names.end()) names.push_back(name);
     for (const std::string& name : names) {
       const auto values = column(readings, [&](const auto& reading) { return label_of(reading, name); });
-      table.texts(free_name(group, name), values, "label " + name);
+      own.texts(free_name(group, name), values, "label " + name);
     }
   });
   const auto cards = [&](const char* name, std::span<const VariableCard> variables, auto member) {
-    filled(name, [&](hid_t group, Table& table) {
+    filled(name, [&](hid_t group, Table& own) {
       for (std::size_t i = 0; i < variables.size(); ++i) {
         if (std::ranges::any_of(readings, [&](const auto& reading) { return (reading.*member).size() <= i; })) continue;
         const VariableCard& v = variables[i];
-        write_column(group, table, std::string(v.name),
+        write_column(group, own, std::string(v.name),
                      column(readings, [&](const auto& reading) { return (reading.*member)[i]; }), std::string(v.unit),
                      std::string(v.si_unit), std::string(v.meaning));
       }
@@ -121,10 +121,10 @@ void write_data(hid_t file, const scenario::Scenario& s, const ModelCard& card) 
   };
   cards("conditions", card.conditions, &quantities::Reading::conditions);
   cards("indications", card.indications, &quantities::Reading::indications);
-  filled("columns", [&](hid_t group, Table& table) {
+  filled("columns", [&](hid_t group, Table& own) {
     for (const auto& c : s.trace.columns)
       if (c.values.size() == readings.size())
-        write_column(group, table, c.name, c.values, c.unit, c.si_unit, "recorded with the readings");
+        write_column(group, own, c.name, c.values, c.unit, c.si_unit, "recorded with the readings");
   });
 }
 

@@ -69,9 +69,9 @@ struct Mill {
     return m;
   }
 
-  template <class T> models::PointCall<T> call(const std::vector<T>& quantities, const std::vector<T>& values) const {
+  template <class T> models::PointCall<T> call(const std::vector<T>& of_model, const std::vector<T>& values) const {
     models::PointCall<T> c;
-    c.quantities = quantities.data();
+    c.quantities = of_model.data();
     c.effects = values.data();
     c.active = active;
     c.conditions = condition.data();

@@ -177,7 +177,7 @@ TEST_CASE("what the poses cannot see stays as declared", "[laws][sphere_calibrat
       if (rank > 0 || method != sphere::sequential) CHECK(study.results[Found::residual_rms][0] < 1e-13);
       if (poses.size() == pattern_I().size()) { // at B = 0 nothing is seen of the B axis
         for (const std::size_t j : {Row::E_X0B, Row::E_Z0B, Row::E_A0B, Row::E_C0B})
-          CHECK(study.found(j) == estimates[j]);
+          CHECK(study.found(static_cast<int>(j)) == estimates[j]);
         CHECK(std::fabs(study.found(Row::E_A0C) - truth[Row::E_A0C]) < 1e-12);
       }
     }
@@ -210,7 +210,7 @@ TEST_CASE("planes are immune to the positioning of the axis that moves", "[laws]
     each[r][study.poses[r].label == 1 ? Row::E_CC : Row::E_BB] = draw(-0.04, 0.04) * deg;
   study.measure(each);
   study.identify(truth, sphere::sequential);
-  for (std::size_t j = Row::E_A0B; j <= Row::E_B0C; ++j) CHECK(std::fabs(study.found(j) - truth[j]) < 1e-13);
+  for (std::size_t j = Row::E_A0B; j <= Row::E_B0C; ++j) CHECK(std::fabs(study.found(static_cast<int>(j)) - truth[j]) < 1e-13);
   CHECK(std::fabs(study.found(Row::E_X0C) - truth[Row::E_X0C]) > 1 * um);
   study.identify(truth, sphere::joint); // here equal weights are worse
   CHECK(std::fabs(study.found(Row::E_B0C) - truth[Row::E_B0C]) > 1e-4 * deg);

@@ -13,8 +13,8 @@ namespace gumshoe::models {
 namespace {
 
 struct Plugin {
-  Plugin(const gumshoe_model& described, PluginPlace at)
-      : place(std::move(at)), described(described), card(card_of(described, place)), crash_start(place.crashed()) {}
+  Plugin(const gumshoe_model& by_library, PluginPlace at)
+      : place(std::move(at)), described(by_library), card(card_of(by_library, place)), crash_start(place.crashed()) {}
 
   PluginPlace place;
   const gumshoe_model& described;
