@@ -35,22 +35,29 @@ std::string statement(const Summary& s, const Budget& b, const Validation& v, do
   const int d = decimals_for(width(
       std::isfinite(s.standard_uncertainty) ? s.standard_uncertainty : 0.25 * (s.symmetric.high - s.symmetric.low)));
   constexpr std::string_view said_before = "no standard uncertainty: ";
+  const std::string why = s.warning.substr(std::min(s.warning.size(), s.warning.find(said_before) == s.warning.npos
+                                                                          ? std::size_t{0}
+                                                                          : s.warning.find(said_before) +
+                                                                                said_before.size()));
   // An error is a difference of two heights: it converts by scale.
   std::string text = fmt::format("{} = {}{}", s.output.name,
                                  fixed(virtual_experiment ? width(s.estimate) : shown(s.estimate), d), unit);
+  if (s.estimate_is_median) text += " (the median, because no expectation exists)";
   if (std::isfinite(s.standard_uncertainty))
     text += fmt::format("{} u = {}{}",
                         virtual_experiment ? " in the mean, with a standard deviation" : " with a standard uncertainty",
                         fixed(width(s.standard_uncertainty), d), unit);
   else
-    text += " without a standard uncertainty (" +
-            s.warning.substr(s.warning.starts_with(said_before) ? said_before.size() : 0) + ")";
-  text += fmt::format("; the shortest {:.4g} % coverage interval is [{}, {}]{}", 100 * p,
+    text += " without a standard uncertainty (" + why + ")";
+  if (std::isnan(s.shortest.low) && std::isfinite(s.standard_uncertainty))
+    text += " and without a coverage interval (" + s.warning + ")";
+  else if (!std::isnan(s.shortest.low))
+    text += fmt::format("; the shortest {:.4g} % coverage interval is [{}, {}]{}", 100 * p,
                       fixed(shown(s.shortest.low), d), fixed(shown(s.shortest.high), d), unit);
   if (b.applicable && b.expanded_uncertainty > 0) {
     text += fmt::format(". GUM framework: U = {}{} with k = {:.2f}{}", fixed(width(b.expanded_uncertainty), d), unit,
                         b.coverage_factor,
-                        b.effective_degrees_of_freedom > 0
+                        std::isfinite(b.effective_degrees_of_freedom)
                             ? fmt::format(" ({:.0f} effective degrees of freedom)", b.effective_degrees_of_freedom)
                             : "");
     if (!b.remark.empty()) text += "; " + b.remark;
@@ -63,13 +70,27 @@ std::string statement(const Summary& s, const Budget& b, const Validation& v, do
 
 namespace {
 
-/// A variate of infinite variance that moves the output (t with two degrees of freedom or fewer).
-std::string infinite_variance(const propagation::Experiment& e, const Budget& budget) {
-  for (const Contribution& c : budget.contributions)
+/// The variate with the fewest degrees of freedom that moves the output, if it is a t without a variance.
+const quantities::Variate* without_variance(const propagation::Experiment& e, const Budget& budget) {
+  const quantities::Variate* found = nullptr;
+  for (const Contribution& c : budget.contributions) {
+    if (std::isinf(c.degrees_of_freedom) || c.degrees_of_freedom > 2 || c.sensitivity == 0) continue;
     for (const auto& v : e.plan().variates)
-      if (v.name == c.name && !std::isfinite(v.distribution.variance()) && c.sensitivity != 0)
-        return v.name + " has no standard uncertainty: t with two degrees of freedom or fewer";
-  return {};
+      if (v.name == c.name && !std::isfinite(v.distribution.variance()) &&
+          (!found || v.distribution.parameters[2] < found->distribution.parameters[2]))
+        found = &v;
+  }
+  return found;
+}
+
+/// Withholds the moments that do not exist, for a reason in the inputs or in the tails of the values.
+void withhold(Summary& s, const quantities::Variate* without, std::span<const double> values, int threads) {
+  if (!without) return check_tails(values, s, threads);
+  s.standard_uncertainty = s.standard_uncertainty_se = s.estimate_se = std::nan("");
+  s.warning = fmt::format("no standard uncertainty: {} is a t with {:.3g} degrees of freedom; the ends of the interval "
+                          "are quantiles and remain valid",
+                          without->name, without->distribution.parameters[2]);
+  if (without->distribution.parameters[2] <= 1) use_median(values, s);
 }
 
 void describe(Results& r, const propagation::Experiment& e) {
@@ -109,7 +130,7 @@ void describe(Results& r, const propagation::Experiment& e) {
         record.labels += (record.labels.empty() ? "" : ", ") + label + " " + value;
       double variance = 0;
       for (const auto& c : entry.components) {
-        variance += c.distribution.variance();
+        variance += std::pow(c.distribution.standard_uncertainty(), 2);
         record.value += c.distribution.mean();
         for (const auto& f : quantities::families())
           if (f.family == c.distribution.family)
@@ -179,13 +200,8 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, int th
     Summary& summary = r.summaries[o] = summarise(output, values, p, threads);
     const Budget& b = r.budgets[o] = budget(e, o, p);
     if (s.run.design != scenario::Design::monte_carlo) drop_standard_errors(summary);
-    if (const std::string reason = infinite_variance(e, b); !reason.empty()) {
-      summary.standard_uncertainty = summary.standard_uncertainty_se = summary.estimate_se = std::nan("");
-      summary.warning = reason + "; the ends of the interval are quantiles and remain valid";
-    } else {
-      check_tails(values, summary, threads);
-    }
-    r.validations[o] = validate(b, summary, s.analysis.validation_digits);
+    if (summary.warning.empty()) withhold(summary, without_variance(e, b), values, threads);
+    r.validations[o] = validate(b, summary, p, s.analysis.validation_digits);
     summary.statement = statement(summary, b, r.validations[o], p, virtual_experiment);
     const bool compared =
         std::ranges::any_of(s.analysis.comparisons, [&](const auto& c) { return c.measurand == output.measurand; });
@@ -198,6 +214,11 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, int th
     r.sensitivities = sobol_indices(e, s.analysis.sensitivity.sobol, threads);
     add_monte_carlo_column(r);
   }
+  if (const double enough = 1e4 / (1 - s.analysis.coverage_probability);
+      s.run.adaptive.rule == scenario::StoppingRule::fixed && static_cast<double>(samples.status().size()) < enough)
+    r.notes.push_back(fmt::format("{} trials are fewer than the 10^4 / (1 - p) = {:.0f} of JCGM 101, 7.2.2: the coverage "
+                                  "intervals are known to their Monte Carlo standard errors only",
+                                  samples.status().size(), enough));
   if (s.run.design != scenario::Design::monte_carlo)
     r.notes.push_back(fmt::format(
         "design {}: its points are not independent, so that no Monte Carlo standard errors are given", r.design));

@@ -1,5 +1,5 @@
 #pragma once
-/// Draws of some variates given the others, under the plan's Gaussian copulas.
+/// Draws of some variates given the others, under the plan's Gaussian copulas and multivariate t distributions.
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -18,7 +18,8 @@ public:
   /// A block of rows, [variate * rows + i].
   struct Block {
     std::size_t rows = 0;
-    std::vector<double> scores_a, scores_b; ///< of tied variates: normal scores; else the deviations
+    /// Of tied variates normal scores, else the deviations; then the W of each group (quantities::CopulaGroup).
+    std::vector<double> scores_a, scores_b;
     std::vector<double> a, b;               ///< deviations
     std::vector<double> mixed;
   };

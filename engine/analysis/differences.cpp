@@ -9,7 +9,7 @@ namespace {
 
 using Point = std::vector<double>;
 
-/// A full step of one standard uncertainty (the scale of a t without one), short of the quantity's limits; 0: does not
+/// A full step of one standard uncertainty, short of the quantity's limits; 0: does not
 /// vary.
 std::vector<double> steps(const propagation::Experiment& e, std::size_t reading, const Point& point) {
   const auto& plan = e.plan();
@@ -18,8 +18,7 @@ std::vector<double> steps(const propagation::Experiment& e, std::size_t reading,
   for (std::size_t q = 0; q < point.size(); ++q) {
     for (const std::size_t v : plan.columns[columns[q]].variates) {
       const auto& d = plan.variates[v].distribution;
-      const double u2 = d.variance();
-      h[q] = std::hypot(h[q], std::isfinite(u2) ? std::sqrt(u2) : d.parameters[1]);
+      h[q] = std::hypot(h[q], d.standard_uncertainty());
     }
     if (h[q] == 0) continue;
     if (const std::size_t of = plan.columns[columns[q]].quantity; e.layout().model.contains(of)) {

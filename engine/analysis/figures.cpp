@@ -105,7 +105,7 @@ private:
     if (name_.word == "gum.high") return point(b.estimate + b.expanded_uncertainty);
     if (name_.word == "gum.degrees_of_freedom") {
       if (std::isnan(b.effective_degrees_of_freedom)) return word("refused");
-      if (b.effective_degrees_of_freedom == 0) return word("infinite");
+      if (std::isinf(b.effective_degrees_of_freedom)) return word("infinite");
       return plain(b.effective_degrees_of_freedom);
     }
     if (const auto figure = field(budget_fields, b)) return figure;

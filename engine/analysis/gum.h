@@ -12,20 +12,11 @@ namespace gumshoe::analysis {
 /// experiment has no measurement model of its inputs; its budget is "not applicable".
 Budget budget(const propagation::Experiment& experiment, std::size_t output, double coverage_probability);
 
-/// JCGM 101 clause 8: compares d_low and d_high with the numerical tolerance delta of u at `digits`. The result is
-/// undecided if the Monte Carlo tolerance exceeds delta / 5 (unless an end differs by more than the sum of both), or if
-/// an end differs by more than delta alone.
-Validation validate(const Budget& budget, const Summary& summary, int digits);
-
-/// Pearson's coefficient of two variates, 0 if no copula ties them.
-double correlation_of(const quantities::SamplePlan& plan, std::size_t a, std::size_t b);
-
-/// From the variance u_c^2 to U (Annex G). `satterthwaite`: sum (c_i u_i)^4 / nu_i, 0 if all are infinite.
-struct Expansion {
-  double effective_degrees_of_freedom = 0; ///< truncated; 0: infinite; NaN: inputs correlated
-  double coverage_factor = 0, expanded_uncertainty = 0;
-};
-Expansion expand(double variance, double satterthwaite, bool correlated, double coverage_probability);
+/// JCGM 101 clause 8: compares d_low and d_high with the numerical tolerance delta of u at `digits`. The Monte Carlo
+/// tolerance is two standard errors of an end. The result is undecided below 100 / (1 - p) trials, if that tolerance
+/// exceeds delta / 5 (unless an end differs by more than delta and four standard errors), or if an end differs by more
+/// than delta alone. No verdict unless the framework's U is finite.
+Validation validate(const Budget& budget, const Summary& summary, double coverage_probability, int digits);
 
 /// "per setup", "per rod, setup", "" for a draw that all readings share.
 std::string scope_text(const quantities::Component& component);

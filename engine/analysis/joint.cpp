@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <Eigen/Dense>
 #include <fmt/format.h>
 
-#include "analysis/gum.h"
+#include "analysis/combine.h"
 #include "analysis/ordered_sum.h"
 #include "analysis/reach.h"
 #include "analysis/summary.h"
@@ -68,7 +69,6 @@ std::vector<double> row_major(const Matrix& m) { return {m.data(), m.data() + m.
 /// C V C' (6.2.1.3): the budgets of one reading have the same rows.
 std::vector<double> law_of_propagation(const std::vector<const Budget*>& budgets, const propagation::Experiment& e,
                                        std::size_t reading) {
-  const auto& plan = e.plan();
   const auto d = static_cast<Eigen::Index>(budgets.size());
   const auto rows = variates_reaching(e, reading);
   for (const Budget* b : budgets)
@@ -77,14 +77,21 @@ std::vector<double> law_of_propagation(const std::vector<const Budget*>& budgets
     const Contribution& c = budgets[static_cast<std::size_t>(a)]->contributions[i];
     return c.standard_uncertainty > 0 && c.differentiable ? c.sensitivity * c.standard_uncertainty : 0;
   };
+  std::map<std::size_t, Eigen::VectorXd> of; // by variate: one may be part of several columns
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    Eigen::VectorXd y(d);
+    for (Eigen::Index a = 0; a < d; ++a) y[a] = signed_contribution(a, i);
+    const auto [at, added] = of.try_emplace(rows[i].variate, y);
+    if (!added) at->second += y;
+  }
   Matrix v = Matrix::Zero(d, d);
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    for (std::size_t j = 0; j < rows.size(); ++j) {
-      const double r = i == j ? 1 : correlation_of(plan, rows[i].variate, rows[j].variate);
-      if (r == 0) continue;
-      for (Eigen::Index a = 0; a < d; ++a)
-        for (Eigen::Index b = 0; b < d; ++b) v(a, b) += r * signed_contribution(a, i) * signed_contribution(b, j);
-    }
+  for (const auto& [variate, y] : of) v += y * y.transpose();
+  Correlations correlations(e.plan());
+  for (const auto& group : e.plan().copulas)
+    for (const std::size_t i : group.variates)
+      for (const std::size_t k : group.variates)
+        if (i != k && of.contains(i) && of.contains(k))
+          v += correlations.between(i, k) * of.at(i) * of.at(k).transpose();
   return row_major(v);
 }
 

@@ -19,7 +19,8 @@ struct Interval {
 struct Summary {
   propagation::Output output;
   std::uint64_t valid = 0, failed = 0;
-  double estimate = 0, estimate_se = 0;
+  double estimate = 0, estimate_se = 0; ///< the expectation, or the median where none exists
+  bool estimate_is_median = false;
   double standard_uncertainty = 0, standard_uncertainty_se = 0; ///< NaN if none exists; see `warning`
   double skewness = 0, kurtosis = 0;
   Interval symmetric;            ///< probabilistically symmetric coverage interval, JCGM 101 5.3.3
@@ -39,10 +40,10 @@ struct Contribution {
   std::string quantity; ///< "beam_pitch"
   std::string unit, si_unit;
   double estimate = 0;
-  double standard_uncertainty = 0; ///< NaN: infinite variance
+  double standard_uncertainty = 0; ///< of a t its scale, Distribution::standard_uncertainty()
   char evaluation = 'B';
   std::string distribution;
-  double degrees_of_freedom = 0; ///< 0: infinite
+  double degrees_of_freedom = 0; ///< may be infinite
   bool differentiable = true;
   double sensitivity = 0;       ///< c_i, SI; NaN if not differentiable here
   double contribution = 0;      ///< |c_i| u_i, SI
@@ -64,7 +65,7 @@ struct Budget {
   double combined_standard_uncertainty = 0; ///< u_c, first order
   double second_order_uncertainty = 0;      ///< u_c with the terms of 5.1.2 note
   double second_order_bias = 0;             ///< half the sum of H_ii u_i^2: mean minus estimate
-  double effective_degrees_of_freedom = 0;  ///< truncated (G.4.1); 0: infinite; NaN: inputs correlated
+  double effective_degrees_of_freedom = 0;  ///< truncated (G.4.1); may be infinite; NaN: see remark
   double coverage_factor = 0;
   double expanded_uncertainty = 0;
   std::string remark; ///< why no effective degrees of freedom are stated; empty if they are, or all are infinite

@@ -29,8 +29,9 @@ double pooled_uncertainty(const std::vector<double>& mean, const std::vector<dou
 
 } // namespace
 
-StoppingRules::StoppingRules(std::vector<propagation::Output> outputs, double coverage_probability, int digits)
-    : outputs_(std::move(outputs)), p_(coverage_probability), digits_(digits),
+StoppingRules::StoppingRules(std::vector<propagation::Output> outputs, double coverage_probability, int digits,
+                             double share)
+    : outputs_(std::move(outputs)), p_(coverage_probability), share_(share), digits_(digits),
       block_(std::max<std::uint64_t>(static_cast<std::uint64_t>(std::ceil(100 / (1 - coverage_probability))), 10'000)),
       figures_(outputs_.size()) {}
 
@@ -62,7 +63,7 @@ void StoppingRules::look() {
       f.tolerance = nan;
       continue;
     }
-    const double delta = f.tolerance = std::isfinite(u) ? numerical_tolerance(u, digits_, outputs_[o]) : nan;
+    const double delta = f.tolerance = std::isfinite(u) ? share_ * numerical_tolerance(u, digits_, outputs_[o]) : nan;
     for (const auto* figure : {&f.mean, &f.u, &f.low, &f.high}) {
       const double s2 = variance(*figure);
       if (!(4 * s2 / h <= delta * delta)) settled = false; // NaN is not settled
@@ -98,7 +99,8 @@ std::uint64_t next_goal(const StoppingRules& rules, bool stein, std::uint64_t mo
 StoppingRecord run_adaptively(const propagation::Experiment& e, propagation::SampleStore& store,
                               propagation::RunSettings settings, bool& stopped) {
   const auto& options = e.scenario().run.adaptive;
-  StoppingRules rules(e.outputs(), e.scenario().analysis.coverage_probability, options.digits);
+  StoppingRules rules(e.outputs(), e.scenario().analysis.coverage_probability, options.digits,
+                      options.validation ? 0.2 : 1.0);
   const std::uint64_t block = rules.block(), most = std::max<std::uint64_t>(2, options.most / block);
   const bool stein = options.rule == scenario::StoppingRule::stein;
   stopped = false;

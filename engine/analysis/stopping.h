@@ -21,7 +21,8 @@ namespace gumshoe::analysis {
 class StoppingRules {
 public:
   static constexpr std::uint64_t first_stage = 10; ///< blocks
-  StoppingRules(std::vector<propagation::Output> outputs, double coverage_probability, int digits);
+  /// `share` of delta is aimed at: 1, or 1/5 for a validation (JCGM 101, 8.2).
+  StoppingRules(std::vector<propagation::Output> outputs, double coverage_probability, int digits, double share = 1);
 
   std::uint64_t block() const { return block_; }
   std::uint64_t blocks() const { return blocks_; }
@@ -41,7 +42,7 @@ private:
   };
   void look();
   std::vector<propagation::Output> outputs_;
-  double p_;
+  double p_, share_;
   int digits_;
   std::uint64_t block_, blocks_ = 0, jcgm_ = 0, stein_ = 0;
   std::vector<Figures> figures_;

@@ -36,6 +36,21 @@ double hill(std::span<const double> falling) {
 
 } // namespace
 
+void use_median(std::span<const double> values, Summary& s) {
+  std::vector<double> x;
+  std::ranges::copy_if(values, std::back_inserter(x), [](double v) { return !std::isnan(v); });
+  const double n = static_cast<double>(x.size());
+  const auto at = [&](double rank) {
+    const auto place = x.begin() + static_cast<long>(std::clamp(rank, 0.0, n - 1));
+    std::nth_element(x.begin(), place, x.end());
+    return *place;
+  };
+  s.estimate = at(std::floor(0.5 * n));
+  s.estimate_se = 0.5 * (at(0.5 * n + 0.5 * std::sqrt(n)) - at(0.5 * n - 0.5 * std::sqrt(n)));
+  s.estimate_is_median = true;
+  s.warning = "no expectation exists, and the estimate is the median; " + s.warning;
+}
+
 void check_tails(std::span<const double> values, Summary& s, int threads) {
   s.hill_index = nan;
   if (s.valid < least || !(s.standard_uncertainty > 0)) return;
@@ -44,7 +59,7 @@ void check_tails(std::span<const double> values, Summary& s, int threads) {
   const std::size_t k = tail_size(s.valid);
   const double median = some[some.size() / 2];
   const OrderedTails ordered = ordered_tails(values, s.valid, k + 1, threads);
-  bool heavy = false;
+  bool heavy = false, no_expectation = false;
   const auto below = [](double index, std::size_t used, double errors, double limit) {
     return index * (1 + errors / std::sqrt(static_cast<double>(used))) < limit;
   };
@@ -53,7 +68,10 @@ void check_tails(std::span<const double> values, Summary& s, int threads) {
     const double index = hill(tail);
     // A power law is one further out, too; outliers in a bounded cluster, or a few discrete values, are not.
     const std::size_t out_there = k / 10;
-    heavy |= below(index, k, 2.5, 2.25) && below(hill(std::span(tail).first(out_there + 1)), out_there, -2, 2.25);
+    const double far_index = hill(std::span(tail).first(out_there + 1));
+    heavy |= below(index, k, 2.5, 2.25) && below(far_index, out_there, -2, 2.25);
+    // An index of 1, as of 1/x through zero, cannot be told from one slightly above.
+    no_expectation |= below(index, k, -2, 1) && below(far_index, out_there, -2, 1);
     if (!std::isnan(index) && !(index >= s.hill_index)) s.hill_index = index;
   }
 
@@ -67,6 +85,7 @@ void check_tails(std::span<const double> values, Summary& s, int threads) {
         "tail index is {:.2g}, and below 2 it does not exist; the ends of the interval are quantiles and remain valid",
         s.hill_index);
     s.standard_uncertainty = s.standard_uncertainty_se = s.estimate_se = nan;
+    if (no_expectation) use_median(values, s);
   } else if (below(s.hill_index, k, 2, 4) && unsettled > 1e-2) {
     s.tail_remark = fmt::format("heavy tails, Hill's tail index {:.2g}: below 4 the standard uncertainty has no Monte "
                                 "Carlo standard error; the one stated is too small",

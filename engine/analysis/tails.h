@@ -14,7 +14,12 @@ namespace gumshoe::analysis {
 /// errors; over the k / 10 largest alone it is not above 2.25 by 2 (outliers in a cluster are no power law); and the
 /// variance has not settled, its relative standard error sqrt(kurtosis / n) being above 3 %. An index below 4 and one
 /// above 10 %: `tail_remark`. A mixture with a much wider law in less than a per cent of the samples may look alike.
-/// Call after summarise(); `values` is in sample order, NaN where failed. Linear in their number.
+/// Where the index cannot be told from one of 1 or less, by 2 standard errors in the tail and far out, the expectation
+/// does not exist either: use_median(). Call after summarise(); `values` is in sample order, NaN where failed. Linear in their number.
 void check_tails(std::span<const double> values, Summary& summary, int threads = 1);
+
+/// Replaces the estimate by the median of the valid values, with its standard error, and says so in `warning`, which holds
+/// the reason already.
+void use_median(std::span<const double> values, Summary& summary);
 
 } // namespace gumshoe::analysis

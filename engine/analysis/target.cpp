@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/combine.h"
 #include "analysis/gum.h"
 #include "analysis/outputs.h"
 #include "analysis/reach.h"
@@ -61,7 +62,7 @@ double largest_allowed(const Function& u, double at_1, double at_0, double wante
 /// The law of propagation as a function of the scale of one quantity.
 class Law {
 public:
-  Law(const Budget& b, const propagation::Experiment& e, double p) : budget_(b), plan_(e.plan()), p_(p) {
+  Law(const Budget& b, const propagation::Experiment& e, double p) : budget_(b), correlations_(e.plan()), p_(p) {
     for (const auto& r : variates_reaching(e, b.output.reading)) variates_.push_back(r.variate);
   }
   bool applicable() const { return budget_.applicable && budget_.combined_standard_uncertainty > 0; }
@@ -78,38 +79,33 @@ public:
   double share(const std::string& quantity) const {
     return own_variance(quantity) / std::pow(budget_.combined_standard_uncertainty, 2);
   }
-  /// 2 sum over own i and others j of c_i c_j u_i u_j r_ij.
-  double cross(const std::string& quantity) const {
-    double sum = 0;
-    for (std::size_t i = 0; i < variates_.size(); ++i)
-      for (std::size_t j = 0; j < variates_.size(); ++j)
-        if (budget_.contributions[i].quantity == quantity && budget_.contributions[j].quantity != quantity)
-          if (const double r = correlation_of(plan_, variates_[i], variates_[j]); r != 0)
-            sum += 2 * r * signed_contribution(i) * signed_contribution(j);
-    return sum;
-  }
-  double expanded_uncertainty(const std::string& quantity, double scale) const {
-    const double own = own_variance(quantity), between = cross(quantity);
-    const double u_c = budget_.combined_standard_uncertainty;
-    const double variance = std::max(0.0, u_c * u_c + (scale * scale - 1) * own + (scale - 1) * between);
-    double satterthwaite = 0;
+  CombinedVariance combined(const std::string& quantity, double scale) {
+    std::vector<Term> terms;
     for (std::size_t i = 0; i < variates_.size(); ++i) {
       const Contribution& c = budget_.contributions[i];
-      if (c.degrees_of_freedom > 0)
-        satterthwaite +=
-            std::pow((c.quantity == quantity ? scale : 1) * signed_contribution(i), 4) / c.degrees_of_freedom;
+      terms.push_back(
+          {variates_[i], (c.quantity == quantity ? scale : 1) * signed_contribution(i), c.degrees_of_freedom});
     }
-    return expand(variance, satterthwaite, std::isnan(budget_.effective_degrees_of_freedom), p_).expanded_uncertainty;
+    return correlations_.combine(terms);
+  }
+  double expanded_uncertainty(const std::string& quantity, double scale) {
+    return expand(combined(quantity, scale), p_).expanded_uncertainty;
+  }
+  /// 2 sum over own i and others j of c_i c_j u_i u_j r_ij, from the variance at three scales.
+  double cross(const std::string& quantity) {
+    const double none = combined(quantity, 0).total(), once = combined(quantity, 1).total(),
+                 twice = combined(quantity, 2).total();
+    return 2 * (once - none) - 0.5 * (twice - none);
   }
   /// Where U is least: the vertex of the quadratic, which lies above 0 only if inputs are correlated.
-  double dip(const std::string& quantity) const {
+  double dip(const std::string& quantity) {
     const double own = own_variance(quantity);
     return own > 0 ? std::clamp(-0.5 * cross(quantity) / own, 0.0, largest_scale) : 0;
   }
 
 private:
   const Budget& budget_;
-  const quantities::SamplePlan& plan_;
+  Correlations correlations_;
   double p_;
   std::vector<std::size_t> variates_;
 };

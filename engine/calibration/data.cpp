@@ -38,11 +38,10 @@ std::size_t column_of(const Experiment& e, std::size_t quantity, std::size_t ent
   return e.plan().columns.size(); // no reading uses it
 }
 
-/// Variance of the deviation, or the squared scale of a t distribution without a variance (`finite` is then false).
+/// u^2 of the deviation; `finite` is false for a t distribution without a variance.
 double variance(const quantities::Distribution& d, bool& finite) {
-  const double v = d.variance();
-  finite = std::isfinite(v);
-  return finite ? v : d.parameters[1] * d.parameters[1];
+  finite = std::isfinite(d.variance());
+  return d.standard_uncertainty() * d.standard_uncertainty();
 }
 
 } // namespace

@@ -41,7 +41,7 @@ std::string estimated_scenario(const propagation::Experiment& experiment, const 
     if (p.standard_uncertainty > 0) {
       if (t) known.members.push_back({"distribution", 0, 0, text_node("t")});
       known.members.push_back({"u", 0, 0, measure(p.standard_uncertainty, true)});
-      if (!estimate.noise_declared)
+      if (t)
         known.members.push_back({"degrees_of_freedom", 0, 0, number_node(estimate.degrees_of_freedom)});
       known.members.push_back({"evaluation", 0, 0, text_node("A")});
       uncertain.push_back(i);
@@ -56,7 +56,7 @@ std::string estimated_scenario(const propagation::Experiment& experiment, const 
       names.push_back(estimate.parameters[i].unknown.name);
       for (const std::size_t j : uncertain) matrix.push_back(estimate.correlation[i * estimate.parameters.size() + j]);
     }
-    out.tie(names, matrix, source); // what tied the priors is in the fit now
+    out.tie(names, matrix, t ? "multivariate_t" : "pearson", source); // what tied the priors is in the fit now
   }
   return out.text(source);
 }

@@ -33,8 +33,8 @@ Priors priors_of(const propagation::Experiment& e, const std::vector<Unknown>& u
     for (Eigen::Index j = 0; j < m; ++j)
       for (const std::size_t a : draws(i))
         for (const std::size_t b : draws(j))
-          covariance(i, j) += correlation(a, b) * std::sqrt(plan.variates[a].distribution.variance() *
-                                                            plan.variates[b].distribution.variance());
+          covariance(i, j) += correlation(a, b) * plan.variates[a].distribution.standard_uncertainty() *
+                              plan.variates[b].distribution.standard_uncertainty();
   const Eigen::MatrixXd factor = covariance.llt().matrixL();
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(m, static_cast<Eigen::Index>(unknowns.size()));
   Eigen::VectorXd means(m);

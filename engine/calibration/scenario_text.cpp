@@ -149,7 +149,7 @@ void ScenarioText::split(Node& leaf, const std::string& name, const quantities::
 }
 
 void ScenarioText::tie(const std::vector<std::string>& names, const std::vector<double>& matrix,
-                       const std::string& source) {
+                       const std::string& kind, const std::string& source) {
   Node correlation;
   std::vector<Node> members, rows;
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -159,7 +159,7 @@ void ScenarioText::tie(const std::vector<std::string>& names, const std::vector<
     rows.push_back(list_node(std::move(row)));
   }
   correlation.members = {{"quantities", 0, 0, list_node(std::move(members))},
-                         {"kind", 0, 0, text_node("pearson")},
+                         {"kind", 0, 0, text_node(kind)},
                          {"matrix", 0, 0, list_node(std::move(rows))},
                          {"source", 0, 0, text_node(source)}};
   if (Node* old = find_member(document_, "correlations"))

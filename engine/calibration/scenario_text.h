@@ -32,7 +32,8 @@ public:
   scenario::Node& entry(const std::string& name, const quantities::Labels& labels);
   /// Ties draws by a Pearson correlation, row-major; what tied any of them before is left out,
   /// and Shapley effects take the place of Sobol' indices, which are for independent inputs.
-  void tie(const std::vector<std::string>& names, const std::vector<double>& matrix, const std::string& source);
+  void tie(const std::vector<std::string>& names, const std::vector<double>& matrix, const std::string& kind,
+           const std::string& source);
   /// The text, under the comments with which the scenario opens; `written` says where it comes from.
   std::string text(const std::string& written) const;
 

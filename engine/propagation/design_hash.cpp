@@ -55,6 +55,7 @@ std::string design_hash(const Experiment& e) {
   for (const auto& group : plan.copulas) {
     record.add(group.variates);
     record.add(group.matrix);
+    if (group.multivariate_t()) record.add(group.key);
   }
   for (const auto& q : s.quantities) record.add(q.name);
   record.add(std::uint64_t{plan.columns.size()});

@@ -45,7 +45,7 @@ void Experiment::check_reading(std::size_t r) const {
 models::Declared Experiment::declared() const {
   models::Declared out;
   const Range model = layout().model, noise = layout().indications;
-  for (const auto& variate : plan_.variates) out.draws.push_back({std::sqrt(variate.distribution.variance()), {}});
+  for (const auto& variate : plan_.variates) out.draws.push_back({variate.distribution.standard_uncertainty(), {}});
   for (std::size_t r = 0; r < scenario_.readings.size(); ++r) {
     const auto moves = [&](std::size_t quantity, std::size_t column, double by) {
       for (const std::size_t v : plan_.columns[plan_.gather[r][quantity]].variates)

@@ -106,6 +106,7 @@ double copula_coefficient(Correlation::Kind kind, double r, const Distribution& 
   if (r == 0) return 0;
   switch (kind) {
   case Correlation::Kind::copula:
+  case Correlation::Kind::multivariate_t:
     return r;
   case Correlation::Kind::spearman:
     if (has_steps(a) || has_steps(b))

@@ -9,7 +9,7 @@
 namespace gumshoe::quantities {
 
 /// The coefficient of the Gaussian copula for which the stated coefficient of the two variates is r.
-///   copula: r itself. Spearman: 2 sin(pi r / 6), any continuous distributions.
+///   copula, multivariate t: r itself. Spearman: 2 sin(pi r / 6), any continuous distributions.
 ///   Pearson: r for two normals, 2 sin(pi r / 6) for two rectangulars, else the root of the series
 ///   r(rho) = sum_k a_k b_k rho^k over the Hermite coefficients of the two (Mehler 1866).
 /// Throws InputError if no copula reaches it, or if the kind does not exist for the distributions;

@@ -56,7 +56,7 @@ const FamilyCard* find_family(std::string_view name);
 ///   constant(value); rectangular(low, high); curvilinear_trapezoid(low, high, inexactness d);
 ///   trapezoid(low, high, top_ratio beta); triangular(low, high); arcsine(low, high);
 ///   normal(mean, u); t(mean, scale, degrees_of_freedom): `u` of a scenario is the scale s/sqrt(n),
-///   JCGM 101 6.4.9; exponential(mean) from 0; gamma(shape, scale); lognormal(mu, sigma of ln x);
+///   JCGM 101 6.4.9, or that of a certificate with effective degrees of freedom, 6.4.9.7; exponential(mean) from 0; gamma(shape, scale); lognormal(mu, sigma of ln x);
 ///   truncated_normal(mean, u, low, high): mean and u are the parent's;
 ///   discrete / empirical: no parameters, `values` with `probabilities` (empirical: equal).
 struct Distribution {
@@ -69,6 +69,9 @@ struct Distribution {
   double mean() const;
   /// Variance; +infinity for t with 2 degrees of freedom or fewer (no standard uncertainty exists).
   double variance() const;
+  /// Standard uncertainty as the law of propagation takes it: of a t distribution its scale, the s/sqrt(n) of a Type A
+  /// evaluation or the declared u (JCGM 100, 4.2.3 and G.3); else the square root of the variance. Always finite.
+  double standard_uncertainty() const;
   /// Fourth central moment over variance squared; NaN where it does not exist.
   double kurtosis() const;
   /// Inverse distribution function, u in (0, 1).

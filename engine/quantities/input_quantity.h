@@ -2,6 +2,7 @@
 /// Input quantities (JCGM 200, 2.50) as a scenario states them: values, components of uncertainty,
 /// scopes and correlations. Plain data, SI units; quantities of models, of effects and the noise of
 /// indications are the same kind of thing.
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,7 +19,8 @@ struct Component {
   std::string name;              ///< unique within the quantity; part of the random stream's key
   Distribution distribution;     ///< of the deviation, SI
   char evaluation = 'B';         ///< Type A or Type B evaluation (GUM 2.3.2, 2.3.3)
-  double degrees_of_freedom = 0; ///< 0 means infinite; for the effective degrees of freedom
+  /// Of the standard uncertainty, for the effective degrees of freedom; a normal distribution with finite ones is a t.
+  double degrees_of_freedom = std::numeric_limits<double>::infinity();
   std::vector<std::string> per;  ///< scope: one draw per combination of these labels ("reading": per reading)
   std::string source;
 };
@@ -39,9 +41,11 @@ struct InputQuantity {
   bool estimated = false;     ///< to be fitted to the readings: values are starts, components priors
 };
 
-/// Correlation between single-component quantities, through a Gaussian copula.
+/// Correlation between single-component quantities: through a Gaussian copula, or as a multivariate t distribution of
+/// estimates that share one estimated standard deviation (JCGM 102, 5.3.2), all with its degrees of freedom; the matrix
+/// is then that of the scales.
 struct Correlation {
-  enum class Kind { copula, pearson, spearman };
+  enum class Kind { copula, pearson, spearman, multivariate_t };
   Kind kind = Kind::copula;
   std::vector<std::string> quantities; ///< names, or "quantity.component"
   std::vector<double> matrix;          ///< row-major, n x n, of the stated kind

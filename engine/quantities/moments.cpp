@@ -120,6 +120,9 @@ Moments moments(const Distribution& d) {
 
 double Distribution::mean() const { return moments(*this).mean; }
 double Distribution::variance() const { return moments(*this).variance; }
+double Distribution::standard_uncertainty() const {
+  return family == Family::t ? parameters[1] : std::sqrt(variance());
+}
 double Distribution::kurtosis() const { return moments(*this).kurtosis; }
 
 } // namespace gumshoe::quantities

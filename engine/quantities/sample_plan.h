@@ -30,11 +30,19 @@ struct Column {
   std::size_t quantity = 0;          ///< of the scenario
 };
 
-/// Variates tied by a Gaussian copula: lower Cholesky factor of the copula's matrix, row-major.
+/// Variates tied by a Gaussian copula, or jointly t-distributed: then z = L e is divided by sqrt(W), with one
+/// W = chi-squared / degrees of freedom for all of them.
 struct CopulaGroup {
   std::vector<std::size_t> variates;
-  std::vector<double> cholesky;
-  std::vector<double> matrix;
+  std::vector<double> cholesky;  ///< lower factor L of the matrix, row-major
+  std::vector<double> matrix;    ///< of the copula, or of the scales of the t distributions
+  double degrees_of_freedom = 0; ///< of a multivariate t distribution; 0: Gaussian copula
+  std::uint64_t key = 0;         ///< of the stream of W
+  bool multivariate_t() const { return degrees_of_freedom > 0; }
+  /// Distribution of W: gamma(nu / 2, 2 / nu).
+  Distribution shared_scale() const {
+    return {Family::gamma, {degrees_of_freedom / 2, 2 / degrees_of_freedom}, nullptr, nullptr};
+  }
 };
 
 struct SamplePlan {

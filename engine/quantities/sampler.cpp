@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <optional>
 #include <set>
 
@@ -12,6 +14,7 @@
 namespace gumshoe::quantities {
 namespace {
 
+constexpr std::size_t strip = 512; // stays in the first-level cache between the steps
 constexpr std::uint32_t purposes = 5;
 /// Each purpose has its own dimensions, so that the two matrices of a pick-freeze design are independent.
 constexpr std::uint32_t dimensions_per_purpose = random::sobol_dimensions / purposes;
@@ -42,34 +45,36 @@ struct Sampler::Impl {
   std::uint64_t total;
   std::vector<Source> sources;
   std::vector<CopulaGroup> copulas;
+  std::vector<std::optional<Source>> shared_scales; ///< by group: the W of a multivariate t
   std::vector<bool> tied;
 
   Impl(const SamplePlan& plan, PointSet point_set, std::uint64_t samples)
       : design(point_set), total(samples), copulas(plan.copulas), tied(plan.variates.size(), false) {
     std::set<std::uint32_t> taken;
-    for (const Variate& variate : plan.variates) {
-      const Distribution& d = variate.distribution;
-      Source source{{variate.key, reading_of(variate.cell), 0, 0},
-                    QuantileFunction(d),
-                    d.family == Family::normal,
-                    d.parameters[0],
-                    d.parameters[1],
-                    {},
-                    {}};
-      // Draws per reading are many and matter little each: they stay plain Monte Carlo.
-      if (design == PointSet::sobol && source.stream.reading == 0) {
-        source.dimension = take_dimension(variate.key, taken);
-        for (std::uint32_t purpose = 0; source.dimension && purpose < purposes; ++purpose) {
-          random::Stream stream = source.stream;
-          stream.purpose = static_cast<std::uint16_t>(purpose);
-          source.sobol.emplace_back(purpose * dimensions_per_purpose + *source.dimension,
-                                    random::derived_key(stream, 0x736f'626f'6c00)); // "sobol"
-        }
-      }
-      sources.push_back(std::move(source));
-    }
+    for (const Variate& variate : plan.variates)
+      sources.push_back(source(variate.key, reading_of(variate.cell), variate.distribution, taken));
+    for (const CopulaGroup& group : copulas)
+      shared_scales.push_back(group.multivariate_t()
+                                  ? std::optional(source(group.key, sources[group.variates[0]].stream.reading,
+                                                         group.shared_scale(), taken))
+                                  : std::nullopt);
     for (const CopulaGroup& group : copulas)
       for (const std::size_t v : group.variates) tied[v] = true;
+  }
+
+  Source source(std::uint64_t key, std::uint32_t reading, const Distribution& d, std::set<std::uint32_t>& taken) const {
+    Source out{{key, reading, 0, 0}, QuantileFunction(d), d.family == Family::normal, d.parameters[0],
+               d.parameters[1],      {},                  {}};
+    // Draws per reading are many and matter little each: they stay plain Monte Carlo.
+    if (design != PointSet::sobol || reading != 0) return out;
+    out.dimension = take_dimension(key, taken);
+    for (std::uint32_t purpose = 0; out.dimension && purpose < purposes; ++purpose) {
+      random::Stream stream = out.stream;
+      stream.purpose = static_cast<std::uint16_t>(purpose);
+      out.sobol.emplace_back(purpose * dimensions_per_purpose + *out.dimension,
+                             random::derived_key(stream, 0x736f'626f'6c00)); // "sobol"
+    }
+    return out;
   }
 
   void uniforms(const Source& source, std::uint64_t first, std::size_t n, Purpose purpose, double* out) const {
@@ -84,10 +89,17 @@ struct Sampler::Impl {
     }
   }
 
-  /// Normal scores z, tied by L z in place, then back to deviates.
-  void draw_group(const CopulaGroup& group, std::uint64_t first, std::size_t n, Purpose purpose, double* out,
+  /// Normal scores z, tied by L z in place, then back to deviates: by their distributions, or divided by sqrt(W).
+  void draw_group(std::size_t g, std::uint64_t first, std::size_t n, Purpose purpose, double* out,
                   std::size_t stride) const {
+    const CopulaGroup& group = copulas[g];
     const std::size_t size = group.variates.size();
+    std::array<double, strip> widening; // 1 / sqrt(W)
+    if (shared_scales[g]) {
+      uniforms(*shared_scales[g], first, n, purpose, widening.data());
+      shared_scales[g]->quantile(widening.data(), widening.data(), n);
+      for (std::size_t k = 0; k < n; ++k) widening[k] = 1 / std::sqrt(widening[k]);
+    }
     static const QuantileFunction score(Distribution{Family::normal, {0, 1}, {}, {}});
     const auto row = [&](std::size_t i) { return out + group.variates[i] * stride; };
     for (std::size_t i = 0; i < size; ++i) {
@@ -103,7 +115,9 @@ struct Sampler::Impl {
         for (std::size_t k = 0; k < n; ++k) z[k] += factor[j] * other[k];
       }
       const Source& source = sources[group.variates[i]];
-      if (source.normal) {
+      if (shared_scales[g]) {
+        for (std::size_t k = 0; k < n; ++k) z[k] = source.mean + source.u * (z[k] * widening[k]);
+      } else if (source.normal) {
         for (std::size_t k = 0; k < n; ++k) z[k] = source.mean + source.u * z[k];
       } else {
         kernels().normal_probability(z, z, n);
@@ -119,7 +133,6 @@ Sampler::Sampler(const SamplePlan& plan, PointSet design, std::uint64_t total)
 Sampler::~Sampler() = default;
 
 void Sampler::draw(std::uint64_t first, std::size_t n, Purpose purpose, double* out, std::size_t stride) const {
-  constexpr std::size_t strip = 512; // stays in the first-level cache between the steps
   for (std::size_t start = 0; start < n; start += strip) {
     const std::size_t count = std::min(strip, n - start);
     for (std::size_t v = 0; v < impl_->sources.size(); ++v) {
@@ -128,8 +141,8 @@ void Sampler::draw(std::uint64_t first, std::size_t n, Purpose purpose, double* 
       impl_->uniforms(impl_->sources[v], first + start, count, purpose, row);
       impl_->sources[v].quantile(row, row, count);
     }
-    for (const CopulaGroup& group : impl_->copulas)
-      impl_->draw_group(group, first + start, count, purpose, out + start, stride);
+    for (std::size_t g = 0; g < impl_->copulas.size(); ++g)
+      impl_->draw_group(g, first + start, count, purpose, out + start, stride);
   }
 }
 

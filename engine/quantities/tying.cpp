@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/hash.h"
 #include "quantities/cells.h"
 #include "quantities/copula.h"
 
@@ -128,7 +129,10 @@ private:
           fail(fmt::format("{} is already part of another correlation", correlation_.quantities[i]), "",
                "use one matrix for all of them");
     }
-    CopulaGroup group{variates, {}, correlation_.matrix};
+    CopulaGroup group;
+    group.variates = variates;
+    group.matrix = correlation_.matrix;
+    if (correlation_.kind == Correlation::Kind::multivariate_t) share_degrees_of_freedom(group);
     for (std::size_t i = 0; i < n_; ++i)
       for (std::size_t j = 0; j < i; ++j) {
         const Variate &a = plan_.variates[variates[i]], &b = plan_.variates[variates[j]];
@@ -138,6 +142,23 @@ private:
       }
     group.cholesky = cholesky_factor(group.matrix, n_, group_);
     plan_.copulas.push_back(std::move(group));
+  }
+
+  /// A multivariate t distribution has one number of degrees of freedom, that of the standard deviation its estimates
+  /// share.
+  void share_degrees_of_freedom(CopulaGroup& group) const {
+    for (const std::size_t v : group.variates) {
+      const Variate& variate = plan_.variates[v];
+      const double nu = variate.distribution.family == Family::t ? variate.distribution.parameters[2] : 0;
+      if (group.degrees_of_freedom == 0) group.degrees_of_freedom = nu;
+      if (nu == 0 || std::abs(nu - group.degrees_of_freedom) > 1e-9 * nu)
+        fail(fmt::format("{} has {}", variate.name,
+                         nu == 0 ? "no degrees of freedom" : fmt::format("{:.6g} degrees of freedom", nu)),
+             "estimates of a multivariate t distribution share the degrees of freedom of one standard deviation",
+             "give all of them u with the same degrees_of_freedom, or use the kind copula");
+      group.key += variate.key; // whatever the order of the members
+    }
+    group.key = hash64("multivariate t", group.key);
   }
 
   std::span<const InputQuantity> quantities_;

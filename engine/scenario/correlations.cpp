@@ -18,9 +18,10 @@ Options<Correlation> correlation_options() {
       option::texts("quantities", &Correlation::quantities, R"("minItems": 2)",
                     "at least two quantities: \"name\", \"name.component\" or \"name[label value]\"")
           .needed(),
-      option::word("kind", &Correlation::kind, {{"copula", copula}, {"pearson", pearson}, {"spearman", spearman}},
-                   "kind of the coefficient; there is no default")
-          .needed("use copula, pearson or spearman"),
+      option::word("kind", &Correlation::kind, {{"copula", copula}, {"pearson", pearson}, {"spearman", spearman}, {"multivariate_t", multivariate_t}},
+                   "kind of the coefficient; multivariate_t: estimates of one fit or of simultaneous observations, with one "
+                   "standard deviation and its degrees of freedom; there is no default")
+          .needed("use copula, pearson, spearman or multivariate_t"),
       option::by_hand<Correlation>("coefficient", coefficient, "correlation coefficient of two quantities"),
       option::by_hand<Correlation>("matrix", shape::list(shape::list(coefficient)),
                                    "a row and a column per quantity; symmetric, 1 on the diagonal"),

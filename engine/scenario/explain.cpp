@@ -45,12 +45,10 @@ std::string described(const Distribution& d, const std::string& si_unit) {
 }
 
 void explain(const Component& c, const InputQuantity& q, Lines out) {
-  const double variance = c.distribution.variance();
-  const std::string u = std::isfinite(variance) ? fmt::format("u {:.6g}{}", std::sqrt(variance), suffix(q.si_unit))
-                                                : std::string("no standard uncertainty");
+  const std::string u = fmt::format("u {:.6g}{}", c.distribution.standard_uncertainty(), suffix(q.si_unit));
   fmt::format_to(out, "      {}: {}, {}, Type {}, {}", c.name, described(c.distribution, q.si_unit), u, c.evaluation,
                  c.per.empty() ? "one draw" : fmt::format("one draw per {}", fmt::join(c.per, ", ")));
-  if (c.degrees_of_freedom > 0) fmt::format_to(out, ", {:.6g} degrees of freedom", c.degrees_of_freedom);
+  if (std::isfinite(c.degrees_of_freedom)) fmt::format_to(out, ", {:.6g} degrees of freedom", c.degrees_of_freedom);
   if (!c.source.empty()) fmt::format_to(out, ", source: {}", c.source);
   fmt::format_to(out, "\n");
 }

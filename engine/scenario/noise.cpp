@@ -73,7 +73,7 @@ private:
     else
       c.distribution = {Family::normal, {0, scale}, nullptr, nullptr};
     c.evaluation = r.evaluation;
-    c.degrees_of_freedom = scatter.degrees_of_freedom;
+    if (scatter.degrees_of_freedom > 0) c.degrees_of_freedom = scatter.degrees_of_freedom;
     c.per = {"reading"};
     c.source = r.source;
     return c;

@@ -16,6 +16,8 @@ Options<Adaptive> adaptive_options() {
       rule,
       option::whole("digits", &Adaptive::digits, 1, 4, "n_dig, number of meaningful significant digits of u"),
       option::whole("max_samples", &Adaptive::most, 20'000, most, "number of samples at which the rule gives up"),
+      option::flag("validation", &Adaptive::validation,
+                   "aim at a fifth of the tolerance, so that the validation of the GUM framework is decided"),
   };
 }
 

@@ -39,6 +39,7 @@ struct Adaptive {
   StoppingRule rule = StoppingRule::fixed;
   int digits = 2;                   ///< n_dig, significant digits of u regarded as meaningful
   std::uint64_t most = 100'000'000; ///< samples; the rule gives up there and says so
+  bool validation = false;          ///< aim at a fifth of the tolerance, which clause 8 of JCGM 101 needs
 };
 
 struct RunOptions {
@@ -135,7 +136,7 @@ struct EstimateOptions {
   least_squares::Loss loss = least_squares::Loss::squared;
   double width = 0;      ///< of the loss, in standard deviations of a residual; 0: the usual one
   int iterations = 2000; ///< of each attempt of the solver
-  bool t = false;        ///< posterior as t where the noise is estimated: as normal otherwise
+  bool t = true;         ///< posterior as t where the noise is estimated: as normal otherwise
 };
 
 /// A condition that goes evenly from `first`, to `last` excluded, over the readings.

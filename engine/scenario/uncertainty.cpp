@@ -51,10 +51,6 @@ std::optional<Uncertainty> read_observations(Table& table, const Form& form, Con
         fmt::format("{}: the {} observations are equal: their Type A uncertainty is zero; state the "
                     "resolution of the readout instead",
                     table.path(), x.size()));
-  } else if (x.size() < 4) {
-    context.notes.push_back(fmt::format("{}: {} observations give a t distribution with {} degrees of freedom, which "
-                                        "has no standard uncertainty: only quantiles are given",
-                                        table.path(), x.size(), x.size() - 1));
   }
   return out;
 }
@@ -80,6 +76,25 @@ std::optional<Uncertainty> read_distribution(Table& table, const Form& form, Con
   out.component.distribution = located->distribution;
   out.value = located->value;
   return out;
+}
+
+/// Finite degrees of freedom of u make a normal distribution a t, of a Type A evaluation (JCGM 101:2008, 6.4.9) and of a
+/// certificate (6.4.9.7) alike. For other families they only enter the effective degrees of freedom (GUM G.4.2).
+void apply_degrees_of_freedom(Component& c, std::optional<double> declared, Table& table, Context& context) {
+  if (declared) c.degrees_of_freedom = *declared;
+  auto& d = c.distribution;
+  if (d.family == Family::normal && std::isfinite(c.degrees_of_freedom)) {
+    if (table.has("distribution"))
+      context.notes.push_back(fmt::format("{}: a standard uncertainty with {:.6g} degrees of freedom is drawn from a t "
+                                          "distribution (JCGM 101, 6.4.9)",
+                                          table.path(), c.degrees_of_freedom));
+    d = {Family::t, {d.parameters[0], d.parameters[1], c.degrees_of_freedom}, nullptr, nullptr};
+  }
+  if (d.family == Family::t && d.parameters[1] > 0 && d.parameters[2] <= 2)
+    context.notes.push_back(fmt::format("{}: a t distribution with {:.6g} degrees of freedom has no {}: only quantiles "
+                                        "are given",
+                                        table.path(), d.parameters[2],
+                                        d.parameters[2] > 1 ? "standard deviation" : "expectation"));
 }
 
 void check_scope(Table& table, const std::vector<std::string>& per, Context& context) {
@@ -123,7 +138,8 @@ std::vector<Key> uncertainty_keys() {
       {"observations", list(measure, R"("minItems": 2)"),
        "Type A evaluation: repeated observations, giving a t distribution with n - 1 degrees of freedom"},
       {"evaluation", words({"A", "B"}), "Type A or Type B evaluation (GUM 2.3.2, 2.3.3)"},
-      {"degrees_of_freedom", positive, "default: infinite"},
+      {"degrees_of_freedom", positive,
+       "degrees of freedom of u; finite ones make a normal distribution a t (JCGM 101, 6.4.9); default: infinite"},
       {"per", any_of({text(), list(text())}),
        "scope: one draw per combination of these labels, or per \"reading\"; default: a single draw"},
       {"source", reference("source")},
@@ -146,7 +162,7 @@ std::optional<Uncertainty> read_uncertainty(Table& table, const Form& form, Cont
   if (!out) return std::nullopt;
   Component& c = out->component;
   if (evaluation) c.evaluation = *evaluation ? 'B' : 'A';
-  if (degrees) c.degrees_of_freedom = *degrees;
+  apply_degrees_of_freedom(c, degrees, table, context);
   c.per = per;
   c.source = source;
   return out;

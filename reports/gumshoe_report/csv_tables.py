@@ -1,7 +1,6 @@
 """The tables as CSV: display units, all digits (reports/README.md)."""
 import csv
 import json
-import math
 import pathlib
 
 from .tables import point, spread
@@ -38,7 +37,7 @@ def plain(r):
     """Summary, budget and the tables of the other studies."""
     return {
         "summary": [line("summary", o, r=r) for o in r.outputs],
-        "budget": [{"output": b.output, **line("budget", c, b), "degrees_of_freedom": c.degrees_of_freedom or math.inf}
+        "budget": [{"output": b.output, **line("budget", c, b), "degrees_of_freedom": c.degrees_of_freedom}
                    for b in r.budgets for c in b.rows],
         "validation": [line("validation", v) for v in r.validations],
         "comparison": [line("comparison", c) for c in r.comparisons]}

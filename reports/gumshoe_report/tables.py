@@ -82,7 +82,7 @@ def budget_row(b, c, factor):
     return types.SimpleNamespace(
         name=c.name, unit=unit_text(c.display_units) or "1", estimate=fixed(point(c, c.estimate), decimals(u)),
         u=significant(u) if math.isfinite(c.standard_uncertainty) else "none", evaluation=c.evaluation,
-        distribution=c.distribution, dof=f"{c.degrees_of_freedom:.4g}" if c.degrees_of_freedom > 0 else "∞",
+        distribution=c.distribution, dof=f"{c.degrees_of_freedom:.4g}" if math.isfinite(c.degrees_of_freedom) else "∞",
         differentiable=bool(c.differentiable),
         sensitivity=significant(c.sensitivity * b.display_factor / c.display_factor, 3),
         sensitivity_unit=coefficient_unit(b.display_units, c.display_units),
@@ -114,7 +114,7 @@ def budget(b, u_monte_carlo=math.nan):
         correlation=percent(b.correlation_share), fine_unit=unit_text(fine),
         interactions=percent(b.monte_carlo_interactions), u=significant(spread(b, u)),
         u_fine=significant(factor * spread(b, u)), u_monte_carlo=significant(factor * spread(b, u_monte_carlo)),
-        dof="∞" if dof == 0 else fixed(dof, 0) if math.isfinite(dof) else "not defined, inputs correlated",
+        dof="∞" if math.isinf(dof) else "not defined, inputs correlated" if math.isnan(dof) else fixed(dof, 0),
         k=fixed(b.coverage_factor, 2), U=significant(spread(b, b.expanded_uncertainty)),
         estimate=fixed(point(b, b.estimate), decimals(spread(b, u))),
         remarks=moved + [text for text in (getattr(b, "remark", ""),) if text])

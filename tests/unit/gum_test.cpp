@@ -156,7 +156,7 @@ TEST_CASE("an aligned square rod: the framework does not apply, and says by what
   Memory memory(2);
   propagation::propagate(e, memory, {});
   const auto summary = analysis::summarise(e.outputs()[0], memory.rows[0], 0.95);
-  CHECK(analysis::validate(b, summary, 2).verdict == "not applicable");
+  CHECK(analysis::validate(b, summary, 0.95, 2).verdict == "not applicable");
   // 5 mm times |pitch|, pitch ~ N(0, 0.01 deg): bias 4.97 mm E|pitch| = 0.70 um.
   const double exact = 4.97e-3 * 0.01 * deg * std::sqrt(2 / 3.14159265358979);
   CHECK(exact == Approx(0.69 * um).epsilon(0.01));

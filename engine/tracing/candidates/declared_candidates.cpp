@@ -53,7 +53,7 @@ double declared_uncertainty(const InputQuantity& q, const quantities::Labels& la
   double variance = 0;
   for (const auto& entry : q.entries)
     if (quantities::holds_for(entry.labels, labels))
-      for (const auto& c : entry.components) variance += c.distribution.variance();
+      for (const auto& c : entry.components) variance += std::pow(c.distribution.standard_uncertainty(), 2);
   return std::sqrt(variance);
 }
 

@@ -47,11 +47,7 @@ void Fitter::find_unknowns() {
 
 void Fitter::find_draws() {
   const auto& plan = experiment_.plan();
-  for (const auto& v : plan.variates) {
-    const double variance = v.distribution.variance();
-    draws_.push_back(
-        {v.name, std::isfinite(variance) ? std::sqrt(variance) : std::fabs(v.distribution.parameters[1]), {}, false});
-  }
+  for (const auto& v : plan.variates) draws_.push_back({v.name, v.distribution.standard_uncertainty(), {}, false});
   for (std::size_t r = 0; r < observations_.readings; ++r)
     for (std::size_t q = 0; q < plan.gather[r].size(); ++q)
       for (const std::size_t v : plan.columns[plan.gather[r][q]].variates) draws_[v].moves.push_back({r, q});

@@ -151,7 +151,7 @@ private:
         const double r = t_.estimate.correlation[uncertain_[i] * all + uncertain_[j]];
         matrix.push_back(i == j ? 1 : almost_one * r);
       }
-    text_.tie(draws_, matrix, source("estimated together"));
+    text_.tie(draws_, matrix, "pearson", source("estimated together"));
   }
 
   void add(const Addition& a) {

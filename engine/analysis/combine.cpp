@@ -1,0 +1,93 @@
+#include "analysis/combine.h"
+
+#include <cmath>
+#include <map>
+
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
+
+#include "quantities/copula.h"
+
+namespace gumshoe::analysis {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+} // namespace
+
+Correlations::Correlations(const quantities::SamplePlan& plan)
+    : plan_(plan), places_(plan.variates.size(), {plan.copulas.size(), 0}), coefficients_(plan.copulas.size()) {
+  for (std::size_t g = 0; g < plan.copulas.size(); ++g)
+    for (std::size_t i = 0; i < plan.copulas[g].variates.size(); ++i) places_[plan.copulas[g].variates[i]] = {g, i};
+}
+
+double Correlations::coefficient(std::size_t g, std::size_t i, std::size_t j) {
+  const auto& group = plan_.copulas[g];
+  const std::size_t n = group.variates.size();
+  const double stated = group.matrix[i * n + j];
+  if (i == j || stated == 0 || group.multivariate_t()) return stated;
+  if (coefficients_[g].empty()) coefficients_[g].assign(n * n, nan);
+  double& r = coefficients_[g][std::min(i, j) * n + std::max(i, j)];
+  if (std::isnan(r))
+    r = quantities::pearson_coefficient(stated, plan_.variates[group.variates[i]].distribution,
+                                        plan_.variates[group.variates[j]].distribution);
+  return r;
+}
+
+double Correlations::between(std::size_t a, std::size_t b) {
+  if (a == b) return 1;
+  const Place at = places_[a], other = places_[b];
+  return at.group == other.group && at.group < plan_.copulas.size() ? coefficient(at.group, at.member, other.member) : 0;
+}
+
+CombinedVariance Correlations::combine(std::span<const Term> terms) {
+  struct Sum { // of the terms of one variate
+    double contribution = 0, degrees = 0;
+  };
+  std::vector<std::map<std::size_t, Sum>> groups(plan_.copulas.size() + 1); // by variate; the last: in no group
+  CombinedVariance out;
+  for (const Term& t : terms) {
+    if (t.contribution == 0) continue;
+    Sum& sum = groups[places_[t.variate].group][t.variate];
+    out.independent += t.contribution * t.contribution;
+    out.correlation += 2 * sum.contribution * t.contribution;
+    sum.contribution += t.contribution;
+    sum.degrees = t.degrees_of_freedom;
+  }
+  double satterthwaite = 0;
+  for (const auto& [v, sum] : groups.back()) satterthwaite += std::pow(sum.contribution, 4) / sum.degrees;
+  for (std::size_t g = 0; g < plan_.copulas.size(); ++g) {
+    if (groups[g].empty()) continue;
+    const double degrees =
+        plan_.copulas[g].multivariate_t() ? plan_.copulas[g].degrees_of_freedom : groups[g].begin()->second.degrees;
+    double own = 0, between_members = 0;
+    for (auto a = groups[g].begin(); a != groups[g].end(); ++a) {
+      out.unequal |= a->second.degrees != degrees;
+      own += a->second.contribution * a->second.contribution;
+      for (auto b = groups[g].begin(); b != a; ++b)
+        between_members += 2 * between(a->first, b->first) * a->second.contribution * b->second.contribution;
+    }
+    out.correlation += between_members;
+    satterthwaite += std::pow(own + between_members, 2) / degrees;
+  }
+  if (out.unequal)
+    out.effective_degrees_of_freedom = nan;
+  else if (satterthwaite > 0)
+    out.effective_degrees_of_freedom = out.total() * out.total() / satterthwaite;
+  return out;
+}
+
+Expansion expand(const CombinedVariance& combined, double coverage_probability) {
+  Expansion x;
+  x.effective_degrees_of_freedom = combined.effective_degrees_of_freedom;
+  if (x.effective_degrees_of_freedom >= 1) // not one less by rounding
+    x.effective_degrees_of_freedom = std::floor(x.effective_degrees_of_freedom * (1 + 1e-12));
+  const double tail = 0.5 * (1 + coverage_probability);
+  x.coverage_factor = x.effective_degrees_of_freedom < 1e6
+                          ? quantile(boost::math::students_t(x.effective_degrees_of_freedom), tail)
+                          : quantile(boost::math::normal(), tail);
+  x.expanded_uncertainty = x.coverage_factor * std::sqrt(combined.total());
+  return x;
+}
+
+} // namespace gumshoe::analysis
