@@ -18,7 +18,7 @@ constexpr double centre[] = {12.3456 * mm, 8.4 * um, 170 * deg, 3.2 * um};
 constexpr double spread[] = {2.1 * um, 1.7 * um, 11 * deg, 1.9 * um};
 
 Contribution contribution(const char* name, const char* unit, const char* si, double estimate, double u, double c,
-                          const char* distribution, double dof = 0) {
+                          const char* distribution, double dof = std::numeric_limits<double>::infinity()) {
   Contribution row;
   row.name = row.quantity = name;
   row.unit = unit;
@@ -29,7 +29,7 @@ Contribution contribution(const char* name, const char* unit, const char* si, do
   row.contribution = std::abs(c) * u;
   row.distribution = distribution;
   row.degrees_of_freedom = dof;
-  row.evaluation = dof > 0 ? 'A' : 'B';
+  row.evaluation = std::isfinite(dof) ? 'A' : 'B';
   row.monte_carlo_share = none;
   row.source = "assumed";
   return row;

@@ -65,15 +65,15 @@ private:
 };
 
 /// Deviation of one component.
-inline quantities::Component component(Family family, std::array<double, 4> p, double dof = 0) {
+inline quantities::Component component(Family family, std::array<double, 4> p, double dof = HUGE_VAL) {
   quantities::Component c;
   c.name = "c1";
   c.distribution = {family, p, nullptr, nullptr};
   c.degrees_of_freedom = dof;
-  c.evaluation = dof > 0 ? 'A' : 'B';
+  c.evaluation = std::isfinite(dof) ? 'A' : 'B';
   return c;
 }
-inline quantities::Component normal(double u, double dof = 0) { return component(Family::normal, {0, u}, dof); }
+inline quantities::Component normal(double u, double dof = HUGE_VAL) { return component(Family::normal, {0, u}, dof); }
 inline quantities::Component rectangular(double half) { return component(Family::rectangular, {-half, half}); }
 inline quantities::Component student(double scale, double dof) { return component(Family::t, {0, scale, dof}, dof); }
 

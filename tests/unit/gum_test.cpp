@@ -46,12 +46,12 @@ scenario::Scenario rod2(const std::map<std::string, std::vector<quantities::Comp
   return s;
 }
 
-quantities::Component component(Family family, std::array<double, 4> p, double dof = 0, const char* name = "c1") {
+quantities::Component component(Family family, std::array<double, 4> p, double dof = HUGE_VAL, const char* name = "c1") {
   quantities::Component c;
   c.name = name;
   c.distribution = {family, p, nullptr, nullptr};
   c.degrees_of_freedom = dof;
-  c.evaluation = dof > 0 ? 'A' : 'B';
+  c.evaluation = std::isfinite(dof) ? 'A' : 'B';
   return c;
 }
 
@@ -87,7 +87,7 @@ TEST_CASE("budget of laser_z: lengths enter with slope one, pitch with the rod's
   CHECK(sum + b.correlation_share == Approx(1).epsilon(1e-12));
   CHECK(b.combined_standard_uncertainty ==
         Approx(std::hypot(1 * um, 0.5 * um / std::sqrt(3.0), 4.97e-3 * 0.01 * deg)).epsilon(2e-3));
-  CHECK(b.effective_degrees_of_freedom == 0);
+  CHECK(std::isinf(b.effective_degrees_of_freedom));
   CHECK(b.coverage_factor == Approx(1.959964));
 }
 
@@ -252,4 +252,24 @@ TEST_CASE("a virtual experiment of a perfect evaluation shows only what was draw
   propagation::propagate(conventional, biased, {});
   // Ignoring the geometry of rod 2 puts the beam 0.1119 mm too high.
   CHECK(analysis::summarise(e.outputs()[1], biased.rows[1], 0.95).estimate == Approx(0.111943e-3).epsilon(1e-3));
+}
+
+TEST_CASE("too few trials give no interval, and no verdict on a linear normal model", "[gum]") {
+  auto s = rod2({{"rod_length", {component(Family::normal, {0, 3 * um})}},
+                 {"spindle_z", {component(Family::normal, {0, 4 * um})}}});
+  for (const std::uint64_t samples : {2, 8, 20, 100, 1000, 2000, 5000, 20'000})
+    for (std::uint64_t seed = 1; seed <= 25; ++seed) {
+      s.run.samples = samples;
+      s.run.seed = seed;
+      const propagation::Experiment e(s);
+      Memory memory(2);
+      propagation::propagate(e, memory, {});
+      const auto summary = analysis::summarise(e.outputs()[1], memory.rows[1], 0.95);
+      const auto v = analysis::validate(analysis::budget(e, 1, 0.95), summary, 0.95, 2);
+      INFO(samples << " trials: " << v.verdict << ", " << v.reason);
+      // 1 / (1 - p) = 20 trials are the least of which an interval leaves one out.
+      CHECK(std::isnan(summary.symmetric.low) == (samples < 20));
+      CHECK(v.verdict == "undecided");
+      CHECK_THAT(v.reason, Catch::Contains(samples < 2000 ? "too few to compare" : "trials are needed"));
+    }
 }

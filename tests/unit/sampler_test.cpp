@@ -17,7 +17,7 @@ namespace {
 Distribution make(Family family, std::array<double, 4> parameters) { return {family, parameters, {}, {}}; }
 
 Component component(std::string name, Distribution d, std::vector<std::string> per = {}) {
-  return {std::move(name), d, 'B', 0, std::move(per), ""};
+  return {std::move(name), d, 'B', HUGE_VAL, std::move(per), ""};
 }
 
 InputQuantity quantity(std::string name, std::vector<Component> components, double value = 0) {

@@ -76,7 +76,7 @@ std::unique_ptr<Toy> experiment(const std::vector<Distribution>& inputs, std::ui
   s.correlations = correlations;
   s.analysis.sensitivity.second_order = second_order;
   for (std::size_t q = 0; q < F::inputs; ++q)
-    s.quantities.push_back({"x" + std::to_string(q + 1), "1", "1", {{{}, 0, {{"c", inputs[q], 'B', 0, {}, ""}}, ""}}});
+    s.quantities.push_back({"x" + std::to_string(q + 1), "1", "1", {{{}, 0, {{"c", inputs[q], 'B', HUGE_VAL, {}, ""}}, ""}}});
   s.readings.push_back({{}, {}, {}, 1});
   toy->experiment = std::make_unique<propagation::Experiment>(s);
   return toy;

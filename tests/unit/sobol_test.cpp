@@ -218,7 +218,7 @@ TEST_CASE("the draws of one quantity together are one factor", "[sobol]") {
   // y = x1 x2 + x3, x1 the sum of two draws: S_1 = v1 m2^2 / V and T_1 = S_1 + v1 v2 / V, with v1 the sum of two.
   const auto toy = experiment<Borgonovo>(Borgonovo::distributions(), 5, {}, true);
   auto& s = toy->scenario;
-  s.quantities[0].entries[0].components.push_back({"more", normal(0.3), 'B', 0, {}, ""});
+  s.quantities[0].entries[0].components.push_back({"more", normal(0.3), 'B', HUGE_VAL, {}, ""});
   s.analysis.sensitivity.by_quantity = true;
   const propagation::Experiment grouped(s);
   const double v = 1 / 12., v1 = v + 0.09, all = v1 * v + v1 / 4 + v / 4 + v;

@@ -10,6 +10,13 @@ using namespace gum_models;
 
 namespace {
 
+struct Identity {
+  static constexpr const char* inputs[] = {"x"};
+  static constexpr const char* outputs[] = {"y"};
+  static constexpr const char* unit = "1";
+  template <class T> static void f(const T* x, T* y) { y[0] = x[0] + 0.0; }
+};
+
 quantities::Distribution family(Family f, std::array<double, 4> p) { return {f, p, nullptr, nullptr}; }
 
 std::vector<double> drawn(const quantities::Distribution& d, std::size_t n, std::uint64_t seed) {
@@ -99,6 +106,42 @@ TEST_CASE("Hill's index of a Pareto tail is its exponent", "[tails]") {
     CHECK(std::isnan(s.standard_uncertainty) == (a < 2));
     CHECK(s.warning.starts_with("no standard uncertainty") == (a < 2));
   }
+}
+
+TEST_CASE("where no expectation exists the estimate is the median, and says so", "[tails]") {
+  constexpr std::size_t n = 100'000;
+  const auto of = [](std::vector<double> y) {
+    analysis::Summary s = analysis::summarise({}, y, 0.95);
+    analysis::check_tails(y, s);
+    return s;
+  };
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    // 1/b through zero, b normal about 0.5: P(1/b < m) = 1/2 at b = 1/m with Phi(1/m - 0.5) - Phi(-0.5) = 1/2.
+    auto inverse = drawn(family(Family::normal, {0.5, 1}), n, seed);
+    for (double& v : inverse) v = 1 / v;
+    const auto s = of(inverse);
+    CHECK(s.estimate_is_median);
+    const double b = 0.5 + quantities::Distribution{Family::normal, {0, 1}, {}, {}}.quantile(0.5 + 0.3085375387);
+    CHECK(std::fabs(s.estimate - 1 / b) < 4 * s.estimate_se);
+    CHECK(s.estimate_se < 0.02);
+    CHECK(s.warning.starts_with("no expectation exists, and the estimate is the median; no standard uncertainty"));
+    // Heavy tails with an expectation keep the mean.
+    auto pareto = drawn(family(Family::rectangular, {0, 1}), n, seed);
+    for (double& v : pareto) v = std::pow(v, -1 / 1.5);
+    CHECK_FALSE(of(pareto).estimate_is_median);
+    CHECK_FALSE(of(drawn(family(Family::t, {0, 1, 3}), n, seed)).estimate_is_median);
+  }
+}
+
+TEST_CASE("two observations give a median, not a mean", "[tails]") {
+  auto s = scenario_of<Identity>({{7, {student(0.3, 1)}}}, 200'000);
+  const auto r = analysed(s);
+  CHECK(r.summaries[0].estimate_is_median);
+  CHECK(std::fabs(r.summaries[0].estimate - 7) < 4 * r.summaries[0].estimate_se);
+  CHECK(r.summaries[0].estimate_se < 0.005); // 0.3 pi / 2 / sqrt(n): the mean of a Cauchy does not converge at all
+  CHECK_THAT(r.summaries[0].statement, Catch::Contains("median, because no expectation exists"));
+  CHECK(std::isnan(r.summaries[0].standard_uncertainty));
+  CHECK_FALSE(analysed(scenario_of<Identity>({{7, {student(0.3, 2)}}}, 200'000)).summaries[0].estimate_is_median);
 }
 
 TEST_CASE("constant, tiny and failed samples", "[tails]") {
