@@ -91,14 +91,17 @@ void Fit::covariance(Estimate& out) const {
 
 /// What the covariance of rows in standard deviations is multiplied by; sets s and its degrees of freedom.
 double Fit::variance_factor(Estimate& out, std::size_t rank) const {
-  double squares = 0, psi = 0, slopes = 0;
+  double squares = 0, psi = 0, slopes = 0, kept = 0; // a reading that the loss rejects, with weight 0, is not one
   for (const double r : solution_.residuals) {
     const double w = least_squares::weight(loss_, r, width_);
+    if (w == 0) continue;
+    kept += 1;
     squares += r * r;
     psi += (w * r) * (w * r);
-    slopes += slope(loss_, r, width_) / static_cast<double>(n_);
+    slopes += slope(loss_, r, width_);
   }
-  const double left = static_cast<double>(n_) - static_cast<double>(rank);
+  slopes /= kept;
+  const double left = kept - static_cast<double>(rank);
   out.residual_sum_of_squares = squares * sigma_ * sigma_;
   // Repeats of a reading know the noise too: with them the fit of the means is the fit of all readouts.
   const bool repeats = !data_.noise_declared && loss_ == Loss::squared;

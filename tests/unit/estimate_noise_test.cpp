@@ -137,6 +137,18 @@ TEST_CASE("pulls of a rod's fit have mean 0 and standard deviation 1", "[calibra
   of_pitch.check();
 }
 
+TEST_CASE("a reading that Tukey's loss rejects leaves the degrees of freedom, too", "[calibration]") {
+  const std::vector<double> x{0, 1, 2, 3, 4, 5, 6, 7}, y{1.1, 2.9, 5.2, 6.8, 9.1, 11.05, 13.0, 15.1};
+  auto far_x = x, far_y = y;
+  far_x.push_back(3.5), far_y.push_back(400);
+  const std::string tukey = "[estimate]\nloss = \"tukey\"\n";
+  const auto without = calibration::estimate(Case(line(x, y, free_line + tukey)).experiment);
+  const auto rejected = calibration::estimate(Case(line(far_x, far_y, free_line + tukey)).experiment);
+  REQUIRE(rejected.rows.back().weight == 0);
+  CHECK(without.degrees_of_freedom == 6);
+  CHECK(rejected.degrees_of_freedom == 6);
+}
+
 TEST_CASE("with undeclared noise, a prior is weighted by the noise found", "[calibration]") {
   // A weak prior must leave the fit as it is without one, a strong one must hold the quantity.
   const std::vector<double> x{0, 1, 2, 3, 4, 5}, y{1.1, 2.9, 5.2, 6.8, 9.1, 11.05};
