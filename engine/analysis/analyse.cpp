@@ -17,6 +17,7 @@
 #include "analysis/shapley.h"
 #include "analysis/sobol.h"
 #include "analysis/summary.h"
+#include "analysis/scale_points.h"
 #include "analysis/tails.h"
 #include "analysis/target.h"
 #include "base/instruction_set.h"
@@ -214,6 +215,8 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, int th
     r.sensitivities = sobol_indices(e, s.analysis.sensitivity.sobol, threads);
     add_monte_carlo_column(r);
   }
+  if (!virtual_experiment)
+    for (const std::string& note : scale_point_notes(e)) r.notes.push_back(note);
   if (const double enough = 1e4 / (1 - s.analysis.coverage_probability);
       s.run.adaptive.rule == scenario::StoppingRule::fixed && static_cast<double>(samples.status().size()) < enough)
     r.notes.push_back(fmt::format("{} trials are fewer than the 10^4 / (1 - p) = {:.0f} of JCGM 101, 7.2.2: the coverage "

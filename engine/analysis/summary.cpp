@@ -52,9 +52,13 @@ double rank_error(const OrderedTails& x, double probability) {
   return 0.5 * (value(at + step) - value(at - step));
 }
 
-/// Standard deviations of the shortest interval's ends over consecutive parts of n values.
-Ends spread_over_parts(std::span<const double> in_order, std::size_t parts, std::size_t n, double p, int threads) {
-  std::vector<double> low(parts), high(parts);
+/// The shortest interval's ends have no such simple law: their spread over 16 parts of the run, scaled by
+/// the cube-root rate at which they converge. Parts need not be longer than the law needs to show.
+Ends shortest_errors(std::span<const double> in_order, double p, int threads) {
+  constexpr std::size_t runs = 16, longest = 20'000;
+  const std::size_t n = std::min(longest, in_order.size() / runs);
+  if (n < 200) return {nan, nan};
+  std::array<double, runs> low, high;
   const auto one = [&](std::size_t k) {
     const auto part = in_order.subspan(k * n, n);
     const auto valid = static_cast<std::size_t>(std::ranges::count_if(part, [](double v) { return !std::isnan(v); }));
@@ -63,36 +67,11 @@ Ends spread_over_parts(std::span<const double> in_order, std::size_t parts, std:
     high[k] = e.high;
   };
   if (threads == 1)
-    for (std::size_t k = 0; k < parts; ++k) one(k);
+    for (std::size_t k = 0; k < runs; ++k) one(k);
   else
-    propagation::parallel_for(parts, threads, one);
-  return {std::sqrt(moments(low).variance), std::sqrt(moments(high).variance)};
-}
-
-/// The shortest interval's ends have no such simple law. Inside the range of values they converge as n^(-1/3), at its end
-/// as 1/n with n^(-1/2) on the other side, where the density is flat not at all, and in between on skewed output. Their
-/// spread over 64 parts of the run is therefore scaled by the rate at which it falls from parts of a sixteenth to these;
-/// in a run too short for that, over 16 parts by the cube root. Parts need not be longer than the law needs to show.
-Ends shortest_errors(std::span<const double> in_order, double p, int threads) {
-  constexpr std::size_t parts = 64, split = 16, few_parts = 16;
-  const auto least = static_cast<std::size_t>(20 / (1 - p)); // values of a part, 10 of them beyond each end
-  const std::size_t longest = std::max<std::size_t>(8000, split * least);
-  const std::size_t all = in_order.size(), n = std::min(longest, all / parts) / split * split;
-  if (n < split * least) {
-    const std::size_t short_part = all / few_parts;
-    if (short_part < 200) return {nan, nan};
-    const Ends spread = spread_over_parts(in_order, few_parts, short_part, p, threads);
-    const double scale = std::cbrt(1.0 / few_parts);
-    return {scale * spread.low, scale * spread.high};
-  }
-  const Ends coarse = spread_over_parts(in_order, parts, n, p, threads),
-             fine = spread_over_parts(in_order, parts * split, n / split, p, threads);
-  const auto extrapolated = [&](double at_n, double at_less) {
-    if (!(at_n > 0)) return at_n;
-    const double rate = std::clamp(std::log(at_less / at_n) / std::log(double(split)), 0.0, 1.0);
-    return at_n * std::pow(static_cast<double>(n) / static_cast<double>(all), rate);
-  };
-  return {extrapolated(coarse.low, fine.low), extrapolated(coarse.high, fine.high)};
+    propagation::parallel_for(runs, threads, one);
+  const double scale = std::cbrt(static_cast<double>(n) / static_cast<double>(in_order.size()));
+  return {scale * std::sqrt(moments(low).variance), scale * std::sqrt(moments(high).variance)};
 }
 
 constexpr std::size_t bins = 100;

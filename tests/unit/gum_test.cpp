@@ -6,6 +6,7 @@
 #include "analysis/analyse.h"
 #include "analysis/derivatives.h"
 #include "analysis/gum.h"
+#include "analysis/scale_points.h"
 #include "analysis/sobol.h"
 #include "analysis/summary.h"
 #include "base/error.h"
@@ -272,4 +273,20 @@ TEST_CASE("too few trials give no interval, and no verdict on a linear normal mo
       CHECK(v.verdict == "undecided");
       CHECK_THAT(v.reason, Catch::Contains(samples < 2000 ? "too few to compare" : "trials are needed"));
     }
+}
+
+TEST_CASE("a sum and a difference of temperatures in degC are noted, a mean is not", "[gum]") {
+  const auto notes = [](const std::string& formula, const std::string& unit) {
+    const known_case::Case c("schema = 1\n[model]\nname = \"expression\"\n[model.measurands]\nt = { formula = \"" + formula +
+                             "\", unit = \"" + unit +
+                             "\" }\n[quantities.a]\nvalue = \"20 degC\"\nu = \"1 degC\"\n[quantities.b]\nvalue = \"1 "
+                             "degC\"\n[quantities.d]\nvalue = \"1 K\"\n");
+    return analysis::scale_point_notes(c.experiment);
+  };
+  CHECK(notes("(a + b) / 2", "degC").empty());
+  CHECK(notes("a + d", "degC").empty());
+  CHECK(notes("a - b", "K").empty());
+  REQUIRE(notes("a + b", "degC").size() == 1);
+  CHECK_THAT(notes("a + b", "degC")[0], Catch::Contains("add up to 2, not to 1"));
+  CHECK_THAT(notes("a - b", "degC")[0], Catch::Contains("state a difference of temperatures in K"));
 }

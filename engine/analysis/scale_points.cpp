@@ -1,0 +1,43 @@
+#include "analysis/scale_points.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "analysis/derivatives.h"
+#include "base/units.h"
+
+namespace gumshoe::analysis {
+namespace {
+
+bool has_own_zero(const std::string& unit, const std::string& si_unit) { return units::to_si(0, unit, si_unit) != 0; }
+
+} // namespace
+
+std::vector<std::string> scale_point_notes(const propagation::Experiment& e) {
+  std::vector<std::string> notes;
+  const auto& quantities = e.scenario().quantities;
+  const std::size_t measurands = e.measurands().size();
+  for (std::size_t m = 0; m < measurands && m < e.outputs().size(); ++m) {
+    const auto& output = e.outputs()[m];
+    if (!has_own_zero(output.unit, output.si_unit)) continue;
+    const auto point = e.point(output.reading);
+    const Derivatives d = differentiate(e, output.reading, m, point, false);
+    const auto& columns = e.columns_at(output.reading);
+    double weight = 0;
+    bool any = false;
+    for (std::size_t q = 0; q < point.size(); ++q) {
+      const auto& quantity = quantities[e.plan().columns[columns[q]].quantity];
+      if (d.first[q] == 0 || !has_own_zero(quantity.unit, quantity.si_unit)) continue;
+      weight += d.first[q];
+      any = true;
+    }
+    if (!any || std::isnan(weight) || std::fabs(weight - 1) < 1e-6) continue;
+    notes.push_back(fmt::format("{}: its inputs in {} enter with weights that add up to {:.4g}, not to 1, so that it is no "
+                                "point on this scale; state a difference of temperatures in K",
+                                output.measurand, output.unit, weight));
+  }
+  return notes;
+}
+
+} // namespace gumshoe::analysis

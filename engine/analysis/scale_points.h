@@ -1,0 +1,15 @@
+#pragma once
+/// Points on a scale, such as temperatures in degC: which results of theirs are points again.
+#include <string>
+#include <vector>
+
+#include "propagation/experiment.h"
+
+namespace gumshoe::analysis {
+
+/// One sentence per measurand that is stated in a unit with a zero of its own (degC, degF) but is no point on that scale:
+/// shifting all inputs in such units by one degree does not shift it by one degree. So do the sum of two temperatures,
+/// and their difference, which belongs in K. By the derivatives at the estimates of the first reading.
+std::vector<std::string> scale_point_notes(const propagation::Experiment& experiment);
+
+} // namespace gumshoe::analysis
