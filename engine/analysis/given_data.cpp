@@ -121,7 +121,10 @@ Index delta_index(const Order& x_order, const std::vector<double>& x, const Orde
     gain = size > 8 ? e.value - best.value : 0;
     best = e;
   }
-  return make_index(best.value, best.value - normal_95 * best.se, best.value + normal_95 * best.se + gain);
+  // Classes blur the densities by about the square of their width: half of what the last refinement brought is left, by
+  // numbers for normal sums with shares of 4 to 98 %, give or take a quarter of it.
+  const double value = best.value + gain / 2, half = std::hypot(normal_95 * best.se, gain / 4);
+  return make_index(value, value - half, value + half);
 }
 
 } // namespace
