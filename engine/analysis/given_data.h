@@ -14,8 +14,8 @@ namespace gumshoe::analysis {
 ///          (g_0 + 2 (g_1 - g_2)) / n. NaN where an input has no variance.
 ///   delta: half the expected L1 distance of the densities of Y and of Y given X (Borgonovo 2007), from tables of
 ///          classes of equal probability in x and in y (Plischke, Borgonovo, Smith 2013), 8 to 64 of each, the finest
-///          that pays; each cell's |difference| less its bias by chance, see README. Half of what the last refinement
-///          brought is added, the rest by which finer classes would differ; a quarter of it widens the interval.
+///          that pays; each cell's |difference| less its bias by chance, see README. A third of what the last
+///          refinement brought is added for what finer classes would bring, and widens the interval.
 /// Intervals: 95 %, for independent samples; no theory is known here for Sobol' points, for a Latin hypercube they are
 /// rather too wide. Cost: one sort per variate, shared by all outputs.
 std::vector<GivenData> given_data_indices(const propagation::Experiment& experiment, const ValuesOf& values,

@@ -73,6 +73,7 @@ void StoppingRules::look() {
       asked = std::max(asked, needed < 1e15 ? static_cast<std::uint64_t>(needed) : none); // NaN: without end
     }
   }
+  settled_ = settled;
   if (settled && jcgm_ == 0) jcgm_ = blocks_;
   if (blocks_ == first_stage) stein_ = asked;
 }
@@ -86,26 +87,29 @@ std::vector<double> StoppingRules::tolerances() const {
 namespace {
 
 /// Where the run must go next, in blocks: as far as is known to be needed.
-std::uint64_t next_goal(const StoppingRules& rules, bool stein, std::uint64_t most) {
+std::uint64_t next_goal(const StoppingRules& rules, bool stein, bool validation, std::uint64_t most) {
   const std::uint64_t done = rules.blocks();
   if (done < StoppingRules::first_stage) return std::min(StoppingRules::first_stage, most);
   const std::uint64_t needed = stein ? rules.stein_blocks() : rules.jcgm_blocks();
-  if (needed > 0) return std::min(needed, most);
+  if (needed > done || (needed > 0 && (rules.settled() || !validation))) return std::min(needed, most);
   return std::min(done + std::max<std::uint64_t>(4, done / 4), most); // the printed rule: a few more, and look again
 }
 
 } // namespace
 
+/// Of delta, where a validation needs a fifth: some less, since blocks and ranks estimate the same errors differently.
+constexpr double validation_share = 0.15;
+
 StoppingRecord run_adaptively(const propagation::Experiment& e, propagation::SampleStore& store,
                               propagation::RunSettings settings, bool& stopped) {
   const auto& options = e.scenario().run.adaptive;
   StoppingRules rules(e.outputs(), e.scenario().analysis.coverage_probability, options.digits,
-                      options.validation ? 0.2 : 1.0);
+                      options.validation ? validation_share : 1.0);
   const std::uint64_t block = rules.block(), most = std::max<std::uint64_t>(2, options.most / block);
   const bool stein = options.rule == scenario::StoppingRule::stein;
   stopped = false;
   for (;;) {
-    const std::uint64_t goal = next_goal(rules, stein, most);
+    const std::uint64_t goal = next_goal(rules, stein, options.validation, most);
     if (rules.blocks() >= goal) break;
     if (store.samples_done() / block > rules.blocks()) { // one block after another, however far was run ahead
       const std::uint64_t at = rules.blocks() * block;
@@ -131,8 +135,8 @@ StoppingRecord run_adaptively(const propagation::Experiment& e, propagation::Sam
   r.jcgm_trials = rules.jcgm_blocks() * block;
   r.stein_trials = rules.stein_blocks() == none ? 0 : rules.stein_blocks() * block;
   const std::uint64_t needed = stein ? rules.stein_blocks() : rules.jcgm_blocks();
-  r.reached = needed > 0 && needed <= most;
-  r.trials = std::min(r.reached ? needed : most, rules.blocks()) * block;
+  r.reached = needed > 0 && needed <= most && (rules.settled() || !options.validation);
+  r.trials = std::min(r.reached && !options.validation ? needed : most, rules.blocks()) * block;
   r.tolerance = rules.tolerances();
   store.resize(r.trials);
   r.statement = fmt::format("adaptive run, {} significant digits of u: {} trials by the {} rule{}; the rule of JCGM "

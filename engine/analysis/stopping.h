@@ -21,7 +21,7 @@ namespace gumshoe::analysis {
 class StoppingRules {
 public:
   static constexpr std::uint64_t first_stage = 10; ///< blocks
-  /// `share` of delta is aimed at: 1, or 1/5 for a validation (JCGM 101, 8.2).
+  /// `share` of delta is aimed at: 1, or below 1/5 for a validation (JCGM 101, 8.2).
   StoppingRules(std::vector<propagation::Output> outputs, double coverage_probability, int digits, double share = 1);
 
   std::uint64_t block() const { return block_; }
@@ -30,6 +30,8 @@ public:
   void add(std::size_t output, std::span<const double> values);
   /// Blocks after which JCGM 101 7.9 stops; 0: not yet.
   std::uint64_t jcgm_blocks() const { return jcgm_; }
+  /// All blocks so far together satisfy the criterion of JCGM 101 7.9.
+  bool settled() const { return settled_; }
   /// Blocks that the two-stage rule asks for; 0: its first stage is not complete.
   std::uint64_t stein_blocks() const { return stein_; }
   /// delta of each output from all blocks so far, SI; NaN where nothing varies or no standard uncertainty exists.
@@ -45,6 +47,7 @@ private:
   double p_, share_;
   int digits_;
   std::uint64_t block_, blocks_ = 0, jcgm_ = 0, stein_ = 0;
+  bool settled_ = false;
   std::vector<Figures> figures_;
 };
 

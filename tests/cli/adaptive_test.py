@@ -54,6 +54,23 @@ class Adaptive(unittest.TestCase):
                 self.assertEqual(other[0], n)
                 np.testing.assert_array_equal(other[1], values)
 
+    def test_validation_is_decided_or_says_how_many_trials_are_needed(self):
+        # A normal quantity by itself: the framework is right. u = 8.7 to one digit: delta = 0.5, 6 % of u.
+        text = ('schema = 1\n[model]\nname = "expression"\n[model.measurands]\ny = "x + 1"\n'
+                '[quantities.x]\nvalue = 0\nu = 8.7\n[run]\nstore_samples = false\nadaptive = { digits = 1%s }\n'
+                '[analysis]\nvalidation_digits = 1\n')
+        verdicts = {}
+        for wanted in ("", ", validation = true"):
+            scenario = self.folder / "x.toml"
+            scenario.write_text(text % wanted)
+            done = run(scenario, self.folder / f"x{len(wanted)}.h5")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            with h5py.File(self.folder / f"x{len(wanted)}.h5") as f:
+                verdicts[wanted] = [f[f"validation/{name}"].asstr()[0] for name in ("verdict", "reason")]
+        self.assertEqual(verdicts[", validation = true"][0], "validated")
+        if verdicts[""][0] != "validated":
+            self.assertRegex(verdicts[""][1], r"about \S+ trials are needed")
+
     def test_trials_are_those_of_a_run_of_that_length(self):
         scenario = adaptive(self.folder, '{ rule = "stein" }')
         run(scenario, self.folder / "a.h5")

@@ -79,11 +79,14 @@ class Estimate(unittest.TestCase):
         run = gumshoe("run", written, "--samples", "200000", "--out", self.path / "r.h5", "--format", "json")
         self.assertEqual(run.returncode, 0, run.stderr)
         out = json.loads(run.stdout)[0]
-        # u of a + 10 b = s sqrt(1/5 + 64/10); the Monte Carlo u has a relative standard error of 1/sqrt(2 N) = 0.16 %.
+        # u of a + 10 b = s sqrt(1/5 + 64/10), with 3 degrees of freedom: the interval is +-t_0.975(3) u = 3.182446 u. The
+        # density of t_3 there is 0.0176: a standard error of sqrt(0.025 0.975 / N) / 0.0176 = 0.02 u. A normal: 1.96 u.
         y = [1.1, 2.9, 5.2, 6.8, 9.1]
         s = math.sqrt(sum((v - 1.04 - 1.99 * x) ** 2 for x, v in enumerate(y)) / 3)
-        self.assertAlmostEqual(out["standard_uncertainty"] / (s * math.sqrt(6.6)), 1, delta=0.008)
-        self.assertAlmostEqual(out["estimate"], 20.94, delta=5 * s * math.sqrt(6.6 / 200000))
+        u = s * math.sqrt(6.6)
+        for end, sign in zip(out["symmetric"], (-1, 1)):
+            self.assertAlmostEqual((end - 20.94) / u, sign * 3.182446, delta=0.08)
+        self.assertAlmostEqual(out["estimate"], 20.94, delta=5 * u * math.sqrt(3 / 200000))
 
     def test_another_folder_keeps_its_data(self):
         other = self.path / "other" / "deep"

@@ -130,6 +130,8 @@ laser_z = { estimated = true, value = "-510 mm" }
 [indications.spindle_z]
 readings = ["-330 mm", "-330.001 mm"]
 repeatability = { pooled = true, evaluation = "A" }
+[run]
+adaptive = { digits = 2, validation = true }
 [trace]
 alpha = 0.01
 draws = 99

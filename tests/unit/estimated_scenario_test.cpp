@@ -20,7 +20,7 @@ TEST_CASE("the written scenario holds what was found", "[calibration]") {
   for (const auto& p : e.parameters) {
     const auto& q = scenario_fixture::quantity(written, p.unknown.name);
     CHECK(q.entries[0].value == p.value);
-    CHECK(std::sqrt(q.entries[0].components.at(0).distribution.variance()) ==
+    CHECK(q.entries[0].components.at(0).distribution.standard_uncertainty() ==
           Approx(p.standard_uncertainty).epsilon(1e-14));
     CHECK(q.entries[0].components[0].degrees_of_freedom == e.degrees_of_freedom);
     CHECK_FALSE(q.estimated);

@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "effects/effect.h"
 #include "propagation/propagate.h"
+#include "unit/known_case.h"
 
 using namespace gumshoe;
 using quantities::Family;
