@@ -13,7 +13,8 @@ struct Estimate {
 };
 
 /// value +- t SE, with SE^2 = G / (G - 1) times the sum of squares of the groups' influence sums, and t the quantile
-/// of Student's distribution with G - 1 degrees of freedom. G counts the groups that have valid rows. Below two
+/// of Student's distribution with G - 1 degrees of freedom; with fewer, 2 (G - 1) / (kurtosis - 1), where a few groups
+/// hold most of the squares, as of heavy-tailed output. G counts the groups that have valid rows. Below two
 /// groups, or without a value, the interval is NaN.
 Estimate with_interval(double value, const std::vector<double>& influence, const double* rows_of_group);
 

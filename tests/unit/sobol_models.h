@@ -110,6 +110,13 @@ struct Product {
   static std::vector<Distribution> distributions() { return {normal(1), normal(2)}; }
 };
 
+/// A lognormal of sigma^2 = 1.49, kurtosis 600.
+struct HeavyTails {
+  static constexpr std::size_t inputs = 2, outputs = 1;
+  void operator()(const auto& x, auto& y) const { y[0] = std::exp(x[0] + 0.7 * x[1]); }
+  static std::vector<Distribution> distributions() { return {normal(1), normal(1)}; }
+};
+
 struct Borgonovo {
   static constexpr std::size_t inputs = 3, outputs = 1;
   void operator()(const auto& x, auto& y) const { y[0] = x[0] * x[1] + x[2]; }

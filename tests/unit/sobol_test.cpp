@@ -174,6 +174,27 @@ TEST_CASE("intervals of Sobol' indices cover at their nominal 95 %", "[sobol][co
   check_coverage<Ishigami>(ishigami, 4096, false);
 }
 
+TEST_CASE("intervals of Sobol' indices of heavy-tailed output are wide enough", "[sobol][coverage]") {
+  // V_i = exp(a_i^2) - 1 of each factor, V = (1 + V_1)(1 + V_2) - 1.
+  const double v1 = std::expm1(1.0), v2 = std::expm1(0.49), v = (1 + v1) * (1 + v2) - 1;
+  const double first[] = {v1 / v, v2 / v}, total[] = {1 - v2 / v, 1 - v1 / v};
+  const Seeds seeds(400, 4000);
+  for (const std::uint64_t n : {1024, 16'384}) {
+    int held[4] = {};
+    for (std::size_t k = 0; k < seeds.repetitions; ++k) {
+      const Sensitivity s = run<HeavyTails>(n, seeds.first + k, false);
+      for (std::size_t i = 0; i < 2; ++i) {
+        held[i] += s.indices[i].first_low <= first[i] && first[i] <= s.indices[i].first_high;
+        held[2 + i] += s.indices[i].total_low <= total[i] && total[i] <= s.indices[i].total_high;
+      }
+    }
+    for (const int h : held) {
+      INFO(n << " rows: " << h << " of " << seeds.repetitions);
+      CHECK(h >= 0.9 * static_cast<double>(seeds.repetitions));
+    }
+  }
+}
+
 TEST_CASE("standard errors of Sobol' indices fall as the root of the rows", "[sobol]") {
   const auto width = [](std::uint64_t n) {
     const Sensitivity s = run<Ishigami>(n, 5, false, 2);
