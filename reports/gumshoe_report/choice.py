@@ -2,7 +2,7 @@
 import math
 import types
 
-from .rounding import decimals, fixed, percent, probability, significant, unit_text
+from .rounding import after, decimals, fixed, percent, probability, significant, unit_text
 from .tables import point, spread
 
 SPACE = "\u202f"
@@ -11,7 +11,7 @@ MOST = 400   # rows of all candidates; the CSV table has all
 
 
 def with_unit(text, unit):
-    return text + (SPACE + unit_text(unit) if unit_text(unit) else "")
+    return text + after(unit)
 
 
 def plain_number(x):

@@ -12,6 +12,7 @@ from .figures import BLUE, GREY, GRID, INK, ORANGE, PALE, svg
 
 FEASIBLE = LinearSegmentedColormap.from_list("target", [  # a step at the target, in the middle
     (0, BLUE), (0.5, "#cfe2f2"), (0.5, "#fde3d0"), (1, ORANGE)])
+MARK, LIGHT = "#1f2934", "#fefefe"  # on the map, whose colours stay when the page is dark
 PREFERRED = ("feed", "spindle_speed")  # what a reader looks for first
 
 
@@ -137,29 +138,29 @@ def heat(c, name):
     image = axes.pcolormesh(*edges, np.ma.masked_invalid(surface), cmap=FEASIBLE, norm=norm, rasterized=True)
     middle = [np.exp(m) if v.range and v.logarithmic else m for v, m in zip((vx, vy), centres)]
     if vy.range and np.nanmin(surface) < 0 < np.nanmax(surface):
-        axes.contour(*middle, np.ma.masked_invalid(surface), levels=[0], colors=INK, linewidths=1.3)
+        axes.contour(*middle, np.ma.masked_invalid(surface), levels=[0], colors=MARK, linewidths=1.3)
     elif vx.range:
         for j, line in enumerate(surface):
             for k in np.flatnonzero(np.diff(np.sign(line)) != 0):
                 if np.isfinite(line[k] + line[k + 1]):
-                    axes.vlines(edges[0][k + 1], j - 0.5, j + 0.5, color=INK, linewidth=1.3)
+                    axes.vlines(edges[0][k + 1], j - 0.5, j + 0.5, color=MARK, linewidth=1.3)
     place = [s if v.range else np.searchsorted(l, s) for v, s, l in zip((vx, vy), shown, lists)]
     meets = np.array([bool(r.meets) for r in rows])
     if vx.range:
-        axes.plot(place[0][meets], place[1][meets], "o", color=INK, markersize=3)
-        axes.plot(place[0][~meets], place[1][~meets], "o", markerfacecolor="none", markeredgecolor=INK, markersize=3,
+        axes.plot(place[0][meets], place[1][meets], "o", color=MARK, markersize=3)
+        axes.plot(place[0][~meets], place[1][~meets], "o", markerfacecolor="none", markeredgecolor=MARK, markersize=3,
                   markeredgewidth=0.6)
         failed = np.array([r.failed > 0 for r in rows])
-        axes.plot(place[0][failed], place[1][failed], "x", color=INK, markersize=5, markeredgewidth=0.8)
+        axes.plot(place[0][failed], place[1][failed], "x", color=MARK, markersize=5, markeredgewidth=0.8)
     else:
         for x, y, r in zip(*place, rows):
             axes.text(x, y, plain_number(float(f"{r.asked * c.display_factor:.2g}")) if r.asked > 0 else "no value",
                       ha="center", va="center", fontsize=8, weight="bold" if r.meets else "normal",
-                      color="white" if r.asked > 0 and abs(norm(math.log(r.asked / c.target)) - 0.5) > 0.35 else INK)
+                      color=LIGHT if r.asked > 0 and abs(norm(math.log(r.asked / c.target)) - 0.5) > 0.35 else MARK)
     best = c.candidates[int(c.best)]
     at = [best.values[k] * v.display_factor + v.display_offset for k, v in zip(picked, (vx, vy))]
     at = [a if v.range else int(np.searchsorted(l, a)) for a, v, l in zip(at, (vx, vy), lists)]
-    axes.plot(at[0], at[1] if vx.range else at[1] + 0.3, "*", color="white", markersize=13, markeredgecolor=INK, zorder=5,
+    axes.plot(at[0], at[1] if vx.range else at[1] + 0.3, "*", color=LIGHT, markersize=13, markeredgecolor=MARK, zorder=5,
               clip_on=False)
     ticks(vx, axes.xaxis, lists[0])
     ticks(vy, axes.yaxis, lists[1])

@@ -1,9 +1,11 @@
 """The tables as CSV: display units, all digits (reports/README.md)."""
 import csv
+import io
 import json
 import pathlib
 
-from .tables import point, spread
+from . import workbook
+from .tables import over, point, spread
 
 # Columns of each group of the file: [header, dataset, kind of unit]. Written by `gumshoe fields --format json`.
 COLUMNS = json.loads((pathlib.Path(__file__).parent / "columns.json").read_text(encoding="utf-8"))
@@ -29,8 +31,14 @@ def cell(kind, key, row, study, r):
 
 def line(group, row, study=None, r=None):
     """The columns of one row; those that an older file lacks are left out."""
-    return {header: cell(kind, key, row, study, r) for header, key, kind in COLUMNS[group]
-            if kind in ("units", "output_units", "run") or hasattr(row, key)}
+    cells = {}
+    for header, key, kind in COLUMNS[group]:
+        if kind in ("units", "output_units", "run") or hasattr(row, key):
+            cells[header] = cell(kind, key, row, study, r)
+        if kind == "coefficient":
+            same = study.display_units == row.display_units
+            cells[f"{header}_unit"] = "1" if same else over(study.display_units, row.display_units)
+    return cells
 
 
 def plain(r):
@@ -123,15 +131,24 @@ def trace(t):
                            **line("residuals", row)} for row in t.residuals]}
 
 
+def text(lines):
+    """A table as CSV; lines without a column leave it empty."""
+    out = io.StringIO(newline="")
+    writer = csv.DictWriter(out, list(dict.fromkeys(key for line in lines for key in line)))
+    writer.writeheader()
+    writer.writerows(lines)
+    return out.getvalue()
+
+
 def write(r, folder, stem):
-    """Every table that has rows. Returns the paths."""
+    """Every table that has rows, and the budget as a workbook. Returns the paths."""
     written = []
     for name, lines in {**plain(r), **sensitivity(r), **decisions(r), **choice(r.choice), **trace(r.trace)}.items():
         if lines:
             path = folder / f"{stem}_{name}.csv"
-            with open(path, "w", newline="", encoding="utf-8") as file:
-                writer = csv.DictWriter(file, list(dict.fromkeys(key for line in lines for key in line)))
-                writer.writeheader()
-                writer.writerows(lines)
+            path.write_bytes(text(lines).encode("utf-8"))
             written.append(path)
+    if book := workbook.budget(r):
+        written.append(folder / f"{stem}_budget.xlsx")
+        written[-1].write_bytes(book)
     return written

@@ -2,6 +2,7 @@
 import io
 import math
 import re
+import textwrap
 
 import matplotlib
 
@@ -13,20 +14,39 @@ from matplotlib.ticker import MaxNLocator
 from . import rounding
 
 BLUE, ORANGE, GREY, PALE, INK = "#0b5fa5", "#c8500a", "#6b7280", "#d5e3f0", "#1f2933"  # apart for every eye
-GRID = {"color": "#e5e7eb", "linewidth": 0.7}
+BAND, NOISE, RULE, GRID = "#eef0f3", "#b6bcc6", "#d5d9df", {"color": "#e5e7eb", "linewidth": 0.7}
+# Colours that the page sets (style.css), so that a figure is light or dark as the page is.
+OF_PAGE = {BLUE: "blue", ORANGE: "orange", GREY: "grey", PALE: "tint", INK: "ink", BAND: "band", NOISE: "noise",
+           RULE: "line", GRID["color"]: "grid", "#ffffff": "page"}
 
 matplotlib.rcParams.update({
     "svg.fonttype": "none", "svg.hashsalt": "gumshoe", "font.size": 9, "axes.spines.top": False,
     "axes.spines.right": False, "axes.edgecolor": GREY, "axes.labelcolor": INK, "xtick.color": GREY,
     "ytick.color": GREY, "xtick.labelcolor": INK, "ytick.labelcolor": INK, "axes.linewidth": 0.7,
     "xtick.major.width": 0.7, "ytick.major.width": 0.7, "axes.axisbelow": True, "axes.unicode_minus": True,
-    "text.parse_math": False,
+    "text.parse_math": False, "text.color": INK,
 })
+
+
+def fit_labels(figure):
+    """Breaks the axis labels and titles that are longer than the figure has room for, until all of them fit."""
+    figure.draw_without_rendering()
+    for axes in figure.axes:
+        box = axes.get_window_extent()
+        for text, room in ((axes.xaxis.label, box.width), (axes.yaxis.label, box.height), (axes.title, box.width),
+                           (axes._left_title, box.width)):
+            drawn = text.get_window_extent()
+            long = drawn.height if text.get_rotation() == 90 else drawn.width
+            if text.get_visible() and "\n" not in text.get_text() and long > 1.02 * room:
+                text.set_text("\n".join(textwrap.wrap(text.get_text(), max(8, int(len(text.get_text()) * room / long)),
+                                                      break_on_hyphens=False)))
+    figure.draw_without_rendering()
 
 
 def svg(figure, name, title):
     """The figure as an <svg> element whose ids start with `name`."""
     buffer = io.StringIO()
+    fit_labels(figure)
     figure.savefig(buffer, format="svg", transparent=True, metadata={"Date": None})
     plt.close(figure)
     text = buffer.getvalue()
@@ -35,6 +55,8 @@ def svg(figure, name, title):
     text = re.sub(r'\s(xmlns(:\w+)?)="[^"]*"', "", text)
     text = re.sub(r'(\bid="|href="#|url\(#)', rf"\g<1>{name}-", text.replace("xlink:href", "href"))
     text = re.sub(r"(font: ?[^;\"]*?px)[^;\"]*", r"\1 sans-serif", text)
+    text = re.sub(r"(fill|stroke): (#[0-9a-f]{6})\b", lambda m: f"{m[1]}: var(--{OF_PAGE[m[2]]})" if m[2] in OF_PAGE else
+                  m[0], text)
     width = re.search(r'width="([\d.]+)pt"', text).group(1)
     text = re.sub(r'(<svg[^>]*?) (?:height|width)="[\d.]+pt"', r"\1", text)
     text = re.sub(r'(<svg[^>]*?) (?:height|width)="[\d.]+pt"', r"\1", text)
@@ -42,15 +64,25 @@ def svg(figure, name, title):
     return text.replace("<svg", f'<svg role="img" aria-label="{escaped}" style="max-width:{width}pt"', 1)
 
 
+def first_known(*values):
+    return next((float(v) for v in values if math.isfinite(v)), 0.0)
+
+
+def extent(output):
+    """Middle and half-width of what is known of an output, SI: with few trials not all of it exists."""
+    edges = output.histogram_edges if len(output.histogram_edges) else [math.nan]
+    middle = first_known(output.estimate, output.symmetric_low / 2 + output.symmetric_high / 2, edges[0] / 2 + edges[-1] / 2)
+    return middle, first_known(output.standard_uncertainty, (output.shortest_high - output.shortest_low) / 4,
+                               (edges[-1] - edges[0]) / 4)
+
+
 def deviation(output):
     """Reference (display units), unit and factor: shown = (SI value in display units - reference) * factor."""
-    width = output.shortest_high - output.shortest_low
-    size = output.standard_uncertainty if math.isfinite(output.standard_uncertainty) else width / 4
+    middle, size = extent(output)
     size *= output.display_factor
     unit, factor = rounding.finer(output.display_units, size)
     places = rounding.decimals(size)
-    estimate = output.estimate if math.isfinite(output.estimate) else output.symmetric_low / 2 + output.symmetric_high / 2
-    reference = estimate * output.display_factor + output.display_offset
+    reference = middle * output.display_factor + output.display_offset
     return (reference if places is None else round(reference, places)), unit, factor, places
 
 
@@ -66,9 +98,11 @@ def view(output, to_axis, budget):
     ends = [output.symmetric_low, output.symmetric_high, output.shortest_low, output.shortest_high]
     if budget is not None and budget.applicable and math.isfinite(budget.expanded_uncertainty):
         ends += [budget.estimate - budget.expanded_uncertainty, budget.estimate + budget.expanded_uncertainty]
+    edges = to_axis(output.histogram_edges)
+    middle, size = extent(output)
+    ends = [end for end in ends if math.isfinite(end)] or [middle - size, middle + size]
     low, high = float(np.min(to_axis(ends))), float(np.max(to_axis(ends)))
     room = 0.35 * (high - low) or 1
-    edges = to_axis(output.histogram_edges)
     if len(edges):
         return max(low - room, min(edges[0], low - 0.05 * room)), min(high + room, max(edges[-1], high + 0.05 * room))
     return low - room, high + room
@@ -106,13 +140,14 @@ def distribution(output, budget, p, name):
         top.legend(loc="upper right", frameon=False, fontsize=8)
     if math.isfinite(output.estimate):
         top.axvline(float(to_axis(output.estimate)), color=BLUE, linewidth=0.8, ymax=0.94)
+    rows = [row for row in rows if np.isfinite(row[1]).all()]
     for k, (text, ends, colour, style) in enumerate(rows):
         low.plot(ends, [-k, -k], color=colour, linewidth=1.8, linestyle=style)
         low.plot(ends, [-k, -k], color=colour, marker="|", markersize=8, linestyle="none", markeredgewidth=1.8)
         for end in ends:
             if limits[0] < end < limits[1]:
                 top.axvline(end, color=colour, linewidth=0.6, linestyle=style, alpha=0.6)
-    low.set_ylim(-len(rows) + 0.4, 0.6)
+    low.set_ylim(min(-len(rows), -1) + 0.4, 0.6)
     low.set_yticks([-k for k in range(len(rows))], [row[0] for row in rows])
     low.tick_params(axis="y", length=0)
     low.spines["left"].set_visible(False)
@@ -127,15 +162,15 @@ def overview(outputs, name):
     """Estimate and symmetric interval of every output of one measurand, as deviations from their mean."""
     reference = outputs[0]
     display = lambda o, si: si * o.display_factor + o.display_offset
-    widths = [abs(o.symmetric_high - o.symmetric_low) / 4 * o.display_factor for o in outputs]
-    middle = float(np.mean([display(o, (o.symmetric_low + o.symmetric_high) / 2) for o in outputs]))
+    widths = [extent(o)[1] * o.display_factor for o in outputs]
+    middle = float(np.mean([display(o, extent(o)[0]) for o in outputs]))
     spread = max(float(np.median(widths)), 1e-300)
     unit, factor = rounding.finer(reference.display_units, spread)
     places = rounding.decimals(spread)
     middle = middle if places is None else round(middle, places)
     figure, axes = plt.subplots(figsize=(7.2, 0.7 + 0.26 * len(outputs)), layout="constrained")
     for k, o in enumerate(outputs):
-        ends = [(display(o, e) - middle) * factor for e in (o.symmetric_low, o.symmetric_high)]
+        ends = [(display(o, e) - middle) * factor for e in (o.symmetric_low, o.symmetric_high)]  # NaN draws nothing
         axes.plot(ends, [k, k], color=BLUE, linewidth=1.8, solid_capstyle="butt")
         if math.isfinite(o.estimate):
             axes.plot((display(o, o.estimate) - middle) * factor, k, "o", color=BLUE, markersize=5)
@@ -158,10 +193,9 @@ def small_multiples(outputs, name, columns=4):
         to_axis, label = scaler(o)
         histogram(axes, o, to_axis)
         axes.set_xlim(*view(o, to_axis, None))
-        for end in to_axis([o.symmetric_low, o.symmetric_high]):
-            axes.axvline(end, color=BLUE, linewidth=0.8)
-        for end in to_axis([o.shortest_low, o.shortest_high]):
-            axes.axvline(end, color=ORANGE, linewidth=0.8)
+        for ends, colour in (((o.symmetric_low, o.symmetric_high), BLUE), ((o.shortest_low, o.shortest_high), ORANGE)):
+            for end in to_axis([end for end in ends if math.isfinite(end)]):
+                axes.axvline(end, color=colour, linewidth=0.8)
         axes.set_title(o.name.replace("[", "\n[", 1), fontsize=7, color=INK, loc="left")
         axes.tick_params(axis="x", labelsize=7)
         axes.xaxis.set_major_locator(MaxNLocator(4))

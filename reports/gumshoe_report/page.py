@@ -1,4 +1,5 @@
 """The page: gathers tables and figures and fills the template."""
+import base64
 import itertools
 import math
 import pathlib
@@ -8,22 +9,28 @@ import types
 import jinja2
 import markupsafe
 
-from . import choice, choice_figures, choice_surface, explain, figures, region_figures, rounding, sensitivity_figures
-from . import studies, tables, trace, trace_figures
+from . import certificate, choice, choice_figures, choice_surface, convergence, csv_tables, explain, figures, mathml
+from . import pictures, reduce, region_figures, rounding, sensitivity_figures, studies, tables, trace, trace_figures, workbook
 
 HERE = pathlib.Path(__file__).parent
 OPEN = 2      # outputs shown in full; the others are folded
 DRAWN = 8     # joint regions and conformity tests with a figure
+LISTED = 200  # outputs with a section; the CSV tables have all
+CARRIED = 3_000_000  # bytes of the tables that the page carries as links
 MULTIPLES = 24  # most panels in the figure of all distributions
 METHODS = {"propagation": "propagation of distributions (JCGM 101)",
            "virtual_experiment": "virtual experiment: distribution of the error"}
 
 
 def question(text):
-    """The comment in which a scenario opens: '# Question: ...', may run over several lines."""
-    lines = itertools.takewhile(lambda line: line.startswith("#"), text.splitlines())
-    words = " ".join(line.lstrip("# ").strip() for line in lines if not line.startswith("#:")) # "#:schema" is for editors
-    words = words.removeprefix("Question:").strip()
+    """The first sentence of the comment in which a scenario opens: '# Question: ...', may run over several lines."""
+    lines = itertools.takewhile(lambda line: line.startswith("#"), text.lstrip("\ufeff").splitlines())
+    lines = [line.lstrip("# ").strip() for line in lines if not line.startswith("#:")]  # "#:schema" is for editors
+    asked = next((k for k, line in enumerate(lines) if line.lower().startswith("question:")), 0)
+    lines = itertools.dropwhile(lambda line: not line, lines[asked:])
+    words = re.sub(r"(?i)^question:\s*", "", " ".join(itertools.takewhile(bool, lines)))
+    end = re.search(r"(?<![.\s]\w)(?<!\b(?:vs|no|cf))[.?!](?=\s+[A-Z0-9“\"(]|$)", words)
+    words = words[:end.end()] if end else words
     return words[:1].upper() + words[1:]
 
 
@@ -32,8 +39,9 @@ def by_output(items, key):
 
 
 def varying(r):
-    """Outputs that have a distribution; if none has, all."""
-    return [o for o in r.outputs if not tables.constant(o)] or r.outputs
+    """Measurands that have a distribution; if none has, all."""
+    measurands = [o for o in r.outputs if not getattr(o, "diagnostic", 0)] or r.outputs
+    return [o for o in measurands if not tables.constant(o)] or measurands
 
 
 def sections(r):
@@ -42,14 +50,19 @@ def sections(r):
               "morris": r.morris, "dgsm": r.dgsm}.items()}
     verdicts = by_output(r.validations, "name")
     picture = lambda full, draw, *arguments: markupsafe.Markup(draw(*arguments)) if full else ""
-    for k, output in enumerate(varying(r)):
+    targets = {}
+    for t in r.targets:
+        targets.setdefault(t.output, []).append(studies.target(t))
+    for k, output in enumerate(varying(r)[:LISTED]):
         of = types.SimpleNamespace(**{key: items.get(output.name) for key, items in found.items()})
         full = k < OPEN
         u = output.standard_uncertainty
         yield types.SimpleNamespace(
-            summary=tables.summary_row(output), open=full,
+            summary=tables.summary_row(output), open=full, targets=targets.get(output.name, []),
+            certificate=certificate.line(output, of.budget, verdicts.get(output.name), r.coverage_probability),
+            reduce=reduce.table(of.budget, u, of.sobol, of.shapley),
             distribution=picture(full, figures.distribution, output, of.budget, r.coverage_probability, f"d{k}"),
-            budget=tables.budget(of.budget, u) if of.budget else None, sobol=of.sobol,
+            budget=tables.budget(of.budget, u, of.sobol) if of.budget else None, sobol=of.sobol,
             confidence=rounding.probability(of.sobol.confidence) if of.sobol else "",
             side_by_side=picture(full, sensitivity_figures.side_by_side, of.budget, of.sobol, of.shapley, f"s{k}"),
             why=explain.why(of.budget, of.sobol, of.shapley, u),
@@ -78,9 +91,33 @@ def whole_run(r):
         "circulars": [studies.circular(c, outputs.get(c.name)) for c in r.circular],
         "conformities": [with_figure(studies.conformity(c, outputs.get(c.name)), region_figures.conformity(
             c, outputs.get(c.name), f"c{k}") if k < DRAWN else "") for k, c in enumerate(r.conformity)],
-        "targets": [studies.target(t) for t in r.targets],
+        "targets": [studies.target(t) for t in r.targets if t.output not in {o.name for o in varying(r)}],
         "one_at_a_time": [studies.one_at_a_time(t) for t in r.one_at_a_time],
         "stopping": studies.stopping(r.stopping) if r.stopping else None}
+
+
+def convergences(r):
+    """The figures of the outputs shown in full; none without stored samples."""
+    verdicts = by_output(r.validations, "name")
+    drawn = [convergence.figure(r.path, o, verdicts.get(o.name), r.coverage_probability, f"t{k}")
+             for k, o in enumerate(varying(r)[:OPEN])]
+    return [markupsafe.Markup(d) for d in drawn if d]
+
+
+def measurement(r):
+    """The picture on top and the equations of the model."""
+    picture, caption = pictures.of(r)
+    return {"picture": picture, "picture_caption": caption,
+            "equations": [(mathml.equation(e.text), e.where) for e in r.equations]}
+
+
+def downloads(r):
+    """The budget as links that carry the files."""
+    book, lines = workbook.budget(r), csv_tables.plain(r)["budget"]
+    link = lambda kind, data: f"data:{kind};base64,{base64.b64encode(data).decode()}"
+    return [] if book is None or len(book) + len(lines) * 200 > CARRIED else [
+        ("budget.xlsx", link("application/vnd.openxmlformats-officedocument.spreadsheetml.sheet", book)),
+        ("budget.csv", link("text/csv", csv_tables.text(lines).encode("utf-8")))]
 
 
 def overviews(r):
@@ -109,9 +146,12 @@ def run_page(r):
     """What the page of a run is filled with."""
     shown = varying(r)
     return dict(
+        left_out=max(0, len(shown) - LISTED), downloads=downloads(r), convergences=convergences(r), validations=[tables.validation_row(v) for v in r.validations[:LISTED]],
+        diagnostics=[tables.diagnostic_text(o) for o in r.outputs if getattr(o, "diagnostic", 0)],
+        effects=sorted({i.name.partition(".")[0] for i in r.inputs if "." in i.name}),
         kicker="Measurement uncertainty", title=r.title or r.model_title or r.model,
         method=METHODS.get(r.method, r.method), samples=thousands(r.samples), sections=list(sections(r)), **whole_run(r), overviews=overviews(r),
-        constants=[tables.constant_text(o) for o in r.outputs if o not in shown], numbered=tables.numbered(r.outputs),
+        constants=[tables.constant_text(o) for o in r.outputs if o not in shown and not getattr(o, "diagnostic", 0)], numbered=tables.numbered(r.outputs),
         comparisons=[tables.comparison_row(c) for c in r.comparisons],
         printed=[tables.printed_row(p) for p in r.printed], inputs=[tables.input_row(i) for i in r.inputs],
         readings=tables.readings(r))
@@ -188,11 +228,11 @@ def thousands(n):
 def render(r):
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=True, trim_blocks=True,
                                      lstrip_blocks=True, undefined=jinja2.StrictUndefined)
-    environment.filters.update(percent=rounding.percent, fixed=rounding.fixed, subscripts=subscripts, thousands=thousands, unit_text=rounding.unit_text,
+    environment.filters.update(percent=rounding.percent, fixed=rounding.fixed, subscripts=subscripts, thousands=thousands, unit_text=rounding.unit_text, after=rounding.after,
                                symbols=symbols,
                                verdicts=studies.sobol_verdict)
     template, contents = ("choice.html.j2", choice_page(r)) if r.choice else \
         ("trace.html.j2", trace_page(r)) if r.trace else ("run.html.j2", run_page(r))
     return environment.get_template(template).render(
-        r=r, question=question(r.scenario_text), p=rounding.probability(r.coverage_probability), **contents,
+        r=r, question=question(r.scenario_text), p=rounding.probability(r.coverage_probability), **measurement(r), **contents,
         css=markupsafe.Markup((HERE / "style.css").read_text(encoding="utf-8")))

@@ -136,6 +136,7 @@ def result(path):
         r.comparisons = rows(file.get("comparison"))
         r.printed = rows(file.get("printed"))
         r.inputs = rows(file.get("inputs"))
+        r.equations, r.axes = rows(file.get("equations"), "equation"), rows(file.get("machine"))
         r.readings = rows(file.get("readings"))
         readings = file.get("readings")
         r.reading_units = {n: plain(d.attrs.get("units", "1")) for n, d in readings.items()} if readings else {}

@@ -1,16 +1,27 @@
 """Numbers as people write them: the uncertainty to two digits, the estimate to the same place (GUM 7.2.6)."""
 import math
+import re
 
 # One unit down, for deviations that would otherwise be 0.0004 mm.
 FINER = {"m": ("mm", 1e3), "mm": ("um", 1e3), "deg": ("arcsec", 3600.0), "rad": ("urad", 1e6), "s": ("ms", 1e3),
          "mrad": ("urad", 1e3)}
 # Units to show where a column has only its SI unit.
 COMMON = {"m": ("mm", 1e3), "rad": ("deg", 180 / math.pi), "m/s": ("mm/min", 6e4), "rad/s": ("rpm", 30 / math.pi)}
-SYMBOLS = {"um": "µm", "deg": "°", "arcsec": "″", "degC": "°C", "1": "", "urad": "µrad"}
+SYMBOLS = {"um": "µm", "deg": "°", "arcsec": "″", "degC": "°C", "urad": "µrad"}
+RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def unit_text(unit):
-    return "/".join(SYMBOLS.get(part, part) or "1" for part in unit.split("/")) if unit != "1" else ""
+    if unit == "1":
+        return ""
+    text = re.sub(r"[A-Za-z]+", lambda part: SYMBOLS.get(part[0], part[0]), unit)
+    return re.sub(r"(?<=[^\W\d])-?\d+", lambda power: power[0].translate(RAISED), text)
+
+
+def after(unit):
+    """What follows a number: its unit with a narrow space, degrees and arc seconds without (SI Brochure 5.4.3)."""
+    text = unit_text(unit)
+    return text if text in ("", "°", "″") else f"\u202f{text}"
 
 
 def finer(unit, size):

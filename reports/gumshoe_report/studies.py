@@ -2,7 +2,7 @@
 import math
 import types
 
-from .rounding import decimals, finer, fixed, percent, probability, significant, unit_text
+from .rounding import after, decimals, finer, fixed, percent, probability, significant, unit_text
 from .tables import point, spread
 
 NONE = "–"
@@ -181,8 +181,7 @@ def conformity(c, output):
 
 
 def unit_after(row):
-    text = unit_text(row.display_units)
-    return f"\u202f{text}" if text else ""
+    return after(row.display_units)
 
 
 def target(t):

@@ -3,9 +3,10 @@ import math
 import re
 import types
 
-from .rounding import COMMON, decimals, finer, fixed, percent, significant, unit_text
+from .rounding import COMMON, after, decimals, finer, fixed, percent, significant, unit_text
 
 FOLDED_BELOW = 5e-4  # shares that the page sums up in one line when a budget is long
+ALIKE = 4            # components of many readings that each have a row of their own
 FOLDED_INDEX = 5e-3  # the same of indices, where the law of propagation has no shares
 
 
@@ -24,6 +25,7 @@ def summary_row(o):
     total = o.valid + o.failed
     return types.SimpleNamespace(
         name=o.name, unit=unit_text(o.display_units), estimate=show(o.estimate),
+        called="median" if getattr(o, "estimate_is_median", 0) else "estimate",
         u=fixed(spread(o, o.standard_uncertainty), places), symmetric=(show(o.symmetric_low), show(o.symmetric_high)),
         shortest=(show(o.shortest_low), show(o.shortest_high)),
         failed=f"{o.failed} of {total}" if o.failed else "",
@@ -39,12 +41,21 @@ def constant(o):
 
 
 def with_unit(text, units):
-    return text + (f"\u202f{unit_text(units)}" if unit_text(units) else "")
+    return text + after(units)
 
 
 def constant_text(o):
     return f"{o.name} = {with_unit(fixed(point(o, o.estimate), None), o.display_units)}" + (
         f" ({o.failed} of {o.valid + o.failed} samples failed)" if o.failed else "")
+
+
+def diagnostic_text(o):
+    """A figure that says how the evaluation went: its value, or the range that holds most of its values."""
+    if constant(o):
+        return constant_text(o)
+    places = decimals(spread(o, o.standard_uncertainty))
+    ends = " to ".join(fixed(point(o, x), places) for x in (o.symmetric_low, o.symmetric_high))
+    return f"{o.name} {with_unit(ends, o.display_units)}"
 
 
 def numbered(outputs):
@@ -70,30 +81,61 @@ def numbered(outputs):
         rows=[(k, [(*cell(rows[k]), not all(map(constant, rows.values()))) for rows in stems.values()]) for k in numbers])
 
 
-def coefficient_unit(output_unit, unit):
-    if unit in ("1", output_unit):
-        return unit_text(output_unit) if unit == "1" else ""
-    return f"{unit_text(output_unit) or '1'}/{unit_text(unit)}"
+def coefficient(b, c):
+    """A sensitivity coefficient and its unit as people write it: 12.3 and um/deg; of two lengths a plain number."""
+    if c.units == b.units:
+        return c.sensitivity, "1"
+    value = c.sensitivity * b.display_factor / c.display_factor
+    unit, factor = finer(b.display_units, abs(value))
+    return factor * value, over(unit, c.display_units)
+
+
+def over(unit, divisor):
+    if divisor == "1":
+        return unit
+    return f"{unit}/({divisor})" if "/" in divisor or " " in divisor else f"{unit}/{divisor}"
 
 
 def budget_row(b, c, factor):
     """`factor`: from the output's display unit to the unit of the contributions."""
     u = spread(c, c.standard_uncertainty)
+    slope, slope_unit = coefficient(b, c)
     return types.SimpleNamespace(
-        name=c.name, unit=unit_text(c.display_units) or "1", estimate=fixed(point(c, c.estimate), decimals(u)),
+        name=c.name, unit=unit_text(c.display_units) or "1", estimate=fixed(point(c, c.estimate), decimals(u)) if math.isfinite(c.estimate) else "",
         u=significant(u) if math.isfinite(c.standard_uncertainty) else "none", evaluation=c.evaluation,
         distribution=c.distribution, dof=f"{c.degrees_of_freedom:.4g}" if math.isfinite(c.degrees_of_freedom) else "∞",
         differentiable=bool(c.differentiable),
-        sensitivity=significant(c.sensitivity * b.display_factor / c.display_factor, 3),
-        sensitivity_unit=coefficient_unit(b.display_units, c.display_units),
+        sensitivity=significant(slope, 3), sensitivity_unit=unit_text(slope_unit),
         contribution=significant(factor * spread(b, c.contribution)), share=percent(c.share),
         width=max(0.0, min(100.0, 100 * c.share)) if math.isfinite(c.share) else 0,
         monte_carlo=percent(c.monte_carlo_share), scope=c.scope, source=c.source)
 
 
-def budget(b, u_monte_carlo=math.nan):
+def alike(rows, sobol):
+    """Components of one quantity that differ in nothing but the reading, as one row; few of them stay apart."""
+    groups, quantities = {}, [c.quantity for c in rows]
+    indices = {i.input: i.first for i in sobol.rows} if sobol else {}  # of whole quantities
+    for c in rows:
+        groups.setdefault((c.quantity, c.standard_uncertainty, c.distribution, c.evaluation, c.source, c.scope,
+                           c.name.rpartition(":")[2] if ":" in c.name else "", bool(c.differentiable)), []).append(c)
+    for (quantity, *_, part, _), group in groups.items():
+        if len(group) <= ALIKE:
+            yield from group
+            continue
+        same = {c.sensitivity for c in group}
+        known = lambda key: [v for v in (getattr(c, key) for c in group) if math.isfinite(v)]
+        total = lambda key: sum(known(key)) if known(key) else math.nan
+        whole = indices.get(quantity, math.nan) if len(group) == quantities.count(quantity) else math.nan
+        yield types.SimpleNamespace(**{
+            **vars(group[0]), "name": f"{quantity}{f':{part}' if part else ''}, {len(group)} alike", "estimate": math.nan,
+            "sensitivity": same.pop() if len(same) == 1 else math.nan, "share": total("share"),
+            "monte_carlo_share": total("monte_carlo_share") if known("monte_carlo_share") else whole, "contribution": math.hypot(*known("contribution"))
+            if known("contribution") else math.nan})
+
+
+def budget(b, u_monte_carlo=math.nan, sobol=None):
     """The budget of one output as text; `u_monte_carlo` in SI."""
-    ordered = sorted(b.rows, key=lambda c: -max([s for s in (c.share, c.monte_carlo_share) if math.isfinite(s)] + [0.0]))
+    ordered = sorted(alike(b.rows, sobol), key=lambda c: -max([s for s in (c.share, c.monte_carlo_share) if math.isfinite(s)] + [0.0]))
     has_gum = any(math.isfinite(c.share) for c in b.rows) or not all(c.differentiable for c in b.rows) or b.applicable
     small = [c for c in ordered if c.differentiable and math.isfinite(c.share) and c.share < FOLDED_BELOW and
              not c.monte_carlo_share >= FOLDED_BELOW] if has_gum else \
@@ -110,7 +152,7 @@ def budget(b, u_monte_carlo=math.nan):
         rows=[budget_row(b, c, factor) for c in ordered if c not in folded], folded=len(folded),
         folded_share=percent(sum(c.share if has_gum else c.monte_carlo_share for c in folded)),
         folded_below=percent(FOLDED_BELOW if has_gum else FOLDED_INDEX), has_gum=has_gum,
-        has_monte_carlo=any(math.isfinite(c.monte_carlo_share) for c in b.rows),
+        has_monte_carlo=any(math.isfinite(c.monte_carlo_share) for c in ordered),
         correlation=percent(b.correlation_share), fine_unit=unit_text(fine),
         interactions=percent(b.monte_carlo_interactions), u=significant(spread(b, u)),
         u_fine=significant(factor * spread(b, u)), u_monte_carlo=significant(factor * spread(b, u_monte_carlo)),

@@ -104,7 +104,9 @@ class Trace:
         found = [(f"error before, {where}", self.size(before)), (f"error after, {where}", self.size(after))]
         if not self.added:
             found = [(f"error, {where}", self.size(before))]
-        found.append(("noise alone", self.size(noise)))
+        low, high = (r.holdout_noise_low, r.holdout_noise_high) if kept else (r.noise_low, r.noise_high)
+        found.append(("noise alone", self.size(noise)) if not math.isfinite(high) else
+                     (f"noise alone, 95{SPACE}%", with_unit(f"[{self.number(low)}, {self.number(high)}]", self.unit)))
         if math.isfinite(r.share_removed) and self.added:
             found.append(("share of the removable mean square removed", self.removed()))
         return found

@@ -7,10 +7,9 @@ import numpy as np
 from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator
 
 from .choice import axis_label
-from .figures import BLUE, GREY, GRID, INK, ORANGE, PALE, svg
+from .figures import BAND, BLUE, GREY, GRID, INK, NOISE, ORANGE, PALE, RULE, svg
 from .rounding import finer
 
-BAND = "#eef0f3"
 SIDES = (("before", ORANGE), ("after", BLUE))
 WIDE = 9.2  # inches, of the figures with many points
 LEVELS = 60  # of a label, beyond them it is not drawn
@@ -78,7 +77,7 @@ def in_order(rows, name):
             if rows[first].final:
                 axes.axvspan(first + 0.5, last + 0.5, color=PALE, alpha=0.55, linewidth=0, zorder=0.2)
             if first:
-                axes.axvline(first + 0.5, color="#d5d9df", linewidth=0.6, zorder=0.3)
+                axes.axvline(first + 0.5, color=RULE, linewidth=0.6, zorder=0.3)
         outlier = np.array([r.weight < 0.5 for r in rows])
         axes.plot(x[~outlier], values[side][~outlier], "o", color=colour, markersize=size, markeredgewidth=0, alpha=0.75,
                   rasterized=len(rows) > MANY)
@@ -229,7 +228,7 @@ def sizes(t, name):
     figure, axes = plt.subplots(figsize=(7.2, 0.65 + (0.66 if t.added else 0.48) * len(found)), layout="constrained")
     for k, (_, _, before, after, noise) in enumerate(found):
         bars = [("before", before, ORANGE), ("after", after, BLUE)] if t.added else [("residuals", before, BLUE)]
-        bars += [("noise alone, with its range by chance (95\u202f%)", noise[0], "#b6bcc6")] if noise else []
+        bars += [("noise alone, with its range by chance (95\u202f%)", noise[0], NOISE)] if noise else []
         for place, (what, x, colour) in enumerate(bars):
             if not math.isfinite(x):
                 continue

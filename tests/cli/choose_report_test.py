@@ -18,6 +18,7 @@ from program import ROOT, gumshoe
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "reports"))
+from browser import CLIPPED, CONTRAST, measured
 from choose_test import TEXT
 from gumshoe_report import choice, choice_surface
 
@@ -151,6 +152,16 @@ class Report(unittest.TestCase):
         page, _ = self.report(text[:start] + 'evaluation = ["full", "conventional"]\n' + text[end:], "--samples", 500)
         self.assertNotIn("U over", words_of(page))
         self.assertIn("evaluate by “", words_of(page))
+
+    def test_no_label_is_clipped_and_all_is_read_in_the_dark(self):
+        page, _ = self.report(TEXT)
+        self.assertEqual(measured(self.page, CLIPPED), [])
+        # Texts upon the coloured map are not on the page's background.
+        found = measured(self.page, CONTRAST.replace("svg text", "svg:not([aria-label*=region]) text"), dark=True)
+        self.assertTrue(found["dark"])
+        self.assertGreater(found["least"], 4.5)
+        for head in re.findall(r"<thead>(.*?)</thead>", page, re.S):
+            self.assertNotRegex(head, r'<th(?![^>]*scope="col)[ >]')
 
     def test_browser_has_no_complaint(self):
         self.report(TEXT)

@@ -1,4 +1,5 @@
 """The report: one page that loads nothing, makes the browser complain about nothing, and prints."""
+import base64
 import csv
 import html.parser
 import json
@@ -11,15 +12,21 @@ import sys
 import tempfile
 import types
 import unittest
+import zipfile
+import io
+import math
+from xml.etree import ElementTree
 
 import h5py
+import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 GUMSHOE = sys.argv.pop(1)
 MADE = pathlib.Path(GUMSHOE).resolve().parent / "tests/gumshoe_made_result"
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "reports"))
-from gumshoe_report import explain
+from browser import CLIPPED, CONTRAST, browser, filled_pages, measured
+from gumshoe_report import certificate, convergence, explain, mathml, page, read, reduce, tables, workbook
 
 
 class Resources(html.parser.HTMLParser):
@@ -36,14 +43,6 @@ class Resources(html.parser.HTMLParser):
                 self.ids.append(value)
             if name in ("src", "srcset", "data", "poster", "action") or (name.endswith("href") and tag != "a"):
                 self.found.append(value)
-
-
-def browser(*arguments):
-    with tempfile.TemporaryDirectory() as profile:
-        return subprocess.run(
-            ["/usr/bin/chromium", "--headless", "--no-sandbox", "--disable-gpu", "--disable-background-networking",
-             "--disable-dev-shm-usage", f"--user-data-dir={profile}", "--virtual-time-budget=5000",
-             "--enable-logging=stderr", *arguments], capture_output=True, text=True, timeout=180)
 
 
 def squeezed(text):
@@ -93,6 +92,71 @@ class Report(unittest.TestCase):
         run = browser(f"--screenshot={self.folder / 'broken.png'}", broken.as_uri())
         self.assertIn("CONSOLE", run.stderr)
 
+    def test_the_answer_comes_first_and_how_it_was_made_last(self):
+        headings = re.findall(r"<h[23]>([^<]*)", self.text)
+        first = [h for k, h in enumerate(headings) if h not in headings[:k]]
+        wanted = ["Result", "Uncertainty budget", "What would reduce it", "Distribution", "Sensitivity: what the variance comes from",
+                  "Several measurands together", "Validation of the GUM framework", "How many trials", "How to reproduce these numbers"]
+        self.assertEqual([h for h in first if h in wanted], wanted)
+
+    def test_pages_fit_every_width_and_light(self):
+        for width in (1000, 600):
+            self.assertEqual(measured(self.page, CLIPPED, width), [], "clipped labels")
+        self.assertLessEqual(measured(self.page, "return document.documentElement.scrollWidth", 600), 600)
+        seen = measured(self.page, """
+            const cells = [...document.querySelectorAll('.budget tbody tr:first-child td.share')];
+            return cells.map(c => c.getBoundingClientRect().right);""", 600)
+        self.assertTrue(seen and max(seen) <= 600, seen)  # contributions and shares stand beside their quantity
+        for dark in (False, True):
+            found = measured(self.page, CONTRAST, dark=dark)
+            self.assertEqual(found["dark"], dark)
+            self.assertGreater(found["least"], 4.5)  # WCAG 2.1, level AA
+
+    def test_clipped_labels_would_be_seen(self):
+        broken = self.folder / "cut.html"
+        broken.write_text('<body><svg width="50" height="20"><text x="30" y="10">too long</text></svg></body>')
+        self.assertEqual(measured(broken, CLIPPED), ["too long"])
+
+    def test_no_printed_page_is_half_empty(self):
+        shares = filled_pages(self.page)
+        self.assertGreater(min(shares[:-1]), 0.5, shares)
+        self.assertGreater(shares[-1], 0.02, shares)
+
+    def test_headings_of_columns_have_a_scope(self):
+        heads = re.findall(r"<thead>(.*?)</thead>", self.text, re.S)
+        self.assertTrue(heads)
+        for head in heads:
+            for tag, inside in re.findall(r"<th\b([^>]*)>(.*?)</th>", head, re.S):
+                self.assertRegex(tag, r'scope="col(group)?"')
+                self.assertTrue(inside.strip())
+        for row in re.findall(r"<tbody>.*?</tbody>", self.text, re.S):
+            self.assertNotRegex(row, r'<th(?![^>]*scope="row")[ >]')
+
+    def test_picture_shows_the_scenarios_values(self):
+        picture = self.text[self.text.index('class="picture"'):]
+        picture = picture[:picture.index("</svg>")]
+        for words in ("beam pitch 0.2836°", "rod length 179.822", "trigger fraction 0.500", "bottom height 0.11"):
+            self.assertIn(words, picture)
+        self.assertLess(self.text.index('class="picture"'), self.text.index("<h2>Result</h2>"))
+
+    def test_what_does_not_exist_is_not_drawn(self):
+        ends = ("symmetric_low", "symmetric_high", "shortest_low", "shortest_high")  # none with too few trials
+        for absent in (ends, (*ends, "estimate", "standard_uncertainty"), ("estimate",), ("standard_uncertainty",)):
+            few = self.folder / "few.h5"
+            shutil.copy(self.result, few)
+            with h5py.File(few, "a") as file:
+                for name in absent:
+                    file[f"summary/{name}"][()] = math.nan
+            run = subprocess.run([GUMSHOE, "report", few], cwd=ROOT, capture_output=True, text=True)
+            self.assertEqual((run.returncode, run.stderr), (0, ""), absent)
+            words = re.sub(r"<[^>]+>", " ", few.with_suffix(".html").read_text(encoding="utf-8"))
+            self.assertFalse({"nan", "inf"} & set(re.split(r"\W+", words)))
+
+    def test_budget_can_be_taken_away(self):
+        links = dict(re.findall(r'download="rod_(budget\.\w+)" href="data:[^;]*;base64,([^"]*)"', self.text))
+        self.assertEqual(base64.b64decode(links["budget.csv"]), (self.folder / "rod_budget.csv").read_bytes())
+        self.assertEqual(base64.b64decode(links["budget.xlsx"]), (self.folder / "rod_budget.xlsx").read_bytes())
+
     def test_prints_the_result(self):
         pdf = self.folder / "page.pdf"
         run = browser("--no-pdf-header-footer", f"--print-to-pdf={pdf}", self.page.as_uri())
@@ -103,6 +167,7 @@ class Report(unittest.TestCase):
         printed = squeezed(subprocess.run(["pdftotext", pdf, "-"], check=True, capture_output=True, text=True).stdout)
         self.assertTrue(self.statements and self.statements[0])
         self.assertIn(squeezed(self.statements[0]), printed)
+        self.assertNotIn("budget.xlsx", printed)  # paper has no links
 
     def test_tables_have_all_digits(self):
         with open(self.folder / "rod_summary.csv", encoding="utf-8") as file:
@@ -150,7 +215,7 @@ class EveryStudy(unittest.TestCase):
     def test_every_section_is_there(self):
         for heading in ("Conformity", "Several measurands together", "Angles on the circle", "Second order", "Shapley effects",
                         "From the stored samples alone", "Screening by elementary effects", "Derivative-based bounds",
-                        "What would reach the target for height?", "One at a time: each error given",
+                        "What would reach the target", "One at a time: each error given",
                         "How many trials"):
             self.assertIn(heading, self.words)
         for label in ("Tornado plot of the budget and Sobol' indices of height",
@@ -264,6 +329,199 @@ class EveryStudy(unittest.TestCase):
         self.assertAlmostEqual(made["runout"]["joint"][0]["correlation"]["height"], -0.55)
         self.assertIsNone(made["runout"]["conformity"][0]["lower"])
         self.assertNotIn("sobol", made["loss"])
+
+
+def renamed(thing, names):
+    """The same result with other names of outputs and inputs."""
+    if isinstance(thing, types.SimpleNamespace):
+        return types.SimpleNamespace(**{key: renamed(value, names) for key, value in vars(thing).items()})
+    if isinstance(thing, list):
+        return [renamed(item, names) for item in thing]
+    return names.get(thing, thing) if isinstance(thing, str) else thing
+
+
+class LongNames(unittest.TestCase):
+    def test_no_label_is_clipped(self):
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            subprocess.run([MADE, folder / "full.h5"], check=True)
+            result = read.result(folder / "full.h5")
+            long = {"height": "height_of_the_lower_face[rod standard of laboratory 12, setup 3 after lunch, spindle warm]",
+                    "runout": "runout_of_the_tool_holder_with_its_shank[holder 4711, clamped anew for every reading]",
+                    "beam_pitch": "pitch_of_the_beam_against_the_machine[after alignment with the long rod, setup 12]"}
+            (folder / "long.html").write_text(page.render(renamed(result, long)), encoding="utf-8")
+            self.assertEqual(measured(folder / "long.html", CLIPPED), [])
+
+
+class Workbook(unittest.TestCase):
+    """The budget as Office Open XML, read again without the writer."""
+
+    NAMES = {"m": workbook.MAIN, "r": workbook.OFFICE}
+
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        path = pathlib.Path(cls.temporary.name) / "full.h5"
+        subprocess.run([MADE, path], check=True)
+        cls.result = read.result(path)
+        cls.archive = zipfile.ZipFile(io.BytesIO(workbook.budget(cls.result)))
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.temporary.cleanup()
+
+    def sheets(self):
+        """{name of the sheet: {"A1": (value, formula)}}, as the relations say."""
+        self.assertIsNone(self.archive.testzip())
+        parse = lambda name: ElementTree.fromstring(self.archive.read(name))
+        types = {e.get("PartName") for e in parse("[Content_Types].xml") if e.get("PartName")}
+        self.assertLessEqual(types, {"/" + name for name in self.archive.namelist()})
+        targets = {e.get("Id"): e.get("Target") for e in parse("xl/_rels/workbook.xml.rels")}
+        found = {}
+        for sheet in parse("xl/workbook.xml").iterfind(".//m:sheet", self.NAMES):
+            cells = {}
+            for c in parse("xl/" + targets[sheet.get(f"{{{workbook.OFFICE}}}id")]).iterfind(".//m:c", self.NAMES):
+                text = c.find("m:is/m:t", self.NAMES)
+                value = text.text if text is not None else float(c.find("m:v", self.NAMES).text)
+                formula = c.find("m:f", self.NAMES)
+                cells[c.get("r")] = (value, formula.text if formula is not None else None)
+            found[sheet.get("name")] = cells
+        return found
+
+    def test_sums_agree_with_the_result(self):
+        sheets, checked = self.sheets(), 0
+        self.assertEqual(len(sheets), len(self.result.budgets))
+        for cells, b in zip(sheets.values(), self.result.budgets):
+            self.assertEqual(cells["A1"][0], b.output)
+            if not b.applicable:
+                continue
+            column = {int(at[1:]): value for at, (value, _) in cells.items() if at[0] == "J" and isinstance(value, float)}
+            components = [column[k] for k in range(3, 3 + len(b.rows)) if k in column]
+            label = {value: int(at[1:]) for at, (value, _) in cells.items() if at[0] == "A"}
+            u, k = label["combined standard uncertainty u_c"], label["coverage factor k"]
+            U = next(row for text, row in label.items() if text.startswith("expanded uncertainty"))
+            self.assertAlmostEqual(column[u], b.combined_standard_uncertainty * b.display_factor)
+            if f"J{u}" in cells and cells[f"J{u}"][1]:
+                self.assertEqual(cells[f"J{u}"][1], f"SQRT(SUMSQ(J3:J{2 + len(b.rows)}))")
+                self.assertAlmostEqual(math.sqrt(sum(x * x for x in components)), column[u], delta=1e-6 * column[u])
+                checked += 1
+            self.assertEqual(cells[f"J{U}"][1], f"J{k}*J{u}")
+            self.assertAlmostEqual(column[U], b.expanded_uncertainty * b.display_factor)
+        self.assertTrue(checked)
+
+    def test_names_of_sheets_are_legal_and_unique(self):
+        long = "bottom_height[rod standard, setup 1]"
+        names = workbook.sheet_names([long, long, "a/b", "A b", ""])
+        self.assertEqual(len({n.lower() for n in names}), 5)
+        for name in names:
+            self.assertRegex(name, r"^[^\[\]:*?/\\']{1,31}$")
+
+
+class Equations(unittest.TestCase):
+    """MathML says what the formula says: parentheses where they are needed and nowhere else."""
+
+    def shown(self, text):
+        """The formula in one line: fractions as (a)/(b), powers as a^(b), indices as a_(b)."""
+        def walk(e):
+            inside = [walk(child) for child in e]
+            text = (e.text or "").strip()
+            return {"mfrac": lambda: "({})/({})".format(*inside), "msup": lambda: "{}^({})".format(*inside),
+                    "msub": lambda: "{}_({})".format(*inside), "msqrt": lambda: f"sqrt({''.join(inside)})",
+                    }.get(e.tag, lambda: text + "".join(inside))()
+        return walk(ElementTree.fromstring(str(mathml.equation(text)).replace("&#x2061;", "")))
+
+    def test_structure(self):
+        for text, shown in (
+                ("y = -(a + b)/(c*d) - (e - f)", "y=(−(a+b))/(c·d)−(e−f)"),
+                ("y = a - (b + c) + (d + e)", "y=a−(b+c)+d+e"),
+                ("y = a*(b + c)*(d*g)", "y=a·(b+c)·d·g"),
+                ("y = (a*b)^2 - (-a)^2^x_1", "y=(a·b)^(2)−(−a)^(2^(x_(1)))"),
+                ("y = a/b/c", "y=((a)/(b))/(c)"),
+                ("growth = alpha*length*sqrt(abs(t_0 - t))", "growth=α·length·sqrt(|t_(0)−t|)"),
+                ("E_X0B = 2.5e-6*f(x, y)", "E_(X0B)=2.5·10^(−6)·f(x,y)")):
+            self.assertEqual(self.shown(text), shown, text)
+
+    def test_what_cannot_be_read_stays_as_it_is_written(self):
+        self.assertEqual(mathml.equation("y = (a < b"), "<code>y = (a &lt; b</code>")
+
+
+class Question(unittest.TestCase):
+    def test_first_sentence_of_the_question_only(self):
+        for text, asked in (
+                ("# Question: how well? \n#:schema s.json\n#\n# The study of X, section 4.\nschema = 1", "How well?"),
+                ("# Question: how well do 3.5 mm rods,\n# e.g. steel ones, gauge it? The tool of Y.\n", "How well do 3.5 mm rods, e.g. steel ones, gauge it?"),
+                ("# Copyright A. B. Smith\n#\n# question: which?\n", "Which?"),
+                ("# Two rods, compared. Nothing else.\n", "Two rods, compared."),
+                ("schema = 1\n# Question: no\n", "")):
+            self.assertEqual(page.question(text), asked)
+
+
+class Coefficients(unittest.TestCase):
+    def test_units_are_those_that_people_write(self):
+        def unit(output, si_output, factor, of, si, by, slope):
+            b = types.SimpleNamespace(display_units=output, units=si_output, display_factor=factor)
+            c = types.SimpleNamespace(display_units=of, units=si, display_factor=by, sensitivity=slope)
+            value, written = tables.coefficient(b, c)
+            return float(f"{value:.6g}"), written
+        degree = 180 / math.pi
+        self.assertEqual(unit("mm", "m", 1e3, "deg", "rad", degree, 5e-3), (87.2665, "um/deg"))  # 5 mm times pi / 180
+        self.assertEqual(unit("mm", "m", 1e3, "um", "m", 1e6, -1.0), (-1.0, "1"))
+        self.assertEqual(unit("mm", "m", 1e3, "1", "1", 1.0, 0.3), (300.0, "mm"))
+        self.assertEqual(unit("mm", "m", 1e3, "um/m/K", "1/K", 1e6, 0.04), (0.04, "um/(um/m/K)"))
+
+
+class Reduce(unittest.TestCase):
+    def budget(self, shares, **more):
+        rows = [types.SimpleNamespace(name=n, quantity=n, share=s, monte_carlo_share=math.nan, evaluation=e, source="x")
+                for n, s, e in shares]
+        return types.SimpleNamespace(**{**dict(rows=rows, applicable=1, correlation_share=0.0, display_units="um", display_factor=1e6,
+                                     combined_standard_uncertainty=10e-6), **more})
+
+    def test_what_is_left_without_a_quantity(self):
+        found = reduce.table(self.budget([("a", 0.64, "A"), ("b", 0.36, "B")]), 10e-6)
+        first, second = found.rows
+        # u without a: 10 sqrt(0.36) = 6.0; with half of u(a): 10 sqrt(1 - 0.75 0.64) = 7.2; without b: 8.0
+        self.assertEqual((first.name, first.exact, first.half, second.exact), ("a", "6.0", "7.2", "8.0"))
+        self.assertIn("observations", first.how)
+        self.assertIn("source", second.how)
+
+    def test_correlated_inputs_have_no_such_table(self):
+        self.assertEqual(reduce.table(self.budget([("a", 0.6, "A")], correlation_share=0.4), 10e-6).rows, [])
+
+    def test_without_the_law_indices_decide(self):
+        indices = types.SimpleNamespace(rows=[types.SimpleNamespace(input="a", first=0.19, total=0.2),
+                                              types.SimpleNamespace(input="b", first=0.75, total=0.76)])
+        wrong = reduce.table(self.budget([("a", 0.9, "B"), ("b", 0.1, "B")]), 20e-6, indices)  # the law sees no kink
+        self.assertEqual([(r.name, r.exact) for r in wrong.rows], [("b", "10"), ("a", "18")])
+        found = reduce.table(self.budget([("a", math.nan, "B"), ("b", math.nan, "B")], applicable=0), 20e-6, indices)
+        self.assertEqual([(r.name, r.exact) for r in found.rows], [("b", "10"), ("a", "18")])
+
+
+class Certificate(unittest.TestCase):
+    def test_signs_that_people_write(self):
+        self.assertEqual(certificate.typeset("z[rod-2] = (-1.20 +- 0.03) um, k = 1.96, 95 %"),
+                         "z[rod-2] = (−1.20 ± 0.03) µm, k = 1.96, 95 %")
+
+    def test_of_a_validated_budget(self):
+        o = types.SimpleNamespace(name="L")
+        b = types.SimpleNamespace(applicable=1, expanded_uncertainty=99e-9, estimate=10.0033871e-3, display_units="mm",
+                                  display_factor=1e3, display_offset=0.0, effective_degrees_of_freedom=math.inf, coverage_factor=1.96)
+        v = types.SimpleNamespace(verdict="validated")
+        self.assertEqual(certificate.line(o, b, v, 0.95).replace("\u202f", " "), "L = (10.003387 ± 0.000099) mm, k = 1.96, 95 %")
+        v.verdict = "not validated"
+        self.assertEqual(certificate.line(o, b, v, 0.95), "")
+
+
+class Convergence(unittest.TestCase):
+    def test_running_figures(self):
+        x = 1e6 + np.random.default_rng(1).normal(size=5000)  # far from zero: no cancellation
+        counts, mean, spread, ends = convergence.track(x, 0.9)
+        self.assertEqual((counts[0], counts[-1]), (100, 5000))
+        for k in (0, 7, -1):
+            first = x[:counts[k]]
+            self.assertAlmostEqual(mean[k], first.mean(), places=6)
+            self.assertAlmostEqual(spread[k], first.std(ddof=1), places=6)
+            np.testing.assert_allclose(ends[k], np.quantile(first, [0.05, 0.95]))
 
 
 CURVE = """schema = 1

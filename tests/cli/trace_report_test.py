@@ -19,6 +19,7 @@ from program import GUMSHOE, ROOT, complaint, gumshoe
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "reports"))
+from browser import CLIPPED, measured
 from choose_report_test import Elements, labels, words_of
 from gumshoe_report import trace, trace_figures
 
@@ -233,6 +234,12 @@ class Page(Made):
                               "--page-only"], capture_output=True, text=True)
         self.assertEqual((run.returncode, run.stdout, run.stderr), (0, "", ""))
         self.assertEqual([p.name for p in alone.iterdir()], ["p.html"])
+
+    def test_no_label_is_clipped_and_headings_have_a_scope(self):
+        self.assertEqual(measured(self.file("two_findings").with_suffix(".html"), CLIPPED), [])
+        for page in self.pages.values():
+            for head in re.findall(r"<thead>(.*?)</thead>", page, re.S):
+                self.assertNotRegex(head, r'<th(?![^>]*scope="col)[ >]')
 
     def test_browser_has_no_complaint(self):
         with tempfile.TemporaryDirectory() as profile:

@@ -1,0 +1,140 @@
+"""The budgets as a workbook (Office Open XML, ECMA-376): a sheet per output, whose sums are formulas."""
+import io
+import math
+import re
+import zipfile
+from xml.sax.saxutils import escape, quoteattr
+
+from .tables import coefficient, point, spread
+
+TYPES = "application/vnd.openxmlformats-officedocument.spreadsheetml"
+MAIN = "http://schemas.openxmlformats.org/spreadsheetml/2006/main"
+OFFICE = "http://schemas.openxmlformats.org/officeDocument/2006/relationships"
+PACKAGE = "http://schemas.openxmlformats.org/package/2006"
+HEAD = '<?xml version="1.0" encoding="UTF-8" standalone="yes"?>\n'
+STYLES = (f'{HEAD}<styleSheet xmlns="{MAIN}"><fonts count="2"><font><sz val="11"/><name val="Calibri"/></font>'
+          '<font><b/><sz val="11"/><name val="Calibri"/></font></fonts><fills count="2"><fill><patternFill '
+          'patternType="none"/></fill><fill><patternFill patternType="gray125"/></fill></fills><borders count="1"><border/>'
+          '</borders><cellStyleXfs count="1"><xf/></cellStyleXfs><cellXfs count="3"><xf/><xf fontId="1" applyFont="1"/>'
+          '<xf numFmtId="10" applyNumberFormat="1"/></cellXfs><cellStyles count="1"><cellStyle name="Normal" '
+          'xfId="0" builtinId="0"/></cellStyles></styleSheet>')
+BOLD, PERCENT = 1, 2
+SHEETS = 100  # outputs with a sheet of their own; more share one
+COLUMNS = ("quantity", "estimate", "u", "unit", "type", "distribution", "degrees of freedom", "c", "unit of c", "|c| u",
+           "unit of |c| u", "share", "share, Monte Carlo", "scope", "source")
+
+
+class Formula:
+    """A formula and the value that a reader without a calculator sees."""
+
+    def __init__(self, text, value):
+        self.text, self.value = text, value
+
+
+def letters(column):
+    text = ""
+    while column >= 0:
+        text, column = chr(65 + column % 26) + text, column // 26 - 1
+    return text
+
+
+def cell(value, row, column, style=0):
+    if value is None or value == "" or isinstance(value, float) and not math.isfinite(value):
+        value = "infinite" if value == math.inf else ""
+        if not value:
+            return ""
+    at = f'r="{letters(column)}{row}"' + (f' s="{style}"' if style else "")
+    if isinstance(value, Formula):
+        return f"<c {at}><f>{escape(value.text)}</f><v>{value.value!r}</v></c>" if math.isfinite(value.value) else ""
+    if isinstance(value, (int, float)):
+        return f"<c {at}><v>{value!r}</v></c>"
+    text = re.sub("[\x00-\x08\x0b\x0c\x0e-\x1f]", "", str(value))
+    return f'<c {at} t="inlineStr"><is><t xml:space="preserve">{escape(text)}</t></is></c>'
+
+
+def sheet(rows):
+    """`rows`: lists of values or (value, style)."""
+    lines = []
+    for k, values in enumerate(rows, 1):
+        cells = [cell(*((v, k, c) if not isinstance(v, tuple) else (v[0], k, c, v[1]))) for c, v in enumerate(values)]
+        lines.append(f'<row r="{k}">{"".join(cells)}</row>')
+    return (f'{HEAD}<worksheet xmlns="{MAIN}"><cols><col min="1" max="1" width="30" customWidth="1"/>'
+            f'<col min="2" max="13" width="14" customWidth="1"/><col min="14" max="15" width="32" customWidth="1"/></cols>'
+            f'<sheetData>{"".join(lines)}</sheetData></worksheet>')
+
+
+def component_row(b, c):
+    value, unit = coefficient(b, c)
+    return [c.name, point(c, c.estimate), spread(c, c.standard_uncertainty), c.display_units, c.evaluation,
+            c.distribution, c.degrees_of_freedom or math.inf, value, unit, spread(b, c.contribution), b.display_units,
+            (c.share, PERCENT), (c.monte_carlo_share, PERCENT), c.scope, c.source]
+
+
+def all_rows(budgets):
+    """Many budgets in one table."""
+    return [[(name, BOLD) for name in ("output", *COLUMNS)]] + [[b.output, *component_row(b, c)] for b in budgets for c in b.rows]
+
+
+def budget_rows(b, p):
+    """The budget in the output's unit. u_c is a formula over the contributions, unless inputs are correlated."""
+    rows = [[(b.output, BOLD)], [(name, BOLD) for name in COLUMNS]] + [component_row(b, c) for c in b.rows]
+    if not b.applicable:
+        return rows + [[], [f"GUM framework not applicable: {b.reason}"]]
+    last, u, U = len(rows), spread(b, b.combined_standard_uncertainty), spread(b, b.expanded_uncertainty)
+    independent = not abs(b.correlation_share) > 1e-12
+    total = Formula(f"SQRT(SUMSQ(J3:J{last}))", u) if independent else u
+    row_of_u = last + 2 + (not independent)
+    below = lambda name, value, unit="": [(name, BOLD), *[""] * 8, value, unit]
+    return rows + [
+        below("estimate y", point(b, b.estimate), b.display_units),
+        *([] if independent else [below("correlations", (b.correlation_share, PERCENT))]),
+        below("combined standard uncertainty u_c", total, b.display_units),
+        below("effective degrees of freedom", b.effective_degrees_of_freedom or math.inf),
+        below("coverage factor k", b.coverage_factor),
+        below(f"expanded uncertainty U, {100 * p:.10g} %",
+              Formula(f"J{row_of_u + 2}*J{row_of_u}", U), b.display_units)]
+
+
+def sheet_names(outputs):
+    """At most 31 characters, without []:*?/\\, each once."""
+    names = []
+    for output in outputs:
+        name = re.sub(r"[\[\]:*?/\\']", " ", output).strip()[:31] or "budget"
+        number = 2
+        while name.lower() in (n.lower() for n in names):
+            tail = f" {number}"
+            name, number = name[:31 - len(tail)] + tail, number + 1
+        names.append(name)
+    return names
+
+
+def budget(r):
+    """The bytes of the workbook; None of a result without a budget."""
+    budgets = [b for b in r.budgets if b.rows]
+    if not budgets:
+        return None
+    contents = {"budgets": all_rows(budgets)} if len(budgets) > SHEETS else dict(
+        zip(sheet_names([b.output for b in budgets]), (budget_rows(b, r.coverage_probability) for b in budgets)))
+    names = list(contents)
+    sheets = "".join(f'<sheet name={quoteattr(n)} sheetId="{k}" r:id="rId{k}"/>' for k, n in enumerate(names, 1))
+    related = "".join(f'<Relationship Id="rId{k}" Type="{OFFICE}/worksheet" Target="worksheets/sheet{k}.xml"/>'
+                      for k in range(1, len(names) + 1))
+    parts = "".join(f'<Override PartName="/xl/worksheets/sheet{k}.xml" ContentType="{TYPES}.worksheet+xml"/>'
+                    for k in range(1, len(names) + 1))
+    files = {
+        "[Content_Types].xml": f'{HEAD}<Types xmlns="{PACKAGE}/content-types"><Default Extension="rels" ContentType="application/'
+                               f'vnd.openxmlformats-package.relationships+xml"/><Default Extension="xml" ContentType="application/xml"/>'
+                               f'<Override PartName="/xl/workbook.xml" ContentType="{TYPES}.sheet.main+xml"/><Override '
+                               f'PartName="/xl/styles.xml" ContentType="{TYPES}.styles+xml"/>{parts}</Types>',
+        "_rels/.rels": f'{HEAD}<Relationships xmlns="{PACKAGE}/relationships"><Relationship Id="rId1" '
+                       f'Type="{OFFICE}/officeDocument" Target="xl/workbook.xml"/></Relationships>',
+        "xl/workbook.xml": f'{HEAD}<workbook xmlns="{MAIN}" xmlns:r="{OFFICE}"><sheets>{sheets}</sheets></workbook>',
+        "xl/_rels/workbook.xml.rels": f'{HEAD}<Relationships xmlns="{PACKAGE}/relationships">{related}<Relationship Id="rId'
+                                      f'{len(names) + 1}" Type="{OFFICE}/styles" Target="styles.xml"/></Relationships>',
+        "xl/styles.xml": STYLES,
+        **{f"xl/worksheets/sheet{k}.xml": sheet(rows) for k, rows in enumerate(contents.values(), 1)}}
+    out = io.BytesIO()
+    with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, text in files.items():
+            archive.writestr(zipfile.ZipInfo(name, (1980, 1, 1, 0, 0, 0)), text.encode("utf-8"), zipfile.ZIP_DEFLATED)
+    return out.getvalue()
