@@ -21,7 +21,6 @@ std::string read_text_file(const std::string& path, std::size_t limit) {
   if (std::filesystem::is_directory(status)) refuse("this is a directory, not a file");
   errno = 0;
   std::ifstream in(path, std::ios::binary);
-  if (!in) refuse("the file cannot be read", std::strerror(errno));
   std::string text;
   char buffer[1 << 16];
   while (in.read(buffer, sizeof buffer), in.gcount() > 0) {
@@ -30,7 +29,7 @@ std::string read_text_file(const std::string& path, std::size_t limit) {
       refuse("the file is too large", fmt::format("more than {} bytes", limit), "is it the right file?");
     }
   }
-  if (in.bad()) refuse("the file cannot be read", errno ? std::strerror(errno) : "");
+  if (!in.is_open() || in.bad()) refuse("the file cannot be read", std::strerror(errno));
   if (text.find('\0') != std::string::npos) {
     refuse("the file is not text", "it contains NUL bytes", "is it the right file?");
   }

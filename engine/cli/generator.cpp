@@ -25,7 +25,7 @@ ExitCode generate(const std::vector<std::string>& words) {
   }
   int status = 0;
   if (child < 0 || waitpid(child, &status, 0) < 0 || !WIFEXITED(status))
-    throw InputError("report: the generator could not be started", "/usr/bin/python3 " + script);
+    throw InputError("report: the generator did not run to its end", "/usr/bin/python3 " + script);
   if (WEXITSTATUS(status) == 127) throw InputError("report: /usr/bin/python3 is missing", "", "run scripts/setup");
   return WEXITSTATUS(status) == 0 ? ExitCode::done : ExitCode::bad_input;
 }

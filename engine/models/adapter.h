@@ -93,8 +93,7 @@ template <class M, class T> Reading<typename M::Rows, T> reading_of(const PointC
 /// Refuses all that is impossible about one reading at a point: limits of the card, conditions, values together.
 template <class M, class T> void check_all(const Reading<typename M::Rows, T>& at, Outcome<T>& outcome) {
   for (std::size_t i = 0; i < M::card.quantities.size(); ++i)
-    outcome.refuse(!M::card.quantities[i].limits.contain(num::value(array_of(at.q)[i])),
-                   "a quantity is outside its limits");
+    outcome.refuse(!M::card.quantities[i].limits.contain(num::value(array_of(at.q)[i])));
   detail::check_commanded<M>(at, outcome);
   if constexpr (requires { M::check(at, outcome); })
     if (!outcome.failed) M::check(at, outcome);

@@ -123,8 +123,8 @@ public:
   /// Refuses the samples of which a quantity lies beyond the card's limits, or that M refuses.
   void check(std::size_t r, const Reading<Rows, T>& at, Outcome<T>& outcome) const {
     for (const std::size_t j : leaving_[r])
-      outcome.refuse(!within(M::card.quantities[j].limits, array_of(at.q)[j]), "a quantity is outside its limits");
-    if (commanded_[r] == Commanded::wrongly) outcome.refuse(T(0.0) == T(0.0), "a condition is impossible");
+      outcome.refuse(!within(M::card.quantities[j].limits, array_of(at.q)[j]));
+    if (commanded_[r] == Commanded::wrongly) outcome.refuse(T(0.0) == T(0.0));
     if (commanded_[r] == Commanded::each_sample) check_commanded<M>(at, outcome);
     if constexpr (requires { M::check(at, outcome); })
       if (numbers_in < T >> 1 || !outcome.failed) M::check(at, outcome);

@@ -57,8 +57,9 @@ template <class T> struct Outcome {
     failed |= with != Status::ok;
   }
   void fail(Status with) { fail(0, with); }
-  /// out_of_domain where the mask holds. @param reason names the quantity and says what is wrong
-  template <class Mask> void refuse(const Mask& where, const char* reason) {
+  /// out_of_domain where the mask holds. @param reason names the quantity and says what is wrong; without one, what
+  /// scenario and table refuse before, so that only samples can meet it
+  template <class Mask> void refuse(const Mask& where, const char* reason = nullptr) {
     if (!num::any(where)) return;
     if (!why) why = reason;
     for (std::size_t i = 0; i < status.size(); ++i)

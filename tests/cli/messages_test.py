@@ -2,9 +2,12 @@
 
 usage: messages_test.py path/to/gumshoe [unittest options]
 """
+import os
 import pathlib
 import tempfile
 import unittest
+
+import h5py
 
 from program import ROOT, SCENARIO, complaint, gumshoe
 from choose_test import TEXT as CHOOSE
@@ -122,9 +125,11 @@ CHECKED = [
     (ROWS, None, '[quantities.beam_yaw.by.rod.a.by.rod.b]\nvalue = "0 deg"\n', "is nested within itself"),
     (ROWS, None, '[quantities.beam_yaw]\nvalue = "0 deg"\nu = "1 deg"\nper = "rood"\n', "Did you mean 'rod'?"),
     (ROWS.replace('rod = "b", setup = "1"', 'rod = "b"'), None,
-     '[quantities.beam_yaw]\nvalue = "0 deg"\nu = "1 deg"\nper = "setup"\n', "does not have this label"),
+     '[quantities.beam_yaw]\nvalue = "0 deg"\nu = "1 deg"\nper = "setup"\n', "per = 'setup', but reading 2 does not have this label"),
     (SPHERE, None, "", "lacks an indication"),
     (SCENARIO, None, '[quantities.fillet_radius]\nvalue = "6 mm"\n', "fillet_radius exceeds rod_radius"),
+    (ROWS, None, '[quantities.fillet_radius.by.rod]\na = "0 mm"\nb = "6 mm"\n',
+     "fillet_radius exceeds rod_radius at reading [rod b, setup 1] (physically impossible)"),
     # correlations
     (SCENARIO, None, CORRELATED, "either a coefficient or a matrix is needed"),
     (SCENARIO, None, CORRELATED + "matrix = [[1, 0.5], [0.4, 1]]\n", "correlations are symmetric"),
@@ -242,20 +247,21 @@ class Messages(unittest.TestCase):
 
     def test_commands(self):
         fit = FORMULA + '[model.indications]\nz = "a * 2"\n[indications.z]\nreadings = ["2 mm"]\n'
-        fit_two = FORMULA.replace("u = ", "estimated = true, u = ", 1) + (
-            '[model.indications]\nz = "a * 2"\nw = "a"\n[indications.z]\nreadings = ["2 mm"]\nrepeatability = { s = "1 um" }\n'
-            '[indications.w]\nreadings = ["1 mm"]\nNOISE\n')
+        estimated = fit.replace('u = "1 um"', 'u = "1 um", estimated = true', 1)
+        noise, own = 'repeatability = { s = "1 um" }', 'components = [ { distribution = "normal", u = "1 um" } ]'
+
+        def two(readings, of_z, of_w):  # indications z and w
+            return FORMULA.replace("u = ", "estimated = true, u = ", 1) + (
+                f'[model.indications]\nz = "a * 2"\nw = "a"\n[indications.z]\n{readings}\n{of_z}\n'
+                f'[indications.w]\n{readings}\n{of_w}\n')
         for text, command, words in [
             (fit.replace('[model.measurands]\ny = "a + b"\n', "").replace('[quantities]\n', '').replace(
                 'a = {', '[quantities]\na = {'), ["run", "S", "--out", "O"], "there is nothing to measure"),
             (SCENARIO, ["run", "S", "--out", "O" * 300], "too long"),
             (SCENARIO, ["estimate", "S"], "no quantity is marked estimated"),
-            (fit.replace('a = { value = "1 mm", u = "1 um" }', 'a = { value = "1 mm", u = "1 um", estimated = true }'),
-             ["estimate", "S"], "their own noise"),
-            (fit.replace('readings = ["2 mm"]', 'readings = ["2 mm"]\nrepeatability = { s = "1 um" }').replace('a = { value = "1 mm", u = "1 um" }', 'a = { value = "1 mm", u = "1 um", estimated = true }')
-             + '[[expected]]\nfigure = "fit.mien"\nvalue = 1\nsource = "x"\n', ["gauge", "S"], "figure of this fit"),
-            (fit.replace('a = { value = "1 mm", u = "1 um" }', 'a = { value = "1 mm", estimated = true }')
-             .replace('b = { value = "2 mm", u = "1 um" }', 'b = { value = "2 mm", estimated = true }'), ["estimate", "S"], "cannot determine"),
+            (estimated, ["estimate", "S"], "their own noise"),
+            (estimated + noise + '\n[[expected]]\nfigure = "fit.mien"\nvalue = 1\nsource = "x"\n', ["gauge", "S"], "figure of this fit"),
+            (fit.replace('u = "1 um"', "estimated = true"), ["estimate", "S"], "cannot determine"),
             (TOOL + '[[expected]]\nfigure = "mean"\nof = "tool_length"\nlabels = { n = "1" }\nvalue = "1 mm"\nsource = "x"\n',
              ["gauge", "S"], "no output matches"),
             (ROWS + '[[expected]]\nfigure = "mean"\nof = "laser_z"\nlabels = { rod = "none" }\nvalue = "1 mm"\nsource = "x"\n',
@@ -270,11 +276,9 @@ class Messages(unittest.TestCase):
             (CHOOSE.replace("feed * delay", "feed * delay * sqrt(1 - spread * spread)", 1).replace(
                 'length = "100 mm"', 'length = "100 mm"\nspread = { value = 0, u = 10 }'), ["choose", "S", "--out", "O"],
              "choose: every candidate fails"),
-            (fit_two.replace("NOISE", ""), ["estimate", "S"], "no noise is declared, but"),
-            (fit_two.replace("NOISE", 'components = [ { distribution = "normal", u = "1 um" } ]').replace(
-                'repeatability = { s = "1 um" }', 'components = [ { distribution = "normal", u = "1 um" } ]').replace('readings = ["1 mm"]', 'rows = [{ n = "1", values = ["1 mm"] }, { n = "2", values = ["1 mm"] }]').replace(
-                'readings = ["2 mm"]', 'rows = [{ n = "1", values = ["2 mm"] }, { n = "2", values = ["2 mm"] }]'),
-             ["estimate", "S"], "readings share all of their noise"),
+            (two('readings = ["1 mm"]', noise, ""), ["estimate", "S"], "no noise is declared, but"),
+            (two('rows = [{ n = "1", values = ["1 mm"] }, { n = "2", values = ["1 mm"] }]', own, own), ["estimate", "S"],
+             "readings share all of their noise"),
         ]:
             with self.subTest(words):
                 self.refused(text, command, words)
@@ -294,6 +298,33 @@ class Messages(unittest.TestCase):
         (self.file.parent / "z.csv").write_text("z,n\n" + "".join(f"-329.932,{n}\n" for n in range(5001)))
         self.refused(text + '[quantities]\nrod_length = { value = "100 mm", estimated = true }\n', ["estimate", "S"],
                      "5001 readings share draws of their noise")
+
+    def test_what_the_program_needs_and_does_not_find(self):
+        self.file.write_text(SCENARIO)
+        result, reports = self.file.parent / "r.h5", self.file.parent / "reports"
+        self.assertEqual(gumshoe("run", self.file, "--samples", 1000, "--out", result).returncode, 0)
+        reports.mkdir()
+        (reports / "report.py").write_text("import os\nos.kill(os.getpid(), 9)\n")
+        for command, variables, words in [
+            (["check", "/proc/self/mem"], {}, "the file cannot be read (Input/output error)"),  # opens, but holds nothing
+            (["check", self.file], {"UDUNITS2_XML_PATH": "none.xml"}, "the unit database of udunits2 cannot be read"),
+            (["report", result], {"GUMSHOE_REPORTS": reports}, "the generator did not run to its end"),
+        ]:
+            with self.subTest(words):
+                run = gumshoe(*command, env={**os.environ, **variables})
+                self.assertIsNone(complaint(run), run.stderr)
+                self.assertIn(words, run.stderr)
+
+    def test_samples_of_another_shape(self):
+        self.file.write_text(SCENARIO + "[run]\nsamples = 1000\nstore_samples = true\n")
+        result = self.file.parent / "r.h5"
+        self.assertEqual(gumshoe("run", self.file, "--out", result).returncode, 0)
+        with h5py.File(result, "r+") as file:
+            del file["outputs/status"]
+            file["outputs"].create_dataset("status", data=[0] * 999)
+        run = gumshoe("analyse", result)
+        self.assertIsNone(complaint(run), run.stderr)
+        self.assertIn("outputs/status has another shape", run.stderr)
 
     def test_traced_scenario_of_another(self):
         self.file.write_text(ROWS)

@@ -7,7 +7,7 @@ std::vector<Intermediate> RodGauging::explain(const At<double>& at, const Rows::
   const auto body = rod(at.q, event);
   const auto beam = laser_setter::beam(at.q);
   auto out = laser_setter::intermediates(event, event.tool_y);
-  out.push_back({"latch delay", "s", event.latch_delay});
+  out.insert(out.end(), {{"latch delay", "s", event.latch_delay}});
   Outcome<double> outcome;
   check(at, outcome);
   if (at.evaluation == full && !outcome.failed) {

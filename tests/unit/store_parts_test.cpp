@@ -1,0 +1,40 @@
+// Parts of the result file alone: what no whole run can be made to do.
+#include <filesystem>
+
+#include <catch2/catch.hpp>
+
+#include "base/error.h"
+#include "folder.h"
+#include "store/place.h"
+#include "store/table.h"
+
+using namespace gumshoe;
+using Catch::Contains;
+namespace fs = std::filesystem;
+
+TEST_CASE("space cannot be claimed for a file that is not there", "[store]") {
+  const fixture::Folder folder;
+  CHECK_THROWS_WITH(store::claim_space(folder / "none.h5", 1), Contains("cannot open '") && Contains("No such file"));
+}
+
+TEST_CASE("a file that cannot take its place leaves nothing behind", "[store]") {
+  const fixture::Folder folder;
+  fs::create_directory(folder / "taken.h5");
+  const auto build = [](const std::string& temporary) { std::ofstream(temporary) << "new"; };
+  CHECK_THROWS_WITH(store::replace_file(folder / "taken.h5", build), Contains("it cannot be moved into place"));
+  CHECK(std::distance(fs::directory_iterator(folder.path()), {}) == 1);
+}
+
+TEST_CASE("a column has a value per row, a matrix one per row and column", "[store]") {
+  const fixture::Folder folder;
+  const std::lock_guard lock(store::hdf5::library());
+  const auto file = store::hdf5::own(H5Fcreate((folder / "t.h5").c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT),
+                                     H5Fclose, "create a file");
+  store::Table rows(file, "row", 3), columns(file, "column", 2);
+  CHECK_NOTHROW(rows.numbers("good", std::vector<double>(3), "m", ""));
+  CHECK_THROWS_WITH(rows.numbers("short", std::vector<double>(2), "m", ""),
+                    Contains("cannot write column 'short'") && Contains("it has another length"));
+  CHECK_NOTHROW(rows.matrix("all", columns, std::vector<double>(6), "m", ""));
+  CHECK_THROWS_WITH(rows.matrix("some", columns, std::vector<double>(5), "m", ""),
+                    Contains("cannot write matrix 'some'") && Contains("it has another shape"));
+}
