@@ -10,58 +10,30 @@ namespace gumshoe::formula {
 /// Calls `use` with the operation as a function of two values (of which a function of one ignores the second).
 template <class T, class Use> void with_function(Operation operation, const Use& use) {
   namespace el = elementary;
+#define GUMSHOE_OF_ONE(f)                                                                                              \
+  case Operation::f:                                                                                                   \
+    return use([](const T& a, const T&) { return el::f(a); });
+#define GUMSHOE_OF_TWO(f)                                                                                              \
+  case Operation::f:                                                                                                   \
+    return use([](const T& a, const T& b) { return el::f(a, b); });
+  // clang-format off: one line each
   switch (operation) {
-  case Operation::add:
-    return use([](const T& a, const T& b) { return a + b; });
-  case Operation::subtract:
-    return use([](const T& a, const T& b) { return a - b; });
-  case Operation::multiply:
-    return use([](const T& a, const T& b) { return a * b; });
-  case Operation::divide:
-    return use([](const T& a, const T& b) { return a / b; });
-  case Operation::negate:
-    return use([](const T& a, const T&) { return -a; });
-  case Operation::power:
-    return use([](const T& a, const T& b) { return el::pow(a, b); });
-  case Operation::sin:
-    return use([](const T& a, const T&) { return el::sin(a); });
-  case Operation::cos:
-    return use([](const T& a, const T&) { return el::cos(a); });
-  case Operation::tan:
-    return use([](const T& a, const T&) { return el::tan(a); });
-  case Operation::asin:
-    return use([](const T& a, const T&) { return el::asin(a); });
-  case Operation::acos:
-    return use([](const T& a, const T&) { return el::acos(a); });
-  case Operation::atan:
-    return use([](const T& a, const T&) { return el::atan(a); });
-  case Operation::atan2:
-    return use([](const T& a, const T& b) { return el::atan2(a, b); });
-  case Operation::sinh:
-    return use([](const T& a, const T&) { return el::sinh(a); });
-  case Operation::cosh:
-    return use([](const T& a, const T&) { return el::cosh(a); });
-  case Operation::tanh:
-    return use([](const T& a, const T&) { return el::tanh(a); });
-  case Operation::exp:
-    return use([](const T& a, const T&) { return el::exp(a); });
-  case Operation::log:
-    return use([](const T& a, const T&) { return el::log(a); });
-  case Operation::log10:
-    return use([](const T& a, const T&) { return el::log10(a); });
-  case Operation::sqrt:
-    return use([](const T& a, const T&) { return el::sqrt(a); });
-  case Operation::abs:
-    return use([](const T& a, const T&) { return el::abs(a); });
-  case Operation::min:
-    return use([](const T& a, const T& b) { return el::min(a, b); });
-  case Operation::max:
-    return use([](const T& a, const T& b) { return el::max(a, b); });
-  case Operation::hypot:
-    return use([](const T& a, const T& b) { return el::hypot(a, b); });
-  default:
-    return;
+  case Operation::add: return use([](const T& a, const T& b) { return a + b; });
+  case Operation::subtract: return use([](const T& a, const T& b) { return a - b; });
+  case Operation::multiply: return use([](const T& a, const T& b) { return a * b; });
+  case Operation::divide: return use([](const T& a, const T& b) { return a / b; });
+  case Operation::negate: return use([](const T& a, const T&) { return -a; });
+  case Operation::power: return use([](const T& a, const T& b) { return el::pow(a, b); });
+  GUMSHOE_OF_ONE(sin) GUMSHOE_OF_ONE(cos) GUMSHOE_OF_ONE(tan)
+  GUMSHOE_OF_ONE(asin) GUMSHOE_OF_ONE(acos) GUMSHOE_OF_ONE(atan) GUMSHOE_OF_TWO(atan2)
+  GUMSHOE_OF_ONE(sinh) GUMSHOE_OF_ONE(cosh) GUMSHOE_OF_ONE(tanh)
+  GUMSHOE_OF_ONE(exp) GUMSHOE_OF_ONE(log) GUMSHOE_OF_ONE(log10) GUMSHOE_OF_ONE(sqrt)
+  GUMSHOE_OF_ONE(abs) GUMSHOE_OF_TWO(min) GUMSHOE_OF_TWO(max) GUMSHOE_OF_TWO(hypot)
+  default: return;
   }
+  // clang-format on
+#undef GUMSHOE_OF_ONE
+#undef GUMSHOE_OF_TWO
 }
 
 template <class T> T apply(Operation operation, const T& a, const T& b) {
