@@ -2,13 +2,14 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 namespace gumshoe::analysis {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 constexpr std::size_t cells = 1000;
 
 /// Masses of nodes and stiffnesses of cells: var g is sum m_j g_j^2 - (sum m_j g_j)^2, and E[g'^2] is

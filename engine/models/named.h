@@ -9,6 +9,8 @@
 #include <cstddef>
 #include <string_view>
 
+#include "math/scalar.h"
+
 #define GUMSHOE_NAMED(NAME, ...)                                                                                       \
   template <class T> struct NAME { T __VA_ARGS__; };                                                                   \
   struct NAME##Row {                                                                                                   \
@@ -36,6 +38,18 @@ template <template <class> class Named, class T> Named<T> named(const T* values)
   Named<T> out;
   for (std::size_t i = 0; i < rows_of<Named>; ++i) array_of(out)[i] = values[i];
   return out;
+}
+
+/// The same values as numbers of another kind, each made by `number`.
+template <class To, template <class> class Named, class T, class Number>
+Named<To> converted(const Named<T>& values, const Number& number) {
+  Named<To> out;
+  for (std::size_t i = 0; i < rows_of<Named>; ++i) array_of(out)[i] = number(array_of(values)[i]);
+  return out;
+}
+/// Derivatives are dropped.
+template <class To, template <class> class Named, class T> Named<To> converted(const Named<T>& values) {
+  return converted<To>(values, [](const T& x) { return To(num::value(x)); });
 }
 
 /// Whether "a, b, c" are the names of a card's rows.

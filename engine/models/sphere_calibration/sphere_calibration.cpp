@@ -1,17 +1,8 @@
 #include "models/sphere_calibration/sphere_calibration.h"
 
+#include "models/intermediates.h"
+
 namespace gumshoe::models::sphere_calibration {
-
-namespace {
-
-void add(std::vector<Intermediate>& out, const std::string& what, const Vector3<double>& v, const char* unit = "mm",
-         double factor = 1e3) {
-  out.push_back({what + ", X", unit, v.x * factor});
-  out.push_back({what + ", Y", unit, v.y * factor});
-  out.push_back({what + ", Z", unit, v.z * factor});
-}
-
-} // namespace
 
 std::vector<Intermediate> SphereCalibration::explain(const At<double>& reading, const Rows::Indications<double>& read) {
   const auto& [q, c, freed, evaluation, simulating] = reading;

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "models/cards.h"
+#include "models/intermediates.h"
 #include "models/kernel_choice.h"
 
 GUMSHOE_DECLARE_KERNELS(sphere_probing)
@@ -46,13 +47,6 @@ template <class T> PointOutcome simulate_point(const PointCall<T>& call) {
   const auto c = contact<T>(of(call.context), call.quantities, call.conditions, {});
   store(closing(c), call.simulated);
   return {spans(c) ? std::uint8_t{0} : out_of_domain};
-}
-
-void add(std::vector<Intermediate>& out, const std::string& what, const Vector3<double>& v, const char* unit = "mm",
-         double factor = 1 / mm) {
-  const double values[] = {v.x, v.y, v.z};
-  for (std::size_t i = 0; i < 3; ++i)
-    out.push_back({fmt::format("{}, {}", what, letters[i]), unit, values[i] * factor});
 }
 
 std::vector<Intermediate> explain(const PointCall<double>& call) {

@@ -24,7 +24,7 @@ constexpr double rounding = 2.5e-21;
 constexpr double steepest = 100;
 /// How far inside a jump is inside, m.
 constexpr double inside = 1e-14;
-constexpr double turn = 2 * 3.14159265358979323846;
+constexpr double turn = 2 * pi;
 
 class Fitter {
 public:
@@ -261,17 +261,6 @@ double greatest_height(const CurveReadings& d, Fitter& fitter, const Candidate& 
 
 } // namespace
 
-void curve_heights(const CurveReadings& d, double phase, const double* heights, const bool* seen, double* out) {
-  for (std::size_t i = 0; i < d.readings; ++i) {
-    out[i] = -1e300;
-    for (std::size_t k = 0; k < d.flutes; ++k)
-      if (seen[k]) {
-        const std::size_t ik = i * d.flutes + k;
-        out[i] = std::max(out[i], heights[k] + d.curves[ik]->at(d.lines[ik] + phase - heights[k]).height);
-      }
-  }
-}
-
 CurveFit fit_curve(const CurveReadings& d) {
   Fitter fitter(d);
   std::fill_n(fitter.active.begin(), d.flutes, true);
@@ -307,7 +296,6 @@ CurveFit fit_curve(const CurveReadings& d) {
   const double period = turn * d.drop;
   fit.phase = best.x[0] - period * std::floor(best.x[0] / period);
   fit.squares = best.squares;
-  fit.unknowns = shown + 1;
   for (std::size_t k = 0; k < d.flutes; ++k) {
     fit.seen[k] = fitter.active[k];
     fit.heights[k] = fit.seen[k] ? best.x[0] - best.x[k + 1] : greatest_height(d, fitter, best, static_cast<int>(k));

@@ -27,13 +27,9 @@ struct CurveFit {
   double phase = 0;                                  ///< m, from 0 to one turn's descent
   std::array<double, chain::most_inserts> heights{}; ///< H_k, m; of a hidden flute the greatest that readings allow
   std::array<bool, chain::most_inserts> seen{};      ///< needed to explain the readings
-  int unknowns = 0;                                  ///< seen flutes and the phase
   double squares = 0;                                ///< sum of squared residuals, m^2
 };
 
 CurveFit fit_curve(const CurveReadings& data);
-
-/// Model's heights at given phase and heights; flutes that are not `seen` do not count. For tests and plots.
-void curve_heights(const CurveReadings& data, double phase, const double* heights, const bool* seen, double* out);
 
 } // namespace gumshoe::models::tool_length

@@ -53,7 +53,7 @@ bool prepare(const Heights& all, Curves& curves, CurveReadings& data) {
       if (!data.curves.back()) return false;
       data.lines.push_back(line + m.drop * f.azimuth);
       data.alike &= data.curves.back() == data.curves[data.curves.size() - 1 - static_cast<std::size_t>(k)] &&
-                    std::fabs(f.azimuth - 2 * std::numbers::pi * k / n) < 1e-12;
+                    std::fabs(f.azimuth - 2 * pi * k / n) < 1e-12;
     }
   }
   return true;

@@ -8,8 +8,6 @@ namespace gumshoe::models::tool_length {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
 double whole_turn(double angle) { return angle - 2 * pi * std::floor(angle / (2 * pi)); }
 
 /// Flutes of the curve are numbered from the longest that shows, in the order of their seats. All but the residuals.

@@ -1,7 +1,6 @@
 #pragma once
 /// One readout of a turning mill in the beam: its event, its flutes, its true motion, its trigger.
 #include <cmath>
-#include <numbers>
 
 #include "models/model.h"
 #include "models/reading.h"
@@ -49,7 +48,7 @@ template <class T> Insert<T> insert(const Quantities<T>& q, const chain::Probing
           q.insert_radial_angle, q.insert_axial_angle, event.tool_x,       event.tool_y - q.offset};
 }
 template <class T> Flute<T> flute(const Quantities<T>& q, const Event<T>& event, int k) {
-  return deviating<T>({insert(q, event), T(2 * std::numbers::pi * k / num::value(q.inserts)), wear(q, k)}, event.tool,
+  return deviating<T>({insert(q, event), T(2 * pi * k / num::value(q.inserts)), wear(q, k)}, event.tool,
                       k);
 }
 
@@ -65,14 +64,6 @@ template <class T> InsertMotionOf<T> motion(const At<T>& at, const Event<T>& eve
 }
 template <class T> bool finite(const InsertMotionOf<T>& m) {
   return std::isfinite(num::value(m.angle) + num::value(m.height) + num::value(m.drop));
-}
-
-/// Refuses conditions; they are exact.
-template <class T> void check_commanded(const Rows::Conditions<T>& c, Outcome<T>& outcome) {
-  outcome.refuse(!(c.feed > T(0.0)), "feed is not positive: the tool does not descend");
-  outcome.refuse(!(c.spindle_speed > T(0.0)),
-                 "spindle_speed is not positive: the tool must turn, counter-clockwise seen from above");
-  outcome.refuse(c.direction != T(-1.0), "direction is not -1: a mill is fed downwards");
 }
 
 /// Refuses impossible combinations of quantities and effects: with effects, values may leave the limits of the card.
@@ -98,11 +89,11 @@ template <class T> void check_together(const At<T>& at, Outcome<T>& outcome) {
   const chain::TurningTool<T>& tool = event.tool;
   const T zero(0.0);
   outcome.refuse(!(tool.speed > zero), "spindle_speed including its error is not positive");
-  outcome.refuse(!(event.z.scale > T(-1.0)), "z_scale reverses the axis");
-  outcome.refuse(!(tool.servo_lag >= zero), "servo_lag.time_constant is negative");
-  outcome.refuse(!(tool.sampling_period >= zero), "sampling_rate.period is negative");
+  outcome.refuse(!(event.z.scale > T(-1.0)));
+  outcome.refuse(!(tool.servo_lag >= zero));
+  outcome.refuse(!(tool.sampling_period >= zero));
   // Whole in a receiver; between whole numbers for fits.
-  outcome.refuse(!(tool.confirmations >= zero), "revolution_confirm.revolutions is negative");
+  outcome.refuse(!(tool.confirmations >= zero));
   outcome.refuse(!finite(motion(at, event)), "a quantity of an effect is not finite");
 }
 

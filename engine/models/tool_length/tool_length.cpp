@@ -11,7 +11,7 @@ std::vector<Intermediate> ToolLength::explain(const At<double>& at, const Rows::
   auto out = laser_setter::intermediates(event, event.tool_y - q.offset);
   out.insert(out.end(), {{"true height when the feed begins", "mm", m.height / mm},
                          {"true angle of the first insert when the feed begins", "deg", m.angle / deg},
-                         {"descent per revolution", "mm", 2 * std::numbers::pi * m.drop / mm},
+                         {"descent per revolution", "mm", 2 * pi * m.drop / mm},
                          {"delay from the trigger to the latch", "s", event.latch_delay}});
   if (at.evaluation == full && o.trigger.height.status == Status::ok) {
     const auto flute = tool_length::flute(q, event, o.trigger.insert);

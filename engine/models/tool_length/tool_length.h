@@ -33,7 +33,10 @@ struct ToolLength {
   using Joint = std::tuple<Single, Single, Curve, Peaks>;
 
   template <class T> static void check_commanded(const At<T>& at, Outcome<T>& outcome) {
-    tool_length::check_commanded(at.c, outcome);
+    outcome.refuse(!(at.c.feed > T(0.0)), "feed is not positive: the tool does not descend");
+    outcome.refuse(!(at.c.spindle_speed > T(0.0)),
+                   "spindle_speed is not positive: the tool must turn, counter-clockwise seen from above");
+    outcome.refuse(at.c.direction != T(-1.0), "direction is not -1: a mill is fed downwards");
   }
   template <class T> static void check(const At<T>& at, Outcome<T>& outcome) { check_together(at, outcome); }
 

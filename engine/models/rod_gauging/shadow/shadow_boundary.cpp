@@ -91,8 +91,8 @@ public:
       inside = d_to < 0;
     };
     const auto travel = [&](Piece piece, double from, double to, std::vector<double> stationary) {
-      std::sort(stationary.begin(), stationary.end());
-      if (to < from) std::reverse(stationary.begin(), stationary.end());
+      std::ranges::sort(stationary);
+      if (to < from) std::ranges::reverse(stationary);
       double at = from;
       for (const double s : stationary)
         if ((s - from) * (s - to) < 0) visit(piece, at, s), at = s;

@@ -17,14 +17,6 @@ inline Solved<double> general_height(const Rod<double>& rod, const Beam<double>&
   return {bottom_height_of(s.k, rod, beam), Status::ok};
 }
 
-template <class T> Rod<double> value(const Rod<T>& r) {
-  return {num::value(r.radius),         num::value(r.fillet_radius), num::value(r.bottom_elevation),
-          num::value(r.bottom_azimuth), num::value(r.axis_x),        num::value(r.axis_y)};
-}
-template <class T> Beam<double> value(const Beam<T>& b) {
-  return {num::value(b.yaw), num::value(b.pitch), num::value(b.radius), num::value(b.fraction)};
-}
-
 /// The solved chord as crossings of the boundary, for carrying derivatives along.
 inline BoundarySolve crossings_of(const ChordSolve<double>& chord) {
   const auto crossing = [](double s) {
@@ -35,8 +27,8 @@ inline BoundarySolve crossings_of(const ChordSolve<double>& chord) {
 
 /// Height with its derivatives, for dual numbers; `kink` where there are none.
 template <class T> Solved<T> differentiable_height(const Rod<T>& rod, const Beam<T>& beam) {
-  const Rod<double> r = value(rod);
-  const Beam<double> b = value(beam);
+  const Rod<double> r = converted<double>(rod);
+  const Beam<double> b = converted<double>(beam);
   const ShadowEdge<double> plain = shadow_edge(r, b);
   if (!finite(plain)) return {T(std::nan("")), Status::out_of_domain};
   const auto chord = solve_chord<double>(plain, b.radius, b.fraction);
@@ -70,9 +62,8 @@ inline Lanes trigger_height(const Rod<Lanes>& rod, const Beam<Lanes>& beam, Outc
   fast.store_unaligned(height);
   for (std::size_t l = 0; l < Lanes::size; ++l) {
     if (!general.get(l) || outcome.status[l] != Status::ok) continue;
-    const auto solved = general_height({rod.radius.get(l), rod.fillet_radius.get(l), rod.bottom_elevation.get(l),
-                                        rod.bottom_azimuth.get(l), rod.axis_x.get(l), rod.axis_y.get(l)},
-                                       {beam.yaw.get(l), beam.pitch.get(l), beam.radius.get(l), beam.fraction.get(l)});
+    const auto lane = [l](const Lanes& x) { return x.get(l); };
+    const auto solved = general_height(converted<double>(rod, lane), converted<double>(beam, lane));
     height[l] = solved.value;
     outcome.fail(l, solved.status);
   }

@@ -3,7 +3,6 @@
 namespace gumshoe::models::tool_length {
 
 DiscShare::DiscShare(double beam_radius, double fraction) : radius(beam_radius) {
-  constexpr double pi = 3.14159265358979323846;
   // J(sin a) = a + sin a cos a = half a disc less the share
   const double wanted = 0.5 * pi * (1 - 2 * fraction);
   double a = 0.5 * wanted, sine = 0, cosine = 1;

@@ -7,8 +7,6 @@ namespace gumshoe::models::tool_length {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
 struct Interval {
   double from, to;
 };

@@ -31,7 +31,6 @@ template <class T> struct Joints {
   T from = T(0.0), to = T(0.0);
 };
 template <class T> Joints<T> joints(const InsertShadow<T>& s) {
-  constexpr double pi = 3.14159265358979323846;
   const Planar<T> d{s.back.y - s.rake.y, s.back.z - s.rake.z};
   const T qa = cross(d, s.b), qb = cross(s.a, d); // the offset in the ellipses' own coordinates, times a x b
   const T length = num::sqrt(qa * qa + qb * qb), shrink = (s.rake_radius - s.back_radius) * cross(s.a, s.b);
@@ -66,7 +65,6 @@ template <class T> struct InsertCover {
 template <class T>
 InsertCover<T> insert_cover(const InsertShadow<T>& s, const Joints<T>& j, const T& k, const T& beam_radius,
                             const InsertParts& parts) {
-  constexpr double pi = 3.14159265358979323846;
   if (parts.size == 0) return {parts.whole ? pi * (beam_radius * beam_radius) : T(0.0), T(0.0)};
   std::array<Planar<T>, 12> first, last;
   T twice = T(0.0), advance = T(0.0);

@@ -8,8 +8,6 @@ namespace gumshoe::models::tool_length {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
 /// Lowest and highest z, and the extent in y, of the shadow.
 struct Extent {
   double low, high, left, right;
@@ -37,7 +35,7 @@ InsertHeight::InsertHeight(const Insert<double>& insert, const Beam<double>& bea
   // The most promising first: most others then drop out by their bound.
   std::vector<std::pair<double, double>> parts;
   for (int i = 0; i < size; ++i) parts.emplace_back(bound_.lines().at(step * (i + 0.5)), step * i);
-  std::sort(parts.begin(), parts.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::ranges::sort(parts, [](const auto& a, const auto& b) { return a.first > b.first; });
   for (const auto& part : parts) {
     if (ever_covered_ && bound_.below(part.second, part.second + step, 0, highest_.height * body_.cos_pitch)) continue;
     const HeightNode a = at(part.second, std::nan("")), b = at(part.second + step, std::nan(""));

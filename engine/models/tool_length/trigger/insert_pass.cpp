@@ -6,8 +6,6 @@ namespace gumshoe::models::tool_length {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
 double arc_sine(double x) { return num::atan2(x, std::sqrt((1 - x) * (1 + x))); }
 
 } // namespace

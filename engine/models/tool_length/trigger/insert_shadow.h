@@ -5,12 +5,15 @@
 /// t_from_i = Trans(r, seat, 0) Rz(-theta_r) Rx(-theta_a); rake circle about (-R, 0, R) in the insert's X-Z plane,
 /// flank towards +Y with radius R - y tan(tau). Lengths m, angles rad, frames as in engine/models/README.md. Source: Fang 2022,
 /// section 3.3 (eqs 3.1 to 3.9), derived anew.
+#include <numbers>
+
 #include "math/scalar.h"
 #include "models/laser_beam.h"
+#include "models/named.h"
 
 namespace gumshoe::models::tool_length {
 
-using laser_setter::Beam, laser_setter::Solved;
+using laser_setter::Beam, laser_setter::Solved, std::numbers::pi;
 
 template <class T> struct Insert {
   T tool_radius; ///< r, from the tool's axis to the virtual cutting point
@@ -44,26 +47,6 @@ template <class T> struct InsertBody {
   T side, rise; ///< of the tool's axis on the photodiode plane
   T yaw, sin_pitch, cos_pitch;
 };
-
-/// The same geometry as numbers of another kind, derivatives dropped.
-template <class To, class T> InsertBody<To> converted(const InsertBody<T>& b) {
-  const auto number = [](const T& x) { return To(num::value(x)); };
-  const auto vector = [&](const auto& v) {
-    return typename InsertBody<To>::Vector{number(v.x), number(v.y), number(v.z)};
-  };
-  return {vector(b.rake),        vector(b.back),        vector(b.a),        vector(b.b),
-          number(b.rake_radius), number(b.back_radius), number(b.side),     number(b.rise),
-          number(b.yaw),         number(b.sin_pitch),   number(b.cos_pitch)};
-}
-template <class To, class T> InsertShadow<To> converted(const InsertShadow<T>& s) {
-  const auto planar = [](const Planar<T>& p) { return Planar<To>{To(num::value(p.y)), To(num::value(p.z))}; };
-  return {planar(s.rake),
-          planar(s.back),
-          planar(s.a),
-          planar(s.b),
-          To(num::value(s.rake_radius)),
-          To(num::value(s.back_radius))};
-}
 
 template <class T> InsertBody<T> insert_body(const Insert<T>& i, const Beam<T>& beam) {
   const T sr = num::sin(i.radial_angle), cr = num::cos(i.radial_angle);

@@ -7,8 +7,6 @@ namespace gumshoe::models::tool_length {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
 /// One insert's search over its spindle angle: G = Zc + drop (angle - start) - height, first angle with G >= 0.
 class Search {
 public:

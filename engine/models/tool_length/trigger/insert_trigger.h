@@ -27,19 +27,6 @@ template <class T> struct Flute {
   T raise;   ///< the flute is shorter by this: W_k, m
 };
 
-/// Derivatives dropped.
-template <class To, class T> Flute<To> converted(const Flute<T>& f) {
-  const auto number = [](const T& x) { return To(num::value(x)); };
-  const Insert<T>& i = f.insert;
-  return {{number(i.tool_radius), number(i.radius), number(i.thickness), number(i.clearance), number(i.radial_angle),
-           number(i.axial_angle), number(i.axis_x), number(i.axis_y), number(i.seat)},
-          number(f.azimuth),
-          number(f.raise)};
-}
-template <class To, class T> Beam<To> converted(const Beam<T>& b) {
-  return {To(num::value(b.yaw)), To(num::value(b.pitch)), To(num::value(b.radius)), To(num::value(b.fraction))};
-}
-
 struct InsertMotion {
   double start_angle = 0;  ///< of the first seat, holder angle included, rad
   double start_height = 0; ///< of the tool's centre above the laser reference point, m
@@ -112,7 +99,6 @@ template <class T> struct InsertMotionOf {
 template <class T>
 T differentiable_turned(const Flute<T>& flute, const Beam<T>& beam, const InsertMotionOf<T>& m,
                         const InsertTrigger& solved) {
-  constexpr double pi = 3.14159265358979323846;
   const InsertBody<T> body = insert_body(flute.insert, beam);
   const T target = beam.fraction * (pi * (beam.radius * beam.radius));
   T turned(solved.turned);
@@ -132,13 +118,6 @@ T differentiable_turned(const Flute<T>& flute, const Beam<T>& beam, const Insert
     turned = turned - (cover.area - target) / slope;
   }
   return turned;
-}
-
-/// The tool centre's height at the trigger, with its derivatives.
-template <class T>
-T differentiable_trigger_height(const Flute<T>& flute, const Beam<T>& beam, const InsertMotionOf<T>& m,
-                                const InsertTrigger& solved) {
-  return m.height_at(differentiable_turned(flute, beam, m, solved));
 }
 
 } // namespace gumshoe::models::tool_length

@@ -9,7 +9,7 @@ namespace gumshoe::models::tool_length {
 
 namespace {
 
-constexpr double turn = 2 * 3.14159265358979323846;
+constexpr double turn = 2 * pi;
 constexpr int most_windows = 100;
 
 /// A window in the turn that comes next: angles turned `first` to `last`, angle = turned - shift.

@@ -6,7 +6,7 @@
 namespace gumshoe::models::tool_length {
 
 namespace {
-constexpr double turn = 2 * 3.14159265358979323846;
+constexpr double turn = 2 * pi;
 /// Midpoint error at which a cell is halved once more and then good: 16 times less.
 constexpr double tolerance = 1.6e-11;
 constexpr double narrowest = 1e-10; ///< rad: cover begins at once
