@@ -74,7 +74,7 @@ CircularSummary circular_summary(std::span<const double> angles, double p) {
     if (std::round((valid[i] - c.mean_direction) / turn) != home) ++crossed;
   }
   crossed = std::min(crossed, m - crossed);
-  std::sort(around.begin(), around.end());
+  std::ranges::sort(around);
   const std::size_t q = covered_ranks(m, p);
   double best = turn;
   for (std::size_t r = 0; r < m; ++r) {

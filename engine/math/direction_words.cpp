@@ -17,7 +17,7 @@ std::vector<std::size_t> order(const Direction& direction) {
   std::vector<std::size_t> out;
   for (std::size_t j = 0; j < direction.share.size(); ++j)
     if (std::fabs(direction.share[j]) > dominant) out.push_back(j);
-  std::stable_sort(out.begin(), out.end(), [&](std::size_t a, std::size_t b) {
+  std::ranges::stable_sort(out, [&](std::size_t a, std::size_t b) {
     return std::fabs(direction.share[a]) > std::fabs(direction.share[b]) * (1 + 1e-6);
   });
   return out;

@@ -23,8 +23,7 @@ void state_what_design_rules_out(const TraceContext& c, const scenario::Scenario
   out.statements.insert(out.statements.end(), c.observations.statements.begin(), c.observations.statements.end());
   for (std::size_t i = 0; i < card.conditions.size() && s.readings.size() > 1; ++i) {
     const double first = s.readings.front().conditions[i];
-    if (!std::all_of(s.readings.begin(), s.readings.end(), [&](const auto& r) { return r.conditions[i] == first; }))
-      continue;
+    if (!std::ranges::all_of(s.readings, [&](const auto& r) { return r.conditions[i] == first; })) continue;
     const std::string unit(card.conditions[i].unit);
     out.statements.push_back(
         fmt::format("{} is {:.6g}{} in every reading; an effect that grows with it cannot be distinguished from a "
@@ -41,7 +40,7 @@ bool enough(const TraceContext& c, Trace& out) {
   const std::size_t unknowns = independent(fit.design, rows).size();
   if (rows.size() < unknowns + criteria.readings_above_unknowns) {
     const auto& readings = c.experiment.scenario().readings;
-    const bool repeated = std::any_of(readings.begin(), readings.end(), [](const auto& r) { return r.repeats > 1; });
+    const bool repeated = std::ranges::any_of(readings, [](const auto& r) { return r.repeats > 1; });
     out.statements.push_back(
         fmt::format("{} readings{} determine {} unknowns; at least four more readings than unknowns are needed to "
                     "judge the residuals",
@@ -50,8 +49,8 @@ bool enough(const TraceContext& c, Trace& out) {
     out.outcome = Outcome::insufficient_data;
     return false;
   }
-  const double size = std::fabs(*std::max_element(c.observations.measured.begin(), c.observations.measured.end(),
-                                                  [](double a, double b) { return std::fabs(a) < std::fabs(b); }));
+  const double size = std::fabs(*std::ranges::max_element(
+      c.observations.measured, [](double a, double b) { return std::fabs(a) < std::fabs(b); }));
   if (fit.residual(rows).cwiseAbs().maxCoeff() > criteria.exact * size) return true;
   out.statements.push_back("the readings agree with the model to their last digit; they do not scatter, and nothing "
                            "can be distinguished from chance (is the display step too coarse, or are rows copied?)");

@@ -18,7 +18,7 @@ std::vector<std::vector<std::string>> label_sets(const InputQuantity& q) {
   const auto add = [&](std::vector<std::string> labels) {
     std::erase(labels, quantities::reading_label);
     if (labels.empty()) return;
-    std::sort(labels.begin(), labels.end());
+    std::ranges::sort(labels);
     for (const std::string& l : labels) out.insert({l});
     out.insert(labels);
   };
@@ -73,7 +73,7 @@ void add_cell(const CandidateMaker& make, std::size_t q, const Cell& cell, std::
   one.name = "declared:" + s.quantities[q].name + (cell.empty() ? "" : "[" + quantities::text_of(cell) + "]");
   one.amplitudes = {make.amplitude(q, card)};
   one.amplitudes[0].labels = cell;
-  const auto first = std::find(mask.begin(), mask.end(), true);
+  const auto first = std::ranges::find(mask, true);
   if (first != mask.end())
     one.amplitudes[0].declared = declared_uncertainty(s.quantities[q], s.readings[index(first - mask.begin())].labels);
   one.amplitudes[0].low = card.limits.low - low; // of the shift

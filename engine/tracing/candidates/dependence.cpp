@@ -8,7 +8,7 @@ namespace {
 
 /// Share of x's variance between groups of equal values.
 double explained(const Vector& x, const std::vector<std::size_t>& group) {
-  const std::size_t groups = *std::max_element(group.begin(), group.end()) + 1;
+  const std::size_t groups = *std::ranges::max_element(group) + 1;
   std::vector<double> sum(groups, 0), count(groups, 0);
   for (std::size_t i = 0; i < group.size(); ++i) sum[group[i]] += x[index(i)], ++count[group[i]];
   const double mean = x.mean(), total = (x.array() - mean).square().sum();

@@ -73,7 +73,7 @@ std::vector<double> grid_of(const QuantityCard& card) {
     out.insert(out.end(), {0.0, 0.5, 1.0});
   std::vector<double> kept;
   for (const double x : out)
-    if (card.limits.contain(x) && std::find(kept.begin(), kept.end(), x) == kept.end()) kept.push_back(x);
+    if (card.limits.contain(x) && std::ranges::find(kept, x) == kept.end()) kept.push_back(x);
   return kept;
 }
 

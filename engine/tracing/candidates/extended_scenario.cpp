@@ -13,7 +13,7 @@ using scenario::Scenario;
 /// Quantities whose values come from these data ([trace] free): no prior, and tied to nothing.
 void free_again(Scenario& s) {
   const auto freed = [&](const std::string& name) {
-    return std::any_of(s.trace.free.begin(), s.trace.free.end(), [&](const std::string& q) {
+    return std::ranges::any_of(s.trace.free, [&](const std::string& q) {
       return name == q || name.starts_with(q + "[") || name.starts_with(q + ".");
     });
   };
@@ -47,8 +47,7 @@ Scenario extended(const Scenario& s) {
     if (!effects::applies(*model->card, *card)) continue;
     for (const QuantityCard& q : card->quantities) {
       const std::string name = std::string(card->name) + "." + std::string(q.name);
-      const auto known =
-          std::find_if(s.quantities.begin(), s.quantities.end(), [&](const auto& x) { return x.name == name; });
+      const auto known = std::ranges::find_if(s.quantities, [&](const auto& x) { return x.name == name; });
       if (known != s.quantities.end()) {
         effect_quantities.push_back(*known);
         continue;

@@ -47,8 +47,7 @@ public:
       }
     // What scatters by a label is a variance component; any pattern of few groups is a shape.
     const auto scatters = [&](const Grouping& g) {
-      return std::any_of(o_.replicate_groups.begin(), o_.replicate_groups.end(),
-                         [&](const Grouping& r) { return r.group == g.group; });
+      return std::ranges::any_of(o_.replicate_groups, [&](const Grouping& r) { return r.group == g.group; });
     };
     for (const Grouping& g : o_.labels)
       if (g.groups.size() > 2 && g.groups.size() <= criteria.most_omnibus_groups && !scatters(g)) {

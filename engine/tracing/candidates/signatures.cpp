@@ -28,8 +28,7 @@ std::vector<double> steps(const propagation::Experiment& e, const Points& at, do
       if (slope > 0 && typical > 0) size = std::min(size, criteria.secant_step * typical);
       for (const std::size_t i : {0, 1}) {
         const double signed_size = i == 0 ? size : -size;
-        if (size > 0 &&
-            std::all_of(at.begin(), at.end(), [&](const auto& p) { return card.limits.contain(p[q] + signed_size); }))
+        if (size > 0 && std::ranges::all_of(at, [&](const auto& p) { return card.limits.contain(p[q] + signed_size); }))
           sizes[2 * q + i] = signed_size;
       }
     }

@@ -22,12 +22,12 @@ struct Blocks {
 
 /// The hold-out blocks; where there are too few to hold some out, every block in turn.
 Blocks blocks_of(const Observations& o) {
-  const bool any = std::find(o.held_out.begin(), o.held_out.end(), true) != o.held_out.end();
+  const bool any = std::ranges::find(o.held_out, true) != o.held_out.end();
   Blocks out;
   for (std::size_t g = 0; g < o.blocks.groups.size() && (any || o.blocks.groups.size() > 1); ++g) {
     std::vector<bool> chosen;
     for (std::size_t r = 0; r < o.readings; ++r) chosen.push_back(o.blocks.group[r] == g && (!any || o.held_out[r]));
-    if (std::find(chosen.begin(), chosen.end(), true) == chosen.end()) continue;
+    if (std::ranges::find(chosen, true) == chosen.end()) continue;
     out.rows.push_back(rows_where(o, chosen));
     out.names.push_back(o.blocks.groups[g]);
   }
@@ -108,7 +108,7 @@ double root_mean_square(const std::vector<double>& x) {
 /// Root mean square and 95 % of what noise alone gives.
 void noise_alone(std::vector<double> sizes, double& middle, double& low, double& high) {
   middle = root_mean_square(sizes);
-  std::sort(sizes.begin(), sizes.end());
+  std::ranges::sort(sizes);
   const auto quantile = [&](double p) {
     return sizes[std::min(sizes.size() - 1, static_cast<std::size_t>(p * static_cast<double>(sizes.size())))];
   };
@@ -184,8 +184,8 @@ private:
   /// Blocks that are insensitive to what was found can neither confirm nor reject it.
   bool judge(const Blocks& blocks) {
     if (c_.observations.holdout_blocks.empty() || !scored_before_.scored() || after_.terms.empty()) return false;
-    const bool sensitive = std::any_of(after_.terms.begin(), after_.terms.end(), [&](const Term& t) {
-      return std::any_of(blocks.rows.begin(), blocks.rows.end(), [&](const std::vector<Index>& rows) {
+    const bool sensitive = std::ranges::any_of(after_.terms, [&](const Term& t) {
+      return std::ranges::any_of(blocks.rows, [&](const std::vector<Index>& rows) {
         const Matrix& columns = t.candidate.columns;
         return columns(rows, Eigen::all).norm() > criteria.insensitive * columns.norm();
       });

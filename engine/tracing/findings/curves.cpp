@@ -34,7 +34,7 @@ public:
     out.unit = covariate.unit;
     out.si_unit = covariate.si_unit;
     const auto group = neighbours(covariate, criteria.most_curve_points);
-    for (std::size_t g = 0; g <= *std::max_element(group.begin(), group.end()); ++g) {
+    for (std::size_t g = 0; g <= *std::ranges::max_element(group); ++g) {
       double sum = 0, count = 0;
       for (std::size_t r = 0; r < group.size(); ++r)
         if (group[r] == g) sum += covariate.value[r], ++count;

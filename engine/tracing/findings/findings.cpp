@@ -30,7 +30,7 @@ void state_veto(const Search& s, Trace& out) {
 /// What a veto leaves of a finding; false if nothing.
 bool survives_veto(const TraceContext& c, const Search& s, SearchFinding& found) {
   Finding& f = found.finding;
-  const bool alone = std::any_of(s.findings.begin(), s.findings.end(), [&](const SearchFinding& other) {
+  const bool alone = std::ranges::any_of(s.findings, [&](const SearchFinding& other) {
     return other.finding.kind == Kind::scatter && other.component == found.component;
   });
   const auto left = left_by_veto(f.kind, found.component >= 0, alone);

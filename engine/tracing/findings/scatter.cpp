@@ -38,8 +38,7 @@ void describe_scatter(const TraceContext& c, const JointFit& fit, int component,
     const double left = w.left(w.whiten(data))[0];
     profile.push_back({ratio, freedom * std::log(left) + w.log_determinant(), std::sqrt(left / freedom)});
   }
-  const auto best =
-      std::min_element(profile.begin(), profile.end(), [](const auto& a, const auto& b) { return a[1] < b[1]; });
+  const auto best = std::ranges::min_element(profile, [](const auto& a, const auto& b) { return a[1] < b[1]; });
   const double reference = fit.design.reference[indication < 0 ? 0 : index(indication)];
   const auto size = [&](const auto& p) { return p[0] * p[2] * reference; };
   if (indication >= 0) finding.remarks.push_back("of " + c.observations.names[index(indication)] + " alone");

@@ -71,8 +71,7 @@ Scenario with(const Scenario& s, const Observations& o, const Proposal& p) {
     x = p.how == Proposal::set ? p.value : p.how == Proposal::add ? x + p.value : -x;
     out.readings.push_back(reading);
     for (auto& column : out.trace.columns) column.values.push_back(column.values[r]);
-    if (!out.trace.order.empty())
-      out.trace.order.push_back(*std::max_element(out.trace.order.begin(), out.trace.order.end()) + 1);
+    if (!out.trace.order.empty()) out.trace.order.push_back(*std::ranges::max_element(out.trace.order) + 1);
     for (auto& effect : out.stated_effects) {
       std::vector<double> columns;
       for (const auto& column : s.trace.columns) columns.push_back(column.values[r]);
@@ -96,7 +95,7 @@ double apart(const TraceContext& c, const Scenario& scenario, const Search& sear
   std::vector<Term> members{search.found.terms[finding.terms[0]]};
   members.insert(members.end(), finding.rivals.begin(), finding.rivals.end());
   const auto wanted = [&](const Candidate& a) {
-    return std::none_of(members.begin(), members.end(), [&](const Term& t) {
+    return std::ranges::none_of(members, [&](const Term& t) {
       return t.candidate.name == a.name && t.candidate.shape == a.shape &&
              t.candidate.amplitudes[0].scenario_name == a.amplitudes[0].scenario_name;
     });

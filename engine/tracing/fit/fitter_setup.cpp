@@ -27,7 +27,7 @@ Fitter::Fitter(const propagation::Experiment& experiment, const Simulator& simul
 }
 
 Index Fitter::needed(std::size_t quantity) const {
-  return std::lower_bound(needed_.begin(), needed_.end(), quantity) - needed_.begin();
+  return std::ranges::lower_bound(needed_, quantity) - needed_.begin();
 }
 
 void Fitter::find_unknowns() {
@@ -40,7 +40,7 @@ void Fitter::find_unknowns() {
       FreeUnknown u{
           s.quantities[q].name + (entry.labels.empty() ? "" : "[" + quantities::text_of(entry.labels) + "]"), q, i, {}};
       for (const auto& reading : s.readings) u.holds.push_back(quantities::holds_for(entry.labels, reading.labels));
-      if (std::find(u.holds.begin(), u.holds.end(), true) != u.holds.end()) unknowns_.push_back(std::move(u));
+      if (std::ranges::find(u.holds, true) != u.holds.end()) unknowns_.push_back(std::move(u));
     }
   }
 }
@@ -52,8 +52,7 @@ void Fitter::find_draws() {
     for (std::size_t q = 0; q < plan.gather[r].size(); ++q)
       for (const std::size_t v : plan.columns[plan.gather[r][q]].variates) draws_[v].moves.push_back({r, q});
   for (Draw& d : draws_)
-    d.local =
-        std::all_of(d.moves.begin(), d.moves.end(), [&](const auto& m) { return m.first == d.moves.front().first; });
+    d.local = std::ranges::all_of(d.moves, [&](const auto& m) { return m.first == d.moves.front().first; });
 }
 
 void Fitter::find_responses() {
@@ -70,7 +69,7 @@ void Fitter::find_responses() {
       if (d.moves.empty() || d.moves.front().second != needed_[i]) continue;
       alone = alone && !d.local && (u == 0 || d.u == u);
       for (const auto& group : experiment_.plan().copulas)
-        alone = alone && std::find(group.variates.begin(), group.variates.end(), v) == group.variates.end();
+        alone = alone && std::ranges::find(group.variates, v) == group.variates.end();
       for (const auto& [r, q] : d.moves) alone = alone && ++moved[r] == 1;
       u = std::max(u, d.u);
     }

@@ -159,15 +159,14 @@ void Fitter::settle(JointFit& fit) const {
   const Index n = fit.design.fixed.rows();
   std::vector<Index> open, known, rows;
   for (Index j = 0; j < fit.design.fixed.cols(); ++j) {
-    const bool sensitive =
-        std::any_of(rows_.begin(), rows_.end(), [&](Index r) { return fit.design.fixed(r, j) != 0; });
+    const bool sensitive = std::ranges::any_of(rows_, [&](Index r) { return fit.design.fixed(r, j) != 0; });
     if (std::isfinite(fit.covariance(j, j)))
       known.push_back(j);
     else if (!sensitive && j < index(unknowns_.size()))
       open.push_back(j);
   }
   for (Index r = 0; r < n; ++r)
-    if (std::any_of(open.begin(), open.end(), [&](Index j) { return fit.design.fixed(r, j) != 0; })) rows.push_back(r);
+    if (std::ranges::any_of(open, [&](Index j) { return fit.design.fixed(r, j) != 0; })) rows.push_back(r);
   if (rows.empty()) return;
   for (int iteration = 0; iteration < criteria.most_offset_iterations; ++iteration) {
     Design own = fit.design;

@@ -57,7 +57,7 @@ std::optional<Fitter::Profile> Fitter::profile(const JointFit& fit, std::size_t 
       }
     std::vector<bool> valid;
     simulator_.vary(fit.at, variations, f, valid);
-    return out.steps.size() > 3 && std::find(valid.begin(), valid.end(), false) == valid.end();
+    return out.steps.size() > 3 && std::ranges::find(valid, false) == valid.end();
   };
   const auto line_through = [&] {
     const Eigen::Map<const Vector> x(out.steps.data(), f.cols());
@@ -71,7 +71,7 @@ std::optional<Fitter::Profile> Fitter::profile(const JointFit& fit, std::size_t 
                             : (line - fit.design.fixed.col(own)).norm() < criteria.tangent_serves * line.norm())
     return std::nullopt;
   if (!try_each(criteria.profile_spacing)) return std::nullopt;
-  const auto found = std::find(out.steps.begin(), out.steps.end(), 0.0);
+  const auto found = std::ranges::find(out.steps, 0.0);
   if (found == out.steps.end()) return std::nullopt;
   out.here = found - out.steps.begin();
   // Given all other unknowns.

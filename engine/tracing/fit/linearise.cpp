@@ -16,7 +16,7 @@ bool Fitter::linearise(JointFit& fit) const {
   auto wanted = needed_;
   for (const Term& t : fit.terms)
     for (const Amplitude& a : t.candidate.amplitudes)
-      if (a.quantity != Amplitude::npos && std::find(wanted.begin(), wanted.end(), a.quantity) == wanted.end())
+      if (a.quantity != Amplitude::npos && std::ranges::find(wanted, a.quantity) == wanted.end())
         wanted.push_back(a.quantity);
   Vector f;
   Matrix derivative;
@@ -55,7 +55,7 @@ void Fitter::set_fixed(const Matrix& derivative, const std::vector<std::size_t>&
     for (Index j = 0; j < t.size.size(); ++j) {
       const Amplitude& a = t.candidate.amplitudes[index(j)];
       if (a.quantity != Amplitude::npos) {
-        Matrix moved = derivative.col(std::find(wanted.begin(), wanted.end(), a.quantity) - wanted.begin());
+        Matrix moved = derivative.col(std::ranges::find(wanted, a.quantity) - wanted.begin());
         for (std::size_t r = 0; r < o.readings; ++r)
           if (!quantities::holds_for(a.labels, experiment_.scenario().readings[r].labels))
             moved.col(0).segment(index(r) * k, k).setZero();
@@ -111,15 +111,14 @@ void Fitter::set_local_noise(const Matrix& derivative, JointFit& fit) const {
   };
   fit.design.local = factors(covariance);
   fit.design.straight.clear();
-  if (std::any_of(responses_.begin(), responses_.end(), [](const auto& r) { return r.table.size() > 0; }))
+  if (std::ranges::any_of(responses_, [](const auto& r) { return r.table.size() > 0; }))
     fit.design.straight = factors(without);
 }
 
 bool Fitter::released(const Draw& draw, const JointFit& fit) const {
-  return std::any_of(fit.terms.begin(), fit.terms.end(), [&](const Term& t) {
+  return std::ranges::any_of(fit.terms, [&](const Term& t) {
     const Amplitude& a = t.candidate.amplitudes[0];
-    return t.candidate.family == Family::declared &&
-           std::all_of(draw.moves.begin(), draw.moves.end(), [&](const auto& m) {
+    return t.candidate.family == Family::declared && std::ranges::all_of(draw.moves, [&](const auto& m) {
              return m.second == a.quantity &&
                     quantities::holds_for(a.labels, experiment_.scenario().readings[m.first].labels);
            });
@@ -166,8 +165,7 @@ void Fitter::set_declared(const Matrix& derivative, JointFit& fit) const {
     d.bends.push_back(in_sequence(o, responses_[i].table));
   }
   // By name: the numbers of draws depend on the order of rows in the file.
-  std::stable_sort(used.begin(), used.end(),
-                   [&](std::size_t a, std::size_t b) { return draws_[a].name < draws_[b].name; });
+  std::ranges::stable_sort(used, [&](std::size_t a, std::size_t b) { return draws_[a].name < draws_[b].name; });
   for (const std::size_t v : used) {
     const Vector one = in_sequence(o, shared.col(index(v)));
     if (!(one.norm() > 1e-6 * d.reference[0])) continue;

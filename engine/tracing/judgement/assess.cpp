@@ -25,7 +25,7 @@ Null null_of(const Eigen::Ref<const Matrix>& draws) {
 }
 
 double share_at_most(const std::vector<double>& draws, double value) {
-  const auto below = std::count_if(draws.begin(), draws.end(), [&](double d) { return d <= value; });
+  const auto below = std::ranges::count_if(draws, [&](double d) { return d <= value; });
   return (1.0 + static_cast<double>(below)) / (1.0 + static_cast<double>(draws.size()));
 }
 
@@ -121,7 +121,7 @@ Assessment assess(const Scan& scan, const Vector& residuals, int draws, std::uin
   }
   for (std::size_t j = 0; j < out.null.size(); ++j) out.p.push_back(out.null[j].p(out.data.ratio(index(j), 0)));
   out.p_signature = share_at_most(least, least_p(out.null, out.data.ratio, 0));
-  std::sort(least.begin(), least.end());
+  std::ranges::sort(least);
   const auto rank = static_cast<std::size_t>(alpha * static_cast<double>(least.size() + 1));
   out.threshold = least[std::min(least.size() - 1, rank > 0 ? rank - 1 : 0)];
   return out;

@@ -18,8 +18,7 @@ std::vector<std::size_t> best_of(const std::vector<Scored>& candidates, std::siz
   std::vector<std::size_t> order, out;
   for (std::size_t a = 0; a < candidates.size(); ++a)
     if (candidates[a].eligible) order.push_back(a);
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return candidates[a].score > candidates[b].score; });
+  std::ranges::sort(order, [&](std::size_t a, std::size_t b) { return candidates[a].score > candidates[b].score; });
   std::set<std::string> names;
   for (const std::size_t a : order) {
     if (out.size() == most) break;
@@ -37,8 +36,7 @@ std::vector<std::size_t> explain_scatter(const std::vector<Scored>& candidates, 
   }
   std::vector<std::size_t> out;
   for (const auto& [name, a] : best) out.push_back(a);
-  std::sort(out.begin(), out.end(),
-            [&](std::size_t a, std::size_t b) { return candidates[a].score > candidates[b].score; });
+  std::ranges::sort(out, [&](std::size_t a, std::size_t b) { return candidates[a].score > candidates[b].score; });
   return out;
 }
 
@@ -72,7 +70,7 @@ std::optional<std::size_t> scatter_found(const Assessment& a, double alpha) {
 
 bool larger_noise_found(const Assessment& a, double alpha, std::size_t findings) {
   return findings == 0 && a.p_noise_overall <= alpha && a.p_signature > alpha &&
-         std::none_of(a.p_component.begin(), a.p_component.end(), [&](double p) { return p <= alpha; });
+         std::ranges::none_of(a.p_component, [&](double p) { return p <= alpha; });
 }
 
 bool vetoed(const HoldoutError& before, const HoldoutError& after) {

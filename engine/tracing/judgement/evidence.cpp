@@ -11,7 +11,7 @@ namespace gumshoe::tracing {
 namespace {
 
 bool is_term(const JointFit& fit, const Candidate& a) {
-  return std::any_of(fit.terms.begin(), fit.terms.end(), [&](const Term& t) {
+  return std::ranges::any_of(fit.terms, [&](const Term& t) {
     const std::string& place = a.amplitudes[0].scenario_name;
     return t.candidate.name == a.name && (place.empty() || t.candidate.amplitudes[0].scenario_name == place);
   });

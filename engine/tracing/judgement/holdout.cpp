@@ -24,7 +24,7 @@ HeldOut hold_out(const Design& d, const Matrix& residual, const std::vector<Inde
   // The block's offsets: columns to which no training row is sensitive.
   std::vector<Index> offsets;
   const auto sensitive = [&](const std::vector<Index>& rows, Index j) {
-    return std::any_of(rows.begin(), rows.end(), [&](Index row) { return d.fixed(row, j) != 0; });
+    return std::ranges::any_of(rows, [&](Index row) { return d.fixed(row, j) != 0; });
   };
   for (Index j = 0; j < d.fixed.cols(); ++j)
     if (!sensitive(train, j) && sensitive(test, j)) offsets.push_back(j);

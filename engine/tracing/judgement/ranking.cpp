@@ -15,8 +15,7 @@ std::vector<RankedCandidate> ranking(const Scan& scan, const Assessment& assessm
                                      const std::map<std::size_t, std::string>& outcomes) {
   std::vector<std::size_t> order(candidates.size());
   for (std::size_t a = 0; a < order.size(); ++a) order[a] = a;
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return assessment.p[a] < assessment.p[b]; });
+  std::ranges::sort(order, [&](std::size_t a, std::size_t b) { return assessment.p[a] < assessment.p[b]; });
   std::vector<RankedCandidate> out;
   for (const std::size_t a : order) {
     const Candidate& one = candidates[a];

@@ -99,7 +99,7 @@ private:
         break;
       if (Trial one = evidence_->trial(a); one.fit.valid) out.push_back(std::move(one));
     }
-    std::sort(out.begin(), out.end(), [](const Trial& a, const Trial& b) { return a.score > b.score; });
+    std::ranges::sort(out, std::ranges::greater{}, &Trial::score);
     return out;
   }
 

@@ -15,7 +15,7 @@ bool shifted(const Simulator& simulator, const Points& at, std::size_t quantity,
   for (const double shift : shifts) variations.push_back({{{quantity, shift, false}}});
   std::vector<bool> valid;
   simulator.vary(at, variations, f, valid);
-  return std::find(valid.begin(), valid.end(), false) == valid.end();
+  return std::ranges::find(valid, false) == valid.end();
 }
 
 } // namespace

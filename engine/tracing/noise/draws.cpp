@@ -84,7 +84,7 @@ void Whitened::add_declared(std::size_t n, std::uint64_t seed, Matrix& out) cons
 void Whitened::add_scatter(std::size_t n, std::uint64_t seed, const NoiseShape& shape, Matrix& out) const {
   const auto group = scattered();
   if (group.empty()) return;
-  const int groups = *std::max_element(group.begin(), group.end()) + 1;
+  const int groups = *std::ranges::max_element(group) + 1;
   const Matrix z = normals(index(groups), n, seed, 3);
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     if (group[i] < 0) continue;

@@ -57,7 +57,7 @@ std::vector<std::size_t> sequence_of(const Scenario& s) {
   std::vector<std::size_t> out(s.readings.size());
   std::iota(out.begin(), out.end(), 0);
   if (s.trace.order.empty()) return out;
-  std::sort(out.begin(), out.end(), [&](std::size_t a, std::size_t b) {
+  std::ranges::sort(out, [&](std::size_t a, std::size_t b) {
     const auto& x = s.readings[a];
     const auto& y = s.readings[b];
     return std::tie(s.trace.order[a], x.labels, x.conditions, x.indications) <
@@ -75,7 +75,7 @@ bool says_conditions(const Scenario& s, const Grouping& g) {
     all.insert(s.readings[r].conditions);
   }
   if (all.size() == s.readings.size()) return false; // every reading differs, by its time say
-  return std::all_of(groups.begin(), groups.end(), [](const auto& c) { return c.second.size() == 1; });
+  return std::ranges::all_of(groups, [](const auto& c) { return c.second.size() == 1; });
 }
 
 void find_replicate_groups(const Scenario& s, Observations& o) {
@@ -100,8 +100,7 @@ void find_replicate_groups(const Scenario& s, Observations& o) {
     if (!s.trace.redone && says_conditions(s, g)) continue;
     // One reading each: it cannot be distinguished from the noise of a reading.
     if (g.groups.size() * 5 > s.readings.size() * criteria.most_groups_of_five) continue;
-    const bool known = std::any_of(o.replicate_groups.begin(), o.replicate_groups.end(),
-                                   [&](const Grouping& h) { return h.group == g.group; });
+    const bool known = std::ranges::any_of(o.replicate_groups, [&](const Grouping& h) { return h.group == g.group; });
     if (!known && o.replicate_groups.size() < criteria.most_replicate_groups)
       o.replicate_groups.push_back(std::move(g));
   }
@@ -133,7 +132,7 @@ void find_blocks(const Scenario& s, Observations& o) {
     // The last part in the order of measurement.
     std::vector<std::size_t> met;
     for (const std::size_t r : o.sequence)
-      if (std::find(met.begin(), met.end(), o.blocks.group[r]) == met.end()) met.push_back(o.blocks.group[r]);
+      if (std::ranges::find(met, o.blocks.group[r]) == met.end()) met.push_back(o.blocks.group[r]);
     for (std::size_t i = count - std::max<std::size_t>(1, count / criteria.holdout_part); i < count; ++i)
       chosen.push_back(value_of(met[i]));
   }
@@ -145,7 +144,7 @@ void find_blocks(const Scenario& s, Observations& o) {
     return;
   }
   for (std::size_t r = 0; r < o.readings; ++r)
-    o.held_out[r] = std::find(chosen.begin(), chosen.end(), value_of(o.blocks.group[r])) != chosen.end();
+    o.held_out[r] = std::ranges::find(chosen, value_of(o.blocks.group[r])) != chosen.end();
   o.holdout_blocks = chosen;
 }
 
@@ -155,7 +154,7 @@ std::vector<std::size_t> neighbours(const Covariate& c, std::size_t most) {
   const std::size_t levels = c.levels.size(), groups = std::min(levels, most);
   std::vector<std::size_t> out;
   for (const double x : c.value)
-    out.push_back(index(std::lower_bound(c.levels.begin(), c.levels.end(), x) - c.levels.begin()) * groups / levels);
+    out.push_back(index(std::ranges::lower_bound(c.levels, x) - c.levels.begin()) * groups / levels);
   return out;
 }
 
@@ -190,9 +189,8 @@ Observations observe(const propagation::Experiment& e) {
                   std::string(card.conditions[c].si_unit), one);
   }
   for (const auto& c : s.trace.columns) add_covariate(o, c.name, c.unit, c.si_unit, c.values);
-  const bool ordered = std::any_of(o.covariates.begin(), o.covariates.end(), [&](const Covariate& c) {
-    return c.name == s.trace.order_name || c.name == "time";
-  });
+  const bool ordered = std::ranges::any_of(
+      o.covariates, [&](const Covariate& c) { return c.name == s.trace.order_name || c.name == "time"; });
   if (!ordered && o.readings > 2) {
     std::vector<double> rank(o.readings);
     for (std::size_t i = 0; i < o.readings; ++i) rank[o.sequence[i]] = static_cast<double>(i + 1);

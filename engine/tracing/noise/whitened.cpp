@@ -82,7 +82,7 @@ void Whitened::filter_scatter(const std::vector<int>& group) {
         if (x == 0) continue;
         const auto effect = index(group[from + b]);
         auto& here = z[row];
-        const auto same = std::find_if(here.begin(), here.end(), [&](const auto& e) { return e.first == effect; });
+        const auto same = std::ranges::find_if(here, [&](const auto& e) { return e.first == effect; });
         if (same == here.end())
           here.push_back({effect, x});
         else

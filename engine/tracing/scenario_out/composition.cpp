@@ -72,7 +72,7 @@ private:
   calibration::Unknown unknown(std::size_t quantity, std::size_t entry) const {
     const auto& q = out_.extended.quantities[quantity];
     Labels labels = q.entries[entry].labels;
-    std::sort(labels.begin(), labels.end()); // as draws are named
+    std::ranges::sort(labels); // as draws are named
     const std::string name = q.name + (labels.empty() ? "" : "[" + quantities::text_of(labels) + "]");
     return {.name = name, .quantity = quantity, .entry = entry, .unit = q.unit, .si_unit = q.si_unit};
   }
@@ -179,8 +179,8 @@ private:
         continue;
       }
       for (const auto& component : entry.components)
-        if (std::any_of(missing.begin(), missing.end(), [&](const auto& l) {
-              return std::find(component.per.begin(), component.per.end(), l.first) == component.per.end();
+        if (std::ranges::any_of(missing, [&](const auto& l) {
+              return std::ranges::find(component.per, l.first) == component.per.end();
             }))
           out_.statements.push_back(
               fmt::format("in the traced scenario {} has values by label; what was declared for all of "
