@@ -53,7 +53,7 @@ private:
     return formula >= c_.first_measurand() && formula < c_.first_simulated();
   }
 
-  /// The quantity of a measurand's name: its true value, from which readouts are simulated.
+  /// The quantity of a measurand's name: its true value, from which indications are simulated.
   const Meaning* truth(std::size_t formula) const {
     const Meaning* m = names_.find(c_.formulas[formula].short_name(), false);
     return m && m->source == Source::quantity ? m : nullptr;

@@ -61,12 +61,12 @@ private:
     return false;
   }
 
-  /// An indication's formula must give what its readouts are.
+  /// An indication's formula must give what its readings are.
   void simulated_fits(const Formula& f, const std::string& name, const Kind& kind) {
     const Dimension& is = kind.dimension;
     for (Symbol& s : c_.statement.indications) {
       if (s.name != name) continue;
-      if (s.unit.empty()) { // no readouts that would tell
+      if (s.unit.empty()) { // no readings that would tell
         s.unit = !kind.unit.empty() ? kind.unit : is.has_unit() ? is.si_unit() : "1";
         s.si_unit = units::si_unit_of(s.unit);
         continue;

@@ -137,7 +137,7 @@ void Experiment::simulate(std::size_t rows, std::size_t n, Workspace& w, std::ui
 }
 
 /// Indications: what was read (or simulated) plus the drawn noise. Stated effects: the evaluation subtracts the drawn
-/// size; in a virtual experiment the readout contains it, and the estimate is subtracted.
+/// size; in a virtual experiment the indication contains it, and the estimate is subtracted.
 void Experiment::add_noise(std::size_t n, Workspace& w) const {
   const Range noise = layout().indications;
   for (std::size_t r = 0; r < scenario_.readings.size(); ++r)

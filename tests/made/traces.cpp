@@ -207,7 +207,7 @@ Traced named() {
   t.trace.findings = {latency()};
   t.trace.candidates = ranking();
   t.trace.plain = {"The control latches the position 1.5 ms too late, so that fast approaches read too low.",
-                   "Taking this into account brings the error on the two held-out set-ups down to what the readout "
+                   "Taking this into account brings the error on the two held-out set-ups down to what the indication "
                    "scatters by itself."};
   t.trace.statements = {"setup 7 and 8 were held out to the end and used once",
                         "z_scale: absorbed by laser_z, nothing can be said of it"};
@@ -270,7 +270,7 @@ Traced scatter() {
   t.trace.noise.scatter_u = 1.2 * um;
   t.trace.candidates = {{"scatter:rod,setup", "", "scatter", 1, 88.4, 3e-21, 1, "", 1, "named"}};
   t.trace.plain = {"Each clamping of a rod leaves it 1.2 um off, by chance.",
-                   "More readouts will not help, more clampings will."};
+                   "More readings will not help, more clampings will."};
   return t;
 }
 

@@ -7,7 +7,7 @@ namespace gumshoe::models::tool_length {
 
 namespace {
 
-/// Phase u, then for each flute a_k = u - H_k: u shifts all readouts alike, and a flute's curve jumps at values of its
+/// Phase u, then for each flute a_k = u - H_k: u shifts all indications alike, and a flute's curve jumps at values of its
 /// own a_k, whatever the rest.
 using Unknowns = std::array<double, chain::most_inserts + 1>;
 
@@ -113,7 +113,7 @@ public:
   }
 
 private:
-  /// Between which values of a_k no readout jumps.
+  /// Between which values of a_k no indication jumps.
   struct Box {
     std::array<double, chain::most_inserts> low, high;
   };

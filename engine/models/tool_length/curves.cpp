@@ -9,7 +9,7 @@ void find_heights(const Together<Rows, double>& all, Heights& out, Outcome<doubl
     Height& x = out[r];
     const double z = all.read[r].spindle_z;
     x.at = all.at[r];
-    x.at.q.tool_length = z - x.at.q.laser_z; // what grows with the length does so by that of the readout
+    x.at.q.tool_length = z - x.at.q.laser_z; // what grows with the length does so by that of the reading
     x.event = readout_at(unused, x.at, false).event;
     x.height = chain::actual_of(z, x.event) - x.at.q.laser_z - x.event.tool_growth;
     outcome.refuse(x.at.q.inserts != all.at[0].q.inserts, "inserts differ between readings");

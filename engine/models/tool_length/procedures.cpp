@@ -32,7 +32,7 @@ CurveRows curve_rows(const Quantities<double>& q, const Event<double>& event, st
   return out;
 }
 
-/// Local maxima of the readouts around the turn, highest first; of equal neighbours the first.
+/// Local maxima of the indications around the turn, highest first; of equal neighbours the first.
 std::vector<double> peaks_of(const Heights& all) {
   std::vector<double> h, found;
   for (const Height& r : all)

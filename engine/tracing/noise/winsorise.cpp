@@ -15,7 +15,7 @@ double robust_scale(std::vector<double>& sizes) {
     return sizes[index(rank)];
   };
   const double half = at(0.5) / 0.6744897501960817, most = at(0.9) / 1.6448536269514722;
-  // Half the residuals equal but for rounding, as readouts in steps may be: those that differ tell the scale.
+  // Half the residuals equal but for rounding, as indications in steps may be: those that differ tell the scale.
   return half > 1e-8 * most ? half : most;
 }
 
