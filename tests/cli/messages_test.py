@@ -13,16 +13,7 @@ from program import ROOT, SCENARIO, complaint, gumshoe
 from choose_test import TEXT as CHOOSE
 
 # Six readings with labels and a condition, in the scenario itself.
-ROWS = """schema = 1
-[model]
-name = "rod_gauging"
-[quantities.rod_radius]
-value = "5 mm"
-u = "1 um"
-[quantities.beam_pitch]
-value = "0.2836 deg"
-u = "0.005 deg"
-[indications.spindle_z]
+ROWS = SCENARIO[:SCENARIO.index("[indications")] + """[indications.spindle_z]
 resolution = "1 um"
 rows = [
   { rod = "a", setup = "1", values = ["-329.932 mm", "-329.931 mm"] },

@@ -135,18 +135,20 @@ TEST_CASE("a tilted tool's inserts are the same bodies, turned", "[effects][tool
   REQUIRE(moved > 1 * mm);
 }
 
+/// Errors of single inserts, the quantity that they are if all inserts share them, and a size.
+const std::tuple<const char*, std::size_t, double> insert_errors[] = {
+    {"insert_radius_error", Row::insert_radius, 20 * um},
+    {"insert_seat_error", Row::tool_radius, -15 * um},
+    {"insert_pitch_error", Row::holder_angle, 0.4 * deg},
+    {"insert_radial_angle_error", Row::insert_radial_angle, 0.3 * deg},
+    {"insert_axial_angle_error", Row::insert_axial_angle, -0.2 * deg}};
+
 TEST_CASE("errors that all inserts share are the tool's own quantities", "[effects][tool_length]") {
   Draw draw;
-  const std::tuple<const char*, std::size_t, double> cases[] = {
-      {"insert_radius_error", Row::insert_radius, 20 * um},
-      {"insert_seat_error", Row::tool_radius, -15 * um},
-      {"insert_pitch_error", Row::holder_angle, 0.4 * deg},
-      {"insert_radial_angle_error", Row::insert_radial_angle, 0.3 * deg},
-      {"insert_axial_angle_error", Row::insert_axial_angle, -0.2 * deg}};
   int compared = 0;
   for (int n = 0; n < 12; ++n) {
     const Mill m = Mill::random(draw);
-    for (const auto& [name, quantity, value] : cases) {
+    for (const auto& [name, quantity, value] : insert_errors) {
       const Mill other = m.where(quantity, m.q[static_cast<std::size_t>(quantity)] + value);
       if (!other.triggers()) continue;
       ++compared;
@@ -159,13 +161,7 @@ TEST_CASE("errors that all inserts share are the tool's own quantities", "[effec
 TEST_CASE("an insert alone has its own error", "[effects][tool_length]") {
   // Flute 2 worn away far beyond the descent from flute to flute: only flute 1 is seen, with its own errors.
   Mill m = Mill().where(Row::wear_1 + 1, 0.2 * mm);
-  const std::tuple<const char*, std::size_t, double> cases[] = {
-      {"insert_radius_error", Row::insert_radius, 20 * um},
-      {"insert_seat_error", Row::tool_radius, -15 * um},
-      {"insert_pitch_error", Row::holder_angle, 0.4 * deg},
-      {"insert_radial_angle_error", Row::insert_radial_angle, 0.3 * deg},
-      {"insert_axial_angle_error", Row::insert_axial_angle, -0.2 * deg}};
-  for (const auto& [name, quantity, value] : cases) {
+  for (const auto& [name, quantity, value] : insert_errors) {
     INFO(name);
     const double own = m.where(quantity, m.q[static_cast<std::size_t>(quantity)] + value).reading();
     REQUIRE(std::fabs(m.with(name, {value, 0}).reading() - own) < rounding);

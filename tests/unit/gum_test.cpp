@@ -11,10 +11,12 @@
 #include "analysis/summary.h"
 #include "base/error.h"
 #include "effects/effect.h"
+#include "gum_models.h"
 #include "propagation/propagate.h"
 #include "unit/known_case.h"
 
 using namespace gumshoe;
+using gum_models::Memory;
 using quantities::Family;
 
 namespace {
@@ -56,17 +58,6 @@ quantities::Component component(Family family, std::array<double, 4> p, double d
   c.evaluation = std::isfinite(dof) ? 'A' : 'B';
   return c;
 }
-
-struct Memory : propagation::Sink {
-  std::vector<std::vector<double>> rows;
-  std::vector<std::uint8_t> status;
-  explicit Memory(std::size_t n) : rows(n) {}
-  void write(const propagation::ResultBlock& b) override {
-    for (std::size_t r = 0; r < rows.size(); ++r)
-      rows[r].insert(rows[r].end(), &b.outputs[r * b.samples], &b.outputs[r * b.samples] + b.samples);
-    status.insert(status.end(), b.status.begin(), b.status.end());
-  }
-};
 
 } // namespace
 
