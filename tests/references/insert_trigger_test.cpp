@@ -11,8 +11,6 @@ using namespace gumshoe::models::tool_length;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
 struct Tool {
   std::vector<Flute<double>> flutes;
   Beam<double> beam{0, 0, 0.2 * mm, 0.5};
