@@ -88,10 +88,12 @@ const quantities::Variate* without_variance(const propagation::Experiment& e, co
 void withhold(Summary& s, const quantities::Variate* without, std::span<const double> values, int threads) {
   if (!without) return check_tails(values, s, threads);
   s.standard_uncertainty = s.standard_uncertainty_se = s.estimate_se = std::nan("");
-  s.warning = fmt::format("no standard uncertainty: {} is a t with {:.3g} degrees of freedom; the ends of the interval "
-                          "are quantiles and remain valid",
-                          without->name, without->distribution.parameters[2]);
-  if (without->distribution.parameters[2] <= 1) use_median(values, s);
+  const double freedom = without->distribution.parameters[2];
+  s.warning = (s.warning.empty() ? "" : s.warning + "; ") +
+              fmt::format("no standard uncertainty: {} is a t with {:.3g} degree{} of freedom", without->name, freedom,
+                          freedom == 1 ? "" : "s") +
+              (s.warning.empty() ? "; the ends of the interval are quantiles and remain valid" : "");
+  if (freedom <= 1) use_median(values, s);
 }
 
 void describe(Results& r, const propagation::Experiment& e) {
@@ -201,7 +203,7 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, int th
     Summary& summary = r.summaries[o] = summarise(output, values, p, threads);
     const Budget& b = r.budgets[o] = budget(e, o, p);
     if (s.run.design != scenario::Design::monte_carlo) drop_standard_errors(summary);
-    if (summary.warning.empty()) withhold(summary, without_variance(e, b), values, threads);
+    withhold(summary, without_variance(e, b), values, threads);
     r.validations[o] = validate(b, summary, p, s.analysis.validation_digits);
     summary.statement = statement(summary, b, r.validations[o], p, virtual_experiment);
     const bool compared =
@@ -217,8 +219,9 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, int th
   }
   if (!virtual_experiment)
     for (const std::string& note : scale_point_notes(e)) r.notes.push_back(note);
-  if (const double enough = 1e4 / (1 - s.analysis.coverage_probability);
-      s.run.adaptive.rule == scenario::StoppingRule::fixed && static_cast<double>(samples.status().size()) < enough)
+  if (const double least = 1 / (1 - s.analysis.coverage_probability), enough = 1e4 * least,
+      trials = static_cast<double>(samples.status().size());
+      s.run.adaptive.rule == scenario::StoppingRule::fixed && trials >= least && trials < enough)
     r.notes.push_back(fmt::format("{} trials are fewer than the 10^4 / (1 - p) = {:.0f} of JCGM 101, 7.2.2: the coverage "
                                   "intervals are known to their Monte Carlo standard errors only",
                                   samples.status().size(), enough));

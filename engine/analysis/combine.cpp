@@ -82,8 +82,11 @@ Expansion expand(const CombinedVariance& combined, double coverage_probability) 
   x.effective_degrees_of_freedom = combined.effective_degrees_of_freedom;
   if (x.effective_degrees_of_freedom >= 1) // not one less by rounding
     x.effective_degrees_of_freedom = std::floor(x.effective_degrees_of_freedom * (1 + 1e-12));
+  constexpr double as_good_as_infinite = 1e6;
+  if (x.effective_degrees_of_freedom >= as_good_as_infinite)
+    x.effective_degrees_of_freedom = std::numeric_limits<double>::infinity();
   const double tail = 0.5 * (1 + coverage_probability);
-  x.coverage_factor = x.effective_degrees_of_freedom < 1e6
+  x.coverage_factor = std::isfinite(x.effective_degrees_of_freedom)
                           ? quantile(boost::math::students_t(x.effective_degrees_of_freedom), tail)
                           : quantile(boost::math::normal(), tail);
   x.expanded_uncertainty = x.coverage_factor * std::sqrt(combined.total());

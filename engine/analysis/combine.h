@@ -49,7 +49,7 @@ private:
 };
 
 struct Expansion {
-  double effective_degrees_of_freedom = 0; ///< truncated
+  double effective_degrees_of_freedom = 0; ///< truncated; infinite from 1e6
   double coverage_factor = 0, expanded_uncertainty = 0;
 };
 

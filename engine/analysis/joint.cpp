@@ -213,8 +213,11 @@ std::vector<JointRegion> joint_regions(const propagation::Experiment& e, const V
     JointRegion& region = regions[g] = joint_region(samples, e.scenario().analysis.coverage_probability);
     for (const std::size_t o : group.outputs) {
       region.outputs.push_back(e.outputs()[o]);
-      if (!region.remark.starts_with("no region") && std::isnan(summaries[o].standard_uncertainty)) {
-        region.remark = "no region: " + e.outputs()[o].name + " has no standard uncertainty";
+      const Summary& s = summaries[o];
+      if (region.remark.starts_with("no region")) continue;
+      if (std::isnan(s.standard_uncertainty) || std::isnan(s.symmetric.low)) {
+        region.remark = fmt::format("no region: {} has no {}", e.outputs()[o].name,
+                                    std::isnan(s.standard_uncertainty) ? "standard uncertainty" : "coverage interval");
         region.k_p = region.k_p_se = region.k_q = region.k_q_se = nan;
         std::ranges::fill(region.covariance, nan);
         std::ranges::fill(region.correlation, nan);

@@ -39,6 +39,7 @@ double hill(std::span<const double> falling) {
 void use_median(std::span<const double> values, Summary& s) {
   std::vector<double> x;
   std::ranges::copy_if(values, std::back_inserter(x), [](double v) { return !std::isnan(v); });
+  if (x.size() < 2) return;
   const double n = static_cast<double>(x.size());
   const auto at = [&](double rank) {
     const auto place = x.begin() + static_cast<long>(std::clamp(rank, 0.0, n - 1));

@@ -91,9 +91,10 @@ void apply_degrees_of_freedom(Component& c, std::optional<double> declared, Tabl
     d = {Family::t, {d.parameters[0], d.parameters[1], c.degrees_of_freedom}, nullptr, nullptr};
   }
   if (d.family == Family::t && d.parameters[1] > 0 && d.parameters[2] <= 2)
-    context.notes.push_back(fmt::format("{}: a t distribution with {:.6g} degrees of freedom has no standard "
+    context.notes.push_back(fmt::format("{}: a t distribution with {:.6g} degree{} of freedom has no standard "
                                         "uncertainty{}: only quantiles are given",
-                                        table.path(), d.parameters[2], d.parameters[2] > 1 ? "" : " and no expectation"));
+                                        table.path(), d.parameters[2], d.parameters[2] == 1 ? "" : "s",
+                                        d.parameters[2] > 1 ? "" : " and no expectation"));
 }
 
 void check_scope(Table& table, const std::vector<std::string>& per, Context& context) {

@@ -142,6 +142,11 @@ TEST_CASE("two observations give a median, not a mean", "[tails]") {
   CHECK_THAT(r.summaries[0].statement, Catch::Contains("median, because no expectation exists"));
   CHECK(std::isnan(r.summaries[0].standard_uncertainty));
   CHECK_FALSE(analysed(scenario_of<Identity>({{7, {student(0.3, 2)}}}, 200'000)).summaries[0].estimate_is_median);
+  // Ten trials have no interval, and no mean either.
+  const auto few = analysed(scenario_of<Identity>({{7, {student(0.3, 1)}}}, 10)).summaries[0];
+  CHECK(few.estimate_is_median);
+  CHECK(std::isnan(few.standard_uncertainty));
+  CHECK_THAT(few.warning, Catch::Contains("no coverage interval") && Catch::Contains("no standard uncertainty"));
 }
 
 TEST_CASE("constant, tiny and failed samples", "[tails]") {
