@@ -50,9 +50,10 @@ std::string statement(const Summary& s, const Budget& b, const Validation& v, do
                         fixed(width(s.standard_uncertainty), d), unit);
   else
     text += " without a standard uncertainty (" + why + ")";
-  if (std::isnan(s.shortest.low) && std::isfinite(s.standard_uncertainty))
-    text += " and without a coverage interval (" + s.warning + ")";
-  else if (!std::isnan(s.shortest.low))
+  if (std::isnan(s.shortest.low))
+    text += " and without a coverage interval" +
+            (std::isfinite(s.standard_uncertainty) ? " (" + s.warning + ")" : std::string());
+  else
     text += fmt::format("; the shortest {:.4g} % coverage interval is [{}, {}]{}", 100 * p,
                       fixed(shown(s.shortest.low), d), fixed(shown(s.shortest.high), d), unit);
   if (b.applicable && b.expanded_uncertainty > 0) {

@@ -19,7 +19,7 @@ TEST_CASE("dual numbers lose no bit of the flutes in the run-out's rotations", "
     for (const double x : m.effects) e.push_back(models::Gradient::variable(x, 0));
     const auto event = mill::probing_event(models::reading_of<mill::ToolLength>(m.call(q, e), false));
     for (int k = 0; k < m.q[Row::inserts]; ++k) {
-      const auto dual = mill::converted<double>(mill::flute(tests::named(q), event, k));
+      const auto dual = models::converted<double>(mill::flute(tests::named(q), event, k));
       const auto flat = mill::flute(tests::named(plain.q), plain.event(), k);
       REQUIRE(dual.insert.tool_radius == flat.insert.tool_radius);
       REQUIRE(dual.insert.seat == flat.insert.seat);
