@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <Eigen/Cholesky>
+#include <Eigen/QR>
 
 #include "base/hash.h"
 #include "quantities/quantile_kernels.h"
@@ -105,7 +106,11 @@ struct ConditionalDraws::Impl {
 
     const auto size = static_cast<Eigen::Index>(group.variates.size());
     const Eigen::Map<const Matrix> r(group.matrix.data(), size, size);
-    const Matrix inverse = Matrix(r(fixed, fixed)).llt().solve(Matrix::Identity(r(fixed, fixed).rows(), r(fixed, fixed).cols()));
+    const Matrix among = r(fixed, fixed);
+    // Where frozen scores determine one another, the pseudo-inverse gives the same mean and their rank.
+    const Matrix inverse = group.singular()
+                               ? Matrix(Eigen::CompleteOrthogonalDecomposition<Matrix>(among).pseudoInverse())
+                               : Matrix(among.llt().solve(Matrix::Identity(among.rows(), among.cols())));
     const Matrix weights = r(open, fixed) * inverse;
     const double* wa = shared(block.scores_a, g, block.rows) + from;
     std::vector<double> w(count, 1), pull(count, 1); // W given what is frozen; the frozen z_A as scores of that W

@@ -4,6 +4,9 @@
 #include <cmath>
 
 #include <Eigen/Cholesky>
+#include <fmt/format.h>
+
+#include "base/error.h"
 
 namespace gumshoe::calibration {
 
@@ -36,6 +39,11 @@ Priors priors_of(const propagation::Experiment& e, const std::vector<Unknown>& u
           covariance(i, j) += correlation(a, b) * plan.variates[a].distribution.standard_uncertainty() *
                               plan.variates[b].distribution.standard_uncertainty();
   const Eigen::MatrixXd factor = covariance.llt().matrixL();
+  for (Eigen::Index i = 0; i < m; ++i)
+    if (!(factor(i, i) * factor(i, i) > 1e-12 * covariance(i, i)))
+      throw InputError(fmt::format("{}: its prior is determined by those of other estimated quantities",
+                                   unknowns[known[static_cast<std::size_t>(i)]].name),
+                       "their correlation is complete", "estimate one of them, or state coefficients nearer to 0");
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(m, static_cast<Eigen::Index>(unknowns.size()));
   Eigen::VectorXd means(m);
   for (Eigen::Index i = 0; i < m; ++i) {

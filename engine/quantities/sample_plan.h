@@ -33,11 +33,12 @@ struct Column {
 /// Variates tied by a Gaussian copula, or jointly t-distributed: then z = L e is divided by sqrt(W), with one
 /// W = chi-squared / degrees of freedom for all of them.
 struct CopulaGroup {
-  std::vector<std::size_t> variates;
-  std::vector<double> cholesky;  ///< lower factor L of the matrix, row-major
+  std::vector<std::size_t> variates; ///< in the order of the rows
+  std::vector<double> cholesky;  ///< lower factor L of the matrix, row-major; trailing columns are zero if it is singular
   std::vector<double> matrix;    ///< of the copula, or of the scales of the t distributions
   double degrees_of_freedom = 0; ///< of a multivariate t distribution; 0: Gaussian copula
   std::uint64_t key = 0;         ///< of the stream of W
+  bool singular() const { return cholesky.back() == 0; }
   bool multivariate_t() const { return degrees_of_freedom > 0; }
   /// Distribution of W: gamma(nu / 2, 2 / nu).
   Distribution shared_scale() const {
@@ -62,7 +63,7 @@ struct SamplePlan {
 };
 
 /// Throws InputError: a label value of a reading that no entry of a `by` quantity has; a scope that
-/// names no label; a correlation matrix that is not positive definite (with its smallest
+/// names no label; a correlation matrix that is not positive semidefinite (with its smallest
 /// eigenvalue), or that no copula reaches; a correlated quantity with several components.
 /// Correlated quantities are tied cell by cell: same cell with same cell.
 SamplePlan make_plan(std::span<const InputQuantity> quantities, std::span<const Correlation> correlations,

@@ -140,7 +140,14 @@ private:
             copula_coefficient(correlation_.kind, correlation_.matrix[i * n_ + j], a.distribution, b.distribution,
                                b.name + " and " + a.name);
       }
-    group.cholesky = cholesky_factor(group.matrix, n_, group_);
+    const CorrelationFactor factor = correlation_factor(group.matrix, correlation_.matrix, n_, group_);
+    const CopulaGroup as_named = group;
+    for (std::size_t i = 0; i < n_; ++i) {
+      group.variates[i] = as_named.variates[factor.order[i]];
+      for (std::size_t j = 0; j < n_; ++j)
+        group.matrix[i * n_ + j] = as_named.matrix[factor.order[i] * n_ + factor.order[j]];
+    }
+    group.cholesky = factor.lower;
     plan_.copulas.push_back(std::move(group));
   }
 

@@ -22,7 +22,7 @@ Options<Correlation> correlation_options() {
                    "kind of the coefficient; multivariate_t: estimates of one fit or of simultaneous observations, with one "
                    "standard deviation and its degrees of freedom; there is no default")
           .needed("use copula, pearson, spearman or multivariate_t"),
-      option::by_hand<Correlation>("coefficient", coefficient, "correlation coefficient of two quantities"),
+      option::by_hand<Correlation>("coefficient", coefficient, "correlation coefficient of the quantities; of several, of any two"),
       option::by_hand<Correlation>("matrix", shape::list(shape::list(coefficient)),
                                    "a row and a column per quantity; symmetric, 1 on the diagonal"),
       option::by_hand<Correlation>("source", shape::reference("source"), ""),
@@ -63,13 +63,11 @@ Correlation read_correlation(Table table, const std::vector<std::string>& names)
   const auto coefficient = table.number("coefficient");
   if (n < 2 && table.has("quantities")) table.refuse("at least two quantities are needed");
   if (table.has("coefficient") == table.has("matrix"))
-    table.refuse("either a coefficient or a matrix is needed", "", "write coefficient = 0.5 for two quantities");
-  else if (coefficient && n != 2)
-    table.refuse(fmt::format("one coefficient for {} quantities", n), "", "give a matrix");
+    table.refuse("either a coefficient or a matrix is needed", "", "write coefficient = 0.5");
   else if (coefficient && std::abs(*coefficient) > 1)
     table.refuse_key("coefficient", fmt::format("{} must lie between -1 and 1", *coefficient));
   else if (coefficient)
-    out.matrix = {1, *coefficient, *coefficient, 1};
+    for (std::size_t i = 0; i < n * n; ++i) out.matrix.push_back(i % n == i / n ? 1 : *coefficient);
   read_matrix(table, n, out.matrix);
   table.refuse_unknown();
   return out;

@@ -83,7 +83,7 @@ MISTAKES = {
     # 1 and 2 as well as 2 and 3 alike, 1 and 3 opposite: eigenvalues 1.9, 1.9, -0.8.
     "correlation matrix not positive definite": (
         SCENARIO + '[quantities.beam_yaw]\nu = "0.01 deg"\n[[correlations]]\nquantities = ["rod_radius", "beam_pitch", "beam_yaw"]\n'
-        'kind = "copula"\nmatrix = [[1, 0.9, -0.9], [0.9, 1, 0.9], [-0.9, 0.9, 1]]\n', 16, ["positive definite", "-0.8"]),
+        'kind = "copula"\nmatrix = [[1, 0.9, -0.9], [0.9, 1, 0.9], [-0.9, 0.9, 1]]\n', 16, ["positive semidefinite", "-0.8"]),
     "correlation of what is not drawn": (
         SCENARIO + '[[correlations]]\nquantities = ["rod_radius", "beam_yaw"]\nkind = "copula"\ncoefficient = 0.5\n', 14, ["beam_yaw"]),
     "correlation beyond 1": (

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "quantities/copula.h"
 #include "quantities/quantile_kernels.h"
 #include "quantities/sample_plan.h"
 
@@ -281,6 +282,64 @@ TEST_CASE("labels: values by label, draws per label, shared columns", "[sampler]
     CHECK(columns[g[0][1] * n + i] == (5 + rows[pitch.variates[0]][i]) + rows[pitch.variates[1]][i]);
 }
 
+TEST_CASE("coefficients of +1 and -1 are drawn exactly, whatever the distributions", "[sampler][copula]") {
+  Distribution wide = make(Family::t, {0, 3, 4}), steps = make(Family::discrete, {});
+  steps.values = std::make_shared<const std::vector<double>>(std::vector<double>{-1, 0, 1});
+  steps.probabilities = std::make_shared<const std::vector<double>>(std::vector<double>{0.3, 0.4, 0.3});
+  const std::vector<InputQuantity> quantities = {
+      simple("n1", standard),       simple("n2", make(Family::normal, {2, 3})), simple("t1", make(Family::t, {0, 1, 4})),
+      simple("t2", wide),           simple("r1", rectangular),                  simple("r2", make(Family::rectangular, {-4, 0})),
+      simple("tri1", make(Family::triangular, {0, 1})), simple("tri2", make(Family::triangular, {0, 2})),
+      simple("e1", make(Family::exponential, {1})),     simple("e2", make(Family::exponential, {5})),
+      simple("s1", steps),          simple("s2", steps)};
+  using enum Correlation::Kind;
+  for (std::size_t i = 0; i < quantities.size(); i += 2)
+    for (const double r : {1.0, -1.0})
+      for (const auto kind : {copula, pearson, spearman}) {
+        const bool stepped = i == 10, mirrored = i != 8 || r > 0; // no linear relation of opposite exponentials
+        if ((kind == spearman && stepped) || (kind == pearson && !mirrored)) continue;
+        const std::vector<InputQuantity> two(quantities.begin() + std::ptrdiff_t(i), quantities.begin() + std::ptrdiff_t(i) + 2);
+        INFO(two[0].name << " " << r << " " << int(kind));
+        const Correlation c{kind, {two[0].name, two[1].name}, {1, r, r, 1}};
+        const SamplePlan plan = make_plan(two, {&c, 1}, one_reading, 3);
+        const auto rows = draw(plan, 4096);
+        const auto& a = plan.variates[0].distribution;
+        const auto& b = plan.variates[1].distribution;
+        for (std::size_t k = 0; k < 4096; k += 41) {
+          if (mirrored) { // a straight line through the means, to the rounding of the quantile functions
+            const double line = b.mean() + r * std::sqrt(b.variance() / a.variance()) * (rows[0][k] - a.mean());
+            REQUIRE(std::abs(rows[1][k] - line) < 1e-9 * std::sqrt(b.variance()));
+          } else {
+            REQUIRE(std::abs(a.probability(rows[0][k]) + b.probability(rows[1][k]) - 1) < 1e-9);
+          }
+        }
+        // and the framework's coefficient is the same
+        if (mirrored) CHECK(pearson_coefficient(plan.copulas[0].matrix[1], a, b) == r);
+      }
+}
+
+TEST_CASE("a singular matrix is drawn exactly: quantities that determine another", "[sampler][copula]") {
+  // c = 0.6 a + 0.8 b; the same with c named first, and with a fourth that is opposite to a.
+  const std::vector<InputQuantity> quantities = {simple("a", standard), simple("b", standard), simple("c", standard),
+                                                 simple("d", standard)};
+  for (const auto& [names, matrix] :
+       {std::pair<std::vector<std::string>, std::vector<double>>{
+            {"a", "b", "c", "d"}, {1, 0, .6, -1, 0, 1, .8, 0, .6, .8, 1, -.6, -1, 0, -.6, 1}},
+        {{"d", "a", "c", "b"}, {1, -1, -.6, 0, -1, 1, .6, 0, -.6, .6, 1, .8, 0, 0, .8, 1}}}) {
+    const Correlation c{Correlation::Kind::pearson, names, matrix};
+    const SamplePlan plan = make_plan(quantities, {&c, 1}, one_reading, 3);
+    CHECK(plan.copulas.at(0).singular());
+    const auto rows = draw(plan, 1 << 16);
+    double variance = 0;
+    for (std::size_t k = 0; k < rows[0].size(); ++k) {
+      REQUIRE(std::abs(0.6 * rows[0][k] + 0.8 * rows[1][k] - rows[2][k]) < 1e-12);
+      REQUIRE(rows[3][k] == -rows[0][k]);
+      variance += rows[2][k] * rows[2][k] / double(rows[0].size());
+    }
+    CHECK(std::abs(variance - 1) < 5 * std::sqrt(2.0 / double(rows[0].size())));
+  }
+}
+
 TEST_CASE("correlated quantities are tied cell by cell", "[sampler][plan]") {
   const std::vector<InputQuantity> quantities = {
       quantity("x", {component("a", standard, {"setup"})}),
@@ -312,8 +371,15 @@ TEST_CASE("plans refuse what cannot be meant, and say why", "[sampler][plan]") {
   };
   // 1, 0.9, 0.9 against -0.9: eigenvalues 1.9, 1.9, -0.8
   CHECK_THAT(tie(Correlation::Kind::copula, {"a", "b", "c"}, {1, .9, .9, .9, 1, -.9, .9, -.9, 1}),
-             Contains("not positive definite") && Contains("-0.8"));
-  CHECK_THAT(tie(Correlation::Kind::copula, {"a", "b"}, {1, 1, 1, 1}), Contains("not positive definite"));
+             Contains("the matrix is not positive semidefinite") && Contains("its smallest eigenvalue is -0.8") &&
+                 Contains("multiply those off the diagonal by 0.555555")); // 1 / (1 + 0.8)
+  CHECK_THAT(tie(Correlation::Kind::copula, {"a", "b"}, {1, 1, 1, 1}), Contains("no error"));
+  // Three rectangulars whose sum is constant: no Gaussian copula has their matrix, although it is one.
+  CHECK_THAT(refuse({simple("a", rectangular), simple("b", rectangular), simple("c", rectangular)},
+                    {{Correlation::Kind::pearson, {"a", "b", "c"}, {1, -.5, -.5, -.5, 1, -.5, -.5, -.5, 1}}}, one_reading),
+             Contains("no Gaussian copula of these distributions has this matrix"));
+  CHECK_THAT(tie(Correlation::Kind::pearson, {"e", "a"}, {1, 1, 1, 1}),
+             Contains("+1 and -1 need distributions of one shape") && Contains("kind = \"spearman\""));
   CHECK_THAT(tie(Correlation::Kind::copula, {"a", "b"}, {1, .5, .4, 1}), Contains("not symmetric"));
   CHECK_THAT(tie(Correlation::Kind::copula, {"a", "b"}, {1, 2, 2, 1}), Contains("between -1 and 1"));
   CHECK_THAT(tie(Correlation::Kind::copula, {"a", "b"}, {1, .5, .5}), Contains("the matrix needs 2 x 2 numbers, not 3"));
