@@ -39,6 +39,10 @@ std::vector<std::string> function_names() {
 
 const double* find_constant(std::string_view name) { return name == "pi" ? &pi : name == "e" ? &e : nullptr; }
 
+std::string_view reserved_as(std::string_view name) {
+  return find_constant(name) ? "a constant of formulas" : find_function(name) ? "a function of formulas" : "";
+}
+
 std::string_view word(Operation operation) {
   switch (operation) {
   case Operation::number:

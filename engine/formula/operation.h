@@ -51,6 +51,9 @@ std::vector<std::string> function_names();
 /// pi and e; null for any other name.
 const double* find_constant(std::string_view name);
 
+/// "a constant of formulas" or "a function of formulas" where the name is one; else empty: for messages.
+std::string_view reserved_as(std::string_view name);
+
 /// "division", "log", "+": for messages.
 std::string_view word(Operation operation);
 

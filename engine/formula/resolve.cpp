@@ -28,6 +28,10 @@ Names::Names(const Statement& s, const std::vector<Formula>& formulas, std::vect
       problems.push_back({formulas[i].where,
                           fmt::format("{}: '{}' cannot be the name of a formula", formulas[i].name, name),
                           "use letters, digits and _, with no digit first", ""});
+    if (const auto reserved = reserved_as(name); !reserved.empty())
+      problems.push_back({formulas[i].where,
+                          fmt::format("{}: '{}' cannot be the name of a formula", formulas[i].name, name),
+                          fmt::format("it is {}", reserved), "rename it"});
     if (i >= simulated) {
       simulated_[name] = {Source::step, i, nullptr};
       continue;
@@ -54,7 +58,12 @@ const Meaning* Names::find(const std::string& name, bool simulating) const {
 
 void Names::check(const Formula& f, std::vector<Problem>& problems) const {
   for (const Node& n : f.nodes) {
-    if (n.operation != Operation::name || find(n.name, false) || find_constant(n.name)) continue;
+    if (n.operation != Operation::name) continue;
+    const bool named = find(n.name, false) != nullptr;
+    if (named && find_constant(n.name))
+      problems.push_back(f.problem(n.at, fmt::format("'{}' has two meanings here", n.name),
+                                   "it is a constant of formulas", "rename the other one"));
+    if (named || find_constant(n.name)) continue;
     std::vector<std::string> candidates;
     for (const auto& [name, meaning] : meanings_) candidates.push_back(name);
     const std::string meant = nearest(n.name, candidates);

@@ -1,7 +1,9 @@
 #include "models/shown_columns.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -46,40 +48,69 @@ void take_shown(const VariableCard& variable, double* values, std::size_t n, std
     if (!std::isfinite(values[i]) && status[i] == 0) status[i] = code(Status::model_failed);
 }
 
-PointValues evaluate_at(const ModelCard& card, const PointCall<double>& point, void (*kernel)(const BlockCall&)) {
-  PointValues values{std::vector<double>(card.measurands.size()), 0};
+namespace {
+
+/// The same point `n` times in one call.
+struct PointValues {
+  std::vector<double> measurands; ///< [measurand][n], SI
+  std::vector<std::uint8_t> status;
+};
+
+PointValues evaluate_at(const ModelCard& card, const PointCall<double>& point, void (*kernel)(const BlockCall&),
+                        std::size_t n) {
+  PointValues values{std::vector<double>(card.measurands.size() * n), std::vector<std::uint8_t>(n)};
   std::vector<Column> columns;
-  const auto add = [&](const double* data, std::size_t n) {
-    for (std::size_t i = 0; i < n; ++i) columns.push_back({data + i, 0});
+  const auto add = [&](const double* data, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) columns.push_back({data + i, 0});
   };
   add(point.quantities, card.quantities.size());
   add(point.conditions, card.conditions.size());
   add(point.indications, card.indications.size());
   std::vector<double*> measurands;
-  for (double& y : values.measurands) measurands.push_back(&y);
+  for (std::size_t m = 0; m < card.measurands.size(); ++m) measurands.push_back(&values.measurands[m * n]);
   const std::size_t itself = 0;
   BlockCall call;
-  call.samples = call.readings = 1;
+  call.samples = n;
+  call.readings = 1;
   call.quantities = columns.data();
   call.conditions = columns.data() + card.quantities.size();
   call.indications = columns.data() + card.quantities.size() + card.conditions.size();
   call.measurands = measurands.data();
   call.solved_as = &itself;
-  call.status = &values.status;
+  call.status = values.status.data();
   call.evaluation = point.evaluation;
   call.context = point.context;
   kernel(call);
   return values;
 }
 
+} // namespace
+
+std::string differing_answers(const ModelCard& card, const PointCall<double>& point, void (*kernel)(const BlockCall&)) {
+  const PointValues one = evaluate_at(card, point, kernel, 1), two = evaluate_at(card, point, kernel, 2);
+  for (std::size_t m = 0; m < card.measurands.size(); ++m) {
+    const VariableCard& y = card.measurands[m];
+    for (const auto& [a, status_a, b, status_b] :
+         {std::tuple{two.measurands[2 * m], two.status[0], two.measurands[2 * m + 1], two.status[1]},
+          std::tuple{two.measurands[2 * m], two.status[0], one.measurands[m], one.status[0]}}) {
+      if (status_a != status_b) return "it fails at one of two equal points";
+      if (status_a != 0 || std::fabs(a - b) <= 1e-12 * std::max(std::fabs(a), std::fabs(b))) continue;
+      const std::string unit(y.unit), si(y.si_unit);
+      return fmt::format("{} is {:.12g} {}, then {:.12g} {}", y.name, units::from_si(a, unit, si), unit,
+                         units::from_si(b, unit, si), unit);
+    }
+  }
+  return {};
+}
+
 std::vector<Intermediate> explained(const ModelCard& card, const PointCall<double>& point,
                                     void (*kernel)(const BlockCall&)) {
-  const PointValues values = evaluate_at(card, point, kernel);
+  const PointValues values = evaluate_at(card, point, kernel, 1);
   std::vector<Intermediate> out;
   for (std::size_t m = 0; m < card.measurands.size(); ++m) {
     const std::string unit(card.measurands[m].unit);
     out.push_back({std::string(card.measurands[m].name), unit,
-                   values.status == 0
+                   values.status[0] == 0
                        ? units::from_si(values.measurands[m], unit, std::string(card.measurands[m].si_unit))
                        : std::numeric_limits<double>::quiet_NaN()});
   }

@@ -20,12 +20,10 @@ ShownReading shown_reading(const ModelCard& card, const BlockCall& call, std::si
 /// Turns n values from the card's unit to SI, in place; marks what is not finite as failed.
 void take_shown(const VariableCard& variable, double* values, std::size_t n, std::uint8_t* status);
 
-/// One evaluation through a block kernel, for `check` and `explain`: the measurands in SI.
-struct PointValues {
-  std::vector<double> measurands;
-  std::uint8_t status = 0;
-};
-PointValues evaluate_at(const ModelCard& card, const PointCall<double>& point, void (*kernel)(const BlockCall&));
+/// Asks for one point, and for it twice in another call. Empty if the answers agree to 1e-12; else how they
+/// differ: "y is 1.2 mm, then 1.3 mm". Then the model draws random numbers of its own, or its points depend on one
+/// another.
+std::string differing_answers(const ModelCard& card, const PointCall<double>& point, void (*kernel)(const BlockCall&));
 
 /// The measurands by name, for `explain`; NaN where the sample failed.
 std::vector<Intermediate> explained(const ModelCard& card, const PointCall<double>& point,

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "formula/interpreter.h"
+#include "formula/operation.h"
 
 namespace gumshoe::scenario {
 
@@ -93,7 +94,8 @@ private:
     if (m.key == "per_reading" || m.key == "once" || std::ranges::any_of(model_.timing, is_it)) return;
     const std::string path = "choose.time." + m.key;
     if (m.key == "readings" || std::ranges::any_of(model_.conditions, is_it) ||
-        std::ranges::any_of(model_.quantities, is_it) || !formula::is_name(m.key)) {
+        std::ranges::any_of(model_.quantities, is_it) || !formula::reserved_as(m.key).empty() ||
+        !formula::is_name(m.key)) {
       problems_.add(m, fmt::format("{}: {}", path,
                                    formula::is_name(m.key) ? "the name already has a meaning"
                                                            : "a formula cannot use this name"));

@@ -5,11 +5,14 @@
 
 #include <fmt/format.h>
 
+#include "formula/operation.h"
+
 namespace gumshoe::scenario {
 namespace {
 
 constexpr std::array worded{"distribution", "evaluation", "source", "per",    "name",      "kind",
-                            "labels",       "where",      "file",   "column", "conditions"};
+                            "labels",       "where",      "file",   "column", "conditions", "decimal"};
+constexpr std::array widths{"u", "U", "half_width"}; ///< which may be shares of the value
 
 /// Depth first, in file order; empty if no number here carries a unit.
 std::string first_unit(const Node& node) {
@@ -27,7 +30,9 @@ std::string first_unit(const Node& node) {
   }
   for (const Member& m : node.members) {
     if (std::ranges::find(worded, m.key) != worded.end()) continue;
-    if (auto unit = first_unit(m.value); !unit.empty()) return unit;
+    const auto unit = first_unit(m.value);
+    const bool relative = std::ranges::find(widths, m.key) != widths.end() && units::convertible(unit, "1");
+    if (!unit.empty() && !relative) return unit;
   }
   for (const Node& item : node.items)
     if (auto unit = first_unit(item); !unit.empty()) return unit;
@@ -39,6 +44,9 @@ std::vector<Symbol> symbols(Table& top, const char* key, Problems& problems) {
   auto table = top.table(key);
   if (!table) return out;
   for (const Member& m : table->members()) {
+    if (const auto reserved = formula::reserved_as(m.key); !reserved.empty())
+      problems.add(m, fmt::format("{}: this name is {}", table->path(m.key), reserved),
+                   "a formula could not tell the two apart", "rename it");
     const std::string unit = declared_unit(m.value);
     const auto si_unit = read_si_unit(m.value, table->path(m.key), unit, problems);
     out.push_back({m.key, si_unit ? unit : "1", si_unit.value_or("1"), ""});

@@ -49,9 +49,15 @@ bool enough(const TraceContext& c, Trace& out) {
     out.outcome = Outcome::insufficient_data;
     return false;
   }
+  const Vector residual = fit.residual(rows);
+  if (!residual.allFinite()) {
+    out.statements.push_back("the declared model has no finite residuals at these readings; nothing can be judged");
+    out.outcome = Outcome::insufficient_data;
+    return false;
+  }
   const double size = std::fabs(*std::ranges::max_element(
       c.observations.measured, [](double a, double b) { return std::fabs(a) < std::fabs(b); }));
-  if (fit.residual(rows).cwiseAbs().maxCoeff() > criteria.exact * size) return true;
+  if (residual.cwiseAbs().maxCoeff() > criteria.exact * size) return true;
   out.statements.push_back("the readings agree with the model to their last digit; they do not scatter, and nothing "
                            "can be distinguished from chance (is the display step too coarse, or are rows copied?)");
   out.outcome = Outcome::insufficient_data;
@@ -114,6 +120,10 @@ Trace trace(const scenario::Scenario& scenario, const Settings& settings) {
   out.vetoed = compare(c, found, out);
   describe_noise(c, found, out);
   collect(c, found, out);
+  if (!std::isfinite(out.p_anything)) {
+    out.statements.push_back("the p-value of the search is not a finite number; nothing can be judged");
+    out.outcome = Outcome::insufficient_data;
+  }
   if (!out.vetoed) compose(c, found, out);
   summarise(out);
   return out;

@@ -105,9 +105,9 @@ class Command(unittest.TestCase):
             self.assertEqual(self.run_it(self.scenario(body, batch=batch, samples=samples)).returncode, 0)
             sizes = [int(n) for n in (self.folder / "sizes.txt").read_text().split()]
             self.assertLessEqual(max(sizes), batch)
-            # one for the check, two for the budget, and the run in as few calls as blocks of 2048 allow
+            # two for the check, two for the budget, and the run in as few calls as blocks of 2048 allow
             per_call = batch // 2048 * 2048 or batch
-            self.assertLessEqual(len(sizes), 3 + samples / per_call + samples / 2048 + 2)
+            self.assertLessEqual(len(sizes), 4 + samples / per_call + samples / 2048 + 2)
 
     def test_units_order_and_other_columns(self):
         body = """print("comment,area (cm2),width")
@@ -238,6 +238,18 @@ for line in sys.stdin:
         for change, word, place in cases:
             with self.subTest(word):
                 self.refused(gumshoe("check", self.scenario(change=change)), word, place=place)
+
+    def test_random_numbers_of_its_own(self):
+        # Noise anew in every call; noise of a fixed seed, so that only the rows of one call differ; and a row that counts.
+        for body in ("import random\n" + GOOD.replace("area(r)", "area(r) + 1e-6 * random.random()"),
+                     "import random\nrandom.seed(1)\n" + GOOD.replace("area(r)", "area(r) + 1e-6 * random.random()"),
+                     "rows = [r | {'width (mm)': float(r['width (mm)']) * (1 + 1e-9 * i)} for i, r in enumerate(rows)]\n" + GOOD):
+            for batch in (10000, 1):
+                if batch == 1 and "seed" in body or batch == 1 and "enumerate" in body: continue
+                with self.subTest(body, batch=batch):
+                    scenario = self.scenario(body, batch=batch)
+                    for command in ("check", "run"):
+                        self.refused(gumshoe(command, scenario), "the same point gives different results", "area is ")
 
     # nothing lost
 

@@ -64,6 +64,16 @@ class BadData(unittest.TestCase):
             self.assertFalse(re.search(r"\bnan\b|\binf\b|e[-+]\d\d\d", text), text)
         return said
 
+    def test_noise_that_readings_share(self):
+        # Judged by such noise, residuals of any size would agree with it.
+        for per in ('"setup"', "[]"):
+            with self.subTest(per):
+                shared = NOISE.replace('"reading"', per)
+                self.refused("indications.spindle_z: no noise is declared that differs from reading to reading", rows(), noise=shared)
+        own = NOISE.replace(" ]", ', { u = "1 um", per = "setup" } ]')
+        self.assertIn(self.verdict(rows(), noise=own)["verdict"], ("named", "class"))
+        self.refused("components[1].per is missing", rows(), noise=NOISE.replace(', per = "reading"', ""))
+
     def refused(self, words, *data, **options):
         run = self.trace(*data, **options)
         self.assertIsNone(complaint(run), run.stderr)

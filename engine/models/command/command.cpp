@@ -42,7 +42,7 @@ struct Command {
   CommandSpec spec;
   MadeCard card;
   Memory memory;
-  mutable std::atomic<bool> tried{false};
+  mutable std::atomic<bool> tried{false}, remembers{false}; ///< answers: not before the same point was asked twice
   Model model{};
 
   [[noreturn]] void refuse(const std::string& points, const std::string& what, const std::string& why,
@@ -98,7 +98,7 @@ std::string remedy_for(const ProcessRun& run) {
 void run_points(const Command& c, const std::string& input, std::size_t n, std::uint64_t first_sample,
                 std::size_t offset, double* const* measurands, std::uint8_t* status) {
   const std::string points = span_text(first_sample, offset, n);
-  const bool small = first_sample == unnumbered && input.size() <= most_remembered;
+  const bool small = c.remembers && first_sample == unnumbered && input.size() <= most_remembered;
   ProcessRun run;
   if (!small || !c.memory.find(input, run.output)) {
     const std::size_t most = (std::size_t{1} << 20) + n * (c.card.card().measurands.size() + 1) * 4096;
@@ -139,10 +139,15 @@ std::vector<Intermediate> explain(const PointCall<double>& call) {
   return explained(static_cast<const Command*>(call.context)->card.card(), call, &evaluate);
 }
 
-/// Runs it once, at the estimates of the first reading.
+/// Runs it twice, at the estimates of the first reading.
 std::string check(const PointCall<double>& call) {
   const Command& c = *static_cast<const Command*>(call.context);
-  if (!c.tried.exchange(true)) evaluate_at(c.card.card(), call, &evaluate);
+  if (c.tried.exchange(true)) return {};
+  if (const std::string how = differing_answers(c.card.card(), call, &evaluate); !how.empty())
+    c.refuse("the estimates", "the same point gives different results",
+             how + "; the program draws random numbers of its own, or its rows depend on one another",
+             "make it a function of its input: random errors are quantities of the scenario");
+  c.remembers = true;
   return {};
 }
 

@@ -93,9 +93,13 @@ std::vector<Intermediate> explain(const PointCall<double>& call) {
   return explained(static_cast<const Plugin*>(call.context)->card.card(), call, &evaluate);
 }
 
-/// One evaluation at the estimates, so that `gumshoe check` finds a plugin that crashes or refuses.
+/// Evaluations at the estimates, so that `gumshoe check` finds a plugin that crashes, refuses or is no function.
 std::string check(const PointCall<double>& call) {
-  evaluate_at(static_cast<const Plugin*>(call.context)->card.card(), call, &evaluate);
+  const Plugin& p = *static_cast<const Plugin*>(call.context);
+  if (const std::string how = differing_answers(p.card.card(), call, &evaluate); !how.empty())
+    p.place.refuse("gives different results at the same point",
+                   how + "; it draws random numbers of its own, or its points depend on one another",
+                   "make it a function of its input: random errors are quantities of the scenario");
   return {};
 }
 

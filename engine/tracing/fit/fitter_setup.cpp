@@ -3,6 +3,9 @@
 #include <cmath>
 #include <set>
 
+#include <fmt/format.h>
+
+#include "base/error.h"
 #include "quantities/cells.h"
 #include "tracing/fit/joint_fit.h"
 
@@ -22,8 +25,27 @@ Fitter::Fitter(const propagation::Experiment& experiment, const Simulator& simul
         noise_declared_ = true;
       else
         needed.insert(q);
+  if (noise_declared_) need_independent_noise();
   needed_.assign(needed.begin(), needed.end());
   find_responses();
+}
+
+void Fitter::need_independent_noise() const {
+  const auto& s = experiment_.scenario();
+  const propagation::Range noise = experiment_.layout().indications;
+  for (std::size_t k = 0; k < noise.size(); ++k) {
+    const auto independent = [&](const Draw& d) {
+      return d.local && d.u > 0 && std::any_of(d.moves.begin(), d.moves.end(), [&](const auto& move) {
+        return move.second == noise[k] || !noise.contains(move.second);
+      });
+    };
+    if (std::any_of(draws_.begin(), draws_.end(), independent)) continue;
+    const std::string name = s.quantities[noise[k]].name;
+    throw InputError({{propagation::find_line(s, "[indications." + name),
+                       fmt::format("indications.{}: no noise is declared that differs from reading to reading", name),
+                       "residuals are judged by it",
+                       "give the noise per = \"reading\", or declare none: it is then estimated from the residuals"}});
+  }
 }
 
 Index Fitter::needed(std::size_t quantity) const {

@@ -77,6 +77,8 @@ private:
 
   void find_unknowns();
   void find_draws();
+  /// Throws InputError if noise is declared, and an indication has none that differs from reading to reading.
+  void need_independent_noise() const;
   /// Computes the responses to declared draws of effects over their values, at the estimates.
   void find_responses();
 
