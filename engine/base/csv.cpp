@@ -1,5 +1,6 @@
 #include "base/csv.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -28,18 +29,58 @@ public:
   bool next(std::vector<CsvCell>& row) {
     row.clear();
     while (at_ < text_.size()) {
+      const std::size_t begin = std::min(text_.find_first_not_of(" \t", at_), text_.size());
+      if (begin < text_.size() && text_[begin] == '#') {
+        comment(begin + 1);
+        continue;
+      }
+      if (separator_ == '\0') find_separator();
       bool more = true;
       while (more) more = cell(row);
       if (row.size() == 1 && row[0].text.empty() && !row[0].quoted) { // a blank line
         row.clear();
         continue;
       }
+      if (cells_ == 0) cells_ = row.size();
       return true;
     }
     return false;
   }
 
+  int comments_like_rows() const { return comments_like_rows_; }
+
 private:
+  void comment(std::size_t begin) {
+    const std::size_t end = std::min(text_.find_first_of("\r\n", begin), text_.size());
+    std::size_t cells = 0, numbers = 0;
+    for (std::size_t from = begin; cells_ > 0 && from <= end; ++cells) {
+      const std::size_t to = std::min(text_.find(separator_, from), end);
+      const std::string text = trimmed(std::string(text_.substr(from, to - from)));
+      double unused = 0;
+      const char* const last = text.data() + text.size();
+      numbers += !text.empty() && std::from_chars(text.data(), last, unused).ptr == last;
+      from = to + 1;
+    }
+    comments_like_rows_ += cells > 0 && cells == cells_ && numbers > 0;
+    at_ = end;
+    if (at_ < text_.size() && text_[at_++] == '\r' && at_ < text_.size() && text_[at_] == '\n') ++at_;
+    new_line();
+  }
+
+  /// From the header: a semicolon outside quotes, and no comma there.
+  void find_separator() {
+    separator_ = ',';
+    bool quoted = false;
+    for (std::size_t i = at_; i < text_.size() && (quoted || (text_[i] != '\n' && text_[i] != '\r')); ++i) {
+      if (text_[i] == '"') quoted = !quoted;
+      if (!quoted && text_[i] == ';') separator_ = ';';
+      if (!quoted && text_[i] == ',') {
+        separator_ = ',';
+        return;
+      }
+    }
+  }
+
   /// Reads one cell; true if another one follows on the same row.
   bool cell(std::vector<CsvCell>& row) {
     CsvCell cell{{}, line_, static_cast<int>(at_ - line_start_) + 1};
@@ -59,7 +100,7 @@ private:
     row.push_back(std::move(cell));
     if (at_ >= text_.size()) return false;
     const char end = text_[at_++];
-    if (end == ',') return true;
+    if (end == separator_) return true;
     if (end == '\r' && at_ < text_.size() && text_[at_] == '\n') ++at_;
     new_line();
     return false;
@@ -83,7 +124,7 @@ private:
     throw InputError({{{file_, cell.line, cell.column}, "a quote is not closed", "", ""}});
   }
 
-  static bool ends_cell(char c) { return c == ',' || c == '\n' || c == '\r'; }
+  bool ends_cell(char c) const { return c == separator_ || c == '\n' || c == '\r'; }
   void new_line() {
     ++line_;
     line_start_ = at_;
@@ -91,8 +132,9 @@ private:
 
   std::string_view text_;
   const std::string& file_;
-  std::size_t at_ = 0, line_start_ = 0;
-  int line_ = 1;
+  std::size_t at_ = 0, line_start_ = 0, cells_ = 0; ///< cells of the header
+  int line_ = 1, comments_like_rows_ = 0;
+  char separator_ = '\0';
 };
 
 } // namespace
@@ -109,15 +151,21 @@ std::vector<std::string> Csv::names() const {
   return out;
 }
 
-double Csv::number(const CsvCell& cell) const {
+double Csv::number(const CsvCell& cell, char decimal) const {
+  std::string text = cell.text;
+  const bool points = text.find('.') != std::string::npos, comma = std::count(text.begin(), text.end(), ',') == 1;
+  if (comma) std::replace(text.begin(), text.end(), ',', '.');
   double value = 0;
-  const char* begin = cell.text.data();
-  const char* const end = begin + cell.text.size();
-  if (cell.text.size() > 1 && *begin == '+' && begin[1] != '-') ++begin;
+  const char* begin = text.data();
+  const char* const end = begin + text.size();
+  if (text.size() > 1 && *begin == '+' && begin[1] != '-') ++begin;
   const auto [stop, error] = std::from_chars(begin, end, value);
-  if (error != std::errc() || stop != end || !std::isfinite(value))
-    throw InputError({{at(cell), fmt::format("'{}' is not a number", cell.text), "", ""}});
-  return value;
+  const bool is_number = error == std::errc() && stop == end && std::isfinite(value);
+  if (is_number && (decimal == ',' ? !points : !comma)) return value;
+  const bool other_sign = is_number && points != comma;
+  throw InputError({{at(cell), fmt::format("'{}' is not a number", cell.text),
+                     other_sign ? fmt::format("the decimal sign must be a {}", decimal == ',' ? "comma" : "point") : "",
+                     other_sign ? fmt::format("decimal = \"{}\"", decimal == ',' ? '.' : ',') : ""}});
 }
 
 Csv parse_csv(std::string_view text, const std::string& file) {
@@ -142,6 +190,7 @@ Csv parse_csv(std::string_view text, const std::string& file) {
     }
   }
   if (!problems.empty()) throw InputError(std::move(problems));
+  csv.comments_like_rows = reader.comments_like_rows();
   return csv;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Comma-separated values (RFC 4180): a header, then rows; every cell knows its place in the file.
+/// Comma- or semicolon-separated values (RFC 4180): a header, then rows; every cell knows its place in the file.
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,16 +19,18 @@ struct Csv {
   std::string file;
   std::vector<CsvCell> header;
   std::vector<std::vector<CsvCell>> rows; ///< each as long as the header
+  int comments_like_rows = 0;             ///< comments with as many cells as the header, of which one is a number
 
   Location at(const CsvCell& cell) const { return {file, cell.line, cell.column}; }
   /// Index of the column, or -1.
   int find(std::string_view name) const;
   std::vector<std::string> names() const; ///< column names, in order
-  /// The cell as a finite number; throws InputError with the cell's location.
-  double number(const CsvCell& cell) const;
+  /// The cell as a finite number; throws InputError with the cell's location. `decimal`: its decimal sign, '.' or ','.
+  double number(const CsvCell& cell, char decimal = '.') const;
 };
 
-/// Quoted cells may contain commas, doubled quotes and line ends; blank lines are skipped; a byte
+/// Semicolons separate the cells if the header has one outside quotes and no comma. A line that begins with # is a
+/// comment. Quoted cells may contain separators, doubled quotes and line ends; blank lines are skipped; a byte
 /// order mark and CR LF are accepted. Throws InputError with every problem, located: no header, an
 /// unnamed or repeated column, a row of another length, an unclosed quote.
 Csv parse_csv(std::string_view text, const std::string& file);

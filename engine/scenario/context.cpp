@@ -14,8 +14,9 @@ namespace {
 constexpr std::size_t largest_data_file = std::size_t{256} << 20;
 }
 
-DataFiles::DataFiles(const std::string& scenario_file, std::string of_readings)
-    : folder_(std::filesystem::path(scenario_file).parent_path().string()), of_readings_(std::move(of_readings)) {}
+DataFiles::DataFiles(const std::string& scenario_file, std::string of_readings, std::vector<std::string>& notes)
+    : folder_(std::filesystem::path(scenario_file).parent_path().string()), of_readings_(std::move(of_readings)),
+      notes_(notes) {}
 
 const Csv* DataFiles::open(const Node& node, const std::string& path, Problems& problems) {
   const auto name = read_text(node, path, problems);
@@ -41,6 +42,10 @@ const Csv* DataFiles::open_file(const std::string& file, const std::function<voi
   try {
     files_.back().bytes = read_text_file(file, largest_data_file);
     files_.back().csv = std::make_unique<Csv>(parse_csv(files_.back().bytes, file));
+    if (const int like_rows = files_.back().csv->comments_like_rows; like_rows > 0)
+      notes_.push_back(fmt::format("{}: {} line(s) that look like rows begin with # and are skipped as comments; a cell "
+                                   "that begins with # stands in quotes",
+                                   file, like_rows));
   } catch (const InputError& error) {
     for (const Problem& p : error.problems()) {
       if (p.where.line > 0)
@@ -64,62 +69,6 @@ void DataFiles::include(const std::string& name) {
 std::uint64_t DataFiles::hash(std::uint64_t hash) const {
   for (const File& file : files_) hash = hash64(file.bytes, hash);
   return hash;
-}
-
-std::vector<Key> column_keys() {
-  return {{"column", shape::text(), "column name in the first row of the file", true},
-          {"unit", shape::text(), "unit of the numbers in the column; default: a plain number"}};
-}
-
-std::vector<Key> data_column_keys() {
-  std::vector<Key> keys = column_keys();
-  keys.insert(keys.begin(), {"file", shape::text(), "CSV file, relative to the scenario", true});
-  return keys;
-}
-
-int find_column(Table& table, const std::string& key, const Csv& csv) {
-  const auto name = table.text(key);
-  if (!name) return -1;
-  const int column = csv.find(*name);
-  if (column < 0)
-    table.refuse_key(key, fmt::format("'{}' has no column '{}'", csv.file, *name), "",
-                     did_you_mean(*name, csv.names()));
-  return column;
-}
-
-std::optional<DataColumn> read_data_column(Table& table, const std::string& si_unit, DataFiles& files,
-                                           bool of_readings) {
-  DataColumn out;
-  const Node* file = table.require("file");
-  const Node* column = table.require("column");
-  const auto unit = table.text("unit");
-  if (file)
-    out.csv = of_readings ? files.open_readings(*file, table.path("file"), table.problems())
-                          : files.open(*file, table.path("file"), table.problems());
-  if (!table.has("unit") && si_unit != "1")
-    table.add(fmt::format("{} is missing", table.path("unit")), "numbers in a column carry no unit", "unit = \"mm\"");
-  out.unit = unit.value_or("1");
-  const bool known = table.has("unit") ? unit && units::convertible(out.unit, si_unit) : si_unit == "1";
-  if (unit && !known) {
-    try {
-      units::to_si(0, *unit, si_unit);
-    } catch (const InputError& error) {
-      table.problems().add(*table.find("unit"), table.path("unit"), error);
-    }
-  }
-  if (out.csv && column) out.column = find_column(table, "column", *out.csv);
-  if (out.column < 0 || !known) return std::nullopt;
-  return out;
-}
-
-std::optional<double> read_cell(const Csv& csv, const CsvCell& cell, const std::string& unit,
-                                const Dimension& dimension, Problems& problems) {
-  try {
-    return units::to_si(csv.number(cell), unit, dimension.si_unit, dimension.kind);
-  } catch (const InputError& error) {
-    problems.add(error);
-    return std::nullopt;
-  }
 }
 
 std::vector<std::string> Context::label_names() const {

@@ -19,7 +19,8 @@ namespace gumshoe::scenario {
 class DataFiles {
 public:
   /// `of_readings`: stands for every data file of readings, relative to the current directory; empty: none does.
-  DataFiles(const std::string& scenario_file, std::string of_readings);
+  /// `notes` take what a reader must know of a file.
+  DataFiles(const std::string& scenario_file, std::string of_readings, std::vector<std::string>& notes);
   /// The file named by the text node; null and a problem if it cannot be read or is no CSV.
   const Csv* open(const Node& name, const std::string& path, Problems& problems);
   /// The same for a file of readings.
@@ -38,26 +39,9 @@ private:
   };
   const Csv* open_file(const std::string& file, const std::function<void(const Problem&)>& no_file, Problems& problems);
   std::string folder_, of_readings_;
+  std::vector<std::string>& notes_;
   std::vector<File> files_;
 };
-
-/// A column of a data file in SI: { file = "...", column = "...", unit = "..." }.
-struct DataColumn {
-  const Csv* csv = nullptr;
-  int column = -1;
-  std::string unit;
-};
-std::vector<Key> data_column_keys();
-/// The same without the file.
-std::vector<Key> column_keys();
-/// Finds the column named by `key` of the table; -1 and a problem if it is not there.
-int find_column(Table& table, const std::string& key, const Csv& csv);
-/// Reads file, column and unit; nullopt and problems if something is wrong.
-std::optional<DataColumn> read_data_column(Table& table, const std::string& si_unit, DataFiles& files,
-                                           bool of_readings = false);
-/// A cell in SI; nullopt and a problem located in the data file.
-std::optional<double> read_cell(const Csv& csv, const CsvCell& cell, const std::string& unit,
-                                const Dimension& dimension, Problems& problems);
 
 struct Context {
   Problems& problems;

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "scenario/data_column.h"
+
 namespace gumshoe::scenario {
 namespace {
 
@@ -74,7 +76,7 @@ private:
   /// low and high, or half_width about the value; then a third parameter of the family, by its card.
   void bounded() {
     const auto low = table_.measure("low", location()), high = table_.measure("high", location());
-    const auto half = table_.measure("half_width", difference());
+    const auto half = read_width(table_, "half_width", form_, context_);
     const bool ends = table_.has("low") || table_.has("high");
     if (table_.has("half_width") && ends) {
       table_.refuse("half_width is given together with low or high", "both state the width", "leave one out");
@@ -148,7 +150,8 @@ private:
     out_.value = form_.value.value_or(0);
     const Dimension dimension{form_.si_unit,
                               form_.value || !form_.absolute ? units::Kind::difference : units::Kind::point};
-    std::vector<double> values = read_values(dimension);
+    if (!table_.has("values")) missing("values");
+    const std::vector<double> values = read_series(table_, "values", dimension, context_).value_or(std::vector<double>{});
     std::vector<double> shares;
     if (card_.family == Family::discrete) shares = read_probabilities(values.size());
     std::vector<std::size_t> order(values.size());
@@ -164,30 +167,6 @@ private:
     if (card_.family == Family::discrete) out_.distribution.probabilities = sorted_shares;
   }
 
-  std::vector<double> read_values(const Dimension& dimension) {
-    std::vector<double> values;
-    const Node* node = table_.find("values");
-    if (!node) {
-      missing("values");
-    } else if (node->kind == Node::Kind::table) {
-      Table source(*node, table_.path("values"), context_.problems);
-      source.declare(data_column_keys());
-      if (const auto data = read_data_column(source, form_.si_unit, context_.files)) {
-        for (const auto& row : data->csv->rows) {
-          const auto v = read_cell(*data->csv, row[static_cast<std::size_t>(data->column)], data->unit, dimension,
-                                   context_.problems);
-          if (v) values.push_back(*v);
-        }
-      }
-      source.refuse_unknown();
-    } else if (const auto* items = table_.array("values")) {
-      for (const Node& item : *items)
-        if (const auto v = read_measure(item, table_.path("values"), dimension, context_.problems))
-          values.push_back(*v);
-    }
-    return values;
-  }
-
   std::vector<double> read_probabilities(std::size_t n) {
     std::vector<double> shares;
     const auto* items = table_.array("probabilities");
@@ -199,7 +178,7 @@ private:
     for (const Node& item : *items)
       if (const auto p = read_number(item, table_.path("probabilities"), context_.problems)) shares.push_back(*p);
     const double sum = std::accumulate(shares.begin(), shares.end(), 0.0);
-    if (shares.size() != n)
+    if (n > 0 && shares.size() != n)
       table_.refuse_key("probabilities", fmt::format("there are {} probabilities for {} values", shares.size(), n));
     else if (std::abs(sum - 1) > 1e-6)
       table_.refuse_key("probabilities", fmt::format("the probabilities add up to {}, not 1", sum));
@@ -209,7 +188,7 @@ private:
 
   double standard_uncertainty() {
     if (!table_.has("u") && !table_.has("U")) missing("u", "give u, or U with k");
-    return read_standard_uncertainty(table_, form_.si_unit).value_or(1);
+    return read_standard_uncertainty(table_, form_, context_).value_or(1);
   }
 
   Table& table_;
@@ -221,9 +200,56 @@ private:
 
 } // namespace
 
-std::optional<double> read_standard_uncertainty(Table& table, const std::string& si_unit) {
-  const Dimension difference{si_unit, units::Kind::difference};
-  const auto u = table.measure("u", difference), expanded = table.measure("U", difference);
+namespace {
+
+/// The unit of a text that is a share of something: "%", "ppm", "um/m"; empty for any other.
+std::string unit_of_share(const Node* node) {
+  if (!node || node->kind != Node::Kind::text) return {};
+  try {
+    const std::string unit = units::parse(node->text).unit;
+    return unit != "1" && units::convertible(unit, "1") ? unit : "";
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
+/// Whether a share is one of the value: it is, unless the quantity is one itself. An angle is one as um/m (a slope), and
+/// either is where its value is written as one or there is none.
+bool is_relative(const std::string& share, const Form& form) {
+  if (!units::convertible(share, form.si_unit)) return true;
+  const bool slope = form.si_unit != "1" && share.find('/') != std::string::npos;
+  return !slope && form.reference.value_or(0) != 0 && unit_of_share(form.reference_node).empty();
+}
+
+} // namespace
+
+std::optional<double> read_width(Table& table, const std::string& key, const Form& form, Context& context) {
+  const Node* node = table.find(key);
+  const std::string share = unit_of_share(node);
+  if (share.empty() || !is_relative(share, form))
+    return table.measure(key, {form.si_unit, units::Kind::difference});
+  std::string remedy;
+  try {
+    units::to_si(0, "1e-3", form.si_unit);
+  } catch (const InputError& error) {
+    remedy = error.problems().front().remedy;
+  }
+  if (form.si_unit == "K")
+    table.refuse_key(key, fmt::format("'{}' of a temperature depends on its scale", node->text), "", "use K");
+  else if (form.reference.value_or(0) == 0)
+    table.refuse_key(key, fmt::format("'{}' is a share of the value", node->text),
+                     form.reference ? "the value is zero" : "no value is stated here", remedy);
+  else {
+    const double width = std::abs(*form.reference) * units::to_si(units::parse(node->text).number, share, "1");
+    if (form.si_unit == "1")
+      context.note(fmt::format("{}: '{}' is taken as a share of the value: {:.6g}", table.path(key), node->text, width));
+    return width;
+  }
+  return std::nullopt;
+}
+
+std::optional<double> read_standard_uncertainty(Table& table, const Form& form, Context& context) {
+  const auto u = read_width(table, "u", form, context), expanded = read_width(table, "U", form, context);
   const auto k = table.positive("k");
   const bool has_u = table.has("u"), has_expanded = table.has("U"), has_k = table.has("k");
   if (has_u && has_expanded) {

@@ -18,6 +18,10 @@ std::optional<Located> read_family(Table& table, const quantities::FamilyCard& c
                                    Context& context);
 
 /// `u`, or `U` with `k`: the standard uncertainty, above 0; nullopt and a problem otherwise.
-std::optional<double> read_standard_uncertainty(Table& table, const std::string& si_unit);
+std::optional<double> read_standard_uncertainty(Table& table, const Form& form, Context& context);
+
+/// A width in SI: absolute, or a share of the value ("0.1 %", "2 ppm"). A plain number written as a share itself, or
+/// without a value, has absolute shares; so has an angle in um/m.
+std::optional<double> read_width(Table& table, const std::string& key, const Form& form, Context& context);
 
 } // namespace gumshoe::scenario

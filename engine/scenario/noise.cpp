@@ -19,8 +19,8 @@ using quantities::Labels;
 
 class NoiseReader {
 public:
-  NoiseReader(Table& table, const VariableCard& card, const IndicationReadouts& readouts, Context& context)
-      : table_(table), card_(card), readouts_(readouts), context_(context) {}
+  NoiseReader(Table& table, const VariableCard& card, const IndicationReadouts& readouts, bool several, Context& context)
+      : table_(table), card_(card), readouts_(readouts), several_(several), context_(context) {}
 
   InputQuantity read() {
     InputQuantity out{std::string(card_.name), std::string(card_.unit), std::string(card_.si_unit), {}};
@@ -28,6 +28,10 @@ public:
     const Repeatability repeatability = read_repeatability(table_, card_, readouts_, context_);
     double unused = 0;
     const auto further = read_components(table_, std::string(card_.si_unit), true, unused, context_);
+    const std::size_t before = context_.problems.size();
+    if (several_)
+      for (Table& one : table_.tables("components")) need_scope(one);
+    const bool scoped = context_.problems.size() == before;
     for (const Component& c : further) {
       if (c.name == "resolution" || c.name == "repeatability")
         table_.add(fmt::format("{}.components: the name '{}' is already used", table_.path(), c.name), "",
@@ -39,7 +43,7 @@ public:
     if (std::ranges::all_of(entries, [&](const Entry& e) { return alike(e, entries.front()); })) {
       entries.resize(1);
       entries.front().labels.clear();
-    } else {
+    } else if (scoped) {
       refuse_shared(further, entries);
     }
     for (Entry& e : entries) e.components.insert(e.components.end(), further.begin(), further.end());
@@ -122,6 +126,13 @@ private:
     return {repeatability};
   }
 
+  static void need_scope(Table& component) {
+    if (!component.has("per"))
+      component.add(fmt::format("{} is missing", component.path("per")),
+                    "all readings would share one draw, and their mean would keep all of its uncertainty",
+                    "write per = \"reading\", or per = [] if they do share it");
+  }
+
   static double spread(const Entry& e) {
     if (e.components.empty()) return 0;
     const auto& d = e.components.front().distribution;
@@ -167,6 +178,7 @@ private:
   Table& table_;
   const VariableCard& card_;
   const IndicationReadouts& readouts_;
+  const bool several_;
   Context& context_;
 };
 
@@ -177,13 +189,14 @@ std::vector<Key> noise_keys() {
       {"resolution", shape::reference("width"),
        "step of the display: a rectangular distribution of half a step on either side, with one draw per mean"},
       repeatability_key(),
-      {"components", shape::list(shape::reference("component")), "further deviations of the mean of the readings"},
+      {"components", shape::list(shape::reference("component")), "further deviations of the mean of the readings; of several readings each "
+                                                                       "states its scope `per`: [] is one draw for all of them"},
   };
 }
 
 quantities::InputQuantity read_noise(Table& table, const VariableCard& card, const IndicationReadouts& readouts,
-                                     Context& context) {
-  return NoiseReader(table, card, readouts, context).read();
+                                     bool several, Context& context) {
+  return NoiseReader(table, card, readouts, several, context).read();
 }
 
 } // namespace gumshoe::scenario

@@ -94,7 +94,8 @@ private:
       }
       e.components = read_components(table, std::string(card_.si_unit), given, e.value, context_);
     } else if (uncertain(table)) {
-      const Form form{std::string(card_.si_unit), true, given ? value : std::nullopt, card_.default_value};
+      const Form form{std::string(card_.si_unit), true, given ? value : std::nullopt, card_.default_value,
+                      given ? value : std::nullopt, table.find("value")};
       if (auto uncertainty = read_uncertainty(table, form, context_)) {
         e.value = uncertainty->value;
         uncertainty->component.name = "c1";
@@ -236,13 +237,16 @@ std::vector<Component> read_components(Table& table, const std::string& si_unit,
   std::set<std::string> names;
   bool replaced = false;
   std::size_t number = 0;
+  const auto& keys = table.node().members; // an indication has none: its values are its readings
+  const auto found = std::ranges::find(keys, "value", &Member::key);
+  const Node* stated = found == keys.end() ? nullptr : &found->value;
   for (Table& component : table.tables("components")) {
     component.declare(component_keys());
     const std::string name = component.text("name").value_or(fmt::format("c{}", ++number));
     if (name.empty() || !names.insert(name).second)
       component.refuse(fmt::format("the name '{}' {}", name, name.empty() ? "is empty" : "is already used"),
                        "components need different names");
-    Form form{si_unit, false, 0.0, 0.0};
+    Form form{si_unit, false, 0.0, 0.0, stated ? std::optional(value) : std::nullopt, stated};
     const bool mean_counts = component.has("observations") && !value_given;
     if (mean_counts) form.value.reset();
     if (mean_counts && replaced)

@@ -76,6 +76,9 @@ std::optional<double> read_measure(const Node& node, const std::string& path, co
   } catch (const InputError& error) {
     Problem p = error.problems().front();
     const std::string number_and_unit = units::kind_name(dimension.si_unit);
+    // A share has no dimension: what it is of decides.
+    if (p.what.ends_with("is not " + number_and_unit) && units::convertible(units::parse(node.text).unit, "1"))
+      p.remedy += (p.remedy.empty() ? "" : "; ") + std::string("only u, U and half_width may be a percentage, of the value");
     // "'N' is not a length" names the unit; a reader looks for what he wrote.
     if (p.what.ends_with("is not " + number_and_unit)) p.what = fmt::format("'{}' is not {}", node.text, kind);
     problems.add(node, path + ": " + p.what, p.why, p.remedy);

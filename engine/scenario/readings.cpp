@@ -37,14 +37,16 @@ public:
       if (table && method_ == Method::propagation) need_values(*table, out_.readouts.back());
     }
     if (indications) indications->refuse_unknown();
+    drop_selecting_labels();
     merge(tables);
     context_.readings_known = problems_.size() == before;
     for (const Reading& r : out_.readings) context_.readings.push_back(r.labels);
     for (const auto& of_one : out_.readouts)
       for (const Readouts& r : of_one.all)
         for (const auto& [label, value] : r.labels) context_.label_values[label].insert(value);
+    const bool several = out_.readings.size() > 1 || top.has("choose"); // which varies their number
     for (std::size_t i = 0; i < tables.size(); ++i) {
-      out_.noise.push_back(read_noise(tables[i], model_.indications[i], out_.readouts[i], context_));
+      out_.noise.push_back(read_noise(tables[i], model_.indications[i], out_.readouts[i], several, context_));
       tables[i].refuse_unknown();
     }
     return std::move(out_);
@@ -59,6 +61,32 @@ private:
       table.refuse("no readings" + of, "the propagation of distributions evaluates readings", "readings = [\"...\"]");
       return;
     }
+  }
+
+  /// A label by which indications are told apart in one file is no label of the readings: `where` fixes it to different
+  /// values, or some indications do not have it.
+  void drop_selecting_labels() {
+    auto& all = out_.readouts;
+    const auto tells_apart = [&](const std::pair<std::string, std::string>& fixed) {
+      bool differs = false;
+      for (const IndicationReadouts& other : all) {
+        const std::string* value = quantities::label_value(other.fixed, fixed.first);
+        const bool labelled = std::ranges::any_of(
+            other.used, [&](const Readouts& r) { return quantities::label_value(r.labels, fixed.first) != nullptr; });
+        if (labelled && !value) return false; // it varies there: readings differ by it
+        differs |= !labelled || *value != fixed.second;
+      }
+      return differs;
+    };
+    std::vector<quantities::Labels> dropped(all.size());
+    for (std::size_t i = 0; i < all.size(); ++i)
+      std::ranges::copy_if(all[i].fixed, std::back_inserter(dropped[i]), tells_apart);
+    for (std::size_t i = 0; i < all.size(); ++i)
+      for (const auto& label : dropped[i]) {
+        std::erase_if(all[i].all, [&](const Readouts& r) { return !quantities::holds_for({label}, r.labels); });
+        for (auto* readouts : {&all[i].used, &all[i].all})
+          for (Readouts& r : *readouts) std::erase(r.labels, label);
+      }
   }
 
   /// One reading per group of equal labels and conditions, in the order of the first indication.

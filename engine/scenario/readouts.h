@@ -18,9 +18,11 @@ struct Readouts {
 
 struct IndicationReadouts {
   std::vector<Readouts> used;
-  std::vector<Readouts> all; ///< also the rows that `where` leaves out: what can be pooled
+  std::vector<Readouts> all; ///< also the rows that `where` leaves out by their labels: what can be pooled
   const Csv* csv = nullptr;  ///< the data file; null without one
   std::string column;        ///< of it
+  char decimal = '.';        ///< decimal sign of its numbers
+  quantities::Labels fixed;  ///< labels of which `where` leaves one value
 };
 
 /// Keys of an indication that say what was read.

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "scenario/data_column.h"
+
 namespace gumshoe::scenario {
 namespace {
 
@@ -27,7 +29,7 @@ std::vector<Key> readouts_file_keys() {
   std::vector<Key> keys = data_column_keys();
   keys.push_back({"labels", shape::map(shape::text()), "label = column"});
   keys.push_back({"conditions", shape::map(shape::table(column_keys())), "conditions that are columns"});
-  keys.push_back({"where", shape::reference("labels"), "only the rows with these labels"});
+  keys.push_back(where_key());
   return keys;
 }
 
@@ -50,37 +52,37 @@ public:
       Problems silent(context_.problems.file());
       csv = context_.files.open_readings(*file, table_.path("file"), silent);
     }
+    decimal_ = read_decimal(table_);
     if (csv) {
       columns(*csv);
     } else {
       complete_ = false;
       for (const char* key : {"labels", "conditions", "where"}) table_.find(key);
     }
-    where();
+    const RowFilter filter = csv && complete_ ? RowFilter(table_, *csv, labels_) : RowFilter{};
+    table_.find("where");
     table_.refuse_unknown();
     out.csv = csv;
     if (!data || !complete_) return out;
+    out.decimal = decimal_;
+    out.fixed = filter.fixed();
     out.column = csv->header[static_cast<std::size_t>(data->column)].text;
     for (std::size_t i = 0; i < csv->rows.size(); ++i) {
       const auto& row = csv->rows[i];
       Labels labels;
       std::vector<double> here = conditions;
-      if (!read_row(*csv, row, labels, here)) continue;
-      const auto value = read_cell(*csv, row[static_cast<std::size_t>(data->column)], data->unit,
+      if (!filter.keeps_columns(row) || !read_row(*csv, row, labels, here)) continue;
+      const auto value = read_cell(*csv, row[static_cast<std::size_t>(data->column)], data->unit, decimal_,
                                    {std::string(card_.si_unit)}, context_.problems);
       if (!value) continue;
       add_row(out.all, labels, here, *value, i);
-      if (quantities::holds_for(where_, labels)) add_row(out.used, labels, here, *value, i);
+      if (filter.keeps_labels(row)) add_row(out.used, labels, here, *value, i);
     }
-    if (out.used.empty() && context_.problems.size() == problems) nothing(*csv, out);
+    if (out.used.empty() && context_.problems.size() == problems) nothing(*csv, filter);
     return out;
   }
 
 private:
-  struct LabelColumn {
-    std::string label;
-    std::size_t column;
-  };
   struct ConditionColumn {
     std::size_t condition, column;
     std::string unit;
@@ -123,31 +125,18 @@ private:
     }
   }
 
-  void where() {
-    auto where = table_.table("where");
-    if (!where) return;
-    where_ = read_own_labels(*where);
-    std::vector<std::string> names;
-    for (const LabelColumn& l : labels_) names.push_back(l.label);
-    for (const Member& m : where->members()) {
-      if (!complete_ || std::ranges::find(names, m.key) != names.end()) continue;
-      context_.problems.add(m, fmt::format("{}: '{}' is not a label of these readings", where->path(), m.key),
-                            "where selects rows by their labels", did_you_mean(m.key, names));
-    }
-  }
-
   bool read_row(const Csv& csv, const std::vector<CsvCell>& row, Labels& labels, std::vector<double>& conditions) {
     bool good = true;
-    for (const LabelColumn& l : labels_) {
-      const CsvCell& cell = row[l.column];
+    for (const auto& [label, column] : labels_) {
+      const CsvCell& cell = row[column];
       if (cell.text.empty()) {
-        context_.problems.add(Problem{csv.at(cell), fmt::format("the label '{}' is empty", l.label), "", ""});
+        context_.problems.add(Problem{csv.at(cell), fmt::format("the label '{}' is empty", label), "", ""});
         good = false;
       }
-      labels.emplace_back(l.label, cell.text);
+      labels.emplace_back(label, cell.text);
     }
     for (const ConditionColumn& c : conditions_) {
-      const auto value = read_cell(csv, row[c.column], c.unit, {std::string(model_.conditions[c.condition].si_unit)},
+      const auto value = read_cell(csv, row[c.column], c.unit, decimal_, {std::string(model_.conditions[c.condition].si_unit)},
                                    context_.problems);
       if (value)
         conditions[c.condition] = *value;
@@ -157,20 +146,11 @@ private:
     return good;
   }
 
-  void nothing(const Csv& csv, const IndicationReadouts& out) {
-    std::string remedy;
-    for (const auto& [label, value] : where_) {
-      std::set<std::string> values;
-      for (const Readouts& g : out.all)
-        if (const std::string* v = quantities::label_value(g.labels, label)) values.insert(*v);
-      if (!values.contains(value)) remedy = did_you_mean(value, {values.begin(), values.end()});
-    }
+  void nothing(const Csv& csv, const RowFilter& filter) {
     const Node* at = table_.find("where");
-    context_.problems.add(
-        at ? *at : table_.node(),
-        where_.empty() ? fmt::format("{}: '{}' has no rows", table_.path(), csv.file)
-                       : fmt::format("{}: no row of '{}' has {}", table_.path("where"), csv.file, text_of(where_)),
-        "", remedy);
+    context_.problems.add(at ? *at : table_.node(),
+                          at ? fmt::format("{}: no row of '{}' has {}", table_.path("where"), csv.file, filter.text())
+                             : fmt::format("{}: '{}' has no rows", table_.path(), csv.file));
   }
 
   Table table_;
@@ -178,9 +158,9 @@ private:
   const ModelCard& model_;
   Context& context_;
   bool complete_ = true;
-  std::vector<LabelColumn> labels_;
+  char decimal_ = '.';
+  RowFilter::Columns labels_; ///< label, column
   std::vector<ConditionColumn> conditions_;
-  Labels where_;
 };
 
 } // namespace

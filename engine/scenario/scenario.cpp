@@ -30,7 +30,7 @@ class ScenarioReader {
 public:
   ScenarioReader(const std::string& path, const Catalogue& catalogue, const Overrides& overrides)
       : catalogue_(catalogue), problems_(path),
-        files_(path, overrides.data), context_{problems_, files_, out_.notes, {}, {}, true} {
+        files_(path, overrides.data, out_.notes), context_{problems_, files_, out_.notes, {}, {}, true} {
     out_.file = path;
     out_.data = overrides.data;
     out_.text = read_text_file(path, largest_scenario);

@@ -8,6 +8,7 @@
 #include "scenario/choose.h"
 #include "scenario/conditions.h"
 #include "scenario/correlations.h"
+#include "scenario/data_column.h"
 #include "scenario/expected.h"
 #include "scenario/machine.h"
 #include "scenario/made_models.h"
@@ -37,6 +38,8 @@ std::vector<Key> definitions() {
       {"source", R"("type": ["string", "object", "array"])",
        "source of the number: text, or a table such as { certificate = \"...\", date = 2026-01-15 }"},
       {"labels", map(text(), R"("propertyNames": {"not": {"const": "reading"}})"), "label = value"},
+      {"series", series_shape(), "numbers with their units, or a column of a data file"},
+      {"where", where_shape(), "label or column = text, list of texts, or { not = ... }"},
       {"formula", R"("type": ["string", "number"])",
        "+ - * / ^ ( ), functions, pi, e, and names of quantities, conditions, indications and intermediates"},
       {"component", component_shape(), "a deviation from the value"},

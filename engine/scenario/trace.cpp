@@ -1,3 +1,4 @@
+#include "scenario/data_column.h"
 #include "scenario/trace.h"
 
 #include <algorithm>
@@ -87,7 +88,8 @@ private:
     for (const Readouts& r : scope_.readouts.front().used) {
       double sum = 0;
       for (const std::size_t row : r.rows)
-        sum += read_cell(csv, csv.rows[row][column], out.unit, {out.si_unit}, problems_).value_or(0);
+        sum += read_cell(csv, csv.rows[row][column], out.unit, scope_.readouts.front().decimal, {out.si_unit}, problems_)
+                   .value_or(0);
       out.values.push_back(sum / static_cast<double>(r.rows.size()));
     }
     if (problems_.size() != before) out.values.clear();

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "scenario/data_column.h"
 #include "scenario/family.h"
 
 namespace gumshoe::scenario {
@@ -23,13 +24,9 @@ std::vector<std::string> distribution_names() {
 /// Type A: the mean of n observations is a t with n - 1 degrees of freedom and scale s/sqrt(n),
 /// JCGM 101:2008, 6.4.9.
 std::optional<Uncertainty> read_observations(Table& table, const Form& form, Context& context) {
-  const auto* items = table.array("observations");
-  if (!items) return std::nullopt;
-  std::vector<double> x;
-  for (const Node& item : *items)
-    if (const auto v = read_measure(item, table.path("observations"), {form.si_unit}, context.problems))
-      x.push_back(*v);
-  if (x.size() != items->size()) return std::nullopt;
+  const auto read = read_series(table, "observations", {form.si_unit}, context);
+  if (!read) return std::nullopt;
+  const std::vector<double>& x = *read;
   if (x.size() < 2) {
     table.refuse_key("observations", fmt::format("{} observation(s) cannot show any scatter", x.size()), "",
                      "give two or more");
@@ -115,13 +112,12 @@ const char* const uncertainty_rules = R"("dependencies": {"U": ["k"], "k": ["U"]
 std::vector<Key> uncertainty_keys() {
   using namespace shape;
   const Shape measure = reference("measure"), width = reference("width"), positive = reference("positive");
-  const std::string some = R"("minItems": 1)";
   return {
       {"distribution", words(distribution_names()), "JCGM 101:2008, Table 1, and a few more; default: normal"},
-      {"u", width, "standard uncertainty; for a t distribution the scale s/sqrt(n)"},
-      {"U", width, "expanded uncertainty, with its coverage factor k"},
+      {"u", width, "standard uncertainty, absolute or relative to the value (\"0.1 %\"); for a t distribution the scale s/sqrt(n)"},
+      {"U", width, "expanded uncertainty, absolute or relative, with its coverage factor k"},
       {"k", positive, "coverage factor of U"},
-      {"half_width", width, "half-width about the value"},
+      {"half_width", width, "half-width about the value, absolute or relative"},
       {"low", measure, "lower limit; for a component, of the deviation"},
       {"high", measure, "upper limit; for a component, of the deviation"},
       {"inexactness", width, "curvilinear trapezoid: half-width of each limit's range"},
@@ -132,16 +128,16 @@ std::vector<Key> uncertainty_keys() {
       {"median", measure, "lognormal: median"},
       {"mu", number(), "lognormal: expectation of ln x, x in SI"},
       {"sigma", positive, "lognormal: standard deviation of ln x"},
-      {"values", any_of({list(measure, some), table(data_column_keys())}),
-       "discrete and empirical: the values, or a column of a data file"},
+      {"values", reference("series"), "discrete and empirical: the values, or a column of a data file"},
       {"probabilities", list(interval(0, 1, false)), "discrete: one probability per value; their sum is 1"},
-      {"observations", list(measure, R"("minItems": 2)"),
-       "Type A evaluation: repeated observations, giving a t distribution with n - 1 degrees of freedom"},
+      {"observations", reference("series"),
+       "Type A evaluation: repeated observations, or a column of them in a data file, giving a t distribution with n - 1 "
+       "degrees of freedom"},
       {"evaluation", words({"A", "B"}), "Type A or Type B evaluation (GUM 2.3.2, 2.3.3)"},
       {"degrees_of_freedom", positive,
        "degrees of freedom of u; finite ones make a normal distribution a t (JCGM 101, 6.4.9); default: infinite"},
       {"per", any_of({text(), list(text())}),
-       "scope: one draw per combination of these labels, or per \"reading\"; default: a single draw"},
+       "scope: one draw per combination of these labels, or per \"reading\"; default: a single draw, as with []"},
       {"source", reference("source")},
   };
 }

@@ -20,6 +20,8 @@ struct Form {
   bool absolute = false;       ///< locations are values of the quantity, not deviations
   std::optional<double> value; ///< `value`, where it was given
   double fallback = 0;         ///< the value otherwise, for families that need one
+  std::optional<double> reference = {};  ///< to which a relative uncertainty refers: the quantity's stated value
+  const Node* reference_node = nullptr; ///< where that is written
 };
 
 /// The keys that read_uncertainty() may ask for, by what the distribution needs.

@@ -108,7 +108,7 @@ CHECKED = [
     (ROWS, '"-329.932 mm", "-329.931 mm"] }', '"-329.932 mm"], repeats = 2 }', "repeats is given together with values"),
     (ROWS, "rows = [", 'readings = ["1 mm"]\nrows = [', "readings is given together with rows"),
     (ROWS, '{ rod = "b",', '{ reading = "b",', "'reading' cannot be a label"),
-    (DATA, 'labels = { rod = "rod" } }', 'where = { rod = "a" } }', "is not a label of these readings"),
+    (DATA, 'labels = { rod = "rod" } }', 'where = { rood = "a" } }', "is neither a label of these readings nor a column"),
     (DATA, ', labels = { rod = "rod" } }', ' }\nlabels = { rod = "a" }', "the labels of a data file are its columns"),
     (DATA, 'labels = { rod = "rod" } }', 'conditions = { fed = { column = "z" } } }', "rod_gauging has no condition 'fed'"),
     (DATA, 'labels = { rod = "rod" } }', 'conditions = { feed = { column = "z", unit = "mm" } } }', "'mm' is not a speed"),
@@ -126,7 +126,7 @@ CHECKED = [
     (SCENARIO, None, CORRELATED + "matrix = [[1, 0.5], [0.4, 1]]\n", "correlations are symmetric"),
     (SCENARIO, None, CORRELATED.replace(', "beam_pitch"', "") + "coefficient = 0.5\n", "at least two quantities"),
     (SCENARIO, None, '[quantities.beam_yaw]\nu = "1 deg"\n' + CORRELATED.replace('"beam_pitch"', '"beam_pitch", "beam_yaw"')
-     + "coefficient = 0.5\n", "one coefficient for 3 quantities"),
+     + "coefficient = -0.6\n", "the matrix is not positive semidefinite (its smallest eigenvalue is -0.2)"),
     (SCENARIO, None, CORRELATED.replace('"beam_pitch"', '"rod_radius"') + "coefficient = 0.5\n", "is named twice"),
     (SCENARIO, None, (CORRELATED + "coefficient = 0.5\n") * 2, "is already part of another correlation"),
     (ROWS, None, '[quantities.rod_length.by.rod]\na = { value = "1 mm", u = "1 um" }\nb = { value = "1 mm", u = "1 um" }\n'
@@ -158,6 +158,11 @@ CHECKED = [
     (FORMULA, 'y = "a + b"', 'y = "(a b"', "an operator or ')' is missing before 'b'"),
     (FORMULA, None, '[conditions]\na = "1 mm"\n', "names must be unique"),
     (FORMULA, 'y = "a + b"', 'y = { formula = "a + b", unit = "s" }', "unit: 's' is not"),
+    (FORMULA, "b = {", 'pi = { value = "2 mm" }\nb = {', "quantities.pi: this name is a constant of formulas"),
+    (FORMULA, "[quantities]", '[conditions]\ne = 1\n[quantities]', "conditions.e: this name is a constant of formulas"),
+    (FORMULA, "b = {", 'max = { value = "2 mm" }\nb = {', "quantities.max: this name is a function of formulas"),
+    (FORMULA, "[quantities]", '[model.intermediates]\npi = "3"\n[quantities]', "cannot be the name of a formula (it is a constant"),
+    (CHOOSE, "way = ", 'pi = "5 mm"\nway = ', "choose.time.pi: the name already has a meaning"),
     (FORMULA, "[quantities]", '[model.intermediates]\n"a b" = "1"\n[quantities]', "cannot be the name of a formula"),
     (COMMAND, 'y = "mm"', "", "nothing can be evaluated"),
     (COMMAND, 'y = "mm"', '"y,z" = "mm"', "cannot be a column"),
@@ -239,7 +244,7 @@ class Messages(unittest.TestCase):
     def test_commands(self):
         fit = FORMULA + '[model.indications]\nz = "a * 2"\n[indications.z]\nreadings = ["2 mm"]\n'
         estimated = fit.replace('u = "1 um"', 'u = "1 um", estimated = true', 1)
-        noise, own = 'repeatability = { s = "1 um" }', 'components = [ { distribution = "normal", u = "1 um" } ]'
+        noise, own = 'repeatability = { s = "1 um" }', 'components = [ { distribution = "normal", u = "1 um", per = [] } ]'
 
         def two(readings, of_z, of_w):  # indications z and w
             return FORMULA.replace("u = ", "estimated = true, u = ", 1) + (
@@ -285,7 +290,7 @@ class Messages(unittest.TestCase):
         self.assertIn("the data do not determine it", run.stderr)
 
     def test_noise_shared_by_many_readings(self):
-        text = DATA.replace('labels = { rod = "rod" } }', 'labels = { n = "n" } }\ncomponents = [ { u = "1 um" } ]')
+        text = DATA.replace('labels = { rod = "rod" } }', 'labels = { n = "n" } }\ncomponents = [ { u = "1 um", per = [] } ]')
         (self.file.parent / "z.csv").write_text("z,n\n" + "".join(f"-329.932,{n}\n" for n in range(5001)))
         self.refused(text + '[quantities]\nrod_length = { value = "100 mm", estimated = true }\n', ["estimate", "S"],
                      "5001 readings share draws of their noise")

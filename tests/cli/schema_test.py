@@ -84,7 +84,7 @@ components = [
   { observations = ["0 um", "1 um", "2 um", "1 um"], source = "four" },
 ]
 [quantities]
-rod_radius = { distribution = "empirical", values = { file = "values.csv", column = "r", unit = "mm" }, unit = "mm" }
+rod_radius = { distribution = "empirical", values = { file = "values.csv", column = "r", unit = "mm", decimal = ".", where = { r = { not = "9" } } }, unit = "mm" }
 rod_length = { distribution = "discrete", values = ["150 mm", "151 mm"], probabilities = [0.5, 0.5], evaluation = "B" }
 fillet_radius = { distribution = "lognormal", median = "0.03 mm", sigma = 0.1 }
 [indications.spindle_z]
@@ -128,7 +128,7 @@ name = "rod_gauging"
 [quantities]
 laser_z = { estimated = true, value = "-510 mm" }
 [indications.spindle_z]
-readings = ["-330 mm", "-330.001 mm"]
+readings = { file = "values.csv", column = "r", unit = "mm", decimal = "." }
 repeatability = { pooled = true, evaluation = "A" }
 [run]
 adaptive = { digits = 2, validation = true }
@@ -296,7 +296,7 @@ class Schema(unittest.TestCase):
         for file in shipped():
             seen.update(used_keys(self.schema, self.schema, load(file)))
         with tempfile.TemporaryDirectory() as folder:
-            (pathlib.Path(folder) / "values.csv").write_text("r\n5\n6\n")
+            (pathlib.Path(folder) / "values.csv").write_text("r\n5\n6\n9\n")
             (pathlib.Path(folder) / "model.py").write_text(
                 "import sys\nprint('y')\nfor row in sys.stdin.read().splitlines()[1:]: print(row)\n")
             for name, text in EVERY_KEY.items():

@@ -26,6 +26,24 @@ TEST_CASE("quoted cells may span lines", "[csv]") {
   CHECK(csv.rows[1][0].line == 4);
 }
 
+TEST_CASE("comments and semicolons", "[csv]") {
+  const auto csv = parse_csv("# made by \"hand\n#\na;\"b,c\";d\n1,5;\"#2\";3\r\n  # 1;2;3\n# only a remark\n#4;5;6", "t.csv");
+  REQUIRE(csv.header.size() == 3);
+  CHECK(csv.header[1].text == "b,c");
+  REQUIRE(csv.rows.size() == 1);
+  CHECK(csv.rows[0][1].text == "#2");
+  CHECK(csv.comments_like_rows == 2);
+  CHECK(csv.number(csv.rows[0][0], ',') == 1.5);
+  CHECK(csv.number(csv.rows[0][2], ',') == 3);
+  CHECK_THROWS_WITH(csv.number(csv.rows[0][0]), Catch::Contains("t.csv:4:1: error: '1,5' is not a number (the decimal sign must be a point)"));
+  // a comma in the header: semicolons are text; a thousands separator is no number in either form
+  CHECK(parse_csv("a;b,c\n1,2\n", "t.csv").header[0].text == "a;b");
+  const auto large = parse_csv("a;b\n1.234,5;1,234.5\n2.5;x\n", "t.csv");
+  for (const char decimal : {'.', ','})
+    for (const auto& cell : large.rows[0]) CHECK_THROWS_AS(large.number(cell, decimal), InputError);
+  CHECK_THROWS_WITH(large.number(large.rows[1][0], ','), Catch::Contains("the decimal sign must be a comma"));
+}
+
 TEST_CASE("malformed tables are refused with their place", "[csv]") {
   CHECK_THROWS_WITH(parse_csv("", "t.csv"), Catch::Contains("t.csv: error: the file is empty"));
   CHECK_THROWS_WITH(parse_csv("a,a\n", "t.csv"), Catch::Contains("t.csv:1:3: error: column 'a' appears twice"));

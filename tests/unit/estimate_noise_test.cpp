@@ -77,7 +77,7 @@ TEST_CASE("noise shared by readings is not averaged away", "[calibration]") {
   // y_i = a + common + own, common 3, own 1, n = 4: u^2(a) = 9 + 1/4.
   const Case c("schema = 1\n[model]\nname = \"expression\"\n[model.indications]\ny = \"a + 0 * x\"\n[conditions]\n"
                "x = 0\n[quantities.a]\nestimated = true\nvalue = 1\n[indications.y]\n"
-               "components = [ { u = 3 }, { u = 1, per = \"reading\" } ]\n"
+               "components = [ { u = 3, per = [] }, { u = 1, per = \"reading\" } ]\n"
                "rows = [ { x = 1, values = [1] }, { x = 2, values = [2] }, { x = 3, values = [4] }, { x = 4, values = "
                "[5] } ]\n");
   const auto e = calibration::estimate(c.experiment);

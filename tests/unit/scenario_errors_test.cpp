@@ -146,8 +146,8 @@ TEST_CASE("data files that are missing or wrong", "[scenario][errors]") {
   CHECK_THAT(reading("column = \"z\", unit = \"s\""), Contains("'s' is not a length"));
   folder.write("d.csv", "rod,z\na,1\nb,2\n");
   CHECK_THAT(reading(good + ", labels = { rod = \"rood\" }"), Contains("Did you mean 'rod'?"));
-  CHECK_THAT(reading(good + ", labels = { rod = \"rod\" }, where = { rod = \"c\" }"), Contains("has rod = c"));
-  CHECK_THAT(reading(good + ", labels = { rod = \"rod\" }, where = { rood = \"a\" }"), Contains("'rood' is not a label"));
+  CHECK_THAT(reading(good + ", labels = { rod = \"rod\" }, where = { rod = \"c\" }"), Contains("has rod = 'c'"));
+  CHECK_THAT(reading(good + ", labels = { rod = \"rod\" }, where = { rood = \"a\" }"), Contains("'rood' is neither a label of these readings nor a column"));
   CHECK_THAT(reading(good + ", labels = { rod = \"rod\" }, where = { rod = 1 }"),
              Contains("text is expected, not an integer"));
   CHECK_THAT(reading(good + ", wheer = { rod = \"a\" }"), Contains("Did you mean 'where'?"));

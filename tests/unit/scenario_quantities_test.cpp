@@ -137,6 +137,51 @@ TEST_CASE("observations are a Type A evaluation", "[scenario]") {
   CHECK(entry(around, "rod_radius").value == 5e-3);
 }
 
+TEST_CASE("observations from a column of a data file", "[scenario]") {
+  const Folder folder;
+  folder.write("o.csv", "rod;radius\n1;5,001\n1;5,002\n1;5,003\n2;7\n");
+  const auto read = [&](const std::string& where) {
+    return scenario::read(folder.write("s.toml", head + one_reading + "[quantities.rod_radius]\nobservations = { file = \"o.csv\", "
+                                       "column = \"radius\", unit = \"mm\", decimal = \",\"" + where + " }\n"), catalogue());
+  };
+  const auto s = read(", where = { rod = \"1\" }"), inside = with("[quantities.rod_radius]\nobservations = [\"5.001 mm\", "
+                                                                 "\"5.002 mm\", \"5.003 mm\"]\n");
+  CHECK(entry(s, "rod_radius").value == entry(inside, "rod_radius").value);
+  CHECK(entry(s, "rod_radius").components.at(0).distribution.parameters ==
+        entry(inside, "rod_radius").components.at(0).distribution.parameters);
+  CHECK(s.hash != inside.hash);
+  CHECK(entry(read(""), "rod_radius").components.at(0).degrees_of_freedom == 3);
+  CHECK_THROWS_WITH(read(", where = { rod = \"3\" }"), Catch::Contains("has rod = '3'"));
+  CHECK_THROWS_WITH(read(", where = { rod = \"2\" }"), Catch::Contains("1 observation(s) cannot show any scatter"));
+  CHECK_THROWS_WITH(read(", where = { rod = \"1\", radius = \"7\" }"), Catch::Contains("no row of") && Catch::Contains("is left"));
+}
+
+TEST_CASE("relative uncertainties refer to the value", "[scenario]") {
+  const auto scale = [](const scenario::Scenario& s, const char* name) {
+    return entry(s, name).components.at(0).distribution.parameters[1];
+  };
+  CHECK(scale(with("[quantities.rod_length]\nu = \"0.1 %\"\nvalue = \"160 mm\"\n"), "rod_length") == Approx(160e-6).epsilon(1e-14));
+  CHECK(scale(with("[quantities.rod_length]\nvalue = \"160 mm\"\nU = \"0.2 %\"\nk = 2\n"), "rod_length") == Approx(160e-6).epsilon(1e-14));
+  CHECK(scale(with("[quantities.rod_length]\nvalue = \"160 mm\"\ndistribution = \"rectangular\"\nhalf_width = \"50 ppm\"\n"), "rod_length") ==
+        Approx(8e-6).epsilon(1e-14));
+  CHECK(scale(with("[quantities.beam_pitch]\nvalue = \"-2 deg\"\ncomponents = [ { u = \"1 %\" } ]\n"), "beam_pitch") ==
+        Approx(0.02 * degree).epsilon(1e-14));
+  // A slope is an angle; a share of a plain number that is written as one is absolute; otherwise it is relative, and said so.
+  CHECK(scale(with("[quantities.beam_pitch]\nvalue = \"2 deg\"\nu = \"8 um/m\"\n"), "beam_pitch") == Approx(8e-6).epsilon(1e-14));
+  CHECK(scale(with("[quantities.trigger_fraction]\nvalue = \"50 %\"\nu = \"2 %\"\n"), "trigger_fraction") == Approx(0.02).epsilon(1e-14));
+  const auto share = with("[quantities.trigger_fraction]\nvalue = 0.4\nu = \"2 %\"\n");
+  CHECK(scale(share, "trigger_fraction") == Approx(0.008).epsilon(1e-14));
+  CHECK_THAT(share.notes.back(), Catch::Contains("'2 %' is taken as a share of the value: 0.008"));
+
+  const auto refused = [](const std::string& text) { return complaint(head + one_reading + text); };
+  CHECK_THAT(refused("[quantities.rod_length]\nu = \"0.1 %\"\n"),
+             Catch::Contains("quantities.rod_length.u: '0.1 %' is a share of the value (no value is stated here). Use mm or um."));
+  CHECK_THAT(refused("[effects.rod_runout]\nx = { value = \"0 um\", u = \"0.1 %\" }\n"), Catch::Contains("(the value is zero)"));
+  CHECK_THAT(refused("[quantities.rod_length]\nvalue = \"5 %\"\n"),
+             Catch::Contains("'5 %' is not a length (must convert to m). Use mm or um; only u, U and half_width may be a percentage"));
+  CHECK_THAT(complaint(head + one_reading + "components = [ { u = \"0.1 %\" } ]\n"), Catch::Contains("no value is stated here"));
+}
+
 TEST_CASE("values by label", "[scenario]") {
   const std::string rows = "[indications.spindle_z]\nrows = [ { rod = \"rod 1\", setup = \"1\", values = [\"1 mm\"] }, "
                            "{ rod = \"rod 2\", setup = \"1\", feed = \"8 mm/min\", values = [\"2 mm\", \"4 mm\"] } ]\n";

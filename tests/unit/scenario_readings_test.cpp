@@ -133,8 +133,52 @@ TEST_CASE("noise by labels where readings differ in their number of repeats", "[
   CHECK(entries[0].components[0].distribution.parameters[1] == Approx(2e-6).epsilon(1e-15));
   CHECK(entries[1].components[0].distribution.parameters[1] == Approx(1e-6).epsilon(1e-15));
   CHECK(entries[1].labels == quantities::Labels{{"rod", "b"}});
-  CHECK_THAT(complaint(rows + "components = [ { u = \"1 um\" } ]\n"),
+  CHECK_THAT(complaint(rows + "components = [ { u = \"1 um\", per = [] } ]\n"),
              Catch::Contains("shared by readings with different noise"));
+}
+
+TEST_CASE("noise of several readings states its scope", "[scenario][readings]") {
+  const std::string rows = head + "[indications.spindle_z]\nrows = [ { rod = \"a\", values = [\"1 mm\"] }, { rod = \"b\", "
+                                  "values = [\"1 mm\"] } ]\n";
+  CHECK_THAT(complaint(rows + "components = [ { u = \"1 um\" } ]\n"),
+             Catch::Contains("indications.spindle_z.components[1].per is missing") &&
+                 Catch::Contains("share one draw") && Catch::Contains("per = \"reading\", or per = []"));
+  for (const char* per : {"\"reading\"", "[]", "\"rod\""})
+    CHECK(noise(read_text(rows + "components = [ { u = \"1 um\", per = " + per + " } ]\n")).size() == 1);
+  // A single reading has nothing to share.
+  CHECK(noise(read_text(readings("\"1 mm\"", "components = [ { u = \"1 um\" } ]\n"))).size() == 1);
+}
+
+TEST_CASE("where takes lists, exclusions and columns that are no labels", "[scenario][readings]") {
+  const auto setups = [&](const std::string& where) {
+    std::string out;
+    for (const auto& r : read_text(from_rods(", where = { " + where + " }")).readings)
+      out += *quantities::label_value(r.labels, "rod") + *quantities::label_value(r.labels, "setup") + ' ';
+    return out;
+  };
+  CHECK(setups("setup = [\"1\", \"3\"], rod = \"rod2\"") == "rod21 rod23 ");
+  CHECK(setups("setup = { not = \"2\" }, rod = { not = [\"standard\", \"rod1\"] }") == setups("setup = [\"0\", \"1\", \"3\"], rod = \"rod2\""));
+  CHECK_THAT(complaint(from_rods(", where = { setup = [\"1\", \"9\"] }")), Catch::Contains("has setup = '9'"));
+  CHECK_THAT(complaint(from_rods(", where = { setup = { not = \"9\" } }")), Catch::Contains("has setup = '9'"));
+  CHECK_THAT(complaint(from_rods(", where = { setup = [] }")), Catch::Contains("no value is named"));
+  CHECK_THAT(complaint(from_rods(", where = { stup = \"1\" }")),
+             Catch::Contains("'stup' is neither a label of these readings nor a column") && Catch::Contains("Did you mean 'setup'?"));
+  CHECK_THAT(complaint(from_rods(", where = { setup = { nto = \"1\" } }")), Catch::Contains("not is missing"));
+}
+
+TEST_CASE("data files with comments, semicolons and decimal commas", "[scenario][readings]") {
+  const Folder folder;
+  folder.write("z.csv", "# spindle heights\nname;z;feed\n a ;-1,5;4\n# b;-9,5;4\nb;-2,25;8\n");
+  const std::string file = head + "[indications.spindle_z]\nreadings = { file = \"z.csv\", column = \"z\", unit = \"mm\", "
+                                  "labels = { rod = \"name\" }, conditions = { feed = { column = \"feed\", unit = \"mm/min\" } }";
+  const auto s = scenario::read(folder.write("s.toml", file + ", decimal = \",\" }\n"), catalogue());
+  REQUIRE(s.readings.size() == 2);
+  CHECK(s.readings[1].indications[0] == -2.25e-3);
+  CHECK(s.readings[1].conditions[0] == Approx(8e-3 / 60));
+  CHECK_THAT(notes(s), Catch::Contains("1 line(s) that look like rows begin with #"));
+  CHECK_THROWS_WITH(scenario::read(folder.write("t.toml", file + " }\n"), catalogue()),
+                    Catch::Contains("z.csv:3:5: error: '-1,5' is not a number (the decimal sign must be a point)") &&
+                        Catch::Contains("decimal = \",\""));
 }
 
 TEST_CASE("a virtual experiment needs no readouts", "[scenario][readings]") {
