@@ -58,8 +58,8 @@ CombinedVariance Correlations::combine(std::span<const Term> terms) {
   for (const auto& [v, sum] : groups.back()) satterthwaite += std::pow(sum.contribution, 4) / sum.degrees;
   for (std::size_t g = 0; g < plan_.copulas.size(); ++g) {
     if (groups[g].empty()) continue;
-    const double degrees =
-        plan_.copulas[g].multivariate_t() ? plan_.copulas[g].degrees_of_freedom : groups[g].begin()->second.degrees;
+    // Of simultaneous observations it is n - 1, that of any function of them, whatever their joint distribution.
+    const double degrees = groups[g].begin()->second.degrees;
     double own = 0, between_members = 0;
     for (auto a = groups[g].begin(); a != groups[g].end(); ++a) {
       out.unequal |= a->second.degrees != degrees;

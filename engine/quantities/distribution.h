@@ -55,21 +55,23 @@ const FamilyCard* find_family(std::string_view name);
 /// Parameters by family, in this order:
 ///   constant(value); rectangular(low, high); curvilinear_trapezoid(low, high, inexactness d);
 ///   trapezoid(low, high, top_ratio beta); triangular(low, high); arcsine(low, high);
-///   normal(mean, u); t(mean, scale, degrees_of_freedom): `u` of a scenario is the scale s/sqrt(n),
-///   JCGM 101 6.4.9, or that of a certificate with effective degrees of freedom, 6.4.9.7; exponential(mean) from 0; gamma(shape, scale); lognormal(mu, sigma of ln x);
+///   normal(mean, u); t(mean, scale, degrees_of_freedom, u): `u` of a scenario is the scale s/sqrt(n),
+///   JCGM 101 6.4.9, or that of a certificate with effective degrees of freedom, 6.4.9.7; the last one is the standard
+///   uncertainty of the law of propagation, 0: the scale (simultaneous observations have another, JCGM 102 5.3.2);
+///   exponential(mean) from 0; gamma(shape, scale); lognormal(mu, sigma of ln x);
 ///   truncated_normal(mean, u, low, high): mean and u are the parent's;
 ///   discrete / empirical: no parameters, `values` with `probabilities` (empirical: equal).
 struct Distribution {
   Family family = Family::constant;
   std::array<double, 4> parameters{};
-  std::shared_ptr<const std::vector<double>> values;        ///< discrete, empirical: sorted
+  std::shared_ptr<const std::vector<double>> values; ///< discrete, empirical: sorted; t: the observations, if it is of any
   std::shared_ptr<const std::vector<double>> probabilities; ///< discrete only: same length, sum 1
 
   /// Expectation; for t with 1 degree of freedom or fewer, which has none, the centre.
   double mean() const;
   /// Variance; +infinity for t with 2 degrees of freedom or fewer (no standard uncertainty exists).
   double variance() const;
-  /// Standard uncertainty as the law of propagation takes it: of a t distribution its scale, the s/sqrt(n) of a Type A
+  /// Standard uncertainty as the law of propagation takes it: of a t distribution its u: the s/sqrt(n) of a Type A
   /// evaluation or the declared u (JCGM 100, 4.2.3 and G.3); else the square root of the variance. Always finite.
   double standard_uncertainty() const;
   /// Fourth central moment over variance squared; NaN where it does not exist.

@@ -121,7 +121,8 @@ Moments moments(const Distribution& d) {
 double Distribution::mean() const { return moments(*this).mean; }
 double Distribution::variance() const { return moments(*this).variance; }
 double Distribution::standard_uncertainty() const {
-  return family == Family::t ? parameters[1] : std::sqrt(variance());
+  if (family != Family::t) return std::sqrt(variance());
+  return parameters[3] > 0 ? parameters[3] : parameters[1];
 }
 double Distribution::kurtosis() const { return moments(*this).kurtosis; }
 

@@ -5,6 +5,7 @@
 
 #include "quantities/cells.h"
 #include "scenario/option.h"
+#include "scenario/simultaneous.h"
 
 namespace gumshoe::scenario {
 namespace {
@@ -18,10 +19,11 @@ Options<Correlation> correlation_options() {
       option::texts("quantities", &Correlation::quantities, R"("minItems": 2)",
                     "at least two quantities: \"name\", \"name.component\" or \"name[label value]\"")
           .needed(),
-      option::word("kind", &Correlation::kind, {{"copula", copula}, {"pearson", pearson}, {"spearman", spearman}, {"multivariate_t", multivariate_t}},
-                   "kind of the coefficient; multivariate_t: estimates of one fit or of simultaneous observations, with one "
-                   "standard deviation and its degrees of freedom; there is no default")
-          .needed("use copula, pearson, spearman or multivariate_t"),
+      option::word("kind", &Correlation::kind, {{"copula", copula}, {"pearson", pearson}, {"spearman", spearman}, {"multivariate_t", multivariate_t}, {"observations", multivariate_t}},
+                   "kind of the coefficient; multivariate_t: estimates of one fit, with one standard deviation and its "
+                   "degrees of freedom; observations: computed from the simultaneous observations of the quantities; there "
+                   "is no default")
+          .needed("use copula, pearson, spearman, multivariate_t or observations"),
       option::by_hand<Correlation>("coefficient", coefficient, "correlation coefficient of the quantities; of several, of any two"),
       option::by_hand<Correlation>("matrix", shape::list(shape::list(coefficient)),
                                    "a row and a column per quantity; symmetric, 1 on the diagonal"),
@@ -47,10 +49,12 @@ void read_matrix(Table& table, std::size_t n, std::vector<double>& matrix) {
   }
 }
 
-Correlation read_correlation(Table table, const std::vector<std::string>& names) {
+Correlation read_correlation(Table table, const std::vector<NamedComponent>& named) {
   Correlation out;
   read_options(table, correlation_options(), out);
+  const std::vector<std::string> names = names_of(named);
   std::vector<std::string> seen;
+  const std::size_t problems = table.problems().size();
   for (const std::string& name : out.quantities) {
     if (std::ranges::find(names, name) == names.end())
       table.refuse_key("quantities", fmt::format("'{}' is not a quantity here", name), "", did_you_mean(name, names));
@@ -59,9 +63,21 @@ Correlation read_correlation(Table table, const std::vector<std::string>& names)
     seen.push_back(name);
   }
   const std::size_t n = out.quantities.size();
+  const bool known = table.problems().size() == problems;
   table.rendered("source");
   const auto coefficient = table.number("coefficient");
   if (n < 2 && table.has("quantities")) table.refuse("at least two quantities are needed");
+  const Node* kind = table.find("kind");
+  if (kind && kind->text == "observations") {
+    for (const char* key : {"coefficient", "matrix"})
+      if (table.has(key)) table.refuse_key(key, "the observations give it", "kind = \"observations\"", "leave it out");
+    std::vector<NamedComponent> members;
+    for (const std::string& name : out.quantities)
+      if (known) members.push_back(*std::ranges::find(named, name, &NamedComponent::name));
+    out.matrix = evaluate_together(table, members);
+    table.refuse_unknown();
+    return out;
+  }
   if (table.has("coefficient") == table.has("matrix"))
     table.refuse("either a coefficient or a matrix is needed", "", "write coefficient = 0.5");
   else if (coefficient && std::abs(*coefficient) > 1)
@@ -76,21 +92,26 @@ Correlation read_correlation(Table table, const std::vector<std::string>& names)
 } // namespace
 
 Shape correlation_shape() {
-  return table_shape(correlation_options(), R"("oneOf": [{"required": ["coefficient"]}, {"required": ["matrix"]}])");
+  return table_shape(correlation_options(),
+                     R"("oneOf": [{"required": ["coefficient"]}, {"required": ["matrix"]}, )"
+                     R"({"properties": {"kind": {"const": "observations"}}, "not": {"anyOf": [{"required": ["coefficient"]}, )"
+                     R"({"required": ["matrix"]}]}}])");
 }
 
-std::vector<Correlation> read_correlations(Table& top, const std::vector<quantities::InputQuantity>& quantities) {
-  std::vector<std::string> names;
-  for (const auto& q : quantities) {
-    names.push_back(q.name);
-    for (const auto& entry : q.entries) {
+std::vector<Correlation> read_correlations(Table& top, std::vector<quantities::InputQuantity>& quantities) {
+  std::vector<NamedComponent> names;
+  for (auto& q : quantities) {
+    const bool single = q.entries.size() == 1;
+    const auto only = [&](quantities::Entry& e) { return e.components.size() == 1 ? &e.components[0] : nullptr; };
+    names.push_back({q.name, single ? only(q.entries[0]) : nullptr});
+    for (auto& entry : q.entries) {
       auto labels = entry.labels;
       std::sort(labels.begin(), labels.end()); // as draws are named
       const std::string cell = q.name + '[' + quantities::text_of(labels) + ']';
-      if (!labels.empty()) names.push_back(cell);
-      for (const auto& c : entry.components) {
-        names.push_back(q.name + '.' + c.name);
-        if (!labels.empty() && entry.components.size() > 1) names.push_back(cell + ": " + c.name);
+      if (!labels.empty()) names.push_back({cell, only(entry)});
+      for (auto& c : entry.components) {
+        names.push_back({q.name + '.' + c.name, single ? &c : nullptr});
+        if (!labels.empty() && entry.components.size() > 1) names.push_back({cell + ": " + c.name, &c});
       }
     }
   }

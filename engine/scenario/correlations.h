@@ -9,8 +9,8 @@ namespace gumshoe::scenario {
 Shape correlation_shape();
 
 /// Reads the section of the scenario `top`. Names must be among `quantities`, "quantity.component", or
-/// "quantity[label]" where values are given per label.
-std::vector<quantities::Correlation> read_correlations(Table& top,
-                                                       const std::vector<quantities::InputQuantity>& quantities);
+/// "quantity[label]" where values are given per label. Quantities with simultaneous observations are given their joint
+/// distribution.
+std::vector<quantities::Correlation> read_correlations(Table& top, std::vector<quantities::InputQuantity>& quantities);
 
 } // namespace gumshoe::scenario

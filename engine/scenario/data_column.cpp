@@ -85,9 +85,12 @@ void RowFilter::read_rule(Table& where, const Member& m, const Csv& csv, const C
                                 "where selects rows by their cells", did_you_mean(m.key, names));
   }
   rule.column = static_cast<std::size_t>(column);
+  bool nothing = m.value.kind == Node::Kind::array && m.value.items.empty();
   if (m.value.kind == Node::Kind::table) {
     Table inner(m.value, where.path(m.key), where.problems());
-    if (inner.require("not", "{ not = \"...\" }")) rule.texts = inner.texts("not");
+    const Node* texts = inner.require("not", "{ not = \"...\" }");
+    if (texts) rule.texts = inner.texts("not");
+    nothing = texts && texts->kind == Node::Kind::array && texts->items.empty();
     rule.excluded = true;
     inner.refuse_unknown();
   } else {
@@ -101,7 +104,7 @@ void RowFilter::read_rule(Table& where, const Member& m, const Csv& csv, const C
     if (!std::ranges::binary_search(known, text))
       where.refuse_key(m.key, fmt::format("no row of '{}' has {} = '{}'", csv.file, m.key, text), "",
                        did_you_mean(text, known));
-  if (m.value.kind == Node::Kind::array && m.value.items.empty()) where.refuse_key(m.key, "no value is named", "", "give a text, a list, or { not = \"...\" }");
+  if (nothing) where.refuse_key(m.key, "no value is named", "", "give a text, a list, or { not = \"...\" }");
   rules_.push_back(std::move(rule));
 }
 

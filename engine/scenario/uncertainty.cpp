@@ -40,7 +40,7 @@ std::optional<Uncertainty> read_observations(Table& table, const Form& form, Con
   Uncertainty out;
   out.value = form.value.value_or(mean);
   out.exact = !(scale > 0);
-  out.component.distribution = {Family::t, {0, scale, n - 1}, nullptr, nullptr};
+  out.component.distribution = {Family::t, {0, scale, n - 1}, std::make_shared<const std::vector<double>>(x), nullptr};
   out.component.evaluation = 'A';
   out.component.degrees_of_freedom = n - 1;
   if (out.exact) {

@@ -156,6 +156,43 @@ TEST_CASE("observations from a column of a data file", "[scenario]") {
   CHECK_THROWS_WITH(read(", where = { rod = \"1\", radius = \"7\" }"), Catch::Contains("no row of") && Catch::Contains("is left"));
 }
 
+TEST_CASE("simultaneous observations: correlation and joint distribution from the data", "[scenario]") {
+  // GUM, H.2: V, I and phi as if they were a radius, a length and a pitch. r as published to six digits.
+  const Folder folder;
+  folder.write("h2.csv", "V,I,phi\n5.007,19.663,1.0456\n4.994,19.639,1.0438\n5.005,19.640,1.0468\n4.990,19.685,1.0428\n4.999,19.678,1.0433\n");
+  const auto column = [](const char* name, const char* unit) {
+    return std::string("{ observations = { file = \"h2.csv\", column = \"") + name + "\", unit = \"" + unit + "\" } }\n";
+  };
+  const std::string tied = "[[correlations]]\nquantities = [\"rod_radius\", \"rod_length\", \"beam_pitch\"]\nkind = \"observations\"\n";
+  const auto s = scenario::read(folder.write("s.toml", head + one_reading + "[quantities]\nrod_radius = " + column("V", "mm") +
+                                                           "rod_length = " + column("I", "mm") + "beam_pitch = " + column("phi", "rad") + tied),
+                                catalogue());
+  REQUIRE(s.correlations.size() == 1);
+  CHECK(s.correlations[0].kind == quantities::Correlation::Kind::multivariate_t);
+  const auto& r = s.correlations[0].matrix;
+  CHECK(std::fabs(r[1] - -0.355311) < 5e-7);
+  CHECK(std::fabs(r[2] - 0.857624) < 5e-7);
+  CHECK(std::fabs(r[5] - -0.645111) < 5e-7);
+  for (const auto& [name, u] : {std::pair{"rod_radius", 0.00320936e-3}, {"rod_length", 0.00947101e-3}, {"beam_pitch", 0.000752064}}) {
+    const auto& c = entry(s, name).components.at(0);
+    // The law of propagation takes s / sqrt(n) with n - 1; the joint t has n - N = 2 and a scale sqrt(4 / 2) times as large.
+    CHECK(c.distribution.standard_uncertainty() == Approx(u).epsilon(2e-6));
+    CHECK(c.degrees_of_freedom == 4);
+    CHECK(c.distribution.parameters[1] == Approx(u * std::sqrt(2.0)).epsilon(2e-6));
+    CHECK(c.distribution.parameters[2] == 2);
+  }
+  const auto refused = [](const std::string& radius, const std::string& length, const std::string& more) {
+    return complaint(head + one_reading + "[quantities]\nrod_radius = " + radius + "\nrod_length = " + length +
+                     "\n[[correlations]]\nquantities = [\"rod_radius\", \"rod_length\"]\nkind = \"observations\"\n" + more);
+  };
+  const std::string two = "{ observations = [\"1 mm\", \"2 mm\"] }", three = "{ observations = [\"1 mm\", \"2 mm\", \"4 mm\"] }";
+  CHECK(refused(three, three, "").empty()); // r = 1: drawn exactly
+  CHECK_THAT(refused(three, two, ""), Catch::Contains("rod_radius has 3 observations, rod_length has 2 (simultaneous observations come in sets)"));
+  CHECK_THAT(refused(two, two, ""), Catch::Contains("2 simultaneous observations of 2 quantities"));
+  CHECK_THAT(refused(three, "{ value = \"1 mm\", u = \"1 um\" }", ""), Catch::Contains("'rod_length' has no observations that scatter"));
+  CHECK_THAT(refused(three, three, "coefficient = 0.5\n"), Catch::Contains("coefficient: the observations give it"));
+}
+
 TEST_CASE("relative uncertainties refer to the value", "[scenario]") {
   const auto scale = [](const scenario::Scenario& s, const char* name) {
     return entry(s, name).components.at(0).distribution.parameters[1];
