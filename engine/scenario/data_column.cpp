@@ -73,7 +73,8 @@ RowFilter::RowFilter(Table& table, const Csv& csv, const Columns& labels) {
 }
 
 void RowFilter::read_rule(Table& where, const Member& m, const Csv& csv, const Columns& labels) {
-  Rule rule{m.key};
+  Rule rule;
+  rule.name = m.key;
   const auto label = std::ranges::find(labels, m.key, &Columns::value_type::first);
   rule.label = label != labels.end();
   const int column = rule.label ? static_cast<int>(label->second) : csv.find(m.key);

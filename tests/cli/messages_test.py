@@ -172,6 +172,7 @@ CHECKED = [
      None, "", "is neither 1 nor -1"),
     ('schema = 1\n[model]\nname = "sphere_probing"\n[machine]\nworkpiece_side = [{ axis = "X", kind = "rotary" }]\ntool_side = ["Y", "Z"]\n',
      None, "", "X, Y, Z, U, V, W are linear"),
+    (DATA, None, '[trace.columns]\ne = { column = "e" }\n[stated_effects.film]\nunit = "um"\nformula = "e"\n', "'e' has two meanings here"),
     # choices
     (CHOOSE, "readings = [1, 2, 3]", "readings = [1, 1]", "the value is listed twice"),
     (CHOOSE, "readings = [1, 2, 3]", 'evaluation = { low = "1", high = "2" }', "evaluations must be listed"),
@@ -195,7 +196,7 @@ class Messages(unittest.TestCase):
         self.folder = tempfile.TemporaryDirectory()
         self.addCleanup(self.folder.cleanup)
         self.file = pathlib.Path(self.folder.name) / "s.toml"
-        (self.file.parent / "z.csv").write_text("z,rod\n-329.932,a\n-329.931,b\n")
+        (self.file.parent / "z.csv").write_text("z,rod,e\n-329.932,a,1\n-329.931,b,2\n")
 
     def test_the_bases_are_good(self):  # or the mistakes below would prove nothing
         for text in (SCENARIO, ROWS, DATA, FORMULA, CHOOSE):
@@ -258,6 +259,9 @@ class Messages(unittest.TestCase):
             (estimated, ["estimate", "S"], "their own noise"),
             (estimated + noise + '\n[[expected]]\nfigure = "fit.mien"\nvalue = 1\nsource = "x"\n', ["gauge", "S"], "figure of this fit"),
             (fit.replace('u = "1 um"', "estimated = true"), ["estimate", "S"], "cannot determine"),
+            (fit.replace('u = "1 um"', 'u = "1 um", estimated = true') + noise
+             + '\n[[correlations]]\nquantities = ["a", "b"]\nkind = "copula"\ncoefficient = -1\n', ["estimate", "S"],
+             "b: its prior is determined by those of other estimated quantities"),
             (TOOL + '[[expected]]\nfigure = "mean"\nof = "tool_length"\nlabels = { n = "1" }\nvalue = "1 mm"\nsource = "x"\n',
              ["gauge", "S"], "no output matches"),
             (ROWS + '[[expected]]\nfigure = "mean"\nof = "laser_z"\nlabels = { rod = "none" }\nvalue = "1 mm"\nsource = "x"\n',

@@ -213,6 +213,8 @@ class Plugin(unittest.TestCase):
             (['-DQUANTITIES={"a b", "mm", 0, 0, 0, 0}, {0, "1", 0, 0, 0, 0}'], ["number 1 of its quantities has no valid name", "number 2"]),
             (['-DQUANTITIES={"a", "mm", 0, 7, 1, 2}, {"b", "1", 0, 0, 2, 1}'], ["default is outside", "its lower limit exceeds its upper limit"]),
             (['-DQUANTITIES={"a", "mm", 0, NAN, 0, 0}, {"b", "1", 0, 0, 0, 0}'], ["default is not finite"]),
+            (["-DFAULT=static double calls; for (size_t i = 0; i < b->samples; ++i) b->measurands[0][i] = ++calls; return 0;"],
+             ["gives different results at the same point (y is 2 mm, then 3 mm"]),
             (["-DFAULT=return 3;"], ["failed at a point outside the run", "returned 3"]),
             (["-DFAULT=snprintf(b->error, b->error_size, \"no table\"); return 1;"], ["(no table)"]),
             (["-DFAULT=*(volatile int*)8 = 1;"], ["crashed outside the run", "SIGSEGV"]),

@@ -94,7 +94,7 @@ repeatability = { s = "1 um", degrees_of_freedom = 4, evaluation = "A", source =
 [[correlations]]
 quantities = ["fillet_radius", "rod_length"]
 kind = "copula"
-coefficient = 0.1
+matrix = [[1, 0.1], [0.1, 1]]
 source = "assumed"
 [[expected]]
 figure = "standard_uncertainty"
