@@ -284,6 +284,16 @@ for line in sys.stdin:
                 if done: self.assertIn(f"resuming after {done} samples", again.stderr)
                 self.assertEqual(self.values(name)[0].tobytes(), whole.tobytes())
 
+    def wait_for_samples(self, name):
+        for _ in range(300):
+            time.sleep(0.1)
+            try:
+                with h5py.File(self.folder / name) as file:
+                    if int(np.ravel(file["samples_done"][()])[0]) > 0: return
+            except (OSError, KeyError):
+                continue
+        self.fail("no samples within 30 s")
+
     def test_killed_and_resumed(self):
         body = "if os.path.exists('slow') and len(rows) > 100: time.sleep(0.15)\n" + GOOD
         scenario = self.scenario(body, batch=2048, samples=60_000)
@@ -294,7 +304,7 @@ for line in sys.stdin:
                 name = f"{how.name}.h5"
                 process = subprocess.Popen([GUMSHOE, "run", str(scenario), "--out", str(self.folder / name), "--threads", "2"],
                                            stderr=subprocess.PIPE)
-                time.sleep(1.5)
+                self.wait_for_samples(name)
                 process.send_signal(how)
                 process.communicate(timeout=30)
                 self.assertEqual(process.returncode, code)
