@@ -1,14 +1,14 @@
 #!/usr/bin/python3
 """Report of a result file: one self-contained HTML page and CSV tables next to it.
 
-report.py RESULT.h5 [--out FILE.html] [--csv DIR] [--page-only]
+report.py RESULT.h5 [--out FILE.html] [--csv DIR] [--page-only] [--force]
 """
 import argparse
 import pathlib
 import sys
 
 sys.dont_write_bytecode = True
-from gumshoe_report import csv_tables, page, read
+from gumshoe_report import csv_tables, output, page, read
 
 
 def main():
@@ -17,19 +17,22 @@ def main():
     parser.add_argument("--out", type=pathlib.Path, help="HTML file (default: next to the result)")
     parser.add_argument("--csv", type=pathlib.Path, help="folder for the CSV tables (default: next to the HTML)")
     parser.add_argument("--page-only", action="store_true", help="no CSV tables, no list of what was written")
+    parser.add_argument("--force", action="store_true", help="replace files that another scenario or program wrote")
     arguments = parser.parse_args()
     out = arguments.out or arguments.result.with_suffix(".html")
     folder = arguments.csv or out.parent
     try:
         result = read.result(arguments.result)
-        html = page.render(result)
+        tables = {} if arguments.page_only else csv_tables.files(result, folder, out.stem)
+        written = {out: f"{page.render(result)}<!-- {output.signature(result)} -->\n".encode("utf-8"), **tables}
+        if tables:
+            folder.mkdir(parents=True, exist_ok=True)
+        with output.Claim(out):
+            output.check(out, tables, result, arguments.force)
+            output.publish(written)
         if arguments.page_only:
-            out.write_text(html, encoding="utf-8")
             return 0
-        folder.mkdir(parents=True, exist_ok=True)
-        out.write_text(html, encoding="utf-8")
-        written = [out] + csv_tables.write(result, folder, out.stem)
-    except read.NotAResult as problem:
+    except (read.NotAResult, output.Refused) as problem:
         print(f"error: {problem}", file=sys.stderr)
         return 2
     except OSError as problem:

@@ -11,6 +11,7 @@
 #include "cli/command.h"
 #include "cli/print.h"
 #include "propagation/propagate.h"
+#include "store/origin.h"
 #include "store/result_file.h"
 #include "store/stored_samples.h"
 
@@ -21,11 +22,12 @@ namespace {
 struct Options {
   std::string file, scenario, out, format = "text";
   int threads = 0;
+  bool force = false;
 };
 
 void refuse_unusable(const store::Stored& stored, const std::string& file) {
-  if (!stored.made_by.empty())
-    throw InputError(file + ": the file holds no samples", "gumshoe " + stored.made_by + " made it", "use gumshoe run");
+  if (stored.command() == "choose" || stored.command() == "trace")
+    throw InputError(file + ": the file holds no samples", "gumshoe " + stored.command() + " made it", "use gumshoe run");
   if (!stored.identity.store_samples)
     throw InputError(file + ": the file holds no samples", "its scenario has store_samples = false",
                      "run again with store_samples = true");
@@ -70,6 +72,7 @@ void refuse_other_model(const propagation::Experiment& e, const store::StoredSam
 ExitCode analyse(const Options& o) {
   const store::Stored stored = store::read_identity(o.file);
   refuse_unusable(stored, o.file);
+  store::require_sound_samples(o.file);
   scenario::Scenario s = scenario::read(o.scenario.empty() ? stored.identity.scenario_file : o.scenario, catalogue());
   s.run.samples = stored.identity.samples;
   s.run.seed = stored.identity.seed;
@@ -83,14 +86,16 @@ ExitCode analyse(const Options& o) {
       !o.out.empty() ? o.out : std::filesystem::path(o.file).replace_extension(".analysed.h5").string();
   require_different(out, o.file);
   const std::uint64_t samples = s.run.samples;
-  const store::StoredSamples source(o.file, experiment.outputs(), samples);
+  const store::StoredSamples source(o.file, experiment.outputs());
   refuse_other_model(experiment, source, o.file);
 
   store::Identity identity = stored.identity;
   identity.scenario_hash = s.hash;
   identity.scenario_text = s.text;
   identity.scenario_file = s.file;
-  store::ResultFile file(out, identity, experiment.outputs(), experiment.place_names());
+  identity.scenario_place = store::place_of(s.file);
+  identity.command = "analyse";
+  store::ResultFile file(out, identity, experiment.outputs(), experiment.place_names(), o.force);
   constexpr std::uint64_t part = std::uint64_t{1} << 20;
   for (std::uint64_t first = file.samples_done(); first < samples; first += part) {
     const std::uint64_t count = std::min(part, samples - first);
@@ -118,6 +123,7 @@ void add_analyse(CLI::App& app, Action& action) {
   command->add_option("result", o->file, "result file (HDF5)")->required();
   command->add_option("--scenario", o->scenario, "instead of the one it was made from; only [analysis] may differ");
   command->add_option("--out", o->out, "new result file (default: RESULT.analysed.h5)");
+  add_force(*command, o->force);
   command->add_option("--threads", o->threads, "0: all processors")->check(CLI::Range(0, 1024));
   command->add_option("--format", o->format, "text, csv or json")->check(CLI::IsMember({"text", "csv", "json"}));
   command->callback([=, &action] { action = [=] { return analyse(*o); }; });

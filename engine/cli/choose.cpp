@@ -1,5 +1,4 @@
 /// `gumshoe choose`: which settings measure within a target expanded uncertainty in the least time?
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -11,7 +10,7 @@
 #include "cli/command.h"
 #include "cli/print_choice.h"
 #include "store/choice_file.h"
-#include "store/result_file.h"
+#include "store/origin.h"
 
 namespace gumshoe::cli {
 
@@ -21,6 +20,7 @@ struct Options {
   std::string file, out, format = "text";
   std::optional<std::string> samples, seed;
   int threads = 0;
+  bool force = false;
 };
 
 /// One line on stderr, rewritten; silent when stderr is no terminal.
@@ -38,13 +38,15 @@ ExitCode choose(const Options& o) {
         {{{s.file}, "[choose] is missing", "it defines the variables and the target", "[choose] target = \"...\""}});
   if (o.samples) s.choose->samples = whole_number(*o.samples, "--samples", 200);
   if (o.seed) s.run.seed = whole_number(*o.seed, "--seed", 0);
-  const std::string out = !o.out.empty() ? o.out : "results/" + std::filesystem::path(o.file).stem().string() + ".h5";
+  const std::string out = !o.out.empty() ? o.out : default_output(o.file, ".choose.h5");
   require_different(out, o.file);
-  if (o.out.empty()) std::filesystem::create_directories("results");
-  store::require_writable(out); // before the work, not after it
+  const store::Claim claim = store::claim_result(out, store::origin_of(s, "choose", o.force)); // before the work
+  if (!claim.remark.empty()) std::cerr << claim.remark << '\n';
   const choice::Result result = choice::choose(s, {o.threads, show});
   if (isatty(2) != 0) std::cerr << '\n';
-  store::write_choice(out, s, result);
+  store::Draft draft;
+  store::write_choice(draft, claim, s, result);
+  draft.publish();
   print_choice(result, out, o.format);
   return ExitCode::done;
 }
@@ -59,7 +61,8 @@ void add_choose(CLI::App& app, Action& action) {
   command->add_option("--samples", o->samples, "samples per candidate, instead of the scenario's, e.g. 1e4");
   command->add_option("--seed", o->seed, "instead of the scenario's");
   command->add_option("--threads", o->threads, "0: all processors")->check(CLI::Range(0, 1024));
-  command->add_option("--out", o->out, "result file (default: results/SCENARIO.h5)");
+  command->add_option("--out", o->out, "result file (default: results/SCENARIO.choose.h5)");
+  add_force(*command, o->force);
   command->add_option("--format", o->format, "text, csv or json")->check(CLI::IsMember({"text", "csv", "json"}));
   command->callback([=, &action] { action = [=] { return choose(*o); }; });
 }

@@ -1,9 +1,6 @@
 #include "cli/command.h"
 
-#include <cerrno>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
 #include <filesystem>
 
 #include "effects/effect.h"
@@ -39,11 +36,15 @@ void require_different(const std::string& out, const std::string& in) {
                       "choose another name for the output");
 }
 
-void write_text(const std::string& path, const std::string& text) {
-  std::FILE* file = std::fopen(path.c_str(), "wb");
-  const bool wrote = file && std::fwrite(text.data(), 1, text.size(), file) == text.size();
-  const bool closed = file && std::fclose(file) == 0;
-  if (!wrote || !closed) throw OutputError(path + ": cannot be written", std::strerror(errno));
+std::string default_output(const std::string& scenario, const std::string& ending) {
+  const std::string name = std::filesystem::path(scenario).stem().string();
+  std::filesystem::create_directories("results");
+  // `trace` writes NAME.traced.h5 next to NAME.traced.toml, which may be run.
+  return "results/" + name + (ending == ".h5" && name.ends_with(".traced") ? ".run" : "") + ending;
+}
+
+void add_force(CLI::App& command, bool& force) {
+  command.add_flag("--force", force, "replace the output, even if another scenario or another program wrote it");
 }
 
 } // namespace gumshoe::cli

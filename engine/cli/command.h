@@ -38,7 +38,11 @@ std::uint64_t whole_number(const std::string& text, const std::string& option, s
 /// Refuses to write over what was read.
 void require_different(const std::string& out, const std::string& in);
 
-/// Throws OutputError naming path and reason.
-void write_text(const std::string& path, const std::string& text);
+/// Where a command writes unless told otherwise: results/NAME + `ending`, NAME being that of the scenario. Makes the
+/// folder.
+std::string default_output(const std::string& scenario, const std::string& ending);
+
+/// The option --force.
+void add_force(CLI::App& command, bool& force);
 
 } // namespace gumshoe::cli

@@ -11,6 +11,7 @@
 #include "base/units.h"
 #include "calibration/estimated_scenario.h"
 #include "cli/command.h"
+#include "store/origin.h"
 
 namespace gumshoe::cli {
 
@@ -19,6 +20,7 @@ namespace {
 struct Options {
   std::string file, scenario_out, format = "text";
   int threads = 0;
+  bool force = false;
 };
 
 using calibration::Estimate;
@@ -181,21 +183,24 @@ void print_text(const propagation::Experiment& e, const Estimate& r, const std::
 ExitCode estimate(const Options& o) {
   const scenario::Scenario s = scenario::read(o.file, catalogue());
   const propagation::Experiment experiment(s);
-  std::filesystem::path out = o.scenario_out;
-  if (o.scenario_out.empty()) out = std::filesystem::path(o.file).replace_extension(".estimated.toml");
-  require_different(out.string(), o.file);
+  const std::string out = !o.scenario_out.empty() ? o.scenario_out : default_output(o.file, ".estimated.toml");
+  require_different(out, o.file);
+  const store::Origin origin = store::origin_of(s, "estimate", o.force);
+  const store::Claim claim = store::claim_text(out, origin);
   const Estimate result = calibration::estimate(experiment, {o.threads});
   std::string written;
   if (result.solver.converged) {
     std::string text;
     try {
-      text = calibration::estimated_scenario(experiment, result, out.parent_path().string());
+      text = calibration::estimated_scenario(experiment, result, std::filesystem::path(out).parent_path().string());
     } catch (const InputError& why) { // the result stands; only its scenario cannot be written
       std::cerr << "no scenario is written: " << why.what() << '\n';
     }
     if (!text.empty()) {
-      write_text(out.string(), text);
-      written = out.string();
+      store::Draft draft;
+      draft.add(claim, store::signed_scenario(text, origin));
+      draft.publish();
+      written = out;
     }
   }
   if (o.format == "json")
@@ -214,7 +219,8 @@ void add_estimate(CLI::App& app, Action& action) {
   const auto o = std::make_shared<Options>();
   command->add_option("scenario", o->file, "scenario file (TOML)")->required();
   command->add_option("--scenario-out", o->scenario_out,
-                      "scenario file for the estimates (default: SCENARIO.estimated.toml, next to the scenario)");
+                      "scenario file for the estimates (default: results/SCENARIO.estimated.toml)");
+  add_force(*command, o->force);
   command->add_option("--threads", o->threads, "0: all processors")->check(CLI::Range(0, 1024));
   command->add_option("--format", o->format, "text or json")->check(CLI::IsMember({"text", "json"}));
   command->callback([=, &action] { action = [=] { return estimate(*o); }; });

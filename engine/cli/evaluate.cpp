@@ -1,7 +1,5 @@
 /// `gumshoe evaluate`: the forward model at the points of a table.
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
+#include <fstream>
 #include <iostream>
 #include <memory>
 
@@ -9,6 +7,7 @@
 
 #include "cli/command.h"
 #include "propagation/point_table.h"
+#include "store/draft.h"
 
 namespace gumshoe::cli {
 
@@ -42,11 +41,18 @@ std::string to_csv(const Csv& in, const propagation::PointTable& added) {
   return text;
 }
 
-void write_file(const std::string& path, const std::string& text) {
-  std::FILE* file = std::fopen(path.c_str(), "wb");
-  const bool wrote = file && std::fwrite(text.data(), 1, text.size(), file) == text.size();
-  const bool closed = file && std::fclose(file) == 0;
-  if (!wrote || !closed) throw OutputError(path + ": cannot be written", std::strerror(errno));
+/// A table carries no mark: only an equal one is known to be ours.
+void write_file(const std::string& path, const std::string& text, bool force) {
+  const store::Claim claim(path);
+  std::ifstream in(claim.target(), std::ios::binary);
+  const std::string there{std::istreambuf_iterator<char>(in), {}};
+  if (there == text) return;
+  if (!there.empty() && !force)
+    throw OutputError("'" + path + "': not overwritten", "another table stands there",
+                      "choose another name, or use --force to replace it");
+  store::Draft draft;
+  draft.add(claim, text);
+  draft.publish();
 }
 
 } // namespace
@@ -55,11 +61,13 @@ void add_evaluate(CLI::App& app, Action& action) {
   auto* command = app.add_subcommand("evaluate", "evaluates the model at the points of a table, without sampling");
   struct Options {
     std::string model, table, out, evaluation;
+    bool force = false;
   };
   const auto o = std::make_shared<Options>();
   command->add_option("model", o->model, "a model (gumshoe models)")->required();
   command->add_option("--table", o->table, "CSV file; header cells `name (unit)`, one row per point")->required();
   command->add_option("--out", o->out, "output file (default: standard output)");
+  add_force(*command, o->force);
   command->add_option("--evaluation", o->evaluation, "evaluation of the model (default: the first)");
   command->callback([=, &action] {
     action = [=] {
@@ -77,7 +85,7 @@ void add_evaluate(CLI::App& app, Action& action) {
       if (o->out.empty())
         std::cout << text;
       else
-        write_file(o->out, text);
+        write_file(o->out, text, o->force);
       for (const std::string& note : points.notes) std::cerr << "note: " << note << '\n';
       for (const Problem& p : points.impossible) std::cerr << format(p) << '\n';
       return points.impossible.empty() ? ExitCode::done : ExitCode::bad_input;

@@ -70,9 +70,10 @@ void add_replay(CLI::App& app, Action& action) {
   command->callback([=, &action] {
     action = [=] {
       const store::Stored stored = store::read_identity(o->file);
-      if (!stored.made_by.empty())
-        throw InputError(o->file + ": the file holds no run", "gumshoe " + stored.made_by + " made it",
+      if (stored.command() == "choose" || stored.command() == "trace")
+        throw InputError(o->file + ": the file holds no run", "gumshoe " + stored.command() + " made it",
                          "use gumshoe run");
+      store::require_sound_samples(o->file);
       const std::uint64_t sample = whole_number(o->sample, "--sample", 0);
       if (sample >= stored.identity.samples)
         throw InputError(fmt::format("--sample: {} is beyond the run", sample),

@@ -2,7 +2,6 @@
 #include <atomic>
 #include <chrono>
 #include <csignal>
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -25,6 +24,7 @@ struct Options {
   std::string file, out, format = "text";
   std::optional<std::string> samples, seed;
   int threads = 0;
+  bool force = false;
 };
 
 std::atomic<bool> stop{false};
@@ -74,10 +74,9 @@ bool sample(scenario::Scenario& s, const propagation::Experiment& e, store::Resu
     throw;
   } catch (const InputError& error) {
     auto problems = error.problems();
-    if (s.run.store_samples)
-      problems.back().remedy +=
-          fmt::format("{}{} of {} samples are kept in {}. Repeat the command to resume",
-                      problems.back().remedy.empty() ? "" : ". ", file.samples_done(), file.samples(), out);
+    problems.back().remedy +=
+        fmt::format("{}{} of {} samples are kept in {}. Repeat the command to resume",
+                    problems.back().remedy.empty() ? "" : ". ", file.samples_done(), file.samples(), out);
     throw InputError(problems);
   }
 }
@@ -92,16 +91,15 @@ ExitCode run(const Options& o) {
     s.run.samples = propagation::block_samples; // room is made as the run goes
   if (o.seed) s.run.seed = whole_number(*o.seed, "--seed", 0);
   const propagation::Experiment experiment(s);
-  const std::string out = !o.out.empty() ? o.out : "results/" + std::filesystem::path(o.file).stem().string() + ".h5";
   if (experiment.outputs().empty())
     throw InputError(
         {{{s.file}, "model: there is nothing to measure", "a run evaluates measurands", "add [model.measurands]"}});
-  if (o.out.empty()) std::filesystem::create_directories("results");
+  const std::string out = !o.out.empty() ? o.out : default_output(o.file, ".h5");
 
   store::Identity identity = store::identity_of(s);
   identity.adaptive = adaptive_text(s.run.adaptive);
   identity.design_hash = propagation::design_hash(experiment);
-  store::ResultFile file(out, identity, experiment.outputs(), experiment.place_names());
+  store::ResultFile file(out, identity, experiment.outputs(), experiment.place_names(), o.force);
 
   if (!file.remark().empty()) std::cerr << file.remark() << '\n';
 
@@ -138,6 +136,7 @@ void add_run(CLI::App& app, Action& action) {
   command->add_option("--seed", o->seed, "instead of the scenario's");
   command->add_option("--threads", o->threads, "0: all processors")->check(CLI::Range(0, 1024));
   command->add_option("--out", o->out, "result file (default: results/SCENARIO.h5)");
+  add_force(*command, o->force);
   command->add_option("--format", o->format, "text, csv or json")->check(CLI::IsMember({"text", "csv", "json"}));
   command->callback([=, &action] { action = [=] { return run(*o); }; });
 }

@@ -1,21 +1,20 @@
 /// `gumshoe trace`: what is left after the model is fitted, and which effect that the scenario lacks explains it?
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
-#include <iterator>
 #include <memory>
 #include <optional>
 
 #include <fmt/format.h>
 #include <malloc.h>
+#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 #include "cli/command.h"
 #include "cli/generator.h"
 #include "cli/print_trace.h"
 #include "cli/traced_budgets.h"
-#include "store/result_file.h"
+#include "store/origin.h"
 #include "store/trace_file.h"
 #include "tracing/findings/verdict_json.h"
 #include "tracing/scenario_out/traced_scenario.h"
@@ -28,6 +27,7 @@ struct Options {
   std::string file, data, out, json, report, format = "text";
   std::optional<std::string> draws, seed;
   int threads = 0;
+  bool force = false;
 };
 
 /// The scenario with what the command line says otherwise.
@@ -39,26 +39,16 @@ scenario::Scenario asked(const Options& o) {
   return s;
 }
 
-/// A scenario that an earlier trace wrote.
-bool ours(const std::string& path) {
-  std::ifstream file(path);
-  const std::string text((std::istreambuf_iterator<char>(file)), {});
-  return text.find("# Written by gumshoe ") != std::string::npos;
-}
-
+/// Every file that will be written, claimed before the work and not after it.
 struct Outputs {
-  std::string result, scenario;
+  store::Origin origin;
+  store::Claim result, scenario, json, report;
 };
 
-/// Every file that will be written, checked before the work and not after it.
-Outputs checked_outputs(const Options& o) {
-  const std::string name = std::filesystem::path(o.file).stem().string();
-  const std::string out = !o.out.empty() ? o.out : "results/" + name + ".traced.h5";
-  const std::string scenario = (std::filesystem::path(out).parent_path() / (name + ".traced.toml")).string();
-  if (o.out.empty()) std::filesystem::create_directories("results");
-  if (std::filesystem::exists(scenario) && !ours(scenario))
-    throw OutputError(scenario + ": the file exists and was not written by gumshoe",
-                      "the traced scenario would replace it");
+Outputs claimed_outputs(const Options& o, const scenario::Scenario& s) {
+  const std::string out = !o.out.empty() ? o.out : default_output(o.file, ".traced.h5");
+  const std::filesystem::path name = std::filesystem::path(o.file).stem();
+  const std::string scenario = (std::filesystem::path(out).parent_path() / name).string() + ".traced.toml";
   for (const std::string& path : {out, o.json, o.report})
     if (path == scenario)
       throw OutputError(path + ": the traced scenario is written to this file",
@@ -68,35 +58,44 @@ Outputs checked_outputs(const Options& o) {
     require_different(path, o.file);
     if (!o.data.empty()) require_different(path, o.data);
   }
-  store::require_writable(out);
-  for (const std::string& path : {o.json, o.report}) {
-    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-    if (!path.empty() && !folder.empty() && !std::filesystem::is_directory(folder))
-      throw OutputError(path + ": cannot be written", "no folder '" + folder.string() + "'");
-  }
-  return {out, scenario};
+  const auto text = [&](const std::string& path, const char* command) {
+    return path.empty() ? store::Claim() : store::claim_text(path, store::origin_of(s, command, o.force));
+  };
+  const store::Origin origin = store::origin_of(s, "trace", o.force);
+  return {origin, store::claim_result(out, origin), text(scenario, "trace"), text(o.json, "trace"),
+          text(o.report, "report")};
 }
 
-/// Writes the scenario with what was found, and fills the budgets of both. False if there is none; an older one is
+/// Adds the scenario with what was found, and fills the budgets of both. False if there is none; an older one is
 /// removed, since it would tell of other data.
-bool close_loop(const scenario::Scenario& s, tracing::Trace& found, const std::string& path,
+bool close_loop(const scenario::Scenario& s, tracing::Trace& found, const Outputs& out, store::Draft& draft,
                 store::TracedBudgets& budgets) {
-  const std::string text = tracing::traced_scenario(s, found, std::filesystem::path(path).parent_path().string());
-  if (text.empty()) {
-    std::filesystem::remove(path);
-    return false;
+  const std::filesystem::path folder = std::filesystem::path(out.scenario.path()).parent_path();
+  const std::string text = tracing::traced_scenario(s, found, folder.string());
+  bool readable = !text.empty();
+  if (readable) {
+    store::Draft trial; // read again before it counts
+    try {
+      budgets = traced_budgets(s, scenario::read(trial.add(out.scenario, text), catalogue()));
+    } catch (const InputError& error) {
+      readable = false;
+      for (const Problem& p : error.problems())
+        found.statements.push_back("no traced scenario is written, because it could not be read: " + p.what +
+                                   (p.why.empty() ? "" : " (" + p.why + ")"));
+    }
   }
-  write_text(path, text);
-  try {
-    budgets = traced_budgets(s, scenario::read(path, catalogue()));
-  } catch (const InputError& error) {
-    std::filesystem::remove(path);
-    for (const Problem& p : error.problems())
-      found.statements.push_back("no traced scenario is written, because it could not be read: " + p.what +
-                                 (p.why.empty() ? "" : " (" + p.why + ")"));
-    return false;
-  }
-  return true;
+  if (readable)
+    draft.add(out.scenario, store::signed_scenario(text, out.origin));
+  else
+    draft.remove(out.scenario);
+  return readable;
+}
+
+/// The verdict with the signature by which the file may be replaced.
+std::string signed_verdict(const tracing::Trace& found, const store::Origin& origin) {
+  auto verdict = nlohmann::ordered_json::parse(tracing::verdict_json(found));
+  verdict["made_by"] = store::signature(origin);
+  return verdict.dump(2) + '\n';
 }
 
 /// One line on stderr, rewritten; silent when stderr is no terminal.
@@ -109,28 +108,33 @@ ExitCode trace(const Options& o) {
   mallopt(M_MMAP_THRESHOLD, 1 << 30);
   mallopt(M_TRIM_THRESHOLD, 1 << 30);
   const scenario::Scenario s = asked(o);
-  const Outputs outputs = checked_outputs(o);
-  const std::string& out = outputs.result;
+  Outputs outputs = claimed_outputs(o, s);
+  const std::string out = outputs.result.path();
+  if (!outputs.result.remark.empty()) std::cerr << outputs.result.remark << '\n';
   const ModelCard& card = s.made ? *s.made->card : *models::find(s.model)->card;
   tracing::Trace found = tracing::trace(s, {o.threads, show});
   if (isatty(2) != 0) std::cerr << '\n';
   store::TracedBudgets budgets;
-  const bool closed = close_loop(s, found, outputs.scenario, budgets);
+  store::Draft draft;
+  const bool closed = close_loop(s, found, outputs, draft, budgets);
+  store::write_trace(draft, outputs.result, s, card, found, budgets);
   std::vector<std::string> written{out};
-  store::write_trace(out, s, card, found, budgets);
+  const std::string verdict = signed_verdict(found, outputs.origin);
   if (!o.json.empty()) {
-    write_text(o.json, tracing::verdict_json(found) + '\n');
+    draft.add(outputs.json, verdict);
     written.push_back(o.json);
   }
+  draft.publish();
   ExitCode code = ExitCode::done;
   if (!o.report.empty()) {
-    code = generate({out, "--out", o.report, "--page-only"});
+    { const store::Claim done = std::move(outputs.report); } // the generator claims it
+    code = generate({out, "--out", o.report, "--page-only", "--force"});
     if (code == ExitCode::done) written.push_back(o.report);
   }
   if (o.format == "json")
-    std::cout << tracing::verdict_json(found) << '\n';
+    std::cout << verdict;
   else
-    print_trace(found, s.title, written, closed ? outputs.scenario : "");
+    print_trace(found, s.title, written, closed ? outputs.scenario.path() : "");
   return code;
 }
 
@@ -142,6 +146,7 @@ void add_trace(CLI::App& app, Action& action) {
   command->add_option("scenario", o->file, "scenario file (TOML) with readings")->required();
   command->add_option("--data", o->data, "CSV file with readings, instead of the files named in the scenario");
   command->add_option("--out", o->out, "result file (default: results/SCENARIO.traced.h5)");
+  add_force(*command, o->force);
   command->add_option("--json", o->json, "file for the verdict");
   command->add_option("--report", o->report, "file for the report, one HTML page");
   command->add_option("--draws", o->draws, "seed of the bootstrap, instead of the scenario's");

@@ -88,8 +88,12 @@ void write_choice_group(hid_t file, const Result& r) {
 
 } // namespace
 
-void write_choice(const std::string& path, const scenario::Scenario& s, const Result& r) {
-  write_whole(path, s, r.seed, r.asked.confirm_samples, [&](hid_t file) { write_choice_group(file, r); });
+void write_choice(Draft& draft, const Claim& claim, const scenario::Scenario& s, const Result& r) {
+  Identity identity = identity_of(s);
+  identity.command = "choose";
+  identity.seed = r.seed;
+  identity.samples = r.asked.confirm_samples;
+  write_whole(draft, claim, identity, s, [&](hid_t file) { write_choice_group(file, r); });
 }
 
 } // namespace gumshoe::store

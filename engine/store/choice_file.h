@@ -4,10 +4,11 @@
 
 #include "choice/results.h"
 #include "scenario/scenario.h"
+#include "store/draft.h"
 
 namespace gumshoe::store {
 
-/// Writes the whole file in one go; an older result of ours is replaced. Throws OutputError naming path and reason.
-void write_choice(const std::string& path, const scenario::Scenario& scenario, const choice::Result& result);
+/// Adds the whole file to the draft. Throws OutputError naming path and reason.
+void write_choice(Draft& draft, const Claim& claim, const scenario::Scenario& scenario, const choice::Result& result);
 
 } // namespace gumshoe::store

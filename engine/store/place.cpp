@@ -2,14 +2,12 @@
 
 #include <cerrno>
 #include <csignal>
-#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <system_error>
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <sys/statvfs.h>
 #include <unistd.h>
@@ -34,30 +32,6 @@ std::string destination(const std::string& path) {
   if (fs::exists(status) && access(target.c_str(), R_OK | W_OK) != 0) refuse(std::strerror(errno));
   if (target.filename().string().size() > 230) refuse("the name is too long");
   return target.string();
-}
-
-std::string temporary_name(const std::string& path) { return path + '.' + std::to_string(getpid()) + ".new"; }
-
-bool held_by_another(const std::string& path) {
-  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) return false;
-  const bool held = flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-  close(file);
-  return held;
-}
-
-void remove_leftovers(const std::string& path) {
-  const fs::path target = path;
-  const std::string head = target.filename().string() + '.', tail = ".new";
-  std::error_code error;
-  for (const fs::directory_entry& entry : fs::directory_iterator(target.parent_path(), error)) {
-    const std::string name = entry.path().filename().string();
-    if (name.size() <= head.size() + tail.size() || !name.starts_with(head) || !name.ends_with(tail)) continue;
-    const std::string number = name.substr(head.size(), name.size() - head.size() - tail.size());
-    if (number.size() > 9 || number.find_first_not_of("0123456789") != std::string::npos) continue;
-    const bool gone = kill(std::stoi(number), 0) != 0 && errno == ESRCH;
-    if (gone && !held_by_another(entry.path().string())) fs::remove(entry.path(), error);
-  }
 }
 
 namespace {
@@ -100,17 +74,6 @@ void claim_space(const std::string& path, std::uint64_t reserve) {
 void survive_size_limit() {
   struct sigaction now {};
   if (sigaction(SIGXFSZ, nullptr, &now) == 0 && now.sa_handler == SIG_DFL) std::signal(SIGXFSZ, SIG_IGN);
-}
-
-void replace_file(const std::string& path, const std::function<void(const std::string& temporary)>& build) {
-  const std::string temporary = temporary_name(path);
-  try {
-    build(temporary);
-    if (std::rename(temporary.c_str(), path.c_str()) != 0) throw OutputError("it cannot be moved into place");
-  } catch (...) {
-    std::remove(temporary.c_str());
-    throw;
-  }
 }
 
 } // namespace gumshoe::store

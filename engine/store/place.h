@@ -1,7 +1,6 @@
 #pragma once
-/// Where a result file may be put: nothing that is not ours is overwritten. Private to this folder.
+/// Where an output file may be put, and whether the disk has room for it.
 #include <cstdint>
-#include <functional>
 #include <string>
 
 #include "base/error.h"
@@ -12,15 +11,6 @@ namespace gumshoe::store {
 /// unwritable folder. Returns the path to write; throws OutputError.
 std::string destination(const std::string& path);
 
-/// Name in the folder of `path` under which a new file is built before it is moved to `path`.
-std::string temporary_name(const std::string& path);
-
-/// Removes files with such names that killed processes left behind.
-void remove_leftovers(const std::string& path);
-
-/// Whether another process holds a lock on the file, as HDF5 does on every open file.
-bool held_by_another(const std::string& path);
-
 /// Throws OutputError unless the disk of `path` has that many bytes free.
 void require_space(const std::string& path, double bytes);
 
@@ -30,10 +20,6 @@ void claim_space(const std::string& path, std::uint64_t reserve);
 
 /// Makes a file-size limit (ulimit -f) an error like a full disk; by default its signal kills us.
 void survive_size_limit();
-
-/// Has a file built under another name, which then takes the place of what stands at `path`. If `build` throws, the file
-/// is removed and nothing has changed.
-void replace_file(const std::string& path, const std::function<void(const std::string& temporary)>& build);
 
 /// Runs `action` and puts the path into whatever OutputError it throws.
 template <class Action> auto naming(const std::string& path, Action action) {

@@ -1,204 +1,168 @@
 #include "store/result_file.h"
 
 #include <chrono>
-#include <cstdio>
-#include <optional>
 #include <stdexcept>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "propagation/memory_store.h"
 #include "store/identity.h"
+#include "store/origin.h"
 #include "store/place.h"
 #include "store/results_writer.h"
 #include "store/sample_datasets.h"
+#include "store/sample_file.h"
 
 namespace gumshoe::store {
 namespace {
 
-bool empty_or_absent(const std::string& path) {
-  std::FILE* file = std::fopen(path.c_str(), "rb");
-  if (!file) return true; // destination() has checked the permissions
-  const bool empty = std::fgetc(file) == EOF;
-  std::fclose(file);
-  return empty;
+using Clock = std::chrono::steady_clock;
+
+/// Whether so many bytes take a disk less than about a tenth of the time that it took to compute them.
+bool disk_keeps_up(std::uint64_t bytes, Clock::duration computed) {
+  constexpr double disk = 1e8; // bytes per second
+  return static_cast<double>(bytes) / disk < 0.1 * std::chrono::duration<double>(computed).count();
+}
+
+/// A power failure may take what the disk does not have yet; digests then show it. So a large file that is soon computed
+/// again is not waited for.
+bool worth_waiting(std::uint64_t bytes, Clock::duration computed) {
+  return bytes < (std::uint64_t{16} << 20) || disk_keeps_up(bytes, computed);
 }
 
 } // namespace
 
 struct ResultFile::Impl {
-  std::string path;
+  const Claim& claim;
   Identity identity;
   std::vector<propagation::Output> outputs;
   std::vector<std::string> labels;
-  hdf5::Handle file, marker;
-  SampleDatasets samples;
-  std::optional<propagation::MemoryStore> memory; ///< the samples of a file that does not keep them
-  std::uint64_t done = 0, marked = 0;
-  std::chrono::steady_clock::time_point marked_at = std::chrono::steady_clock::now();
+  SampleFile samples; ///< without rows in a complete file that does not keep them
+  std::uint64_t done = 0;
+  Clock::time_point begun = Clock::now(), marked_at = begun;
+  std::uint64_t marked_bytes = 0;
   bool finished = false;
   std::string remark;
 
-  Impl(std::string where, const Identity& run, const std::vector<propagation::Output>& rows,
+  Impl(const Claim& where, const Identity& run, const std::vector<propagation::Output>& rows,
        const std::vector<std::string>& readings)
-      : path(std::move(where)), identity(run), outputs(rows), labels(readings), samples(rows, readings.size()) {}
+      : claim(where), identity(run), outputs(rows), labels(readings) {}
 
+  std::uint64_t bytes_of(std::uint64_t count) const { return count * (8 * outputs.size() + 1); }
   /// A new file; `before`: the samples so far, which it takes over; `results`: complete with these. HDF5 changes a file
-  /// in many writes, between which it is no file to read: so none that stands at the path is changed but in its samples
-  /// and its marker, which have their place from the start.
+  /// in many writes, between which it is no file to read: so none that stands at the path is changed but in its samples,
+  /// their digests and its marker, which have their place from the start.
   void create(Impl* before = nullptr, const analysis::Results* results = nullptr);
+  Record build(const std::string& name, const analysis::Results* results) const;
   /// Whether the file at the path is an unfinished one of the same run, which then goes on.
   bool resume();
   /// The same run with another number of samples, and no file yet.
   std::unique_ptr<Impl> successor(std::uint64_t count) const;
-  void take_over(Impl& before);
-  void open_samples();
   void mark();
-  void close();
 };
+
+/// All but the samples; closed and sealed.
+Record ResultFile::Impl::build(const std::string& name, const analysis::Results* results) const {
+  hdf5::Handle file = open_file(name, H5F_ACC_TRUNC);
+  Record record = write_identity(file, identity, results != nullptr);
+  if (!results || identity.store_samples)
+    create_samples(file, outputs, identity.samples, labels, identity.method == "virtual_experiment", record);
+  if (results) write_results(file, *results);
+  close_file(file);
+  seal(name, record);
+  return record;
+}
 
 void ResultFile::Impl::create(Impl* before, const analysis::Results* results) {
   const std::uint64_t reserve = (1u << 20) + 65536 * outputs.size(); // for what comes last
-  if (identity.store_samples) { // once while they are drawn, and once more in the complete file
-    const double once =
-        static_cast<double>(identity.samples) * (8.0 * static_cast<double>(samples.measurands() * labels.size()) + 1);
-    require_space(path, (before ? 1 : 2) * once + static_cast<double>(reserve));
+  const bool keeps = !results || identity.store_samples;
+  // Once while they are drawn, and once more in the complete file.
+  const double copies = (before ? keeps : 1.0 + identity.store_samples);
+  require_space(claim.target(), copies * static_cast<double>(bytes_of(identity.samples)) + static_cast<double>(reserve));
+  Draft draft;
+  const std::string name = draft.add(claim);
+  const Record record = build(name, results);
+  claim_space(name, reserve);
+  RawFile file(name, O_RDWR);
+  if (before) done = std::min(before->done, identity.samples);
+  if (keeps) {
+    samples = SampleFile(std::move(file), record);
+    if (before) before->samples.copy_to(samples, done);
+    samples.mark(done, false);
+  } else {
+    file.write(&done, sizeof done, record.places.at("samples_done").offset);
   }
-  remove_leftovers(path);
-  try {
-    replace_file(path, [&](const std::string& temporary) {
-      file = open_file(temporary, H5F_ACC_TRUNC);
-      write_identity(file, identity);
-      if (identity.store_samples)
-        samples.create(file, identity.samples, labels, identity.method == "virtual_experiment");
-      hdf5::require(H5Fflush(file, H5F_SCOPE_GLOBAL), "write the file");
-      claim_space(temporary, reserve);
-      open_samples();
-      if (before) take_over(*before);
-      if (!results) return;
-      write_results(file, *results);
-      hdf5::write_attribute(file, "complete", 1);
-      hdf5::require(H5Fflush(file, H5F_SCOPE_GLOBAL), "write results");
-      finished = true;
-    });
-  } catch (...) {
-    close();
-    throw;
-  }
-}
-
-void ResultFile::Impl::open_samples() {
-  marker = hdf5::own(H5Dopen2(file, "samples_done", H5P_DEFAULT), H5Dclose, "open a dataset");
-  if (identity.store_samples)
-    samples.open(file, identity.samples);
-  else
-    memory.emplace(outputs.size(), identity.samples);
-}
-
-void ResultFile::Impl::take_over(Impl& before) {
-  done = std::min(before.done, identity.samples);
-  if (memory) {
-    memory = std::move(before.memory);
-    if (memory->samples() != identity.samples) memory->resize(identity.samples);
-    return;
-  }
-  constexpr std::uint64_t chunk = 1u << 18;
-  std::vector<double> some(chunk);
-  std::vector<std::uint8_t> flags(chunk);
-  for (std::uint64_t first = 0; first < done; first += chunk) {
-    const std::uint64_t count = std::min(chunk, done - first);
-    for (std::size_t output = 0; output < outputs.size(); ++output) {
-      before.samples.read(output, first, count, some.data());
-      samples.write(output, first, count, some.data());
-    }
-    before.samples.read_status(first, count, flags.data());
-    samples.write_status(first, count, flags.data());
-  }
-  mark();
+  finished = results != nullptr;
+  draft.publish(worth_waiting(keeps ? bytes_of(done) : 0, Clock::now() - begun));
 }
 
 bool ResultFile::Impl::resume() {
-  hdf5::Handle old = open_file(path, H5F_ACC_RDWR);
-  const Stored stored = read_stored(old);
-  if (stored.complete || !identity.store_samples || !same_numbers(stored.identity, identity)) return false;
-  try {
-    samples.open(old, stored.identity.samples, true);
-  } catch (const OutputError&) {
-    samples.close();
+  const Record record = read_record(claim.target());
+  if (record.complete || record.identity.command != identity.command) return false;
+  RawFile file(claim.target(), O_RDWR);
+  SampleFile old(std::move(file), record);
+  const std::uint64_t marked = old.marked();
+  if (!same_numbers(record.identity, identity) || record.rows != rows_of(outputs)) {
+    if (marked > 0)
+      remark = fmt::format("'{}' held {} samples of an unfinished run with other settings; this run replaces it",
+                           claim.path(), marked);
     return false;
   }
-  file = std::move(old);
-  identity.samples = stored.identity.samples;
-  done = marked = stored.samples_done;
-  open_samples();
+  samples = std::move(old);
+  identity.samples = record.identity.samples;
+  done = samples.sound();
+  if (done < marked / digest_samples * digest_samples) // the last block may have been cut by the interruption
+    remark = fmt::format("'{}' is damaged: of {} samples only the first {} are as they were written; the run goes on from there",
+                         claim.path(), marked, done);
   return true;
 }
 
 std::unique_ptr<ResultFile::Impl> ResultFile::Impl::successor(std::uint64_t count) const {
-  auto next = std::make_unique<Impl>(path, identity, outputs, labels);
+  auto next = std::make_unique<Impl>(claim, identity, outputs, labels);
   next->identity.samples = count;
   next->remark = remark;
+  next->begun = begun;
   return next;
 }
 
-/// The marker follows the data: both reach the operating system, in this order.
 void ResultFile::Impl::mark() {
-  marked_at = std::chrono::steady_clock::now();
-  if (marked == done || !identity.store_samples) return;
-  hdf5::require(H5Fflush(file, H5F_SCOPE_GLOBAL), "write samples");
-  hdf5::require(H5Dwrite(marker, H5T_NATIVE_UINT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, &done), "write the marker");
-  hdf5::require(H5Fflush(file, H5F_SCOPE_GLOBAL), "write the marker");
-  marked = done;
-}
-
-void ResultFile::Impl::close() {
-  samples.close();
-  marker.close();
-  file.close();
+  const auto now = Clock::now();
+  samples.mark(done, disk_keeps_up(bytes_of(done) - marked_bytes, now - marked_at));
+  marked_at = now;
+  marked_bytes = bytes_of(done);
 }
 
 ResultFile::ResultFile(const std::string& path, const Identity& identity,
                        const std::vector<propagation::Output>& outputs,
-                       const std::vector<std::string>& reading_labels) {
+                       const std::vector<std::string>& reading_labels, bool force) {
   const Lock lock(hdf5::library());
   survive_size_limit();
+  claim_ = claim_result(
+      path, {identity.command, identity.scenario_file, identity.scenario_hash, identity.scenario_place, force});
   naming(path, [&] {
-    impl_ = std::make_unique<Impl>(destination(path), identity, outputs, reading_labels);
-    if (empty_or_absent(impl_->path) || !resumed(path)) impl_->create();
+    impl_ = std::make_unique<Impl>(claim_, identity, outputs, reading_labels);
+    if (!resumed()) impl_->create();
   });
 }
 
-/// Whether the run goes on in the file that stands there. Throws OutputError if it must not be overwritten.
-bool ResultFile::resumed(const std::string& path) {
-  const std::string remedy = "choose another name";
-  if (!is_hdf5(impl_->path)) throw OutputError("not overwritten", "it is not a Gumshoe result", remedy);
+/// Whether the run goes on in the file that stands there.
+bool ResultFile::resumed() {
   try {
     return impl_->resume();
-  } catch (const OutputError& error) {
-    const Problem& p = error.problems().front();
-    const std::string reason = p.what + (p.why.empty() ? "" : ", " + p.why);
-    if (held_by_another(impl_->path))
-      throw OutputError("not overwritten", "another program has it open: " + reason, "wait until it is closed");
-    if (dynamic_cast<const NoResult*>(&error) || !was_ours(impl_->path))
-      throw OutputError("not overwritten", "it is not a Gumshoe result: " + reason, remedy);
-    impl_ = impl_->successor(impl_->identity.samples);
-    impl_->remark = fmt::format("'{}' is a Gumshoe result that cannot be read ({}); the run starts from the beginning",
-                                path, reason);
+  } catch (const OutputError&) { // nothing there, or nothing readable that may be replaced
     return false;
   }
 }
 
 ResultFile::~ResultFile() {
-  const Lock lock(hdf5::library());
   try {
-    if (impl_->file && !impl_->finished) impl_->mark();
+    if (!impl_->finished) impl_->mark();
   } catch (...) { // the marker stays where it was: the file is good up to there
   }
-  impl_->close();
 }
 
-std::string ResultFile::remark() const { return impl_->remark; }
+std::string ResultFile::remark() const { return claim_.remark + impl_->remark; }
 
 std::uint64_t ResultFile::samples_done() const { return impl_->done; }
 
@@ -207,12 +171,12 @@ std::uint64_t ResultFile::samples() const { return impl_->identity.samples; }
 void ResultFile::resize(std::uint64_t samples) {
   Impl& f = *impl_;
   if (samples == f.identity.samples) return;
-  if (samples <= f.done && f.identity.store_samples) { // the file keeps more; the complete one will not
+  if (samples <= f.done) { // the file keeps more; the complete one will not
     f.identity.samples = f.done = samples;
     return;
   }
   const Lock lock(hdf5::library());
-  naming(f.path, [&] {
+  naming(f.claim.path(), [&] {
     auto next = f.successor(samples);
     next->create(&f);
     std::swap(impl_, next);
@@ -224,39 +188,28 @@ void ResultFile::write(const propagation::ResultBlock& block) {
   if (f.finished || block.first_sample != f.done || block.first_sample + block.samples > f.identity.samples ||
       block.outputs.size() < f.outputs.size() * block.samples || block.status.size() < block.samples)
     throw std::logic_error("blocks must come whole and in sample order");
-  if (f.memory) {
-    f.memory->write(block);
+  naming(f.claim.path(), [&] {
+    f.samples.write(block);
     f.done += block.samples;
-    return;
-  }
-  const Lock lock(hdf5::library());
-  naming(f.path, [&] {
-    for (std::size_t output = 0; output < f.outputs.size(); ++output)
-      f.samples.write(output, block.first_sample, block.samples, block.outputs.data() + output * block.samples);
-    f.samples.write_status(block.first_sample, block.samples, block.status.data());
-    f.done += block.samples;
-    if (std::chrono::steady_clock::now() - f.marked_at > std::chrono::milliseconds(250)) f.mark();
+    if (Clock::now() - f.marked_at > std::chrono::milliseconds(250)) f.mark();
   });
 }
 
 std::vector<double> ResultFile::read(std::size_t output, std::uint64_t first, std::uint64_t count) const {
   const Impl& f = *impl_;
-  if (f.memory) return f.memory->read(output, first, count);
-  if (output >= f.outputs.size() || first > f.done || count > f.done - first)
+  if (output >= f.samples.rows() || first > f.done || count > f.done - first)
     throw std::out_of_range("samples that are not there");
   std::vector<double> values(count);
-  const Lock lock(hdf5::library());
-  naming(f.path, [&] { f.samples.read(output, first, count, values.data()); });
+  naming(f.claim.path(), [&] { f.samples.read(output, first, count, values.data()); });
   return values;
 }
 
 std::vector<std::uint8_t> ResultFile::read_status(std::uint64_t first, std::uint64_t count) const {
   const Impl& f = *impl_;
-  if (f.memory) return f.memory->read_status(first, count);
-  if (first > f.done || count > f.done - first) throw std::out_of_range("samples that are not there");
+  if (f.samples.rows() == 0 || first > f.done || count > f.done - first)
+    throw std::out_of_range("samples that are not there");
   std::vector<std::uint8_t> status(count);
-  const Lock lock(hdf5::library());
-  naming(f.path, [&] { f.samples.read_status(first, count, status.data()); });
+  naming(f.claim.path(), [&] { f.samples.read_status(first, count, status.data()); });
   return status;
 }
 
@@ -264,7 +217,7 @@ void ResultFile::finish(const analysis::Results& results) {
   Impl& f = *impl_;
   if (f.done != f.identity.samples) throw std::logic_error("finished before the last sample");
   const Lock lock(hdf5::library());
-  naming(f.path, [&] {
+  naming(f.claim.path(), [&] {
     f.mark();
     auto next = f.successor(f.done);
     next->create(&f, &results);

@@ -1,5 +1,5 @@
 #pragma once
-/// The result file (layout: README.md in this folder). The only door to HDF5.
+/// The result file (layout: README.md in this folder).
 #include <memory>
 #include <optional>
 #include <string>
@@ -8,6 +8,7 @@
 #include "analysis/results.h"
 #include "propagation/run.h"
 #include "scenario/scenario.h"
+#include "store/draft.h"
 
 namespace gumshoe::store {
 
@@ -18,23 +19,23 @@ struct Identity {
   std::uint64_t seed = 0, samples = 0;
   bool store_samples = true;
   std::string design_hash; ///< propagation::design_hash; empty in files older than it
+  std::string command = "run"; ///< that made it
+  std::string scenario_place;  ///< place_of(scenario_file)
 };
 
-/// What a scenario says of it and this program adds: all but `adaptive` and `design_hash`.
+/// What a scenario says of it and this program adds: all but `adaptive`, `design_hash` and `command`.
 Identity identity_of(const scenario::Scenario& scenario);
-
-/// Throws OutputError if a result cannot be put there: a missing folder, a file that is no result of ours.
-void require_writable(const std::string& path);
 
 /// The samples of a run, written block by block in order. Throws OutputError naming path and reason
 /// (unwritable, disk full, not one of our files: never overwritten).
 class ResultFile : public propagation::SampleStore {
 public:
-  /// Creates the file, or opens it to resume if it holds an unfinished run of the same identity.
+  /// Creates the file, or opens it to resume if it holds an unfinished run of the same identity. Replaces what the same
+  /// command wrote for the same scenario; with `force` any file.
   ResultFile(const std::string& path, const Identity& identity, const std::vector<propagation::Output>& outputs,
-             const std::vector<std::string>& reading_labels);
+             const std::vector<std::string>& reading_labels, bool force = false);
   ~ResultFile() override;
-  /// Said of what stood there: a result of ours that cannot be read, so that the run begins anew. Empty: no such thing.
+  /// Said of what stood there and is replaced: an unfinished run of other settings, a damaged result. Empty: neither.
   std::string remark() const;
   /// Samples already there, 0 for a new file.
   std::uint64_t samples_done() const override;
@@ -48,20 +49,24 @@ public:
   void finish(const analysis::Results& results);
 
 private:
-  bool resumed(const std::string& path);
+  bool resumed();
 
   struct Impl;
+  Claim claim_;
   std::unique_ptr<Impl> impl_;
 };
 
-/// The attributes of an existing result, for `replay` and for resuming. Throws InputError if the
-/// path is no result of ours (a directory, garbage, another program's HDF5).
+/// What the record of an existing result says. Throws InputError if the path is no result of ours (a directory, garbage,
+/// another program's HDF5), or one that is damaged anywhere but in its samples.
 struct Stored {
   Identity identity;
   std::uint64_t samples_done = 0;
   bool complete = false;
-  std::string made_by; ///< "choose" or "trace", whose results hold no samples; empty: a run
+  /// The command that made it; results of "choose" and "trace" hold no samples.
+  const std::string& command() const { return identity.command; }
 };
 Stored read_identity(const std::string& path);
+/// Throws InputError if stored samples are not those that were written.
+void require_sound_samples(const std::string& path);
 
 } // namespace gumshoe::store

@@ -2,48 +2,47 @@
 
 #include <algorithm>
 
+#include <fcntl.h>
+#include <fmt/format.h>
+
 #include "base/error.h"
 #include "store/identity.h"
-#include "store/sample_datasets.h"
+#include "store/sample_file.h"
 
 namespace gumshoe::store {
 
 struct StoredSamples::Impl {
-  hdf5::Handle file;
-  SampleDatasets samples;
+  std::string path;
+  SampleFile samples;
+  std::vector<std::size_t> rows; ///< of the outputs
 };
 
-StoredSamples::StoredSamples(const std::string& path, const std::vector<propagation::Output>& outputs,
-                             std::uint64_t samples)
+StoredSamples::StoredSamples(const std::string& path, const std::vector<propagation::Output>& outputs)
     : impl_(std::make_unique<Impl>()) {
-  const Lock lock(hdf5::library());
-  std::size_t readings = 0;
-  for (const auto& output : outputs) readings = std::max(readings, output.reading + 1);
+  impl_->path = path;
   try {
-    impl_->file = open_file(path, H5F_ACC_RDONLY);
-    impl_->samples = SampleDatasets(outputs, readings);
-    impl_->samples.open(impl_->file, samples);
+    const Record record = read_record(path);
+    impl_->samples = SampleFile(RawFile(path, O_RDONLY), record);
+    for (const auto& row : rows_of(outputs)) {
+      const auto at = std::ranges::find(record.rows, row);
+      if (at == record.rows.end()) throw OutputError(fmt::format("outputs/{} is not there", row.first));
+      impl_->rows.push_back(static_cast<std::size_t>(at - record.rows.begin()));
+    }
   } catch (const OutputError& error) {
     throw InputError(path + ": holds no samples of this scenario", error.problems().front().what);
   }
 }
 
-StoredSamples::~StoredSamples() {
-  const Lock lock(hdf5::library());
-  impl_->samples.close();
-  impl_->file.close();
-}
+StoredSamples::~StoredSamples() = default;
 
 std::vector<double> StoredSamples::read(std::size_t output, std::uint64_t first, std::uint64_t count) const {
   std::vector<double> values(count);
-  const Lock lock(hdf5::library());
-  impl_->samples.read(output, first, count, values.data());
+  impl_->samples.read(impl_->rows.at(output), first, count, values.data());
   return values;
 }
 
 std::vector<std::uint8_t> StoredSamples::read_status(std::uint64_t first, std::uint64_t count) const {
   std::vector<std::uint8_t> status(count);
-  const Lock lock(hdf5::library());
   impl_->samples.read_status(first, count, status.data());
   return status;
 }
@@ -51,8 +50,9 @@ std::vector<std::uint8_t> StoredSamples::read_status(std::uint64_t first, std::u
 analysis::StoppingRecord StoredSamples::read_stopping() const {
   analysis::StoppingRecord s;
   const Lock lock(hdf5::library());
-  if (H5Lexists(impl_->file, "stopping", H5P_DEFAULT) <= 0) return s;
-  const hdf5::Handle stopping = hdf5::open_group(impl_->file, "stopping");
+  const hdf5::Handle file = open_file(impl_->path, H5F_ACC_RDONLY);
+  if (H5Lexists(file, "stopping", H5P_DEFAULT) <= 0) return s;
+  const hdf5::Handle stopping = hdf5::open_group(file, "stopping");
   s.rule = hdf5::read_text(stopping, "rule");
   s.digits = static_cast<int>(hdf5::read_integer(stopping, "digits"));
   s.block = hdf5::read_integer(stopping, "block");

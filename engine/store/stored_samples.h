@@ -12,8 +12,8 @@ namespace gumshoe::store {
 
 class StoredSamples {
 public:
-  /// Throws InputError if the file has no samples of these outputs.
-  StoredSamples(const std::string& path, const std::vector<propagation::Output>& outputs, std::uint64_t samples);
+  /// Throws InputError if the file has no samples of these outputs. require_sound_samples() checks them.
+  StoredSamples(const std::string& path, const std::vector<propagation::Output>& outputs);
   ~StoredSamples();
   /// Values of one output row (SI, NaN where failed), samples [first, first + count).
   std::vector<double> read(std::size_t output, std::uint64_t first, std::uint64_t count) const;

@@ -161,9 +161,13 @@ void write_trace_group(hid_t file, const Trace& t) {
 
 } // namespace
 
-void write_trace(const std::string& path, const scenario::Scenario& s, const ModelCard& card, const Trace& trace,
+void write_trace(Draft& draft, const Claim& claim, const scenario::Scenario& s, const ModelCard& card, const Trace& trace,
                  const TracedBudgets& budgets) {
-  write_whole(path, s, s.trace.seed, static_cast<std::uint64_t>(trace.draws), [&](hid_t file) {
+  Identity identity = identity_of(s);
+  identity.command = "trace";
+  identity.seed = s.trace.seed;
+  identity.samples = static_cast<std::uint64_t>(trace.draws);
+  write_whole(draft, claim, identity, s, [&](hid_t file) {
     hdf5::write_attribute(file, "model_title", std::string(card.title));
     write_data(file, s, card);
     write_residuals(file, s, card, trace);

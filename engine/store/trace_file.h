@@ -5,6 +5,7 @@
 
 #include "analysis/results.h"
 #include "base/card.h"
+#include "store/draft.h"
 #include "tracing/trace.h"
 
 namespace gumshoe::store {
@@ -14,9 +15,8 @@ struct TracedBudgets {
   std::vector<analysis::Budget> before, after;
 };
 
-/// Writes the whole file in one go; an older result of ours is replaced. `card`: of the scenario's model. Throws
-/// OutputError naming path and reason.
-void write_trace(const std::string& path, const scenario::Scenario& scenario, const ModelCard& card,
+/// Adds the whole file to the draft. `card`: of the scenario's model. Throws OutputError naming path and reason.
+void write_trace(Draft& draft, const Claim& claim, const scenario::Scenario& scenario, const ModelCard& card,
                  const tracing::Trace& trace, const TracedBudgets& budgets);
 
 } // namespace gumshoe::store

@@ -8,9 +8,9 @@
 
 namespace gumshoe::store {
 
-/// Root attributes, with the seed and the number of samples that the results are of, a marker of no samples, then
-/// `contents`; takes its place at `path` when complete. Throws OutputError naming path and reason.
-void write_whole(const std::string& path, const scenario::Scenario& scenario, std::uint64_t seed, std::uint64_t samples,
+/// Adds a file to the draft: root attributes, with the seed and the number of samples that the results are of, a marker
+/// of no samples, then `contents`. Throws OutputError naming path and reason.
+void write_whole(Draft& draft, const Claim& claim, Identity identity, const scenario::Scenario& scenario,
                  const std::function<void(hid_t file)>& contents);
 
 } // namespace gumshoe::store

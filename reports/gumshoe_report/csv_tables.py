@@ -140,15 +140,10 @@ def text(lines):
     return out.getvalue()
 
 
-def write(r, folder, stem):
-    """Every table that has rows, and the budget as a workbook. Returns the paths."""
-    written = []
-    for name, lines in {**plain(r), **sensitivity(r), **decisions(r), **choice(r.choice), **trace(r.trace)}.items():
-        if lines:
-            path = folder / f"{stem}_{name}.csv"
-            path.write_bytes(text(lines).encode("utf-8"))
-            written.append(path)
+def files(r, folder, stem):
+    """Every table that has rows, and the budget as a workbook: their contents by the paths where they belong."""
+    found = {folder / f"{stem}_{name}.csv": text(lines).encode("utf-8") for name, lines in
+             {**plain(r), **sensitivity(r), **decisions(r), **choice(r.choice), **trace(r.trace)}.items() if lines}
     if book := workbook.budget(r):
-        written.append(folder / f"{stem}_budget.xlsx")
-        written[-1].write_bytes(book)
-    return written
+        found[folder / f"{stem}_budget.xlsx"] = book
+    return found

@@ -4,6 +4,8 @@ import types
 import h5py
 import numpy as np
 
+from . import record
+
 
 class NotAResult(Exception):
     """The message names the file, what is wrong with it and what would be right."""
@@ -112,9 +114,13 @@ def result(path):
     if not path.exists():
         raise NotAResult(f"'{path}' does not exist.")
     try:
+        with open(path, "rb") as file:
+            if file.read(8) != b"\x89HDF\r\n\x1a\n":
+                raise NotAResult(f"'{path}' is not a Gumshoe result (it is not an HDF5 file).")
+        record.check(path)
         file = h5py.File(path, "r")
-    except OSError as problem:
-        raise NotAResult(f"'{path}' is not a Gumshoe result ({problem}).") from None
+    except (OSError, record.Damaged) as problem:
+        raise NotAResult(f"'{path}' cannot be read as a Gumshoe result ({problem}).") from None
     with file:
         r = types.SimpleNamespace(**{k: plain(v) for k, v in file.attrs.items()}, path=path)
         if getattr(r, "program", "") != "gumshoe":

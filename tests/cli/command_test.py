@@ -211,6 +211,39 @@ for line in sys.stdin:
                 self.assertLess(time.monotonic() - start, 10)
                 self.refused(run, "longer than 1 s", "model.time_limit")
 
+    def test_it_inherits_nothing(self):
+        body = "names = os.listdir('/proc/self/fd')\nopen('open.txt', 'w').write(' '.join(names))\n" + GOOD
+        with open(self.folder / "held", "w") as held:
+            os.set_inheritable(held.fileno(), True)
+            run = gumshoe("run", self.scenario(body), "--out", self.folder / "r.h5", pass_fds=(held.fileno(),))
+        self.assertEqual(run.returncode, 0, run.stderr)
+        found = {int(name) for name in (self.folder / "open.txt").read_text().split()}
+        self.assertLessEqual(found, {0, 1, 2, 3})  # 3: the list itself
+
+    def test_it_ends_with_its_parent(self):
+        body = ("import subprocess\nchild = subprocess.Popen(['sleep', '1000'])\n"
+                "open('pids', 'w').write(f'{os.getpid()} {child.pid}\\n')\ntime.sleep(1000)\n")
+        process = subprocess.Popen([GUMSHOE, "run", self.scenario(body), "--out", self.folder / "r.h5"],
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.addCleanup(lambda: (process.kill(), process.wait()))
+        started, until = self.folder / "pids", time.monotonic() + 30
+        while not (started.exists() and started.read_text().endswith("\n")):
+            self.assertLess(time.monotonic(), until)
+            time.sleep(0.02)
+        process.kill()
+        process.wait()
+
+        def alive(pid):
+            try:
+                return pathlib.Path(f"/proc/{pid}/stat").read_text().split(") ")[1][0] != "Z"
+            except FileNotFoundError:
+                return False
+
+        until = time.monotonic() + 10
+        while any(map(alive, started.read_text().split())):
+            self.assertLess(time.monotonic(), until, "an orphan lives on")
+            time.sleep(0.02)
+
     def test_no_such_program(self):
         run = gumshoe("check", self.scenario(change=lambda t: t.replace('"python3"', '"no-such-program"')))
         self.refused(run, "cannot be started", "No such file")

@@ -46,14 +46,14 @@ class Estimate(unittest.TestCase):
         return file
 
     def fit(self, *words, code=0, **options):
-        run = gumshoe("estimate", self.scenario(*words, **options), "--format", "json")
+        run = gumshoe("estimate", self.scenario(*words, **options), "--format", "json", cwd=self.path)
         self.assertEqual(run.returncode, code, run.stderr)
         return json.loads(run.stdout)
 
     def refusal(self, *words, **options):
-        run = gumshoe("estimate", self.scenario(*words, **options))
+        run = gumshoe("estimate", self.scenario(*words, **options), cwd=self.path)
         self.assertIsNone(complaint(run), run.stderr)
-        self.assertFalse((self.path / "line.estimated.toml").exists())
+        self.assertFalse((self.path / "results/line.estimated.toml").exists())
         return run.stderr
 
     def test_a_line_by_hand(self):
@@ -71,7 +71,7 @@ class Estimate(unittest.TestCase):
 
     def test_the_written_scenario_runs(self):
         self.fit()
-        written = self.path / "line.estimated.toml"
+        written = self.path / "results/line.estimated.toml"
         with open(written, "rb") as file:
             document = tomllib.load(file)
         self.assertIn("hash", document["quantities"]["a"]["source"])
@@ -94,7 +94,7 @@ class Estimate(unittest.TestCase):
         run = gumshoe("estimate", self.scenario(), "--scenario-out", other / "w.toml")
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertEqual(gumshoe("check", other / "w.toml").returncode, 0)
-        self.assertFalse((self.path / "line.estimated.toml").exists())
+        self.assertFalse((self.path / "results/line.estimated.toml").exists())
 
     def test_equal_bits_again(self):
         self.assertEqual(self.fit(), self.fit())
@@ -102,7 +102,7 @@ class Estimate(unittest.TestCase):
     def test_nist(self):
         for file in sorted(GAUGE.glob("strd_*.toml")):
             with self.subTest(file.name):
-                run = gumshoe("estimate", file, "--scenario-out", self.path / "w.toml", "--format", "json")
+                run = gumshoe("estimate", file, "--scenario-out", self.path / "w.toml", "--force", "--format", "json")
                 self.assertEqual(run.returncode, 0, run.stderr)
                 self.assertTrue(json.loads(run.stdout)["converged"])
 
@@ -110,11 +110,11 @@ class Estimate(unittest.TestCase):
         # 1 - exp(-b x) nears data above 1 for ever: no minimum.
         text = LINE.replace("a + b * x", "1 - exp(-b * (x + 1)) + 0 * a").replace("[quantities.a]\nestimated = true", "[quantities.a]")
         file = self.scenario(text, data="x,y\n0,1\n1,1.1\n2,1.2\n")
-        run = gumshoe("estimate", file, "--format", "json")
+        run = gumshoe("estimate", file, "--format", "json", cwd=self.path)
         self.assertEqual(run.returncode, 3, run.stderr)
         self.assertFalse(json.loads(run.stdout)["converged"])
         self.assertIn("did not converge", run.stderr)
-        self.assertFalse((self.path / "line.estimated.toml").exists())
+        self.assertFalse((self.path / "results/line.estimated.toml").exists())
 
     def test_no_estimated_quantity(self):
         self.assertIn("no quantity is marked estimated", self.refusal(LINE.replace("estimated = true\n", "")))

@@ -81,7 +81,7 @@ class Machine(unittest.TestCase):
     def recovers(self, head, truth, known, sides, poses):
         (self.path / "data.csv").write_text(table(truth, sides, poses))
         self.file.write_text(head + readings(poses[0]) + quantities(truth, known))
-        run = gumshoe("estimate", self.file, "--format", "json")
+        run = gumshoe("estimate", self.file, "--format", "json", cwd=self.file.parent)
         self.assertEqual(run.returncode, 0, run.stderr)
         fit = json.loads(run.stdout)
         self.assertEqual(fit["rank"], len(truth) - len(known), fit)

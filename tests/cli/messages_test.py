@@ -215,7 +215,7 @@ class Messages(unittest.TestCase):
     def refused(self, text, command, words):
         self.file.write_text(text)
         out = self.file.parent / "never.h5"
-        run = gumshoe(*(self.file if w == "S" else out if w == "O" else w for w in command))
+        run = gumshoe(*(self.file if w == "S" else out if w == "O" else w for w in command), cwd=self.file.parent)
         self.assertIsNone(complaint(run), run.stderr)
         self.assertIn(words, run.stderr)
 
@@ -288,7 +288,7 @@ class Messages(unittest.TestCase):
             '[model.indications]\nz = "a + b"\n[indications.z]\nrepeatability = { s = "1 um" }\n'
             'rows = [{ n = "1", values = ["3 mm"] }, { n = "2", values = ["3 mm"] }]\n')
         self.file.write_text(text)
-        run = gumshoe("estimate", self.file)
+        run = gumshoe("estimate", self.file, cwd=self.file.parent)
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertIn("no scenario is written", run.stderr)
         self.assertIn("the data do not determine it", run.stderr)

@@ -79,7 +79,7 @@ class Run(unittest.TestCase):
 
     def result(self, name, scenario, samples, *more, code=0, environment=None):
         path = self.folder / name
-        run = gumshoe("run", scenario, "--samples", samples, "--out", path, *more, env={**os.environ, **(environment or {})})
+        run = gumshoe("run", scenario, "--samples", samples, "--out", path, "--force", *more, env={**os.environ, **(environment or {})})
         self.assertEqual(run.returncode, code, run.stderr)
         if code == 0:
             self.assertEqual(run.stderr, "")  # no progress where stderr is no terminal

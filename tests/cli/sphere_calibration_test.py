@@ -101,7 +101,7 @@ class SphereCalibration(unittest.TestCase):
         text += "".join(f"[quantities.{name}]\nestimated = true\n" for name in TRUTH)
         text += "".join(f'[indications.{name}]\nreadings = {{ file = "data.csv", column = "{name}", unit = "mm", {angles} }}\n' for name in "XYZ")
         (self.path / "fit.toml").write_text(text)
-        run = gumshoe("estimate", self.path / "fit.toml", "--format", "json")
+        run = gumshoe("estimate", self.path / "fit.toml", "--format", "json", cwd=self.path)
         self.assertEqual(run.returncode, 0, run.stderr)
         fit = json.loads(run.stdout)
         self.assertEqual(fit["rank"], 11)
@@ -128,14 +128,14 @@ class SphereCalibration(unittest.TestCase):
         text += "".join(f'[indications.{name}]\nreadings = {{ file = "data.csv", column = "{name}", unit = "mm", {angles} }}\n' for name in "XYZ")
         without = text.replace("[quantities.sphere_distance]\nestimated = true\n", "")
         (self.path / "fit.toml").write_text(without)
-        run = gumshoe("estimate", self.path / "fit.toml", "--format", "json")
+        run = gumshoe("estimate", self.path / "fit.toml", "--format", "json", cwd=self.path)
         self.assertEqual(run.returncode, 0, run.stderr)
         for name, value in json.loads(run.stdout)["parameters"].items():
             # Two ways to the same minimum; near it 1e-9 of a quantity is 1e-12 of the squares.
             self.assertAlmostEqual(float(found[f"{name} ({UNITS[name]})"]), value["value"], delta=1e-9 * max(1, abs(value["value"])))
         # The artefact's place cannot be told from the machine's.
         (self.path / "fit.toml").write_text(text)
-        run = gumshoe("estimate", self.path / "fit.toml")
+        run = gumshoe("estimate", self.path / "fit.toml", cwd=self.path)
         words = run.stdout + run.stderr
         self.assertIn("indistinguishable", words)
         for name in ("sphere_distance", "probe_x", "E_X0C", "E_X0B"):

@@ -375,7 +375,10 @@ Traced trace(const std::string& name) {
 
 void write_trace(const std::string& name, const std::string& path) {
   const Traced t = trace(name);
-  store::write_trace(path, t.scenario, *models::find("rod_gauging")->card, t.trace, t.budgets);
+  const store::Claim claim(path);
+  store::Draft draft;
+  store::write_trace(draft, claim, t.scenario, *models::find("rod_gauging")->card, t.trace, t.budgets);
+  draft.publish();
 }
 
 } // namespace gumshoe::made

@@ -57,6 +57,7 @@ constexpr std::uint64_t block_samples = made::samples, most = 4 * block_samples,
 store::Identity identity() {
   store::Identity id;
   id.scenario_hash = "0123456789abcdef";
+  id.scenario_place = "fedcba9876543210";
   id.scenario_text = "schema = 1\n";
   id.adaptive = "stein 2 100000";
   id.samples = block_samples;
@@ -149,6 +150,9 @@ TEST_CASE("a result of ours that cannot be read gives way to a run from the star
     INFO("cut to " << part << "/16 of its length");
     fs::resize_file(path, whole.size() * static_cast<std::size_t>(part) / 16);
     CHECK_THROWS_AS(store::read_identity(path), InputError);
+    store::Identity other = identity();
+    other.scenario_place = "of another scenario";
+    CHECK_THROWS_AS(ResultFile(path, other, made::outputs(), {"1"}), OutputError);
     std::string remark;
     run(path, &remark);
     CHECK(remark.find("truncated") != std::string::npos);

@@ -42,7 +42,9 @@ Identity identity() {
           7,
           samples,
           true,
-          "fedcba9876543210"};
+          "fedcba9876543210",
+          "run",
+          "8899aabbccddeeff"};
 }
 
 const std::vector<Output> outputs = {{"laser_z[1]", "laser_z", 0, "mm", "m"}, {"laser_z[2]", "laser_z", 1, "mm", "m"}};
@@ -173,15 +175,29 @@ TEST_CASE("only a run of the same identity is resumed", "[store]") {
   }
 }
 
-TEST_CASE("a run without stored samples keeps them in memory", "[store]") {
+TEST_CASE("a run without stored samples keeps them until it is complete", "[store]") {
   const Folder folder;
+  const std::string path = folder / "run.h5";
   Identity id = identity();
   id.store_samples = false;
-  ResultFile file(folder / "run.h5", id, outputs, labels);
-  for (std::uint64_t k = 0; k < blocks; ++k) file.write(block(k));
-  file.finish(results());
+  { ResultFile(path, id, outputs, labels).write(block(0)); }
+  ResultFile file(path, id, outputs, labels);
+  REQUIRE(file.samples_done() == block_samples);
+  for (std::uint64_t k = 1; k < blocks; ++k) file.write(block(k));
   check_values(file, 0, samples);
-  CHECK(fs::file_size(folder / "run.h5") < (1u << 20));
+  file.finish(results());
+  CHECK_THROWS_AS(file.read(0, 0, 1), std::out_of_range);
+  CHECK(store::read_identity(path).samples_done == samples);
+}
+
+TEST_CASE("one process writes a file at a time", "[store][errors]") {
+  const Folder folder;
+  const std::string path = folder / "run.h5";
+  {
+    const ResultFile first(path, identity(), outputs, labels);
+    CHECK(message(path, identity()).find("another process is writing this file") != std::string::npos);
+  }
+  CHECK(message(path, identity()).empty());
 }
 
 TEST_CASE("nothing that is not ours is overwritten", "[store][errors]") {
@@ -195,10 +211,16 @@ TEST_CASE("nothing that is not ours is overwritten", "[store][errors]") {
     { ResultFile(path, identity(), outputs, labels).write(block(0)); }
     fs::resize_file(path, 1500);
   }
+  SECTION("a result of another scenario cut by a byte") {
+    Identity other = identity();
+    other.scenario_place = "0011223344556677";
+    { ResultFile(path, other, outputs, labels).write(block(0)); }
+    fs::resize_file(path, fs::file_size(path) - 1);
+  }
   const std::string before = bytes(path);
   CHECK(message(path, identity()).find("not a Gumshoe result") != std::string::npos);
   CHECK(message(path, identity()).find(path) != std::string::npos);
-  CHECK(bytes(path) == before);
+  CHECK((bytes(path) == before)); // bracketed: not to be printed
   CHECK_THROWS_AS(store::read_identity(path), InputError);
   CHECK(std::distance(fs::directory_iterator(folder.path()), {}) == 1); // no litter
 }
@@ -275,7 +297,7 @@ TEST_CASE("groups stand only where a study was made, also after another was", "[
                            "joint",       "circular", "conformity", "target", "stopping"};
   for (const char* study : studies) CHECK(holds(study));
   {
-    ResultFile file(path, identity(), outputs, labels);
+    ResultFile file(path, identity(), outputs, labels, true);
     for (std::uint64_t k = 0; k < blocks; ++k) file.write(block(k));
     file.finish(results());
   }

@@ -7,14 +7,15 @@
 #include <csignal>
 #include <ctime>
 #include <thread>
+#include <utility>
 
 #include <fcntl.h>
 #include <poll.h>
-#include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-extern char** environ;
+#include "models/command/watch.h"
 
 namespace gumshoe::models {
 namespace {
@@ -47,37 +48,53 @@ struct Pipe {
   bool make() {
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0) return false; // closed in every other program that another thread starts
+    for (int& end : ends) // 0, 1 and 2 are to be replaced in the program
+      if (end < 3) {
+        const int moved = fcntl(end, F_DUPFD_CLOEXEC, 3);
+        ::close(std::exchange(end, moved));
+      }
     read = Descriptor(ends[0]);
     write = Descriptor(ends[1]);
     return true;
   }
 };
 
+/// The program itself, in a process that still shares our memory. It inherits nothing but its three pipes, and it is
+/// killed when this process ends, however that happens. Returns errno if it cannot be started.
+int become(char* const* words, const char* folder, const Pipe& in, const Pipe& out, const Pipe& errors, pid_t parent) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) return ESRCH; // we are gone already
+  setpgid(0, 0);
+  for (const int s : {SIGPIPE, SIGXFSZ, SIGINT, SIGTERM}) std::signal(s, SIG_DFL);
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+  if (dup2(in.read.number(), 0) < 0 || dup2(out.write.number(), 1) < 0 || dup2(errors.write.number(), 2) < 0) return errno;
+  close_range(3, ~0U, 0);
+  if (*folder && chdir(folder) != 0) return errno;
+  execvp(words[0], words);
+  return errno;
+}
+
 /// Starts the program; errno if it cannot.
 int start(const std::vector<std::string>& words, const std::string& folder, const Pipe& in, const Pipe& out,
           const Pipe& errors, pid_t& pid) {
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, in.read.number(), 0);
-  posix_spawn_file_actions_adddup2(&actions, out.write.number(), 1);
-  posix_spawn_file_actions_adddup2(&actions, errors.write.number(), 2);
-  if (!folder.empty()) posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  sigset_t none, usual;
-  sigemptyset(&none);
-  sigemptyset(&usual);
-  for (const int s : {SIGPIPE, SIGXFSZ, SIGINT, SIGTERM}) sigaddset(&usual, s);
-  posix_spawnattr_setsigmask(&attributes, &none);
-  posix_spawnattr_setsigdefault(&attributes, &usual);
-  posix_spawnattr_setpgroup(&attributes, 0);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
   std::vector<char*> arguments;
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
-  const int error = posix_spawnp(&pid, arguments[0], &actions, &attributes, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  posix_spawnattr_destroy(&attributes);
+  sigset_t all, before;
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &before); // no handler of ours runs in the new process
+  const pid_t self = getpid();
+  volatile int error = 0;
+  pid = vfork(); // this thread waits until the program runs: its memory need not be copied
+  if (pid == 0) {
+    error = become(arguments.data(), folder.c_str(), in, out, errors, self);
+    _exit(127);
+  }
+  if (pid < 0) error = errno;
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  if (pid > 0 && error != 0) waitpid(pid, nullptr, 0);
   return error;
 }
 
@@ -132,6 +149,7 @@ ProcessRun run_process(const std::vector<std::string>& words, const std::string&
   pid_t pid = 0;
   run.code = start(words, folder, in, out, errors, pid);
   if (run.code != 0) return run;
+  const Watch watch(pid);
   Child child(pid);
   in.read.close();
   out.write.close();

@@ -1,0 +1,146 @@
+#include "store/draft.h"
+
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <thread>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace gumshoe::store {
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char *lock_ending = ".gumshoe-lock", *draft_ending = ".gumshoe-new";
+
+/// Whether the file still has its name: another process may have removed it before it was locked.
+bool named(int file, const std::string& name) {
+  struct stat held {}, there {};
+  return fstat(file, &held) == 0 && lstat(name.c_str(), &there) == 0 && held.st_ino == there.st_ino &&
+         held.st_dev == there.st_dev;
+}
+
+/// Removes locks and drafts whose processes are gone: those that nobody holds.
+void remove_leftovers(const fs::path& folder) {
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    const std::string name = entry.path().string();
+    if (!name.ends_with(lock_ending) && !name.ends_with(draft_ending)) continue;
+    const int file = open(name.c_str(), O_RDWR | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
+    if (file < 0) continue;
+    if (flock(file, LOCK_EX | LOCK_NB) == 0 && named(file, name)) unlink(name.c_str());
+    close(file);
+  }
+}
+
+/// Whether another program has the file open, as HDF5 locks the files that it opens.
+bool open_elsewhere(const std::string& path) {
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (file < 0) return false;
+  const bool held = flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  close(file);
+  return held;
+}
+
+} // namespace
+
+LockedFile::LockedFile(const std::string& name, bool fresh) {
+  const int flags = O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC | (fresh ? O_EXCL : 0);
+  for (int attempt = 0; attempt < 20; ++attempt) {
+    number_ = open(name.c_str(), flags, 0666);
+    if (number_ < 0) throw OutputError("cannot create '" + name + "'", std::strerror(errno));
+    // A file system that cannot lock is used without: then nothing keeps two processes apart.
+    const bool locked = flock(number_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
+    if (locked && named(number_, name)) return;
+    close(number_);
+    number_ = -1;
+    if (!locked) std::this_thread::sleep_for(std::chrono::milliseconds(10)); // perhaps only looked at by another process
+  }
+}
+
+LockedFile& LockedFile::operator=(LockedFile&& other) noexcept {
+  std::swap(number_, other.number_);
+  return *this;
+}
+
+LockedFile::~LockedFile() {
+  if (number_ >= 0) close(number_);
+}
+
+Claim::Claim(const std::string& path) : path_(path) {
+  naming(path, [&] {
+    target_ = destination(path);
+    remove_leftovers(fs::path(target_).parent_path());
+    const std::string name = target_ + lock_ending;
+    lock_ = LockedFile(name, false);
+    const char* wait = "wait until it has finished, or choose another name";
+    if (!lock_) {
+      std::string holder;
+      std::getline(std::ifstream(name), holder);
+      throw OutputError("another process is writing this file", holder, wait);
+    }
+    const std::string self = "process " + std::to_string(getpid()) + '\n';
+    if (ftruncate(lock_.number(), 0) != 0 || pwrite(lock_.number(), self.data(), self.size(), 0) < 0) {
+    } // a full disk: the lock holds without the name
+    if (open_elsewhere(target_)) {
+      unlink(name.c_str());
+      throw OutputError("not overwritten", "another program has it open", "wait until it is closed");
+    }
+  });
+}
+
+Claim::~Claim() {
+  if (lock_) unlink((target_ + lock_ending).c_str());
+}
+
+Draft::~Draft() {
+  for (const File& file : files_) unlink(file.name.c_str());
+}
+
+std::string Draft::add(const Claim& claim) {
+  std::string name = claim.target() + '.' + std::to_string(getpid()) + draft_ending;
+  files_.push_back({name, claim.target(), LockedFile(name, true)});
+  return name;
+}
+
+std::string Draft::add(const Claim& claim, const std::string& text) {
+  return naming(claim.path(), [&] {
+    const std::string name = add(claim);
+    std::FILE* file = std::fopen(name.c_str(), "wb");
+    const bool wrote = file && std::fwrite(text.data(), 1, text.size(), file) == text.size();
+    const bool closed = file && std::fclose(file) == 0;
+    if (!wrote || !closed) throw OutputError("cannot be written", std::strerror(errno));
+    return name;
+  });
+}
+
+void Draft::publish(bool durable) {
+  std::set<fs::path> folders;
+  for (const File& file : files_) {
+    if (durable && fsync(file.lock.number()) != 0 && errno != EINVAL)
+      throw OutputError("'" + file.target + "': cannot be written", std::strerror(errno));
+    folders.insert(fs::path(file.target).parent_path());
+  }
+  for (const File& file : files_)
+    if (std::rename(file.name.c_str(), file.target.c_str()) != 0)
+      throw OutputError("'" + file.target + "': cannot be moved into place", std::strerror(errno));
+  for (const std::string& path : removed_) unlink(path.c_str());
+  files_.clear();
+  if (!durable) return;
+  for (const fs::path& folder : folders) {
+    const int file = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (file < 0) continue;
+    fsync(file);
+    close(file);
+  }
+}
+
+} // namespace gumshoe::store

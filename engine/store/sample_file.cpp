@@ -1,0 +1,146 @@
+#include "store/sample_file.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "base/error.h"
+#include "base/hash.h"
+
+namespace gumshoe::store {
+
+static_assert(std::endian::native == std::endian::little, "files hold numbers as this computer does");
+
+namespace {
+
+/// Most statuses are 0: only the others count.
+std::uint64_t digest_of_status(const std::uint8_t* status, std::uint64_t count, std::uint64_t first) {
+  std::uint64_t sum = 0;
+  for (std::uint64_t i = 0; i < count; ++i)
+    if (status[i] != 0) sum += mix64(mix64(first + i) + status[i]);
+  return sum;
+}
+
+/// Of a block without samples: so that places that were never written are known.
+std::uint64_t empty_digest(std::uint64_t block) { return mix64(~block); }
+
+/// Calls action(block, first, count) for the parts of [first, first + count) in each digest's block.
+template <class Action> void by_block(std::uint64_t first, std::uint64_t count, Action action) {
+  for (const std::uint64_t end = first + count; first < end;) {
+    const std::uint64_t block = first / digest_samples, next = std::min(end, (block + 1) * digest_samples);
+    action(block, first, next - first);
+    first = next;
+  }
+}
+
+} // namespace
+
+std::vector<std::pair<std::string, std::uint64_t>> rows_of(const std::vector<propagation::Output>& outputs) {
+  std::vector<std::pair<std::string, std::uint64_t>> rows;
+  for (const auto& output : outputs) rows.emplace_back(output.measurand, output.reading);
+  return rows;
+}
+
+SampleFile::SampleFile(RawFile file, const Record& record) : file_(std::move(file)), samples_(record.identity.samples) {
+  const auto place = [&](const std::string& name) {
+    const auto at = record.places.find(name);
+    if (at == record.places.end()) throw OutputError("it holds no samples");
+    return at->second;
+  };
+  const auto require = [](bool holds) {
+    if (!holds) throw OutputError("the record of its samples contradicts itself");
+  };
+  const Span status = place("outputs/status"), digests = place("digests"), marker = place("samples_done");
+  require(samples_ > 0 && status.bytes == samples_ && marker.bytes == 8);
+  for (const auto& [measurand, reading] : record.rows) {
+    const Span values = place("outputs/" + measurand);
+    const std::uint64_t row = 8 * samples_;
+    require(values.bytes % row == 0 && reading < values.bytes / row);
+    rows_.push_back(values.offset + reading * row);
+  }
+  require(digests.bytes == 8 * digest_blocks(samples_) * (rows_.size() + 1));
+  status_ = status.offset, digests_at_ = digests.offset, marker_ = marker.offset;
+  digests_.resize(digests.bytes / 8);
+  reset_digests(0);
+  file_.read(&marked_, 8, marker_);
+}
+
+void SampleFile::reset_digests(std::uint64_t from_block) {
+  for (std::uint64_t block = from_block; block < digest_blocks(samples_); ++block)
+    std::fill_n(&digest(block, 0), rows_.size() + 1, empty_digest(block));
+}
+
+void SampleFile::read(std::size_t row, std::uint64_t first, std::uint64_t count, double* values) const {
+  file_.read(values, 8 * count, place(row, first));
+}
+
+void SampleFile::read_status(std::uint64_t first, std::uint64_t count, std::uint8_t* status) const {
+  file_.read(status, count, status_ + first);
+}
+
+void SampleFile::write(const propagation::ResultBlock& b) {
+  for (std::size_t row = 0; row < rows_.size(); ++row) {
+    const double* values = b.outputs.data() + row * b.samples;
+    file_.write(values, 8 * b.samples, place(row, b.first_sample));
+    by_block(b.first_sample, b.samples, [&](std::uint64_t block, std::uint64_t first, std::uint64_t count) {
+      digest(block, row) += digest64(values + (first - b.first_sample), count, first);
+    });
+  }
+  file_.write(b.status.data(), b.samples, status_ + b.first_sample);
+  by_block(b.first_sample, b.samples, [&](std::uint64_t block, std::uint64_t first, std::uint64_t count) {
+    digest(block, rows_.size()) += digest_of_status(b.status.data() + (first - b.first_sample), count, first);
+  });
+}
+
+void SampleFile::mark(std::uint64_t done, bool durable) {
+  if (done <= marked_) return;
+  const std::uint64_t first = marked_ / digest_samples, end = digest_blocks(done), width = 8 * (rows_.size() + 1);
+  if (end > first) file_.write(&digest(first, 0), (end - first) * width, digests_at_ + first * width);
+  if (durable) file_.sync();
+  file_.write(&done, 8, marker_);
+  marked_ = done;
+}
+
+std::uint64_t SampleFile::sound() {
+  std::uint64_t sound = std::min(marked_, samples_);
+  constexpr std::uint64_t part = 64 * digest_samples;
+  std::vector<double> values(part);
+  std::vector<std::uint8_t> status(part);
+  file_.read(digests_.data(), 8 * digests_.size(), digests_at_);
+  for (std::size_t row = 0; row <= rows_.size(); ++row)
+    for (std::uint64_t begin = 0; begin < sound; begin += part) {
+      const std::uint64_t n = std::min(part, sound - begin);
+      row < rows_.size() ? read(row, begin, n, values.data()) : read_status(begin, n, status.data());
+      by_block(begin, n, [&](std::uint64_t block, std::uint64_t first, std::uint64_t count) {
+        const std::uint64_t found =
+            empty_digest(block) + (row < rows_.size() ? digest64(&values[first - begin], count, first)
+                                                      : digest_of_status(&status[first - begin], count, first));
+        if (found != digest(block, row)) sound = std::min(sound, first);
+      });
+    }
+  marked_ = sound;
+  reset_digests(digest_blocks(sound));
+  return sound;
+}
+
+void SampleFile::copy_to(SampleFile& other, std::uint64_t count) const {
+  std::vector<char> bytes(std::size_t{1} << 20);
+  const auto copy = [&](std::uint64_t from, std::uint64_t to, std::uint64_t length) {
+    for (std::uint64_t at = 0; at < length; at += bytes.size()) {
+      const std::uint64_t n = std::min<std::uint64_t>(bytes.size(), length - at);
+      file_.read(bytes.data(), n, from + at);
+      other.file_.write(bytes.data(), n, to + at);
+    }
+  };
+  for (std::size_t row = 0; row < rows_.size(); ++row) copy(place(row, 0), other.place(row, 0), 8 * count);
+  copy(status_, other.status_, count);
+  const std::uint64_t whole = count / digest_samples * (rows_.size() + 1);
+  std::copy_n(digests_.begin(), whole, other.digests_.begin());
+  const std::uint64_t first = count / digest_samples * digest_samples, rest = count - first;
+  if (rest == 0) return;
+  propagation::ResultBlock last{first, rest, std::vector<double>(rows_.size() * rest), std::vector<std::uint8_t>(rest)};
+  for (std::size_t row = 0; row < rows_.size(); ++row) read(row, first, rest, &last.outputs[row * rest]);
+  read_status(first, rest, last.status.data());
+  other.write(last);
+}
+
+} // namespace gumshoe::store

@@ -1,0 +1,57 @@
+#pragma once
+/// The samples of a result, read and written at their places in the file, without HDF5. Each block of each row has a
+/// digest. Private to this folder.
+#include <cstdint>
+#include <vector>
+
+#include "propagation/run.h"
+#include "store/raw_file.h"
+#include "store/record.h"
+
+namespace gumshoe::store {
+
+/// Samples to a digest; a block of a run holds whole ones.
+inline constexpr std::uint64_t digest_samples = 2048;
+/// Digests of a row.
+constexpr std::uint64_t digest_blocks(std::uint64_t samples) { return (samples + digest_samples - 1) / digest_samples; }
+
+/// The rows of a record: measurand and reading of each output.
+std::vector<std::pair<std::string, std::uint64_t>> rows_of(const std::vector<propagation::Output>& outputs);
+
+class SampleFile {
+public:
+  SampleFile() = default;
+  /// Throws OutputError if the record's places do not hold its samples.
+  SampleFile(RawFile file, const Record& record);
+
+  std::size_t rows() const { return rows_.size(); }
+  std::uint64_t samples() const { return samples_; }
+  /// Samples [first, first + count) of a row, or their status.
+  void read(std::size_t row, std::uint64_t first, std::uint64_t count, double* values) const;
+  void read_status(std::uint64_t first, std::uint64_t count, std::uint8_t* status) const;
+  /// Blocks come in order, each once.
+  void write(const propagation::ResultBlock& block);
+
+  /// The progress marker.
+  std::uint64_t marked() const { return marked_; }
+  /// Moves it, after the digests of what it counts; if `durable`, after the data are on the disk.
+  void mark(std::uint64_t done, bool durable);
+  /// How many of the samples counted by the marker stand before the first that is not as it was written. Samples from
+  /// there on may be written again.
+  std::uint64_t sound();
+  /// Copies samples [0, count) with their digests into a new file, which may have room for fewer or more.
+  void copy_to(SampleFile& other, std::uint64_t count) const;
+
+private:
+  std::uint64_t place(std::size_t row, std::uint64_t sample) const { return rows_[row] + 8 * sample; }
+  std::uint64_t& digest(std::uint64_t block, std::size_t row) { return digests_[block * (rows_.size() + 1) + row]; }
+  void reset_digests(std::uint64_t from_block);
+
+  RawFile file_;
+  std::uint64_t samples_ = 0, marked_ = 0;
+  std::vector<std::uint64_t> rows_; ///< where each row begins
+  std::uint64_t status_ = 0, digests_at_ = 0, marker_ = 0;
+  std::vector<std::uint64_t> digests_; ///< [block][row], the status last
+};
+
+} // namespace gumshoe::store

@@ -1,0 +1,197 @@
+"""Damaged results: every changed byte is noticed, and a resumed run takes no sample that is not as it was written.
+
+usage: damage_test.py path/to/gumshoe [unittest options]
+"""
+import json
+import os
+import pathlib
+import random
+import re
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+import h5py
+import numpy as np
+
+from program import GUMSHOE, ROOT, SCENARIO, complaint, gumshoe
+
+SAMPLES = 40_000
+# Blocks of 2,048 samples, a tenth of a second each; fast for a few points.
+SLOW = """schema = 1
+[model]
+name = "command"
+command = ["python3", "slow.py"]
+batch = 2048
+[model.measurands]
+y = "mm"
+[quantities]
+a = { value = "1 mm", u = "1 um" }
+[run]
+samples = 40000
+"""
+SLOW_PROGRAM = """import sys, time
+rows = sys.stdin.read().split()[2:]
+time.sleep(0.1 if len(rows) > 100 else 0)
+print("y (mm)", *rows, sep="\\n")
+"""
+
+
+def record(path):
+    """What the record at the end says."""
+    content = path.read_bytes()
+    length = int(re.search(rb"\ngumshoe record ([0-9a-f]{16}) [0-9a-f]{16}\n$", content)[1], 16)
+    return json.loads(content[-50 - length:-50])
+
+
+def change(path, at, flipped=1):
+    with open(path, "r+b") as file:
+        file.seek(at)
+        byte = file.read(1)[0]
+        file.seek(at)
+        file.write(bytes([byte ^ flipped]))
+
+
+class Damage(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = pathlib.Path(temporary.name)
+
+    def complete(self, *words):
+        scenario = self.folder / "rod.toml"
+        scenario.write_text(SCENARIO)
+        path = self.folder / "rod.h5"
+        run = gumshoe("run", scenario, "--samples", 3000, "--out", path, *words)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        return path
+
+    def test_every_changed_byte_is_noticed(self):
+        whole = self.complete()
+        said, size, chance = record(whole), whole.stat().st_size, random.Random(1)
+        places = {name: place for name, place in said["places"].items() if name != "samples_done"}
+        wanted = [chance.randrange(size) for _ in range(30)] + [0, 9, size - 1, size - 49, size - 30]
+        wanted += [offset + chance.randrange(length) for offset, length in places.values()]
+        with h5py.File(whole) as file:  # a figure that would be shown, and the heap that holds the texts
+            wanted += [file["summary/estimate"].id.get_offset(), whole.read_bytes().find(b"GCOL") + 16]
+        for at in wanted:
+            with self.subTest(at):
+                path = shutil.copy(whole, self.folder / "damaged.h5")
+                change(path, at, 1 << chance.randrange(8))
+                for words in (["replay", path, "--sample", 3], ["report", path], ["analyse", path]):
+                    run = gumshoe(*words)
+                    self.assertIsNone(complaint(run), f"{words[0]}: {run.stdout[:200]} {run.stderr}")
+                    self.assertIn("damaged.h5", run.stderr)
+                    self.assertRegex(run.stderr, "damaged|missing|is not an HDF5 file|another program")
+                again = gumshoe("run", self.folder / "rod.toml", "--samples", 3000, "--out", path)
+                self.assertIn(again.returncode, (0, 2), again.stderr)
+                if again.returncode == 0:
+                    with h5py.File(path) as a, h5py.File(whole) as b:
+                        np.testing.assert_array_equal(a["outputs/laser_z"][()], b["outputs/laser_z"][()])
+
+    def test_a_changed_marker_is_noticed(self):
+        path = self.complete()
+        change(path, record(path)["places"]["samples_done"][0] + 7, 64)
+        self.assertIn("the progress marker is damaged", gumshoe("replay", path, "--sample", 3).stderr)
+
+    def test_the_generator_alone_notices_too(self):
+        whole = self.complete()
+        for at, words in ((whole.stat().st_size // 2, "damaged|not those that were written"), (None, "truncated"), (0, "HDF5")):
+            path = shutil.copy(whole, self.folder / "damaged.h5")
+            with h5py.File(whole) as file:
+                at = file["summary/estimate"].id.get_offset() if at else at
+            os.truncate(path, 5000) if at is None else change(path, at)
+            run = subprocess.run(["/usr/bin/python3", ROOT / "reports/report.py", path], capture_output=True, text=True)
+            self.assertIsNone(complaint(run), run.stderr)
+            self.assertRegex(run.stderr, words)
+
+    def test_changes_by_another_program_are_noticed(self):
+        path = self.complete()
+        with h5py.File(path, "r+") as file:
+            file["summary/estimate"][0] = 1
+        for words in (["replay", path, "--sample", 3], ["report", path], ["analyse", path]):
+            run = gumshoe(*words)
+            self.assertIsNone(complaint(run), run.stderr)
+            self.assertIn("changed by another program", run.stderr)
+
+    # resuming
+
+    def interrupted(self, name, number=signal.SIGKILL, more=""):
+        """An unfinished run of a few blocks."""
+        (self.folder / "s.toml").write_text(SLOW + more)
+        (self.folder / "slow.py").write_text(SLOW_PROGRAM)
+        path = self.folder / name
+        run = subprocess.Popen([GUMSHOE, "run", "s.toml", "--threads", "2", "--out", name], cwd=self.folder,
+                               stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        until = time.monotonic() + 60
+        while time.monotonic() < until and run.poll() is None:
+            time.sleep(0.02)
+            if path.exists() and self.done(path) >= 4 * 2048:
+                break
+        self.assertIsNone(run.poll())
+        run.send_signal(number)
+        said = run.communicate(timeout=60)[1]
+        self.assertLess(self.done(path), SAMPLES)
+        return path, said
+
+    def done(self, path):
+        with h5py.File(path, locking=False) as file:
+            return int(file["samples_done"][0])
+
+    def resumed(self, path):
+        run = gumshoe("run", "s.toml", "--threads", "2", "--out", path, "--format", "json", cwd=self.folder)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        return run
+
+    def test_what_was_not_written_or_is_damaged_is_drawn_again(self):
+        path, _ = self.interrupted("killed.h5")
+        places, done = record(path)["places"], self.done(path)
+        values, status, digests, marker = (places[n][0] for n in ("outputs/y", "outputs/status", "digests", "samples_done"))
+        whole = self.resumed("whole.h5")
+        for name, damage in (("marker", lambda p: change(p, marker + 1, 0x40)), ("first", lambda p: change(p, values)),
+                             ("later", lambda p: change(p, values + 8 * 5000 + 6, 0x10)),
+                             ("status", lambda p: change(p, status + 3000)), ("digest", lambda p: change(p, digests + 8)),
+                             ("nothing", lambda p: None)):
+            with self.subTest(name):
+                damaged = shutil.copy(path, self.folder / f"{name}.h5")
+                damage(damaged)
+                first = {"marker": done, "first": 0, "later": 4096, "status": 2048, "digest": 0, "nothing": done}[name]
+                run = self.resumed(damaged)
+                self.assertEqual("are as they were written" in run.stderr, name != "nothing", run.stderr)
+                self.assertEqual(f"resuming after {first} samples" in run.stderr, first > 0, run.stderr)
+                self.assertEqual(run.stdout, whole.stdout)
+                with h5py.File(damaged) as a, h5py.File(self.folder / "whole.h5") as b:
+                    self.assertEqual(a["outputs/y"][()].tobytes(), b["outputs/y"][()].tobytes())
+
+    def test_a_run_without_stored_samples_resumes(self):
+        path, said = self.interrupted("s.h5", signal.SIGINT, "store_samples = false\n")
+        done = self.done(path)
+        self.assertIn("Repeat the command to resume", said)
+        run = self.resumed(path)
+        self.assertIn(f"resuming after {done} samples", run.stderr)
+        with h5py.File(path) as file:
+            self.assertNotIn("outputs", file)
+            self.assertEqual((int(file["samples_done"][0]), int(file.attrs["complete"])), (SAMPLES, 1))
+        self.assertLess(path.stat().st_size, 8 * SAMPLES)
+        (self.folder / "s.toml").write_text(SLOW)
+        self.assertEqual(self.resumed("stored.h5").stdout, run.stdout)
+
+    def test_storing_no_samples_takes_no_more_memory(self):
+        formula = ('schema = 1\n[model]\nname = "expression"\n[model.measurands]\ny = "a"\n[quantities]\n'
+                   'a = { value = "1 mm", u = "1 um" }\n[run]\nsamples = 5000000\nstore_samples = ')
+        peak = {}
+        for keep in ("true", "false"):
+            (self.folder / "m.toml").write_text(formula + keep + "\n")
+            process = subprocess.Popen([GUMSHOE, "run", "m.toml", "--threads", "2", "--out", f"{keep}.h5"], cwd=self.folder,
+                                       stdout=subprocess.DEVNULL)
+            _, status, usage = os.wait4(process.pid, 0)
+            self.assertEqual(status, 0)
+            peak[keep] = usage.ru_maxrss / 1024  # MiB
+        self.assertLess(peak["false"], peak["true"] + 10)  # samples are 38 MiB; scratch of threads varies by a few
+
+
+if __name__ == "__main__":
+    unittest.main()
