@@ -17,7 +17,11 @@ constexpr void expect(bool holds) {
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <numeric>
 #include <sstream>
+#include <utility>
+
+#include <fmt/format.h>
 
 #include "base/error.h"
 #include "scenario/document.h"
@@ -72,9 +76,72 @@ Node convert(const toml::node& in) {
   return out;
 }
 
+/// Refuses keys of very many parts, and tables within tables that come to as many: toml++ and convert() call themselves
+/// once for each, and a stack has an end.
+class Depth {
+public:
+  Depth(const std::string& text, const std::string& file) : text_(text), file_(file) {}
+
+  void check() {
+    while (at_ < text_.size()) {
+      const char c = text_[at_];
+      if (c == '"' || c == '\'')
+        skip_string(c);
+      else if (c == '#')
+        at_ = std::min(text_.find('\n', at_), text_.size());
+      else
+        step(c), ++at_;
+    }
+  }
+
+private:
+  static constexpr std::size_t most = 100;
+
+  void step(char c) {
+    if (c == '\n' || c == ',') key_ = 0;
+    if (c == '.') add(1);
+    if (c == '{' || c == '[') {
+      add(1);
+      open_.push_back(std::exchange(key_, 0));
+    }
+    if ((c == '}' || c == ']') && !open_.empty()) {
+      open_.pop_back();
+      key_ = 0;
+    }
+  }
+
+  void add(std::size_t parts) {
+    key_ += parts;
+    if (std::accumulate(open_.begin(), open_.end(), key_) <= most) return;
+    const auto line = std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(at_), '\n');
+    const std::size_t begin = at_ == 0 ? std::string::npos : text_.rfind('\n', at_ - 1);
+    throw InputError({{{file_, static_cast<int>(line + 1), static_cast<int>(at_ - begin)},
+                       fmt::format("keys are nested more than {} deep", most), "every part of a key a.b.c and every bracket counts", ""}});
+  }
+
+  void skip_string(char quote) {
+    const std::string three(3, quote);
+    const bool long_one = text_.compare(at_, 3, three) == 0;
+    at_ += long_one ? 3 : 1;
+    while (at_ < text_.size()) {
+      if (text_[at_] == '\\' && quote == '"')
+        ++at_;
+      else if (long_one ? text_.compare(at_, 3, three) == 0 : text_[at_] == quote || text_[at_] == '\n')
+        break;
+      ++at_;
+    }
+    at_ += long_one ? 3 : text_[std::min(at_, text_.size() - 1)] == quote;
+  }
+
+  const std::string &text_, &file_;
+  std::size_t at_ = 0, key_ = 0;
+  std::vector<std::size_t> open_; ///< parts of the keys around this place
+};
+
 } // namespace
 
 Node parse_document(const std::string& text, const std::string& file) {
+  Depth(text, file).check();
   try {
     return convert(toml::parse(text, file));
   } catch (const toml::parse_error& error) {

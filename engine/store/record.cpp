@@ -1,8 +1,7 @@
 #include "store/record.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
+#include <cstdlib>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -66,11 +65,8 @@ Record from_json(const Json& j) {
   return r;
 }
 
-std::uint64_t hexadecimal(const std::string& text) {
-  std::size_t used = 0;
-  const std::uint64_t number = std::stoull(text, &used, 16);
-  if (used != text.size()) throw std::invalid_argument("no number");
-  return number;
+std::string foot_of(std::uint64_t bytes, std::uint64_t digest) {
+  return fmt::format("{}{:016x} {:016x}\n", mark, bytes, digest);
 }
 
 /// The record's text; `begin`: where it stands.
@@ -82,20 +78,14 @@ std::string text_of(const RawFile& file, std::uint64_t& begin) {
     std::string head(std::min<std::uint64_t>(size, 1u << 20), '\0');
     file.read(head.data(), head.size(), 0);
     if (head.find("gumshoe") == std::string::npos) throw NoResult("another program wrote it");
-    throw OutputError("its end is missing: it is truncated, or changed by another program, or of an earlier version");
+    throw OutputError("its end is missing: it is truncated, changed by another program, or of another format version");
   }
-  std::uint64_t bytes = 0, digest = 0;
-  try {
-    bytes = hexadecimal(end.substr(mark.size(), 16));
-    digest = hexadecimal(end.substr(mark.size() + 17, 16));
-  } catch (const std::exception&) {
-    bytes = longest;
-  }
+  const std::uint64_t bytes = std::strtoull(end.substr(mark.size(), 16).c_str(), nullptr, 16);
   if (bytes >= std::min(longest, size - foot)) throw OutputError("the record at its end is damaged");
   begin = size - foot - bytes;
   std::string text(bytes, '\0');
   file.read(text.data(), bytes, begin);
-  if (digest64(text) != digest) throw OutputError("the record at its end is damaged");
+  if (foot_of(bytes, digest64(text)) != end) throw OutputError("the record at its end is damaged");
   return text;
 }
 
@@ -107,8 +97,8 @@ void seal(const std::string& path, const Record& record) {
   Json j = to_json(record);
   j["digest"] = digest_around(file, bytes, record.places);
   const std::string text = j.dump(-1, ' ', false, Json::error_handler_t::replace);
-  const std::string end = fmt::format("{}{:016x} {:016x}\n", mark, text.size(), digest64(text));
-  file.write((text + end).data(), text.size() + end.size(), bytes);
+  const std::string all = text + foot_of(text.size(), digest64(text));
+  file.write(all.data(), all.size(), bytes);
 }
 
 Record read_record(const std::string& path) {

@@ -42,7 +42,7 @@ def check(path):
         file.seek(max(0, size - 50))
         foot = FOOT.fullmatch(file.read())
         if not foot:
-            raise Damaged("its end is missing: it is truncated, or changed by another program, or of an earlier version")
+            raise Damaged("its end is missing: it is truncated, changed by another program, or of another format version")
         length, expected = (int(word, 16) for word in foot.groups())
         begin = size - 50 - length
         file.seek(max(0, begin))

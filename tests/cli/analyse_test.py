@@ -80,18 +80,15 @@ class Analyse(unittest.TestCase):
         file = self.scenario(SCENARIO + RUN + "store_samples = false\n")
         self.assertEqual(gumshoe("run", file, "--out", empty).returncode, 0)
         self.refused("holds no samples", gumshoe("analyse", empty))
-        with h5py.File(self.result) as source, h5py.File(self.folder / "half.h5", "w") as half:
-            for name in source:
-                source.copy(name, half)
-            half.attrs.update(source.attrs)
-            half.attrs["complete"] = 0
-        self.refused("not finished", gumshoe("analyse", self.folder / "half.h5"))
-        with h5py.File(self.result) as source, h5py.File(self.folder / "moved.h5", "w") as moved:
-            for name in source:
-                source.copy(name, moved)
-            moved.attrs.update(source.attrs)
-            moved["outputs/laser_z"][0, 5] += 1e-6
-        self.refused("another model", gumshoe("analyse", self.folder / "moved.h5"))
+        half = shutil.copy(self.result, self.folder / "half.h5")
+        reseal(half, complete=False)
+        self.refused("not finished", gumshoe("analyse", half))
+        formula = ('schema = 1\n[model]\nname = "expression"\n[model.measurands]\ny = "a + b"\n[quantities]\n'
+                   'a = { value = "1 mm", u = "1 um" }\nb = { value = "2 mm", u = "1 um" }\n')
+        moved = self.folder / "moved.h5"
+        self.assertEqual(gumshoe("run", self.scenario(formula), "--samples", 1000, "--out", moved).returncode, 0)
+        self.scenario(formula.replace("a + b", "a - b"))
+        self.refused("another model", gumshoe("analyse", moved))
 
 
 if __name__ == "__main__":

@@ -2,11 +2,9 @@
 
 usage: damage_test.py path/to/gumshoe [unittest options]
 """
-import json
 import os
 import pathlib
 import random
-import re
 import shutil
 import signal
 import subprocess
@@ -18,6 +16,7 @@ import h5py
 import numpy as np
 
 from program import GUMSHOE, ROOT, SCENARIO, complaint, gumshoe
+from sealed import record, reseal
 
 SAMPLES = 40_000
 # Blocks of 2,048 samples, a tenth of a second each; fast for a few points.
@@ -38,13 +37,6 @@ rows = sys.stdin.read().split()[2:]
 time.sleep(0.1 if len(rows) > 100 else 0)
 print("y (mm)", *rows, sep="\\n")
 """
-
-
-def record(path):
-    """What the record at the end says."""
-    content = path.read_bytes()
-    length = int(re.search(rb"\ngumshoe record ([0-9a-f]{16}) [0-9a-f]{16}\n$", content)[1], 16)
-    return json.loads(content[-50 - length:-50])
 
 
 def change(path, at, flipped=1):
@@ -116,6 +108,22 @@ class Damage(unittest.TestCase):
             run = gumshoe(*words)
             self.assertIsNone(complaint(run), run.stderr)
             self.assertIn("changed by another program", run.stderr)
+
+    def test_records_that_say_impossible_things(self):
+        whole = self.complete()
+        places = record(whole)["places"]
+        for words, fields in (("another format version", {"format_version": 3}),
+                              ("record at its end is damaged", {"places": {**places, "digests": [2**63, 2**62]}}),
+                              ("record at its end is damaged", {"seed": "seven"}),
+                              ("not those that were written", {"digest": 1}),
+                              ("progress marker is damaged", {"samples": 2**61}), ("contradicts itself", {"rows": [["laser_z", 1000]]}),
+                              ("holds no samples", {"rows": [["weight", 0]]})):
+            with self.subTest(words, fields=list(fields)):
+                path = shutil.copy(whole, self.folder / "odd.h5")
+                reseal(path, **fields)
+                run = gumshoe("replay", path, "--sample", 3)
+                self.assertIsNone(complaint(run), run.stderr)
+                self.assertIn(words, run.stderr)
 
     # resuming
 
