@@ -98,14 +98,8 @@ void write_raw(hid_t object, const std::string& name, hid_t type, hid_t memory, 
   require(H5Awrite(attribute, memory, data), "write an attribute");
 }
 
-Handle open_attribute(hid_t object, const std::string& name, H5T_class_t wanted) {
-  Handle attribute = own(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose, "read an attribute");
-  const Handle type = own(H5Aget_type(attribute), H5Tclose, "read an attribute");
-  const Handle space = own(H5Aget_space(attribute), H5Sclose, "read an attribute");
-  const bool scalar = H5Sget_simple_extent_npoints(space) == 1;
-  if (!scalar || H5Tget_class(type) != wanted || (wanted == H5T_STRING && H5Tis_variable_str(type) <= 0))
-    throw OutputError("cannot read an attribute", "'" + name + "' is of another type");
-  return attribute;
+Handle open_attribute(hid_t object, const std::string& name) {
+  return own(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose, "read an attribute");
 }
 } // namespace
 
@@ -128,7 +122,7 @@ void write_attribute(hid_t object, const std::string& name, const std::vector<st
 }
 
 std::string read_text(hid_t object, const std::string& name) {
-  const Handle attribute = open_attribute(object, name, H5T_STRING);
+  const Handle attribute = open_attribute(object, name);
   const Handle type = text_type();
   char* data = nullptr;
   require(H5Aread(attribute, type, &data), "read an attribute");
@@ -138,7 +132,7 @@ std::string read_text(hid_t object, const std::string& name) {
 }
 
 std::uint64_t read_integer(hid_t object, const std::string& name) {
-  const Handle attribute = open_attribute(object, name, H5T_INTEGER);
+  const Handle attribute = open_attribute(object, name);
   std::uint64_t value = 0;
   require(H5Aread(attribute, memory_type<std::uint64_t>(), &value), "read an attribute");
   return value;

@@ -59,7 +59,7 @@ void write_attribute(hid_t object, const std::string& name, std::uint64_t value)
 void write_attribute(hid_t object, const std::string& name, int value);
 void write_attribute(hid_t object, const std::string& name, const std::vector<std::uint8_t>& values);
 
-/// Readers throw OutputError if the attribute is missing or of another type. Only for files whose record is sound.
+/// Only for files whose record is sound: attributes are as we wrote them. Throw OutputError if one is missing.
 std::string read_text(hid_t object, const std::string& name);
 std::uint64_t read_integer(hid_t object, const std::string& name);
 

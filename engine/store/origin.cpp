@@ -74,7 +74,7 @@ Claim claim_result(const std::string& path, const Origin& origin) {
       there = read_identity(claim.target());
     } catch (const InputError& error) {
       const Problem& p = error.problems().front();
-      if (!was_ours(claim.target(), origin.place)) refuse("it is not a Gumshoe result: " + p.why);
+      if (!was_ours(claim.target(), origin.place)) refuse("it" + p.what.substr(claim.target().size() + 2) + ": " + p.why);
       claim.remark = fmt::format("'{}' is a Gumshoe result that cannot be read ({}); {} starts from the beginning", path,
                                  p.why, origin.command);
       return;

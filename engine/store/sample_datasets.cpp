@@ -40,7 +40,7 @@ void create_digests(hid_t file, std::uint64_t blocks, std::size_t rows) {
 Span place_of_dataset(hid_t file, const std::string& path) {
   const hdf5::Handle dataset = hdf5::own(H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose, "open a dataset");
   const haddr_t offset = H5Dget_offset(dataset);
-  if (offset == HADDR_UNDEF) throw OutputError("cannot find the place of " + path);
+  hdf5::require(offset == HADDR_UNDEF ? -1 : 0, "find the place of a dataset");
   return {offset, H5Dget_storage_size(dataset)};
 }
 

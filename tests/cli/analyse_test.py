@@ -4,6 +4,7 @@ usage: analyse_test.py path/to/gumshoe [unittest options]
 """
 import json
 import pathlib
+import shutil
 import tempfile
 import unittest
 
@@ -11,6 +12,7 @@ import h5py
 import numpy as np
 
 from program import SCENARIO, complaint, gumshoe
+from sealed import reseal
 
 RUN = "[run]\nsamples = 20_000\n"
 STUDIES = "[analysis]\nsensitivity = { given_data = 20_000, morris = 16, dgsm = 64 }\n"

@@ -98,9 +98,9 @@ MISTAKES = {
     "coverage probability of 1": (SCENARIO + "[analysis]\ncoverage_probability = 1\n", 15, ["coverage_probability"]),
     "no TOML": ("schema = = 1\n", 1, []),
     "nested without end": ("a = " + "[" * 100000, 1, []),
-    "a key of very many parts": (".".join("a" * 27500) + " = 1\n", 1, ["more than 100 deep"]),
-    "a header of very many parts": ("\n[" + ".".join("a" * 27500) + "]\n", 2, ["more than 100 deep"]),
-    "tables in tables of many parts": ("\n\n" + "".join("a.b.c.d.e.f = {" for _ in range(200)), 3, ["more than 100 deep"]),
+    "a key of very many parts": (".".join("a" * 27500) + " = 1\n", 1, ["keys are nested more than"]),
+    "a header of very many parts": ("\n[" + ".".join("a" * 27500) + "]\n", 2, ["keys are nested more than"]),
+    "tables in tables of many parts": ("\n\n" + "".join("a.b.c.d.e.f = {" for _ in range(200)), 3, ["keys are nested more than"]),
 }
 
 garbage = random.Random(1).randbytes

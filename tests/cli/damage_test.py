@@ -100,6 +100,14 @@ class Damage(unittest.TestCase):
             self.assertIsNone(complaint(run), run.stderr)
             self.assertRegex(run.stderr, words)
 
+    def test_the_damage_is_named(self):
+        whole = self.complete()
+        for at, words in ((record(whole)["places"]["outputs/laser_z"][0] + 8 * 2100, "its samples are damaged from number 2048"),
+                          (whole.read_bytes().find(b"GCOL") + 16, "cannot be read as a Gumshoe result (it is damaged")):
+            path = shutil.copy(whole, self.folder / "damaged.h5")
+            change(path, at)
+            self.assertIn(words, gumshoe("replay", path, "--sample", 3).stderr)
+
     def test_changes_by_another_program_are_noticed(self):
         path = self.complete()
         with h5py.File(path, "r+") as file:
@@ -117,7 +125,7 @@ class Damage(unittest.TestCase):
                               ("record at its end is damaged", {"seed": "seven"}),
                               ("not those that were written", {"digest": 1}),
                               ("progress marker is damaged", {"samples": 2**61}), ("contradicts itself", {"rows": [["laser_z", 1000]]}),
-                              ("holds no samples", {"rows": [["weight", 0]]})):
+                              ("holds no samples", {"rows": [["weight", 0]]}), ("it has no progress marker", {"places": {}})):
             with self.subTest(words, fields=list(fields)):
                 path = shutil.copy(whole, self.folder / "odd.h5")
                 reseal(path, **fields)

@@ -7,8 +7,6 @@ import pathlib
 import tempfile
 import unittest
 
-import h5py
-
 from program import ROOT, SCENARIO, complaint, gumshoe
 from choose_test import TEXT as CHOOSE
 
@@ -314,17 +312,6 @@ class Messages(unittest.TestCase):
                 run = gumshoe(*command, env={**os.environ, **variables})
                 self.assertIsNone(complaint(run), run.stderr)
                 self.assertIn(words, run.stderr)
-
-    def test_samples_of_another_shape(self):
-        self.file.write_text(SCENARIO + "[run]\nsamples = 1000\nstore_samples = true\n")
-        result = self.file.parent / "r.h5"
-        self.assertEqual(gumshoe("run", self.file, "--out", result).returncode, 0)
-        with h5py.File(result, "r+") as file:
-            del file["outputs/status"]
-            file["outputs"].create_dataset("status", data=[0] * 999)
-        run = gumshoe("analyse", result)
-        self.assertIsNone(complaint(run), run.stderr)
-        self.assertIn("outputs/status has another shape", run.stderr)
 
     def test_traced_scenario_of_another(self):
         self.file.write_text(ROWS)

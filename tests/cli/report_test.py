@@ -26,6 +26,7 @@ MADE = pathlib.Path(GUMSHOE).resolve().parent / "tests/gumshoe_made_result"
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "reports"))
 from browser import CLIPPED, CONTRAST, browser, filled_pages, measured
+from sealed import changed
 from gumshoe_report import certificate, convergence, explain, mathml, page, read, reduce, tables, workbook
 
 
@@ -144,7 +145,7 @@ class Report(unittest.TestCase):
         for absent in (ends, (*ends, "estimate", "standard_uncertainty"), ("estimate",), ("standard_uncertainty",)):
             few = self.folder / "few.h5"
             shutil.copy(self.result, few)
-            with h5py.File(few, "a") as file:
+            with changed(few) as file:
                 for name in absent:
                     file[f"summary/{name}"][()] = math.nan
             run = subprocess.run([GUMSHOE, "report", few], cwd=ROOT, capture_output=True, text=True)
@@ -272,7 +273,7 @@ class EveryStudy(unittest.TestCase):
     def test_older_files_and_files_without_studies_still_work(self):
         older = self.folder / "older.h5"
         shutil.copy(self.result, older)
-        with h5py.File(older, "a") as file:
+        with changed(older) as file:
             for name in ("shapley", "given_data", "morris", "dgsm", "one_at_a_time", "joint", "circular", "conformity",
                          "target", "stopping"):
                 del file[name]
@@ -288,7 +289,7 @@ class EveryStudy(unittest.TestCase):
         self.assertIn("Tornado plot", text)
         for absent in ("Conformity", "Several measurands", "Morris", "How many trials"):
             self.assertNotIn(absent, text)
-        with h5py.File(older, "a") as file:
+        with changed(older) as file:
             del file["sensitivity"], file["budget"]
         run = subprocess.run([GUMSHOE, "report", older], cwd=ROOT, capture_output=True, text=True)
         self.assertEqual(run.returncode, 0, run.stderr)
@@ -304,7 +305,7 @@ class EveryStudy(unittest.TestCase):
                 if isinstance(value, float) and not key.endswith(("factor", "offset", "confidence", "probability")):
                     item.attrs[key] = float("nan")
 
-        with h5py.File(empty, "a") as file:
+        with changed(empty) as file:
             for name in ("sensitivity", "shapley", "given_data", "morris", "dgsm", "one_at_a_time", "joint", "circular",
                          "conformity", "target", "stopping"):
                 file[name].visititems(forget)

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include <catch2/catch.hpp>
+#include <fcntl.h>
 #include <hdf5.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -14,6 +15,7 @@
 #include "base/error.h"
 #include "folder.h"
 #include "made/full_results.h"
+#include "store/raw_file.h"
 #include "store/result_file.h"
 
 using namespace gumshoe;
@@ -188,6 +190,15 @@ TEST_CASE("a run without stored samples keeps them until it is complete", "[stor
   file.finish(results());
   CHECK_THROWS_AS(file.read(0, 0, 1), std::out_of_range);
   CHECK(store::read_identity(path).samples_done == samples);
+}
+
+TEST_CASE("bytes that are not there are an error", "[store][errors]") {
+  const Folder folder;
+  const store::RawFile file(folder.write("short", "abc"), O_RDONLY);
+  char bytes[4];
+  CHECK_NOTHROW(file.read(bytes, 3, 0));
+  CHECK_THROWS_WITH(file.read(bytes, 4, 0), Catch::Contains("cannot read the file") && Catch::Contains("too short"));
+  CHECK_THROWS_WITH(file.write(bytes, 4, 0), Catch::Contains("cannot write the file"));
 }
 
 TEST_CASE("one process writes a file at a time", "[store][errors]") {
