@@ -40,8 +40,9 @@ struct ResultFile::Impl {
   std::vector<std::string> labels;
   SampleFile samples; ///< without rows in a complete file that does not keep them
   std::uint64_t done = 0;
-  Clock::time_point begun = Clock::now(), marked_at = begun;
-  std::uint64_t marked_bytes = 0;
+  Clock::time_point begun = Clock::now(), marked_at = begun, synced_at = begun;
+  Clock::duration sync_took{};
+  std::uint64_t synced_bytes = 0;
   bool finished = false;
   std::string remark;
 
@@ -126,11 +127,17 @@ std::unique_ptr<ResultFile::Impl> ResultFile::Impl::successor(std::uint64_t coun
   return next;
 }
 
+/// A sync takes at most about a tenth of the time, however slow the disk.
 void ResultFile::Impl::mark() {
   const auto now = Clock::now();
-  samples.mark(done, disk_keeps_up(bytes_of(done) - marked_bytes, now - marked_at));
-  marked_at = now;
-  marked_bytes = bytes_of(done);
+  const Clock::duration passed = now - synced_at;
+  const bool durable = disk_keeps_up(bytes_of(done) - synced_bytes, passed) && passed > 10 * sync_took;
+  samples.mark(done, durable);
+  marked_at = Clock::now();
+  if (!durable) return;
+  synced_at = marked_at;
+  sync_took = marked_at - now;
+  synced_bytes = bytes_of(done);
 }
 
 ResultFile::ResultFile(const std::string& path, const Identity& identity,

@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "folder.h"
-#include "store/place.h"
+#include "store/draft.h"
 #include "store/table.h"
 
 using namespace gumshoe;
@@ -19,9 +19,13 @@ TEST_CASE("space cannot be claimed for a file that is not there", "[store]") {
 
 TEST_CASE("a file that cannot take its place leaves nothing behind", "[store]") {
   const fixture::Folder folder;
-  fs::create_directory(folder / "taken.h5");
-  const auto build = [](const std::string& temporary) { std::ofstream(temporary) << "new"; };
-  CHECK_THROWS_WITH(store::replace_file(folder / "taken.h5", build), Contains("it cannot be moved into place"));
+  {
+    const store::Claim claim(folder / "taken.h5");
+    store::Draft draft;
+    draft.add(claim, "new");
+    fs::create_directory(folder / "taken.h5");
+    CHECK_THROWS_WITH(draft.publish(), Contains("cannot be moved into place"));
+  }
   CHECK(std::distance(fs::directory_iterator(folder.path()), {}) == 1);
 }
 
