@@ -105,7 +105,7 @@ Stored read_identity(const std::string& path) {
     throw InputError("'" + path + "' is not a Gumshoe result", error.problems().front().what);
   } catch (const OutputError& error) {
     const Problem& p = error.problems().front();
-    throw InputError("'" + path + "' cannot be read as a Gumshoe result", p.what + (p.why.empty() ? "" : ": " + p.why),
+    throw InputError("'" + path + "' is not a Gumshoe result that can be read", p.what + (p.why.empty() ? "" : ": " + p.why),
                      "run the scenario again");
   }
 }

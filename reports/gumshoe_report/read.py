@@ -120,7 +120,7 @@ def result(path):
         record.check(path)
         file = h5py.File(path, "r")
     except (OSError, record.Damaged) as problem:
-        raise NotAResult(f"'{path}' cannot be read as a Gumshoe result ({problem}).") from None
+        raise NotAResult(f"'{path}' is not a Gumshoe result that can be read ({problem}).") from None
     with file:
         r = types.SimpleNamespace(**{k: plain(v) for k, v in file.attrs.items()}, path=path)
         if getattr(r, "program", "") != "gumshoe":

@@ -103,7 +103,7 @@ class Damage(unittest.TestCase):
     def test_the_damage_is_named(self):
         whole = self.complete()
         for at, words in ((record(whole)["places"]["outputs/laser_z"][0] + 8 * 2100, "its samples are damaged from number 2048"),
-                          (whole.read_bytes().find(b"GCOL") + 16, "cannot be read as a Gumshoe result (it is damaged")):
+                          (whole.read_bytes().find(b"GCOL") + 16, "is not a Gumshoe result that can be read (it is damaged")):
             path = shutil.copy(whole, self.folder / "damaged.h5")
             change(path, at)
             self.assertIn(words, gumshoe("replay", path, "--sample", 3).stderr)
