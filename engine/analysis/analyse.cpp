@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/certificate.h"
 #include "analysis/circular.h"
 #include "analysis/comparison.h"
 #include "analysis/conformity.h"
@@ -21,6 +22,7 @@
 #include "analysis/tails.h"
 #include "analysis/target.h"
 #include "base/instruction_set.h"
+#include "base/progress.h"
 #include "base/units.h"
 #include "base/version.h"
 #include "propagation/propagate.h"
@@ -181,6 +183,20 @@ void add_monte_carlo_column(Results& r) {
   }
 }
 
+InputDraws input_draws(const propagation::Experiment& e) {
+  InputDraws draws;
+  for (const auto& variate : e.plan().variates) {
+    const auto& quantity = e.scenario().quantities[variate.quantity];
+    draws.names.push_back(variate.name);
+    draws.units.push_back(quantity.unit);
+    draws.si_units.push_back(quantity.si_unit);
+  }
+  draws.draw = [&e](std::uint64_t first, std::size_t count, double* values) {
+    propagation::draw_variates(e, first, count, values);
+  };
+  return draws;
+}
+
 } // namespace
 
 Results analyse(const propagation::Experiment& e, const Samples& samples, int threads) {
@@ -190,6 +206,7 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, int th
   count_failures(r, samples.status());
   const bool virtual_experiment = s.method == scenario::Method::virtual_experiment;
   const std::size_t outputs = e.outputs().size();
+  progress::stage("summary and uncertainty budget");
   std::vector<std::vector<double>> kept(outputs);
   r.summaries.resize(outputs);
   r.budgets.resize(outputs);
@@ -207,6 +224,7 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, int th
     withhold(summary, without_variance(e, b), values, threads);
     r.validations[o] = validate(b, summary, p, s.analysis.validation_digits);
     summary.statement = statement(summary, b, r.validations[o], p, virtual_experiment);
+    certify(summary, b, r.validations[o], p, virtual_experiment);
     const bool compared =
         std::ranges::any_of(s.analysis.comparisons, [&](const auto& c) { return c.measurand == output.measurand; });
     if (compared) kept[o].assign(values.begin(), values.end());
@@ -215,6 +233,7 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, int th
     r.notes.push_back("sensitivity coefficients are differences over a standard uncertainty, because the model "
                       "provides no derivatives");
   if (s.analysis.sensitivity.sobol > 0) {
+    progress::stage("Sobol' indices");
     r.sensitivities = sobol_indices(e, s.analysis.sensitivity.sobol, threads);
     add_monte_carlo_column(r);
   }
@@ -230,15 +249,25 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, int th
     r.notes.push_back(fmt::format(
         "design {}: its points are not independent, so that no Monte Carlo standard errors are given", r.design));
   const auto& wanted = s.analysis.sensitivity;
-  if (wanted.shapley > 0) r.shapley = shapley_effects(e, wanted.shapley, threads);
-  if (wanted.given_data > 0) r.given_data = given_data_indices(e, samples.values, wanted.given_data, threads);
-  if (wanted.morris > 0) r.morris = morris_screening(e, wanted.morris, threads);
-  if (wanted.dgsm > 0) r.dgsm = derivative_measures(e, wanted.dgsm, r.summaries, threads);
-  r.one_at_a_time = one_at_a_time(e);
-  r.joint = joint_regions(e, samples.values, r.summaries, r.budgets, threads);
-  r.circular = circular_summaries(e, samples.values, threads);
-  r.conformity = conformity(e, samples.values, r.summaries);
-  r.targets = target_uncertainties(e, r.budgets, threads);
+  const auto study = [](bool asked, const char* name, auto& result, const auto& compute) {
+    if (!asked) return;
+    progress::stage(name);
+    result = compute();
+  };
+  study(wanted.shapley > 0, "Shapley effects", r.shapley, [&] { return shapley_effects(e, wanted.shapley, threads); });
+  study(wanted.given_data > 0, "indices from given data", r.given_data,
+        [&] { return given_data_indices(e, samples.values, wanted.given_data, threads); });
+  study(wanted.morris > 0, "screening by elementary effects", r.morris,
+        [&] { return morris_screening(e, wanted.morris, threads); });
+  study(wanted.dgsm > 0, "derivative-based measures", r.dgsm,
+        [&] { return derivative_measures(e, wanted.dgsm, r.summaries, threads); });
+  study(true, "one at a time", r.one_at_a_time, [&] { return one_at_a_time(e); });
+  study(true, "joint regions", r.joint,
+        [&] { return joint_regions(e, samples.values, r.summaries, r.budgets, threads); });
+  study(true, "circular statistics", r.circular, [&] { return circular_summaries(e, samples.values, threads); });
+  study(true, "conformity", r.conformity, [&] { return conformity(e, samples.values, r.summaries); });
+  study(true, "target uncertainties", r.targets, [&] { return target_uncertainties(e, r.budgets, threads); });
+  if (s.run.store_inputs) r.draws = input_draws(e);
   r.comparisons = compare(e, kept, r.summaries);
   r.printed = beside_printed(e, r.summaries);
   return r;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <boost/math/distributions/binomial.hpp>
 #include <fmt/format.h>
 
 #include "analysis/ordered_sum.h"
@@ -16,6 +17,7 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double inf = std::numeric_limits<double>::infinity();
+constexpr std::size_t most_deviations = 200'000; ///< of the integrals over the process
 
 /// Closed; an absent limit is infinite.
 struct Range {
@@ -76,8 +78,7 @@ void posterior(ConformityResult& r, const std::vector<double>& y, const Prior& p
 /// Over the deviations d: the prior's share that is (not) within tolerance while eta - d is (not) accepted.
 void global_risks(ConformityResult& r, const std::vector<double>& y, double estimate, const Prior& prior,
                   Range tolerance, Range acceptance) {
-  constexpr std::size_t most = 200'000;
-  const std::size_t n = std::min(most, y.size());
+  const std::size_t n = std::min(most_deviations, y.size());
   const double conforming = prior.within(tolerance);
   std::vector<double> consumer(n), producer(n);
   for (std::size_t i = 0; i < n; ++i) {
@@ -97,8 +98,14 @@ void global_risks(ConformityResult& r, const std::vector<double>& y, double esti
   r.global_producer_risk_se = p.se;
 }
 
-std::string percent(double p) {
-  return p > 0 && p < 1e-4 ? fmt::format("{:.1e} %", 100 * p) : fmt::format("{:.3g} %", 100 * p);
+/// The smallest probability that n independent samples resolve: none seen, it is below at 95 % confidence.
+double least_probability(std::size_t n) { return std::min(1.0, 3 / static_cast<double>(n)); }
+
+const char* said(const std::string& rule) {
+  return rule == "simple_acceptance" ? "simple acceptance (JCGM 106, 8.2)"
+         : rule == "iso_14253_1"     ? "ISO 14253-1"
+         : rule == "ilac_g8"         ? "ILAC-G8, guard band w = U"
+                                     : "";
 }
 
 std::string words(const ConformityResult& r, double expanded_uncertainty, std::size_t samples, std::uint64_t failed) {
@@ -114,19 +121,21 @@ std::string words(const ConformityResult& r, double expanded_uncertainty, std::s
            : std::isnan(high) ? "at least " + shown(low)
                               : "from " + shown(low) + " to " + shown(high);
   };
+  const auto percent = [&](double p) { return probability_text(p, r.least_risk); };
   std::string text = fmt::format("{}: tolerance {}. ", o.name, range(r.lower, r.upper));
+  if (const std::string rule = said(r.rule); !rule.empty()) text += "Decision rule: " + rule + ". ";
   if (r.guard_band != 0)
     text += fmt::format("Acceptance (the estimate must lie there) {}: guard band w = {}, {}. ",
                         range(r.acceptance_lower, r.acceptance_upper),
                         fixed(units::from_si(r.guard_band, o.unit, o.si_unit, units::Kind::difference), digits) + unit,
                         r.guard_band > 0 ? "inside the tolerance (guarded acceptance)"
                                          : "outside the tolerance (guarded rejection)");
-  if (r.acceptance_lower > r.acceptance_upper) text += "The guard bands leave no room for acceptance. ";
+  if (r.acceptance_lower >= r.acceptance_upper) text += "The guard bands leave no room for acceptance. ";
   text += fmt::format("The estimate {} is {}. Conformance probability (that the true value lies within the tolerance, "
                       "given this measurement alone): {}{}.",
                       shown(r.estimate), r.accepted ? "accepted" : "rejected", percent(r.conformance_probability),
                       r.conformance_probability == 1 || r.conformance_probability == 0
-                          ? fmt::format(" (all of {} samples agree)", samples)
+                          ? fmt::format(" (all of {} samples agree; 95 % confidence)", samples)
                           : "");
   text += r.accepted ? fmt::format(" Specific consumer's risk (that this accepted item does not conform): {}.",
                                    percent(r.specific_consumer_risk))
@@ -142,7 +151,7 @@ std::string words(const ConformityResult& r, double expanded_uncertainty, std::s
         fmt::format(" Of items that the process makes, {} conform; global consumer's risk (that an item does not "
                     "conform and is accepted): {}; global producer's risk (that an item conforms and is "
                     "rejected): {}.",
-                    percent(r.process_conformance), percent(r.global_consumer_risk), percent(r.global_producer_risk));
+                    probability_text(r.process_conformance, 1e-6), percent(r.global_consumer_risk), percent(r.global_producer_risk));
   }
   if (failed > 0)
     text += fmt::format(" {} failed samples are left out; they could move the conformance probability by {} at most.",
@@ -152,8 +161,9 @@ std::string words(const ConformityResult& r, double expanded_uncertainty, std::s
 
 } // namespace
 
-ConformityResult assess(std::span<const double> samples, double estimate, double expanded_uncertainty,
+ConformityResult assess(std::span<const double> samples, const Known& known,
                         const scenario::ConformityTest& test) {
+  const auto& [estimate, standard_uncertainty, expanded_uncertainty] = known;
   ConformityResult r;
   std::vector<double> y;
   for (const double v : samples)
@@ -161,7 +171,10 @@ ConformityResult assess(std::span<const double> samples, double estimate, double
   r.estimate = estimate;
   r.lower = test.lower.value_or(nan);
   r.upper = test.upper.value_or(nan);
+  r.rule = name(test.rule);
   r.guard_band = test.guard_band + (test.guard_factor != 0 ? test.guard_factor * expanded_uncertainty : 0);
+  if (test.rule == scenario::DecisionRule::ilac_g8) r.guard_band = expanded_uncertainty;
+  if (test.rule == scenario::DecisionRule::iso_14253_1) r.guard_band = 1.65 * standard_uncertainty;
   r.acceptance_lower = r.lower + r.guard_band;
   r.acceptance_upper = r.upper - r.guard_band;
   const Range tolerance{test.lower.value_or(-inf), test.upper.value_or(inf)};
@@ -171,6 +184,7 @@ ConformityResult assess(std::span<const double> samples, double estimate, double
           r.global_producer_risk = r.global_producer_risk_se = nan;
   if (y.empty()) {
     r.conformance_probability = r.conformance_probability_se = nan;
+    r.least_risk = 1;
     return r;
   }
   const double n = static_cast<double>(y.size());
@@ -179,6 +193,10 @@ ConformityResult assess(std::span<const double> samples, double estimate, double
   // One sample more on either side: none is not a proof that there is none.
   const double p = (inside + 1) / (n + 2);
   r.conformance_probability_se = std::sqrt(p * (1 - p) / n);
+  using Binomial = boost::math::binomial_distribution<double>;
+  if (inside > 0) r.conformance_probability_low = Binomial::find_lower_bound_on_p(n, inside, 0.05);
+  if (inside < n) r.conformance_probability_high = Binomial::find_upper_bound_on_p(n, inside, 0.05);
+  r.least_risk = least_probability(test.process ? std::min(most_deviations, y.size()) : y.size());
   r.accepted = acceptance.contains(estimate);
   (r.accepted ? r.specific_consumer_risk : r.specific_producer_risk) =
       r.accepted ? 1 - r.conformance_probability : r.conformance_probability;
@@ -197,7 +215,7 @@ std::vector<ConformityResult> conformity(const propagation::Experiment& e, const
     for (const std::size_t o : outputs_named(e, test.measurand, test.labels)) {
       const Summary& s = summaries[o];
       const double expanded = 0.5 * (s.symmetric.high - s.symmetric.low);
-      ConformityResult r = assess(values(o), s.estimate, expanded, test);
+      ConformityResult r = assess(values(o), {s.estimate, s.standard_uncertainty, expanded}, test);
       r.output = e.outputs()[o];
       if (e.scenario().run.design != scenario::Design::monte_carlo)
         r.conformance_probability_se = r.posterior_conformance_se = r.global_consumer_risk_se =

@@ -7,10 +7,16 @@
 
 namespace gumshoe::analysis {
 
-/// One decision: samples of the measurand (SI, NaN where failed), its estimate, the test, and U for the guard factor.
+/// What is known of the measurand, SI.
+struct Known {
+  double estimate, standard_uncertainty, expanded_uncertainty;
+};
+
+/// One decision: samples of the measurand (SI, NaN where failed), its estimate with u and U for the guard band, the test.
 ///
 /// Conformance probability (7.1): the share of the samples within the tolerance limits. Acceptance limits (8.3): the
-/// tolerance limits moved inwards by w = guard_band + guard_factor U (w < 0: outwards, guarded rejection), U half the
+/// tolerance limits moved inwards by w = guard_band + guard_factor U (w < 0: outwards, guarded rejection), or by the w of
+/// the named rule; U half the
 /// symmetric coverage interval. The decision is the estimate's place. Specific risks (9.3.2): of this item.
 ///
 /// With a process, the prior g0: the posterior conformance probability by weighting the samples with g0 (7.2.2), and
@@ -18,8 +24,7 @@ namespace gumshoe::analysis {
 /// process makes. A measured value is eta - d, where d is distributed as the samples about the estimate, so that
 /// without prior knowledge the samples are the state of knowledge; the integral over g0 is exact for each d, so the
 /// standard errors are those of a mean over the deviations, of which the first 200,000 serve.
-ConformityResult assess(std::span<const double> samples, double estimate, double expanded_uncertainty,
-                        const scenario::ConformityTest& test);
+ConformityResult assess(std::span<const double> samples, const Known& known, const scenario::ConformityTest& test);
 
 /// One for each of the scenario's tests and each output it names.
 std::vector<ConformityResult> conformity(const propagation::Experiment& experiment, const ValuesOf& values,

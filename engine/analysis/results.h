@@ -1,6 +1,7 @@
 #pragma once
 /// Everything a finished run says, as plain data in SI units: what the file holds and the report shows.
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,11 @@ struct Summary {
   bool estimate_is_median = false;
   double standard_uncertainty = 0, standard_uncertainty_se = 0; ///< NaN if none exists; see `warning`
   double skewness = 0, kurtosis = 0;
+  /// U and k = U/u of the certificate: the GUM framework's where Monte Carlo validates it, else those of the samples.
+  /// `monte_carlo_expanded` is the half-width about the estimate that covers the coverage probability. NaN: none.
+  double expanded_uncertainty = 0, coverage_factor = 0, monte_carlo_expanded = 0;
+  double degrees_of_freedom = 0; ///< effective, of that k; infinite also where k is that of the samples
+  std::string certificate;       ///< "laser_z = (10.003387 +- 0.000099) mm, k = 1.96, 95 %"; empty without u
   Interval symmetric;            ///< probabilistically symmetric coverage interval, JCGM 101 5.3.3
   Interval shortest;             ///< shortest coverage interval, JCGM 101 5.3.4
   double shortest_length_se = 0; ///< of its length, which is known better than its ends
@@ -101,9 +107,18 @@ struct InputRecord {
   double value = 0, standard_uncertainty = 0;
 };
 
+/// Deviations drawn for the inputs, by component. They are made again while they are written.
+struct InputDraws {
+  std::vector<std::string> names, units, si_units;
+  /// Samples [first, first + count) of every component, SI: values[component * count + i].
+  std::function<void(std::uint64_t first, std::size_t count, double* values)> draw;
+};
+
 struct Results {
   std::string title, model, model_title, method, evaluation, scenario_file, scenario_text, scenario_hash;
   std::string version, git_hash, instruction_set, design;
+  std::string date, host; ///< when (UTC, ISO 8601) and where the run began; empty: not recorded
+  double duration = 0;    ///< s, of this call: a resumed run took longer
   std::uint64_t seed = 0, samples = 0, failed = 0;
   double coverage_probability = 0.95;
   std::vector<std::string> failures;   ///< "never_covered: 12 samples, first 345"
@@ -127,6 +142,7 @@ struct Results {
   std::vector<ConformityResult> conformity;
   std::vector<TargetResult> targets;
   StoppingRecord stopping;
+  InputDraws draws; ///< empty unless they are stored
 };
 
 } // namespace gumshoe::analysis

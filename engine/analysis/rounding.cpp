@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include <vector>
+
 #include <fmt/format.h>
+
+#include "base/units.h"
 
 namespace gumshoe::analysis {
 
@@ -30,6 +34,37 @@ std::string fixed(double value, int decimals) {
   return text.starts_with('-') && text.find_first_of("123456789in") >= std::min(text.find('e'), text.size())
              ? text.substr(1)
              : text;
+}
+
+std::string with_suitable_unit(double si, const std::string& unit, const std::string& si_unit) {
+  static const std::vector<std::vector<std::string>> ladders = {
+      {"m", "mm", "um", "nm"}, {"s", "ms", "us", "ns"}, {"kg", "g", "mg", "ug"}, {"rad", "mrad", "urad"},
+      {"N", "mN", "uN"},       {"V", "mV", "uV", "nV"}, {"A", "mA", "uA", "nA"}, {"K", "mK", "uK"},
+      {"degC", "mK", "uK"},    {"Hz", "mHz", "uHz"}};
+  std::string in = unit;
+  double x = units::from_si(si, in, si_unit, units::Kind::difference);
+  for (const auto& ladder : ladders)
+    if (auto at = std::ranges::find(ladder, unit); at != ladder.end())
+      while (x != 0 && std::fabs(x) < 0.0095 && ++at != ladder.end())
+        x = units::from_si(si, in = *at, si_unit, units::Kind::difference);
+  return (x == 0 ? "0" : fixed(x, decimals_for(std::fabs(x)))) + (in == "1" ? "" : " " + in);
+}
+
+std::string probability_text(double p, double least) {
+  const auto percent = [](double x) {
+    const double rest = std::fmin(100 * x, 100 - 100 * x); // as many digits as the smaller of both sides needs
+    const int decimals = rest > 0 ? std::clamp(2 - static_cast<int>(std::floor(std::log10(rest))), 0, 12) : 0;
+    return fixed(100 * x, decimals) + " %";
+  };
+  // One digit of a bound: rounded to the side on which it still holds.
+  const double scale = least > 0 ? std::pow(10.0, std::floor(std::log10(least))) : 1;
+  const double bound = least > 0 ? std::ceil(least / scale * (1 - 1e-9)) * scale : 0;
+  const auto bound_text = [&](double x) {
+    return fixed(100 * x, std::max(0, -static_cast<int>(std::floor(std::log10(100 * bound) + 1e-9)))) + " %";
+  };
+  if (least > 0 && p < least) return "< " + bound_text(bound);
+  if (least > 0 && 1 - p < least) return "> " + bound_text(1 - bound);
+  return percent(p);
 }
 
 } // namespace gumshoe::analysis

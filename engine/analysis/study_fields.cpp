@@ -82,7 +82,7 @@ constexpr Field<M> morris[] = {
     {"unit", nullptr, output_units, "", in_csv},
     {"mean_absolute", of<&M::mean_absolute>, In::output,
      "mu*: mean of the absolute elementary effects per standard uncertainty", in_both},
-    {"mean_absolute_se", of<&M::mean_absolute_se>, In::output, "standard error of mu*", in_csv},
+    {"mean_absolute_se", of<&M::mean_absolute_se>, In::output, "standard error of mu*", in_both},
     {"mean", of<&M::mean>, In::output, "mean elementary effect per standard uncertainty", in_both},
     {"standard_deviation", of<&M::standard_deviation>, In::output,
      "sigma: standard deviation of the elementary effects", in_both}};
@@ -113,11 +113,11 @@ constexpr Field<J> joint[] = {
     {"coverage_probability", of<&J::coverage_probability>, one, "coverage probability of the regions", in_json},
     {"k_p", of<&J::k_p>, one, "ellipsoid: (y - estimate)' covariance^-1 (y - estimate) <= k_p^2; NaN if singular",
      {.json = same, .gauge = "joint.k_p"}, of<&J::k_p_se>},
-    {"k_p_se", of<&J::k_p_se>, one, "Monte Carlo standard error of k_p"},
+    {"k_p_se", of<&J::k_p_se>, one, "Monte Carlo standard error of k_p", in_json},
     {"k_q", of<&J::k_q>, one, "rectangle: |y_i - estimate_i| <= k_q u_i", {.json = same, .gauge = "joint.k_q"},
      of<&J::k_q_se>},
-    {"k_q_se", of<&J::k_q_se>, one, "Monte Carlo standard error of k_q"},
-    {"remark", of<&J::remark>, one, "why there is no ellipsoid"}};
+    {"k_q_se", of<&J::k_q_se>, one, "Monte Carlo standard error of k_q", in_json},
+    {"remark", of<&J::remark>, one, "why there is no ellipsoid", in_json}};
 
 using R = CircularSummary;
 constexpr Field<R> circular[] = {
@@ -132,7 +132,7 @@ constexpr Field<R> circular[] = {
     {"resultant_length", of<&R::resultant_length>, one,
      "mean resultant length R: 1 all in one direction, 0 none preferred", {same, same, "circular.resultant_length"},
      of<&R::resultant_length_se>},
-    {"remark", of<&R::remark>, one, "when the linear statistics mislead", in_csv}};
+    {"remark", of<&R::remark>, one, "when the linear statistics mislead", in_both}};
 
 using C = ConformityResult;
 constexpr Field<C> conformity[] = {
@@ -142,35 +142,42 @@ constexpr Field<C> conformity[] = {
     {"upper", of<&C::upper>, point, "upper tolerance limit, NaN if there is none", in_both},
     {"acceptance_lower", of<&C::acceptance_lower>, point, "lower acceptance limit, NaN if there is none", in_both},
     {"acceptance_upper", of<&C::acceptance_upper>, point, "upper acceptance limit, NaN if there is none", in_both},
-    {"estimate", of<&C::estimate>, point, "estimate", in_csv},
+    {"estimate", of<&C::estimate>, point, "estimate", in_both},
     {"process_mean", of<&C::process_mean>, point, "mean of what is known before measuring, NaN without a process",
-     in_csv},
+     in_both},
+    {"rule", of<&C::rule>, one, "decision rule: stated, simple_acceptance, iso_14253_1 or ilac_g8", in_both},
     {"guard_band", of<&C::guard_band>, difference,
-     "guard band: how far an acceptance limit lies inside its tolerance limit, negative outside", in_csv},
+     "guard band: how far an acceptance limit lies inside its tolerance limit, negative outside", in_both},
     {"process_u", of<&C::process_u>, difference,
-     "standard deviation of what is known before measuring, NaN without a process", in_csv},
+     "standard deviation of what is known before measuring, NaN without a process", in_both},
     {"accepted", of<&C::accepted>, one, "1 if the estimate lies within the acceptance limits", in_both},
     {"conformance_probability", of<&C::conformance_probability>, one, "conformance probability p_c, JCGM 106 clause 7",
      {same, same, "conformity.probability"}, of<&C::conformance_probability_se>},
-    {"conformance_probability_se", of<&C::conformance_probability_se>, one, "Monte Carlo standard error of p_c", in_csv},
+    {"conformance_probability_low", of<&C::conformance_probability_low>, one,
+     "lower 95 % confidence limit of p_c: what so many samples support", in_both},
+    {"conformance_probability_high", of<&C::conformance_probability_high>, one, "upper 95 % confidence limit of p_c",
+     in_both},
+    {"least_risk", of<&C::least_risk>, one, "risks below it are not resolved by the samples: they are at most this",
+     in_both},
+    {"conformance_probability_se", of<&C::conformance_probability_se>, one, "Monte Carlo standard error of p_c", in_both},
     {"global_consumer_risk", of<&C::global_consumer_risk>, one,
      "share accepted that does not conform, NaN without a process", {same, same, "conformity.global_consumer_risk"}},
-    {"global_consumer_risk_se", of<&C::global_consumer_risk_se>, one, "Monte Carlo standard error of it", in_csv},
+    {"global_consumer_risk_se", of<&C::global_consumer_risk_se>, one, "Monte Carlo standard error of it", in_both},
     {"global_producer_risk", of<&C::global_producer_risk>, one, "share rejected that conforms, NaN without a process",
      {same, same, "conformity.global_producer_risk"}},
-    {"global_producer_risk_se", of<&C::global_producer_risk_se>, one, "Monte Carlo standard error of it", in_csv},
+    {"global_producer_risk_se", of<&C::global_producer_risk_se>, one, "Monte Carlo standard error of it", in_both},
     {"posterior_conformance", of<&C::posterior_conformance>, one,
-     "conformance probability from process and measurement together, JCGM 106 clause 7, NaN if not known", in_csv},
-    {"posterior_conformance_se", of<&C::posterior_conformance_se>, one, "Monte Carlo standard error of it", in_csv},
+     "conformance probability from process and measurement together, JCGM 106 clause 7, NaN if not known", in_both},
+    {"posterior_conformance_se", of<&C::posterior_conformance_se>, one, "Monte Carlo standard error of it", in_both},
     {"process_conformance", of<&C::process_conformance>, one,
-     "share of the process that conforms, NaN without a process", in_csv},
+     "share of the process that conforms, NaN without a process", in_both},
     {"specific_consumer_risk", of<&C::specific_consumer_risk>, one,
      "accepted, but does not conform: 1 - p_c, NaN where the decision excludes it",
      {same, same, "conformity.specific_consumer_risk"}},
     {"specific_producer_risk", of<&C::specific_producer_risk>, one,
      "rejected, but conforms: p_c, NaN where the decision excludes it",
      {same, same, "conformity.specific_producer_risk"}},
-    {"statement", of<&C::statement>, one, "the decision in words", in_csv}};
+    {"statement", of<&C::statement>, one, "the decision in words", in_both}};
 
 using T = TargetResult;
 constexpr Field<T> target_study[] = {
@@ -178,8 +185,8 @@ constexpr Field<T> target_study[] = {
     {"present", of<&T::present>, difference, "expanded uncertainty as it is", in_json},
     {"reached", of<&T::reached>, difference, "expanded uncertainty of the cheapest combination, NaN if there is none",
      in_json},
-    {"cost_ratio", of<&T::cost_ratio>, one, "cost of the cheapest combination over the present one"},
-    {"statement", of<&T::statement>, one, "what would reach the target, in words"}};
+    {"cost_ratio", of<&T::cost_ratio>, one, "cost of the cheapest combination over the present one", in_json},
+    {"statement", of<&T::statement>, one, "what would reach the target, in words", in_json}};
 using Q = TargetRow;
 constexpr Field<Q> target[] = {
     {"quantity", of<&Q::quantity>, one, "input quantity", in_csv},
@@ -193,7 +200,7 @@ constexpr Field<Q> target[] = {
      "the same by the law of propagation, NaN: none, infinite: it does not matter", {same, same, "target.allowed_gum"}},
     {"cheapest", of<&Q::cheapest>, difference,
      "standard uncertainty in the cheapest combination, NaN if there is none", {same, same, "target.cheapest"}},
-    {"cost", of<&Q::cost>, one, "relative cost, NaN if not given", in_csv}};
+    {"cost", of<&Q::cost>, one, "relative cost, NaN if not given", in_both}};
 
 } // namespace
 // clang-format on

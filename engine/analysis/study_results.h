@@ -108,8 +108,12 @@ struct ConformityResult {
   double lower = 0, upper = 0;                       ///< tolerance limits, SI; NaN: none
   double acceptance_lower = 0, acceptance_upper = 0; ///< with guard bands; NaN: none
   double guard_band = 0;                             ///< w, SI; above 0: guarded acceptance, below: guarded rejection
+  std::string rule;                                  ///< decision rule by name
   double estimate = 0;
   double conformance_probability = 0, conformance_probability_se = 0; ///< from this measurement alone
+  /// What so many samples support: one-sided 95 % confidence limits of p_c.
+  double conformance_probability_low = 0, conformance_probability_high = 1;
+  double least_risk = 0; ///< risks below are not resolved by the samples
   bool accepted = false;
   double specific_consumer_risk = 0, specific_producer_risk = 0; ///< NaN for the one that the decision excludes
   double process_mean = 0, process_u = 0, process_conformance = 0; ///< NaN without a process

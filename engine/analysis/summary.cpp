@@ -43,6 +43,15 @@ Ends shortest_ends(const OrderedTails& x, double p) {
   return {x[best], x[best + q]};
 }
 
+/// Half-width of the interval about y that holds as many values as a coverage interval: the farther end is left out
+/// until no more are to spare.
+double half_width_about(double y, const OrderedTails& x, double p) {
+  std::size_t low = 0, high = x.size - 1;
+  for (std::size_t spare = x.size - 1 - covered_ranks(x.size, p); spare > 0; --spare)
+    y - x[low] > x[high] - y ? ++low : --high;
+  return std::max(y - x[low], x[high] - y);
+}
+
 /// Standard error of an order statistic: half the distance between the ranks one binomial standard
 /// deviation away on either side.
 double rank_error(const OrderedTails& x, double probability) {
@@ -174,7 +183,7 @@ Summary summarise(const propagation::Output& output, std::span<const double> val
   s.valid = m.valid;
   s.failed = values.size() - m.valid;
   if (s.valid < 2) {
-    s.estimate = s.standard_uncertainty = s.estimate_se = s.standard_uncertainty_se = nan;
+    s.estimate = s.standard_uncertainty = s.monte_carlo_expanded = s.estimate_se = s.standard_uncertainty_se = nan;
     s.symmetric = s.shortest = {nan, nan, nan, nan, nan, nan};
     s.warning = "too few valid samples";
     return s;
@@ -189,7 +198,7 @@ Summary summarise(const propagation::Output& output, std::span<const double> val
 
   if (n * (1 - p) < 1) {
     s.symmetric = s.shortest = {nan, nan, nan, nan, nan, nan};
-    s.shortest_length_se = nan;
+    s.shortest_length_se = s.monte_carlo_expanded = nan;
     s.warning = fmt::format("no coverage interval: {} trials are fewer than 1 / (1 - p) = {:.0f}", s.valid, 1 / (1 - p));
     return s;
   }
@@ -197,6 +206,7 @@ Summary summarise(const propagation::Output& output, std::span<const double> val
   const OrderedTails ordered = ordered_tails(values, s.valid, tail_size(s.valid, s.failed, p), threads);
   const Ends symmetric = ordered_symmetric_ends(ordered, p), shortest = shortest_ends(ordered, p);
   const Ends shortest_se = shortest_errors(values, p, threads);
+  s.monte_carlo_expanded = half_width_about(s.estimate, ordered, p);
   s.symmetric = {symmetric.low, symmetric.high, rank_error(ordered, alpha), rank_error(ordered, 1 - alpha),
                  symmetric.low, symmetric.high};
   s.shortest = {shortest.low, shortest.high, shortest_se.low, shortest_se.high, shortest.low, shortest.high};

@@ -86,6 +86,7 @@ struct VariableCard {
   std::string_view si_unit;
   double default_value;
   std::string_view meaning;
+  bool diagnostic = false; ///< of a measurand: it says how the evaluation went, such as a count; no uncertainty is asked of it
 };
 
 /// Another way to evaluate the measurands; the first one of a model is the default.

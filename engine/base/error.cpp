@@ -19,6 +19,16 @@ std::string capitalised(std::string sentence) {
   return sentence;
 }
 
+/// A message is one that people read: what a file repeats in it is cut.
+constexpr std::size_t longest = 1000, most_problems = 50;
+
+std::string cut(std::string text) {
+  if (text.size() <= longest) return text;
+  std::size_t end = longest;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end; // between characters
+  return text.substr(0, end) + "...";
+}
+
 /// True for something to write into a file, which keeps its letters and takes no full stop: `u = "1 um"`, `[model]`.
 bool is_code(std::string_view remedy) {
   const std::size_t key = remedy.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.");
@@ -35,14 +45,17 @@ std::string format(const Problem& p) {
     if (p.where.line > 0) text += fmt::format("{}:{}:", p.where.line, p.where.column);
     text += ' ';
   }
-  text += "error: " + ended(p.why.empty() ? p.what : p.what + " (" + p.why + ')');
+  text += "error: " + ended(p.why.empty() ? cut(p.what) : cut(p.what) + " (" + cut(p.why) + ')');
   if (is_code(p.remedy)) return text + " Try: " + p.remedy;
   if (!p.remedy.empty()) text += ' ' + ended(capitalised(p.remedy));
   return text;
 }
 
 InputError::InputError(std::vector<Problem> problems) : problems_(std::move(problems)) {
-  for (const Problem& p : problems_) text_ += (text_.empty() ? "" : "\n") + format(p);
+  for (std::size_t i = 0; i < std::min(most_problems, problems_.size()); ++i)
+    text_ += (i == 0 ? "" : "\n") + format(problems_[i]);
+  if (problems_.size() > most_problems)
+    text_ += fmt::format("\nerror: there are {} more problems.", problems_.size() - most_problems);
 }
 
 InputError::InputError(std::string what, std::string why, std::string remedy)

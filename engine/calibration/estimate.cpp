@@ -44,9 +44,7 @@ void Fit::describe(Estimate& out) const {
   }
   if (!defined()) {
     const auto failed = simulation_.failure();
-    const std::string at = propagation::reading_name(experiment_.scenario().readings[failed.reading]);
-    out.solver.reason += fmt::format(": reading {}{}: {}", failed.reading + 1, at.empty() ? "" : " (" + at + ")",
-                                     status_name(failed.status));
+    out.solver.reason += ": " + experiment_.reading_text(failed.reading) + ": " + status_name(failed.status);
   }
   for (const std::size_t j : out.solver.vanished) out.solver.reason += fmt::format(": {}", unknowns_[j].name);
   for (std::size_t j = 0; j < p_; ++j) out.parameters.push_back({unknowns_[j], x_[j], nan, false});

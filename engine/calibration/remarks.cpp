@@ -53,11 +53,10 @@ void Fit::outlier(Estimate& out) const {
   if (!(*largest > 8 * scale) || !(*largest > (out.noise_declared ? 5 : 0))) return;
   const Row& row = out.rows[static_cast<std::size_t>(largest - sizes.begin())];
   const auto& indication = experiment_.model().card->indications[row.indication];
-  const std::string unit(indication.unit),
-      name = propagation::reading_name(experiment_.scenario().readings[row.reading]);
+  const std::string unit(indication.unit);
   out.notes.push_back(
-      fmt::format("reading {}{} stands out: {} is {:.4g}{} from the fit, {:.3g} times the usual residual",
-                  row.reading + 1, name.empty() ? "" : " (" + name + ")", indication.name,
+      fmt::format("{} stands out: {} is {:.4g}{} from the fit, {:.3g} times the usual residual",
+                  experiment_.reading_text(row.reading), indication.name,
                   units::from_si(row.residual, unit, std::string(indication.si_unit), units::Kind::difference),
                   unit == "1" ? "" : " " + unit, *largest / scale));
 }

@@ -6,10 +6,12 @@
 #include <fmt/format.h>
 
 #include "analysis/analyse.h"
+#include "analysis/selection.h"
 #include "base/instruction_set.h"
 #include "base/version.h"
 #include "cli/command.h"
 #include "cli/print.h"
+#include "cli/progress_line.h"
 #include "propagation/propagate.h"
 #include "store/origin.h"
 #include "store/result_file.h"
@@ -23,6 +25,7 @@ struct Options {
   std::string file, scenario, out, format = "text";
   int threads = 0;
   bool force = false;
+  bool budget = false, all = false;
 };
 
 void refuse_unusable(const store::Stored& stored, const std::string& file) {
@@ -109,10 +112,14 @@ ExitCode analyse(const Options& o) {
   s.notes.push_back("analysed again from the samples of " + o.file);
   const analysis::Samples kept{[&](std::size_t output) { return file.read(output, 0, samples); },
                                [&] { return file.read_status(0, samples); }};
+  ProgressLine line;
+  const StudyProgress studies(line);
   analysis::Results results = analysis::analyse(experiment, kept, o.threads);
   results.stopping = source.read_stopping();
+  analysis::keep_measurands(results, s.analysis.measurands);
   file.finish(results);
-  return print_results(results, out, o.format, s.run.max_failed_share);
+  line.clear();
+  return print_results(results, out, {o.format, o.budget, o.all, s.run.max_failed_share});
 }
 
 } // namespace
@@ -126,6 +133,8 @@ void add_analyse(CLI::App& app, Action& action) {
   add_force(*command, o->force);
   command->add_option("--threads", o->threads, "0: all processors")->check(CLI::Range(0, 1024));
   command->add_option("--format", o->format, "text, csv or json")->check(CLI::IsMember({"text", "csv", "json"}));
+  command->add_flag("--budget", o->budget, "text: with the uncertainty budgets; csv: these instead of the summary");
+  command->add_flag("--all", o->all, "text: every output, where one line would stand for many readings");
   command->callback([=, &action] { action = [=] { return analyse(*o); }; });
 }
 

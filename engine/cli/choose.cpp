@@ -4,11 +4,12 @@
 #include <optional>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
+#include "base/progress.h"
 #include "choice/choose.h"
 #include "cli/command.h"
 #include "cli/print_choice.h"
+#include "cli/progress_line.h"
 #include "store/choice_file.h"
 #include "store/origin.h"
 
@@ -23,27 +24,25 @@ struct Options {
   bool force = false;
 };
 
-/// One line on stderr, rewritten; silent when stderr is no terminal.
-void show(const choice::Progress& p) {
-  if (isatty(2) == 0) return;
-  std::cerr << (p.total > 0 ? fmt::format("\r{}: {} of {} candidates      ", p.what, p.done, p.total)
-                            : fmt::format("\r{}                           ", p.what))
-            << std::flush;
-}
-
 ExitCode choose(const Options& o) {
   scenario::Scenario s = scenario::read(o.file, catalogue());
   if (!s.choose)
     throw InputError(
         {{{s.file}, "[choose] is missing", "it defines the variables and the target", "[choose] target = \"...\""}});
-  if (o.samples) s.choose->samples = whole_number(*o.samples, "--samples", 200);
-  if (o.seed) s.run.seed = whole_number(*o.seed, "--seed", 0);
+  if (o.samples) s.choose->samples = whole_number(*o.samples, "--samples", 200, "1e6");
+  if (o.seed) s.run.seed = whole_number(*o.seed, "--seed", 0, "1");
   const std::string out = !o.out.empty() ? o.out : default_output(o.file, ".choose.h5");
   require_different(out, o.file);
   const store::Claim claim = store::claim_result(out, store::origin_of(s, "choose", o.force)); // before the work
   if (!claim.remark.empty()) std::cerr << claim.remark << '\n';
-  const choice::Result result = choice::choose(s, {o.threads, show});
-  if (isatty(2) != 0) std::cerr << '\n';
+  ProgressLine line;
+  const StudyProgress studies(line);
+  const choice::Result result =
+      choice::choose(s, {o.threads, [](const choice::Progress& p) {
+                           progress::stage(p.total > 0 ? fmt::format("{}, {} of {} candidates", p.what, p.done, p.total)
+                                                       : p.what);
+                         }});
+  line.clear();
   store::Draft draft;
   store::write_choice(draft, claim, s, result);
   draft.publish();

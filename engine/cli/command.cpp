@@ -15,7 +15,8 @@ scenario::Catalogue catalogue() {
   return c;
 }
 
-std::uint64_t whole_number(const std::string& text, const std::string& option, std::uint64_t least) {
+std::uint64_t whole_number(const std::string& text, const std::string& option, std::uint64_t least,
+                           const std::string& example) {
   std::size_t used = 0;
   double x = -1;
   try {
@@ -24,8 +25,9 @@ std::uint64_t whole_number(const std::string& text, const std::string& option, s
     used = 0;
   }
   if (used == 0 || used != text.size() || !(x >= static_cast<double>(least)) || x > 1e15 || x != std::floor(x))
-    throw InputError(option + ": '" + text + "' is not a whole number of at least " + std::to_string(least), "",
-                     "write a number such as 1e6");
+    throw InputError(option + ": '" + text + "' is not a whole number of at least " + std::to_string(least) +
+                         (x > 1e15 ? " and at most 1e15" : ""),
+                     "", "write a number such as " + example);
   return static_cast<std::uint64_t>(x);
 }
 

@@ -28,12 +28,17 @@ void add_effects(CLI::App& app, Action& action);
 void add_schema(CLI::App& app, Action& action);
 void add_gauge(CLI::App& app, Action& action);
 void add_fields(CLI::App& app, Action& action);
+void add_help(CLI::App& app, Action& action); ///< after all others: examples, `man`, `completion`
+
+/// What is wrong with a command line that CLI11 refuses, with the nearest command or option.
+Problem parse_problem(const CLI::App& app, const std::vector<std::string>& words, const CLI::ParseError& error);
 
 /// Models and effects as the scenario parser wants them.
 scenario::Catalogue catalogue();
 
 /// "1e6" or "1000000" as a whole number of at least `least`; throws InputError naming the option.
-std::uint64_t whole_number(const std::string& text, const std::string& option, std::uint64_t least);
+std::uint64_t whole_number(const std::string& text, const std::string& option, std::uint64_t least,
+                           const std::string& example);
 
 /// Refuses to write over what was read.
 void require_different(const std::string& out, const std::string& in);

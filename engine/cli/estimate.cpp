@@ -38,7 +38,7 @@ Json rows_json(const propagation::Experiment& e, const Estimate& r) {
     const auto& card = e.model().card->indications[row.indication];
     const std::string unit(card.unit), si(card.si_unit);
     Json one{{"reading", row.reading + 1},
-             {"name", propagation::reading_name(e.scenario().readings[row.reading])},
+             {"name", e.reading_names()[row.reading]},
              {"indication", card.name},
              {"unit", unit},
              {"measured", number(units::from_si(row.measured, unit, si))},
@@ -166,11 +166,9 @@ void print_text(const propagation::Experiment& e, const Estimate& r, const std::
     std::cout << fmt::format("loss {}, width {:.4g}\n", least_squares::name(r.loss), r.loss_width);
     for (const auto& row : r.rows) {
       if (row.weight >= 1 - 1e-3 || (r.loss != least_squares::Loss::huber && row.weight > 0.75)) continue;
-      const std::string name = propagation::reading_name(e.scenario().readings[row.reading]);
       const auto& card = e.model().card->indications[row.indication];
-      std::cout << fmt::format("down-weighted: reading {}{}, {}: weight {:.3f}, {:.3g} standard deviations\n",
-                               row.reading + 1, name.empty() ? "" : " (" + name + ")", card.name, row.weight,
-                               row.normalised);
+      std::cout << fmt::format("down-weighted: {}, {}: weight {:.3f}, {:.3g} standard deviations\n",
+                               e.reading_text(row.reading), card.name, row.weight, row.normalised);
     }
   }
   for (const auto& note : r.notes) std::cout << "note: " << note << '\n';

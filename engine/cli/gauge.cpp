@@ -16,6 +16,7 @@
 #include "base/units.h"
 #include "calibration/figures.h"
 #include "cli/command.h"
+#include "cli/installed.h"
 #include "propagation/memory_store.h"
 #include "propagation/propagate.h"
 
@@ -158,7 +159,7 @@ std::vector<std::string> examples(const std::vector<std::string>& asked) {
   std::vector<std::string> files;
   const char* folder = std::getenv("GUMSHOE_SCENARIOS");
   std::vector<std::string> from = asked;
-  if (from.empty()) from = {(fs::path(folder ? folder : GUMSHOE_SCENARIOS_DIR) / "gauge").string()};
+  if (from.empty()) from = {(fs::path(folder ? folder : data_folder("scenarios", GUMSHOE_SCENARIOS_DIR)) / "gauge").string()};
   for (const std::string& name : from) {
     if (!fs::is_directory(name)) {
       files.push_back(name);

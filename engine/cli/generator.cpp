@@ -1,17 +1,22 @@
 #include "cli/generator.h"
 
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
 
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+#include "base/interrupt.h"
+#include "cli/installed.h"
 
 namespace gumshoe::cli {
 
 ExitCode generate(const std::vector<std::string>& words) {
   const char* folder = std::getenv("GUMSHOE_REPORTS");
-  const std::string script = (std::filesystem::path(folder ? folder : GUMSHOE_REPORTS_DIR) / "report.py").string();
+  const std::string script = (std::filesystem::path(folder ? folder : data_folder("reports", GUMSHOE_REPORTS_DIR)) / "report.py").string();
   std::vector<std::string> line{"python3", script};
   line.insert(line.end(), words.begin(), words.end());
   std::vector<char*> argv;
@@ -20,11 +25,17 @@ ExitCode generate(const std::vector<std::string>& words) {
   std::cout.flush();
   const pid_t child = fork();
   if (child == 0) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
     execv("/usr/bin/python3", argv.data());
     _exit(127);
   }
   int status = 0;
-  if (child < 0 || waitpid(child, &status, 0) < 0 || !WIFEXITED(status))
+  const bool ended = child > 0 && waitpid(child, &status, 0) == child;
+  if (interrupted()) {
+    if (!ended) kill(child, SIGKILL), waitpid(child, &status, 0);
+    throw Interrupted();
+  }
+  if (!ended || !WIFEXITED(status))
     throw InputError("report: the generator did not run to its end", "/usr/bin/python3 " + script);
   if (WEXITSTATUS(status) == 127) throw InputError("report: /usr/bin/python3 is missing", "", "run scripts/setup");
   return WEXITSTATUS(status) == 0 ? ExitCode::done : ExitCode::bad_input;

@@ -1,14 +1,21 @@
-#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <exception>
 #include <iostream>
 #include <new>
 
-#include <fmt/format.h>
-
+#include "base/interrupt.h"
 #include "base/version.h"
 #include "cli/command.h"
+
+namespace {
+
+int interrupted_exit() {
+  std::cerr << "interrupted. " << gumshoe::said_when_interrupted() << '\n';
+  return static_cast<int>(gumshoe::ExitCode::interrupted);
+}
+
+} // namespace
 
 int main(int argc, char** argv) {
   using namespace gumshoe;
@@ -16,7 +23,6 @@ int main(int argc, char** argv) {
   CLI::App app{"Gumshoe: uncertainty and sensitivity analysis of on-machine measurement", "gumshoe"};
   app.set_version_flag("--version", std::string("gumshoe ") + version + " (" + git_hash + ")");
   app.require_subcommand(1);
-  app.footer("Exit codes: 0 done, 1 gauge found a difference, 2 bad input, 3 too many failed samples or no convergence, 130 interrupted (the same command resumes).");
   cli::Action action;
   cli::add_check(app, action);
   cli::add_run(app, action);
@@ -32,8 +38,10 @@ int main(int argc, char** argv) {
   cli::add_schema(app, action);
   cli::add_gauge(app, action);
   cli::add_fields(app, action);
+  cli::add_help(app, action);
   try {
     app.parse(argc, argv);
+    catch_interrupts();
     const ExitCode code = action ? action() : ExitCode::done;
     std::cout.flush();
     if (!std::cout || std::fflush(stdout) != 0) {
@@ -41,25 +49,17 @@ int main(int argc, char** argv) {
       return static_cast<int>(ExitCode::bad_input);
     }
     return static_cast<int>(code);
+  } catch (const Interrupted&) {
+    return interrupted_exit();
   } catch (const CLI::Success& wanted) { // --help, --version
     return app.exit(wanted);
   } catch (const CLI::ParseError& error) {
-    std::vector<std::string> names;
-    for (const auto* command : app.get_subcommands({})) names.push_back(command->get_name());
-    if (argc > 1 && argv[1][0] != '-' && std::ranges::find(names, argv[1]) == names.end()) {
-      const std::string meant = nearest(argv[1], names);
-      std::cerr << format({{},
-                           fmt::format("unknown command '{}'", argv[1]),
-                           meant.empty() ? "gumshoe --help lists them" : "",
-                           meant.empty() ? "" : "did you mean '" + meant + "'?"})
-                << '\n';
-    } else {
-      std::cerr << format({{}, error.what(), "--help lists the options", ""}) << '\n';
-    }
+    std::cerr << format(cli::parse_problem(app, {argv + 1, argv + argc}, error)) << '\n';
     return static_cast<int>(ExitCode::bad_input);
   } catch (const std::bad_alloc&) {
     std::cerr << "error: out of memory. Use fewer samples.\n";
   } catch (const InputError& error) {
+    if (interrupted()) return interrupted_exit(); // a signal reached a program that we wait for, too
     std::cerr << error.what() << '\n';
   } catch (const std::exception& error) {
     std::cerr << format({{}, error.what(), "", ""}) << '\n';

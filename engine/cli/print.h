@@ -7,15 +7,24 @@
 
 namespace gumshoe::cli {
 
-/// A few lines: the statements, and what each study found. `out` is where the whole of it stands.
-void print_text(const analysis::Results& results, const std::string& out);
+struct PrintOptions {
+  std::string format = "text"; ///< text, csv or json
+  bool budget = false;         ///< text: with every budget; csv: the budgets instead of the summary
+  bool all = false;            ///< text: every output, however many there are
+  double max_failed_share = 1;
+};
 
-/// One row or object per output, all digits: CSV or JSON.
-void print_table(const analysis::Results& results, bool json);
+/// The statements, the largest contributions, and what each study found. `file` holds everything.
+void print_text(const analysis::Results& results, const std::string& file, const PrintOptions& options = {});
 
-/// As text, csv or json; `file`: where they were written. Too many failed samples, or an adaptive run that did not get
-/// there: an error message and its code.
-ExitCode print_results(const analysis::Results& results, const std::string& file, const std::string& format,
-                       double max_failed_share);
+/// One object per output, all digits: everything that the text and the report show.
+void print_json(const analysis::Results& results, const std::string& file);
+
+/// One row per output, or per component of its budget, all digits.
+void print_csv(const analysis::Results& results, bool budget = false);
+
+/// As the options say. Too many failed samples, or an adaptive run that did not get there: an error message and its
+/// code.
+ExitCode print_results(const analysis::Results& results, const std::string& file, const PrintOptions& options);
 
 } // namespace gumshoe::cli

@@ -6,16 +6,18 @@
 
 #include <fmt/format.h>
 
+#include "analysis/fields_json.h"
 #include "analysis/rounding.h"
 #include "base/units.h"
 #include "choice/choose.h"
 #include "choice/fields.h"
-#include "cli/fields_json.h"
 
 namespace gumshoe::cli {
 
 namespace {
 
+using analysis::Json;
+using analysis::number;
 using choice::Candidate;
 using choice::Figures;
 using choice::Result;

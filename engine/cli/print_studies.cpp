@@ -6,9 +6,10 @@
 
 #include <fmt/format.h>
 
+#include "analysis/fields_json.h"
 #include "analysis/result_fields.h"
+#include "analysis/rounding.h"
 #include "base/units.h"
-#include "cli/fields_json.h"
 
 namespace gumshoe::cli {
 using namespace analysis;
@@ -62,17 +63,37 @@ void print_joint(const Results& r, std::ostream& out) {
                          shown(c.standard_deviation, c.output.unit, c.output.si_unit), c.remark);
 }
 
+/// A limit with the digits that the guard band and a tenth of the tolerance ask for.
+std::string limit(const ConformityResult& c, double x) {
+  const propagation::Output& o = c.output;
+  const double width = std::isfinite(c.upper - c.lower) ? (c.upper - c.lower) / 10 : std::fabs(c.estimate) / 1000;
+  const double finest = c.guard_band != 0 ? std::fmin(width, std::fabs(c.guard_band)) : width;
+  return fixed(units::from_si(x, o.unit, o.si_unit),
+               std::max(0, decimals_for(units::from_si(finest, o.unit, o.si_unit, units::Kind::difference)))) +
+         (o.unit == "1" ? "" : " " + o.unit);
+}
+
+std::string limits(const ConformityResult& c, double low, double high) {
+  return std::isnan(low)    ? "at most " + limit(c, high)
+         : std::isnan(high) ? "at least " + limit(c, low)
+                            : "from " + limit(c, low) + " to " + limit(c, high);
+}
+
 void print_conformity(const Results& r, std::ostream& out) {
   for (const ConformityResult& c : r.conformity) {
-    out << fmt::format("conformity of {}: {}, conformance probability {:.4g} %", c.output.name,
-                       c.accepted ? "accepted" : "rejected", 100 * c.conformance_probability);
+    const auto percent = [&](double p) { return probability_text(p, c.least_risk); };
+    out << fmt::format("conformity of {}: {}, conformance probability {}", c.output.name,
+                       c.accepted ? "accepted" : "rejected", percent(c.conformance_probability));
     const std::pair<const char*, double> risks[] = {{"specific consumer's risk", c.specific_consumer_risk},
                                                     {"specific producer's risk", c.specific_producer_risk},
                                                     {"global consumer's risk", c.global_consumer_risk},
                                                     {"global producer's risk", c.global_producer_risk}};
     for (const auto& [name, risk] : risks)
-      if (std::isfinite(risk)) out << fmt::format(", {} {:.3g} %", name, 100 * risk);
-    out << '\n';
+      if (std::isfinite(risk)) out << fmt::format(", {} {}", name, percent(risk));
+    out << fmt::format("\n  tolerance {}, acceptance {}, estimate {}; decision rule {}, guard band w = {}{}\n",
+                       limits(c, c.lower, c.upper), limits(c, c.acceptance_lower, c.acceptance_upper),
+                       limit(c, c.estimate), c.rule, shown(c.guard_band, c.output.unit, c.output.si_unit),
+                       c.acceptance_lower >= c.acceptance_upper ? "; the guard bands leave no room for acceptance" : "");
   }
 }
 

@@ -30,7 +30,7 @@ scenario::Scenario scenario_of(const store::Identity& identity, const std::strin
 void print_reading(const propagation::Experiment& e, std::size_t r, const std::vector<double>& variates,
                    const std::vector<double>& simulated) {
   const auto& s = e.scenario();
-  const std::string name = propagation::reading_name(s.readings[r]);
+  const std::string name = e.reading_names()[r];
   std::cout << "\nreading" << (name.empty() ? "" : " [" + name + "]") << '\n';
   const bool virtual_experiment = s.method == scenario::Method::virtual_experiment;
   const auto first_indication = static_cast<std::ptrdiff_t>(e.layout().indications.begin);
@@ -74,7 +74,7 @@ void add_replay(CLI::App& app, Action& action) {
         throw InputError(o->file + ": the file holds no run", "gumshoe " + stored.command() + " made it",
                          "use gumshoe run");
       store::require_sound_samples(o->file);
-      const std::uint64_t sample = whole_number(o->sample, "--sample", 0);
+      const std::uint64_t sample = whole_number(o->sample, "--sample", 0, "0");
       if (sample >= stored.identity.samples)
         throw InputError(fmt::format("--sample: {} is beyond the run", sample),
                          fmt::format("{} samples, counted from 0", stored.identity.samples));

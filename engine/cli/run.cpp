@@ -1,18 +1,21 @@
 /// `gumshoe run`: samples, analysis, result file.
-#include <atomic>
 #include <chrono>
-#include <csignal>
+#include <ctime>
 #include <iostream>
 #include <memory>
 #include <optional>
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include "analysis/analyse.h"
+#include "analysis/selection.h"
 #include "analysis/stopping.h"
+#include "base/interrupt.h"
 #include "cli/command.h"
 #include "cli/print.h"
+#include "cli/progress_line.h"
 #include "propagation/propagate.h"
 #include "store/result_file.h"
 
@@ -24,33 +27,7 @@ struct Options {
   std::string file, out, format = "text";
   std::optional<std::string> samples, seed;
   int threads = 0;
-  bool force = false;
-};
-
-std::atomic<bool> stop{false};
-void on_signal(int) { stop = true; }
-
-/// One line on stderr, rewritten: rate, share, time left. Silent when stderr is no terminal.
-class ProgressLine {
-public:
-  void operator()(const propagation::Progress& p) {
-    if (!terminal_) return;
-    const auto now = std::chrono::steady_clock::now();
-    if (first_ == 0) first_ = p.done, started_ = now;
-    if (p.done < p.total && now - shown_ < std::chrono::milliseconds(200)) return;
-    shown_ = now;
-    const double seconds = std::chrono::duration<double>(now - started_).count();
-    const double rate = seconds > 0 ? static_cast<double>(p.done - first_) / seconds : 0;
-    std::cerr << fmt::format("\r{:5.1f} %  {:.3g} samples/s  {:.0f} s left   ",
-                             100.0 * static_cast<double>(p.done) / static_cast<double>(p.total), rate,
-                             rate > 0 ? static_cast<double>(p.total - p.done) / rate : 0)
-              << (p.done == p.total ? "\n" : "") << std::flush;
-  }
-
-private:
-  bool terminal_ = isatty(2) != 0;
-  std::uint64_t first_ = 0;
-  std::chrono::steady_clock::time_point started_, shown_;
+  bool force = false, budget = false, all = false;
 };
 
 /// The options of an adaptive run that determine its results, in addition to the scenario.
@@ -70,6 +47,8 @@ bool sample(scenario::Scenario& s, const propagation::Experiment& e, store::Resu
     stopping = analysis::run_adaptively(e, file, settings, stopped);
     s.run.samples = file.samples();
     return !stopped;
+  } catch (const Interrupted&) {
+    return false;
   } catch (const OutputError&) {
     throw;
   } catch (const InputError& error) {
@@ -81,15 +60,22 @@ bool sample(scenario::Scenario& s, const propagation::Experiment& e, store::Resu
   }
 }
 
+std::string host_name() {
+  char name[256] = {};
+  return gethostname(name, sizeof name - 1) == 0 ? name : "";
+}
+
 ExitCode run(const Options& o) {
+  const auto began = std::chrono::steady_clock::now();
+  const auto date = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
   scenario::Scenario s = scenario::read(o.file, catalogue());
   if (o.samples) {
-    s.run.samples = whole_number(*o.samples, "--samples", 2);
+    s.run.samples = whole_number(*o.samples, "--samples", 2, "1e6");
     s.run.adaptive = {}; // the number is given
   }
   if (s.run.adaptive.rule != scenario::StoppingRule::fixed)
     s.run.samples = propagation::block_samples; // room is made as the run goes
-  if (o.seed) s.run.seed = whole_number(*o.seed, "--seed", 0);
+  if (o.seed) s.run.seed = whole_number(*o.seed, "--seed", 0, "1");
   const propagation::Experiment experiment(s);
   if (experiment.outputs().empty())
     throw InputError(
@@ -103,27 +89,34 @@ ExitCode run(const Options& o) {
 
   if (!file.remark().empty()) std::cerr << file.remark() << '\n';
 
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
   propagation::RunSettings settings;
   settings.threads = o.threads;
   settings.first = file.samples_done();
-  settings.stop = &stop;
-  settings.progress = [line = ProgressLine()](const propagation::Progress& p) mutable { line(p); };
+  settings.stop = &interrupted();
+  ProgressLine line;
+  settings.progress = [&](const propagation::Progress& p) { line.show("sampling", p.done, p.total, "samples/s"); };
   if (settings.first > 0) std::cerr << fmt::format("resuming after {} samples\n", settings.first);
+  when_interrupted(s.run.store_samples ? "The samples so far are kept. Repeat the command to resume."
+                                       : "No samples are kept. The same command starts from the beginning.");
   analysis::StoppingRecord stopping;
   if (!sample(s, experiment, file, settings, out, stopping)) {
-    const std::uint64_t done = file.samples_done();
-    std::cerr << fmt::format("\ninterrupted after {} of {} samples. Repeat the command to resume.\n", done,
-                             s.run.samples);
+    line.clear();
+    std::cerr << fmt::format("interrupted after {} of {} samples. {}\n", file.samples_done(), s.run.samples,
+                             s.run.store_samples ? "Repeat the command to resume." : said_when_interrupted());
     return ExitCode::interrupted;
   }
+  const StudyProgress studies(line);
   const analysis::Samples samples{[&](std::size_t output) { return file.read(output, 0, s.run.samples); },
                                   [&] { return file.read_status(0, s.run.samples); }};
   analysis::Results results = analysis::analyse(experiment, samples, o.threads);
   results.stopping = stopping;
+  results.date = date;
+  results.host = host_name();
+  results.duration = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  analysis::keep_measurands(results, s.analysis.measurands);
   file.finish(results);
-  return print_results(results, out, o.format, s.run.max_failed_share);
+  line.clear();
+  return print_results(results, out, {o.format, o.budget, o.all, s.run.max_failed_share});
 }
 
 } // namespace
@@ -138,6 +131,8 @@ void add_run(CLI::App& app, Action& action) {
   command->add_option("--out", o->out, "result file (default: results/SCENARIO.h5)");
   add_force(*command, o->force);
   command->add_option("--format", o->format, "text, csv or json")->check(CLI::IsMember({"text", "csv", "json"}));
+  command->add_flag("--budget", o->budget, "text: with the uncertainty budgets; csv: these instead of the summary");
+  command->add_flag("--all", o->all, "text: every output, where one line would stand for many readings");
   command->callback([=, &action] { action = [=] { return run(*o); }; });
 }
 

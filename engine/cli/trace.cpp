@@ -8,11 +8,12 @@
 #include <fmt/format.h>
 #include <malloc.h>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
+#include "base/progress.h"
 #include "cli/command.h"
 #include "cli/generator.h"
 #include "cli/print_trace.h"
+#include "cli/progress_line.h"
 #include "cli/traced_budgets.h"
 #include "store/origin.h"
 #include "store/trace_file.h"
@@ -34,8 +35,8 @@ struct Options {
 scenario::Scenario asked(const Options& o) {
   scenario::Scenario s = scenario::read(o.file, catalogue(), {o.data});
   if (o.draws)
-    s.trace.draws = static_cast<int>(std::min<std::uint64_t>(whole_number(*o.draws, "--draws", 19), 1'000'000));
-  if (o.seed) s.trace.seed = whole_number(*o.seed, "--seed", 0);
+    s.trace.draws = static_cast<int>(std::min<std::uint64_t>(whole_number(*o.draws, "--draws", 19, "999"), 1'000'000));
+  if (o.seed) s.trace.seed = whole_number(*o.seed, "--seed", 0, "1");
   return s;
 }
 
@@ -98,11 +99,6 @@ std::string signed_verdict(const tracing::Trace& found, const store::Origin& ori
   return verdict.dump(2) + '\n';
 }
 
-/// One line on stderr, rewritten; silent when stderr is no terminal.
-void show(const std::string& what) {
-  if (isatty(2) != 0) std::cerr << fmt::format("\r{:<70}", what) << std::flush;
-}
-
 ExitCode trace(const Options& o) {
   // Matrices of megabytes come and go by the thousand: their pages are kept.
   mallopt(M_MMAP_THRESHOLD, 1 << 30);
@@ -112,8 +108,10 @@ ExitCode trace(const Options& o) {
   const std::string out = outputs.result.path();
   if (!outputs.result.remark.empty()) std::cerr << outputs.result.remark << '\n';
   const ModelCard& card = s.made ? *s.made->card : *models::find(s.model)->card;
-  tracing::Trace found = tracing::trace(s, {o.threads, show});
-  if (isatty(2) != 0) std::cerr << '\n';
+  ProgressLine line;
+  const StudyProgress studies(line);
+  tracing::Trace found = tracing::trace(s, {o.threads, progress::stage});
+  line.clear();
   store::TracedBudgets budgets;
   store::Draft draft;
   const bool closed = close_loop(s, found, outputs, draft, budgets);

@@ -37,4 +37,9 @@ constexpr VariableCard shown_in_deg(const Variable& v) { return {v.name, "deg", 
 constexpr VariableCard shown_in_s(const Variable& v) { return {v.name, "s", "s", v.default_value, v.meaning}; }
 constexpr VariableCard shown_pure(const Variable& v) { return {v.name, "1", "1", v.default_value, v.meaning}; }
 
+/// A count or another figure that says how the evaluation went.
+constexpr VariableCard shown_diagnostic(const Variable& v) {
+  return {v.name, "1", "1", v.default_value, v.meaning, true};
+}
+
 } // namespace gumshoe::models

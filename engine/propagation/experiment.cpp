@@ -1,14 +1,19 @@
 #include "propagation/experiment.h"
 
 #include <algorithm>
+#include <map>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/units.h"
 
 namespace gumshoe::propagation {
 
-std::string reading_name(const quantities::Reading& reading) {
+namespace {
+
+/// Label values of a reading, such as "rod 2, setup 1"; "" if it has none.
+std::string label_name(const quantities::Reading& reading) {
   std::string name;
   for (const auto& [label, value] : reading.labels)
     // "rod 2" says that it is a rod; "1" does not say that it is a setup.
@@ -16,7 +21,42 @@ std::string reading_name(const quantities::Reading& reading) {
   return name;
 }
 
-namespace {
+/// The conditions of a reading in which the readings `alike` differ: "feed 30 mm/min".
+std::string differing_conditions(const std::vector<quantities::Reading>& readings, std::size_t r,
+                                 const std::vector<std::size_t>& alike, std::span<const VariableCard> conditions) {
+  std::string text;
+  for (std::size_t c = 0; c < conditions.size(); ++c) {
+    const double mine = readings[r].conditions.at(c);
+    if (std::ranges::all_of(alike, [&](std::size_t i) { return readings[i].conditions.at(c) == mine; })) continue;
+    const VariableCard& v = conditions[c];
+    text += fmt::format("{}{} {:.6g}{}", text.empty() ? "" : ", ", v.name,
+                        units::from_si(mine, std::string(v.unit), std::string(v.si_unit)),
+                        v.unit == "1" ? "" : " " + std::string(v.unit));
+  }
+  return text;
+}
+
+/// Readings of equal names, by name.
+std::map<std::string, std::vector<std::size_t>> grouped(const std::vector<std::string>& names) {
+  std::map<std::string, std::vector<std::size_t>> groups;
+  for (std::size_t r = 0; r < names.size(); ++r) groups[names[r]].push_back(r);
+  return groups;
+}
+
+std::vector<std::string> unique_names(const std::vector<quantities::Reading>& readings, const ModelCard& card) {
+  std::vector<std::string> names;
+  for (const auto& reading : readings) names.push_back(label_name(reading));
+  const auto add = [&](std::size_t r, const std::string& text) {
+    if (!text.empty()) names[r] += (names[r].empty() ? "" : ", ") + text;
+  };
+  for (const auto& [name, alike] : grouped(names))
+    if (alike.size() > 1)
+      for (const std::size_t r : alike) add(r, differing_conditions(readings, r, alike, card.conditions));
+  for (const auto& [name, alike] : grouped(names))
+    if (alike.size() > 1)
+      for (const std::size_t r : alike) add(r, fmt::format("reading {}", r + 1));
+  return names;
+}
 
 quantities::SamplePlan located_plan(const scenario::Scenario& s) {
   try {
@@ -67,6 +107,7 @@ Experiment::Experiment(const scenario::Scenario& s)
     throw InputError({{find_line(s, "[model]"), "model: the model does not simulate the readings",
                        "a virtual experiment simulates every indication", "method = \"propagation\""}});
   plan_ = located_plan(s);
+  reading_names_ = unique_names(s.readings, *model->card);
   forward_ = forward_model_of(s, *model);
   mean_ = s.mean_of_readings && !forward_.joint();
   joint_ = forward_.joint() || mean_;
@@ -87,10 +128,11 @@ Experiment::Experiment(const scenario::Scenario& s)
 
 void Experiment::add_outputs(std::size_t r) {
   const auto labels = joint_ ? quantities::Labels{} : scenario_.readings[r].labels;
-  const std::string at = joint_ ? "" : reading_name(scenario_.readings[r]);
+  const std::string at = joint_ ? "" : reading_names_[r];
   for (const VariableCard& m : measurands_)
-    outputs_.push_back({(virtual_ ? "error of " : "") + std::string(m.name) + (at.empty() ? "" : "[" + at + "]"),
-                        std::string(m.name), r, std::string(m.unit), std::string(m.si_unit), labels});
+    outputs_.push_back({(virtual_ && !m.diagnostic ? "error of " : "") + std::string(m.name) +
+                            (at.empty() ? "" : "[" + at + "]"),
+                        std::string(m.name), r, std::string(m.unit), std::string(m.si_unit), labels, m.diagnostic});
 }
 
 /// Readings that agree in everything the solve reads share one solve.
@@ -109,11 +151,14 @@ void Experiment::find_twins() {
   }
 }
 
+std::string Experiment::reading_text(std::size_t r) const {
+  const std::string &name = reading_names_[r], position = fmt::format("reading {}", r + 1);
+  return name.ends_with(position) ? name : position + (name.empty() ? "" : " (" + name + ")");
+}
+
 std::vector<std::string> Experiment::place_names() const {
   if (joint_) return {"all readings"};
-  std::vector<std::string> names;
-  for (const auto& r : scenario_.readings) names.push_back(reading_name(r));
-  return names;
+  return reading_names_;
 }
 
 std::vector<double> Experiment::reading_point(std::size_t reading, const double* variates) const {

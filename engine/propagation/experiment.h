@@ -39,7 +39,12 @@ public:
   bool joint() const { return joint_; }
   /// Measurands of one reading, or of the joint evaluation; output o is measurand o % measurands().size().
   std::span<const VariableCard> measurands() const { return measurands_; }
-  /// Names of the readings, or "all readings"; indexed by Output::reading.
+  /// Unique names of the readings: labels, then the conditions in which readings of equal labels differ, then the
+  /// position. Empty for a single reading without labels.
+  const std::vector<std::string>& reading_names() const { return reading_names_; }
+  /// "reading 3 (rod 2)", for messages.
+  std::string reading_text(std::size_t reading) const;
+  /// Their names, or "all readings"; indexed by Output::reading.
   std::vector<std::string> place_names() const;
   /// Columns of the plan that the outputs of `reading` depend on: one per scenario quantity, or all columns for a joint
   /// evaluation.
@@ -100,16 +105,13 @@ private:
   bool mean_ = false; ///< the outputs are the model's measurands averaged over the readings
   std::vector<std::size_t> solved_as_, every_column_;
   std::vector<double> column_estimates_;
-  std::vector<std::string> remarks_;
+  std::vector<std::string> remarks_, reading_names_;
 };
 
 /// 16 hex digits over everything that fixes the samples and their meaning: variates, copulas, columns, design, seed
 /// (and total, where points depend on it), readings, model, method and evaluation. Equal: the same samples. A model
 /// described by the scenario counts by its name only.
 std::string design_hash(const Experiment& experiment);
-
-/// Label values of a reading, such as "rod 2, 1"; "" if it has none.
-std::string reading_name(const quantities::Reading& reading);
 
 /// The first line of the scenario's text that begins with `start`, for messages.
 Location find_line(const scenario::Scenario& scenario, const std::string& start);

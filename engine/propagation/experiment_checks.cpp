@@ -35,9 +35,9 @@ std::pair<Location, std::string> place_of(const scenario::Scenario& s, const Mod
 void Experiment::check_reading(std::size_t r) const {
   const std::string problem = forward_.check(r, reading_point(r));
   if (problem.empty()) return;
-  const std::string at = reading_name(scenario_.readings[r]);
+  const std::string at = reading_names_[r];
   const auto [where, section] = place_of(scenario_, *model().card, problem);
-  throw InputError({{where, section + ": " + problem + (at.empty() ? "" : " at reading [" + at + "]"),
+  throw InputError({{where, section + ": " + problem + (at.empty() ? "" : " at " + reading_text(r)),
                      "physically impossible", ""}});
 }
 

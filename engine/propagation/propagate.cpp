@@ -10,6 +10,9 @@
 #include <oneapi/tbb/parallel_pipeline.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include "base/interrupt.h"
+#include "base/progress.h"
+
 namespace gumshoe::propagation {
 
 namespace tbb = oneapi::tbb;
@@ -119,17 +122,30 @@ std::uint64_t propagate(const Experiment& e, Sink& sink, const RunSettings& sett
   return done;
 }
 
+void draw_variates(const Experiment& e, std::uint64_t first, std::size_t count, double* values) {
+  const std::uint64_t begin = first / 64 * 64;
+  const std::size_t n = static_cast<std::size_t>((first + count - begin + 63) / 64 * 64);
+  std::vector<double> drawn(e.plan().variates.size() * n);
+  make_sampler(e).draw(begin, n, quantities::Purpose::sampling, drawn.data(), n);
+  for (std::size_t v = 0; v < e.plan().variates.size(); ++v)
+    std::copy_n(&drawn[v * n + (first - begin)], count, values + v * count);
+}
+
 std::vector<double> variates_of(const Experiment& e, std::uint64_t sample) {
-  const quantities::Sampler sampler = make_sampler(e);
-  const std::uint64_t first = sample / 64 * 64;
-  std::vector<double> drawn(e.plan().variates.size() * 64), one;
-  sampler.draw(first, 64, quantities::Purpose::sampling, drawn.data(), 64);
-  for (std::size_t v = 0; v < e.plan().variates.size(); ++v) one.push_back(drawn[v * 64 + (sample - first)]);
+  std::vector<double> one(e.plan().variates.size());
+  draw_variates(e, sample, 1, one.data());
   return one;
 }
 
 void parallel_for(std::size_t n, int threads, const std::function<void(std::size_t)>& body) {
-  on_threads(thread_count(threads), [&] { tbb::parallel_for(std::size_t{0}, n, body); });
+  progress::Loop loop(n);
+  on_threads(thread_count(threads), [&] {
+    tbb::parallel_for(std::size_t{0}, n, [&](std::size_t i) {
+      stop_if_interrupted();
+      body(i);
+      loop.step();
+    });
+  });
 }
 
 } // namespace gumshoe::propagation

@@ -45,6 +45,7 @@ struct Output {
   std::string unit; ///< shown to people
   std::string si_unit;
   quantities::Labels labels{}; ///< labels of the reading; none for a joint evaluation
+  bool diagnostic = false;     ///< no measurand, but a figure that says how the evaluation went
 };
 
 } // namespace gumshoe::propagation

@@ -172,7 +172,9 @@ void Experiment::run_model(std::size_t n, Workspace& w, double* outputs, std::ui
   point_at_rows(w.measurands, rows, outputs, n);
   model().kernels()->evaluate(forward_.call(w.block, nullptr, w.measurands.data(), status));
   if (virtual_)
-    for (std::size_t i = 0; i < rows * n; ++i) outputs[i] -= w.truth[i];
+    for (std::size_t row = 0; row < rows; ++row)
+      if (!measurands_[row % measurands_.size()].diagnostic)
+        for (std::size_t i = row * n; i < (row + 1) * n; ++i) outputs[i] -= w.truth[i];
   mark_failed(rows, n, outputs, status);
 }
 

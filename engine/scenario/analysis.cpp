@@ -36,25 +36,31 @@ SensitivityOptions read_sensitivity(Table table) {
   return out;
 }
 
+/// Names of measurands of the evaluation, each once.
+std::vector<std::string> known_measurands(const std::vector<Node>& items, const std::string& path,
+                                          const StudyScope& scope, Problems& problems) {
+  const std::vector<std::string> names = names_of(scope.model.measurands);
+  std::vector<std::string> measurands;
+  for (const Node& item : items) {
+    const auto name = read_text(item, path, problems);
+    if (!name) continue;
+    if (std::ranges::find(names, *name) == names.end())
+      problems.add(item, fmt::format("{}: '{}' is not a measurand here", path, *name), "", did_you_mean(*name, names));
+    else if (std::ranges::find(measurands, *name) != measurands.end())
+      problems.add(item, fmt::format("{}: '{}' is named twice", path, *name));
+    measurands.push_back(*name);
+  }
+  return measurands;
+}
+
 std::vector<std::vector<std::string>> read_joint(Table& table, const StudyScope& scope) {
   std::vector<std::vector<std::string>> out;
   const auto* groups = table.array("joint");
   if (!groups) return out;
-  const std::vector<std::string> names = names_of(scope.model.measurands);
   const std::string path = table.path("joint");
   Problems& problems = table.problems();
   for (const Node& group : *groups) {
-    std::vector<std::string> measurands;
-    for (const Node& item : group.items) {
-      const auto name = read_text(item, path, problems);
-      if (!name) continue;
-      if (std::ranges::find(names, *name) == names.end())
-        problems.add(item, fmt::format("{}: '{}' is not a measurand here", path, *name), "",
-                     did_you_mean(*name, names));
-      else if (std::ranges::find(measurands, *name) != measurands.end())
-        problems.add(item, fmt::format("{}: '{}' is named twice", path, *name));
-      measurands.push_back(*name);
-    }
+    const std::vector<std::string> measurands = known_measurands(group.items, path, scope, problems);
     if (group.kind != Node::Kind::array || measurands.size() < 2)
       problems.add(group, path + ": each group needs at least two measurands", "", "joint = [[\"a\", \"b\"]]");
     out.push_back(measurands);
@@ -112,6 +118,8 @@ Options<AnalysisOptions> analysis_options() {
   return {
       option::share("coverage_probability", &AnalysisOptions::coverage_probability, true, "coverage probability of "
                                                                                           "all coverage intervals"),
+      option::texts("measurands", &AnalysisOptions::measurands, "",
+                    "measurands that are printed and reported; default: all"),
       option::whole("validation_digits", &AnalysisOptions::validation_digits, 1, 6, "n_dig of JCGM 101 8.1"),
       option::by_hand<AnalysisOptions>("sensitivity", table_shape(sensitivity_options()),
                                        "studies, each with its size"),
@@ -130,6 +138,9 @@ AnalysisOptions read_analysis(Table table, const StudyScope& scope, Context& con
   AnalysisOptions out;
   read_options(table, analysis_options(), out);
   if (auto sensitivity = table.table("sensitivity")) out.sensitivity = read_sensitivity(*sensitivity);
+  if (const Node* chosen = table.find("measurands")) // one name or a list
+    known_measurands(chosen->kind == Node::Kind::array ? chosen->items : std::vector<Node>{*chosen},
+                     table.path("measurands"), scope, table.problems()); // the same problem twice is told once
   out.joint = read_joint(table, scope);
   for (const Table& row : table.tables("comparisons")) out.comparisons.push_back(read_comparison(row, scope, context));
   for (const Table& row : table.tables("printed")) out.printed.push_back(read_printed(row, scope, context));

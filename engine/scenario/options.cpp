@@ -32,6 +32,8 @@ Options<RunOptions> run_options() {
                     "share of failed samples above which the run fails"),
       option::flag("store_samples", &RunOptions::store_samples,
                    "keep every sample in the result file, not only the summary"),
+      option::flag("store_inputs", &RunOptions::store_inputs,
+                   "keep the drawn deviations of the input quantities in the result file, too"),
       option::by_hand<RunOptions>("adaptive", table_shape(adaptive_options()),
                                   "adaptive run: as many samples as the results need for the stated digits"),
   };

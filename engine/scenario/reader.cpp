@@ -1,6 +1,7 @@
 #include "scenario/reader.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <stdexcept>
 
@@ -42,10 +43,45 @@ void Problems::raise() const {
   throw InputError(std::move(sorted));
 }
 
+namespace {
+
+/// Words that people use for ours; what they mean is offered where it is a candidate.
+constexpr std::pair<std::string_view, std::string_view> synonyms[] = {
+    {"uniform", "rectangular"},     {"rectangle", "rectangular"},    {"square", "rectangular"},
+    {"gaussian", "normal"},         {"gauss", "normal"},             {"student", "t"},
+    {"student_t", "t"},             {"students_t", "t"},             {"u_shaped", "arcsine"},
+    {"ushaped", "arcsine"},         {"trapezoidal", "trapezoid"},    {"triangle", "triangular"},
+    {"standard_uncertainty", "u"},  {"std", "u"},                    {"stddev", "u"},
+    {"sd", "u"},                    {"standard_deviation", "u"},     {"sigma", "u"},
+    {"expanded_uncertainty", "U"},  {"coverage_factor", "k"},        {"dof", "degrees_of_freedom"},
+    {"nu", "degrees_of_freedom"},   {"df", "degrees_of_freedom"},    {"type", "evaluation"},
+    {"estimate", "value"},          {"nominal", "value"},            {"mean", "value"},
+    {"tolerance", "half_width"},    {"halfwidth", "half_width"},     {"half-width", "half_width"},
+    {"a", "half_width"},            {"min", "low"},                  {"lower", "low"},
+    {"minimum", "low"},             {"max", "high"},                 {"upper", "high"},
+    {"maximum", "high"},            {"scope", "per"},                {"reference", "source"},
+    {"dist", "distribution"},       {"measurements", "observations"}, {"samples", "observations"},
+};
+
+/// What is meant by another word for it, or empty.
+std::string synonym_of(std::string word, const std::vector<std::string>& candidates) {
+  std::ranges::transform(word, word.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  for (const auto& [theirs, ours] : synonyms)
+    if (word == theirs && std::ranges::find(candidates, ours) != candidates.end()) return std::string(ours);
+  return {};
+}
+
+} // namespace
+
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates) {
+  const auto offered = [&](const char* name) { return std::ranges::find(candidates, name) != candidates.end(); };
+  if (word.find("uncertainty") != word.npos && word.find('_') == word.npos && offered("u") && offered("U"))
+    return "write u for a standard uncertainty, or U with k for an expanded one";
+  if (const std::string meant = synonym_of(word, candidates); !meant.empty())
+    return fmt::format("did you mean '{}'?", meant);
   const std::string near = nearest(word, candidates);
   if (!near.empty()) return fmt::format("did you mean '{}'?", near);
-  if (candidates.empty() || candidates.size() > 12) return {};
+  if (candidates.empty()) return {};
   const std::string all = fmt::format("use one of {}", fmt::join(candidates, ", "));
   return all.size() <= 500 ? all : std::string{}; // a list that nobody would read
 }
@@ -283,8 +319,15 @@ void Table::refuse_unknown() {
   for (const Member& m : node_->members) {
     if (known_.contains(m.key)) continue;
     const std::string prefix = path_.empty() ? "" : path_ + ": ";
+    if (declared_.contains(m.key)) { // a key of another form of this table
+      problems_->add(m, fmt::format("{}the key '{}' means nothing together with the others", prefix, m.key), "",
+                     "leave it out, or state what it belongs to");
+      continue;
+    }
+    std::set<std::string> names = known_;
+    names.insert(declared_.begin(), declared_.end());
     problems_->add(m, fmt::format("{}unknown key '{}'", prefix, m.key), "",
-                   did_you_mean(m.key, {known_.begin(), known_.end()}));
+                   did_you_mean(m.key, {names.begin(), names.end()}));
   }
 }
 

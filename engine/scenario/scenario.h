@@ -48,6 +48,7 @@ struct RunOptions {
   Design design = Design::monte_carlo;
   double max_failed_share = 0.01;
   bool store_samples = true;
+  bool store_inputs = false; ///< the drawn values of the input quantities, too
   Adaptive adaptive;
 };
 
@@ -87,12 +88,27 @@ struct OneAtATime {
 };
 
 /// Does a measurand conform to its limits? JCGM 106.
+/// Decision rules by name; each fixes the guard band w (JCGM 106 clause 8).
+enum class DecisionRule {
+  stated,            ///< by guard_band and guard_factor; w = 0 without them
+  simple_acceptance, ///< w = 0: shared risk
+  iso_14253_1,       ///< the guard band at which the specific risk at an acceptance limit is 5 %
+  ilac_g8,           ///< w = U
+};
+constexpr const char* name(DecisionRule r) {
+  return r == DecisionRule::simple_acceptance ? "simple_acceptance"
+         : r == DecisionRule::iso_14253_1     ? "iso_14253_1"
+         : r == DecisionRule::ilac_g8         ? "ilac_g8"
+                                              : "stated";
+}
+
 struct ConformityTest {
   std::string measurand;
   quantities::Labels labels;
   std::optional<double> lower, upper; ///< tolerance limits, SI; at least one
   double guard_band = 0;              ///< w, SI; the acceptance limits lie this far inside
   double guard_factor = 0;            ///< r of w = r U, added to guard_band
+  DecisionRule rule = DecisionRule::stated;
   /// What is known of the measurand before measuring, e.g. of the process that makes the parts: value + deviation.
   std::optional<quantities::Distribution> process;
   double process_value = 0;
@@ -109,6 +125,7 @@ struct Target {
 struct AnalysisOptions {
   double coverage_probability = 0.95;
   int validation_digits = 2; ///< n_dig of JCGM 101 8.1
+  std::vector<std::string> measurands; ///< those printed and reported; empty: all
   SensitivityOptions sensitivity;
   std::vector<OneAtATime> one_at_a_time;
   std::vector<ConformityTest> conformity;

@@ -28,6 +28,9 @@ Options<ConformityTest> conformity_options(const std::string& si_unit) {
       option::measure("guard_band", &Test::guard_band, {si_unit, units::Kind::difference},
                       "w, distance of the acceptance limits inside the tolerance limits; below 0: outside"),
       option::number("guard_factor", &Test::guard_factor, "r of w = r U"),
+      option::word("rule", &Test::rule,
+                   std::vector{DecisionRule::simple_acceptance, DecisionRule::iso_14253_1, DecisionRule::ilac_g8},
+                   "decision rule by name instead of a guard band: w = 0; w = 1.65 u (ISO 14253-1); w = U (ILAC-G8)"),
       option::by_hand<Test>("process", shape::reference("quantity"),
                             "prior knowledge of the measurand, as one distribution; gives the global risks"),
   };
@@ -115,6 +118,8 @@ ConformityTest read_conformity(Table table, const StudyScope& scope, Context& co
   if (out.lower && out.upper && *out.lower >= *out.upper) table.refuse_key("lower", "lower must be below upper");
   if (table.has("guard_band") && table.has("guard_factor"))
     table.refuse("both guard_band and guard_factor are given", "both state the width", "leave one out");
+  if (table.has("rule") && (table.has("guard_band") || table.has("guard_factor")))
+    table.refuse("a guard band is given together with rule", "the rule fixes the guard band", "leave one out");
   if (const Node* process = table.find("process")) {
     const QuantityCard card{measurand->name, measurand->unit, measurand->si_unit, 0, {-1e300, 1e300}, "", ""};
     const auto q = read_quantity(*process, table.path("process"), card, std::string(measurand->name), context);

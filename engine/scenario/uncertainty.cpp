@@ -63,7 +63,10 @@ std::optional<Uncertainty> read_distribution(Table& table, const Form& form, Con
     }
     name = names[*index];
   } else if (!table.has("u") && !table.has("U")) {
-    table.refuse("the distribution is missing", "", "give distribution, u, U with k, or observations");
+    const bool bounded = table.has("half_width") || table.has("low") || table.has("high");
+    table.refuse("the distribution is missing", "",
+                 bounded ? "distribution = \"rectangular\"" : "give distribution, u, U with k, or observations");
+    table.members(); // the other keys cannot be judged
     return std::nullopt;
   }
   const auto* card = quantities::find_family(name);

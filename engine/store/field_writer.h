@@ -29,11 +29,22 @@ void write_fields(Table& table, const analysis::Fields<Row>& fields, const Rows&
   }
 }
 
+/// Names of the rows: the field that names them, unless the dimension itself has its name.
+template <class Row> std::vector<std::string> row_names(const analysis::Fields<Row>& fields, const std::vector<Row>& rows) {
+  std::vector<std::string> names;
+  for (const std::string_view key : {"name", "input", "quantity", "output"})
+    for (const auto& field : fields.list) {
+      if (field.key != key || key == fields.dimension || !names.empty()) continue;
+      for (const Row& row : rows) names.push_back(std::get<std::string>(field.get(row)));
+    }
+  return names;
+}
+
 /// The table as a group of its own, also without rows.
 template <class Row>
 void write_table(hid_t parent, const analysis::Fields<Row>& fields, const std::vector<Row>& rows) {
   const hdf5::Handle group = hdf5::create_group(parent, std::string(fields.where));
-  Table table(group, std::string(fields.dimension), rows.size());
+  Table table(group, std::string(fields.dimension), rows.size(), row_names(fields, rows));
   write_fields(table, fields, rows);
 }
 
@@ -52,7 +63,7 @@ void write_study(hid_t group, const Study& study, const analysis::Fields<Study>&
                  const analysis::Fields<Row>& fields, const std::vector<Row>& rows) {
   write_output(group, study.output);
   write_attributes(group, attributes, study);
-  Table table(group, std::string(fields.dimension), rows.size());
+  Table table(group, std::string(fields.dimension), rows.size(), row_names(fields, rows));
   write_fields(table, fields, rows, study.output);
 }
 

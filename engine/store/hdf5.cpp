@@ -72,6 +72,10 @@ Handle create_group(hid_t parent, const std::string& name) {
   return own(H5Gcreate2(parent, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, "create a group");
 }
 
+void link(hid_t parent, const std::string& name, const std::string& target) {
+  require(H5Lcreate_soft(target.c_str(), parent, name.c_str(), H5P_DEFAULT, H5P_DEFAULT), "link a group");
+}
+
 template <> hid_t memory_type<double>() { return H5T_NATIVE_DOUBLE; }
 template <> hid_t memory_type<std::uint64_t>() { return H5T_NATIVE_UINT64; }
 template <> hid_t memory_type<int>() { return H5T_NATIVE_INT; }
@@ -155,7 +159,9 @@ Handle create_dataset(hid_t parent, const std::string& name, hid_t type, const s
       own(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose, "describe a dataset");
   Handle dataset = own(H5Dcreate2(parent, name.c_str(), type, space, H5P_DEFAULT, plist, H5P_DEFAULT), H5Dclose,
                        "allocate a dataset");
-  write_attribute(dataset, "units", units);
+  // Programs parse `units`: what is no unit stands elsewhere.
+  write_attribute(dataset, units.find("units") == units.npos && !units.starts_with("see ") ? "units" : "units_note",
+                  units);
   write_attribute(dataset, "long_name", long_name);
   return dataset;
 }

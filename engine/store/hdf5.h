@@ -45,6 +45,8 @@ Handle own(hid_t id, Handle::Close close, const char* action);
 
 Handle open_group(hid_t parent, const std::string& name);
 Handle create_group(hid_t parent, const std::string& name);
+/// A name in `parent` for what stands at the absolute path `target`.
+void link(hid_t parent, const std::string& name, const std::string& target);
 bool has(hid_t parent, const std::string& name);
 
 /// HDF5's native type of a C++ number, and the portable little-endian one it is stored as.

@@ -1,5 +1,7 @@
 #include "store/results_writer.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "analysis/result_fields.h"
@@ -28,8 +30,13 @@ void write_record(hid_t file, const Results& r) {
                                                               {"design", &r.design},
                                                               {"scenario_file", &r.scenario_file}};
   for (const auto& [name, text] : texts) hdf5::write_attribute(file, name, *text);
+  hdf5::write_attribute(file, "Conventions", std::string("CF-1.11")); // units, long_name, flags
   hdf5::write_attribute(file, "failed", r.failed);
   hdf5::write_attribute(file, "coverage_probability", r.coverage_probability);
+  if (r.date.empty()) return;
+  hdf5::write_attribute(file, "date", r.date);
+  hdf5::write_attribute(file, "host", r.host);
+  hdf5::write_attribute(file, "duration", r.duration);
 }
 
 void write_readings(hid_t file, const Results& r) {
@@ -80,6 +87,60 @@ void write_budgets(hid_t file, const std::string& name, const std::vector<Budget
   });
 }
 
+namespace {
+
+/// by_output/NAME/STUDY leads to what STUDY says of that output.
+void write_links(hid_t file, const Results& r) {
+  const hdf5::Handle all = hdf5::create_group(file, "by_output");
+  const auto link = [&](const char* study, const auto& items) {
+    for (std::size_t k = 0; k < items.size(); ++k) {
+      std::string name = items[k].output.name;
+      std::ranges::replace(name, '/', '_');
+      if (!hdf5::has(all, name)) hdf5::create_group(all, name);
+      const hdf5::Handle one = hdf5::open_group(all, name);
+      if (!hdf5::has(one, study)) hdf5::link(one, study, fmt::format("/{}/{:03d}", study, k));
+    }
+  };
+  link("budget", r.budgets);
+  link("sensitivity", r.sensitivities);
+  link("shapley", r.shapley);
+  link("given_data", r.given_data);
+  link("morris", r.morris);
+  link("dgsm", r.dgsm);
+  link("target", r.targets);
+}
+
+} // namespace
+
+namespace {
+
+void write_draws(hid_t file, const InputDraws& draws, std::uint64_t samples) {
+  const std::size_t n = draws.names.size();
+  if (n == 0 || samples == 0) return;
+  const hdf5::Handle group = hdf5::create_group(file, "draws");
+  Table table(group, "component", n, draws.names);
+  table.units(draws.si_units, draws.units);
+  const hdf5::Handle sample = hdf5::create_dimension(group, "sample", samples);
+  const hdf5::Handle values = hdf5::create_dataset(group, "deviation", H5T_IEEE_F64LE, {n, samples},
+                                                   common_units(draws.si_units), "deviation drawn, from the estimate");
+  hdf5::attach(values, 0, table.scale(), "component");
+  hdf5::attach(values, 1, sample, "sample");
+  const std::size_t chunk = std::max<std::size_t>(1, (std::size_t{1} << 22) / n);
+  std::vector<double> some;
+  for (std::uint64_t first = 0; first < samples; first += chunk) {
+    const std::size_t count = static_cast<std::size_t>(std::min<std::uint64_t>(chunk, samples - first));
+    some.resize(n * count);
+    draws.draw(first, count, some.data());
+    const hsize_t start[2] = {0, first}, size[2] = {n, count};
+    const hdf5::Handle space = hdf5::own(H5Dget_space(values), H5Sclose, "select draws");
+    hdf5::require(H5Sselect_hyperslab(space, H5S_SELECT_SET, start, nullptr, size, nullptr), "select draws");
+    const hdf5::Handle memory = hdf5::own(H5Screate_simple(2, size, nullptr), H5Sclose, "select draws");
+    hdf5::require(H5Dwrite(values, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, some.data()), "write draws");
+  }
+}
+
+} // namespace
+
 void write_results(hid_t file, const Results& r) {
   write_record(file, r);
   write_readings(file, r);
@@ -88,6 +149,8 @@ void write_results(hid_t file, const Results& r) {
   write_budgets(file, "budget", r.budgets);
   write_table(file, validation_fields, r.validations);
   write_studies(file, r);
+  write_links(file, r);
+  write_draws(file, r.draws, r.samples);
   write_table(file, comparison_fields, r.comparisons);
   write_table(file, printed_fields, r.printed);
   write_list(file, "failures", r.failures, "samples that have no value, by reason");

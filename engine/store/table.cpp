@@ -23,9 +23,17 @@ std::string common_units(const std::vector<std::string>& si_units) {
   return same ? si_units[0] : "see units";
 }
 
-Table::Table(hid_t group, std::string dimension, std::size_t rows)
+Table::Table(hid_t group, std::string dimension, std::size_t rows, const std::vector<std::string>& names)
     : group_(group), dimension_(std::move(dimension)), rows_(rows) {
-  if (rows_ > 0) scale_ = hdf5::create_dimension(group_, dimension_, rows_);
+  if (rows_ == 0) return;
+  if (names.empty()) {
+    scale_ = hdf5::create_dimension(group_, dimension_, rows_);
+    return;
+  }
+  if (names.size() != rows_) throw OutputError("cannot write dimension '" + dimension_ + "'", "it has another length");
+  scale_ = hdf5::create_dataset(group_, dimension_, hdf5::text_type(), {rows_}, "1", "names of the rows");
+  hdf5::write_texts(scale_, names);
+  hdf5::make_scale(scale_, dimension_);
 }
 
 template <class T>
@@ -79,7 +87,8 @@ std::string file_units(const analysis::Unit& unit, const std::string& row, const
   case analysis::In::point:
   case analysis::In::difference: return row;
   case analysis::In::output: return output;
-  case analysis::In::coefficient: return "output units / units";
+  case analysis::In::coefficient:
+    return row == "see units" ? "output units / units" : row == "1" ? output : "(" + output + ")/(" + row + ")";
   default: return std::string(unit.stated);
   }
 }

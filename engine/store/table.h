@@ -35,8 +35,9 @@ template <class Row, class Member> auto column(const std::vector<Row>& rows, Mem
 
 class Table {
 public:
-  /// A new dimension of `rows` rows in `group`, which must outlive this. A table without rows writes nothing.
-  Table(hid_t group, std::string dimension, std::size_t rows);
+  /// A new dimension of `rows` rows in `group`, which must outlive this. A table without rows writes nothing. `names`:
+  /// the dimension's coordinate, by which rows are selected; empty: a dimension without values.
+  Table(hid_t group, std::string dimension, std::size_t rows, const std::vector<std::string>& names = {});
 
   /// T: double, std::uint64_t, int or std::uint8_t.
   template <class T>
@@ -52,6 +53,8 @@ public:
   /// A dataset of this table's rows and the rows of another table of the same group, row-major.
   void matrix(const std::string& name, const Table& columns, const std::vector<double>& values,
               const std::string& units, const std::string& long_name);
+
+  hid_t scale() const { return scale_; }
 
 private:
   hid_t group_;

@@ -88,7 +88,7 @@ class Command(unittest.TestCase):
             self.assertEqual(file.attrs["model"], "command")
         self.assertIn("are differences over a standard uncertainty", run.stdout)
         # U = k u_c: the law of propagation by differences; dA/dangle is 0 at 90 deg
-        self.assertRegex(run.stdout, r"GUM framework: U = 0\.98 mm2 with k = 1\.96")
+        self.assertRegex(run.stdout, r"area = \(\S+ \+- 0\.98\) mm2, k = 1\.9[56], 95 %")
 
     def test_batches_and_threads(self):
         bits = []

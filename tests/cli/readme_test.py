@@ -53,8 +53,8 @@ class Readme(unittest.TestCase):
         run = subprocess.run(["/usr/bin/python3", "-c", python], cwd=self.folder, capture_output=True, text=True)
         self.assertEqual(run.returncode, 0, run.stderr)
         mean, u = map(float, run.stdout.split("\n")[0].split())
-        stated = re.search(r"laser_z\[.*?\] = (\S+) mm with a standard uncertainty u = (\S+) mm", shown)
-        self.assertEqual((f"{mean:.4f}", f"{u:.4f}"), stated.groups())
+        stated = re.search(r"laser_z\[.*?\] = \((\S+) \+- \S+\) mm, .*\n  u = (\S+) um", shown)
+        self.assertEqual((f"{mean:.4f}", f"{1000 * u:.1f}"), stated.groups())
 
     def test_output_of_evaluate(self):
         (self.folder / "points.csv").write_text(block(self.text, "With `points.csv`"))

@@ -67,7 +67,7 @@ class File(Made):
     def test_every_dataset_says_what_it_is(self):
         def check(name, item):
             if isinstance(item, h5py.Dataset):
-                self.assertTrue(item.attrs["units"] and item.attrs["long_name"], name)
+                self.assertTrue((item.attrs.get("units") or item.attrs["units_note"]) and item.attrs["long_name"], name)
                 if item.attrs.get("CLASS") != b"DIMENSION_SCALE":
                     for dimension in item.dims:
                         self.assertEqual(len(dimension), 1, name)

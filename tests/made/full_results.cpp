@@ -182,6 +182,7 @@ void add_joint(Results& r) {
   c.lower = centre[0] - 8 * um;
   c.upper = centre[0] + 6 * um;
   c.guard_band = 3 * um;
+  c.rule = "stated";
   c.acceptance_lower = c.lower + c.guard_band;
   c.acceptance_upper = c.upper - c.guard_band;
   c.estimate = centre[0];
@@ -202,6 +203,7 @@ void add_joint(Results& r) {
   c.statement = "height is accepted: it lies within the acceptance limits";
   ConformityResult rejected;
   rejected.output = o[1];
+  rejected.rule = "simple_acceptance";
   rejected.lower = rejected.acceptance_lower = none;
   rejected.upper = rejected.acceptance_upper = 7 * um;
   rejected.estimate = centre[1];

@@ -17,8 +17,10 @@ using namespace gumshoe;
 void result(const std::string& word) {
   if (word == "--text")
     cli::print_text(made::full_results(), "made_up.h5");
-  else if (word == "--csv" || word == "--json")
-    cli::print_table(made::full_results(), word == "--json");
+  else if (word == "--csv")
+    cli::print_csv(made::full_results());
+  else if (word == "--json")
+    cli::print_json(made::full_results(), "made_up.h5");
   else
     made::write_full_result(word);
 }

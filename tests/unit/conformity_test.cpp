@@ -43,7 +43,7 @@ Risks by_quadrature(double m0, double u0, double u, double low, double high, dou
 TEST_CASE("conformance probability of a normal measurement is a difference of normal probabilities", "[conformity]") {
   ConformityTest t;
   t.lower = 1.2, t.upper = 3.1;
-  const auto r = analysis::assess(stratified(gauss(2.5, 0.4)), 2.5, 0.8, t);
+  const auto r = analysis::assess(stratified(gauss(2.5, 0.4)), {2.5, 0.4, 0.8}, t);
   const double p = Phi((3.1 - 2.5) / 0.4) - Phi((1.2 - 2.5) / 0.4);
   CHECK(std::fabs(r.conformance_probability - p) < 2.0 / n);
   CHECK(r.conformance_probability_se == Approx(std::sqrt(p * (1 - p) / n)).epsilon(1e-2));
@@ -57,17 +57,17 @@ TEST_CASE("an estimate on a one-sided limit conforms with probability one half",
   ConformityTest upper, lower;
   upper.upper = 7, lower.lower = 7;
   const auto y = stratified(gauss(7, 0.3));
-  CHECK(analysis::assess(y, 7, 0.6, upper).conformance_probability == Approx(0.5).margin(2.0 / n));
-  CHECK(analysis::assess(y, 7, 0.6, lower).conformance_probability == Approx(0.5).margin(2.0 / n));
-  CHECK(std::isnan(analysis::assess(y, 7, 0.6, upper).acceptance_lower));
-  CHECK(analysis::assess(y, 7, 0.6, upper).accepted); // the limit belongs to the tolerance
+  CHECK(analysis::assess(y, {7, 0.3, 0.6}, upper).conformance_probability == Approx(0.5).margin(2.0 / n));
+  CHECK(analysis::assess(y, {7, 0.3, 0.6}, lower).conformance_probability == Approx(0.5).margin(2.0 / n));
+  CHECK(std::isnan(analysis::assess(y, {7, 0.3, 0.6}, upper).acceptance_lower));
+  CHECK(analysis::assess(y, {7, 0.3, 0.6}, upper).accepted); // the limit belongs to the tolerance
 }
 
 TEST_CASE("guard bands: positive inside, negative outside; a factor is of U", "[conformity]") {
   ConformityTest t;
   t.lower = 0, t.upper = 10, t.guard_factor = 1;
   const auto y = stratified(gauss(9.5, 0.5));
-  const auto guarded = analysis::assess(y, 9.5, 1.0, t);
+  const auto guarded = analysis::assess(y, {9.5, 0.5, 1.0}, t);
   CHECK(guarded.guard_band == 1.0);
   CHECK(guarded.acceptance_lower == 1.0);
   CHECK(guarded.acceptance_upper == 9.0);
@@ -75,7 +75,7 @@ TEST_CASE("guard bands: positive inside, negative outside; a factor is of U", "[
   CHECK(guarded.specific_producer_risk == Approx(Phi(1)).margin(2.0 / n));
   CHECK(std::isnan(guarded.specific_consumer_risk));
   t.guard_factor = 0, t.guard_band = -0.2;
-  const auto loose = analysis::assess(stratified(gauss(10.1, 0.5)), 10.1, 1.0, t);
+  const auto loose = analysis::assess(stratified(gauss(10.1, 0.5)), {10.1, 0.5, 1.0}, t);
   CHECK(loose.acceptance_upper == Approx(10.2));
   CHECK(loose.accepted);
 }
@@ -87,7 +87,7 @@ TEST_CASE("global risks of a normal process measured with a normal error", "[con
       t.lower = 1499.8, t.upper = 1500.2, t.guard_band = w;
       t.process = gauss(0, 0.12);
       t.process_value = m0;
-      const auto r = analysis::assess(stratified(gauss(1500.1, 0.04)), 1500.1, 0.08, t);
+      const auto r = analysis::assess(stratified(gauss(1500.1, 0.04)), {1500.1, 0.04, 0.08}, t);
       const Risks exact = by_quadrature(m0, 0.12, 0.04, 1499.8, 1500.2, w);
       INFO("w = " << w << ", process mean " << m0);
       CHECK(r.global_consumer_risk == Approx(exact.consumer).epsilon(1e-3));
@@ -110,7 +110,7 @@ TEST_CASE("a skew error: what is accepted is the true value minus the deviation"
   ConformityTest t;
   t.upper = 5;
   t.process = quantities::Distribution{Family::rectangular, {0, 10}, nullptr, nullptr};
-  const auto r = analysis::assess(stratified({Family::exponential, {1}, nullptr, nullptr}, 3.0), 4.0, 1.5, t);
+  const auto r = analysis::assess(stratified({Family::exponential, {1}, nullptr, nullptr}, 3.0), {4.0, 0.75, 1.5}, t);
   CHECK(r.global_consumer_risk == Approx(0.1 * std::exp(-1.0) * (1 - std::exp(-5.0))).epsilon(1e-3));
   CHECK(r.global_producer_risk == Approx(0.1 * std::exp(-1.0)).epsilon(1e-3));
 }
@@ -119,7 +119,7 @@ TEST_CASE("without measurement uncertainty nobody bears a risk", "[conformity]")
   ConformityTest t;
   t.lower = -1, t.upper = 1;
   t.process = gauss(0, 1);
-  const auto r = analysis::assess(std::vector<double>(1000, 0.3), 0.3, 0, t);
+  const auto r = analysis::assess(std::vector<double>(1000, 0.3), {0.3, 0, 0}, t);
   CHECK(r.conformance_probability == 1);
   CHECK(r.conformance_probability_se > 0); // none of a thousand is not none
   CHECK(r.global_consumer_risk == 0);
@@ -131,7 +131,7 @@ TEST_CASE("symmetry: mirrored limits and process, the same risks", "[conformity]
   a.lower = -1, a.upper = 2, a.guard_band = 0.1, a.process = gauss(0.4, 0.9);
   b.lower = -2, b.upper = 1, b.guard_band = 0.1, b.process = gauss(-0.4, 0.9);
   const auto y = stratified(gauss(0, 0.3));
-  const auto ra = analysis::assess(y, 0, 0.6, a), rb = analysis::assess(y, 0, 0.6, b);
+  const auto ra = analysis::assess(y, {0, 0.3, 0.6}, a), rb = analysis::assess(y, {0, 0.3, 0.6}, b);
   CHECK(ra.global_consumer_risk == Approx(rb.global_consumer_risk).epsilon(1e-9));
   CHECK(ra.global_producer_risk == Approx(rb.global_producer_risk).epsilon(1e-9));
   CHECK(ra.posterior_conformance == Approx(rb.posterior_conformance).epsilon(1e-9));
@@ -141,12 +141,12 @@ TEST_CASE("a process far from the measurement, or without density: no posterior,
   ConformityTest t;
   t.upper = 1;
   t.process = gauss(100, 0.01);
-  CHECK(std::isnan(analysis::assess(stratified(gauss(0, 1)), 0, 2, t).posterior_conformance));
+  CHECK(std::isnan(analysis::assess(stratified(gauss(0, 1)), {0, 1, 2}, t).posterior_conformance));
   t.process = quantities::Distribution{Family::discrete,
                                        {},
                                        std::make_shared<std::vector<double>>(std::vector{0.0, 1.0, 2.0}),
                                        std::make_shared<std::vector<double>>(std::vector{0.25, 0.5, 0.25})};
-  const auto r = analysis::assess(stratified(gauss(0.5, 0.1)), 0.5, 0.2, t);
+  const auto r = analysis::assess(stratified(gauss(0.5, 0.1)), {0.5, 0.1, 0.2}, t);
   CHECK(std::isnan(r.posterior_conformance));
   CHECK(r.process_conformance == Approx(0.75));                     // the value on the limit conforms
   CHECK(r.global_producer_risk == Approx(0.5 * 0.5).epsilon(1e-3)); // of the items on the limit half are rejected

@@ -15,6 +15,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "base/interrupt.h"
 #include "models/command/watch.h"
 
 namespace gumshoe::models {
@@ -164,13 +165,14 @@ ProcessRun run_process(const std::vector<std::string>& words, const std::string&
   };
   std::size_t written = 0;
   while (out.read.open() || errors.read.open()) {
+    stop_if_interrupted(); // the child, in a process group of its own, sees no Ctrl-C
     if (left() < 0) {
       run.end = ProcessRun::End::timed_out;
       return run;
     }
     pollfd watched[3] = {
         {in.write.number(), POLLOUT, 0}, {out.read.number(), POLLIN, 0}, {errors.read.number(), POLLIN, 0}};
-    if (poll(watched, 3, static_cast<int>(std::min<long long>(left() + 1, 60'000))) <= 0) continue;
+    if (poll(watched, 3, static_cast<int>(std::min<long long>(left() + 1, 200))) <= 0) continue;
     if (watched[0].revents != 0) {
       const ssize_t n = write(in.write.number(), input.data() + written, input.size() - written);
       if (n > 0) written += static_cast<std::size_t>(n);
@@ -187,6 +189,7 @@ ProcessRun run_process(const std::vector<std::string>& words, const std::string&
   in.write.close();
   int status = 0;
   while (!child.ended(status)) {
+    stop_if_interrupted();
     if (left() < 0) {
       run.end = ProcessRun::End::timed_out;
       return run;

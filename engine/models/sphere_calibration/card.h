@@ -113,8 +113,8 @@ inline constexpr VariableCard joint_cards[] = {
     shown_in_deg({.name = "E_B0C", .meaning = "squareness of C to X"}),
     {.name = "residual_rms", .unit = "um", .si_unit = "m", .default_value = 0,
      .meaning = "root mean square difference between the recorded commands and those of the identified machine"},
-    shown_pure({.name = "rank", .meaning = "number of the eleven unknowns, or combinations, that the poses determine"}),
-    shown_pure({.name = "condition_number",
+    shown_diagnostic({.name = "rank", .meaning = "number of the eleven unknowns, or combinations, that the poses determine"}),
+    shown_diagnostic({.name = "condition_number",
                 .meaning = "of the derivatives by the eleven, columns of length one, on what the poses see; whitened "
                            "if joint_weighted"}),
 };

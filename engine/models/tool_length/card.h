@@ -89,7 +89,7 @@ inline constexpr VariableCard joint_length = shown_in_mm(
                .meaning = "length of flute " #k "; for a hidden flute the largest that the readings allow"}),          \
       shown_in_mm(                                                                                                     \
           {.name = "wear_difference_" #k, .meaning = "longest flute minus this one; for a hidden flute at least"}),    \
-      shown_pure({.name = "seen_" #k, .meaning = "1: the readings determine this flute; 0: it is hidden"})
+      shown_diagnostic({.name = "seen_" #k, .meaning = "1: the readings determine this flute; 0: it is hidden"})
 inline constexpr VariableCard length_cards[] = {joint_length, joint_effective};
 inline constexpr VariableCard curve_cards[] = {
     joint_length,
@@ -98,13 +98,13 @@ inline constexpr VariableCard curve_cards[] = {
                   .meaning = "angle from the spindle's X axis to the longest flute, if start_height is correct: a "
                              "micrometre changes "
                              "it by several degrees"}),
-    shown_pure({.name = "seen_flutes", .meaning = "number of flutes that the readings determine"}),
+    shown_diagnostic({.name = "seen_flutes", .meaning = "number of flutes that the readings determine"}),
     {.name = "residual_rms", .unit = "um", .si_unit = "m", .default_value = 0,
      .meaning = "root mean square difference between readings and fitted curve"},
-    shown_pure({.name = "degrees_of_freedom", .meaning = "readings minus determined flutes minus one for the phase"}),
+    shown_diagnostic({.name = "degrees_of_freedom", .meaning = "readings minus determined flutes minus one for the phase"}),
     GUMSHOE_FOR_EACH_INSERT(GUMSHOE_FLUTE)};
 inline constexpr VariableCard peak_cards[] = {
-    joint_length, joint_effective, shown_pure({.name = "peaks", .meaning = "number of local maxima of the connected "
+    joint_length, joint_effective, shown_diagnostic({.name = "peaks", .meaning = "number of local maxima of the connected "
                                                                            "readings"}),
     GUMSHOE_FOR_EACH_INSERT(GUMSHOE_FLUTE)};
 #undef GUMSHOE_FLUTE

@@ -174,9 +174,7 @@ private:
     rms.worst_point_before = scored_before_.worst_point();
     rms.worst_point_after = scored_after_.worst_point();
     if (const Index row = scored_after_.worst_row(); row >= 0) {
-      const std::size_t r = after_.design.reading[index(row)];
-      const std::string name = propagation::reading_name(c_.experiment.scenario().readings[r]);
-      rms.worst_point = fmt::format("reading {}{}", r + 1, name.empty() ? "" : " (" + name + ")");
+      rms.worst_point = c_.experiment.reading_text(after_.design.reading[index(row)]);
     }
     return refused;
   }

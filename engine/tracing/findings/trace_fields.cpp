@@ -14,25 +14,25 @@ using enum analysis::In;
 // clang-format off: a field is a line or two
 namespace {
 
-constexpr Shown in_csv{.csv = analysis::same};
+constexpr Shown in_json{.json = analysis::same}, in_csv{.csv = analysis::same}, in_both{.json = analysis::same, .csv = analysis::same};
 
 constexpr Field<Trace> search[] = {
     {"verdict", [](const Trace& t) -> Value { return verdict(t); }, one,
-     "kind of the first finding, else nothing_found or insufficient_data"},
-    {"p_anything", of<&Trace::p_anything>, one, "p-value of the verdict over all tests"},
-    {"alpha", of<&Trace::alpha>, one, "requested false-alarm rate"},
-    {"tried", of<&Trace::tried>, one, "candidates tried"},
-    {"draws", of<&Trace::draws>, one, "draws of the bootstrap"},
-    {"vetoed", of<&Trace::vetoed>, one, "1 if the hold-out blocks rejected the findings"}};
+     "kind of the first finding, else nothing_found or insufficient_data", in_json},
+    {"tried", of<&Trace::tried>, one, "candidates tried", in_json},
+    {"p_anything", of<&Trace::p_anything>, one, "p-value of the verdict over all tests", in_json},
+    {"alpha", of<&Trace::alpha>, one, "requested false-alarm rate", in_json},
+    {"draws", of<&Trace::draws>, one, "draws of the bootstrap", in_json},
+    {"vetoed", of<&Trace::vetoed>, one, "1 if the hold-out blocks rejected the findings", in_json}};
 
 using F = Finding;
 constexpr Field<F> finding[] = {
     {"kind", [](const F& f) -> Value { return std::string(name(f.kind)); }, one,
-     "named, class, scatter or not_in_catalogue"},
-    {"name", of<&F::name>, one, "effect, declared quantity or scatter"},
-    {"suggestion", of<&F::suggestion>, one, "measurement that would distinguish the members of the class"},
-    {"p_value", of<&F::p_value>, one, "p-value of the largest statistic over all candidates tried"},
-    {"removed_share", of<&F::removed_share>, one, "share of the residuals' mean square that it removes"}};
+     "named, class, scatter or not_in_catalogue", in_json},
+    {"name", of<&F::name>, one, "effect, declared quantity or scatter", in_json},
+    {"suggestion", of<&F::suggestion>, one, "measurement that would distinguish the members of the class", in_json},
+    {"p_value", of<&F::p_value>, one, "p-value of the largest statistic over all candidates tried", in_json},
+    {"removed_share", of<&F::removed_share>, one, "share of the residuals' mean square that it removes", in_json}};
 
 using Q = SizeRow;
 constexpr Field<Q> sizes[] = {
@@ -63,45 +63,43 @@ constexpr Field<C> candidates[] = {
 
 using D = DetectionLimit;
 constexpr Field<D> limits[] = {
-    {"effect", of<&D::effect>, one, "effect", in_csv},
-    {"quantity", of<&D::quantity>, one, "its size", in_csv},
-    {"units", nullptr, units, "", {.csv = "unit"}},
+    {"effect", of<&D::effect>, one, "effect", in_both},
+    {"quantity", of<&D::quantity>, one, "its size", in_both},
+    {"units", nullptr, units, "", {"unit", "unit"}},
     {"value", of<&D::value>, difference,
-     "smallest size that would be detected in nine cases of ten; infinite: these data cannot detect it", in_csv}};
+     "smallest size that would be detected in nine cases of ten; infinite: these data cannot detect it", in_both}};
 
 constexpr Field<Rms> rms[] = {
-    {"units", nullptr, units, ""},
-    {"before", of<&Rms::before>, difference, "root mean square residual of the training data, in sample"},
-    {"after", of<&Rms::after>, difference, "the same with the findings added to the model"},
-    {"noise", of<&Rms::noise>, difference, "the same for noise alone"},
-    {"noise_low", of<&Rms::noise_low>, difference, "the same for noise alone, lower 95 % limit"},
-    {"noise_high", of<&Rms::noise_high>, difference, "the same for noise alone, upper 95 % limit"},
-    {"holdout_before", of<&Rms::holdout_before>, difference, "root mean square residual of the hold-out readings"},
-    {"holdout_after", of<&Rms::holdout_after>, difference, "the same with the findings added to the model"},
-    {"holdout_noise", of<&Rms::holdout_noise>, difference, "the same for noise alone"},
-    {"holdout_noise_low", of<&Rms::holdout_noise_low>, difference, "the same, lower 95 % limit"},
-    {"holdout_noise_high", of<&Rms::holdout_noise_high>, difference, "the same, upper 95 % limit"},
-    {"worst_block_before", of<&Rms::worst_block_before>, difference,
-     "largest root mean square residual of a hold-out block"},
-    {"worst_block_after", of<&Rms::worst_block_after>, difference, "the same with the findings added"},
-    {"worst_point_before", of<&Rms::worst_point_before>, difference, "largest residual of one hold-out reading"},
-    {"worst_point_after", of<&Rms::worst_point_after>, difference, "the same with the findings added"},
-    {"share_removed", of<&Rms::share_removed>, one,
-     "(before^2 - after^2) / (before^2 - noise^2) of the hold-out readings"},
-    {"worst_block", of<&Rms::worst_block>, one, "name of that block"},
-    {"worst_point", of<&Rms::worst_point>, one, "name of that reading"},
-    {"holdout", of<&Rms::holdout>, one, "description of the hold-out"}};
+    {"units", nullptr, units, "", {.json = "unit"}},
+    {"before", of<&Rms::before>, difference, "root mean square residual of the training data, in sample", in_json},
+    {"after", of<&Rms::after>, difference, "root mean square residual of the training data with the findings added to the model", in_json},
+    {"noise", of<&Rms::noise>, difference, "root mean square residual of the training data for noise alone", in_json},
+    {"holdout_before", of<&Rms::holdout_before>, difference, "root mean square residual of the hold-out readings", in_json},
+    {"holdout_after", of<&Rms::holdout_after>, difference, "root mean square residual of the hold-out readings with the findings added", in_json},
+    {"worst_block_after", of<&Rms::worst_block_after>, difference, "largest root mean square residual of a hold-out block with the findings added", in_json},
+    {"noise_low", of<&Rms::noise_low>, difference, "noise, lower 95 % limit", {.json = "noise_interval95/0"}},
+    {"noise_high", of<&Rms::noise_high>, difference, "noise, upper 95 % limit", {.json = "noise_interval95/1"}},
+    {"holdout_noise", of<&Rms::holdout_noise>, difference, "root mean square residual of the hold-out readings for noise alone", in_json},
+    {"holdout_noise_low", of<&Rms::holdout_noise_low>, difference, "holdout_noise, lower 95 % limit", {.json = "holdout_noise_interval95/0"}},
+    {"holdout_noise_high", of<&Rms::holdout_noise_high>, difference, "holdout_noise, upper 95 % limit", {.json = "holdout_noise_interval95/1"}},
+    {"worst_block_before", of<&Rms::worst_block_before>, difference, "largest root mean square residual of a hold-out block", in_json},
+    {"worst_block", of<&Rms::worst_block>, one, "name of the block of worst_block_after", in_json},
+    {"worst_point_before", of<&Rms::worst_point_before>, difference, "largest residual of one hold-out reading", in_json},
+    {"worst_point_after", of<&Rms::worst_point_after>, difference, "the same with the findings added", in_json},
+    {"worst_point", of<&Rms::worst_point>, one, "name of the reading of worst_point_after", in_json},
+    {"share_removed", of<&Rms::share_removed>, one, "(before^2 - after^2) / (before^2 - noise^2) of the hold-out readings", in_json},
+    {"holdout", of<&Rms::holdout>, one, "description of the hold-out", in_json}};
 
 constexpr Field<Noise> noise[] = {
     {"scale", of<&Noise::scale>, one,
-     "factor on the declared standard uncertainties; if none is declared, standard uncertainty of one reading, SI"},
-    {"correlation", of<&Noise::correlation>, one, "correlation of successive readings in the order of measurement"},
-    {"scatter_u", of<&Noise::scatter_u>, difference, "standard uncertainty of the variance component"},
+     "factor on the declared standard uncertainties; if none is declared, standard uncertainty of one reading, SI", in_json},
+    {"correlation", of<&Noise::correlation>, one, "correlation of successive readings in the order of measurement", in_json},
+    {"scatter_u", of<&Noise::scatter_u>, difference, "standard uncertainty of the variance component", in_json},
     {"chi_squared_p", of<&Noise::chi_squared_p>, one,
-     "p-value of residuals as large as these under the declared noise"},
-    {"scatter", of<&Noise::scatter>, one, "labels of the variance component in use, or empty"},
-    {"declared", of<&Noise::declared>, one, "1 if the scenario declares the noise"},
-    {"outliers", of<&Noise::outliers>, one, "number of readings that were down-weighted"}};
+     "p-value of residuals as large as these under the declared noise", in_json},
+    {"scatter", of<&Noise::scatter>, one, "labels of the variance component in use, or empty", in_json},
+    {"declared", of<&Noise::declared>, one, "1 if the scenario declares the noise", in_json},
+    {"outliers", of<&Noise::outliers>, one, "number of readings that were down-weighted", in_json}};
 
 using R = ResidualRow;
 constexpr Field<R> residuals[] = {

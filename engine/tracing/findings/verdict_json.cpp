@@ -1,18 +1,16 @@
 #include "tracing/findings/verdict_json.h"
 
-#include <cmath>
-
-#include <nlohmann/json.hpp>
-
+#include "analysis/fields_json.h"
 #include "base/units.h"
+#include "tracing/findings/trace_fields.h"
 
 namespace gumshoe::tracing {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using analysis::Json;
+using analysis::number;
 
-Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 Json pair(double low, double high) { return Json::array({number(low), number(high)}); }
 
 Json quantities_json(const std::vector<SizedQuantity>& quantities) {
@@ -32,48 +30,32 @@ Json quantities_json(const std::vector<SizedQuantity>& quantities) {
   return list;
 }
 
+/// Published keys stand first, in the published order; the tables of fields fill them in.
 Json finding_json(const Finding& f) {
   Json alternatives = Json::array();
   for (std::size_t i = 0; i < f.alternatives.size(); ++i)
     alternatives.push_back(
         {{"name", i < f.members.size() ? f.members[i] : ""}, {"quantities", quantities_json(f.alternatives[i])}});
-  return {{"kind", name(f.kind)},
-          {"name", f.name},
-          {"members", f.members},
-          {"p_value", number(f.p_value)},
-          {"depends_on", f.depends_on},
-          {"suggestion", f.suggestion},
-          {"quantities", quantities_json(f.quantities)},
-          {"alternatives", alternatives},
-          {"removed_share", number(f.removed_share)},
-          {"remarks", f.remarks}};
+  Json out{{"kind", nullptr},           {"name", nullptr},
+           {"members", f.members},      {"p_value", nullptr},
+           {"depends_on", f.depends_on}, {"suggestion", nullptr},
+           {"quantities", quantities_json(f.quantities)}, {"alternatives", alternatives},
+           {"removed_share", nullptr},  {"remarks", f.remarks}};
+  add_json(out, finding_fields, f);
+  return out;
 }
 
-Json rms_json(const Rms& r) {
-  return {{"unit", r.si_unit},
-          {"before", number(r.before)},
-          {"after", number(r.after)},
-          {"noise", number(r.noise)},
-          {"holdout_before", number(r.holdout_before)},
-          {"holdout_after", number(r.holdout_after)},
-          {"worst_block_after", number(r.worst_block_after)},
-          {"noise_interval95", pair(r.noise_low, r.noise_high)},
-          {"holdout_noise", number(r.holdout_noise)},
-          {"holdout_noise_interval95", pair(r.holdout_noise_low, r.holdout_noise_high)},
-          {"worst_block_before", number(r.worst_block_before)},
-          {"worst_block", r.worst_block},
-          {"worst_point_before", number(r.worst_point_before)},
-          {"worst_point_after", number(r.worst_point_after)},
-          {"worst_point", r.worst_point},
-          {"share_removed", number(r.share_removed)},
-          {"holdout", r.holdout}};
+Json rms_json(Rms r) {
+  r.unit = r.si_unit;
+  return json(rms_fields, r);
 }
 
 Json limits_json(const std::vector<DetectionLimit>& limits) {
   Json list = Json::array();
-  for (const DetectionLimit& d : limits) {
-    const ShownSize s = shown(d);
-    list.push_back({{"effect", d.effect}, {"quantity", d.quantity}, {"value", number(s.value)}, {"unit", s.unit}});
+  for (DetectionLimit d : limits) {
+    if (!units::convertible(d.unit, d.si_unit)) d.unit = d.si_unit;
+    list.push_back({{"effect", nullptr}, {"quantity", nullptr}, {"value", nullptr}, {"unit", nullptr}});
+    add_json(list.back(), limit_fields, d);
   }
   return list;
 }
@@ -104,25 +86,14 @@ ShownSize shown(const DetectionLimit& d) {
 std::string verdict_json(const Trace& t) {
   Json findings = Json::array();
   for (const Finding& f : t.findings) findings.push_back(finding_json(f));
-  const Json out{{"verdict", verdict(t)},
-                 {"findings", findings},
-                 {"rms", rms_json(t.rms)},
-                 {"detection_limits", limits_json(t.detection_limits)},
-                 {"tried", t.tried},
-                 {"p_anything", number(t.p_anything)},
-                 {"alpha", t.alpha},
-                 {"draws", t.draws},
-                 {"vetoed", t.vetoed},
-                 {"noise",
-                  {{"scale", number(t.noise.scale)},
-                   {"declared", t.noise.declared},
-                   {"correlation", number(t.noise.correlation)},
-                   {"scatter", t.noise.scatter},
-                   {"scatter_u", number(t.noise.scatter_u)},
-                   {"chi_squared_p", number(t.noise.chi_squared_p)},
-                   {"outliers", t.noise.outliers}}},
-                 {"statements", t.statements},
-                 {"plain", t.plain}};
+  Json out{{"verdict", nullptr},
+           {"findings", findings},
+           {"rms", rms_json(t.rms)},
+           {"detection_limits", limits_json(t.detection_limits)}};
+  add_json(out, trace_fields, t);
+  out["noise"] = json(noise_fields, t.noise);
+  out["statements"] = t.statements;
+  out["plain"] = t.plain;
   return out.dump(2, ' ', false, Json::error_handler_t::replace); // labels need not be UTF-8
 }
 

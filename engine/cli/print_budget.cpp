@@ -1,0 +1,135 @@
+#include "cli/print_budget.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "analysis/fields_json.h"
+#include "analysis/result_fields.h"
+#include "analysis/rounding.h"
+#include "base/units.h"
+
+namespace gumshoe::cli {
+using namespace analysis;
+
+namespace {
+
+/// All components of one quantity.
+struct Part {
+  std::string name;
+  double variance = 0, share = 0;
+  std::size_t components = 0;
+};
+
+/// By quantity, the largest share first; shares that are not known are left out.
+std::vector<Part> parts(const Budget& b, bool monte_carlo) {
+  std::vector<Part> all;
+  std::vector<std::string> quantities;
+  for (const Contribution& c : b.contributions) {
+    const double share = monte_carlo ? c.monte_carlo_share : c.share;
+    if (!std::isfinite(share) || share == 0) continue;
+    const auto at = static_cast<std::size_t>(std::ranges::find(quantities, c.quantity) - quantities.begin());
+    if (at == quantities.size()) quantities.push_back(c.quantity), all.push_back({c.name, 0, 0, 0});
+    Part& part = all[at];
+    if (++part.components > 1) part.name = c.quantity;
+    part.variance += c.contribution * c.contribution;
+    part.share += share;
+  }
+  std::ranges::stable_sort(all, [](const Part& x, const Part& y) { return x.share > y.share; });
+  return all;
+}
+
+std::string percent(double share) {
+  if (share == 0 || std::fabs(share) >= 0.005) return fmt::format("{:.0f} %", 100 * share);
+  return std::fabs(share) < 5e-5 ? "< 0.01 %" : fmt::format("{:.1g} %", 100 * share);
+}
+
+/// Rows of cells as columns of equal width; the first cell of a row is flush left.
+void print_columns(const std::vector<std::vector<std::string>>& rows, std::ostream& out) {
+  std::vector<std::size_t> widths;
+  for (const auto& row : rows)
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      if (widths.size() <= i) widths.push_back(0);
+      widths[i] = std::max(widths[i], row[i].size());
+    }
+  for (const auto& row : rows) {
+    std::string line = "  ";
+    for (std::size_t i = 0; i < row.size(); ++i)
+      line += i == 0 ? fmt::format("{:<{}}", row[i], widths[i]) : fmt::format("  {:>{}}", row[i], widths[i]);
+    line.erase(line.find_last_not_of(' ') + 1);
+    out << line << '\n';
+  }
+}
+
+std::string unit_text(const std::string& unit) { return unit == "1" ? "" : " " + unit; }
+
+std::string number_text(double x) { return std::isfinite(x) ? fmt::format("{:.4g}", x) : "-"; }
+
+std::vector<std::string> cells(const Contribution& c, const propagation::Output& output) {
+  const RowUnit row{c.unit, c.si_unit}, out{output.unit, output.si_unit};
+  const std::string over = c.unit == "1" ? "" : "/" + c.unit;
+  return {c.name,
+          fmt::format("{:.8g}{}", converted(c.estimate, In::point, row), unit_text(c.unit)),
+          std::isfinite(c.standard_uncertainty) ? with_suitable_unit(c.standard_uncertainty, c.unit, c.si_unit) : "-",
+          std::string(1, c.evaluation),
+          c.distribution,
+          std::isfinite(c.degrees_of_freedom) ? fmt::format("{:.4g}", c.degrees_of_freedom)
+                                                                          : "inf",
+          number_text(converted(c.sensitivity, In::coefficient, row, out)) +
+              (output.unit == c.unit ? "" : " " + output.unit + over),
+          std::isfinite(c.contribution) ? with_suitable_unit(c.contribution, output.unit, output.si_unit) : "-",
+          std::isfinite(c.share)               ? percent(c.share)
+          : std::isfinite(c.monte_carlo_share) ? percent(c.monte_carlo_share)
+                                               : "-"};
+}
+
+} // namespace
+
+std::string largest_contributions(const Budget& b) {
+  constexpr std::size_t most = 3;
+  bool monte_carlo = !b.applicable;
+  const std::vector<Part> all = parts(b, monte_carlo);
+  if (all.empty())
+    return b.contributions.empty() || !monte_carlo ? "no input is uncertain"
+                                   : "largest contributions: the GUM framework gives none here; set sensitivity = { "
+                                     "sobol = 65536 } in [analysis]";
+  std::string text = monte_carlo ? "largest contributions (first-order Sobol' indices): " : "largest contributions: ";
+  for (std::size_t i = 0; i < std::min(most, all.size()); ++i)
+    text += (i == 0 ? "" : ", ") + all[i].name + ' ' +
+            (monte_carlo ? percent(all[i].share)
+                         : fmt::format("{} ({})",
+                                       with_suitable_unit(std::sqrt(all[i].variance), b.output.unit, b.output.si_unit),
+                                       percent(all[i].share)));
+  if (!monte_carlo && std::fabs(b.correlation_share) >= 0.005)
+    text += fmt::format(", correlations {}", percent(b.correlation_share));
+  return text + (all.size() > most ? fmt::format("; {} more", all.size() - most) : "");
+}
+
+void print_budget(const Budget& b, std::ostream& out) {
+  const auto width = [&](double x) { return with_suitable_unit(x, b.output.unit, b.output.si_unit); };
+  out << "  uncertainty budget of " << b.output.name << (b.applicable ? "" : " (GUM framework not applicable: " + b.reason + ")")
+      << '\n';
+  std::vector<std::vector<std::string>> rows{
+      {"component", "estimate", "u", "type", "distribution", "nu", "c", "|c| u", b.applicable ? "share" : "Sobol'"}};
+  for (const Contribution& c : b.contributions) rows.push_back(cells(c, b.output));
+  const auto closing = [&](const std::string& name, const std::string& value, const std::string& share) {
+    rows.push_back({name, "", "", "", "", "", "", value, share});
+  };
+  if (b.applicable) {
+    if (b.correlation_share != 0) closing("correlations", "", percent(b.correlation_share));
+    closing("combined standard uncertainty", width(b.combined_standard_uncertainty), "");
+    closing("effective degrees of freedom",
+            std::isfinite(b.effective_degrees_of_freedom)
+                ? fmt::format("{:.0f}", b.effective_degrees_of_freedom)
+            : std::isnan(b.effective_degrees_of_freedom) ? "-"
+                                                         : "inf",
+            "");
+    closing("coverage factor", fmt::format("{:.2f}", b.coverage_factor), "");
+    closing("expanded uncertainty", width(b.expanded_uncertainty), "");
+  }
+  print_columns(rows, out);
+  if (!b.remark.empty()) out << "  " << b.remark << '\n';
+}
+
+} // namespace gumshoe::cli

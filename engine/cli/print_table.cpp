@@ -1,0 +1,143 @@
+// Results as JSON and CSV: what the tables of fields say, in the units people are shown.
+#include <iostream>
+
+#include <fmt/format.h>
+
+#include "analysis/fields_json.h"
+#include "analysis/result_fields.h"
+#include "cli/print.h"
+#include "cli/print_studies.h"
+
+namespace gumshoe::cli {
+
+namespace {
+using namespace analysis;
+
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + '"';
+}
+
+/// One line of a CSV table: names in the first pass, then values.
+struct Line {
+  std::string text;
+  bool head = false, begun = false;
+  void add(const std::string& name, const std::string& value) {
+    text += (begun ? "," : "") + (head ? name : value);
+    begun = true;
+  }
+};
+
+template <class Row>
+void add_cells(Line& line, const Fields<Row>& fields, const Row& row, const propagation::Output& output,
+               const std::string& prefix = {}, std::string_view Shown::*shown_as = &Shown::csv) {
+  const RowUnit unit = unit_of(row), of_output{output.unit, output.si_unit};
+  for (const auto& field : fields.list) {
+    const std::string_view name = field.name(field.shown.*shown_as);
+    if (name.empty() || field.unit.in == In::run) continue;
+    std::string cell;
+    if (!field.get)
+      cell = field.unit.in == In::output_units ? output.unit : unit.shown;
+    else
+      std::visit(
+          [&]<class T>(const T& value) {
+            if constexpr (std::is_same_v<T, double>)
+              cell = fmt::format("{:.{}g}", converted(value, field.unit, unit, of_output),
+                                 field.unit.in == In::point ? 15 : 6);
+            else if constexpr (std::is_same_v<T, std::string>)
+              cell = quoted(value);
+            else
+              cell = fmt::format("{}", value);
+          },
+          field.get(row));
+    line.add(prefix + std::string(name), cell);
+  }
+}
+
+Json run_json(const Results& r, const std::string& file) {
+  return {{"title", r.title},
+          {"file", file},
+          {"scenario", r.scenario_file},
+          {"hash", r.scenario_hash},
+          {"version", r.version},
+          {"model", r.model},
+          {"method", r.method},
+          {"evaluation", r.evaluation},
+          {"design", r.design},
+          {"seed", r.seed},
+          {"samples", r.samples},
+          {"failed", r.failed},
+          {"date", r.date},
+          {"host", r.host},
+          {"duration_s", r.duration},
+          {"failures", r.failures},
+          {"notes", r.notes}};
+}
+
+Json budget_json(const Budget& b) {
+  Json rows = Json::array();
+  const std::string over = b.output.unit + "/";
+  for (const Contribution& c : b.contributions) {
+    rows.push_back(json(contribution_fields, c, b.output));
+    rows.back()["sensitivity_unit"] = c.unit == b.output.unit ? "1" : c.unit == "1" ? b.output.unit : over + c.unit;
+  }
+  return rows;
+}
+
+} // namespace
+
+void print_json(const Results& r, const std::string& file) {
+  Json all = Json::array();
+  const Json run = run_json(r, file);
+  for (std::size_t o = 0; o < r.summaries.size(); ++o) {
+    const Summary& s = r.summaries[o];
+    Json object = json(summary_fields, s);
+    object["coverage_probability"] = r.coverage_probability;
+    Json labels = Json::object();
+    for (const auto& [name, value] : s.output.labels) labels[name] = value;
+    object["labels"] = labels;
+    object["gum"] = json(budget_fields, r.budgets[o]);
+    object["budget"] = budget_json(r.budgets[o]);
+    object["validation"] = json(validation_fields, r.validations[o]);
+    add_studies(r, s.output, object);
+    for (const ComparisonResult& c : r.comparisons)
+      if (c.a == s.output.name || c.b == s.output.name) object["comparisons"].push_back(json(comparison_fields, c));
+    for (const PrintedResult& p : r.printed)
+      if (p.output == s.output.name) object["printed"].push_back(json(printed_fields, p));
+    object["run"] = run;
+    all.push_back(std::move(object));
+  }
+  std::cout << all.dump(2) << '\n';
+}
+
+void print_csv(const Results& r, bool budget) {
+  bool headed = false;
+  const auto print = [&](const auto& add) {
+    for (const bool head : {true, false}) {
+      if (head && headed) continue;
+      Line text{{}, head};
+      add(text);
+      std::cout << text.text << '\n';
+    }
+    headed = true;
+  };
+  for (std::size_t o = 0; o < r.summaries.size(); ++o) {
+    const propagation::Output& output = r.summaries[o].output;
+    if (!budget)
+      print([&](Line& text) {
+        add_cells(text, summary_fields, r.summaries[o], output);
+        text.add("coverage_probability", fmt::format("{}", r.coverage_probability));
+        add_cells(text, budget_fields, r.budgets[o], output, "gum_", &Shown::json);
+        add_cells(text, validation_fields, r.validations[o], output, "validation_", &Shown::json);
+      });
+    else
+      for (const Contribution& c : r.budgets[o].contributions)
+        print([&](Line& text) {
+          text.add("output", quoted(output.name));
+          add_cells(text, contribution_fields, c, output);
+        });
+  }
+}
+
+} // namespace gumshoe::cli
