@@ -114,9 +114,11 @@ std::vector<Group> groups(const propagation::Experiment& e) {
       found.push_back({r, {}});
       for (const auto& name : names) found.back().outputs.push_back(first + index(name));
     }
-    if (!e.scenario().analysis.joint.empty() || measurands.size() < 2 || measurands.size() > 8) continue;
-    found.push_back({r, {}});
-    for (std::size_t m = 0; m < measurands.size(); ++m) found.back().outputs.push_back(first + m);
+    if (!e.scenario().analysis.joint.empty()) continue;
+    Group all{r, {}};
+    for (std::size_t m = 0; m < measurands.size(); ++m)
+      if (!measurands[m].diagnostic) all.outputs.push_back(first + m);
+    if (all.outputs.size() >= 2 && all.outputs.size() <= 8) found.push_back(std::move(all));
   }
   return found;
 }

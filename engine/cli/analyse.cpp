@@ -8,6 +8,7 @@
 #include "analysis/analyse.h"
 #include "analysis/selection.h"
 #include "base/instruction_set.h"
+#include "base/interrupt.h"
 #include "base/version.h"
 #include "cli/command.h"
 #include "cli/print.h"
@@ -92,6 +93,7 @@ ExitCode analyse(const Options& o) {
   const store::StoredSamples source(o.file, experiment.outputs());
   refuse_other_model(experiment, source, o.file);
 
+  when_interrupted("The result itself is unchanged. The same command makes the analysis again.");
   store::Identity identity = stored.identity;
   identity.scenario_hash = s.hash;
   identity.scenario_text = s.text;

@@ -202,6 +202,16 @@ class Terminal(unittest.TestCase):
         self.assertRegex(run.stdout, r"(?m)^diagnostics: .*seen_flutes = ")
         self.assertNotRegex(run.stdout, r"(?m)^(error of )?seen_\w+ = ")
 
+    def test_draws_of_the_inputs_are_stored_on_request(self):
+        self.run_text(SUM.replace("samples = 400_000", "samples = 5000\nstore_inputs = true"), name="draws")
+        with xarray.open_dataset(self.folder / "draws.h5", group="draws", engine="netcdf4") as draws, \
+                xarray.open_dataset(self.folder / "draws.h5", group="outputs", engine="netcdf4") as outputs:
+            self.assertEqual(list(draws["component"].values), list("abcde"))
+            total = draws["deviation"].sum("component").values
+            self.assertLess(abs(outputs["y"].values[0] - 0.150 - total).max(), 1e-15)  # y is their sum
+            twice = outputs["twice"].values[0] - 0.020
+            self.assertLess(abs(twice - 2 * draws["deviation"].sel(component="a").values).max(), 1e-15)
+
     # hints
 
     def test_hints_name_what_is_there(self):
@@ -216,6 +226,7 @@ class Terminal(unittest.TestCase):
             'half_with = "1 um"': "Did you mean 'half_width'?",
             'distribtion = "normal"': "Did you mean 'distribution'?",
             'half_width = "1 um"': 'Try: distribution = "rectangular"',
+            'u = "1 um", low = "9 mm"': "the key 'low' means nothing together with the others",
         }.items():
             with self.subTest(changed):
                 said = self.refusal(SUM.replace(plain, f'a = {{ value = "10 mm", {changed} }}'))
@@ -236,6 +247,11 @@ class Terminal(unittest.TestCase):
         self.assertLess(len(self.refusal(FEEDS, "wide")), 10_000)
         (self.folder / "r.csv").write_text("x" * 1_000_000 + ",feed\n1,1\n")
         self.assertLess(len(self.refusal(FEEDS, "long")), 10_000)
+
+        keys = "".join(f'key{i} = 1\n' for i in range(60))
+        said = self.refusal(SUM.replace("[run]\n", "[run]\n" + keys), "keys")
+        self.assertEqual(len(said.splitlines()), 51)
+        self.assertTrue(said.endswith("there are 10 more problems.\n"))
 
     def test_a_wrong_column_is_said_once(self):
         self.readings(3)
