@@ -1,5 +1,6 @@
 /// `gumshoe run`: samples, analysis, result file.
 #include <chrono>
+#include <cstdlib>
 #include <ctime>
 #include <iostream>
 #include <memory>
@@ -60,14 +61,19 @@ bool sample(scenario::Scenario& s, const propagation::Experiment& e, store::Resu
   }
 }
 
-std::string host_name() {
+/// When, where and how long: of a file that is to be reproduced byte by byte (SOURCE_DATE_EPOCH) only the given time.
+void stamp(analysis::Results& r, std::time_t started, std::chrono::steady_clock::time_point began) {
+  const char* given = std::getenv("SOURCE_DATE_EPOCH");
+  r.date = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(given ? std::time_t(std::atoll(given)) : started));
+  if (given) return;
   char name[256] = {};
-  return gethostname(name, sizeof name - 1) == 0 ? name : "";
+  if (gethostname(name, sizeof name - 1) == 0) r.host = name;
+  r.duration = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
 }
 
 ExitCode run(const Options& o) {
   const auto began = std::chrono::steady_clock::now();
-  const auto date = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+  const std::time_t started = std::time(nullptr);
   scenario::Scenario s = scenario::read(o.file, catalogue());
   if (o.samples) {
     s.run.samples = whole_number(*o.samples, "--samples", 2, "1e6");
@@ -110,9 +116,7 @@ ExitCode run(const Options& o) {
                                   [&] { return file.read_status(0, s.run.samples); }};
   analysis::Results results = analysis::analyse(experiment, samples, o.threads);
   results.stopping = stopping;
-  results.date = date;
-  results.host = host_name();
-  results.duration = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  stamp(results, started, began);
   analysis::keep_measurands(results, s.analysis.measurands);
   file.finish(results);
   line.clear();

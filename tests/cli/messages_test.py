@@ -118,7 +118,7 @@ CHECKED = [
     (SPHERE, None, "", "lacks an indication"),
     (SCENARIO, None, '[quantities.fillet_radius]\nvalue = "6 mm"\n', "fillet_radius exceeds rod_radius"),
     (ROWS, None, '[quantities.fillet_radius.by.rod]\na = "0 mm"\nb = "6 mm"\n',
-     "fillet_radius exceeds rod_radius at reading [rod b, setup 1] (physically impossible)"),
+     "fillet_radius exceeds rod_radius at reading 2 (rod b, setup 1) (physically impossible)"),
     # correlations
     (SCENARIO, None, CORRELATED, "either a coefficient or a matrix is needed"),
     (SCENARIO, None, CORRELATED + "matrix = [[1, 0.5], [0.4, 1]]\n", "correlations are symmetric"),

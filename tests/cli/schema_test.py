@@ -104,13 +104,19 @@ labels = { rod = "1" }
 [run]
 design = "sobol"
 max_failed_share = 0.5
+store_inputs = true
 [analysis]
+measurands = ["laser_z"]
 sensitivity = { morris = 8 }
 [[analysis.conformity]]
 measurand = "laser_z"
 labels = { rod = "1" }
 lower = "-1 m"
 guard_factor = 1
+[[analysis.conformity]]
+measurand = "laser_z"
+lower = "-1 m"
+rule = "ilac_g8"
 [[analysis.targets]]
 measurand = "laser_z"
 labels = { rod = "1" }
