@@ -46,8 +46,11 @@ Json finding_json(const Finding& f) {
 }
 
 Json rms_json(Rms r) {
-  r.unit = r.si_unit;
-  return json(rms_fields, r);
+  const std::string unit = r.si_unit; // empty where nothing was fitted
+  r.unit = r.si_unit = unit.empty() ? "1" : unit;
+  Json out = json(rms_fields, r);
+  out["unit"] = unit;
+  return out;
 }
 
 Json limits_json(const std::vector<DetectionLimit>& limits) {
