@@ -102,13 +102,12 @@ ExitCode run(const Options& o) {
   ProgressLine line;
   settings.progress = [&](const propagation::Progress& p) { line.show("sampling", p.done, p.total, "samples/s"); };
   if (settings.first > 0) std::cerr << fmt::format("resuming after {} samples\n", settings.first);
-  when_interrupted(s.run.store_samples ? "The samples so far are kept. Repeat the command to resume."
-                                       : "No samples are kept. The same command starts from the beginning.");
+  when_interrupted("The samples so far are kept. Repeat the command to resume.");
   analysis::StoppingRecord stopping;
   if (!sample(s, experiment, file, settings, out, stopping)) {
     line.clear();
-    std::cerr << fmt::format("interrupted after {} of {} samples. {}\n", file.samples_done(), s.run.samples,
-                             s.run.store_samples ? "Repeat the command to resume." : said_when_interrupted());
+    std::cerr << fmt::format("interrupted after {} of {} samples. Repeat the command to resume.\n",
+                             file.samples_done(), s.run.samples);
     return ExitCode::interrupted;
   }
   const StudyProgress studies(line);
