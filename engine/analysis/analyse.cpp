@@ -13,6 +13,7 @@
 #include "analysis/given_data.h"
 #include "analysis/gum.h"
 #include "analysis/joint.h"
+#include "analysis/record.h"
 #include "analysis/rounding.h"
 #include "analysis/screening.h"
 #include "analysis/shapley.h"
@@ -117,37 +118,16 @@ void describe(Results& r, const propagation::Experiment& e) {
   r.seed = s.run.seed;
   r.samples = s.run.samples;
   r.coverage_probability = s.analysis.coverage_probability;
-  r.notes = s.notes;
+  r.notes = scenario::notes_of_a_run(s);
   r.notes.insert(r.notes.end(), e.remarks().begin(), e.remarks().end());
   r.readings = s.readings;
   for (const auto& c : card.conditions)
     r.condition_names.emplace_back(c.name), r.condition_units.emplace_back(c.si_unit);
   for (const auto& i : card.indications)
     r.indication_names.emplace_back(i.name), r.indication_units.emplace_back(i.si_unit);
-  for (const auto& q : s.quantities)
-    for (const auto& entry : q.entries) {
-      InputRecord record;
-      record.name = q.name;
-      record.unit = q.unit;
-      record.si_unit = q.si_unit;
-      record.value = entry.value;
-      record.source = entry.source;
-      for (const auto& [label, value] : entry.labels)
-        record.labels += (record.labels.empty() ? "" : ", ") + label + " " + value;
-      double variance = 0;
-      for (const auto& c : entry.components) {
-        variance += std::pow(c.distribution.standard_uncertainty(), 2);
-        record.value += c.distribution.mean();
-        for (const auto& f : quantities::families())
-          if (f.family == c.distribution.family)
-            record.distribution += (record.distribution.empty() ? "" : " + ") + std::string(f.name);
-        if (record.evaluation.find(c.evaluation) == std::string::npos) record.evaluation += c.evaluation;
-        record.scope = scope_text(c);
-        if (!c.source.empty()) record.source += (record.source.empty() ? "" : "; ") + c.source;
-      }
-      record.standard_uncertainty = std::sqrt(variance);
-      r.inputs.push_back(record);
-    }
+  r.equations = equations_of(card, s.evaluation);
+  r.axes = axis_records(card);
+  r.inputs = input_records(s);
 }
 
 void count_failures(Results& r, const std::vector<std::uint8_t>& status) {

@@ -10,6 +10,20 @@ namespace {
 
 constexpr Shown in_json{.json = same}, in_csv{.csv = same}, in_both{.json = same, .csv = same};
 
+constexpr Field<Equation> equations[] = {
+    {"text", of<&Equation::text>, one, "measurement equation, in the language of formulas"},
+    {"where", of<&Equation::where>, one, "meaning of its own symbols"}};
+
+template <int i> constexpr auto point_of = [](const AxisRecord& axis) -> Value { return axis.point[i]; };
+constexpr Field<AxisRecord> axes[] = {
+    {"name", of<&AxisRecord::name>, one, "axis of the machine, from the bed outwards"},
+    {"carries", of<&AxisRecord::carries>, one, "workpiece or tool"},
+    {"kind", of<&AxisRecord::kind>, one, "linear or rotary"},
+    {"direction", of<&AxisRecord::direction>, one, "it moves along, or turns about, X, Y or Z"},
+    {"x", point_of<0>, Unit("m"), "design point of a rotary axis, X"},
+    {"y", point_of<1>, Unit("m"), "design point of a rotary axis, Y"},
+    {"z", point_of<2>, Unit("m"), "design point of a rotary axis, Z"}};
+
 constexpr Field<InputRecord> inputs[] = {
     {"name", of<&InputRecord::name>, one, "input quantity"},
     {"labels", of<&InputRecord::labels>, one, "label values for which it holds"},
@@ -191,6 +205,8 @@ constexpr Field<T> stopping[] = {
 } // namespace
 // clang-format on
 
+constinit const Fields<Equation> equation_fields{"equations", "equation", equations};
+constinit const Fields<AxisRecord> axis_fields{"machine", "axis", axes};
 constinit const Fields<InputRecord> input_fields{"inputs", "input", inputs};
 constinit const Fields<Summary> summary_fields{"summary", "output", summary, "summary"};
 constinit const Fields<Budget> budget_fields{"budget/<k>", "", budget};

@@ -5,6 +5,8 @@
 
 namespace gumshoe::analysis {
 
+extern const Fields<Equation> equation_fields;
+extern const Fields<AxisRecord> axis_fields;
 extern const Fields<InputRecord> input_fields;
 extern const Fields<Summary> summary_fields;
 extern const Fields<Budget> budget_fields; ///< attributes

@@ -114,6 +114,17 @@ struct InputDraws {
   std::function<void(std::uint64_t first, std::size_t count, double* values)> draw;
 };
 
+/// A measurement equation of the evaluation used: EquationCard, and the formulas of a scenario.
+struct Equation {
+  std::string text, where;
+};
+
+/// An axis of the machine, from the bed outwards: AxisCard.
+struct AxisRecord {
+  std::string name, carries, kind, direction; ///< "C", "workpiece" or "tool", "linear" or "rotary", "Z"
+  std::array<double, 3> point{};              ///< m
+};
+
 struct Results {
   std::string title, model, model_title, method, evaluation, scenario_file, scenario_text, scenario_hash;
   std::string version, git_hash, instruction_set, design;
@@ -125,6 +136,8 @@ struct Results {
   std::vector<std::string> notes;
   std::vector<quantities::Reading> readings;
   std::vector<std::string> condition_names, condition_units, indication_names, indication_units; ///< SI units
+  std::vector<Equation> equations;
+  std::vector<AxisRecord> axes;
   std::vector<InputRecord> inputs;
   std::vector<Summary> summaries;
   std::vector<Budget> budgets;

@@ -1,6 +1,7 @@
 #pragma once
 /// Cards: what models and effects say of themselves. Everything shown by `gumshoe models` and
 /// `gumshoe effects`, checked by the scenario parser, and written into result files comes from here.
+#include <array>
 #include <cstddef>
 #include <span>
 #include <string_view>
@@ -89,6 +90,13 @@ struct VariableCard {
   bool diagnostic = false; ///< of a measurand: it says how the evaluation went, such as a count; no uncertainty is asked of it
 };
 
+/// A measurement equation as people read it, in the language of formulas with `=`; a function stands for what the model
+/// solves, `norm`, `sum` and an index (`x_i`) for what they say. The report typesets it.
+struct EquationCard {
+  std::string_view text;
+  std::string_view where = {}; ///< what its own symbols mean
+};
+
 /// Another way to evaluate the measurands; the first one of a model is the default.
 struct EvaluationCard {
   std::string_view name;
@@ -100,7 +108,17 @@ struct EvaluationCard {
   /// ModelCard::timing; per reading, and once.
   std::string_view time_per_reading = {};
   std::string_view time_once = {};
+  std::span<const EquationCard> equations = {};
   constexpr bool joint() const { return !measurands.empty(); }
+};
+
+/// An axis of the machine on which the model measures, from the bed outwards.
+struct AxisCard {
+  std::string_view name;
+  bool carries_workpiece; ///< else the tool
+  bool rotary;
+  int direction;               ///< 0, 1, 2: moves along, or turns about, X, Y, Z
+  std::array<double, 3> point; ///< a design point on a rotary axis, m
 };
 
 struct ModelCard {
@@ -115,6 +133,7 @@ struct ModelCard {
   std::span<const EvaluationCard> evaluations;
   std::span<const Stage> stages;             ///< stages of the measuring chain; only their effects apply
   std::span<const QuantityCard> timing = {}; ///< further inputs of the measuring time: rapid feed, orientation time
+  std::span<const AxisCard> axes = {};       ///< of the machine, if the model moves one
 };
 
 struct EffectCard {

@@ -128,7 +128,7 @@ private:
     r_.skipped = search_.skipped();
     r_.skipped_why = search_.skipped_why();
     r_.resolution = search_.resolution();
-    r_.notes = s_.notes;
+    r_.notes = scenario::notes_of_a_run(s_);
     if (s_.run.design != scenario::Design::monte_carlo)
       r_.notes.push_back(fmt::format("design {} is not used here, because standard errors need independent samples",
                                      name(s_.run.design)));

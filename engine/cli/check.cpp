@@ -22,7 +22,7 @@ void add_check(CLI::App& app, Action& action) {
       const scenario::Scenario s = scenario::read(o->file, known);
       const propagation::Experiment experiment(s); // labels, correlations and values fit together
       if (o->explain) std::cout << scenario::explain(s, known);
-      for (const std::string& note : s.notes) std::cout << "note: " << note << '\n';
+      for (const std::string& note : scenario::notes_of_a_run(s)) std::cout << "note: " << note << '\n';
       std::cout << fmt::format("{}: good: model {}, {} readings, {} variates, {} outputs\n", o->file, s.model,
                                s.readings.size(), experiment.plan().variates.size(), experiment.outputs().size());
       return ExitCode::done;

@@ -9,6 +9,21 @@ std::vector<VariableCard> MadeCard::variables(const std::vector<Symbol>& symbols
   return cards;
 }
 
+namespace {
+
+/// y = f(x) for each measurand, and what f and x are.
+std::vector<std::pair<std::string, std::string>> unknown_function(const CardTexts& texts) {
+  std::string inputs;
+  for (const auto* symbols : {&texts.indications, &texts.quantities, &texts.conditions})
+    for (const Symbol& s : *symbols) inputs += (inputs.empty() ? "" : ", ") + s.name;
+  std::vector<std::pair<std::string, std::string>> equations;
+  for (const Symbol& y : texts.measurands)
+    equations.emplace_back(y.name + " = f(x)", equations.empty() ? "f: the " + texts.name + "; x: " + inputs : "");
+  return equations;
+}
+
+} // namespace
+
 MadeCard::MadeCard(const CardTexts& texts) {
   for (const Symbol& s : texts.quantities)
     quantities_.push_back(
@@ -16,9 +31,15 @@ MadeCard::MadeCard(const CardTexts& texts) {
   conditions_ = variables(texts.conditions);
   indications_ = variables(texts.indications);
   measurands_ = variables(texts.measurands);
-  evaluations_ = {{"full", "as the scenario states it"}};
+  for (const auto& [text, where] : texts.equations.empty() ? unknown_function(texts) : texts.equations)
+    equations_.push_back({keep(text), keep(where)});
+  evaluations_ = {{.name = "full", .meaning = "as the scenario states it", .equations = equations_}};
+  for (AxisCard axis : texts.axes) {
+    axis.name = keep(std::string(axis.name));
+    axes_.push_back(axis);
+  }
   card_ = {keep(texts.name), keep(texts.title), keep(texts.summary), keep(texts.source), quantities_,
-           conditions_,      indications_,      measurands_,         evaluations_,       {}};
+           conditions_,      indications_,      measurands_,         evaluations_,       {}, {}, axes_};
 }
 
 } // namespace gumshoe::models

@@ -2,6 +2,7 @@
 /// Cards of models that are made at run time: as ModelCard, but they own their texts.
 #include <deque>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/symbol.h"
@@ -11,6 +12,8 @@ namespace gumshoe::models {
 struct CardTexts {
   std::string name, title, summary, source;
   std::vector<Symbol> quantities, conditions, indications, measurands;
+  std::vector<std::pair<std::string, std::string>> equations; ///< as EquationCard; empty: of an unknown function
+  std::vector<AxisCard> axes;                               ///< copied with their names
 };
 
 class MadeCard {
@@ -26,6 +29,8 @@ private:
   std::deque<std::string> texts_;
   std::vector<QuantityCard> quantities_;
   std::vector<VariableCard> conditions_, indications_, measurands_;
+  std::vector<EquationCard> equations_;
+  std::vector<AxisCard> axes_;
   std::vector<EvaluationCard> evaluations_;
   ModelCard card_{};
 };

@@ -212,8 +212,9 @@ std::string explain(const Scenario& s, const Catalogue& catalogue) {
   explain_options(s, evaluated_card(*model, s.evaluation), out);
   if (s.choose) explain(*s.choose, *model, out);
   if (s.trace.stated) explain(s.trace, out);
-  if (!s.notes.empty()) fmt::format_to(out, "notes\n");
-  for (const std::string& note : s.notes) fmt::format_to(out, "  {}\n", note);
+  const std::vector<std::string> notes = notes_of_a_run(s);
+  if (!notes.empty()) fmt::format_to(out, "notes\n");
+  for (const std::string& note : notes) fmt::format_to(out, "  {}\n", note);
   return text;
 }
 

@@ -111,10 +111,6 @@ private:
                    fmt::format("give a value per label: by.{}", c.per.front()));
       return;
     }
-    if (out_.estimated && e.components.empty())
-      context_.note(out_.name +
-                    ": estimated, without a distribution; treated as exact at its start value until gumshoe estimate "
-                    "has fitted it");
     if (context_.problems.size() == problems)
       keep(std::move(e), given ? *table.find("value") : table.node(), table.path());
   }

@@ -196,6 +196,15 @@ ModelCard evaluated_card(const ModelCard& model, const std::string& evaluation) 
   return card;
 }
 
+std::vector<std::string> notes_of_a_run(const Scenario& s) {
+  std::vector<std::string> notes = s.notes;
+  for (const quantities::InputQuantity& q : s.quantities)
+    if (q.estimated && std::ranges::all_of(q.entries, [](const auto& entry) { return entry.components.empty(); }))
+      notes.push_back(q.name + ": estimated, without a distribution; treated as exact at its start value until gumshoe "
+                               "estimate has fitted it");
+  return notes;
+}
+
 Scenario read(const std::string& path, const Catalogue& catalogue, const Overrides& overrides) {
   return ScenarioReader(path, catalogue, overrides).read();
 }

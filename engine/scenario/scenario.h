@@ -203,6 +203,9 @@ struct Catalogue {
 /// The card as an evaluation sees it: with the measurands that the evaluation yields.
 ModelCard evaluated_card(const ModelCard& model, const std::string& evaluation);
 
+/// The notes, and those on quantities marked `estimated` that a run, which does not fit them, takes as exact.
+std::vector<std::string> notes_of_a_run(const Scenario& scenario);
+
 /// What a command says in place of the scenario.
 struct Overrides {
   std::string data; ///< data file of every indication, relative to the current directory; empty: as the scenario says

@@ -144,6 +144,8 @@ void write_draws(hid_t file, const InputDraws& draws, std::uint64_t samples) {
 void write_results(hid_t file, const Results& r) {
   write_record(file, r);
   write_readings(file, r);
+  write_table(file, equation_fields, r.equations);
+  write_table(file, axis_fields, r.axes);
   write_table(file, input_fields, r.inputs);
   write_summary(file, r.summaries);
   write_budgets(file, "budget", r.budgets);

@@ -168,7 +168,6 @@ void write_trace(Draft& draft, const Claim& claim, const scenario::Scenario& s, 
   identity.seed = s.trace.seed;
   identity.samples = static_cast<std::uint64_t>(trace.draws);
   write_whole(draft, claim, identity, s, [&](hid_t file) {
-    hdf5::write_attribute(file, "model_title", std::string(card.title));
     write_data(file, s, card);
     write_residuals(file, s, card, trace);
     write_trace_group(file, trace);

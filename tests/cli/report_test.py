@@ -140,6 +140,11 @@ class Report(unittest.TestCase):
             self.assertIn(words, picture)
         self.assertLess(self.text.index('class="picture"'), self.text.index("<h2>Result</h2>"))
 
+    def test_equations_are_typeset(self):
+        maths = re.findall(r"<math.*?</math>", self.text, re.S)
+        self.assertEqual(len(maths), 2)
+        self.assertEqual(re.sub("<[^>]+>", "", maths[0]), "laserz=spindlez−rod\u00a0length−bottom\u00a0height")
+
     def test_what_does_not_exist_is_not_drawn(self):
         ends = ("symmetric_low", "symmetric_high", "shortest_low", "shortest_high")  # none with too few trials
         for absent in (ends, (*ends, "estimate", "standard_uncertainty"), ("estimate",), ("standard_uncertainty",)):

@@ -10,6 +10,7 @@ import sys
 import tempfile
 import unittest
 
+import h5py
 import numpy as np
 
 from program import ROOT, gumshoe
@@ -63,6 +64,27 @@ class TraceData(unittest.TestCase):
         self.assertIn("direction is -1 in every reading", said)
         text = (SCENARIOS / "trace_single_socket.toml").read_text().replace("[trace]\n", '[trace]\nblocks = "case"\n')
         self.assertEqual(self.trace("trace_single_socket", text=text)["verdict"], "insufficient_data")
+
+    def test_nothing_found_is_agreement_only_if_noise_explains_the_residuals(self):
+        agreed = []
+        for name in ("trace_rods", "trace_thermometer", "trace_load_cell_quadratic"):
+            v = self.trace(name)
+            self.assertEqual(v["verdict"], "nothing_found")
+            rms = v["rms"]
+            larger = [size for size, limits in ((rms["holdout_before"], rms["holdout_noise_interval95"]),
+                                                (rms["before"], rms["noise_interval95"]))
+                      if size is not None and limits[1] is not None and size > limits[1]]
+            self.assertEqual("agree with the model" in v["plain"][0], not larger, (name, v["plain"][0]))
+            self.assertEqual("larger than noise alone" in v["plain"][0], bool(larger), (name, v["plain"][0]))
+            agreed.append(not larger)
+        self.assertEqual(set(agreed), {True, False})  # both are tried: the rods' final set-up scatters more than noise
+
+    def test_a_trace_does_not_say_what_only_a_run_does(self):
+        said = "laser_z: estimated, without a distribution; treated as exact"
+        self.trace("trace_rods")
+        with h5py.File(self.folder / "o.h5") as file:
+            self.assertFalse([n for n in file["notes"].asstr()[()] if said in n])
+        self.assertIn(said, gumshoe("check", self.folder / "trace_rods.toml", cwd=self.folder).stdout)
 
     def test_cone_readings_are_as_their_script_writes(self):
         for case, file in (("constant", "cone.csv"), ("shift", "cone_shift.csv")):

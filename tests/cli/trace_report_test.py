@@ -241,6 +241,11 @@ class Page(Made):
             for head in re.findall(r"<thead>(.*?)</thead>", page, re.S):
                 self.assertNotRegex(head, r'<th(?![^>]*scope="col)[ >]')
 
+    def test_the_picture_stands_on_top(self):
+        page = self.pages["named"]
+        self.assertLess(page.index('class="picture"'), page.index("Found: trigger latency"))
+        self.assertIn("<math", page)
+
     def test_browser_has_no_complaint(self):
         with tempfile.TemporaryDirectory() as profile:
             run = subprocess.run(["/usr/bin/chromium", "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",

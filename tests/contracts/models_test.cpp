@@ -54,6 +54,8 @@ TEST_CASE("a model's card is complete: names, units, defaults, meanings", "[cont
       INFO(e.name);
       CHECK(evaluations.emplace(e.name).second);
       CHECK_FALSE(e.meaning.empty());
+      CHECK_FALSE(e.equations.empty());
+      for (const EquationCard& equation : e.equations) CHECK(equation.text.find(" = ") != std::string_view::npos);
       std::set<std::string> own;
       for (const VariableCard& v : e.measurands) check_variable(v, own);
     }

@@ -75,8 +75,10 @@ CardTexts texts_of(const formula::Compiled& c) {
   texts.conditions = c.statement.conditions;
   texts.indications = c.statement.indications;
   for (std::size_t i = c.first_measurand(); i < c.first_simulated(); ++i) texts.measurands.push_back(c.explained[i]);
-  for (const formula::Formula& f : c.formulas)
+  for (const formula::Formula& f : c.formulas) {
+    texts.equations.emplace_back(fmt::format("{} = {}", f.short_name(), f.text), "");
     texts.summary += fmt::format("{}{} = {}", texts.summary.empty() ? "" : "\n  ", f.short_name(), f.text);
+  }
   return texts;
 }
 

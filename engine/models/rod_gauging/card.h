@@ -41,17 +41,25 @@ inline constexpr VariableCard measurand_cards[] = {
                  .meaning = "height of the beam's axis where it passes the spindle axis: spindle_z - rod_length - "
                             "bottom_height"}),
 };
+inline constexpr EquationCard full_equations[] = {
+    {"laser_z = spindle_z - rod_length - bottom_height"},
+    {"covered(bottom_height) = trigger_fraction",
+     "covered: share of the beam's cross-section in the rod's shadow, from the geometry of rod and beam"},
+};
+inline constexpr EquationCard conventional_equations[] = {{"laser_z = spindle_z - rod_length"}, {"bottom_height = 0"}};
 enum Evaluation { full, conventional };
 inline constexpr std::string_view per_reading = "approach / feed + retract", once = "rod_change";
 inline constexpr EvaluationCard evaluation_cards[] = {
     {.name = "full",
      .meaning = "exact geometry of rod and beam: Fang 2022, section 2.4",
      .time_per_reading = per_reading,
-     .time_once = once},
+     .time_once = once,
+     .equations = full_equations},
     {.name = "conventional",
      .meaning = "square rod and aligned beam, bottom_height = 0: the geometry is ignored",
      .time_per_reading = per_reading,
-     .time_once = once},
+     .time_once = once,
+     .equations = conventional_equations},
 };
 inline constexpr QuantityCard timing_cards[] = {
     in_mm({.name = "approach", .default_value = 2 * mm, .limits = not_negative,

@@ -121,20 +121,53 @@ inline constexpr VariableCard joint_cards[] = {
 /// How the probe is computed at each reading; then the joint evaluations.
 enum Evaluation { exact, small_angle, closed_form, sequential, joint, joint_weighted };
 constexpr bool is_joint(int evaluation) { return evaluation >= sequential; }
+#define GUMSHOE_TIP "tip = command - e + D_B + Q_B * (D_C - D_B + Q_C * (probe - D_C))"
+#define GUMSHOE_SYMBOLS                                                                                                \
+  "command: (X, Y, Z); e: errors of the slides; D: place of a rotary axis, its link plus its errors; Q: turn about it by " \
+  "B or C"
+inline constexpr EquationCard exact_equations[] = {{GUMSHOE_TIP, GUMSHOE_SYMBOLS}};
+inline constexpr EquationCard small_equations[] = {{GUMSHOE_TIP, GUMSHOE_SYMBOLS ", to first order in its orientation"}};
+inline constexpr EquationCard plane_equations[] = {
+    {"sum(distance_i^2) = minimum", "i: reading; distance: of the tip from a plane square to B or C, for its orientation"},
+    {"sum(norm(tip_i - t)^2) = minimum", "for the seven lengths; t: tip above the sphere, from d_s, R_c and R_p"},
+    exact_equations[0],
+};
+inline constexpr EquationCard joint_equations[] = {
+    {"sum(norm(tip_i - t)^2) = minimum",
+     "i: reading; for all eleven unknowns; t: tip above the sphere, from d_s, R_c and R_p"},
+    exact_equations[0],
+};
+inline constexpr EquationCard weighted_equations[] = {
+    {"v^T * V^(-1) * v = minimum",
+     "v: tip minus its place above the sphere, of all readings; V: covariance matrix that the scenario declares"},
+    exact_equations[0],
+};
+#undef GUMSHOE_SYMBOLS
+#undef GUMSHOE_TIP
 inline constexpr EvaluationCard evaluation_cards[] = {
-    {.name = "exact", .meaning = "exact rotations about the actual axes"},
+    {.name = "exact", .meaning = "exact rotations about the actual axes", .equations = exact_equations},
     {.name = "small_angle",
-     .meaning = "the thesis' product (4.7) to (4.10); for the reproduction study, 12 to 20 um off"},
+     .meaning = "the thesis' product (4.7) to (4.10); for the reproduction study, 12 to 20 um off",
+     .equations = small_equations},
     {.name = "closed_form",
-     .meaning = "eqs 4.23 to 4.25 at B = 0 and 4.30 to 4.38, corrected, at C = 90 deg; for the reproduction study"},
+     .meaning = "eqs 4.23 to 4.25 at B = 0 and 4.30 to 4.38, corrected, at C = 90 deg; for the reproduction study",
+     .equations = small_equations},
     {.name = "sequential",
      .meaning = "orientations by planes through each pattern's poses, then the seven lengths by linear least squares",
-     .measurands = joint_cards},
+     .measurands = joint_cards, .equations = plane_equations},
     {.name = "joint",
-     .meaning = "all eleven unknowns by least squares, with equal weights of all commands", .measurands = joint_cards},
+     .meaning = "all eleven unknowns by least squares, with equal weights of all commands", .measurands = joint_cards, .equations = joint_equations},
     {.name = "joint_weighted",
      .meaning = "all eleven unknowns by least squares, weighted with the covariance matrix that the scenario declares",
-     .measurands = joint_cards},
+     .measurands = joint_cards, .equations = weighted_equations},
+};
+inline constexpr AxisCard axis_cards[] = {
+    {"X", true, false, 0, {}},
+    {"A", true, true, 0, {}},
+    {"Y", false, false, 1, {}},
+    {"Z", false, false, 2, {}},
+    {"B", false, true, 1, {-120 * mm, 0, -110 * mm}},
+    {"C", false, true, 2, {50 * mm, 180 * mm, 0}},
 };
 inline constexpr Stage stages[] = {Stage::motion, Stage::rotary, Stage::slides, Stage::contact, Stage::trigger};
 // clang-format on

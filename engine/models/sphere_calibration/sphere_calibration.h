@@ -18,7 +18,8 @@ struct SphereCalibration {
       .indications = indication_cards,
       .measurands = measurand_cards,
       .evaluations = evaluation_cards,
-      .stages = stages};
+      .stages = stages,
+      .axes = axis_cards};
 
   template <class T> static void check_commanded(const At<T>& at, Outcome<T>& outcome) {
     const auto& c = at.c;

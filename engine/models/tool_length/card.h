@@ -130,34 +130,63 @@ inline constexpr QuantityCard timing_cards[] = {
     in_s({.name = "safety_time", .default_value = 2, .limits = not_negative,
           .meaning = "time for checks of the tool setter, dwell and air blast"}),
 };
+inline constexpr EquationCard full_equations[] = {
+    {"tool_length = spindle_z - laser_z - trigger_height"},
+    {"effective_length = tool_length - min(wear)"},
+    {"covered(trigger_height) = trigger_fraction",
+     "covered: largest share of the beam's cross-section in the shadow of a turning insert; trigger_height: the first "
+     "height at which it holds"},
+};
+inline constexpr EquationCard conventional_equations[] = {{"tool_length = spindle_z - laser_z"},
+                                                          {"trigger_height = 0"}};
+inline constexpr EquationCard single_equations[] = {{"effective_length = spindle_z - laser_z"},
+                                                    {"tool_length = effective_length + min(wear)"}};
+inline constexpr EquationCard curve_equations[] = {
+    {"spindle_z_i - laser_z = max(H_k + F_k(c_i + d * phi_k + u - H_k))",
+     "i: reading; k: flute; H: height of a flute; F: trigger height of an unworn flute; c: start height and angle; d: "
+     "drop per angle; phi: azimuth of the flute; u: phase. H and u by least squares"},
+    {"effective_length = max(H_k)"},
+    {"tool_length = effective_length + min(wear)"},
+};
+inline constexpr EquationCard peak_equations[] = {
+    {"effective_length = max(spindle_z_i) - laser_z", "i: reading; the highest peaks are the flutes"},
+    {"tool_length = effective_length + min(wear)"},
+};
 enum Evaluation { full, conventional, single, slow, characteristic_curve, peaks };
 inline constexpr EvaluationCard evaluation_cards[] = {
-    {.name = "full", .meaning = "exact trigger of the turning tool: Fang 2022, chapter 3"},
+    {.name = "full",
+     .meaning = "exact trigger of the turning tool: Fang 2022, chapter 3",
+     .equations = full_equations},
     {.name = "conventional",
-     .meaning = "trigger_height = 0, the reading minus the laser's height: the geometry is ignored"},
+     .meaning = "trigger_height = 0, the reading minus the laser's height: the geometry is ignored",
+     .equations = conventional_equations},
     {.name = "single",
      .meaning =
          "one reading at any start angle, without a known curve: effective_length is the reading minus the laser's "
          "height",
      .measurands = length_cards,
      .time_per_reading = per_run,
-     .time_once = once},
+     .time_once = once,
+     .equations = single_equations},
     {.name = "slow",
      .meaning = "the same at high spindle speed and low feed",
      .measurands = length_cards,
      .time_per_reading = per_run,
-     .time_once = once},
+     .time_once = once,
+     .equations = single_equations},
     {.name = "characteristic_curve",
      .meaning = "readings at several start angles: fits the model's curve and its phase",
      .measurands = curve_cards,
      .time_per_reading = per_oriented_run,
-     .time_once = once},
+     .time_once = once,
+     .equations = curve_equations},
     {.name = "peaks",
      .meaning =
          "readings at several start angles, connected by lines: the highest peaks are the flutes (Fang 2022, 3.5.2)",
      .measurands = peak_cards,
      .time_per_reading = per_oriented_run,
-     .time_once = once},
+     .time_once = once,
+     .equations = peak_equations},
 };
 inline constexpr Stage stages[] = {Stage::pose,   Stage::insert, Stage::spindle,
                                    Stage::motion, Stage::timing, Stage::trigger};

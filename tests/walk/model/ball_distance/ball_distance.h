@@ -34,7 +34,10 @@ inline constexpr VariableCard indication_cards[] = {command("X_1", 0), command("
                                                     command("X_2", 0), command("Y_2", 0), command("Z_2", 0)};
 inline constexpr VariableCard measurand_cards[] = {
     shown_in_mm({.name = "distance", .meaning = "between the balls' centres at 20 degC"})};
-inline constexpr EvaluationCard evaluation_cards[] = {{.name = "full", .meaning = "length of the difference"}};
+inline constexpr EquationCard equations[] = {
+    {"distance = norm(centre_2 - centre_1) / (1 + expansion * temperature_difference)"}};
+inline constexpr EvaluationCard evaluation_cards[] = {
+    {.name = "full", .meaning = "length of the difference", .equations = equations}};
 inline constexpr Stage stages[] = {Stage::motion, Stage::slides, Stage::slide_directions, Stage::trigger};
 
 struct Rows {
