@@ -10,7 +10,7 @@ import jinja2
 import markupsafe
 
 from . import certificate, choice, choice_figures, choice_surface, convergence, csv_tables, explain, figures, mathml
-from . import pictures, reduce, region_figures, rounding, sensitivity_figures, studies, tables, trace, trace_figures, workbook
+from . import pictures, reduce, region_figures, rounding, scatter, sensitivity_figures, studies, tables, trace, trace_figures, workbook
 
 HERE = pathlib.Path(__file__).parent
 OPEN = 2      # outputs shown in full; the others are folded
@@ -65,6 +65,7 @@ def sections(r):
             budget=tables.budget(of.budget, u, of.sobol) if of.budget else None, sobol=of.sobol,
             confidence=rounding.probability(of.sobol.confidence) if of.sobol else "",
             side_by_side=picture(full, sensitivity_figures.side_by_side, of.budget, of.sobol, of.shapley, f"s{k}"),
+            scatter=picture(full, scatter.figure, r.path, output, of.budget, f"x{k}"),
             why=explain.why(of.budget, of.sobol, of.shapley, u),
             pairs=studies.pairs(of.sobol) if of.sobol and of.sobol.pairs else None,
             shapley_figure=picture(full and of.shapley and of.sobol, sensitivity_figures.side_by_side, None, None,

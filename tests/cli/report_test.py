@@ -27,7 +27,7 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "reports"))
 from browser import CLIPPED, CONTRAST, browser, filled_pages, measured
 from sealed import changed
-from gumshoe_report import certificate, convergence, explain, mathml, page, read, reduce, tables, workbook
+from gumshoe_report import certificate, convergence, explain, mathml, page, read, reduce, scatter, tables, workbook
 
 
 class Resources(html.parser.HTMLParser):
@@ -516,6 +516,46 @@ class Certificate(unittest.TestCase):
         self.assertEqual(certificate.line(o, b, v, 0.95).replace("\u202f", " "), "L = (10.003387 ± 0.000099) mm, k = 1.96, 95 %")
         v.verdict = "not validated"
         self.assertEqual(certificate.line(o, b, v, 0.95), "")
+
+
+class Scatter(unittest.TestCase):
+    """y = 3 a + b squared in um, c moves nothing: which inputs are drawn, and that a curve counts as a line does."""
+
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.path = pathlib.Path(temporary.name) / "draws.h5"
+        a, b, c = x = np.random.default_rng(7).normal(size=(3, 4000))
+        y = 1e-6 * (3 * a + b ** 2)
+        with h5py.File(self.path, "w") as file:
+            file["outputs/y"] = [np.where(np.arange(4000) % 9, y, math.nan)]  # failed samples have no value
+            group = file.create_group("draws")
+            for name, texts in (("component", "abc"), ("display_units", ["um"] * 3)):
+                group.create_dataset(name, data=list(texts), dtype=h5py.string_dtype())
+            group["display_factor"], group["deviation"] = [1e6] * 3, 1e-6 * x
+        self.output = types.SimpleNamespace(
+            name="y", measurand="y", reading=0, estimate=1e-6, standard_uncertainty=math.sqrt(11) * 1e-6, symmetric_low=-5e-6,
+            symmetric_high=8e-6, shortest_low=-5e-6, shortest_high=8e-6, histogram_edges=np.zeros(0), display_units="um",
+            display_factor=1e6, display_offset=0.0)
+
+    def test_what_moves_the_measurand_is_drawn(self):
+        drawn = scatter.figure(self.path, self.output, None, "x")
+        labels = re.findall(r"<text[^>]*>([^<]*)</text>", drawn)
+        self.assertEqual([label for label in labels if label in ("a, µm", "b, µm", "c, µm")], ["a, µm", "b, µm"])
+
+    def test_shares_that_bins_explain(self):
+        y, known = scatter.draws(self.path, self.output)
+        self.assertTrue(np.isfinite(y).all())
+        a, b, c = (scatter.explained(d.x, y) for d in known)
+        # Var y = 9 + 2; bins lose little of a's 9 / 11 and of b's 2 / 11.
+        self.assertAlmostEqual(a, 9 / 11, delta=0.05)
+        self.assertAlmostEqual(b, 2 / 11, delta=0.05)
+        self.assertLess(c, scatter.VISIBLE)
+
+    def test_without_draws_there_is_no_figure(self):
+        with h5py.File(self.path, "a") as file:
+            del file["draws"]
+        self.assertEqual(scatter.figure(self.path, self.output, None, "x"), "")
 
 
 class Convergence(unittest.TestCase):
