@@ -22,7 +22,8 @@ def operator(sign):
 
 
 def fenced(inside, left="(", right=")"):
-    return row(f'<mo stretchy="true">{left}</mo>', inside, f'<mo stretchy="true">{right}</mo>')
+    tall = "true" if "<mfrac" in inside else "false"
+    return row(f'<mo stretchy="{tall}">{left}</mo>', inside, f'<mo stretchy="{tall}">{right}</mo>')
 
 
 def word(text):

@@ -104,6 +104,8 @@ class Report(unittest.TestCase):
         for width in (1000, 600):
             self.assertEqual(measured(self.page, CLIPPED, width), [], "clipped labels")
         self.assertLessEqual(measured(self.page, "return document.documentElement.scrollWidth", 600), 600)
+        wide = "return [...document.querySelectorAll('.equation')].map(e => e.scrollWidth - e.clientWidth)"
+        self.assertEqual(measured(self.page, wide), [0, 0])  # no equation is cut
         seen = measured(self.page, """
             const cells = [...document.querySelectorAll('.budget tbody tr:first-child td.share')];
             return cells.map(c => c.getBoundingClientRect().right);""", 600)
