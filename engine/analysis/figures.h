@@ -20,6 +20,7 @@ struct FigureName {
   std::string word;
   std::vector<std::string> arguments;
 };
+/// Splits at brackets and commas; does not know which figures exist.
 FigureName parse_figure(const std::string& text);
 
 /// The figure of an output by its name: that of a field (result_fields.h; the tables in engine/store/README.md list them),

@@ -14,6 +14,8 @@ struct Moments {
   double skewness = 0, kurtosis = 0;
   std::size_t valid = 0; ///< values that are not NaN
 };
+/// NaN without values; the variance also of a single one. Skewness and kurtosis are 0 without variance.
+/// @param threads 0: all processors
 Moments moments(std::span<const double> values, int threads = 1);
 
 /// JCGM 101 7.7.2: q = pM rounded to an integer; an interval runs from rank r to rank r + q of the M ordered values.

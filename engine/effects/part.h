@@ -35,6 +35,7 @@ struct Common {
 struct Part {
   std::string_view name, title, iso230 = {}, adds, confused_with;
 };
+/// The card of one part.
 constexpr EffectCard on(const Part& part, const Common& common) {
   return {.name = part.name, .title = part.title, .stage = common.stage, .iso230 = part.iso230,
           .meaning = common.meaning, .adds = part.adds, .confused_with = part.confused_with, .source = common.source,

@@ -36,6 +36,7 @@ template <class T, class Use> void with_function(Operation operation, const Use&
 #undef GUMSHOE_OF_TWO
 }
 
+/// One operation on two values; an operation of one operand ignores b.
 template <class T> T apply(Operation operation, const T& a, const T& b) {
   T result = a;
   with_function<T>(operation, [&](const auto& f) { result = f(a, b); });
@@ -76,6 +77,7 @@ template <class T> struct Values {
   bool kink = false;
 };
 
+/// The values of all steps at one point. `kink`: some step has a value but no derivative there.
 template <class T> Values<T> interpret(const Program& program, const Inputs<T>& in) {
   Values<T> out;
   out.steps.reserve(program.steps.size());

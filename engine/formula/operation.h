@@ -45,6 +45,7 @@ struct Function {
 
 /// Every function a formula may call; `log` is natural, `ln` another name of it.
 std::span<const Function> functions();
+/// Null if there is no function of this name.
 const Function* find_function(std::string_view name);
 std::vector<std::string> function_names();
 
@@ -57,6 +58,7 @@ std::string_view reserved_as(std::string_view name);
 /// "division", "log", "+": for messages.
 std::string_view word(Operation operation);
 
+/// True if the operation has two operands.
 constexpr bool is_binary(Operation o) {
   switch (o) {
   case Operation::add:
@@ -73,6 +75,7 @@ constexpr bool is_binary(Operation o) {
     return false;
   }
 }
+/// True if the operation has no operands.
 constexpr bool is_leaf(Operation o) { return o == Operation::number || o == Operation::name; }
 
 } // namespace gumshoe::formula

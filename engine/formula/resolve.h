@@ -19,7 +19,7 @@ class Names {
 public:
   /// Problems: names taken twice, names that formulas cannot write. `formulas` in the order of Compiled::formulas.
   Names(const Statement& statement, const std::vector<Formula>& formulas, std::vector<Problem>& problems);
-  /// Null if unknown or a constant. Where an indication has a formula, `simulating` chooses it over the readout.
+  /// Null if unknown or a constant. Where an indication has a formula, `simulating` chooses it over the reading.
   const Meaning* find(const std::string& name, bool simulating) const;
   /// Problems at every name that means nothing.
   void check(const Formula& formula, std::vector<Problem>& problems) const;

@@ -15,6 +15,7 @@ struct Tangent {
   double gradient = 0;           ///< largest |J' r| over free parameters
   std::vector<std::size_t> held; ///< at a bound that the gradient pushes against
 };
+/// @param r, jacobian  residuals and derivatives at z, as Rows::evaluate gives them
 Tangent tangent(const Rows& rows, const Vector& z, const Vector& r, const Matrix& jacobian);
 
 /// Steps from z while they bring the minimum nearer. Returns the number of steps taken; z, r and jacobian follow.

@@ -21,6 +21,7 @@ struct Unitless {
 constexpr QuantityCard in_units(const Unitless& q, std::string_view unit, std::string_view si_unit) {
   return {q.name, unit, si_unit, q.default_value, q.limits, q.symbol, q.meaning};
 }
+/// Rows shown in mm, deg, s or as plain numbers.
 constexpr QuantityCard in_mm(const Unitless& q) { return in_units(q, "mm", "m"); }
 constexpr QuantityCard in_deg(const Unitless& q) { return in_units(q, "deg", "rad"); }
 constexpr QuantityCard in_s(const Unitless& q) { return in_units(q, "s", "s"); }

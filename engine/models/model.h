@@ -122,7 +122,9 @@ struct Model {
 /// A model made from a scenario (an expression, a plugin, a command): the pointer owns card and context.
 using MadeModel = std::shared_ptr<const Model>;
 
+/// The models of the catalogue; those that a scenario makes are not among them.
 std::span<const Model* const> catalogue();
+/// Null if the catalogue has no model of this name.
 const Model* find(std::string_view name);
 
 } // namespace gumshoe::models

@@ -23,8 +23,6 @@ struct Layout {
   constexpr Layout(std::size_t m, std::size_t e, std::size_t i, std::size_t s)
       : model{0, m}, effects{m, m + e}, indications{m + e, m + e + i}, sizes{m + e + i, m + e + i + s} {}
   constexpr std::size_t size() const { return sizes.end; }
-  /// Places that a simulation reads.
-  constexpr Range simulated_from() const { return {model.begin, effects.end}; }
 };
 
 } // namespace gumshoe::propagation

@@ -29,6 +29,7 @@ template <class T> chain::ProbingEvent<T> probing_event(const At<T>& at) {
   return event;
 }
 
+/// The rod as it stands in the event.
 template <class T> Rod<T> rod(const Rows::Quantities<T>& q, const chain::ProbingEvent<T>& event) {
   return {q.rod_radius, q.fillet_radius, q.bottom_elevation, q.bottom_azimuth + q.holder_angle,
           event.tool_x, event.tool_y};

@@ -45,6 +45,7 @@ template <class T> struct Links {
   Orientation<T> tilted;
   Directions<T> lines;
 };
+/// The machine of these quantities.
 template <class T> Links<T> links(const Quantities<T>& q) {
   Links<T> l;
   actual_lengths(q, l.length);
@@ -104,6 +105,7 @@ template <class T> struct Moved {
   Turns<T> turns;
   Vector3<T> shift() const { return shift_B + turns.b * shift_C; }
 };
+/// The turns of B and C with the error motions that effects added.
 template <class T> Moved<T> moved(const Turns<T>& turns, const chain::RotaryProbing<T>& rotary) {
   const auto b = chain::error_motion(rotary.B.error, 1), c = chain::error_motion(rotary.C.error, 2);
   return {b.tilt, c.tilt, b.shift, c.shift, {b.tilt * turns.b, c.tilt * turns.c}};
@@ -138,6 +140,7 @@ template <class T> Vector3<T> linear_errors(const Quantities<T>& q, const T& y, 
           q.E_ZX + q.E_ZY + q.E_ZZ};
 }
 
+/// Whether a squareness error is not 0, in any lane: the closed forms have none.
 template <class T> bool has_squareness(const Quantities<T>& q) {
   return num::any((q.S_XY != T(0.0)) || (q.S_XZ != T(0.0)) || (q.S_YZ != T(0.0)));
 }

@@ -25,6 +25,7 @@ template <class T> JointRows::Measurands<T> in_rows(const T* theta) {
   return y;
 }
 
+/// Which readings are of pattern I and which of pattern II.
 Patterns patterns(const Poses<double>& poses);
 /// The commands of one reading by one quantity, at the declared estimates.
 Vector3<double> derivative(const Poses<double>& poses, std::size_t reading, std::size_t quantity);

@@ -33,6 +33,7 @@ std::string unreachable(const chain::MachineDescription& description);
 /// direction has no slide.
 MadeModel make(const chain::MachineDescription& description);
 
+/// The points of a row of quantities, SI.
 template <class T> Points<T> points(const T* q) {
   return {{q[probe_x], q[probe_y], q[probe_z]},
           {q[sphere_x], q[sphere_y], q[sphere_z]},

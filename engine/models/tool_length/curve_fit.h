@@ -1,5 +1,5 @@
 #pragma once
-/// Flute heights and phase of a characteristic curve from readouts at several start angles, by least squares.
+/// Flute heights and phase of a characteristic curve from readings at several start angles, by least squares.
 ///
 /// In the frame of the spindle, flute k is a curve F_k (trigger/trigger_curve.h) at its height H_k; reading i descends
 /// on a line that is known except for the phase, which all readings share, and shows the flute that triggers first:
@@ -13,6 +13,7 @@
 
 namespace gumshoe::models::tool_length {
 
+/// What the fit reads; the curves must outlive it.
 struct CurveReadings {
   std::size_t readings = 0, flutes = 0;
   double drop = 0;                         ///< m per rad; of all readings, about
@@ -30,6 +31,8 @@ struct CurveFit {
   double squares = 0;                                ///< sum of squared residuals, m^2
 };
 
+/// The phase and the heights of least squares, from the best of a scan of the phase over one turn. Flutes that the
+/// readings do not need (README.md) are hidden. Not converged: the descent still gained when its steps were used up.
 CurveFit fit_curve(const CurveReadings& data);
 
 } // namespace gumshoe::models::tool_length

@@ -11,7 +11,7 @@ namespace gumshoe::models::tool_length {
 
 /// One reading, effects removed.
 struct Height {
-  At<double> at; ///< tool_length is that of the readout
+  At<double> at; ///< tool_length is that of the reading
   Event<double> event;
   double height = 0; ///< of the spindle above the beam's axis at the trigger, m
 };
@@ -24,6 +24,7 @@ void find_heights(const Together<Rows, double>& all, Heights& out, Outcome<doubl
 double drop(const Height& r);
 /// Position of the line on which a reading descends, m, up to a constant that all readings share.
 double line_of(const Height& r);
+/// Difference in length between the unworn tool and its longest flute, m.
 double least_raise(const Height& r);
 
 /// Trigger curves of the flutes. Equal ones are tabulated once, also from sample to sample.

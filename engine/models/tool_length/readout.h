@@ -1,5 +1,5 @@
 #pragma once
-/// One readout of a turning mill in the beam: its event, its flutes, its true motion, its trigger.
+/// One reading of a turning mill in the beam: its event, its flutes, its true motion, its trigger.
 #include <cmath>
 
 #include "models/model.h"
@@ -28,6 +28,7 @@ template <class T> using At = Reading<Rows, T>;
 template <class T> const T& wear(const Quantities<T>& q, int flute) {
   return array_of(q)[static_cast<int>(Rows::QuantitiesRow::wear_1) + flute];
 }
+/// Number of flutes; `inserts` must be whole (check_together).
 template <class T> int flutes(const Quantities<T>& q) { return static_cast<int>(num::value(q.inserts)); }
 
 /// One reading as the stages of the measuring chain see it, including the part of the tool.
@@ -43,10 +44,12 @@ template <class T> Event<T> probing_event(const At<T>& at) {
   return event;
 }
 
+/// The insert that all flutes share, before their deviations.
 template <class T> Insert<T> insert(const Quantities<T>& q, const chain::ProbingEvent<T>& event) {
   return {q.tool_radius,         q.insert_radius,      q.insert_thickness, q.clearance_angle,
           q.insert_radial_angle, q.insert_axial_angle, event.tool_x,       event.tool_y - q.offset};
 }
+/// Flute k with its wear and the event's deviations.
 template <class T> Flute<T> flute(const Quantities<T>& q, const Event<T>& event, int k) {
   return deviating<T>({insert(q, event), T(2 * pi * k / num::value(q.inserts)), wear(q, k)}, event.tool,
                       k);
@@ -128,7 +131,7 @@ template <class T> Trigger<T> trigger(TriggerSolver& solver, const At<T>& at, Ev
   return result;
 }
 
-/// A readout with all that belongs to it.
+/// A reading with all that belongs to it.
 template <class T> struct Readout {
   Event<T> event;
   Trigger<T> trigger;

@@ -36,6 +36,8 @@ template <class T> struct ShadowEdge {
   T side; ///< y of the rod's axis
 };
 
+/// The lower edge of a rod's shadow in a beam. Not finite where the bottom is parallel to the rod's axis
+/// (bottom_elevation 0).
 template <class T> ShadowEdge<T> shadow_edge(const Rod<T>& rod, const Beam<T>& beam) {
   const T sin_b = num::sin(beam.pitch), cos_b = num::cos(beam.pitch);
   const T cot = num::cos(rod.bottom_elevation) / num::sin(rod.bottom_elevation);
@@ -62,6 +64,8 @@ template <class T> struct EdgePoint {
   T y, z;   ///< of the rod's edge, at k = 0, side included
   T growth; ///< d(rod's edge)/dw = growth * (ty, tz): the offset curve runs parallel
 };
+/// @param sin_w, cos_w  place on the half-ellipse, cos_w >= 0. Not finite where the half-ellipse shrinks to a point (n
+/// = 0)
 template <class T> EdgePoint<T> edge_point(const ShadowEdge<T>& e, const T& sin_w, const T& cos_w) {
   EdgePoint<T> p;
   p.ty = e.rho * cos_w;
@@ -74,10 +78,15 @@ template <class T> EdgePoint<T> edge_point(const ShadowEdge<T>& e, const T& sin_
   return p;
 }
 
-/// Height of the bottom's centre above the beam's axis at the trigger, m. Absolute error below 1e-12 m.
+/// Height of the bottom's centre above the beam's axis at the trigger, Z'_d, m. Absolute error below 1e-12 m.
 ///
-/// Domain: rods and beams within the limits of the model's card, with a fillet that is no larger than the rod.
-/// `never_covered` where the shadow cannot reach the fraction.
+/// The height at which the shadow covers `beam.fraction` of the beam's disc: the root of the covered area, by Newton's
+/// method on the chord, or by the general solve (shadow_boundary.h) where that does not hold.
+///
+/// @param rod, beam  lengths in m, angles in rad; within the limits of the model's card, the fillet not larger than the
+/// rod
+/// @return           `never_covered` where the shadow cannot reach the fraction, `out_of_domain` where the edge is not
+///                   finite
 Solved<double> trigger_height(const Rod<double>& rod, const Beam<double>& beam);
 
 } // namespace gumshoe::models::rod_gauging

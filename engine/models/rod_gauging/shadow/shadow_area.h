@@ -26,6 +26,7 @@ template <class T> struct BoundaryPoint {
 inline bool is_wall(Piece p) { return p == Piece::left_wall || p == Piece::right_wall; }
 inline bool is_left(Piece p) { return p <= Piece::left_quarter; }
 
+/// The point of a piece at its parameter t (Crossing), with the edge at height k, m.
 template <class T> BoundaryPoint<T> boundary_point(const ShadowEdge<T>& e, const T& k, Piece piece, const T& t) {
   const double sign = is_left(piece) ? -1.0 : 1.0;
   BoundaryPoint<T> p{};

@@ -28,6 +28,8 @@ struct BoundarySolve {
   Status status = Status::ok;
 };
 
+/// The trigger of any edge: the height k, m, at which the shadow covers `fraction` of the disc of radius `beam_radius`
+/// (m), and the crossings there. `never_covered` where no height does.
 BoundarySolve solve_boundary(const ShadowEdge<double>& edge, double beam_radius, double fraction);
 
 /// Covered area of the beam's disc, m^2, and its slope -d(area)/dk, for given crossings.

@@ -41,7 +41,8 @@ template <class T> Solved<T> differentiable_height(const Rod<T>& rod, const Beam
   return {bottom_height_of(k, rod, beam), Status::ok, kink};
 }
 
-/// The trigger height in any scalar, of what has not failed yet.
+/// The trigger height in any scalar, m; `outcome` receives failures and kinks. Lanes take the fast chord solve, and
+/// those for which it does not hold the general one; samples that have failed already are left as they are.
 template <class T> T trigger_height(const Rod<T>& rod, const Beam<T>& beam, Outcome<T>& outcome) {
   const Solved<T> solved = differentiable_height(rod, beam);
   outcome.fail(solved.status);

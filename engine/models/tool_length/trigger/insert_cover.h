@@ -30,6 +30,7 @@ template <class T> struct Joints {
   bool back_shows = false;
   T from = T(0.0), to = T(0.0);
 };
+/// Without tangents (one ellipse lies within the other) the outline is the rake ellipse alone.
 template <class T> Joints<T> joints(const InsertShadow<T>& s) {
   const Planar<T> d{s.back.y - s.rake.y, s.back.z - s.rake.z};
   const T qa = cross(d, s.b), qb = cross(s.a, d); // the offset in the ellipses' own coordinates, times a x b
@@ -48,6 +49,7 @@ template <class T> Joints<T> joints(const InsertShadow<T>& s) {
 InsertParts insert_parts(const InsertShadow<double>& shadow, const Joints<double>& joints, double k,
                          double beam_radius);
 
+/// The point of the rake ellipse, or of the back ellipse, at parameter w (rad), the shadow raised by k (m).
 template <class T> Planar<T> insert_point(const InsertShadow<T>& s, const T& k, bool back, const T& w) {
   const T c = num::cos(w), n = num::sin(w);
   const T radius = back ? s.back_radius : s.rake_radius;

@@ -14,11 +14,12 @@ struct HeightNode {
   double most = 0; ///< not covered: the largest area reached at any height
 };
 
+/// Zc of one insert in one beam. The constructor finds its highest point and whether there is cover at all.
 class InsertHeight {
 public:
   InsertHeight(const Insert<double>& insert, const Beam<double>& beam);
 
-  /// Absolute error below 1e-13 m. `hint`: a height nearby, or NaN.
+  /// Zc at a spindle angle, rad. Absolute error below 1e-13 m. `hint`: a height nearby, m, or NaN.
   HeightNode at(double angle, double hint) const;
   /// Below this width in angle Zc is taken to have one hump or valley at most.
   double resolution() const { return resolution_; }

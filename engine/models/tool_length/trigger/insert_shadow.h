@@ -48,6 +48,8 @@ template <class T> struct InsertBody {
   T yaw, sin_pitch, cos_pitch;
 };
 
+/// The insert's two circles in the tool's frame and what its shadow in this beam needs. The clearance must be below 90
+/// deg.
 template <class T> InsertBody<T> insert_body(const Insert<T>& i, const Beam<T>& beam) {
   const T sr = num::sin(i.radial_angle), cr = num::cos(i.radial_angle);
   const T sa = num::sin(i.axial_angle), ca = num::cos(i.axial_angle);
@@ -69,7 +71,8 @@ template <class T> InsertBody<T> insert_body(const Insert<T>& i, const Beam<T>& 
   return body;
 }
 
-/// The insert turned by `angle`, counter-clockwise seen from above.
+/// The shadow of the insert turned by `angle` (rad), counter-clockwise seen from above, with the tool's centre at
+/// height 0.
 template <class T> InsertShadow<T> insert_shadow(const InsertBody<T>& body, const T& angle) {
   const T c = num::cos(angle - body.yaw), s = num::sin(angle - body.yaw);
   const auto project = [&](const auto& v) {
