@@ -81,7 +81,7 @@ void explain(const Scenario& s, std::size_t number, const ModelCard& model, Line
     fmt::format_to(out, " {} {};", c.name, both(c.values[number - 1], c.unit, c.si_unit));
   for (const StatedEffect& e : s.stated_effects)
     fmt::format_to(out, " loading of {} {:.12g} SI;", e.name, e.loading[number - 1]);
-  fmt::format_to(out, " {}\n", r.repeats == 1 ? "one readout" : fmt::format("mean of {} readouts", r.repeats));
+  fmt::format_to(out, " {}\n", r.repeats == 1 ? "one indication" : fmt::format("mean of {} indications", r.repeats));
 }
 
 void explain(const quantities::Correlation& c, Lines out) {

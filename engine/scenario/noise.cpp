@@ -65,7 +65,7 @@ private:
       scatter.degrees_of_freedom = static_cast<double>(reading.values.size()) - 1;
       scatter.s = std::sqrt(sum_of_squares(reading.values) / scatter.degrees_of_freedom);
       if (!(scatter.s > 0))
-        note(fmt::format("{} identical readouts: their Type A uncertainty is zero", reading.repeats));
+        note(fmt::format("{} identical indications: their Type A uncertainty is zero", reading.repeats));
     }
     if (!(scatter.s > 0)) return std::nullopt;
     const double scale = scatter.s / std::sqrt(static_cast<double>(reading.repeats));
@@ -89,7 +89,7 @@ private:
     c.name = "resolution";
     c.distribution = {Family::rectangular, {-*step / 2, *step / 2}, nullptr, nullptr};
     c.per = {"reading"};
-    c.source = "half a step of the readout either way, one draw per mean";
+    c.source = "half a step of the indication either way, one draw per mean";
     return c;
   }
 
@@ -108,7 +108,7 @@ private:
     const double u = *step / (2 * std::sqrt(3.0));
     const bool rounding = u >= scale;
     note(fmt::format("{} used, not {}: step/(2 sqrt 3) = {} is {} than s/sqrt(n) = {} (s = {}, n = {}); s of rounded "
-                     "readouts already contains the rounding",
+                     "indications already contains the rounding",
                      rounding ? "resolution" : "repeatability", rounding ? "repeatability" : "resolution", shown(u),
                      u > scale   ? "larger"
                      : u < scale ? "smaller"
@@ -120,7 +120,7 @@ private:
 
   std::vector<Component> warned(const Component& repeatability, const Readouts& reading) {
     if (repeatability.distribution.family == Family::t && repeatability.degrees_of_freedom <= 2)
-      note(fmt::format("{} readouts give a t distribution with {} degree(s) of freedom, which has no standard "
+      note(fmt::format("{} indications give a t distribution with {} degree(s) of freedom, which has no standard "
                        "uncertainty: only quantiles are given",
                        reading.repeats, repeatability.degrees_of_freedom));
     return {repeatability};

@@ -12,7 +12,7 @@ std::vector<Key> noise_keys();
 ///
 /// Resolution is rectangular, half a step either way, one draw per mean. Repeatability has the scale
 /// s/sqrt(n), one draw per mean, with s from the reading's own repeats, declared, or pooled over all
-/// cells of the data (GUM 4.2.4). s of rounded readouts already contains the rounding, so of both
+/// cells of the data (GUM 4.2.4). s of rounded indications already contains the rounding, so of both
 /// only the larger is used, and a note says which. Where there are `several` readings, further components state their
 /// scope: without one all readings would share one draw.
 quantities::InputQuantity read_noise(Table& table, const VariableCard& card, const IndicationReadouts& readouts,

@@ -52,7 +52,8 @@ private:
     for (const Readouts& r : readouts_.used) {
       if (r.values.size() > 1) continue;
       const std::string of = r.labels.empty() ? "" : fmt::format(" (reading {})", text_of(r.labels));
-      context_.problems.add(node, fmt::format("{}: {} readout(s){} cannot show any scatter", path, r.values.size(), of),
+      context_.problems.add(node,
+                            fmt::format("{}: {} indication(s){} cannot show any scatter", path, r.values.size(), of),
                             "", "repeat the reading, declare s, or pool it");
       return;
     }

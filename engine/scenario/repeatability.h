@@ -1,12 +1,12 @@
 #pragma once
-/// How an indication scatters from readout to readout: by its own repeats, as declared, or pooled over all cells.
+/// How an indication scatters from indication to indication: by its own repeats, as declared, or pooled over all cells.
 #include "base/card.h"
 #include "scenario/readouts.h"
 
 namespace gumshoe::scenario {
 
 struct Scatter {
-  double s = 0;                  ///< experimental standard deviation of one readout, SI
+  double s = 0;                  ///< experimental standard deviation of one indication, SI
   double degrees_of_freedom = 0; ///< 0 means infinite
 };
 

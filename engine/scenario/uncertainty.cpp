@@ -46,7 +46,7 @@ std::optional<Uncertainty> read_observations(Table& table, const Form& form, Con
   if (out.exact) {
     context.notes.push_back(
         fmt::format("{}: the {} observations are equal: their Type A uncertainty is zero; state the "
-                    "resolution of the readout instead",
+                    "resolution of the indication instead",
                     table.path(), x.size()));
   }
   return out;
