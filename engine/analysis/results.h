@@ -1,5 +1,6 @@
 #pragma once
 /// Everything a finished run says, as plain data in SI units: what the file holds and the report shows.
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <string>

@@ -77,7 +77,7 @@ class Report(unittest.TestCase):
         page, answer = self.report(TEXT)
         best = answer["recommended"]
         feed, readings = (best["settings"][k] for k in ("feed", "readings"))
-        first = words_of(page[page.index("<main>"):])
+        first = words_of(page[page.index('<section class="result">'):])
         found = re.match(r" Recommendation Set feed to ([\d.]+) mm/min and take (\d) readings?: measuring length takes "
                          r"([\d.]+) s and gives U = ([\d.]+) µm \(95 %\), which meets the target of 3 µm with a "
                          r"probability of ((?:more than )?[\d.]+) %\.", first)

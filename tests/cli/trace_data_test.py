@@ -75,7 +75,7 @@ class TraceData(unittest.TestCase):
                                                 (rms["before"], rms["noise_interval95"]))
                       if size is not None and limits[1] is not None and size > limits[1]]
             self.assertEqual("agree with the model" in v["plain"][0], not larger, (name, v["plain"][0]))
-            self.assertEqual("larger than noise alone" in v["plain"][0], bool(larger), (name, v["plain"][0]))
+            self.assertEqual("are larger than noise alone" in v["plain"][0], bool(larger), (name, v["plain"][0]))
             agreed.append(not larger)
         self.assertEqual(set(agreed), {True, False})  # both are tried: the rods' final set-up scatters more than noise
 

@@ -147,7 +147,7 @@ class Page(Made):
 
     def first(self, kind):
         page = self.pages[kind]
-        return words_of(page[page.index("<main>"):])[:700]
+        return words_of(page[page.index('<section class="result">'):])[:700]
 
     def test_what_it_is_stands_first(self):
         for kind, headline in {"named": "Found: trigger latency", "class": "Found: one of 2 effects",
