@@ -77,7 +77,8 @@ ExitCode analyse(const Options& o) {
   const store::Stored stored = store::read_identity(o.file);
   refuse_unusable(stored, o.file);
   store::require_sound_samples(o.file);
-  scenario::Scenario s = scenario::read(o.scenario.empty() ? stored.identity.scenario_file : o.scenario, catalogue());
+  scenario::Scenario s = scenario::read(o.scenario.empty() ? stored.identity.scenario_file : o.scenario, catalogue(),
+                                        {.external = stored.identity.external});
   s.run.samples = stored.identity.samples;
   s.run.seed = stored.identity.seed;
   const propagation::Experiment experiment(s);
@@ -133,6 +134,7 @@ void add_analyse(CLI::App& app, Action& action) {
   command->add_option("--scenario", o->scenario, "instead of the one it was made from; only [analysis] may differ");
   command->add_option("--out", o->out, "new result file (default: RESULT.analysed.h5)");
   add_force(*command, o->force);
+  add_external(*command);
   command->add_option("--threads", o->threads, "0: all processors")->check(CLI::Range(0, 1024));
   command->add_option("--format", o->format, "text, csv or json")->check(CLI::IsMember({"text", "csv", "json"}));
   command->add_flag("--budget", o->budget, "text: with the uncertainty budgets; csv: these instead of the summary");

@@ -62,6 +62,7 @@ void add_choose(CLI::App& app, Action& action) {
   command->add_option("--threads", o->threads, "0: all processors")->check(CLI::Range(0, 1024));
   command->add_option("--out", o->out, "result file (default: results/SCENARIO.choose.h5)");
   add_force(*command, o->force);
+  add_external(*command);
   command->add_option("--format", o->format, "text, csv or json")->check(CLI::IsMember({"text", "csv", "json"}));
   command->callback([=, &action] { action = [=] { return choose(*o); }; });
 }

@@ -1,17 +1,42 @@
 #include "cli/command.h"
 
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
+#include <sstream>
+
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "effects/effect.h"
 
 namespace gumshoe::cli {
+
+namespace {
+
+bool external_allowed = false;
+
+/// One's own scenarios, those that came with the system, and those in a folder that the user trusts.
+bool trusts(const std::string& scenario) {
+  struct stat status {};
+  if (external_allowed || stat(scenario.c_str(), &status) != 0 || status.st_uid == geteuid() || status.st_uid == 0)
+    return true;
+  const char* folders = std::getenv("GUMSHOE_TRUSTED");
+  std::istringstream list(folders ? folders : "");
+  const std::string file = std::filesystem::weakly_canonical(std::filesystem::absolute(scenario)).string();
+  for (std::string folder; std::getline(list, folder, ':');)
+    if (!folder.empty() && file.starts_with(std::filesystem::weakly_canonical(folder).string() + '/')) return true;
+  return false;
+}
+
+} // namespace
 
 scenario::Catalogue catalogue() {
   scenario::Catalogue c;
   for (const models::Model* m : models::catalogue()) c.models.push_back(m->card);
   for (const EffectCard* e : effects::cards()) c.effects.push_back(e);
   c.applies = &effects::applies;
+  c.trusts = &trusts;
   return c;
 }
 
@@ -43,6 +68,11 @@ std::string default_output(const std::string& scenario, const std::string& endin
   std::filesystem::create_directories("results");
   // `trace` writes NAME.traced.h5 next to NAME.traced.toml, which may be run.
   return "results/" + name + (ending == ".h5" && name.ends_with(".traced") ? ".run" : "") + ending;
+}
+
+void add_external(CLI::App& command) {
+  command.add_flag("--allow-external", external_allowed,
+                   "let a scenario of another user start its command or load its plugin, with your rights");
 }
 
 void add_force(CLI::App& command, bool& force) {

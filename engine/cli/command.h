@@ -47,6 +47,10 @@ void require_different(const std::string& out, const std::string& in);
 /// folder.
 std::string default_output(const std::string& scenario, const std::string& ending);
 
+/// The option --allow-external, without which a scenario of another user starts no program and loads no library, unless
+/// the environment's GUMSHOE_TRUSTED names a folder that it is in.
+void add_external(CLI::App& command);
+
 /// The option --force.
 void add_force(CLI::App& command, bool& force);
 

@@ -219,6 +219,7 @@ void add_estimate(CLI::App& app, Action& action) {
   command->add_option("--scenario-out", o->scenario_out,
                       "scenario file for the estimates (default: results/SCENARIO.estimated.toml)");
   add_force(*command, o->force);
+  add_external(*command);
   command->add_option("--threads", o->threads, "0: all processors")->check(CLI::Range(0, 1024));
   command->add_option("--format", o->format, "text or json")->check(CLI::IsMember({"text", "json"}));
   command->callback([=, &action] { action = [=] { return estimate(*o); }; });

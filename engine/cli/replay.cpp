@@ -14,7 +14,7 @@ namespace gumshoe::cli {
 namespace {
 
 scenario::Scenario scenario_of(const store::Identity& identity, const std::string& result) {
-  scenario::Scenario s = scenario::read(identity.scenario_file, catalogue());
+  scenario::Scenario s = scenario::read(identity.scenario_file, catalogue(), {.external = identity.external});
   if (s.hash != identity.scenario_hash)
     throw InputError(result + ": " + identity.scenario_file + " has changed since this result was made",
                      "hash " + s.hash + ", in the result " + identity.scenario_hash,
@@ -67,6 +67,7 @@ void add_replay(CLI::App& app, Action& action) {
   const auto o = std::make_shared<Options>();
   command->add_option("result", o->file, "result file (HDF5)")->required();
   command->add_option("--sample", o->sample, "index of the sample, from 0")->required();
+  add_external(*command);
   command->callback([=, &action] {
     action = [=] {
       const store::Stored stored = store::read_identity(o->file);

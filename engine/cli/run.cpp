@@ -133,6 +133,7 @@ void add_run(CLI::App& app, Action& action) {
   command->add_option("--threads", o->threads, "0: all processors")->check(CLI::Range(0, 1024));
   command->add_option("--out", o->out, "result file (default: results/SCENARIO.h5)");
   add_force(*command, o->force);
+  add_external(*command);
   command->add_option("--format", o->format, "text, csv or json")->check(CLI::IsMember({"text", "csv", "json"}));
   command->add_flag("--budget", o->budget, "text: with the uncertainty budgets; csv: these instead of the summary");
   command->add_flag("--all", o->all, "text: every output, where one line would stand for many readings");

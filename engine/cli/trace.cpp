@@ -145,6 +145,7 @@ void add_trace(CLI::App& app, Action& action) {
   command->add_option("--data", o->data, "CSV file with readings, instead of the files named in the scenario");
   command->add_option("--out", o->out, "result file (default: results/SCENARIO.traced.h5)");
   add_force(*command, o->force);
+  add_external(*command);
   command->add_option("--json", o->json, "file for the verdict");
   command->add_option("--report", o->report, "file for the report, one HTML page");
   command->add_option("--draws", o->draws, "seed of the bootstrap, instead of the scenario's");

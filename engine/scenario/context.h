@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -43,6 +44,13 @@ private:
   std::vector<File> files_;
 };
 
+/// What may be started, and what a scenario names (external.h).
+struct External {
+  bool trusted = true;
+  std::optional<std::string> expected; ///< by a result: only the same code
+  std::string code;                    ///< named, with a hash of its files; empty: none
+};
+
 struct Context {
   Problems& problems;
   DataFiles& files;
@@ -52,6 +60,7 @@ struct Context {
   /// Label values that occur in the data, also in rows that `where` leaves out.
   std::map<std::string, std::set<std::string>> label_values;
   bool readings_known = true; ///< false if they had problems: then labels are not checked
+  External external{};
 
   std::vector<std::string> label_names() const;
   /// False, and a problem at the node, if it is known that no reading has a label of this name.

@@ -2,6 +2,7 @@
 
 #include "models/command/command.h"
 #include "scenario/declared.h"
+#include "scenario/external.h"
 #include "scenario/made_models.h"
 
 namespace gumshoe::scenario {
@@ -84,6 +85,7 @@ models::MadeModel make_command(const MadeModelSource& source) {
   // A program by its path, and scripts among the arguments, fix the numbers; a name is looked up by PATH.
   for (std::size_t i = 0; i < spec.words.size(); ++i)
     if (i > 0 || spec.words[i].find('/') != std::string::npos) context.files.include(spec.words[i]);
+  if (!admit(context, *node, "model.command", spec.card.title)) return nullptr;
   return models::make_command(spec);
 }
 

@@ -1,6 +1,7 @@
 #include <filesystem>
 
 #include "models/plugin/plugin.h"
+#include "scenario/external.h"
 #include "scenario/made_models.h"
 
 namespace gumshoe::scenario {
@@ -10,11 +11,11 @@ models::MadeModel make_plugin(const MadeModelSource& source) {
   const Node* node = model.require("library", "library = \"libmine.so\"");
   const auto library = model.text("library");
   if (!library) return nullptr;
+  context.files.include(*library);
+  if (!admit(context, *node, "model.library", *library)) return nullptr;
   try {
-    auto plugin = models::load_plugin((std::filesystem::path(folder) / *library).string(), *library,
+    return models::load_plugin((std::filesystem::path(folder) / *library).string(), *library,
                                       {context.problems.file(), node->line, node->column});
-    context.files.include(*library);
-    return plugin;
   } catch (const InputError& error) {
     context.problems.add(error);
     return nullptr;

@@ -30,7 +30,8 @@ class ScenarioReader {
 public:
   ScenarioReader(const std::string& path, const Catalogue& catalogue, const Overrides& overrides)
       : catalogue_(catalogue), problems_(path),
-        files_(path, overrides.data, out_.notes), context_{problems_, files_, out_.notes, {}, {}, true} {
+        files_(path, overrides.data, out_.notes), context_{problems_, files_, out_.notes, {}, {}, true,
+                                                                      {!catalogue.trusts || catalogue.trusts(path), overrides.external, {}}} {
     out_.file = path;
     out_.data = overrides.data;
     out_.text = read_text_file(path, largest_scenario);
@@ -121,6 +122,7 @@ private:
         problems_.raise();
       }
       model = out_.made->card;
+      out_.external = context_.external.code;
     }
     const auto evaluations = model ? names_of(model->evaluations) : std::vector<std::string>{};
     if (model) out_.model = model->name;

@@ -170,6 +170,7 @@ struct Scenario {
   std::string title;
   std::string model;
   models::MadeModel made; ///< the model itself, if the scenario describes it; null: one of the catalogue
+  std::string external;   ///< code that it names, with a hash of its files: "model.command python3 m.py 0123..."
   Method method = Method::propagation;
   std::string evaluation; ///< one of the model's evaluations
   /// Every quantity of the model in card order (defaults filled in), then the freed quantities of
@@ -198,6 +199,8 @@ struct Catalogue {
   std::vector<const EffectCard*> effects; ///< in the order in which they act
   /// Effects that a model's stages can carry.
   bool (*applies)(const ModelCard& model, const EffectCard& effect) = nullptr;
+  /// Whether a scenario file may start a program or load a library; null: any may.
+  bool (*trusts)(const std::string& scenario) = nullptr;
 };
 
 /// The card as an evaluation sees it: with the measurands that the evaluation yields.
@@ -209,6 +212,8 @@ std::vector<std::string> notes_of_a_run(const Scenario& scenario);
 /// What a command says in place of the scenario.
 struct Overrides {
   std::string data; ///< data file of every indication, relative to the current directory; empty: as the scenario says
+  /// Scenario::external of a result: other code is not started. Absent: any may be.
+  std::optional<std::string> external = {};
 };
 
 /// Reads and validates a file. Throws InputError with every problem found, located.

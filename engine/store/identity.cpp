@@ -44,7 +44,8 @@ Identity identity_of(const scenario::Scenario& s) {
           .store_samples = s.run.store_samples,
           .design_hash = "",
           .command = "run",
-          .scenario_place = place_of(s.file)};
+          .scenario_place = place_of(s.file),
+          .external = s.external};
 }
 
 Record write_identity(hid_t file, const Identity& i, bool complete) {

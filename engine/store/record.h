@@ -26,6 +26,7 @@ inline constexpr std::pair<const char*, std::string Identity::*> identity_texts[
     {"scenario_place", &Identity::scenario_place},
     {"scenario_hash", &Identity::scenario_hash},
     {"design_hash", &Identity::design_hash},
+    {"external", &Identity::external},
     {"scenario_text", &Identity::scenario_text}};
 
 /// Bytes of a file.

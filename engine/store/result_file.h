@@ -21,6 +21,7 @@ struct Identity {
   std::string design_hash; ///< propagation::design_hash; empty in files older than it
   std::string command = "run"; ///< that made it
   std::string scenario_place;  ///< place_of(scenario_file)
+  std::string external;        ///< Scenario::external
 };
 
 /// What a scenario says of it and this program adds: all but `adaptive`, `design_hash` and `command`.

@@ -211,6 +211,30 @@ for line in sys.stdin:
                 self.assertLess(time.monotonic() - start, 10)
                 self.refused(run, "longer than 1 s", "model.time_limit")
 
+    def test_what_is_not_ones_own_starts_nothing_unasked(self):
+        scenario = self.scenario("open('ran', 'w')\n" + GOOD)
+        run = gumshoe("check", scenario)
+        self.assertIn("names code of its own, which this check ran with your rights: model.command python3", run.stdout)
+        (self.folder / "ran").unlink()
+        if os.geteuid() != 0:
+            self.skipTest("only root can give a file away")
+        os.chown(scenario, 12345, 12345)
+        run = gumshoe("check", scenario)
+        self.assertIsNone(complaint(run), run.stderr)
+        self.assertIn("is not started (the scenario belongs to another user). Use --allow-external", run.stderr)
+        self.assertFalse((self.folder / "ran").exists())
+        self.assertEqual(gumshoe("check", scenario, "--allow-external").returncode, 0)
+        self.assertEqual(gumshoe("check", scenario, env={**os.environ, "GUMSHOE_TRUSTED": f"/x:{self.folder}"}).returncode, 0)
+
+    def test_a_result_starts_only_the_code_it_was_made_with(self):
+        self.assertEqual(self.run_it(self.scenario()).returncode, 0)
+        (self.folder / "model.py").write_text("open('ran', 'w')\n" + BEGIN + GOOD)
+        for words in (["replay", self.folder / "r.h5", "--sample", 1], ["analyse", self.folder / "r.h5"]):
+            run = gumshoe(*words)
+            self.assertIsNone(complaint(run), run.stderr)
+            self.assertIn("has changed since this result was made", run.stderr)
+            self.assertFalse((self.folder / "ran").exists())
+
     def test_it_inherits_nothing(self):
         body = "names = os.listdir('/proc/self/fd')\nopen('open.txt', 'w').write(' '.join(names))\n" + GOOD
         with open(self.folder / "held", "w") as held:
