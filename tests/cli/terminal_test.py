@@ -19,20 +19,20 @@ import xarray
 
 from program import GUMSHOE, ROOT, complaint, gumshoe
 
-# y = a + b + c + d + e with u = 5, 4, 3, 2, 1 um: u_c^2 = 55 um^2, shares 25/55, 16/55, 9/55 ...
+# y = a + b + c + d + f with u = 5, 4, 3, 2, 1 um: u_c^2 = 55 um^2, shares 25/55, 16/55, 9/55 ...
 SUM = """schema = 1
 title = "a sum"
 [model]
 name = "expression"
 [model.measurands]
-y = "a + b + c + d + e"
+y = "a + b + c + d + f"
 twice = "2 * a"
 [quantities]
 a = { value = "10 mm", u = "5 um" }
 b = { value = "20 mm", u = "4 um" }
 c = { value = "30 mm", u = "3 um" }
 d = { value = "40 mm", u = "2 um" }
-e = { value = "50 mm", u = "1 um" }
+f = { value = "50 mm", u = "1 um" }
 [run]
 samples = 400_000
 """
@@ -90,7 +90,7 @@ class Terminal(unittest.TestCase):
         self.assertIn("  u = 7.4 um; shortest 95 % coverage interval [", text)
 
     def test_u_stands_in_the_unit_that_suits_it(self):
-        text = self.run_text(SUM.replace('"5 um"', '"0.052 um"').replace('y = "a + b + c + d + e"\n', ""))
+        text = self.run_text(SUM.replace('"5 um"', '"0.052 um"').replace('y = "a + b + c + d + f"\n', ""))
         self.assertIn("u = 0.10 um; ", text)  # of 2 a = 20 mm: 0.104 um
         self.assertIn("largest contributions: a 0.10 um (100 %)", text)
 
@@ -102,12 +102,12 @@ class Terminal(unittest.TestCase):
     def test_the_budget_is_a_table_that_closes(self):
         text = self.run_text(SUM, "--budget")
         block = text[text.index("uncertainty budget of y"):text.index("\ntwice = ")].splitlines()
-        self.assertEqual([line.split()[0] for line in block[2:7]], list("abcde"))
+        self.assertEqual([line.split()[0] for line in block[2:7]], list("abcdf"))
         self.assertIn("combined standard uncertainty", block[7])
         self.assertTrue(block[7].endswith("7.4 um"), block[7])
         self.assertTrue(block[-1].strip().startswith("expanded uncertainty"), block[-1])
         rows = list(csv.DictReader(io.StringIO(self.run_text(SUM, "--budget", "--format", "csv"))))
-        self.assertEqual([(row["output"], row["quantity"]) for row in rows], [(y, q) for y in ("y", "twice") for q in "abcde"])
+        self.assertEqual([(row["output"], row["quantity"]) for row in rows], [(y, q) for y in ("y", "twice") for q in "abcdf"])
         self.assertAlmostEqual(sum(float(row["share_gum"]) for row in rows[:5]), 1, delta=1e-5)
         self.assertEqual([float(row["sensitivity"]) for row in rows], [1] * 5 + [2, 0, 0, 0, 0])
 
@@ -120,7 +120,7 @@ class Terminal(unittest.TestCase):
         self.assertAlmostEqual(y["coverage_factor"], y["expanded_uncertainty"] / y["standard_uncertainty"], delta=1e-2)
         self.assertAlmostEqual(y["gum"]["expanded_uncertainty"], 1.959964 * u, delta=1e-8)
         self.assertIn(y["validation"]["verdict"], ("validated", "undecided"))
-        self.assertEqual([c["component"] for c in y["budget"]], list("abcde"))
+        self.assertEqual([c["component"] for c in y["budget"]], list("abcdf"))
         self.assertEqual([round(c["contribution"] * 1000) for c in y["budget"]], [5, 4, 3, 2, 1])
         self.assertEqual({c["contribution_unit"] for c in y["budget"]}, {"mm"})
         self.assertAlmostEqual(y["gum"]["combined_standard_uncertainty"], u, delta=1e-9)
@@ -206,7 +206,7 @@ class Terminal(unittest.TestCase):
         self.run_text(SUM.replace("samples = 400_000", "samples = 5000\nstore_inputs = true"), name="draws")
         with xarray.open_dataset(self.folder / "draws.h5", group="draws", engine="netcdf4") as draws, \
                 xarray.open_dataset(self.folder / "draws.h5", group="outputs", engine="netcdf4") as outputs:
-            self.assertEqual(list(draws["component"].values), list("abcde"))
+            self.assertEqual(list(draws["component"].values), list("abcdf"))
             total = draws["deviation"].sum("component").values
             self.assertLess(abs(outputs["y"].values[0] - 0.150 - total).max(), 1e-15)  # y is their sum
             twice = outputs["twice"].values[0] - 0.020
