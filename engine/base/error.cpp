@@ -22,7 +22,17 @@ std::string capitalised(std::string sentence) {
 /// A message is one that people read: what a file repeats in it is cut.
 constexpr std::size_t longest = 1000, most_problems = 50;
 
-std::string cut(std::string text) {
+/// Control characters as escapes: a message is a line, and text to its end.
+std::string printable(const std::string& text) {
+  std::string out;
+  for (const char c : text)
+    out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? fmt::format("\\x{:02x}", static_cast<unsigned char>(c))
+                                                             : std::string(1, c);
+  return out;
+}
+
+std::string cut(const std::string& said) {
+  std::string text = printable(said);
   if (text.size() <= longest) return text;
   std::size_t end = longest;
   while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end; // between characters

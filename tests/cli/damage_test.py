@@ -2,6 +2,7 @@
 
 usage: damage_test.py path/to/gumshoe [unittest options]
 """
+import json
 import os
 import pathlib
 import random
@@ -45,6 +46,11 @@ def change(path, at, flipped=1):
         byte = file.read(1)[0]
         file.seek(at)
         file.write(bytes([byte ^ flipped]))
+
+
+def figures(run):
+    """What a run printed, but for its file, date and duration."""
+    return [{key: value for key, value in output.items() if key != "run"} for output in json.loads(run.stdout)]
 
 
 class Damage(unittest.TestCase):
@@ -178,7 +184,7 @@ class Damage(unittest.TestCase):
                 run = self.resumed(damaged)
                 self.assertEqual("are as they were written" in run.stderr, name != "nothing", run.stderr)
                 self.assertEqual(f"resuming after {first} samples" in run.stderr, first > 0, run.stderr)
-                self.assertEqual(run.stdout, whole.stdout)
+                self.assertEqual(figures(run), figures(whole))
                 with h5py.File(damaged) as a, h5py.File(self.folder / "whole.h5") as b:
                     self.assertEqual(a["outputs/y"][()].tobytes(), b["outputs/y"][()].tobytes())
 
@@ -193,7 +199,7 @@ class Damage(unittest.TestCase):
             self.assertEqual((int(file["samples_done"][0]), int(file.attrs["complete"])), (SAMPLES, 1))
         self.assertLess(path.stat().st_size, 8 * SAMPLES)
         (self.folder / "s.toml").write_text(SLOW)
-        self.assertEqual(self.resumed("stored.h5").stdout, run.stdout)
+        self.assertEqual(figures(self.resumed("stored.h5")), figures(run))
 
     def test_storing_no_samples_takes_no_more_memory(self):
         formula = ('schema = 1\n[model]\nname = "expression"\n[model.measurands]\ny = "a"\n[quantities]\n'

@@ -216,7 +216,7 @@ class Machine(unittest.TestCase):
 
     def test_another_model_has_no_machine(self):
         self.refused('schema = 1\n[model]\nname = "rod_gauging"\nmethod = "virtual_experiment"\n[machine]\nname = "TTTRR"\n',
-                     5, "unknown key 'machine'")
+                     5, "the key 'machine' means nothing")
 
     def test_slides_in_one_plane(self):
         # X behind B: at 90 deg it moves along Z.

@@ -158,7 +158,7 @@ class Closing(unittest.TestCase):
         expected = (feed * u) ** 2 / ((feed * u) ** 2 + NOISE**2)
         with h5py.File(self.folder / "run.h5") as file:
             group = file["sensitivity/007"]  # two outputs each reading
-            self.assertEqual(group.attrs["output"], "laser_z[setup 1, rod 1]")
+            self.assertEqual(group.attrs["output"], "laser_z[setup 1, rod 1, feed 1000 mm/min, time 180 s]")
             names = [n.decode() for n in group["input"]]
             self.assertAlmostEqual(float(group["total"][names.index("trigger_latency.delay")]) / expected, 1, delta=0.3)
         self.traced_again()

@@ -36,7 +36,7 @@ class TraceData(unittest.TestCase):
         return json.loads(run.stdout)
 
     def trace(self, name, *words, text=None):
-        return self.call("trace", name, "--draws", "99", "--out", "o.h5", *words, text=text)
+        return self.call("trace", name, "--draws", "99", "--out", f"{name}.h5", *words, text=text)
 
     def test_a_square_is_found_and_nothing_beside_it(self):
         line, square, parabola = (self.trace(f"trace_load_cell{k}") for k in ("", "_square", "_quadratic"))
@@ -82,7 +82,7 @@ class TraceData(unittest.TestCase):
     def test_a_trace_does_not_say_what_only_a_run_does(self):
         said = "laser_z: estimated, without a distribution; treated as exact"
         self.trace("trace_rods")
-        with h5py.File(self.folder / "o.h5") as file:
+        with h5py.File(self.folder / "trace_rods.h5") as file:
             self.assertFalse([n for n in file["notes"].asstr()[()] if said in n])
         self.assertIn(said, gumshoe("check", self.folder / "trace_rods.toml", cwd=self.folder).stdout)
 

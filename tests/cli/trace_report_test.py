@@ -209,7 +209,7 @@ class Page(Made):
             self.assertIn(f"Residuals {what}", labels(self.pages["nothing_found"]))
             self.assertNotIn(f"Residuals {what}, before and after", labels(self.pages["nothing_found"]))
         self.assertIn("not in the catalogue: against time, against setup", labels(self.pages["not_in_catalogue"]))
-        self.assertEqual(labels(self.pages["insufficient_data"]), "")
+        self.assertEqual(labels(self.pages["insufficient_data"]), "What is measured")
         self.assertIn("rod, setup</text>", self.pages["scatter"])  # what scatters by both is drawn by both
 
     def test_csv(self):
@@ -243,7 +243,7 @@ class Page(Made):
 
     def test_the_picture_stands_on_top(self):
         page = self.pages["named"]
-        self.assertLess(page.index('class="picture"'), page.index("Found: trigger latency"))
+        self.assertLess(page.index('class="measurement"'), page.index("Found: trigger latency"))
         self.assertIn("<math", page)
 
     def test_browser_has_no_complaint(self):
