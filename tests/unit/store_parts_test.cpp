@@ -41,4 +41,6 @@ TEST_CASE("a column has a value per row, a matrix one per row and column", "[sto
   CHECK_NOTHROW(rows.matrix("all", columns, std::vector<double>(6), "m", ""));
   CHECK_THROWS_WITH(rows.matrix("some", columns, std::vector<double>(5), "m", ""),
                     Contains("cannot write matrix 'some'") && Contains("it has another shape"));
+  CHECK_THROWS_WITH(store::Table(file, "named", 3, {"one", "two"}),
+                    Contains("cannot write dimension 'named'") && Contains("it has another length"));
 }
