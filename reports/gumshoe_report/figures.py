@@ -29,7 +29,7 @@ matplotlib.rcParams.update({
 
 
 def fit_labels(figure):
-    """Breaks the axis labels and titles that are longer than the figure has room for, until all of them fit."""
+    """Breaks the axis labels and titles that are longer than the figure has room for, with a margin for wide letters."""
     figure.draw_without_rendering()
     for axes in figure.axes:
         box = axes.get_window_extent()
@@ -38,7 +38,7 @@ def fit_labels(figure):
             drawn = text.get_window_extent()
             long = drawn.height if text.get_rotation() == 90 else drawn.width
             if text.get_visible() and "\n" not in text.get_text() and long > 1.02 * room:
-                text.set_text("\n".join(textwrap.wrap(text.get_text(), max(8, int(len(text.get_text()) * room / long)),
+                text.set_text("\n".join(textwrap.wrap(text.get_text(), max(8, int(0.85 * len(text.get_text()) * room / long)),
                                                       break_on_hyphens=False)))
     figure.draw_without_rendering()
 
@@ -54,7 +54,8 @@ def svg(figure, name, title):
     text = re.sub(r"<metadata>.*?</metadata>", "", text, flags=re.S)
     text = re.sub(r'\s(xmlns(:\w+)?)="[^"]*"', "", text)
     text = re.sub(r'(\bid="|href="#|url\(#)', rf"\g<1>{name}-", text.replace("xlink:href", "href"))
-    text = re.sub(r"(font: ?[^;\"]*?px)[^;\"]*", r"\1 sans-serif", text)
+    # The font that the layout was measured in, or one as wide.
+    text = re.sub(r"(font: ?[^;\"]*?px)[^;\"]*", r"\1 'DejaVu Sans', Verdana, sans-serif", text)
     text = re.sub(r"(fill|stroke): (#[0-9a-f]{6})\b", lambda m: f"{m[1]}: var(--{OF_PAGE[m[2]]})" if m[2] in OF_PAGE else
                   m[0], text)
     width = re.search(r'width="([\d.]+)pt"', text).group(1)
