@@ -58,7 +58,7 @@ CombinedVariance Correlations::combine(std::span<const Term> terms) {
   for (const auto& [v, sum] : groups.back()) satterthwaite += std::pow(sum.contribution, 4) / sum.degrees;
   for (std::size_t g = 0; g < plan_.copulas.size(); ++g) {
     if (groups[g].empty()) continue;
-    // Of simultaneous observations it is n - 1, that of any function of them, whatever their joint distribution.
+    // For simultaneous observations it is n - 1, as for any function of them, whatever their joint distribution.
     const double degrees = groups[g].begin()->second.degrees;
     double own = 0, between_members = 0;
     for (auto a = groups[g].begin(); a != groups[g].end(); ++a) {

@@ -29,7 +29,7 @@ class Correlations {
 public:
   explicit Correlations(const quantities::SamplePlan& plan);
 
-  /// Of two variates; 0 if nothing ties them. In a multivariate t distribution that of the scales.
+  /// Correlation coefficient of two variates; 0 if nothing ties them. For a multivariate t it is that of the scales.
   double between(std::size_t a, std::size_t b);
 
   /// u_c^2 with effective degrees of freedom. Correlated inputs are one term of the Welch-Satterthwaite formula: of a

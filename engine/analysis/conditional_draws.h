@@ -18,7 +18,7 @@ public:
   /// A block of rows, [variate * rows + i].
   struct Block {
     std::size_t rows = 0;
-    /// Of tied variates normal scores, else the deviations; then the W of each group (quantities::CopulaGroup).
+    /// Normal scores for tied variates, deviations for the others; then W of each group (quantities::CopulaGroup).
     std::vector<double> scores_a, scores_b;
     std::vector<double> a, b;               ///< deviations
     std::vector<double> mixed;

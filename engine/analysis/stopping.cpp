@@ -97,7 +97,8 @@ std::uint64_t next_goal(const StoppingRules& rules, bool stein, bool validation,
 
 } // namespace
 
-/// Of delta, where a validation needs a fifth: some less, since blocks and ranks estimate the same errors differently.
+/// Share of delta that a validation run aims at. Clause 8 needs a fifth; the margin covers that blocks and ranks estimate
+/// the same standard errors differently.
 constexpr double validation_share = 0.15;
 
 StoppingRecord run_adaptively(const propagation::Experiment& e, propagation::SampleStore& store,

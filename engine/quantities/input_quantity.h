@@ -19,7 +19,7 @@ struct Component {
   std::string name;              ///< unique within the quantity; part of the random stream's key
   Distribution distribution;     ///< of the deviation, SI
   char evaluation = 'B';         ///< Type A or Type B evaluation (GUM 2.3.2, 2.3.3)
-  /// Of the standard uncertainty, for the effective degrees of freedom; a normal distribution with finite ones is a t.
+  /// Degrees of freedom of the standard uncertainty; infinite unless stated. Used for the effective degrees of freedom.
   double degrees_of_freedom = std::numeric_limits<double>::infinity();
   std::vector<std::string> per;  ///< scope: one draw per combination of these labels ("reading": per reading)
   std::string source;

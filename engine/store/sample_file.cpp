@@ -20,7 +20,7 @@ std::uint64_t digest_of_status(const std::uint8_t* status, std::uint64_t count, 
   return sum;
 }
 
-/// Of a block without samples: so that places that were never written are known.
+/// Digest term of a block itself: a place that was never written then has no valid digest.
 std::uint64_t empty_digest(std::uint64_t block) { return mix64(~block); }
 
 /// Calls action(block, first, count) for the parts of [first, first + count) in each digest's block.
