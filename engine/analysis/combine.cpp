@@ -58,7 +58,7 @@ CombinedVariance Correlations::combine(std::span<const Term> terms) {
   for (const auto& [v, sum] : groups.back()) satterthwaite += std::pow(sum.contribution, 4) / sum.degrees;
   for (std::size_t g = 0; g < plan_.copulas.size(); ++g) {
     if (groups[g].empty()) continue;
-    // For simultaneous observations it is n - 1, as for any function of them, whatever their joint distribution.
+    // The group has those of its members: for simultaneous observations n - 1, as for any function of them.
     const double degrees = groups[g].begin()->second.degrees;
     double own = 0, between_members = 0;
     for (auto a = groups[g].begin(); a != groups[g].end(); ++a) {
