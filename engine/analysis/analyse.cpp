@@ -200,8 +200,8 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, int th
     const double p = s.analysis.coverage_probability;
     Summary& summary = r.summaries[o] = summarise(output, values, p, threads);
     const Budget& b = r.budgets[o] = budget(e, o, p);
-    if (s.run.design != scenario::Design::monte_carlo) drop_standard_errors(summary);
     withhold(summary, without_variance(e, b), values, threads);
+    if (s.run.design != scenario::Design::monte_carlo) drop_standard_errors(summary);
     r.validations[o] = validate(b, summary, p, s.analysis.validation_digits);
     summary.statement = statement(summary, b, r.validations[o], p, virtual_experiment);
     certify(summary, b, r.validations[o], p, virtual_experiment);
