@@ -8,6 +8,9 @@ namespace gumshoe::chain {
 
 template <class T> struct TurningTool;
 template <class T> struct RotaryProbing;
+template <class T> struct Scanning;
+template <class T> struct Contouring;
+template <class T> struct BallBar;
 
 /// A slide (linear axis) at the event: actual position = commanded (1 + scale) + error, ISO 230-1.
 template <class T> struct Slide {
@@ -39,6 +42,12 @@ template <class T> struct ProbingEvent {
   TurningTool<T>* turning = nullptr;
   /// Set only for a probe behind rotary axes, likewise: the stage rotary adds to it.
   RotaryProbing<T>* rotary = nullptr;
+  /// Set only for a displacement sensor, likewise: the stages scanning, surface and sensor add to it.
+  Scanning<T>* scanning = nullptr;
+  /// Set only for slides that follow a contour, likewise: the stage contouring adds to it.
+  Contouring<T>* contouring = nullptr;
+  /// Set only for a ball bar, likewise: the stage bar adds to it.
+  BallBar<T>* bar = nullptr;
 };
 
 /// What the control reads of a slide that truly stands at `actual` (m) at the trigger, and the inverse.

@@ -21,6 +21,7 @@
 ///       changes no bit.
 ///   static constexpr bool scalar = true                      blocks run on doubles: the physics branches too much for
 ///                                                            lanes
+///   static MadeModel on_machine(description, why)            Model::on_machine; its row carries a context, at.context
 ///   using Joint = std::tuple<...>                            its joint evaluations, in the order of the card
 /// The card's limits are checked here, for points and for samples: a model states them once, in its card.
 #include <cmath>
@@ -85,6 +86,7 @@ template <class M, class T> Reading<typename M::Rows, T> reading_of(const PointC
   at.q = named<Rows::template Quantities>(call.quantities);
   for (std::size_t i = 0; i < rows_of<Rows::template Conditions>; ++i) array_of(at.c)[i] = T(call.conditions[i]);
   at.freed = {call.active, call.effects};
+  at.context = call.context;
   at.evaluation = call.evaluation;
   at.simulating = simulating;
   return at;
@@ -204,6 +206,7 @@ template <class M> constexpr Model row_of(const Kernels* (*kernels)()) {
   row.explain = &detail::explain<M>;
   row.check = &detail::check<M>;
   row.solve_reads = &detail::solve_reads<M>;
+  if constexpr (requires { &M::on_machine; }) row.on_machine = &M::on_machine;
   if constexpr (HasJoint<M>) {
     static_assert(detail::joint_rows_match<M>(), "a joint evaluation and its card differ in their measurands");
     row.measurands_in_use = &detail::measurands_in_use<M>;

@@ -75,6 +75,7 @@ private:
     conditions_.load(r, i, array_of(x.c));
     for (std::size_t j = 0; j < effects_.size(); ++j) effects[j] = load<T>(call_.effects[r * effects_.size() + j], i);
     x.freed = {call_.active, effects};
+    x.context = call_.context;
     x.evaluation = call_.evaluation;
     x.simulating = simulating_;
   }

@@ -12,6 +12,10 @@
 #include "effects/effect.h"
 #include "math/dual.h"
 
+namespace gumshoe::chain {
+struct MachineDescription;
+}
+
 namespace gumshoe::models {
 
 /// Values of one variable over the samples of a block; stride 0: one value for all.
@@ -91,6 +95,10 @@ struct Intermediate {
   double value; ///< in `unit`
 };
 
+struct Model;
+/// A model made from a scenario (an expression, a plugin, a command): the pointer owns card and context.
+using MadeModel = std::shared_ptr<const Model>;
+
 struct Model {
   const ModelCard* card;
   const Kernels* (*kernels)(); ///< for the best instruction set of this processor
@@ -117,10 +125,10 @@ struct Model {
   std::string (*check_readings)(const BlockCall&) = nullptr;
   /// Remarks on all readings together, one sample at the estimates, such as directions that they do not determine.
   std::vector<std::string> (*remarks)(const BlockCall&) = nullptr;
+  /// The model on another machine than the card's, as `[machine]` describes it without errors of the description; null
+  /// where it does not fit, and `why` says what it lacks. Null: the model's machine is fixed.
+  MadeModel (*on_machine)(const chain::MachineDescription& machine, std::string& why) = nullptr;
 };
-
-/// A model made from a scenario (an expression, a plugin, a command): the pointer owns card and context.
-using MadeModel = std::shared_ptr<const Model>;
 
 /// The models of the catalogue; those that a scenario makes are not among them.
 std::span<const Model* const> catalogue();

@@ -31,6 +31,7 @@ template <class Rows, class T> struct Reading {
   Freed<T> freed;
   int evaluation = 0;      ///< row of the card's evaluations
   bool simulating = false; ///< the machine is asked for, not the measurement model
+  const void* context = nullptr; ///< Model::context: of the machine that a scenario describes
 };
 
 /// What the machine shows, and what is true there.

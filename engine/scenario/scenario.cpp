@@ -11,6 +11,7 @@
 #include "scenario/choose.h"
 #include "scenario/correlations.h"
 #include "scenario/expected.h"
+#include "scenario/machine.h"
 #include "scenario/made_models.h"
 #include "scenario/options.h"
 #include "scenario/quantity.h"
@@ -114,6 +115,12 @@ private:
     const ModelCard* model = nullptr;
     if (index && *index < catalogue_.models.size()) {
       model = catalogue_.models[*index];
+      if (const models::Model* row = models::find(model->name); row && row->on_machine && top.find("machine"))
+        if (const auto machine = read_machine(top, context_.problems)) {
+          std::string why;
+          if ((out_.made = row->on_machine(*machine, why))) model = out_.made->card;
+          if (!out_.made) problems_.add(*top.find("machine"), "machine: " + why, "");
+        }
     } else if (index) {
       const std::string folder = std::filesystem::path(out_.file).parent_path().string();
       out_.made = made_models()[*index - catalogue_.models.size()].make({*table, top, folder, context_});

@@ -211,7 +211,7 @@ std::vector<std::string> notes_of_a_run(const Scenario& scenario);
 
 /// What a command says in place of the scenario.
 struct Overrides {
-  std::string data; ///< data file of every indication, relative to the current directory; empty: as the scenario says
+  std::string data = {}; ///< data file of every indication, relative to the current directory; empty: as the scenario says
   /// Scenario::external of a result: other code is not started. Absent: any may be.
   std::optional<std::string> external = {};
 };

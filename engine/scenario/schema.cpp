@@ -142,7 +142,7 @@ const std::vector<Key>& sections() {
       {"schema", R"("const": 1)", "version of this format", true},
       {"title", text(), "one line, shown in the report"},
       {"model", table(model_keys()), "the model, and how it is evaluated", true},
-      {"machine", machine_shape(), "sphere_probing: the name of a predefined machine, or the axes of your own"},
+      {"machine", machine_shape(), "sphere_probing, laser_scan: the name of a predefined machine, or the axes of your own"},
       {"conditions", map(reference("condition")), "what was commanded; exact"},
       {"quantities", map(reference("quantity")), "quantities of the model; those left out keep their defaults"},
       {"effects", "", "effects left out stay at their null value"},

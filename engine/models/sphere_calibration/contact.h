@@ -155,8 +155,8 @@ template <class T> struct Contact {
 };
 /// @param squareness false: S_XY, S_XZ, S_YZ are all 0, and nominal commands are left at 0 unless effects act
 template <class T> Contact<T> contact(const At<T>& reading, const Links<T>& l, bool squareness = true) {
-  const auto& [q, c, freed, evaluation, simulating] = reading;
-  const int variant = is_joint(evaluation) ? exact : evaluation; // a joint evaluation stands on the exact chain
+  const auto& [q, c, freed] = std::tie(reading.q, reading.c, reading.freed);
+  const int variant = is_joint(reading.evaluation) ? exact : reading.evaluation; // a joint evaluation stands on the exact chain
   const auto pattern_II = is_pattern_II(c);
   Contact<T> at;
   at.tip = tip_at_top(q, T(c.A + q.E_AA));

@@ -5,7 +5,7 @@
 namespace gumshoe::models::sphere_calibration {
 
 std::vector<Intermediate> SphereCalibration::explain(const At<double>& reading, const Rows::Indications<double>& read) {
-  const auto& [q, c, freed, evaluation, simulating] = reading;
+  const auto& [q, c] = std::tie(reading.q, reading.c);
   const auto links = sphere_calibration::links(q);
   const auto at = sphere_calibration::contact(reading);
   std::vector<Intermediate> out{

@@ -59,7 +59,7 @@ template <class T> Flute<T> flute(const Quantities<T>& q, const Event<T>& event,
 /// start_height above the beam. An effect that moves the tool's centre therefore also moves it at the start and changes
 /// the phase.
 template <class T> InsertMotionOf<T> motion(const At<T>& at, const Event<T>& event) {
-  const auto& [q, c, freed, evaluation, simulating] = at;
+  const auto& [q, c] = std::tie(at.q, at.c);
   const T commanded = q.laser_z + q.tool_length + c.start_height;
   return {q.holder_angle + c.start_angle + event.tool.turns_before_feed,
           c.start_height + (event.z.scale * commanded + event.z.error - event.tool_growth),
