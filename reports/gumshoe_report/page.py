@@ -10,7 +10,7 @@ import jinja2
 import markupsafe
 
 from . import certificate, choice, choice_figures, choice_surface, convergence, csv_tables, explain, figures, mathml
-from . import pictures, reduce, region_figures, rounding, scatter, sensitivity_figures, studies, tables, trace, trace_figures, workbook
+from . import pictures, profile, profile_figures, reduce, region_figures, rounding, scatter, sensitivity_figures, studies, tables, trace, trace_figures, workbook
 
 HERE = pathlib.Path(__file__).parent
 OPEN = 2      # outputs shown in full; the others are folded
@@ -121,9 +121,21 @@ def downloads(r):
         ("budget.csv", link("text/csv", csv_tables.text(lines).encode("utf-8")))]
 
 
-def overviews(r):
-    """With many outputs: one figure per measurand, and all distributions small."""
-    outputs = varying(r)
+def profiles(r):
+    """Measurands along a condition: figures, and where the uncertainty is largest and why."""
+    budgets, sobol = by_output(r.budgets, "output"), by_output(r.sensitivities, "output")
+    for k, p in enumerate(profile.of(r, varying(r))):
+        yield types.SimpleNamespace(
+            measurand=p.measurand, along=p.along, round=profile_figures.is_round(p), lines=len(p.lines),
+            drawn=min(len(p.lines), profile.LINES), sobol=bool(sobol), widest=profile.widest(p, budgets, sobol),
+            band=markupsafe.Markup(profile_figures.band(p, f"p{k}", r.coverage_probability)),
+            where=markupsafe.Markup(profile_figures.where(p, budgets, sobol, f"w{k}")),
+            names={o.name for line in p.lines for o in line.outputs})
+
+
+def overviews(r, drawn):
+    """With many outputs: one figure per measurand, and all distributions small; without those `drawn` already."""
+    outputs = [o for o in varying(r) if o.name not in drawn]
     if len(outputs) <= OPEN:
         return []
     groups = {}
@@ -146,12 +158,13 @@ def symbols(text):
 def run_page(r):
     """What the page of a run is filled with."""
     shown = varying(r)
+    along = list(profiles(r))
     return dict(
-        left_out=max(0, len(shown) - LISTED), downloads=downloads(r), convergences=convergences(r), validations=[tables.validation_row(v) for v in r.validations[:LISTED]],
+        profiles=along, left_out=max(0, len(shown) - LISTED), downloads=downloads(r), convergences=convergences(r), validations=[tables.validation_row(v) for v in r.validations[:LISTED]],
         diagnostics=[tables.diagnostic_text(o) for o in r.outputs if getattr(o, "diagnostic", 0)],
         effects=sorted({i.name.partition(".")[0] for i in r.inputs if "." in i.name}),
         kicker="Measurement uncertainty", title=r.title or r.model_title or r.model,
-        method=METHODS.get(r.method, r.method), samples=thousands(r.samples), sections=list(sections(r)), **whole_run(r), overviews=overviews(r),
+        method=METHODS.get(r.method, r.method), samples=thousands(r.samples), sections=list(sections(r)), **whole_run(r), overviews=overviews(r, set().union(*(p.names for p in along))),
         constants=[tables.constant_text(o) for o in r.outputs if o not in shown and not getattr(o, "diagnostic", 0)], numbered=tables.numbered(r.outputs),
         comparisons=[tables.comparison_row(c) for c in r.comparisons],
         printed=[tables.printed_row(p) for p in r.printed], inputs=[tables.input_row(i) for i in r.inputs],

@@ -1,0 +1,114 @@
+"""Profiles: one measurand at many readings along one condition, such as the azimuth of a scan."""
+import math
+import re
+import types
+
+from .explain import listed
+from .rounding import COMMON, after, finer, percent, significant
+
+LEAST = 8    # points of a line
+LINES = 6    # lines drawn; the tables have all
+SHOWN = 6    # quantities with a colour of their own; the others together
+FEW = 0.25   # of the readings: what takes more values than this distinguishes points, not lines
+
+
+def values(r, outputs):
+    """Value of every condition at the readings of the outputs, SI."""
+    names = [n for n in r.reading_units if n not in ("label", "repeats", "reading")]
+    found = {n: [getattr(r.readings[int(o.reading)], n, math.nan) for o in outputs] for n in names}
+    return {n: v for n, v in found.items() if all(map(math.isfinite, v))}
+
+
+def parts(name):
+    """Labels and conditions in the name of an output: deviation[line 1, theta 50 deg]."""
+    inside = re.search(r"\[(.*)\]$", name)
+    return inside[1].split(", ") if inside else []
+
+
+def along(conditions, few):
+    """The condition that takes most values, an angle before others and time last; None if none takes many."""
+    def rank(name, column):
+        return len(set(column)), name != "time"
+    ranked = sorted(conditions.items(), key=lambda item: rank(*item), reverse=True)
+    return ranked[0][0] if ranked and len(set(ranked[0][1])) > few else None
+
+
+def lines(outputs, conditions, along_name, few):
+    """Outputs by line: those alike in all that takes few values."""
+    rare = [n for n, column in conditions.items() if n != along_name and 1 < len(set(column)) <= few]
+    texts = [[p for p in parts(o.name) if p.split(" ")[0] not in conditions or p.split(" ")[0] in rare] for o in outputs]
+    width = min(map(len, texts), default=0)
+    kept = [k for k in range(width) if 1 < len({t[k] for t in texts}) <= few]
+    found = {}
+    for k, o in enumerate(outputs):
+        key = (*(texts[k][p] for p in kept), *(f"{n} {conditions[n][k]}" for n in rare))
+        label = ", ".join(texts[k][p] for p in kept)
+        found.setdefault(key, (label, []))[1].append((conditions[along_name][k], o))
+    return [types.SimpleNamespace(label=label, x=[x for x, _ in points], outputs=[o for _, o in points])
+            for label, points in ((label, sorted(points, key=lambda p: p[0])) for label, points in found.values())
+            if len({x for x, _ in points}) >= LEAST]
+
+
+def of(r, outputs):
+    """The profiles among the outputs: measurand, condition, lines."""
+    groups = {}
+    for o in outputs:
+        if getattr(o, "reading", -1) >= 0 and int(o.reading) < len(r.readings):
+            groups.setdefault(o.measurand, []).append(o)
+    for measurand, group in groups.items():
+        if len(group) < LEAST:
+            continue
+        conditions = values(r, group)
+        few = max(1, FEW * len(group))
+        name = along(conditions, few if len(group) > 4 * LEAST else LEAST - 1)
+        drawn = lines(group, conditions, name, few) if name else []
+        if drawn:
+            yield types.SimpleNamespace(measurand=measurand, along=name, units=r.reading_units[name], lines=drawn)
+
+
+def of_variance(output, budgets, sobol):
+    """Share of each quantity in the variance of an output; none where neither study has it."""
+    if sobol:
+        rows = sobol[output.name].rows if output.name in sobol else []
+        return {i.input: max(0.0, i.first) for i in rows if math.isfinite(i.first)}
+    budget = budgets.get(output.name)
+    found = {}
+    for c in budget.rows if budget is not None and budget.applicable else ():
+        if math.isfinite(c.share):  # all draws of one quantity together
+            found[c.quantity] = found.get(c.quantity, 0.0) + c.share
+    return found
+
+
+def shares(profile, budgets, sobol):
+    """Share of the variance of each quantity along each line: first-order indices where there are, else the budget's.
+    The quantities in the order of their mean share, and by line a row for each of them."""
+    tables = [[of_variance(o, budgets, sobol) for o in line.outputs] for line in profile.lines]
+    everything = [row for rows in tables for row in rows if row]
+    if not everything:
+        return [], []
+    mean = {}
+    for row in everything:
+        for name, share in row.items():
+            mean[name] = mean.get(name, 0.0) + share / len(everything)
+    order = [n for n in sorted(mean, key=lambda n: -mean[n]) if mean[n] > 0.005][:SHOWN]
+    return order, [[[row.get(n, 0.0) if row else math.nan for row in rows] for n in order] for rows in tables]
+
+
+def widest(profile, budgets, sobol):
+    """Where u is largest, and which quantities make it; "" where no output has one."""
+    known = [(o.standard_uncertainty, line.label, x, o) for line in profile.lines for x, o in zip(line.x, line.outputs)
+             if math.isfinite(o.standard_uncertainty)]
+    if not known:
+        return ""
+    ends = [(k, f(known, key=lambda point: point[0])) for k, f in (("largest", max), ("smallest", min))]
+    unit, factor = COMMON.get(profile.units, (profile.units, 1.0))
+    told = []
+    for word, (u, label, x, o) in ends:
+        shown, finer_by = finer(o.display_units, u * o.display_factor)
+        told.append(f"{word}, {significant(u * o.display_factor * finer_by)}{after(shown)}, at {profile.along} = "
+                    f"{x * factor:.6g}{after(unit)}" + (f" ({label})" if label else ""))
+    text = f"The standard uncertainty of {profile.measurand} is {told[0]}, and {told[1]}."
+    o = ends[0][1][3]
+    found = sorted(of_variance(o, budgets, sobol).items(), key=lambda item: -item[1])[:3]
+    main = [f"{name} {percent(share)}" for name, share in found if share > 0.05]
+    return text + (f" Where it is largest, its variance is due to {listed(main)}." if main else "")
