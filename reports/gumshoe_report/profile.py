@@ -9,7 +9,6 @@ from .rounding import COMMON, after, finer, percent, significant
 LEAST = 8    # points of a line
 LINES = 6    # lines drawn; the tables have all
 SHOWN = 6    # quantities with a colour of their own; the others together
-FEW = 0.25   # of the readings: what takes more values than this distinguishes points, not lines
 
 
 def values(r, outputs):
@@ -25,25 +24,31 @@ def parts(name):
     return inside[1].split(", ") if inside else []
 
 
-def along(conditions, few):
-    """The condition that takes most values, an angle before others and time last; None if none takes many."""
-    def rank(name, column):
-        return len(set(column)), name != "time"
-    ranked = sorted(conditions.items(), key=lambda item: rank(*item), reverse=True)
-    return ranked[0][0] if ranked and len(set(ranked[0][1])) > few else None
+def along(conditions):
+    """The condition that takes most values, time last; None if none takes enough."""
+    ranked = sorted(conditions, key=lambda name: (name == "time", -len(set(conditions[name]))))
+    return next((name for name in ranked if len(set(conditions[name])) >= LEAST), None)
 
 
-def lines(outputs, conditions, along_name, few):
-    """Outputs by line: those alike in all that takes few values."""
-    rare = [n for n, column in conditions.items() if n != along_name and 1 < len(set(column)) <= few]
-    texts = [[p for p in parts(o.name) if p.split(" ")[0] not in conditions or p.split(" ")[0] in rare] for o in outputs]
-    width = min(map(len, texts), default=0)
-    kept = [k for k in range(width) if 1 < len({t[k] for t in texts}) <= few]
+def distinguishes_lines(column, place):
+    """Whether every value of a label or condition holds for a line: at few places it names points, or is a reading."""
+    places = {}
+    for value, x in zip(column, place):
+        places.setdefault(value, set()).add(x)
+    return len(places) > 1 and min(map(len, places.values())) >= LEAST
+
+
+def lines(outputs, conditions, name):
+    """Outputs by line: those alike in all that distinguishes lines."""
+    place = conditions[name]
+    texts = [parts(o.name) for o in outputs]
+    columns = [list(column) for column in zip(*texts)] if len({len(t) for t in texts}) == 1 else []
+    shown = [column for column in columns if distinguishes_lines(column, place)]
+    apart = shown + [column for n, column in conditions.items() if n != name and distinguishes_lines(column, place)]
     found = {}
     for k, o in enumerate(outputs):
-        key = (*(texts[k][p] for p in kept), *(f"{n} {conditions[n][k]}" for n in rare))
-        label = ", ".join(texts[k][p] for p in kept)
-        found.setdefault(key, (label, []))[1].append((conditions[along_name][k], o))
+        label = ", ".join(column[k] for column in shown)
+        found.setdefault(tuple(column[k] for column in apart), (label, []))[1].append((place[k], o))
     return [types.SimpleNamespace(label=label, x=[x for x, _ in points], outputs=[o for _, o in points])
             for label, points in ((label, sorted(points, key=lambda p: p[0])) for label, points in found.values())
             if len({x for x, _ in points}) >= LEAST]
@@ -56,12 +61,9 @@ def of(r, outputs):
         if getattr(o, "reading", -1) >= 0 and int(o.reading) < len(r.readings):
             groups.setdefault(o.measurand, []).append(o)
     for measurand, group in groups.items():
-        if len(group) < LEAST:
-            continue
         conditions = values(r, group)
-        few = max(1, FEW * len(group))
-        name = along(conditions, few if len(group) > 4 * LEAST else LEAST - 1)
-        drawn = lines(group, conditions, name, few) if name else []
+        name = along(conditions)
+        drawn = lines(group, conditions, name) if name else []
         if drawn:
             yield types.SimpleNamespace(measurand=measurand, along=name, units=r.reading_units[name], lines=drawn)
 

@@ -64,7 +64,7 @@ def polar(p, drawn, unit, name, probability):
         axes.plot(turn, 0 * turn, color=INK, linewidth=0.8, linestyle=(0, (4, 3)))
         axes.set_ylim(-3.2 * reach, 1.15 * reach)
         marks = step(reach)
-        axes.set_yticks([-marks, 0, marks], [f"{v:g}".replace("-", "−") for v in (-marks, 0, marks)], fontsize=6.5)
+        axes.set_yticks([-marks, 0, marks], [f"{v:g} {unit}".replace("-", "−") for v in (-marks, 0, marks)], fontsize=6.5)
         axes.set_rlabel_position(100)
         axes.tick_params(axis="x", labelsize=7, pad=-1)
         axes.grid(**GRID)
