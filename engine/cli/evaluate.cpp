@@ -1,4 +1,5 @@
 /// `gumshoe evaluate`: the forward model at the points of a table.
+#include <algorithm>
 #include <fstream>
 #include <iostream>
 #include <memory>
@@ -55,6 +56,29 @@ void write_file(const std::string& path, const std::string& text, bool force) {
   draft.publish();
 }
 
+/// The model asked for: one of the catalogue, or that of a scenario, with its values.
+struct Asked {
+  const models::Model* model = nullptr;
+  std::unique_ptr<const scenario::Scenario> scenario; ///< outlives `values`
+  std::unique_ptr<const propagation::Experiment> values;
+};
+
+Asked asked(const std::string& name) {
+  if (name.ends_with(".toml")) {
+    auto s = std::make_unique<const scenario::Scenario>(scenario::read(name, catalogue()));
+    if (std::ranges::any_of(s->stated_effects, [](const auto& e) { return e.freed; }))
+      throw InputError(name + ": stated effects are not evaluated at points", "their formulas belong to the readings",
+                       "leave their sizes out");
+    auto values = std::make_unique<const propagation::Experiment>(*s);
+    return {&values->model(), std::move(s), std::move(values)};
+  }
+  if (const models::Model* model = models::find(name)) return {model, {}, {}};
+  std::vector<std::string> names;
+  for (const auto* m : models::catalogue()) names.emplace_back(m->card->name);
+  const std::string meant = nearest(name, names);
+  throw InputError("unknown model '" + name + "'", "", meant.empty() ? "" : "did you mean '" + meant + "'?");
+}
+
 } // namespace
 
 void add_evaluate(CLI::App& app, Action& action) {
@@ -64,23 +88,21 @@ void add_evaluate(CLI::App& app, Action& action) {
     bool force = false;
   };
   const auto o = std::make_shared<Options>();
-  command->add_option("model", o->model, "a model (gumshoe models)")->required();
+  command
+      ->add_option("model", o->model,
+                   "a model (gumshoe models), or a scenario file, whose values stand for columns that are left out")
+      ->required();
   command->add_option("--table", o->table, "CSV file; header cells `name (unit)`, one row per point")->required();
   command->add_option("--out", o->out, "output file (default: standard output)");
   add_force(*command, o->force);
-  command->add_option("--evaluation", o->evaluation, "evaluation of the model (default: the first)");
+  add_external(*command);
+  command->add_option("--evaluation", o->evaluation, "evaluation of the model (default: the scenario's, or the first)");
   command->callback([=, &action] {
     action = [=] {
-      const models::Model* model = models::find(o->model);
-      if (!model) {
-        std::vector<std::string> names;
-        for (const auto* m : models::catalogue()) names.emplace_back(m->card->name);
-        const std::string meant = nearest(o->model, names);
-        throw InputError("unknown model '" + o->model + "'", "", meant.empty() ? "" : "did you mean '" + meant + "'?");
-      }
+      const Asked of = asked(o->model);
       require_different(o->out, o->table);
       const Csv table = read_csv(o->table);
-      const auto points = propagation::evaluate_points(*model, table, o->evaluation);
+      const auto points = propagation::evaluate_points(*of.model, table, o->evaluation, of.values.get());
       const std::string text = to_csv(table, points);
       if (o->out.empty())
         std::cout << text;

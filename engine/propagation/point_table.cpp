@@ -148,10 +148,12 @@ void evaluate_rows(const TablePoints& at, const std::vector<Slot>& slots, const 
 
 } // namespace
 
-PointTable evaluate_points(const models::Model& model, const Csv& table, const std::string& evaluation) {
-  TableColumns columns = table_columns(model, table);
+PointTable evaluate_points(const models::Model& model, const Csv& table, const std::string& evaluation,
+                           const Experiment* values) {
+  TableColumns columns = table_columns(model, table, values);
   std::vector<Problem> unknown;
-  const std::size_t chosen = chosen_evaluation(*model.card, evaluation, unknown);
+  const std::size_t chosen = chosen_evaluation(
+      *model.card, evaluation.empty() && values ? values->scenario().evaluation : evaluation, unknown);
   check_indications(*model.card, table, chosen, columns);
   columns.problems.insert(columns.problems.end(), unknown.begin(), unknown.end());
   if (!columns.problems.empty()) throw InputError(columns.problems);

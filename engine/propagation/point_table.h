@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/csv.h"
-#include "models/model.h"
+#include "propagation/experiment.h"
 
 namespace gumshoe::propagation {
 
@@ -22,6 +22,9 @@ struct PointTable {
 /// columns are the solved measurands and the simulated indications; with them, the measurands
 /// evaluated from them, row by row or, by a joint evaluation, from all rows together. Throws InputError for headers and
 /// cells that cannot be read.
-PointTable evaluate_points(const models::Model& model, const Csv& table, const std::string& evaluation);
+/// @param evaluation empty: the scenario's, or the first
+/// @param values     a scenario of the model, whose estimates and conditions take the place of the defaults; null: none
+PointTable evaluate_points(const models::Model& model, const Csv& table, const std::string& evaluation,
+                           const Experiment* values = nullptr);
 
 } // namespace gumshoe::propagation

@@ -27,6 +27,23 @@ std::vector<Slot> slots_of(const models::Model& model) {
   return slots;
 }
 
+/// The scenario's estimates and conditions instead of the card's defaults, and the effects that it frees.
+void take_values(const Experiment& values, const ModelCard& card, std::vector<Slot>& slots) {
+  const scenario::Scenario& s = values.scenario();
+  const Points estimates = values.estimates();
+  const auto take = [&](std::string_view name, const auto& at_reading) {
+    const auto slot = std::ranges::find(slots, name, &Slot::name);
+    if (slot == slots.end()) return;
+    slot->value = at_reading(0);
+    slot->freed = slot->effect != nullptr;
+    for (std::size_t r = 1; r < s.readings.size(); ++r) slot->one = slot->one && at_reading(r) == slot->value;
+  };
+  for (std::size_t q = 0; q < values.layout().indications.begin; ++q)
+    take(s.quantities[q].name, [&](std::size_t r) { return estimates[r][q]; });
+  for (std::size_t i = 0; i < card.conditions.size(); ++i)
+    take(card.conditions[i].name, [&](std::size_t r) { return s.readings[r].conditions[i]; });
+}
+
 /// "beam_pitch (deg)" -> name and unit; a name without brackets has unit 1.
 std::pair<std::string, std::string> split_header(const std::string& text) {
   const auto open = text.find('(');
@@ -99,14 +116,21 @@ const Slot* TableColumns::given(std::string_view name) const {
   return nullptr;
 }
 
-TableColumns table_columns(const models::Model& model, const Csv& table) {
+TableColumns table_columns(const models::Model& model, const Csv& table, const Experiment* values) {
   TableColumns out;
   out.slots = slots_of(model);
+  if (values) take_values(*values, *model.card, out.slots);
   out.bad_row.assign(table.rows.size(), false);
   for (std::size_t c = 0; c < table.header.size(); ++c) read_column(c, table, out);
   for (const Slot& s : out.slots)
-    if (s.effect && s.given_column >= 0 && std::ranges::find(out.acting, s.effect) == out.acting.end())
+    if (s.effect && (s.freed || s.given_column >= 0) && std::ranges::find(out.acting, s.effect) == out.acting.end())
       out.acting.push_back(s.effect);
+  for (const Slot& s : out.slots)
+    if (!s.one && s.given_column < 0)
+      out.problems.push_back({{table.file},
+                              fmt::format("column '{}' is missing", s.name),
+                              "the scenario has several values of it",
+                              fmt::format("add a column '{} ({})'", s.name, s.unit)});
   std::erase_if(out.slots,
                 [&](const Slot& s) { return s.effect && std::ranges::find(out.acting, s.effect) == out.acting.end(); });
   return out;

@@ -5,6 +5,7 @@
 
 #include "base/csv.h"
 #include "models/model.h"
+#include "propagation/experiment.h"
 
 namespace gumshoe::propagation {
 
@@ -14,13 +15,16 @@ struct Slot {
   double value = 0; ///< SI, used if no column gives it
   Limits limits{};
   const EffectCard* effect = nullptr; ///< effect that owns the quantity
+  bool freed = false;                 ///< by a scenario: its effect acts whether or not the table names it
+  bool one = true;                    ///< false: it has several values in a scenario, of which the table must give one
   std::vector<double> column{};       ///< given values, SI; empty: the default
   int given_column = -1;
   const double& at(std::size_t row) const { return column.empty() ? value : column[row]; }
 };
 
 struct TableColumns {
-  /// Slots in the order of Layout, then the conditions. Of the effects, only those that the table names are included.
+  /// Slots in the order of Layout, then the conditions. Of the effects, only those that the table names or the
+  /// scenario frees are included.
   std::vector<Slot> slots;
   std::vector<const EffectCard*> acting;
   std::vector<Problem> problems;   ///< headers and cells that cannot be read
@@ -31,6 +35,7 @@ struct TableColumns {
   const Slot* given(std::string_view name) const;
 };
 
-TableColumns table_columns(const models::Model& model, const Csv& table);
+/// @param values those of a scenario take the place of the card's defaults; null: none
+TableColumns table_columns(const models::Model& model, const Csv& table, const Experiment* values = nullptr);
 
 } // namespace gumshoe::propagation

@@ -116,6 +116,55 @@ class Evaluate(unittest.TestCase):
             header = run.stdout.splitlines()[0].split(",")
             self.assertEqual(len(header), len(set(header)), header)
 
+    # a scenario instead of a model
+
+    def scenario(self, text, table, *more):
+        (self.folder / "s.toml").write_text(text)
+        (self.folder / "points.csv").write_text(table)
+        return gumshoe("evaluate", self.folder / "s.toml", "--table", self.folder / "points.csv", *more)
+
+    def test_values_of_a_scenario_stand_for_missing_columns(self):
+        text = ("schema = 1\n[model]\nname = \"rod_gauging\"\n[conditions]\nfeed = \"30 mm/min\"\n[quantities]\n"
+                "beam_pitch = { low = \"0.2 deg\", high = \"0.4 deg\", distribution = \"rectangular\" }\n"
+                "[effects.trigger_latency]\ndelay = \"2 ms\"\n[indications.spindle_z]\nreadings = [\"100 mm\"]\n")
+        run = self.scenario(text, "rod_radius (mm)\n4\n5\n")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        found = list(csv.DictReader(io.StringIO(run.stdout)))
+        rows = self.rows(["rod_radius (mm)", "beam_pitch (deg)", "feed (mm/min)", "trigger_latency.delay (ms)"],
+                         (4, 0.3, 30, 2), (5, 0.3, 30, 2))
+        for a, b in zip(found, rows):
+            self.assertAlmostEqual(float(a["spindle_z (mm)"]), b["spindle_z (mm)"], delta=PRINTED)
+
+    def test_the_machine_of_a_scenario(self):
+        text = ("schema = 1\n[model]\nname = \"sphere_probing\"\nmethod = \"virtual_experiment\"\n[machine]\nname = \"three slides\"\n"
+                "workpiece_side = [\"C\"]\ntool_side = [\"X\", \"Y\", \"Z\"]\n[quantities]\nsphere_x = \"100 mm\"\n")
+        run = self.scenario(text, "C (deg),E_X0C (um)\n0,0\n90,0\n90,5\n")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        found = list(csv.DictReader(io.StringIO(run.stdout)))
+        # Behind C the sphere goes round; turned by 90 deg clockwise it stands at -Y. At 90 deg an axis off by e along X
+        # moves it by e along X and by e along Y.
+        for row, (x, y) in zip(found, ((100, 0), (0, -100), (0.005, -100 + 0.005))):
+            self.assertAlmostEqual(float(row["X (mm)"]), x, delta=1e-9)
+            self.assertAlmostEqual(float(row["Y (mm)"]), y, delta=1e-9)
+
+    def test_several_values_must_be_given(self):
+        text = ("schema = 1\n[model]\nname = \"rod_gauging\"\n[quantities.rod_length.by.rod]\n1 = \"160 mm\"\n2 = \"180 mm\"\n"
+                "[indications.spindle_z.readings]\nfile = \"read.csv\"\ncolumn = \"z\"\nunit = \"mm\"\nlabels = { rod = \"rod\" }\n")
+        (self.folder / "read.csv").write_text("rod,z\n1,100\n2,120\n")
+        run = self.scenario(text, "rod_radius (mm)\n5\n")
+        self.assertIsNone(complaint(run))
+        self.assertIn("column 'rod_length' is missing (the scenario has several values of it). Add a column 'rod_length (mm)'.",
+                      run.stderr)
+        self.assertEqual(self.scenario(text, "rod_length (mm)\n150\n").returncode, 0)
+
+    def test_stated_effects_need_readings(self):
+        text = ("schema = 1\n[model]\nname = \"rod_gauging\"\n[indications.spindle_z]\nreadings = [\"100 mm\"]\n"
+                "[stated_effects.late]\nformula = \"feed\"\nunit = \"ms\"\nsize = \"1 ms\"\n")
+        run = self.scenario(text, "rod_radius (mm)\n5\n")
+        self.assertIsNone(complaint(run))
+        self.assertIn("stated effects are not evaluated at points (their formulas belong to the readings). Leave their sizes out.",
+                      run.stderr)
+
     # heights
 
     def test_recomputed_heights_of_the_thesis(self):
