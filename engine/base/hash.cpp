@@ -21,11 +21,9 @@ std::uint64_t hash64(std::string_view text, std::uint64_t seed) {
 }
 
 namespace {
-constexpr std::uint64_t element(std::uint64_t word, std::uint64_t position) {
-  std::uint64_t x = word + position * 0xd6e8feb86659fd93u; // an odd number without structure: positions differ in all bits
-  x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ x >> 27) * 0x94d049bb133111ebu;
-  return x ^ x >> 31;
+// The multiplier is odd and without structure: positions differ in all bits.
+std::uint64_t element(std::uint64_t word, std::uint64_t position) {
+  return mix64(word + position * 0xd6e8feb86659fd93u);
 }
 } // namespace
 

@@ -16,6 +16,7 @@ def digest(content, first=0):
     """digest64() of engine/base/hash.h: the sum of mixed words of eight bytes, each with its position."""
     words = np.frombuffer(content + bytes(-len(content) % 8), "<u8")
     x = words + np.arange(first, first + len(words), dtype=np.uint64) * np.uint64(0xd6e8feb86659fd93)
+    x += np.uint64(0x9e3779b97f4a7c15)
     x = (x ^ x >> np.uint64(30)) * np.uint64(0xbf58476d1ce4e5b9)
     x = (x ^ x >> np.uint64(27)) * np.uint64(0x94d049bb133111eb)
     return int(np.sum(x ^ x >> np.uint64(31), dtype=np.uint64))
