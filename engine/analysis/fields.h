@@ -30,8 +30,14 @@ enum class In {
 struct Unit {
   In in;
   std::string_view stated = "1";
+  bool note = false; ///< `stated` is no unit: it says which one the numbers have
   constexpr Unit(In kind) : in(kind) {}
   explicit constexpr Unit(std::string_view text) : in(In::as_stated), stated(text) {}
+  static constexpr Unit noted(std::string_view text) {
+    Unit unit(text);
+    unit.note = true;
+    return unit;
+  }
 };
 
 /// Names under which a field is shown; empty: not there.

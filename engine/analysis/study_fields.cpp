@@ -92,7 +92,7 @@ constexpr Field<Dgsm> dgsm_study[] = {
     {"dropped", of<&Dgsm::dropped>, one, "points left out because they failed"},
     {"exact", of<&Dgsm::exact>, one, "0 if the derivatives are differences"}};
 using G = DgsmRow;
-constexpr Unit squared("output units squared / input units squared");
+constexpr Unit squared = Unit::noted("output units squared / input units squared");
 constexpr Field<G> dgsm[] = {
     {"input", of<&G::input>, one, "input quantity", in_csv},
     {"nu", of<&G::nu>, squared, "nu: mean squared derivative", {.csv = "nu_si"}},

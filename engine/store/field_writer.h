@@ -5,8 +5,8 @@
 
 namespace gumshoe::store {
 
-/// The `units` of a dataset; `row` and `output`: SI units of its rows and of the output that the table is about.
-std::string file_units(const analysis::Unit& unit, const std::string& row, const std::string& output);
+/// The units of a dataset; `row` and `output`: SI units of its rows and of the output that the table is about.
+hdf5::Units file_units(const analysis::Unit& unit, const hdf5::Units& row, const std::string& output);
 
 /// One dataset per field, and those of the rows' unit. `rows`: a range of Row. `output`: the output that the table is
 /// about, if it is about one.
@@ -18,7 +18,7 @@ void write_fields(Table& table, const analysis::Fields<Row>& fields, const Rows&
     auto unit = analysis::unit_of(row);
     si.push_back(std::move(unit.si)), shown.push_back(std::move(unit.shown));
   }
-  const std::string common = common_units(si);
+  const hdf5::Units common = common_units(si);
   for (const auto& field : fields.list) {
     if (field.unit.in == analysis::In::units) table.units(si, shown);
     if (!field.get) continue;

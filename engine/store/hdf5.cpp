@@ -143,7 +143,7 @@ std::uint64_t read_integer(hid_t object, const std::string& name) {
 }
 
 Handle create_dataset(hid_t parent, const std::string& name, hid_t type, const std::vector<hsize_t>& shape,
-                      const std::string& units, const std::string& long_name, bool fill_nan) {
+                      const Units& units, const std::string& long_name, bool fill_nan) {
   const Handle plist = own(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "describe a dataset");
   H5Pset_layout(plist, H5D_CONTIGUOUS);
   H5Pset_alloc_time(plist, H5D_ALLOC_TIME_EARLY);
@@ -159,9 +159,7 @@ Handle create_dataset(hid_t parent, const std::string& name, hid_t type, const s
       own(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose, "describe a dataset");
   Handle dataset = own(H5Dcreate2(parent, name.c_str(), type, space, H5P_DEFAULT, plist, H5P_DEFAULT), H5Dclose,
                        "allocate a dataset");
-  // Programs parse `units`: what is no unit stands elsewhere.
-  write_attribute(dataset, units.find("units") == units.npos && !units.starts_with("see ") ? "units" : "units_note",
-                  units);
+  write_attribute(dataset, units.note ? "units_note" : "units", units.text);
   write_attribute(dataset, "long_name", long_name);
   return dataset;
 }

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <mutex>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -65,10 +66,20 @@ void write_attribute(hid_t object, const std::string& name, const std::vector<st
 std::string read_text(hid_t object, const std::string& name);
 std::uint64_t read_integer(hid_t object, const std::string& name);
 
-/// A contiguous dataset, allocated at once, with `units` and `long_name`. Nothing is written to it,
+/// The unit of a dataset's numbers, or, where they have none in common, a note that says which they have. Programs
+/// parse the attribute `units`, so a note stands in `units_note`.
+struct Units {
+  std::string text;
+  bool note = false;
+  Units(std::string unit) : text(std::move(unit)) {}
+  Units(const char* unit) : text(unit) {}
+  Units(std::string_view text_, bool is_note) : text(text_), note(is_note) {}
+};
+
+/// A contiguous dataset, allocated at once, with `units` or `units_note`, and `long_name`. Nothing is written to it,
 /// not even a fill value, unless `fill_nan`.
 Handle create_dataset(hid_t parent, const std::string& name, hid_t type, const std::vector<hsize_t>& shape,
-                      const std::string& units, const std::string& long_name, bool fill_nan = false);
+                      const Units& units, const std::string& long_name, bool fill_nan = false);
 void write_texts(hid_t dataset, const std::vector<std::string>& texts);
 
 /// A named dimension without values of its own, as netCDF-4 writes it.

@@ -49,8 +49,8 @@ void write_one_at_a_time(hid_t group, const OneAtATimeTable& study) {
 void write_region(hid_t group, const JointRegion& region) {
   write_attributes(group, joint_fields, region);
   const auto si = column(region.outputs, &propagation::Output::si_unit);
-  const std::string units = common_units(si);
-  const std::string squared = units == "1" || units == "see units" ? units : "(" + units + ")2";
+  const hdf5::Units units = common_units(si);
+  const hdf5::Units squared = units.note || units.text == "1" ? units : "(" + units.text + ")2";
   // netCDF readers want the two axes of a matrix to be two dimensions.
   Table rows(group, "output", region.outputs.size());
   const Table columns(group, "other_output", region.outputs.size());

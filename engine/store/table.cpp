@@ -17,10 +17,10 @@ Display display(const std::string& unit, const std::string& si_unit) {
   }
 }
 
-std::string common_units(const std::vector<std::string>& si_units) {
+hdf5::Units common_units(const std::vector<std::string>& si_units) {
   if (si_units.empty()) return "1";
   const bool same = std::all_of(si_units.begin(), si_units.end(), [&](const auto& u) { return u == si_units[0]; });
-  return same ? si_units[0] : "see units";
+  return same ? hdf5::Units(si_units[0]) : hdf5::Units("see units", true);
 }
 
 Table::Table(hid_t group, std::string dimension, std::size_t rows, const std::vector<std::string>& names)
@@ -37,21 +37,21 @@ Table::Table(hid_t group, std::string dimension, std::size_t rows, const std::ve
 }
 
 template <class T>
-void Table::numbers(const std::string& name, const std::vector<T>& values, const std::string& units,
+void Table::numbers(const std::string& name, const std::vector<T>& values, const hdf5::Units& units,
                     const std::string& long_name) {
   if (rows_ == 0) return;
   if (values.size() != rows_) throw OutputError("cannot write column '" + name + "'", "it has another length");
   const hdf5::Handle dataset =
-      hdf5::create_dataset(group_, name, hdf5::file_type<T>(), {rows_}, units.empty() ? "1" : units, long_name);
+      hdf5::create_dataset(group_, name, hdf5::file_type<T>(), {rows_}, units.text.empty() ? "1" : units, long_name);
   hdf5::require(H5Dwrite(dataset, hdf5::memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
                 "write a column");
   hdf5::attach(dataset, 0, scale_, dimension_);
 }
-template void Table::numbers(const std::string&, const std::vector<double>&, const std::string&, const std::string&);
-template void Table::numbers(const std::string&, const std::vector<std::uint64_t>&, const std::string&,
+template void Table::numbers(const std::string&, const std::vector<double>&, const hdf5::Units&, const std::string&);
+template void Table::numbers(const std::string&, const std::vector<std::uint64_t>&, const hdf5::Units&,
                              const std::string&);
-template void Table::numbers(const std::string&, const std::vector<int>&, const std::string&, const std::string&);
-template void Table::numbers(const std::string&, const std::vector<std::uint8_t>&, const std::string&,
+template void Table::numbers(const std::string&, const std::vector<int>&, const hdf5::Units&, const std::string&);
+template void Table::numbers(const std::string&, const std::vector<std::uint8_t>&, const hdf5::Units&,
                              const std::string&);
 
 void Table::texts(const std::string& name, const std::vector<std::string>& values, const std::string& long_name) {
@@ -62,7 +62,7 @@ void Table::texts(const std::string& name, const std::vector<std::string>& value
   hdf5::attach(dataset, 0, scale_, dimension_);
 }
 
-void Table::values(const std::string& name, const std::vector<analysis::Value>& values, const std::string& units,
+void Table::values(const std::string& name, const std::vector<analysis::Value>& values, const hdf5::Units& units,
                    const std::string& long_name) {
   if (rows_ == 0 || values.empty()) return;
   const auto all = [&]<class T>(std::vector<T> column) {
@@ -82,14 +82,15 @@ void Table::values(const std::string& name, const std::vector<analysis::Value>& 
       values.front());
 }
 
-std::string file_units(const analysis::Unit& unit, const std::string& row, const std::string& output) {
+hdf5::Units file_units(const analysis::Unit& unit, const hdf5::Units& row, const std::string& output) {
   switch (unit.in) {
   case analysis::In::point:
   case analysis::In::difference: return row;
   case analysis::In::output: return output;
   case analysis::In::coefficient:
-    return row == "see units" ? "output units / units" : row == "1" ? output : "(" + output + ")/(" + row + ")";
-  default: return std::string(unit.stated);
+    if (row.note) return {"output units / units", true};
+    return row.text == "1" ? output : "(" + output + ")/(" + row.text + ")";
+  default: return {unit.stated, unit.note};
   }
 }
 
@@ -111,7 +112,7 @@ void Table::units(const std::vector<std::string>& si_units, const std::vector<st
 }
 
 void Table::matrix(const std::string& name, const Table& columns, const std::vector<double>& values,
-                   const std::string& units, const std::string& long_name) {
+                   const hdf5::Units& units, const std::string& long_name) {
   if (rows_ == 0 || columns.rows_ == 0) return;
   if (values.size() != rows_ * columns.rows_)
     throw OutputError("cannot write matrix '" + name + "'", "it has another shape");

@@ -22,8 +22,8 @@ struct Display {
 /// Falls back to the SI unit if `unit` does not convert: no finished run is lost over its display.
 Display display(const std::string& unit, const std::string& si_unit);
 
-/// The one unit of all rows, or "see units" where rows differ.
-std::string common_units(const std::vector<std::string>& si_units);
+/// The one unit of all rows, or the note "see units" where rows differ.
+hdf5::Units common_units(const std::vector<std::string>& si_units);
 
 /// One member of every row, as a column.
 template <class Row, class Member> auto column(const std::vector<Row>& rows, Member member) {
@@ -41,18 +41,18 @@ public:
 
   /// T: double, std::uint64_t, int or std::uint8_t.
   template <class T>
-  void numbers(const std::string& name, const std::vector<T>& values, const std::string& units,
+  void numbers(const std::string& name, const std::vector<T>& values, const hdf5::Units& units,
                const std::string& long_name);
   void texts(const std::string& name, const std::vector<std::string>& values, const std::string& long_name);
   /// A column of whichever of these types its values are; all are of one type.
-  void values(const std::string& name, const std::vector<analysis::Value>& values, const std::string& units,
+  void values(const std::string& name, const std::vector<analysis::Value>& values, const hdf5::Units& units,
               const std::string& long_name);
   /// The columns `units`, `display_units`, `display_factor` and `display_offset`, their names after `prefix`.
   void units(const std::vector<std::string>& si_units, const std::vector<std::string>& display_units,
              const std::string& prefix = "");
   /// A dataset of this table's rows and the rows of another table of the same group, row-major.
   void matrix(const std::string& name, const Table& columns, const std::vector<double>& values,
-              const std::string& units, const std::string& long_name);
+              const hdf5::Units& units, const std::string& long_name);
 
   hid_t scale() const { return scale_; }
 

@@ -107,7 +107,7 @@ constexpr Field<R> residuals[] = {
     {"name", of<&R::reading_name>, one, "label values of the reading"},
     {"indication", of<&R::indication_name>, one, "indication"},
     {"units", nullptr, units, "", {.csv = "unit"}},
-    {"order", of<&R::order>, analysis::Unit("see order_name"), "order of measurement"},
+    {"order", of<&R::order>, analysis::Unit::noted("see order_name"), "order of measurement"},
     {"block", of<&R::block>, one, "block"},
     {"measured", of<&R::measured>, point, "readings of the indications", in_csv},
     {"before", of<&R::before>, difference,
