@@ -41,6 +41,11 @@ void remove_leftovers(const fs::path& folder) {
   }
 }
 
+/// Gives a file a second name, under which it can be put back; only that one where the file system has no hard links.
+bool keep(const std::string& target, const std::string& kept) {
+  return link(target.c_str(), kept.c_str()) == 0 || (errno != ENOENT && std::rename(target.c_str(), kept.c_str()) == 0);
+}
+
 /// Whether another program has the file open, as HDF5 locks the files that it opens.
 bool open_elsewhere(const std::string& path) {
   const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
@@ -48,6 +53,10 @@ bool open_elsewhere(const std::string& path) {
   const bool held = flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
   close(file);
   return held;
+}
+
+OutputError cannot_be_moved(const std::string& target, int reason) {
+  return OutputError("'" + target + "': cannot be moved into place", std::strerror(reason));
 }
 
 } // namespace
@@ -122,16 +131,36 @@ std::string Draft::add(const Claim& claim, const std::string& text) {
   });
 }
 
+void Draft::move_into_place() {
+  std::vector<std::string> kept(files_.size()); // names of the files that were replaced; empty: there was none
+  for (std::size_t i = 0; i < files_.size(); ++i) {
+    const std::string old = files_[i].target + '.' + std::to_string(getpid()) + "-old" + draft_ending;
+    if (i + 1 < files_.size() && keep(files_[i].target, old)) kept[i] = old; // the last is replaced or stays
+    if (std::rename(files_[i].name.c_str(), files_[i].target.c_str()) == 0) continue;
+    const OutputError error = cannot_be_moved(files_[i].target, errno);
+    for (std::size_t j = i + 1; j-- > 0;) {
+      if (!kept[j].empty()) {
+        std::rename(kept[j].c_str(), files_[j].target.c_str());
+        unlink(kept[j].c_str()); // two names of one file: renaming does nothing
+      } else if (j < i) {
+        std::rename(files_[j].target.c_str(), files_[j].name.c_str());
+      }
+    }
+    throw error;
+  }
+  for (const std::string& name : kept)
+    if (!name.empty()) unlink(name.c_str());
+}
+
 void Draft::publish(bool durable) {
   std::set<fs::path> folders;
   for (const File& file : files_) {
     if (durable && fsync(file.lock.number()) != 0 && errno != EINVAL)
       throw OutputError("'" + file.target + "': cannot be written", std::strerror(errno));
+    if (std::error_code none; fs::is_directory(file.target, none)) throw cannot_be_moved(file.target, EISDIR);
     folders.insert(fs::path(file.target).parent_path());
   }
-  for (const File& file : files_)
-    if (std::rename(file.name.c_str(), file.target.c_str()) != 0)
-      throw OutputError("'" + file.target + "': cannot be moved into place", std::strerror(errno));
+  move_into_place();
   for (const std::string& path : removed_) unlink(path.c_str());
   files_.clear();
   if (!durable) return;

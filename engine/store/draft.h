@@ -61,8 +61,8 @@ public:
   std::string add(const Claim& claim, const std::string& text);
   /// Has an older file removed when the others appear.
   void remove(const Claim& claim) { removed_.push_back(claim.target()); }
-  /// Puts all of them into their places, on the disk if `durable`. Throws OutputError; a file that cannot be written
-  /// leaves all as it was.
+  /// Puts all of them into their places, on the disk if `durable`. Throws OutputError where one cannot be written or
+  /// moved; then all places are as they were.
   void publish(bool durable = true);
 
 private:
@@ -70,6 +70,7 @@ private:
     std::string name, target;
     LockedFile lock;
   };
+  void move_into_place();
   std::vector<File> files_;
   std::vector<std::string> removed_;
 };

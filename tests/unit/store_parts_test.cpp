@@ -1,5 +1,6 @@
 // Parts of the result file alone: what no whole run can be made to do.
 #include <filesystem>
+#include <fstream>
 
 #include <catch2/catch.hpp>
 
@@ -15,6 +16,36 @@ namespace fs = std::filesystem;
 TEST_CASE("space cannot be claimed for a file that is not there", "[store]") {
   const fixture::Folder folder;
   CHECK_THROWS_WITH(store::claim_space(folder / "none.h5", 1), Contains("cannot open '") && Contains("No such file"));
+}
+
+TEST_CASE("files that belong together take their places together or not at all", "[store]") {
+  const fixture::Folder folder;
+  const auto text = [&](const char* name) {
+    std::string content;
+    std::getline(std::ifstream(folder / name), content);
+    return content;
+  };
+  std::ofstream(folder / "old.toml") << "before";
+  const store::Claim fresh(folder / "fresh.csv"), old(folder / "old.toml"), last(folder / "last.h5");
+  const auto fails = [&](const auto& spoil) {
+    store::Draft draft;
+    draft.add(fresh, "after");
+    draft.add(old, "after");
+    spoil(draft.add(last, "after"));
+    CHECK_THROWS_WITH(draft.publish(), Contains("last.h5': cannot be moved into place"));
+    CHECK(!fs::exists(folder / "fresh.csv"));
+    CHECK(text("old.toml") == "before");
+  };
+  fails([](const std::string& draft) { fs::remove(draft); });
+  fails([&](const std::string&) { fs::create_directory(folder / "last.h5"); });
+  fs::remove(folder / "last.h5");
+  {
+    store::Draft draft;
+    for (const store::Claim* claim : {&fresh, &old, &last}) draft.add(*claim, "after");
+    draft.publish();
+  }
+  for (const char* name : {"fresh.csv", "old.toml", "last.h5"}) CHECK(text(name) == "after");
+  CHECK(std::distance(fs::directory_iterator(folder.path()), {}) == 6); // and three locks
 }
 
 TEST_CASE("a file that cannot take its place leaves nothing behind", "[store]") {
