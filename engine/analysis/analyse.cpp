@@ -171,9 +171,7 @@ InputDraws input_draws(const propagation::Experiment& e) {
     draws.units.push_back(quantity.unit);
     draws.si_units.push_back(quantity.si_unit);
   }
-  draws.draw = [&e](std::uint64_t first, std::size_t count, double* values) {
-    propagation::draw_variates(e, first, count, values);
-  };
+  draws.draw = propagation::variate_draws(e);
   return draws;
 }
 

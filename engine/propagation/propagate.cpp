@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <memory>
 
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/global_control.h>
@@ -39,9 +40,9 @@ template <class Body> void on_threads(int threads, const Body& body) {
   arena.execute(body);
 }
 
-quantities::Sampler make_sampler(const Experiment& e) {
+std::shared_ptr<const quantities::Sampler> make_sampler(const Experiment& e) {
   const auto& run = e.scenario().run;
-  return quantities::Sampler(e.plan(), point_set(run.design), run.samples);
+  return std::make_shared<const quantities::Sampler>(e.plan(), point_set(run.design), run.samples);
 }
 
 struct ThreadBuffers {
@@ -76,7 +77,7 @@ ResultBlock run_block(const Experiment& e, const quantities::Sampler& sampler, s
 } // namespace
 
 std::uint64_t propagate(const Experiment& e, Sink& sink, const RunSettings& settings) {
-  const quantities::Sampler sampler = make_sampler(e);
+  const auto sampler = make_sampler(e);
   const std::uint64_t total = settings.last > 0 ? settings.last : e.scenario().run.samples;
   const std::uint64_t per_block = std::max<std::uint64_t>(1, e.model().block / block_samples) * block_samples;
   const int threads = thread_count(settings.threads);
@@ -103,7 +104,8 @@ std::uint64_t propagate(const Experiment& e, Sink& sink, const RunSettings& sett
           // Thrown here, an exception would cancel the pipeline with earlier blocks still in it.
           try {
             if (first > failed_at) return {};
-            return {run_block(e, sampler, first, static_cast<std::size_t>(end_of(first) - first), buffers.local()), {}};
+            return {run_block(e, *sampler, first, static_cast<std::size_t>(end_of(first) - first), buffers.local()),
+                    {}};
           } catch (...) {
             std::uint64_t known = failed_at;
             while (first < known && !failed_at.compare_exchange_weak(known, first)) {
@@ -122,18 +124,20 @@ std::uint64_t propagate(const Experiment& e, Sink& sink, const RunSettings& sett
   return done;
 }
 
-void draw_variates(const Experiment& e, std::uint64_t first, std::size_t count, double* values) {
-  const std::uint64_t begin = first / 64 * 64;
-  const std::size_t n = static_cast<std::size_t>((first + count - begin + 63) / 64 * 64);
-  std::vector<double> drawn(e.plan().variates.size() * n);
-  make_sampler(e).draw(begin, n, quantities::Purpose::sampling, drawn.data(), n);
-  for (std::size_t v = 0; v < e.plan().variates.size(); ++v)
-    std::copy_n(&drawn[v * n + (first - begin)], count, values + v * count);
+std::function<void(std::uint64_t, std::size_t, double*)> variate_draws(const Experiment& e) {
+  return [sampler = make_sampler(e), variates = e.plan().variates.size()](std::uint64_t first, std::size_t count,
+                                                                          double* values) {
+    const std::uint64_t begin = first / 64 * 64;
+    const std::size_t n = static_cast<std::size_t>((first + count - begin + 63) / 64 * 64);
+    std::vector<double> drawn(variates * n);
+    sampler->draw(begin, n, quantities::Purpose::sampling, drawn.data(), n);
+    for (std::size_t v = 0; v < variates; ++v) std::copy_n(&drawn[v * n + (first - begin)], count, values + v * count);
+  };
 }
 
 std::vector<double> variates_of(const Experiment& e, std::uint64_t sample) {
   std::vector<double> one(e.plan().variates.size());
-  draw_variates(e, sample, 1, one.data());
+  variate_draws(e)(sample, 1, one.data());
   return one;
 }
 

@@ -29,8 +29,9 @@ inline constexpr std::size_t block_samples = 2048;
 /// the one that failed has been handed to the sink; then the exception goes on.
 std::uint64_t propagate(const Experiment& experiment, Sink& sink, const RunSettings& settings);
 
-/// Samples [first, first + count) of every variate, SI: values[variate * count + i].
-void draw_variates(const Experiment& experiment, std::uint64_t first, std::size_t count, double* values);
+/// Draws the variates of a run again: called with (first, count, values), it writes samples [first, first + count) of
+/// every variate, SI: values[variate * count + i].
+std::function<void(std::uint64_t, std::size_t, double*)> variate_draws(const Experiment& experiment);
 
 /// The variates of one sample, as in the run. For replay.
 std::vector<double> variates_of(const Experiment& experiment, std::uint64_t sample);
