@@ -4,14 +4,13 @@ import pathlib
 import re
 import signal
 import subprocess
-import tempfile
 import time
 import unittest
 
 import h5py
 import numpy as np
 
-from program import GUMSHOE, ROOT
+from program import GUMSHOE, ROOT, InFolder
 
 os.environ["SOURCE_DATE_EPOCH"] = "0"  # the same run, the same bytes
 SCENARIOS = ROOT / "scenarios"
@@ -30,12 +29,7 @@ def run(scenario, out, *options):
     return subprocess.run([GUMSHOE, "run", str(scenario), "--out", str(out), *options], capture_output=True, text=True)
 
 
-class Adaptive(unittest.TestCase):
-    def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = pathlib.Path(temporary.name)
-
+class Adaptive(InFolder):
     def samples(self, file):
         with h5py.File(file) as f:
             return int(f.attrs["samples"]), f["outputs/laser_z"][...], int(f["samples_done"][0])

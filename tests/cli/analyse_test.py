@@ -3,27 +3,23 @@
 usage: analyse_test.py path/to/gumshoe [unittest options]
 """
 import json
-import pathlib
 import shutil
-import tempfile
 import unittest
 
 import h5py
 import numpy as np
 
-from program import SCENARIO, complaint, gumshoe
+from program import SCENARIO, InOneFolder, complaint, gumshoe
 from sealed import reseal
 
 RUN = "[run]\nsamples = 20_000\n"
 STUDIES = "[analysis]\nsensitivity = { given_data = 20_000, morris = 16, dgsm = 64 }\n"
 
 
-class Analyse(unittest.TestCase):
+class Analyse(InOneFolder):
     @classmethod
     def setUpClass(cls):
-        temporary = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(temporary.cleanup)
-        cls.folder = pathlib.Path(temporary.name)
+        super().setUpClass()
         cls.plain = cls.folder / "plain.toml"
         cls.plain.write_text(SCENARIO + RUN)
         cls.result = cls.folder / "plain.h5"

@@ -3,16 +3,14 @@
 usage: bad_input_test.py path/to/gumshoe [unittest options]
 """
 import os
-import pathlib
 import random
 import resource
 import subprocess
-import tempfile
 import unittest
 
 import h5py
 
-from program import SCENARIO, complaint, gumshoe, places
+from program import SCENARIO, InOneFolder, complaint, gumshoe, places
 
 
 def swap(old, new):
@@ -142,12 +140,10 @@ TABLES = {
 }
 
 
-class BadInput(unittest.TestCase):
+class BadInput(InOneFolder):
     @classmethod
     def setUpClass(cls):
-        temporary = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(temporary.cleanup)
-        cls.folder = pathlib.Path(temporary.name)
+        super().setUpClass()
         cls.good = cls.folder / "good.toml"
         cls.good.write_text(SCENARIO)
         cls.result = cls.folder / "good.h5"

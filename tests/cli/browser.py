@@ -1,10 +1,10 @@
 """Pages in a browser: what it complains of, how they print, and what a script in a copy of the page measures."""
+import html.parser
 import json
 import pathlib
 import re
 import subprocess
 import tempfile
-import html as markup
 
 import numpy as np
 
@@ -15,6 +15,22 @@ def browser(*arguments):
             ["/usr/bin/chromium", "--headless", "--no-sandbox", "--disable-gpu", "--disable-background-networking",
              "--disable-dev-shm-usage", f"--user-data-dir={profile}", "--virtual-time-budget=5000",
              "--enable-logging=stderr", *arguments], capture_output=True, text=True, timeout=180)
+
+
+class Resources(html.parser.HTMLParser):
+    """What a browser would load: src, href of anything but links in the text, data, poster ..."""
+
+    def __init__(self):
+        super().__init__()
+        self.found, self.tags, self.ids = [], [], []
+
+    def handle_starttag(self, tag, attributes):
+        self.tags.append(tag)
+        for name, value in attributes:
+            if name == "id":
+                self.ids.append(value)
+            if name in ("src", "srcset", "data", "poster", "action") or (name.endswith("href") and tag != "a"):
+                self.found.append(value)
 
 
 def measured(page, script, width=1000, dark=False):
@@ -28,7 +44,7 @@ def measured(page, script, width=1000, dark=False):
                       copy.as_uri())
     found = re.search(r'<pre id="measured">(.*?)</pre>', run.stdout, re.S)
     assert found, run.stderr
-    return json.loads(markup.unescape(found[1]))
+    return json.loads(html.unescape(found[1]))
 
 
 # Texts of figures that reach beyond their figure, which cuts them.

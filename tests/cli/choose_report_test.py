@@ -6,7 +6,6 @@ import csv
 import html.parser
 import json
 import math
-import pathlib
 import re
 import subprocess
 import sys
@@ -14,7 +13,7 @@ import tempfile
 import types
 import unittest
 
-from program import ROOT, gumshoe
+from program import ROOT, InFolder, gumshoe
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "reports"))
@@ -44,11 +43,9 @@ def labels(page):
     return " | ".join(re.findall('aria-label="([^"]*)"', page))
 
 
-class Report(unittest.TestCase):
+class Report(InFolder):
     def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = pathlib.Path(temporary.name)
+        super().setUp()
         self.result, self.page = self.folder / "r.h5", self.folder / "r.html"
 
     def report(self, text, *more):

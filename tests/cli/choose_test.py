@@ -3,13 +3,11 @@
 usage: choose_test.py path/to/gumshoe [unittest options]
 """
 import json
-import pathlib
-import tempfile
 import unittest
 
 import h5py
 
-from program import ROOT, complaint, gumshoe, places
+from program import ROOT, InFolder, complaint, gumshoe, places
 
 # u^2 = (feed 1 ms)^2 + (2 um)^2 / n; time 5 s + n (5 mm / feed + 0.5 s).
 TEXT = """schema = 1
@@ -52,12 +50,11 @@ def line_of(text, words):
     return next(i for i, line in enumerate(text.splitlines(), 1) if words in line)
 
 
-class Choose(unittest.TestCase):
+class Choose(InFolder):
     def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-        self.file = pathlib.Path(self.folder.name) / "s.toml"
-        self.out = pathlib.Path(self.folder.name) / "r.h5"
+        super().setUp()
+        self.file = self.folder / "s.toml"
+        self.out = self.folder / "r.h5"
 
     def choose(self, text=TEXT, *more):
         self.file.write_text(text)

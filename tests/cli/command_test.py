@@ -7,7 +7,6 @@ import pathlib
 import re
 import signal
 import subprocess
-import tempfile
 import time
 import unittest
 
@@ -15,7 +14,7 @@ os.environ["HDF5_USE_FILE_LOCKING"] = "FALSE"  # to look at a file while it is w
 import h5py
 import numpy as np
 
-from program import GUMSHOE, ROOT, complaint, gumshoe, places
+from program import GUMSHOE, InFolder, complaint, gumshoe, places
 
 SCENARIO = """schema = 1
 [model]
@@ -53,12 +52,7 @@ def answer(values, header="area (mm2)"):
 GOOD = "answer(repr(area(r)) for r in rows)\n"
 
 
-class Command(unittest.TestCase):
-    def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = pathlib.Path(temporary.name)
-
+class Command(InFolder):
     def scenario(self, body=GOOD, batch=10000, limit="30 s", samples=5000, change=lambda text: text):
         (self.folder / "model.py").write_text(BEGIN + body)
         path = self.folder / "s.toml"

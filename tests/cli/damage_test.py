@@ -4,19 +4,17 @@ usage: damage_test.py path/to/gumshoe [unittest options]
 """
 import json
 import os
-import pathlib
 import random
 import shutil
 import signal
 import subprocess
-import tempfile
 import time
 import unittest
 
 import h5py
 import numpy as np
 
-from program import GUMSHOE, ROOT, SCENARIO, complaint, gumshoe
+from program import GUMSHOE, ROOT, SCENARIO, InFolder, complaint, gumshoe
 from sealed import record, reseal
 
 SAMPLES = 40_000
@@ -53,12 +51,7 @@ def figures(run):
     return [{key: value for key, value in output.items() if key != "run"} for output in json.loads(run.stdout)]
 
 
-class Damage(unittest.TestCase):
-    def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = pathlib.Path(temporary.name)
-
+class Damage(InFolder):
     def complete(self, *words):
         scenario = self.folder / "rod.toml"
         scenario.write_text(SCENARIO)

@@ -2,12 +2,10 @@
 
 usage: data_files_test.py path/to/gumshoe [unittest options]
 """
-import pathlib
 import re
-import tempfile
 import unittest
 
-from program import complaint, gumshoe
+from program import InFolder, complaint, gumshoe
 
 # Positions in long form: a row per axis; the labels that name an axis choose an indication.
 LONG = """# axis;point;position
@@ -38,11 +36,9 @@ samples = 1000
 """
 
 
-class DataFiles(unittest.TestCase):
+class DataFiles(InFolder):
     def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = pathlib.Path(temporary.name)
+        super().setUp()
         (self.folder / "long.csv").write_text(LONG)
         self.file = self.folder / "s.toml"
 

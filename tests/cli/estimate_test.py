@@ -4,12 +4,10 @@ usage: estimate_test.py path/to/gumshoe [unittest options]
 """
 import json
 import math
-import pathlib
-import tempfile
 import tomllib
 import unittest
 
-from program import ROOT, complaint, gumshoe
+from program import ROOT, InFolder, complaint, gumshoe
 
 GAUGE = ROOT / "scenarios" / "gauge"
 
@@ -33,27 +31,22 @@ readings = { file = "line.csv", column = "y", unit = "1", conditions = { x = { c
 DATA = "x,y\n0,1.1\n1,2.9\n2,5.2\n3,6.8\n4,9.1\n"
 
 
-class Estimate(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-        self.path = pathlib.Path(self.folder.name)
-
+class Estimate(InFolder):
     def scenario(self, text=LINE, data=DATA):
-        (self.path / "line.csv").write_text(data)
-        file = self.path / "line.toml"
+        (self.folder / "line.csv").write_text(data)
+        file = self.folder / "line.toml"
         file.write_text(text)
         return file
 
     def fit(self, *words, code=0, **options):
-        run = gumshoe("estimate", self.scenario(*words, **options), "--format", "json", cwd=self.path)
+        run = gumshoe("estimate", self.scenario(*words, **options), "--format", "json", cwd=self.folder)
         self.assertEqual(run.returncode, code, run.stderr)
         return json.loads(run.stdout)
 
     def refusal(self, *words, **options):
-        run = gumshoe("estimate", self.scenario(*words, **options), cwd=self.path)
+        run = gumshoe("estimate", self.scenario(*words, **options), cwd=self.folder)
         self.assertIsNone(complaint(run), run.stderr)
-        self.assertFalse((self.path / "results/line.estimated.toml").exists())
+        self.assertFalse((self.folder / "results/line.estimated.toml").exists())
         return run.stderr
 
     def test_a_line_by_hand(self):
@@ -71,12 +64,12 @@ class Estimate(unittest.TestCase):
 
     def test_the_written_scenario_runs(self):
         self.fit()
-        written = self.path / "results/line.estimated.toml"
+        written = self.folder / "results/line.estimated.toml"
         with open(written, "rb") as file:
             document = tomllib.load(file)
         self.assertIn("hash", document["quantities"]["a"]["source"])
         self.assertNotIn("estimated", document["quantities"]["a"])
-        run = gumshoe("run", written, "--samples", "200000", "--out", self.path / "r.h5", "--format", "json")
+        run = gumshoe("run", written, "--samples", "200000", "--out", self.folder / "r.h5", "--format", "json")
         self.assertEqual(run.returncode, 0, run.stderr)
         out = json.loads(run.stdout)[0]
         # u of a + 10 b = s sqrt(1/5 + 64/10), with 3 degrees of freedom: the interval is +-t_0.975(3) u = 3.182446 u. The
@@ -89,12 +82,12 @@ class Estimate(unittest.TestCase):
         self.assertAlmostEqual(out["estimate"], 20.94, delta=5 * u * math.sqrt(3 / 200000))
 
     def test_another_folder_keeps_its_data(self):
-        other = self.path / "other" / "deep"
+        other = self.folder / "other" / "deep"
         other.mkdir(parents=True)
         run = gumshoe("estimate", self.scenario(), "--scenario-out", other / "w.toml")
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertEqual(gumshoe("check", other / "w.toml").returncode, 0)
-        self.assertFalse((self.path / "results/line.estimated.toml").exists())
+        self.assertFalse((self.folder / "results/line.estimated.toml").exists())
 
     def test_equal_bits_again(self):
         self.assertEqual(self.fit(), self.fit())
@@ -102,7 +95,7 @@ class Estimate(unittest.TestCase):
     def test_nist(self):
         for file in sorted(GAUGE.glob("strd_*.toml")):
             with self.subTest(file.name):
-                run = gumshoe("estimate", file, "--scenario-out", self.path / "w.toml", "--force", "--format", "json")
+                run = gumshoe("estimate", file, "--scenario-out", self.folder / "w.toml", "--force", "--format", "json")
                 self.assertEqual(run.returncode, 0, run.stderr)
                 self.assertTrue(json.loads(run.stdout)["converged"])
 
@@ -110,11 +103,11 @@ class Estimate(unittest.TestCase):
         # 1 - exp(-b x) nears data above 1 for ever: no minimum.
         text = LINE.replace("a + b * x", "1 - exp(-b * (x + 1)) + 0 * a").replace("[quantities.a]\nestimated = true", "[quantities.a]")
         file = self.scenario(text, data="x,y\n0,1\n1,1.1\n2,1.2\n")
-        run = gumshoe("estimate", file, "--format", "json", cwd=self.path)
+        run = gumshoe("estimate", file, "--format", "json", cwd=self.folder)
         self.assertEqual(run.returncode, 3, run.stderr)
         self.assertFalse(json.loads(run.stdout)["converged"])
         self.assertIn("did not converge", run.stderr)
-        self.assertFalse((self.path / "results/line.estimated.toml").exists())
+        self.assertFalse((self.folder / "results/line.estimated.toml").exists())
 
     def test_no_estimated_quantity(self):
         self.assertIn("no quantity is marked estimated", self.refusal(LINE.replace("estimated = true\n", "")))

@@ -5,22 +5,15 @@ usage: evaluate_test.py path/to/gumshoe [unittest options]
 import csv
 import io
 import math
-import pathlib
-import tempfile
 import unittest
 
-from program import complaint, gumshoe, places
+from program import InFolder, complaint, gumshoe, places
 
 PRINTED = 1e-12  # mm: 15 digits of a length below 1 m are off by half a unit of 1e-12, doubles by less
 DEG = math.pi / 180
 
 
-class Evaluate(unittest.TestCase):
-    def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = pathlib.Path(temporary.name)
-
+class Evaluate(InFolder):
     def run_text(self, text, *more):
         self.path = self.folder / "points.csv"
         self.path.write_bytes(text if isinstance(text, bytes) else text.encode())

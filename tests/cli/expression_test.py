@@ -4,11 +4,9 @@ usage: expression_test.py path of gumshoe [unittest options]
 """
 import json
 import os
-import pathlib
-import tempfile
 import unittest
 
-from program import complaint, gumshoe, places
+from program import InFolder, complaint, gumshoe, places
 
 # GUM H.2 as JCGM 102 evaluates it: resistance, reactance and impedance from V, I and phi.
 H2 = """schema = 1
@@ -39,12 +37,7 @@ seed = 1
 """
 
 
-class Expression(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
+class Expression(InFolder):
     def scenario(self, text, name="s.toml"):
         file = self.folder / name
         file.write_text(text)

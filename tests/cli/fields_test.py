@@ -1,16 +1,13 @@
 """What stands in a result file is described, in its README, and each description means something."""
-import pathlib
 import re
 import subprocess
-import sys
 import tempfile
 import unittest
 
 import h5py
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-GUMSHOE = sys.argv.pop(1)
-MADE = pathlib.Path(GUMSHOE).resolve().parent / "tests/gumshoe_made_result"
+from program import GUMSHOE, MADE, ROOT
+
 README = ROOT / "engine/store/README.md"
 
 

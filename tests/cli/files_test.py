@@ -4,17 +4,15 @@ usage: files_test.py path/to/gumshoe [unittest options]
 """
 import fcntl
 import os
-import pathlib
 import resource
 import signal
 import subprocess
-import tempfile
 import time
 import unittest
 
 import h5py
 
-from program import GUMSHOE, SCENARIO, complaint, gumshoe
+from program import GUMSHOE, InFolder, complaint, gumshoe
 from choose_test import TEXT as CHOOSE
 from trace_closing_test import Rods
 
@@ -57,12 +55,7 @@ components = [ { u = "1 um", per = "reading" } ]
 """
 
 
-class Files(unittest.TestCase):
-    def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = pathlib.Path(temporary.name)
-
+class Files(InFolder):
     def write(self, name, text):
         path = self.folder / name
         path.parent.mkdir(parents=True, exist_ok=True)

@@ -3,12 +3,10 @@
 usage: gauge_test.py path_of_gumshoe [unittest options]
 """
 import json
-import pathlib
 import re
-import tempfile
 import unittest
 
-from program import ROOT, complaint, gumshoe, places
+from program import ROOT, InFolder, complaint, gumshoe, places
 
 EXAMPLES = ROOT / "scenarios" / "gauge"
 SUM = """schema = 1
@@ -45,13 +43,9 @@ def expected(figure, value, **more):
     return "".join(f'{k} = "{v}"\n' for k, v in {"figure": figure, "value": value, **more}.items())
 
 
-class Gauge(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-
+class Gauge(InFolder):
     def scenario(self, text, *figures):
-        file = pathlib.Path(self.folder.name) / "s.toml"
+        file = self.folder / "s.toml"
         file.write_text(text + "".join("[[expected]]\n" + f for f in figures))
         return file
 
@@ -139,8 +133,8 @@ class Gauge(unittest.TestCase):
         self.assertIn("nothing to compare with", run.stderr)
 
     def test_an_empty_folder_and_a_missing_file_are_refused(self):
-        self.assertIsNone(complaint(gumshoe("gauge", self.folder.name)))
-        self.assertIsNone(complaint(gumshoe("gauge", self.folder.name + "/none.toml")))
+        self.assertIsNone(complaint(gumshoe("gauge", self.folder)))
+        self.assertIsNone(complaint(gumshoe("gauge", self.folder / "none.toml")))
 
 
 if __name__ == "__main__":

@@ -7,11 +7,10 @@ import pathlib
 import shutil
 import signal
 import subprocess
-import tempfile
 import time
 import unittest
 
-from program import GUMSHOE, ROOT
+from program import GUMSHOE, ROOT, InFolder
 
 CC = shutil.which("cc") or shutil.which("gcc") or shutil.which("clang")
 LIMIT = 2.0
@@ -67,12 +66,7 @@ sensitivity = { STUDY }
 STUDY = STUDY.replace("SLOW", " + ".join(f"sin({k} * a)" for k in range(1, 201)))
 
 
-class Interrupt(unittest.TestCase):
-    def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = pathlib.Path(temporary.name)
-
+class Interrupt(InFolder):
     def interrupted(self, words, number, ready=lambda: True, pause=0.7, again=None, **options):
         """Seconds from the signal to the end, and what was said."""
         process = subprocess.Popen([GUMSHOE, *map(str, words)], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE,

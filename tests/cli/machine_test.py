@@ -5,15 +5,13 @@ usage: machine_test.py path/to/gumshoe [unittest options]
 import csv
 import io
 import json
-import pathlib
 import random
 import subprocess
 import sys
-import tempfile
 import unittest
 
 from plain_machine import DEG, POSES, TRUTH, closing, side
-from program import ROOT, complaint, gumshoe, places
+from program import ROOT, InFolder, complaint, gumshoe, places
 
 FIVE_AXIS = ROOT / "scenarios" / "machine_five_axis.toml"
 
@@ -71,15 +69,13 @@ def quantities(truth, known=()):
     return "\n".join(lines) + "\n"
 
 
-class Machine(unittest.TestCase):
+class Machine(InFolder):
     def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-        self.path = pathlib.Path(self.folder.name)
-        self.file = self.path / "machine.toml"
+        super().setUp()
+        self.file = self.folder / "machine.toml"
 
     def recovers(self, head, truth, known, sides, poses):
-        (self.path / "data.csv").write_text(table(truth, sides, poses))
+        (self.folder / "data.csv").write_text(table(truth, sides, poses))
         self.file.write_text(head + readings(poses[0]) + quantities(truth, known))
         run = gumshoe("estimate", self.file, "--format", "json", cwd=self.file.parent)
         self.assertEqual(run.returncode, 0, run.stderr)
@@ -125,7 +121,7 @@ class Machine(unittest.TestCase):
                 self.assertAlmostEqual(a, b, delta=1.01e-4)  # the last digit printed
 
     def test_shipped_scenario(self):
-        out = self.path / "out.toml"
+        out = self.folder / "out.toml"
         run = gumshoe("estimate", FIVE_AXIS, "--scenario-out", out, "--format", "json")
         self.assertEqual(run.returncode, 0, run.stderr)
         fit = json.loads(run.stdout)
@@ -135,14 +131,14 @@ class Machine(unittest.TestCase):
             self.assertLess(abs(got["value"] - truth / unit_of(name)[1]), 4 * got["standard_uncertainty"], name)
         text = gumshoe("estimate", FIVE_AXIS, "--scenario-out", out).stdout
         self.assertIn("probe_z is indistinguishable from sphere_z and E_Z0A together", text)
-        run = gumshoe("run", out, "--samples", "2000", "--out", self.path / "r.h5")
+        run = gumshoe("run", out, "--samples", "2000", "--out", self.folder / "r.h5")
         self.assertEqual(run.returncode, 0, run.stderr)
 
     def test_virtual_experiment(self):
         # One error motion of X, of the tool, in its own direction: the tip is off by just that.
         self.file.write_text(CUSTOM.replace('"sphere_probing"\n', '"sphere_probing"\nmethod = "virtual_experiment"\n') +
                              '[conditions]\nB = "30 deg"\n[quantities.E_ZZ]\nu = "2 um"\nvalue = "0 mm"\n')
-        run = gumshoe("run", self.file, "--samples", "20000", "--out", self.path / "r.h5", "--format", "json")
+        run = gumshoe("run", self.file, "--samples", "20000", "--out", self.folder / "r.h5", "--format", "json")
         self.assertEqual(run.returncode, 0, run.stderr)
         u = [row["standard_uncertainty"] for row in json.loads(run.stdout)]
         # In the workpiece's frame, turned by -30 deg about Y; relative standard error of u 1/sqrt(2 N) = 0.5 %.
@@ -222,7 +218,7 @@ class Machine(unittest.TestCase):
         # X behind B: at 90 deg it moves along Z.
         self.file.write_text('schema = 1\n[model]\nname = "sphere_probing"\nmethod = "virtual_experiment"\n[machine]\n'
                              'workpiece_side = []\ntool_side = ["Y", "Z", "B", "X"]\n[conditions]\nB = "90 deg"\n')
-        run = gumshoe("run", self.file, "--out", self.path / "r.h5")
+        run = gumshoe("run", self.file, "--out", self.folder / "r.h5")
         self.assertIsNone(complaint(run), run.stderr)
         self.assertIn("move in one plane at B = 90 deg", run.stderr)
 

@@ -3,11 +3,9 @@
 usage: messages_test.py path/to/gumshoe [unittest options]
 """
 import os
-import pathlib
-import tempfile
 import unittest
 
-from program import ROOT, SCENARIO, complaint, gumshoe
+from program import ROOT, SCENARIO, InFolder, complaint, gumshoe
 from choose_test import TEXT as CHOOSE
 
 # Six readings with labels and a condition, in the scenario itself.
@@ -189,11 +187,10 @@ CHECKED = [
 ]
 
 
-class Messages(unittest.TestCase):
+class Messages(InFolder):
     def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-        self.file = pathlib.Path(self.folder.name) / "s.toml"
+        super().setUp()
+        self.file = self.folder / "s.toml"
         (self.file.parent / "z.csv").write_text("z,rod,e\n-329.932,a,1\n-329.931,b,2\n")
 
     def test_the_bases_are_good(self):  # or the mistakes below would prove nothing

@@ -3,18 +3,16 @@
 usage: plugin_test.py path/to/gumshoe [unittest options]
 """
 import os
-import pathlib
 import re
 import shutil
 import subprocess
-import tempfile
 import unittest
 
 os.environ["HDF5_USE_FILE_LOCKING"] = "FALSE"
 import h5py
 import numpy as np
 
-from program import ROOT, complaint, gumshoe, places
+from program import ROOT, InFolder, complaint, gumshoe, places
 
 HEADER = ROOT / "engine/models/plugin"
 CC = shutil.which("cc") or shutil.which("gcc") or shutil.which("clang")
@@ -97,11 +95,9 @@ seed = 3
 PLACE = (4, 11)
 
 
-class Plugin(unittest.TestCase):
+class Plugin(InFolder):
     def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = pathlib.Path(temporary.name)
+        super().setUp()
         self.scenario = self.folder / "s.toml"
         self.scenario.write_text(SCENARIO)
 

@@ -3,9 +3,13 @@ import pathlib
 import re
 import subprocess
 import sys
+import tempfile
+import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 GUMSHOE = str(pathlib.Path(sys.argv.pop(1)).resolve()) if len(sys.argv) > 1 and not sys.argv[1].startswith("-") else ""
+
+MADE = str(pathlib.Path(GUMSHOE).parent / "tests/gumshoe_made_result")  # writes made-up results with every study
 
 # One rod, three readouts, two uncertain quantities: small enough to break in one place at a time.
 SCENARIO = """schema = 1
@@ -22,6 +26,25 @@ readings = ["-329.932 mm", "-329.932 mm", "-329.931 mm"]
 resolution = "1 um"
 repeatability = { s = "0.4 um", degrees_of_freedom = 24 }
 """
+
+
+class InFolder(unittest.TestCase):
+    """Each test has a new, empty folder."""
+
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = pathlib.Path(temporary.name)
+
+
+class InOneFolder(unittest.TestCase):
+    """The tests of a class share a folder, empty at first."""
+
+    @classmethod
+    def setUpClass(cls):
+        temporary = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(temporary.cleanup)
+        cls.folder = pathlib.Path(temporary.name)
 
 
 def gumshoe(*words, seconds=60, **options):

@@ -3,14 +3,12 @@
 usage: readme_test.py path/to/gumshoe [unittest options]
 """
 import os
-import pathlib
 import re
 import shlex
 import subprocess
-import tempfile
 import unittest
 
-from program import GUMSHOE, ROOT, gumshoe
+from program import ROOT, InOneFolder, gumshoe
 
 DOCUMENTS = sorted(p for p in ROOT.rglob("*.md") if not {"build", ".git"} & set(p.relative_to(ROOT).parts))
 
@@ -31,12 +29,10 @@ def command_lines(text):
     return [line.split(" #")[0].strip() for line in lines if re.match(r"(build/release/)?gumshoe \w", line)]
 
 
-class Readme(unittest.TestCase):
+class Readme(InOneFolder):
     @classmethod
     def setUpClass(cls):
-        temporary = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(temporary.cleanup)
-        cls.folder = pathlib.Path(temporary.name)
+        super().setUpClass()
         cls.text = (ROOT / "README.md").read_text()
 
     def test_output_of_the_main_job(self):  # scripts/run, with every sample

@@ -1,9 +1,5 @@
 """The result file opens in h5py and xarray without options and says what its numbers are."""
-import os
-import pathlib
 import subprocess
-import sys
-import tempfile
 import unittest
 import warnings
 
@@ -12,8 +8,8 @@ import netCDF4
 import numpy as np
 import xarray
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-GUMSHOE = sys.argv.pop(1)
+from program import GUMSHOE, MADE, ROOT, InOneFolder
+
 SAMPLES = 20000
 
 
@@ -32,17 +28,13 @@ def check_dataset(test, name, item):
     return True
 
 
-class ResultFile(unittest.TestCase):
+class ResultFile(InOneFolder):
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.path = os.path.join(cls.folder.name, "rod.h5")
+        super().setUpClass()
+        cls.path = cls.folder / "rod.h5"
         subprocess.run([GUMSHOE, "run", "scenarios/rod_gauging.toml", "--samples", str(SAMPLES), "--out", cls.path],
                        cwd=ROOT, check=True, capture_output=True, text=True)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.folder.cleanup()
 
     def test_root_says_how_it_was_made(self):
         with h5py.File(self.path) as file:
@@ -121,7 +113,7 @@ class ResultFile(unittest.TestCase):
             self.assertAlmostEqual(float(np.sum(density * np.diff(edges))), 1, delta=1e-9)
 
     def test_same_run_again_same_numbers(self):
-        again = os.path.join(self.folder.name, "again.h5")
+        again = self.folder / "again.h5"
         subprocess.run([GUMSHOE, "run", "scenarios/rod_gauging.toml", "--samples", str(SAMPLES), "--threads", "1",
                         "--out", again], cwd=ROOT, check=True, capture_output=True)
         with h5py.File(self.path) as a, h5py.File(again) as b:
@@ -129,18 +121,14 @@ class ResultFile(unittest.TestCase):
             np.testing.assert_array_equal(a["summary/estimate"][()], b["summary/estimate"][()])
 
 
-class EveryStudy(unittest.TestCase):
+class EveryStudy(InOneFolder):
     """A made-up result with all groups, as the store writes it."""
 
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.path = os.path.join(cls.folder.name, "full.h5")
-        subprocess.run([pathlib.Path(GUMSHOE).resolve().parent / "tests/gumshoe_made_result", cls.path], check=True)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.folder.cleanup()
+        super().setUpClass()
+        cls.path = cls.folder / "full.h5"
+        subprocess.run([MADE, cls.path], check=True)
 
     def groups(self):
         found = []

@@ -7,11 +7,9 @@ import io
 import json
 import math
 import os
-import pathlib
 import re
 import signal
 import subprocess
-import tempfile
 import time
 import unittest
 
@@ -19,7 +17,7 @@ os.environ["HDF5_USE_FILE_LOCKING"] = "FALSE"  # to look at a file while it is w
 import h5py
 import numpy as np
 
-from program import GUMSHOE, ROOT, SCENARIO, complaint, gumshoe
+from program import GUMSHOE, ROOT, SCENARIO, InOneFolder, complaint, gumshoe
 
 RODS = ROOT / "scenarios/rod_gauging.toml"
 LONG = 12_000_000  # samples: seconds of work, so that a signal arrives in the middle
@@ -65,13 +63,7 @@ def attribute(path, name):
         return file.attrs[name]
 
 
-class Run(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        temporary = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(temporary.cleanup)
-        cls.folder = pathlib.Path(temporary.name)
-
+class Run(InOneFolder):
     def write(self, name, text):
         path = self.folder / name
         path.write_text(text)

@@ -7,15 +7,15 @@ import copy
 import json
 import pathlib
 import subprocess
-import sys
 import tempfile
 import tomllib
 import unittest
 
 import jsonschema
 
-FOLDER = pathlib.Path(__file__).resolve().parents[2] / "scenarios"
-GUMSHOE = sys.argv.pop(1) if len(sys.argv) > 1 and not sys.argv[1].startswith("-") else None
+from program import GUMSHOE, ROOT
+
+FOLDER = ROOT / "scenarios"
 
 
 def load(path):

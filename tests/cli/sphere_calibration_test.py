@@ -6,11 +6,9 @@ import csv
 import io
 import json
 import math
-import pathlib
-import tempfile
 import unittest
 
-from program import ROOT, complaint, gumshoe
+from program import ROOT, InFolder, complaint, gumshoe
 
 DEG = math.pi / 180
 POSES = [(0, c) for c in range(0, 91, 5)] + [(b, 90) for b in range(-20, 46, 5)]
@@ -19,14 +17,9 @@ TRUTH = {"probe_x": 85.2, "probe_y": 286.9, "probe_z": 453.1, "E_X0B": -0.3, "E_
 UNITS = {name: "deg" if name[2] in "AC" or name == "E_B0C" else "mm" for name in TRUTH}
 
 
-class SphereCalibration(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-        self.path = pathlib.Path(self.folder.name)
-
+class SphereCalibration(InFolder):
     def rows(self, header, *points, evaluation="exact", code=0):
-        table = self.path / "points.csv"
+        table = self.folder / "points.csv"
         table.write_text("\n".join(",".join(map(str, row)) for row in (header, *points)) + "\n")
         self.run = gumshoe("evaluate", "sphere_calibration", "--table", table, "--evaluation", evaluation)
         self.assertEqual(self.run.returncode, code, self.run.stderr)
@@ -81,11 +74,11 @@ class SphereCalibration(unittest.TestCase):
     def test_a_virtual_experiment_shows_the_bias_of_an_approximation(self):
         # The machine stays exact whatever the evaluation; at one pose the error is the difference of the two commands.
         exact, small = (self.xyz(self.rows(["B (deg)", "C (deg)"], [45, 90], evaluation=e)[0]) for e in ("exact", "small_angle"))
-        scenario = self.path / "bias.toml"
+        scenario = self.folder / "bias.toml"
         scenario.write_text('schema = 1\n[model]\nname = "sphere_calibration"\nmethod = "virtual_experiment"\n'
                             'evaluation = "small_angle"\n[conditions]\nB = "45 deg"\nC = "90 deg"\n'
                             '[quantities.sphere_distance]\nvalue = "184.183 mm"\nu = "1 um"\n[run]\nsamples = 1000\n')
-        run = gumshoe("run", scenario, "--out", self.path / "bias.h5", "--format", "json")
+        run = gumshoe("run", scenario, "--out", self.folder / "bias.h5", "--format", "json")
         self.assertEqual(run.returncode, 0, run.stderr)
         for result, a, b in zip(json.loads(run.stdout), exact, small):
             self.assertAlmostEqual(result["estimate"], a - b, delta=1e-11)
@@ -95,13 +88,13 @@ class SphereCalibration(unittest.TestCase):
         header = [f"{name} ({UNITS[name]})" for name in TRUTH] + ["B (deg)", "C (deg)"]
         rows = self.rows(header, *([*TRUTH.values(), b, c] for b, c in POSES))
         data = "B,C,X,Y,Z\n" + "".join(f"{b},{c},{','.join(map(repr, self.xyz(row)))}\n" for (b, c), row in zip(POSES, rows))
-        (self.path / "data.csv").write_text(data)
+        (self.folder / "data.csv").write_text(data)
         angles = 'conditions = { B = { column = "B", unit = "deg" }, C = { column = "C", unit = "deg" } }'
         text = 'schema = 1\n[model]\nname = "sphere_calibration"\n'
         text += "".join(f"[quantities.{name}]\nestimated = true\n" for name in TRUTH)
         text += "".join(f'[indications.{name}]\nreadings = {{ file = "data.csv", column = "{name}", unit = "mm", {angles} }}\n' for name in "XYZ")
-        (self.path / "fit.toml").write_text(text)
-        run = gumshoe("estimate", self.path / "fit.toml", "--format", "json", cwd=self.path)
+        (self.folder / "fit.toml").write_text(text)
+        run = gumshoe("estimate", self.folder / "fit.toml", "--format", "json", cwd=self.folder)
         self.assertEqual(run.returncode, 0, run.stderr)
         fit = json.loads(run.stdout)
         self.assertEqual(fit["rank"], 11)
@@ -121,21 +114,21 @@ class SphereCalibration(unittest.TestCase):
                           evaluation="joint")[0]
         self.assertEqual(float(found["rank (1)"]), 11)
         self.assertAlmostEqual(float(found["residual_rms (um)"]), 5 / math.sqrt(2), delta=0.5)
-        (self.path / "data.csv").write_text("B,C,X,Y,Z\n" + "".join(",".join(map(repr, row)) + "\n" for row in data))
+        (self.folder / "data.csv").write_text("B,C,X,Y,Z\n" + "".join(",".join(map(repr, row)) + "\n" for row in data))
         angles = 'conditions = { B = { column = "B", unit = "deg" }, C = { column = "C", unit = "deg" } }'
         text = 'schema = 1\n[model]\nname = "sphere_calibration"\n'
         text += "".join(f"[quantities.{name}]\nestimated = true\n" for name in [*TRUTH, "sphere_distance"])
         text += "".join(f'[indications.{name}]\nreadings = {{ file = "data.csv", column = "{name}", unit = "mm", {angles} }}\n' for name in "XYZ")
         without = text.replace("[quantities.sphere_distance]\nestimated = true\n", "")
-        (self.path / "fit.toml").write_text(without)
-        run = gumshoe("estimate", self.path / "fit.toml", "--format", "json", cwd=self.path)
+        (self.folder / "fit.toml").write_text(without)
+        run = gumshoe("estimate", self.folder / "fit.toml", "--format", "json", cwd=self.folder)
         self.assertEqual(run.returncode, 0, run.stderr)
         for name, value in json.loads(run.stdout)["parameters"].items():
             # Two ways to the same minimum; near it 1e-9 of a quantity is 1e-12 of the squares.
             self.assertAlmostEqual(float(found[f"{name} ({UNITS[name]})"]), value["value"], delta=1e-9 * max(1, abs(value["value"])))
         # The artefact's place cannot be told from the machine's.
-        (self.path / "fit.toml").write_text(text)
-        run = gumshoe("estimate", self.path / "fit.toml", cwd=self.path)
+        (self.folder / "fit.toml").write_text(text)
+        run = gumshoe("estimate", self.folder / "fit.toml", cwd=self.folder)
         words = run.stdout + run.stderr
         self.assertIn("indistinguishable", words)
         for name in ("sphere_distance", "probe_x", "E_X0C", "E_X0B"):
@@ -148,8 +141,8 @@ class SphereCalibration(unittest.TestCase):
         for old, new in changes:
             self.assertIn(old, text)
             text = text.replace(old, new)
-        (self.path / "study.toml").write_text(text)
-        run = gumshoe("run", self.path / "study.toml", "--out", self.path / "study.h5", "--format", "json")
+        (self.folder / "study.toml").write_text(text)
+        run = gumshoe("run", self.folder / "study.toml", "--out", self.folder / "study.h5", "--format", "json")
         self.assertEqual(run.returncode, 0, run.stderr)
         return {result["output"].removeprefix("error of "): result for result in json.loads(run.stdout)}
 
@@ -167,7 +160,7 @@ class SphereCalibration(unittest.TestCase):
                 self.assertAlmostEqual(found[name]["standard_uncertainty"], u, delta=tolerance, msg=name)
 
     def test_dominance(self):
-        run = gumshoe("run", ROOT / "scenarios/sphere_calibration.toml", "--out", self.path / "study.h5", "--samples", 10_000, "--format", "json")
+        run = gumshoe("run", ROOT / "scenarios/sphere_calibration.toml", "--out", self.folder / "study.h5", "--samples", 10_000, "--format", "json")
         self.assertEqual(run.returncode, 0, run.stderr)
         found = {r["output"].removeprefix("error of "): r["sobol"] for r in json.loads(run.stdout)}
         # Shares of variance, recomputed independently to a per cent or so; the sums of the terms of one direction.
@@ -199,8 +192,8 @@ class SphereCalibration(unittest.TestCase):
         text = "".join(kept[:-1]) + noise + kept[-1]
         text = text.replace('evaluation = "sequential"', 'evaluation = "joint"').replace("samples = 100_000", "samples = 20_000")
         text = "\n".join(line for line in text.split("\n") if not line.startswith("sensitivity"))
-        (self.path / "noise.toml").write_text(text)
-        run = gumshoe("run", self.path / "noise.toml", "--out", self.path / "noise.h5", "--format", "json")
+        (self.folder / "noise.toml").write_text(text)
+        run = gumshoe("run", self.folder / "noise.toml", "--out", self.folder / "noise.h5", "--format", "json")
         self.assertEqual(run.returncode, 0, run.stderr)
         found = {r["output"].removeprefix("error of "): r for r in json.loads(run.stdout)}
         for a, b, r in (("E_X0C", "E_B0C", 0.97), ("E_A0B", "E_C0B", 0.95), ("E_Y0C", "E_A0C", -0.94)):
@@ -231,8 +224,8 @@ class SphereCalibration(unittest.TestCase):
     def test_a_run_names_what_the_poses_cannot_see(self):
         shift = '[quantities.sphere_distance]\nvalue = "184.183 mm"\nu = "5 um"\n[run]'
         text = (ROOT / "scenarios/sphere_calibration_printed.toml").read_text().replace("[run]", shift)
-        (self.path / "unseen.toml").write_text(text.replace("samples = 100_000", "samples = 1000"))
-        run = gumshoe("run", self.path / "unseen.toml", "--out", self.path / "unseen.h5")
+        (self.folder / "unseen.toml").write_text(text.replace("samples = 100_000", "samples = 1000"))
+        run = gumshoe("run", self.folder / "unseen.toml", "--out", self.folder / "unseen.h5")
         self.assertEqual(run.returncode, 0, run.stderr)
         note = next(line for line in run.stdout.splitlines() if "indistinguishable" in line)
         for name in ("sphere_distance -1 mm", "probe_x +1 mm", "E_X0B +1 mm", "E_X0C +1 mm"):

@@ -10,14 +10,13 @@ import os
 import pathlib
 import re
 import subprocess
-import tempfile
 import unittest
 
 os.environ["HDF5_USE_FILE_LOCKING"] = "FALSE"
 import h5py
 import xarray
 
-from program import GUMSHOE, ROOT, complaint, gumshoe
+from program import GUMSHOE, ROOT, InOneFolder, complaint, gumshoe
 
 # y = a + b + c + d + f with u = 5, 4, 3, 2, 1 um: u_c^2 = 55 um^2, shares 25/55, 16/55, 9/55 ...
 SUM = """schema = 1
@@ -53,13 +52,7 @@ samples = 4000
 """
 
 
-class Terminal(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        temporary = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(temporary.cleanup)
-        cls.folder = pathlib.Path(temporary.name)
-
+class Terminal(InOneFolder):
     def run_text(self, text, *words, name="case", code=0):
         path = self.folder / f"{name}.toml"
         path.write_text(text)

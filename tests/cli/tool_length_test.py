@@ -6,11 +6,9 @@ import csv
 import io
 import json
 import math
-import pathlib
-import tempfile
 import unittest
 
-from program import complaint, gumshoe, places
+from program import InFolder, complaint, gumshoe, places
 
 PRINTED = 1e-12  # mm
 
@@ -58,12 +56,7 @@ MISTAKES = {
 }
 
 
-class ToolLength(unittest.TestCase):
-    def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = pathlib.Path(temporary.name)
-
+class ToolLength(InFolder):
     def rows(self, header, *rows, code=0):
         path = self.folder / "points.csv"
         path.write_text("\n".join([",".join(header), *(",".join(map(str, row)) for row in rows)]) + "\n")

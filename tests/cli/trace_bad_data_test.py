@@ -3,13 +3,11 @@
 usage: trace_bad_data_test.py path/to/gumshoe [unittest options]
 """
 import json
-import pathlib
 import random
 import re
-import tempfile
 import unittest
 
-from program import complaint, gumshoe, places
+from program import InFolder, complaint, gumshoe, places
 
 # A rod gauged at four feeds in eight set-ups; a latency of 0.5 ms that the scenario leaves out.
 SCENARIO = """schema = 1
@@ -42,12 +40,7 @@ def rows(setups=range(1, 9), feeds=FEEDS, delay=0.5, noise=5e-4):
     return out
 
 
-class BadData(unittest.TestCase):
-    def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = pathlib.Path(temporary.name)
-
+class BadData(InFolder):
     def trace(self, data, setups=range(1, 9), noise=NOISE, trace=TRACE, head="setup,round,feed,spindle_z"):
         (self.folder / "s.toml").write_text(SCENARIO.format(
             setups="\n".join(f'"{k}" = {{ value = "-510 mm" }}' for k in setups), noise=noise, trace=trace))

@@ -4,16 +4,14 @@ usage: trace_closing_test.py path/to/gumshoe [unittest options]
 """
 import json
 import math
-import pathlib
 import random
 import statistics
-import tempfile
 import tomllib
 import unittest
 
 import h5py
 
-from program import complaint, gumshoe
+from program import InFolder, complaint, gumshoe
 
 FEEDS = (20, 200, 500, 1000)  # mm/min
 NOISE = 5e-4  # mm
@@ -74,11 +72,9 @@ def in_mm(text):
     return float(value) * {"mm": 1, "um": 1e-3, "m": 1e3}[unit]
 
 
-class Closing(unittest.TestCase):
+class Closing(InFolder):
     def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = pathlib.Path(temporary.name)
+        super().setUp()
         self.traced = self.folder / "results/s.traced.toml"
 
     def program(self, *words, code=0):

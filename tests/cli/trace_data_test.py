@@ -4,16 +4,14 @@ usage: trace_data_test.py path/to/gumshoe [unittest options]
 """
 import csv
 import json
-import pathlib
 import re
 import sys
-import tempfile
 import unittest
 
 import h5py
 import numpy as np
 
-from program import ROOT, gumshoe
+from program import ROOT, InFolder, gumshoe
 
 sys.path.append(str(ROOT / "tests" / "recovery"))
 import cone
@@ -21,12 +19,7 @@ import cone
 SCENARIOS = ROOT / "scenarios"
 
 
-class TraceData(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
+class TraceData(InFolder):
     def call(self, verb, name, *words, text=None):
         file = self.folder / f"{name}.toml"
         text = text or (SCENARIOS / f"{name}.toml").read_text()

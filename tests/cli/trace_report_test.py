@@ -5,7 +5,6 @@ usage: trace_report_test.py path/to/gumshoe [unittest options]
 import csv
 import json
 import math
-import pathlib
 import re
 import subprocess
 import sys
@@ -15,7 +14,7 @@ import unittest
 import h5py
 import numpy as np
 
-from program import GUMSHOE, ROOT, complaint, gumshoe
+from program import MADE, ROOT, InOneFolder, complaint, gumshoe
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "reports"))
@@ -23,7 +22,6 @@ from browser import CLIPPED, measured
 from choose_report_test import Elements, labels, words_of
 from gumshoe_report import trace, trace_figures
 
-MADE = pathlib.Path(GUMSHOE).parent / "tests/gumshoe_made_result"
 KINDS = ("named", "class", "scatter", "not_in_catalogue", "two_findings", "vetoed", "nothing_found", "insufficient_data")
 
 
@@ -37,11 +35,10 @@ def root_mean_square(x):
     return math.sqrt(np.mean(np.square(x)))
 
 
-class Made(unittest.TestCase):
+class Made(InOneFolder):
     @classmethod
     def setUpClass(cls):
-        cls.temporary = tempfile.TemporaryDirectory()
-        cls.folder = pathlib.Path(cls.temporary.name)
+        super().setUpClass()
         cls.said, cls.pages = {}, {}
         for kind in KINDS:
             made(kind, str(cls.file(kind)))
@@ -49,10 +46,6 @@ class Made(unittest.TestCase):
             report = gumshoe("report", cls.file(kind))
             assert (report.returncode, report.stderr) == (0, ""), report.stderr
             cls.pages[kind] = cls.file(kind).with_suffix(".html").read_text(encoding="utf-8")
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.temporary.cleanup()
 
     @classmethod
     def file(cls, kind):

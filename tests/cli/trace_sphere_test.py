@@ -5,14 +5,12 @@ usage: trace_sphere_test.py path/to/gumshoe [unittest options]
 """
 import json
 import math
-import pathlib
 import subprocess
 import sys
-import tempfile
 import unittest
 
 from plain_grinder import ARCSEC, ECCENTRICITY, MACHINE, PASSES, POSES, TOWARDS
-from program import ROOT, gumshoe
+from program import ROOT, InFolder, gumshoe
 
 SCENARIO = ROOT / "scenarios" / "trace_sphere.toml"
 EFFECT = """
@@ -22,12 +20,7 @@ sine   = { estimated = true, value = "0 arcsec" }
 """
 
 
-class TraceSphere(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-        self.path = pathlib.Path(self.folder.name)
-
+class TraceSphere(InFolder):
     def estimated(self, text):
         file = self.path / "case.toml"
         file.write_text(text.replace('"data/', f'"{ROOT}/scenarios/data/'))

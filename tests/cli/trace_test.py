@@ -4,14 +4,12 @@ usage: trace_test.py path/to/gumshoe [unittest options]
 """
 import json
 import math
-import pathlib
 import random
-import tempfile
 import unittest
 
 import h5py
 
-from program import complaint, gumshoe
+from program import InFolder, complaint, gumshoe
 
 # A rod gauged at four feeds in eight set-ups, each with its own height of the beam. A latency shifts by feed times delay.
 SCENARIO = """schema = 1
@@ -46,11 +44,9 @@ def readings(delay, seed=1):
     return "\n".join(lines) + "\n"
 
 
-class Trace(unittest.TestCase):
+class Trace(InFolder):
     def setUp(self):
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = pathlib.Path(temporary.name)
+        super().setUp()
         self.scenario = self.folder / "s.toml"
         self.scenario.write_text(SCENARIO.replace("SETUPS", "\n".join(
             f'"{k}" = {{ value = "-510 mm" }}' for k in range(1, SETUPS + 1))))
