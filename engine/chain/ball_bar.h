@@ -1,6 +1,6 @@
 #pragma once
-/// A ball bar between a fixed and a moving ball, as the stage bar of the measuring chain sees it: what is indicated of the
-/// distance between the balls' centres, and the inverse. The time of the reading is the event's.
+/// A ball bar between a fixed and a moving ball, as the stage bar of the measuring chain sees it: what is indicated of
+/// the distance between the balls' centres, and the inverse. The time of the reading is the event's.
 #include "chain/probing_event.h"
 
 namespace gumshoe::chain {
@@ -19,8 +19,8 @@ template <class T> struct BallBar {
 /// Indication minus true length, m.
 template <class T> T indication_error(const BallBar<T>& bar) { return bar.zero - bar.growth + bar.speed * bar.skew; }
 
-/// What the bar indicates when the balls' centres are `actual` apart (m), and the inverse. A change of the length from its
-/// nominal value is read in the same way.
+/// What the bar indicates when the balls' centres are `actual` apart (m), and the inverse. A change of the length from
+/// its nominal value is read in the same way.
 template <class T> T reading_of(const T& actual, const BallBar<T>& bar) { return actual + indication_error(bar); }
 template <class T> T actual_of(const T& reading, const BallBar<T>& bar) { return reading - indication_error(bar); }
 

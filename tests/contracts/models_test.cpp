@@ -103,7 +103,8 @@ TEST_CASE("evaluation undoes simulation, and does not read the true value", "[co
           double largest = 0;
           for (std::size_t i = 0; i < s.size(); ++i)
             largest = std::max(largest, std::fabs(by.derivatives[m][i]) * s.spread(i, *there));
-          CHECK(rounding[m] < 1e-6 * largest);
+          // An error of an axis that the machine of this evaluation does not have is always 0.
+          CHECK((rounding[m] < 1e-6 * largest || (largest == 0 && back.values[m] == 0)));
         }
         ++compared;
         // A quantity with a measurand's name is its true value: only simulation reads it.

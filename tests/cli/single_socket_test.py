@@ -1,0 +1,96 @@
+"""The single socket method from outside: by hand, stations as rows, and what is refused.
+
+usage: single_socket_test.py path/to/gumshoe [unittest options]
+"""
+import csv
+import io
+import math
+import pathlib
+import tempfile
+import unittest
+
+from program import complaint, gumshoe
+
+SQUARE = [(150, 0, 0), (0, 150, 0), (0, 0, 150)]
+
+
+class SingleSocket(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.path = pathlib.Path(folder.name) / "points.csv"
+
+    def evaluate(self, header, rows, evaluation, model="single_socket"):
+        self.path.write_text("\n".join(",".join(map(str, row)) for row in (header, *rows)) + "\n")
+        return gumshoe("evaluate", model, "--table", self.path, "--evaluation", evaluation)
+
+    def results(self, *asked, **named):
+        run = self.evaluate(*asked, **named)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        return [{name: float(cell) for name, cell in row.items() if name != "status"}
+                for row in csv.DictReader(io.StringIO(run.stdout))]
+
+    def refused(self, part, *asked, **named):
+        run = self.evaluate(*asked, **named)
+        self.assertIsNone(complaint(run), run.stderr)
+        self.assertIn(part, run.stderr)
+
+    STATION = ["station_x (mm)", "station_y (mm)", "station_z (mm)", "length_change (mm)"]
+
+    def test_position_by_hand(self):
+        # Bars along the axes see the components; exactly, the bar along X also sees the sagitta of the other two.
+        error = (0.3, -0.4, 1.2)
+        rows = [(*at, math.dist(error, [-x for x in at]) - 150) for at in SQUARE]
+        exact, = self.results(self.STATION, rows, "position")
+        linear, = self.results(self.STATION, rows, "position_linear")
+        for axis, true, row in zip("xyz", error, rows):
+            self.assertAlmostEqual(exact[f"position_error_{axis} (mm)"], true, delta=1e-12)
+            self.assertAlmostEqual(linear[f"position_error_{axis} (mm)"], row[3], delta=1e-12)
+
+    def test_the_bar_s_own_errors(self):
+        # 150 mm that warm by 2 K grow by 3.45 um and indicate that much less; the zero adds.
+        header = [*self.STATION, "bar_zero (um)", "temperature_difference (K)"]
+        row, = self.results(header, [(150, 0, 0, 0.010, 4, 2)], "length")
+        self.assertAlmostEqual(row["length_error (um)"], 10 - 4 + 3.45, delta=1e-10)
+
+    def test_a_declared_length_is_what_changes_count_from(self):
+        header = [*self.STATION, "bar_length (mm)"]
+        rows = [(*at, d, 150) for at, d in zip(SQUARE, (0.01, 0.02, 0.03))]
+        self.assertEqual(self.results(header, rows, "position"), self.results(self.STATION, [r[:4] for r in rows], "position"))
+        self.refused("bar_length differs from the distance between station and reference", header,
+                     [(150, 0, 0, 0.01, 300)], "length")
+
+    def test_directions(self):
+        self.refused("1 stations, but a position error has three components", self.STATION, [(150, 0, 0, 0)], "position")
+        plane = [(150, 0, 0, 0), (0, 150, 0, 0), (100, 100, 0, 0)]
+        self.refused("lie in one plane: nothing determines the position error", self.STATION, plane, "position")
+        near = self.evaluate(self.STATION, [(150, 0, 0, 0), (150, 20, 0, 0), (150, 0, 20, 0)], "position")
+        self.assertIn("unfavourable: position errors are 8.7 times as uncertain", near.stderr)
+
+    def test_steps(self):
+        header = ["step", "alpha (deg)", *self.STATION]
+        both = [(s, 10 * (s - 1), *at, 0) for s in (1, 2) for at in SQUARE]
+        self.refused("the readings are of both steps, but 'position' evaluates one", header, both, "position")
+        self.refused("2 stations of step 2, but", header, both[:-1], "rrttt")
+        differ = [*both[:-1], (2, 11, *SQUARE[2], 0)]
+        self.refused("the stations of step 2 differ in angles, pivot or point", header, differ, "rrttt")
+        self.refused("step must be 1 or 2", header, [(3, 0, 150, 0, 0, 0)], "length")
+        self.refused("direction must be 1, -1 or 0", ["direction", *self.STATION], [(2, 150, 0, 0, 0)], "length")
+        self.refused("station and reference are less than 1 mm apart", self.STATION, [(0, 0, 0, 0)], "length")
+
+    def test_a_rotation_by_hand(self):
+        # A tool of 250 mm, turned by nothing; 1 um along Y is 4 urad about X against the sense of alpha's lever.
+        header = ["after_x (um)", "after_y (um)", "after_z (um)"]
+        row, = self.results(header, [(1, 1, 0)], "rrttt_linear", model="single_socket_rotation")
+        self.assertAlmostEqual(math.radians(row["d_beta (deg)"]), -4e-6, delta=1e-15)
+        self.assertAlmostEqual(math.radians(row["d_alpha (deg)"]), math.atan(4e-6), delta=1e-15)
+
+    def test_what_determines_no_angles(self):
+        header = ["beta (deg)", "after_x (mm)", "after_y (mm)", "after_z (mm)"]
+        self.refused("the ball has no lever for one of the angles", header, [(90, 0, 0, 0)], "rrttt", model="single_socket_rotation")
+        self.refused("over 1 mm from where pivot, point and angles put the ball", [*header, "nominal_x (mm)"], [(0, 0, 0, 0, 2)],
+                     "rrttt", model="single_socket_rotation")
+
+
+if __name__ == "__main__":
+    unittest.main()
