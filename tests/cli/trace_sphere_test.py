@@ -22,9 +22,9 @@ sine   = { estimated = true, value = "0 arcsec" }
 
 class TraceSphere(InFolder):
     def estimated(self, text):
-        file = self.path / "case.toml"
+        file = self.folder / "case.toml"
         file.write_text(text.replace('"data/', f'"{ROOT}/scenarios/data/'))
-        run = gumshoe("estimate", file, "--scenario-out", self.path / "out.toml", "--format", "json")
+        run = gumshoe("estimate", file, "--scenario-out", self.folder / "out.toml", "--format", "json")
         self.assertEqual(run.returncode, 0, run.stderr)
         return json.loads(run.stdout)
 
