@@ -1,5 +1,7 @@
 #include "models/made_card.h"
 
+#include <algorithm>
+
 namespace gumshoe::models {
 
 std::vector<VariableCard> MadeCard::variables(const std::vector<Symbol>& symbols) {
@@ -40,6 +42,25 @@ MadeCard::MadeCard(const CardTexts& texts) {
   }
   card_ = {keep(texts.name), keep(texts.title), keep(texts.summary), keep(texts.source), quantities_,
            conditions_,      indications_,      measurands_,         evaluations_,       {}, {}, axes_};
+}
+
+RenamedCard::RenamedCard(const ModelCard& card, const std::vector<Renamed>& renamed, std::vector<AxisCard> axes)
+    : quantities_(card.quantities.begin(), card.quantities.end()),
+      conditions_(card.conditions.begin(), card.conditions.end()), axes_(std::move(axes)), card_(card) {
+  const auto rename = [&](const auto& from, auto& rows, const Renamed& to, const auto& further) {
+    const auto at = std::ranges::find(from, to.from, &std::ranges::range_value_t<decltype(from)>::name) - from.begin();
+    if (at == std::ssize(from)) return;
+    auto& row = rows[static_cast<std::size_t>(at)];
+    row.name = keep(to.name);
+    if (!to.meaning.empty()) row.meaning = keep(to.meaning);
+    further(row);
+  };
+  for (const Renamed& to : renamed) {
+    rename(card.quantities, quantities_, to, [&](QuantityCard& q) { q.default_value = to.default_value; });
+    rename(card.conditions, conditions_, to, [](VariableCard&) {});
+  }
+  for (AxisCard& axis : axes_) axis.name = keep(std::string(axis.name));
+  card_.quantities = quantities_, card_.conditions = conditions_, card_.axes = axes_;
 }
 
 } // namespace gumshoe::models

@@ -35,4 +35,27 @@ private:
   ModelCard card_{};
 };
 
+/// Another name, meaning or default of a quantity, condition or axis of a card.
+struct Renamed {
+  std::string from, name, meaning = {}; ///< an empty meaning stays
+  double default_value = 0;             ///< of a quantity
+};
+
+/// A copy of a model's card for another machine: some rows renamed, other axes, all else as it is.
+class RenamedCard {
+public:
+  RenamedCard(const ModelCard& card, const std::vector<Renamed>& renamed, std::vector<AxisCard> axes);
+  RenamedCard(const RenamedCard&) = delete;
+  RenamedCard& operator=(const RenamedCard&) = delete;
+  const ModelCard& card() const { return card_; }
+
+private:
+  std::string_view keep(const std::string& text) { return texts_.emplace_back(text); }
+  std::deque<std::string> texts_;
+  std::vector<QuantityCard> quantities_;
+  std::vector<VariableCard> conditions_;
+  std::vector<AxisCard> axes_;
+  ModelCard card_;
+};
+
 } // namespace gumshoe::models
