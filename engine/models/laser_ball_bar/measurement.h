@@ -1,0 +1,176 @@
+#pragma once
+/// One reading of three laser ball bars: the tool as the machine moves it, the bars from the sockets to its ball, and
+/// their lengths as read. Source: Schmitz and Ziegert 1999, sections 2 and 3, appendix A.
+#include "chain/ball_bar.h"
+#include "chain/contour.h"
+#include "chain/contouring.h"
+#include "models/laser_ball_bar/card.h"
+#include "models/laser_ball_bar/trilateration.h"
+#include "models/model.h"
+#include "models/reading.h"
+
+namespace gumshoe::models::laser_ball_bar {
+
+/// The names of the card's rows.
+struct Rows {
+  GUMSHOE_NAMED(Quantities, base_length_1, base_length_2, base_length_3, Z_motion_x, Z_motion_y, Z_motion_z, X_motion_x,
+                X_motion_y, X_motion_z, origin_x, origin_y, origin_z, initialisation_1, initialisation_2,
+                initialisation_3, fixture_length_12, fixture_length_23, fixture_offset, form_1, form_2, form_3,
+                axis_offset_1, axis_offset_2, axis_offset_3, wavelength_error, expansion, temperature_difference, skew_1,
+                skew_2, skew_3, loop_gain, damping);
+  GUMSHOE_NAMED(Conditions, contour, x, y, z, size, angle, elevation, sense, feed, acceleration, jerk, order, time,
+                contour_start, settling, motion);
+  GUMSHOE_NAMED(Indications, length_1, length_2, length_3);
+  GUMSHOE_NAMED(Measurands, tool_x, tool_y, tool_z, contour_error, plane_error, following_error);
+};
+using Q = Rows::QuantitiesRow;
+template <class T> using At = Reading<Rows, T>;
+
+inline constexpr double settled = 1; ///< s after a contour's end at which the slides have come to rest
+
+template <class T> chain::Contour contour_of(const Rows::Conditions<T>& c) {
+  const auto value = [](const T& x) { return num::value(x); };
+  return {static_cast<chain::ContourKind>(static_cast<int>(value(c.contour))),
+          {value(c.x), value(c.y), value(c.z)},
+          {value(c.angle), value(c.elevation)},
+          value(c.size),
+          value(c.sense),
+          value(c.feed),
+          value(c.acceleration),
+          value(c.jerk)};
+}
+
+/// Sockets at their present temperature.
+template <class T> Sockets<T> sockets(const Rows::Quantities<T>& q) {
+  const T growth = 1.0 + q.expansion * q.temperature_difference;
+  return sockets<T>(growth * q.base_length_1, growth * q.base_length_2, growth * q.base_length_3);
+}
+
+template <class T> Vector3<T> z_motion(const Rows::Quantities<T>& q) { return {q.Z_motion_x, q.Z_motion_y, q.Z_motion_z}; }
+template <class T> Vector3<T> x_motion(const Rows::Quantities<T>& q) { return {q.X_motion_x, q.X_motion_y, q.X_motion_z}; }
+/// Turns coordinates along the machine's axes into those of the bars' frame: columns n_x, n_y, n_z (eq A1).
+template <class T> Matrix3<T> bars_from_machine(const Rows::Quantities<T>& q) {
+  const Vector3<T> n_z = normalised(z_motion(q)), n_y = normalised(cross(n_z, x_motion(q)));
+  return {cross(n_y, n_z), n_y, n_z};
+}
+
+/// The machine at the moment of a reading, as the quantities and the freed effects predict it.
+template <class T> struct Moment {
+  chain::Motion<Vector3<T>> tool; ///< in machine coordinates
+  Vector3<T> ball;                ///< of the ball that the bars meet, from the tool: the bracket gives way, m
+  T delay = T(0.0);               ///< of reading all bars, s
+};
+template <class T> Moment<T> moment(const At<T>& at) {
+  const chain::Contour contour = contour_of(at.c);
+  const double time = num::value(at.c.time);
+  const int order = static_cast<int>(num::value(at.c.order));
+  const auto servo = [&](const T& gain_error) {
+    return chain::Servo<T>(order, at.q.loop_gain * (1.0 + gain_error), at.q.damping);
+  };
+  Moment<T> now{contour.follow(servo(T(0.0)), time), {}};
+  if (!at.freed.any()) return now;
+
+  chain::Contouring<T> contouring;
+  chain::ProbingEvent<T> event;
+  event.contouring = &contouring;
+  event.time = at.c.contour_start + at.c.time;
+  // The axis turns round when its command has done so, later by the lag.
+  const T lag = 1.0 / at.q.loop_gain;
+  const auto slide = [&](int i, const T& position, const T& velocity, chain::Slide<T>& s, chain::Following<T>& f) {
+    const auto side = contour.direction(i, time - num::value(lag));
+    s.position = position, s.direction = T(side.sign), s.feed = num::abs(velocity);
+    if (side.reversed >= 0) f.since_reversal = (time - side.reversed) - lag;
+  };
+  const auto &p = now.tool.position, &v = now.tool.velocity;
+  slide(0, p.x, v.x, event.x, contouring.x), slide(1, p.y, v.y, event.y, contouring.y);
+  slide(2, p.z, v.z, event.z, contouring.z);
+  at.freed.act(event);
+
+  const chain::Servo<T> servos[] = {servo(contouring.x.gain_error), servo(contouring.y.gain_error),
+                                    servo(contouring.z.gain_error)};
+  now.tool = contour.follow(servos, time);
+  const auto actual = [](const T& x, const chain::Slide<T>& s) { return x * (1.0 + s.scale) + s.error; };
+  now.tool.position = {actual(now.tool.position.x, event.x), actual(now.tool.position.y, event.y),
+                       actual(now.tool.position.z, event.z)};
+  now.ball = -contouring.compliance * now.tool.acceleration;
+  now.delay = contouring.delay;
+  return now;
+}
+
+template <class T> Vector3<T> origin(const Rows::Quantities<T>& q) { return {q.origin_x, q.origin_y, q.origin_z}; }
+
+/// Lengths of the bars with the ball at a point in the bars' frame, m.
+template <class T> Distances<T> distances(const Sockets<T>& s, const Vector3<T>& ball) {
+  return {norm(from_socket(s, 0, ball)), norm(from_socket(s, 1, ball)), norm(from_socket(s, 2, ball))};
+}
+
+/// What the bars read of their lengths, and the inverse.
+template <class T> class Bars {
+public:
+  Bars(const Rows::Quantities<T>& q, const Sockets<T>& sockets, const Moment<T>& now) : q_(q) {
+    const auto short_by = [&](const T& along) {
+      const T h2 = q.fixture_offset * q.fixture_offset;
+      return h2 / (along + num::sqrt(along * along + h2));
+    };
+    const T fixture = short_by(q.fixture_length_12) + short_by(q.fixture_length_23);
+    const auto turn = bars_from_machine(q);
+    const Vector3<T> ball = turn * (origin(q) + now.tool.position + now.ball), velocity = turn * now.tool.velocity;
+    for (int i = 0; i < 3; ++i) {
+      const Vector3<T> bar = from_socket(sockets, i, ball);
+      chain::BallBar<T> as_read;
+      as_read.speed = dot(bar, velocity) / norm(bar);
+      as_read.zero = of(Q::initialisation_1, i) + of(Q::form_1, i) - fixture;
+      as_read.skew = of(Q::skew_1, i) + now.delay;
+      error_[i] = chain::indication_error(as_read);
+    }
+  }
+  Distances<T> read(const Distances<T>& l) const { return {read(0, l.to_1), read(1, l.to_2), read(2, l.to_3)}; }
+  Distances<T> actual(const Distances<T>& l) const { return {actual(0, l.to_1), actual(1, l.to_2), actual(2, l.to_3)}; }
+
+private:
+  /// Of three rows of the card, the one of bar i.
+  const T& of(std::size_t first, int i) const { return array_of(q_)[first + static_cast<std::size_t>(i)]; }
+  T read(int i, const T& length) const {
+    const T& h = of(Q::axis_offset_1, i);
+    return num::sqrt((length - h) * (length + h)) * (1.0 + q_.wavelength_error) + error_[i];
+  }
+  T actual(int i, const T& read) const {
+    const T &h = of(Q::axis_offset_1, i), beam = (read - error_[i]) / (1.0 + q_.wavelength_error);
+    return num::sqrt(beam * beam + h * h);
+  }
+
+  const Rows::Quantities<T>& q_;
+  T error_[3];
+};
+
+template <class T>
+Rows::Measurands<T> measurands(const Vector3<T>& from_socket_1, const At<T>& at) {
+  const auto d = contour_of(at.c).deviation(from_socket_1 - origin(at.q), num::value(at.c.time));
+  return {from_socket_1.x, from_socket_1.y, from_socket_1.z, d.normal, d.plane, d.following};
+}
+
+template <class T> Simulated<Rows, T> simulate(const At<T>& at, Outcome<T>& outcome) {
+  const auto now = moment(at);
+  const auto base = sockets(at.q);
+  const Vector3<T> tool = origin(at.q) + now.tool.position, ball = bars_from_machine(at.q) * (tool + now.ball);
+  outcome.refuse(!(ball.z > T(0.0))); // the tool is not above the plane of the sockets
+  const auto read = Bars<T>(at.q, base, now).read(distances(base, ball));
+  return {{read.to_1, read.to_2, read.to_3}, measurands(tool, at)};
+}
+
+template <class T>
+Rows::Measurands<T> evaluate(const At<T>& at, const Rows::Indications<T>& read, Outcome<T>& outcome) {
+  if (at.evaluation == commanded) {
+    const auto p = contour_of(at.c).commanded(num::value(at.c.time));
+    const Vector3<T> tool = origin(at.q) + Vector3<T>{T(p.x), T(p.y), T(p.z)};
+    return {tool.x, tool.y, tool.z, T(0.0), T(0.0), T(0.0)};
+  }
+  const auto now = moment(at);
+  const auto base = sockets(at.q);
+  const auto lengths = Bars<T>(at.q, base, now).actual({read.length_1, read.length_2, read.length_3});
+  const Vector3<T> ball = trilaterate(base, lengths);
+  outcome.refuse(!(ball.z >= T(0.0))); // no point has these distances from the three sockets
+  return measurands<T>(transposed(bars_from_machine(at.q)) * ball - now.ball, at);
+}
+
+} // namespace gumshoe::models::laser_ball_bar
