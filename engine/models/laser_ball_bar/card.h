@@ -135,7 +135,7 @@ inline constexpr EquationCard circle_equations[] = {
     {"sum(norm(tool_i - centre - a * cos(phi_i) - b * sin(phi_i))^2) = minimum",
      "i: readings at constant feed; phi: commanded angle; centre, a, b: in the circle's plane; the axes are those of this ellipse"},
 };
-inline constexpr std::string_view per_reading = "0", once = "size / feed + retract";
+inline constexpr std::string_view per_reading = "0 * retract", once = "size / feed + retract";
 inline constexpr EvaluationCard evaluation_cards[] = {
     {.name = "full", .meaning = "trilateration from three bars at once, Schmitz and Ziegert 1999",
      .time_per_reading = per_reading, .time_once = once, .equations = full_equations},
