@@ -67,13 +67,12 @@ def standard_uncertainties(program, u):
     return [[math.sqrt(s) for s in total] for total in sums]
 
 
-def skews(program, skew, bar=1):
-    """Largest component of the error over directions in space at every point of the grid, um: tool passes through it."""
+def skews(program, skew, grid, elevations, bar=1):
+    """Largest component of the error at points that a tool passes at the fast feed in any azimuth, um."""
     out = []
-    for p in GRID:
-        worst = 0.0
-        for elevation in (-60, -30, 0, 30, 60, 90):
-            for angle in range(0, 360, 30):
+    for p in grid:
+        for elevation in elevations:
+            for angle in range(0, 360, 15):
                 # At 1 s a line has come s = feed (1 - ramp/2) minus the lag; it starts that far before the point.
                 s = FAST / 60 * (1 - FAST / 60 / 980 / 2 - 1 / 30)
                 a, e = math.radians(angle), math.radians(elevation)
@@ -99,7 +98,8 @@ def page(program):
     u = standard_uncertainties(program, 0.5)
     low, high = min(map(min, u)), max(map(max, u))
     range_of = [(min(row[k] for row in u), max(row[k] for row in u)) for k in range(3)]
-    skew = skews(program, 100)
+    middle = [p for p in GRID if not (p["x (mm)"] or p["y (mm)"] or p["z (mm)"])]
+    skew, worst_skew = skews(program, 100, middle, [0]), skews(program, 100, GRID, range(-90, 91, 15))
     lag = FAST / 60 / 30
     rows = [
         ("section 3", "35 to 70 in/min", "889 to 1778 mm/min", f"{35 * 25.4:.0f} to {70 * 25.4:.0f} mm/min", "agrees"),
@@ -110,15 +110,15 @@ def page(program):
          "agrees; gains of 30 and 33 1/s are inferred, the paper prints none. The two figures also differ in acceleration, which the steady offset does not know"),
         ("section 3.6, fig. 18", "major axis of the ellipse", "45° counter-clockwise from +Y",
          f"{as_printed['major_angle (deg)'] % 180:.2f}° from +X for K_x = 33, K_y = 30; {other['major_angle (deg)'] % 180:.2f}° the other way round",
-         "agrees if K_x > K_y, which the paper does not say"),
+         "agrees if K_x > K_y, which the paper does not say; half a degree is half the lag v/(K R), second order"),
         ("section 3.6, fig. 18", "elliptical distortion at 1778 mm/min", "drawn times 5, no number",
          f"range {1000 * as_printed['peak_to_valley (mm)']:.1f} µm; axes differ by {1000 * as_printed['axis_difference (mm)']:.1f} µm",
          "v abs(1/K_x − 1/K_y) = 89.8 µm"),
         ("abstract, section 5", "accuracy of the system", "±1 µm",
          f"u = {low:.2f} to {high:.2f} µm per axis over 300 mm × 300 mm × 200 mm, for 0.5 µm per length",
          "holds as a standard uncertainty, not as a bound: k = 2 is up to " + f"{2 * high:.1f} µm"),
-        ("section 3", "sampling", "1 kHz", f"{FAST / 60:.1f} µm of path per sample at 1778 mm/min; 0.1 ms on one bar moves the tool by up to {skew:.2f} µm",
-         "the paper does not say how well the three bars are synchronised; it matters more than ±1 µm above 0.06 ms"),
+        ("section 3", "sampling", "1 kHz", f"{FAST / 60:.1f} µm of path per sample at 1778 mm/min; 0.1 ms on one bar falsify a coordinate by up to {skew:.2f} µm in the middle of the volume on planar paths, {worst_skew:.2f} µm anywhere in any direction",
+         f"the paper does not say how well the three bars are synchronised; ±1 µm on planar paths needs {100 / skew:.0f} µs"),
         ("section 2", "deflection of the bracket under maximum loads", "about 1 µm",
          "0.2 µm/(m/s²) × 4.91 m/s² = 0.98 µm", "effect `bracket_inertia`, if the load is inertia"),
         ("section 2, fig. 3", "initialisation: L₁₃ − L₁₂ is taken for L₂₃", "no error stated",
@@ -130,7 +130,7 @@ def page(program):
         ("section 3", "reference instrument", "±2 µm, resolution 4 nm", "–",
          "agreement with a reference of ±2 µm cannot prove ±1 µm"),
         ("appendix A", "n_y = n_z × V_x normalised, n_x = n_y × n_z", "right-handed", "right-handed", "agrees; squareness of X to Z stays visible, that of X to Y is put on Y"),
-        ("section 2, fig. 4", "L_B1, L_B2, L_B3", "L_B1 = |12|; others only in the figure", "|12|, |23|, |31|", "ours"),
+        ("section 2, fig. 4", "L_B1, L_B2, L_B3", "L_B1: sockets 1 and 2; others only in the figure", "sockets 1 and 2, 2 and 3, 3 and 1", "our reading"),
     ]
     text = ["# Schmitz and Ziegert 1999: laser ball bars", "",
             "Written by `reports/reproduction/ball_bars.py` from `gumshoe evaluate laser_ball_bar`; do not edit.", "",

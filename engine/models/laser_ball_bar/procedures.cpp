@@ -30,13 +30,13 @@ Vector best_line(const std::vector<Vector>& points) {
   return dot(line, points.back() - points.front()) < 0 ? -line : line;
 }
 
-std::vector<Vector> along(int direction, const Points<double>& all, const std::vector<Measured>& found) {
+std::vector<Vector> along(double direction, const Points<double>& all, const std::vector<Measured>& found) {
   std::vector<Vector> out;
   for (std::size_t r = 0; r < all.size(); ++r)
     if (all.at[r].c.motion == direction) out.push_back(position(found[r]));
   return out;
 }
-enum { along_X = 1, along_Z = 3 };
+constexpr double along_X = 1, along_Z = 3; ///< the condition `motion`
 
 /// Readings at constant feed, when the slides have settled there.
 std::vector<std::size_t> steady(const Points<double>& all) {
@@ -87,8 +87,8 @@ FrameRows::Measurands<double> MachineFrame::of(const Points<double>& all, const 
 std::string MachineFrame::check(const Points<double>& all) {
   for (const auto& [direction, letter] : {std::pair{along_Z, 'Z'}, {along_X, 'X'}})
     if (std::ranges::count_if(all.at, [&](const auto& at) { return at.c.motion == direction; }) < 2)
-      return fmt::format("a line along {} needs two points or more; their condition motion must be {}", letter,
-                         static_cast<int>(direction));
+      return fmt::format("a line along {} needs two points or more; their condition motion must be {:g}", letter,
+                         direction);
   return "";
 }
 
