@@ -95,8 +95,8 @@ def final_blocks(rng, blocks):
     return tuple(sorted(rng.choice([str(b) for b in range(2, blocks + 1)], 2, replace=False))) if blocks > 3 else ()
 
 
-def evaluate(program, model, columns, outputs):
-    """Indications in mm by `gumshoe evaluate` at the points of a table: {"name (unit)": array} -> (n, len(outputs))."""
+def evaluate(program, model, columns, outputs, unit="mm"):
+    """Indications by `gumshoe evaluate` at the points of a table: {"name (unit)": array} -> (n, len(outputs))."""
     names = list(columns)
     text = ",".join(names) + "\n" + "\n".join(",".join(map(repr, row)) for row in np.column_stack(
         [np.asarray(columns[n], float) for n in names]).tolist()) + "\n"
@@ -107,7 +107,7 @@ def evaluate(program, model, columns, outputs):
     if run.returncode:
         raise RuntimeError(f"gumshoe evaluate {model}: {run.stderr[:500]}")
     rows = list(csv.DictReader(io.StringIO(run.stdout)))
-    return np.array([[float(row[f"{o} (mm)"]) for o in outputs] for row in rows])
+    return np.array([[float(row[f"{o} ({unit})"]) for o in outputs] for row in rows])
 
 
 def by_program(program, d, outputs, vectors, extra=()):

@@ -20,6 +20,7 @@ sys.path[:0] = [str(HERE), str(HERE.parent / "cli")]
 import mills
 import rods
 import sets
+import sockets
 import spheres
 from design import evaluate
 from noise import noise
@@ -37,6 +38,13 @@ class Generator(unittest.TestCase):
         difference = spheres.simulate(None, d, [q])[0] / 1e3 - evaluate(GUMSHOE, "sphere_calibration", columns, "XYZ")
         self.assertLess(np.abs(difference).max(), 1e-11)  # mm
 
+    def test_the_bar_written_anew_is_the_engines(self):
+        d = sockets.design(sets.stream(5))
+        q = d.values() + np.array([0.3 * c.u * (i % 3 - 1) for i, c in enumerate(d.cells)])
+        columns = {f"{n} ({u})": x for (n, u), x in d.gather(q).items()} | {f"{s} (mm)": d.value(s) for s in sockets.STATION}
+        difference = sockets.simulate(None, d, [q])[0] - evaluate(GUMSHOE, "single_socket", columns, sockets.OUTPUTS, "um")
+        self.assertLess(np.abs(difference).max(), 1e-8)  # um
+
     def test_noise_is_what_it_is_called(self):
         order, n = np.arange(40_000.0), 40_000
         for kind, correlation, share_beyond_4 in (("white", 0, 6.3e-5), ("ar03", 0.3, 6.3e-5), ("ar06", 0.6, 6.3e-5), ("t3", 0, 6.2e-3), ("outliers", 0, 0.02)):
@@ -49,7 +57,7 @@ class Generator(unittest.TestCase):
                 self.assertAlmostEqual(np.mean(e * e) / 0.25, 1, delta=5 * spread, msg=kind)
 
     def test_residuals_of_nulls_are_of_the_declared_size(self):
-        for system in (rods, spheres):
+        for system in (rods, spheres, sockets):
             squares = freedom = 0
             for seed in range(1, 6):
                 d, y, _ = sets.make(GUMSHOE, system, "null", "", 0, seed)
@@ -66,7 +74,7 @@ class Generator(unittest.TestCase):
             self.assertGreater(truth["effects"][0]["power_catalogue"], 0.9)
 
     def test_aliases_are_aliases(self):
-        for system in (rods, mills, spheres):
+        for system in (rods, mills, spheres, sockets):
             for i, (_, name, members) in enumerate(system.ALIASES):
                 effect = sets.make(GUMSHOE, system, "alias", i, 15, 2)[2]["effects"][0]
                 if members:
@@ -171,12 +179,13 @@ class Trace(unittest.TestCase):
         return score(verdict, truth), verdict
 
     def test_silent_on_nulls(self):
-        # At 0.05 each, two or more of six come in three of a hundred such selections.
-        alarms = [(s.MODEL, seed) for s in (rods, mills, spheres) for seed in (11, 12) if self.judged(s, "null", "", 0, seed)[0]["found"]]
+        # At 0.05 each, two or more of eight come in six of a hundred such selections.
+        alarms = [(s.MODEL, seed) for s in (rods, mills, spheres, sockets) for seed in (11, 12) if self.judged(s, "null", "", 0, seed)[0]["found"]]
         self.assertLessEqual(len(alarms), 1, alarms)
 
     def test_names_what_is_plain_to_see(self):
-        for system, what in ((rods, "trigger_latency"), (mills, "spindle_axial_shift"), (spheres, "c_axis_reversal")):
+        for system, what in ((rods, "trigger_latency"), (mills, "spindle_axial_shift"), (spheres, "c_axis_reversal"),
+                             (sockets, "bracket_deflection"), (sockets, "bar_drift")):
             with self.subTest(system.MODEL):
                 found, verdict = self.judged(system, "single", what, 15, 11)
                 self.assertEqual(found["naming"], 1, verdict["findings"])

@@ -8,12 +8,13 @@ import numpy as np
 
 import mills
 import rods
+import sockets
 import spheres
 from noise import noise
 from oracle import Oracle, power
 from scenario_text import readings_csv, scenario_toml
 
-SYSTEMS = {m.MODEL: m for m in (rods, mills, spheres)}
+SYSTEMS = {m.MODEL: m for m in (rods, mills, spheres, sockets)}
 NULLS = ("white", "ar03", "ar06", "t3", "outliers", "quantised", "clamp_declared", "clamp_undeclared")
 STRENGTHS = (3, 5, 8, 15)
 # Development seeds are below, judgement seeds from here on; no number is both.
