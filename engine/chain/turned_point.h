@@ -23,21 +23,31 @@ template <class T> struct TurnedPoint {
   Angles<T> commanded;
 };
 
+/// Right-handed turns about X, Y and Z.
+template <class T> Vector3<T> about_x(const T& angle, const Vector3<T>& v) {
+  const T c = num::cos(angle), s = num::sin(angle);
+  return {v.x, c * v.y - s * v.z, s * v.y + c * v.z};
+}
+template <class T> Vector3<T> about_y(const T& angle, const Vector3<T>& v) {
+  const T c = num::cos(angle), s = num::sin(angle);
+  return {c * v.x + s * v.z, v.y, c * v.z - s * v.x};
+}
+template <class T> Vector3<T> about_z(const T& angle, const Vector3<T>& v) {
+  const T c = num::cos(angle), s = num::sin(angle);
+  return {c * v.x - s * v.y, s * v.x + c * v.y, v.z};
+}
+
+/// The place of a point from the pivot before the turn about X, m.
+template <class T>
+Vector3<T> place_before_alpha(const TurnedPoint<T>& at, const Vector3<T>& point, const Angles<T>& by) {
+  if (at.turn == Turn::RTTTR_table) return point;
+  if (at.turn == Turn::TTTRR) return about_z(by.gamma, point) + Vector3<T>{T(0.0), T(0.0), at.z_alpha_gamma};
+  return about_y(by.beta, point);
+}
 /// The place of a point from the pivot, m.
 template <class T> Vector3<T> place(const TurnedPoint<T>& at, const Vector3<T>& point, const Angles<T>& by) {
-  const T zero(0.0);
-  const auto x = rotation(by.alpha, zero, zero);
-  switch (at.turn) {
-  case Turn::RRTTT:
-    return x * (rotation(zero, by.beta, zero) * point);
-  case Turn::TTTRR:
-    return x * (rotation(zero, zero, by.gamma) * point + Vector3<T>{zero, zero, at.z_alpha_gamma});
-  case Turn::RTTTR_head:
-    return rotation(zero, by.beta, zero) * point;
-  case Turn::RTTTR_table:
-    break;
-  }
-  return x * point;
+  const Vector3<T> p = place_before_alpha(at, point, by);
+  return at.turn == Turn::RTTTR_head ? p : about_x(by.alpha, p);
 }
 template <class T> Vector3<T> place(const TurnedPoint<T>& at, const Angles<T>& by) { return place(at, at.point, by); }
 
@@ -62,10 +72,7 @@ template <class T> T other_component(const T& known, const T& other, const T& no
 /// - RTTTR: the direction of `found` square to the axis
 template <class T> Angles<T> angle_errors(const TurnedPoint<T>& at, const Vector3<T>& found) {
   using detail::angle, detail::other_component;
-  const T& alpha = at.commanded.alpha;
-  TurnedPoint<T> inner = at; // with all but the turn about X
-  inner.commanded.alpha = T(0.0);
-  Vector3<T> p = place(inner, inner.commanded);
+  Vector3<T> p = place_before_alpha(at, at.point, at.commanded);
   Angles<T> error;
   if (at.turn == Turn::RRTTT) {
     p = num::sqrt(dot(found, found) / dot(p, p)) * p;
@@ -82,7 +89,7 @@ template <class T> Angles<T> angle_errors(const TurnedPoint<T>& at, const Vector
     error.beta = angle(p.z, p.x, found.z, found.x);
     return error;
   }
-  p = rotation(alpha, T(0.0), T(0.0)) * p;
+  p = about_x(at.commanded.alpha, p);
   error.alpha = angle(p.y, p.z, found.y, at.turn == Turn::TTTRR ? other_component(p.y, p.z, found.y) : found.z);
   return error;
 }
@@ -105,12 +112,10 @@ template <class T> Angles<T> linear_angle_errors(const TurnedPoint<T>& at, const
     return error;
   }
   // The source's point lies on the spindle; here it may lie beside it.
-  TurnedPoint<T> inner = at;
-  inner.commanded.alpha = T(0.0);
-  Vector3<T> p = place(inner, inner.commanded);
+  Vector3<T> p = place_before_alpha(at, at.point, at.commanded);
   error.beta = (found.x - p.x) / p.z;
   p.z = p.z - error.beta * p.x;
-  const Vector3<T> q = rotation(alpha, T(0.0), T(0.0)) * p;
+  const Vector3<T> q = about_x(alpha, p);
   if (at.turn == Turn::RRTTT) error.alpha = (q.y * found.z - q.z * found.y) / (q.y * found.y + q.z * found.z);
   return error;
 }
@@ -118,9 +123,7 @@ template <class T> Angles<T> linear_angle_errors(const TurnedPoint<T>& at, const
 /// Length of the smallest lever by which an angle acts on the equations that are solved, m: 0 where they do not
 /// determine the angles.
 template <class T> T smallest_lever(const TurnedPoint<T>& at) {
-  TurnedPoint<T> inner = at;
-  inner.commanded.alpha = T(0.0);
-  const Vector3<T> p = place(inner, inner.commanded), q = place(at, at.commanded);
+  const Vector3<T> p = place_before_alpha(at, at.point, at.commanded), q = about_x(at.commanded.alpha, p);
   const auto less = [](const T& a, const T& b) { return T(0.5) * (a + b - num::abs(a - b)); };
   switch (at.turn) {
   case Turn::RRTTT:

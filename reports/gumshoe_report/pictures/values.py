@@ -11,6 +11,7 @@ class Values:
         for row in r.inputs:
             self.rows.setdefault(row.name, row)  # of several labels the first
         self.conditions, self.units = (vars(r.readings[0]) if r.readings else {}), r.reading_units
+        self.readings = [vars(reading) for reading in r.readings or []]
         self.outputs = {o.measurand: o for o in reversed(r.outputs)}
         self.axes = r.axes
         self.of_labels = list(dict.fromkeys(row.labels for row in self.rows.values() if row.labels))
