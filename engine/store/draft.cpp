@@ -122,7 +122,7 @@ std::string Draft::add(const Claim& claim) {
 
 std::string Draft::add(const Claim& claim, const std::string& text) {
   return naming(claim.path(), [&] {
-    const std::string name = add(claim);
+    std::string name = add(claim);
     std::FILE* file = std::fopen(name.c_str(), "wb");
     const bool wrote = file && std::fwrite(text.data(), 1, text.size(), file) == text.size();
     const bool closed = file && std::fclose(file) == 0;
