@@ -107,8 +107,8 @@ Node& ScenarioText::quantity(const std::string& name) {
   const std::size_t dot = name.find('.');
   if (dot == std::string::npos) return member(member(document_, "quantities"), name);
   const std::string effect = name.substr(0, dot);
-  const bool stated = std::ranges::find(scenario_.stated_effects, effect, &scenario::StatedEffect::name) !=
-                      scenario_.stated_effects.end();
+  Node* effects = find_member(document_, "stated_effects");
+  const bool stated = effects && find_member(*effects, effect);
   return member(member(member(document_, stated ? "stated_effects" : "effects"), effect), name.substr(dot + 1));
 }
 

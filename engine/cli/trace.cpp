@@ -1,5 +1,6 @@
 /// `gumshoe trace`: what is left after the model is fitted, and which effect that the scenario lacks explains it?
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -14,11 +15,11 @@
 #include "cli/generator.h"
 #include "cli/print_trace.h"
 #include "cli/progress_line.h"
+#include "cli/trace_rounds.h"
 #include "cli/traced_budgets.h"
 #include "store/origin.h"
 #include "store/trace_file.h"
 #include "tracing/findings/verdict_json.h"
-#include "tracing/scenario_out/traced_scenario.h"
 
 namespace gumshoe::cli {
 
@@ -27,7 +28,7 @@ namespace {
 struct Options {
   std::string file, data, out, json, report, format = "text";
   std::optional<std::string> draws, seed;
-  int threads = 0;
+  int threads = 0, loop = 1;
   bool force = false;
 };
 
@@ -67,34 +68,30 @@ Outputs claimed_outputs(const Options& o, const scenario::Scenario& s) {
           text(o.report, "report")};
 }
 
-/// Adds the scenario with what was found, and fills the budgets of both. False if there is none; an older one is
-/// removed, since it would tell of other data.
-bool close_loop(const scenario::Scenario& s, tracing::Trace& found, const Outputs& out, store::Draft& draft,
+/// Adds the scenario with what was found, and fills the budgets of both. Without one an older one is removed, since it
+/// would tell of other data.
+void close_loop(const scenario::Scenario& s, const std::string& text, const Outputs& out, store::Draft& draft,
                 store::TracedBudgets& budgets) {
-  const std::filesystem::path folder = std::filesystem::path(out.scenario.path()).parent_path();
-  const std::string text = tracing::traced_scenario(s, found, folder.string());
-  bool readable = !text.empty();
-  if (readable) {
-    store::Draft trial; // read again before it counts
-    try {
-      budgets = traced_budgets(s, scenario::read(trial.add(out.scenario, text), catalogue()));
-    } catch (const InputError& error) {
-      readable = false;
-      for (const Problem& p : error.problems())
-        found.statements.push_back("no traced scenario is written, because it could not be read: " + p.what +
-                                   (p.why.empty() ? "" : " (" + p.why + ")"));
-    }
+  if (text.empty()) return draft.remove(out.scenario);
+  {
+    store::Draft trial; // ends before the file itself is drafted
+    budgets = traced_budgets(s, scenario::read(trial.add(out.scenario, text), catalogue()));
   }
-  if (readable)
-    draft.add(out.scenario, store::signed_scenario(text, out.origin));
-  else
-    draft.remove(out.scenario);
-  return readable;
+  draft.add(out.scenario, store::signed_scenario(text, out.origin));
 }
 
-/// The verdict with the signature by which the file may be replaced.
-std::string signed_verdict(const tracing::Trace& found, const store::Origin& origin) {
-  auto verdict = nlohmann::ordered_json::parse(tracing::verdict_json(found));
+/// The verdict with the rounds, and with the signature by which the file may be replaced.
+std::string signed_verdict(const Rounds& rounds, const store::Origin& origin) {
+  auto verdict = nlohmann::ordered_json::parse(tracing::verdict_json(rounds.first));
+  const auto number = [](double x) { return std::isfinite(x) ? nlohmann::ordered_json(x) : nlohmann::ordered_json(); };
+  for (const Round& r : rounds.table)
+    verdict["rounds"].push_back({{"added", r.added},
+                                 {"before", number(r.rms.before)},
+                                 {"after", number(r.rms.after)},
+                                 {"holdout_before", number(r.rms.holdout_before)},
+                                 {"holdout_after", number(r.rms.holdout_after)},
+                                 {"noise", number(r.rms.noise)},
+                                 {"vetoed", r.vetoed}});
   verdict["made_by"] = store::signature(origin);
   return verdict.dump(2) + '\n';
 }
@@ -110,14 +107,14 @@ ExitCode trace(const Options& o) {
   const ModelCard& card = s.made ? *s.made->card : *models::find(s.model)->card;
   ProgressLine line;
   const StudyProgress studies(line);
-  tracing::Trace found = tracing::trace(s, {o.threads, progress::stage});
+  const Rounds rounds = trace_rounds(s, {o.threads, progress::stage}, outputs.scenario, o.loop);
   line.clear();
   store::TracedBudgets budgets;
   store::Draft draft;
-  const bool closed = close_loop(s, found, outputs, draft, budgets);
-  store::write_trace(draft, outputs.result, s, card, found, budgets);
+  close_loop(s, rounds.text, outputs, draft, budgets);
+  store::write_trace(draft, outputs.result, s, card, rounds.first, budgets);
   std::vector<std::string> written{out};
-  const std::string verdict = signed_verdict(found, outputs.origin);
+  const std::string verdict = signed_verdict(rounds, outputs.origin);
   if (!o.json.empty()) {
     draft.add(outputs.json, verdict);
     written.push_back(o.json);
@@ -132,7 +129,8 @@ ExitCode trace(const Options& o) {
   if (o.format == "json")
     std::cout << verdict;
   else
-    print_trace(found, s.title, written, closed ? outputs.scenario.path() : "");
+    print_trace(rounds.first, s.title, written, rounds.text.empty() ? "" : outputs.scenario.path());
+  if (o.format != "json" && o.loop > 1) std::cout << table(rounds.table);
   return code;
 }
 
@@ -150,6 +148,8 @@ void add_trace(CLI::App& app, Action& action) {
   command->add_option("--report", o->report, "file for the report, one HTML page");
   command->add_option("--draws", o->draws, "seed of the bootstrap, instead of the scenario's");
   command->add_option("--seed", o->seed, "instead of the scenario's");
+  command->add_option("--loop", o->loop, "traces again what was written, until nothing is added, at most so many times")
+      ->check(CLI::Range(1, 20));
   command->add_option("--threads", o->threads, "0: all processors")->check(CLI::Range(0, 1024));
   command->add_option("--format", o->format, "text or json")->check(CLI::IsMember({"text", "json"}));
   command->callback([=, &action] { action = [=] { return trace(*o); }; });

@@ -8,6 +8,7 @@
 #include "base/dimension.h"
 #include "formula/compile.h"
 #include "formula/interpreter.h"
+#include "scenario/loading_table.h"
 #include "scenario/option.h"
 #include "scenario/quantity.h"
 
@@ -22,8 +23,9 @@ Options<StatedEffect> stated_effect_options() {
   return {
       by_hand("indication", shape::text(), "indication to which the effect is added; required if there are several"),
       by_hand("formula", R"("type": ["string", "number"])", "formula of conditions and columns of [trace.columns], in "
-                                                            "SI units")
-          .needed("formula = \"1 / feed\""),
+                                                            "SI units"),
+      by_hand("table", loading_table_shape(), "instead of a formula: its values at levels of conditions and columns, linear "
+                                              "between the levels of one; elsewhere there is no value"),
       by_hand("unit", shape::text(), "unit of the size; size times formula has the dimension of the indication")
           .needed("unit = \"um\""),
       by_hand("size", shape::reference("quantity"), "size of the effect; default: its null value, as a candidate of "
@@ -51,13 +53,17 @@ public:
     out_.indication = index.value_or(0);
     const bool has_unit = unit();
     if (table_.has("formula")) formula();
+    const auto table = read_loading_table(table_, scope_, context_);
+    if (table_.has("formula") == table_.has("table"))
+      table_.refuse(table_.has("table") ? "it has a formula and a table" : "it has neither a formula nor a table",
+                    "one of them says how readings change", "formula = \"1 / feed\"");
     if (const Node* size = table_.find("size"); size && has_unit) {
       const QuantityCard card{"size", out_.unit, out_.si_unit, 0, {-HUGE_VAL, HUGE_VAL}, "", "", Role::amplitude};
       sizes.push_back(read_quantity(*size, table_.path("size"), card, out_.name + ".size", context_));
       out_.freed = true;
     }
     table_.refuse_unknown();
-    if (problems_.size() == before) compute();
+    if (problems_.size() == before) table ? tabulate(*table) : compute();
     return std::move(out_);
   }
 
@@ -96,6 +102,41 @@ private:
     return false;
   }
 
+  void tabulate(const LoadingTable& table) {
+    const Node& node = *table_.find("table");
+    const std::size_t conditions = scope_.model.conditions.size();
+    for (const std::size_t i : table.inputs()) {
+      const bool column = i >= conditions;
+      out_.of_columns |= column;
+      out_.formula += (out_.formula.empty() ? "table of " : ", ") +
+                      (column ? scope_.columns[i - conditions].name : std::string(scope_.model.conditions[i].name));
+    }
+    const VariableCard& card = scope_.model.indications[out_.indication];
+    if (!gumshoe::Dimension::of(out_.unit).like(gumshoe::Dimension::of(std::string(card.si_unit))))
+      table_.refuse_key("unit", fmt::format("a size in {} does not change {}", out_.unit, card.name),
+                        "the loadings of a table are plain numbers", fmt::format("use {}", card.unit));
+    out_.loading_at = [table](const std::vector<double>& at_conditions, const std::vector<double>& columns) {
+      std::vector<double> known = at_conditions;
+      known.insert(known.end(), columns.begin(), columns.end());
+      return table.at(known);
+    };
+    try {
+      load([&](std::size_t r) {
+        return Problem{{problems_.file(), node.line, node.column},
+                       fmt::format("{}: it has no value at reading {}", table_.path("table"), reading(r)),
+                       "a table says nothing beyond its levels", "add the level"};
+      });
+    } catch (const InputError& error) {
+      problems_.add(error, node);
+    }
+  }
+
+  /// "3 (setup 2)"
+  std::string reading(std::size_t r) const {
+    const std::string of = text_of(scope_.readings[r].labels);
+    return fmt::format("{}{}", r + 1, of.empty() ? "" : " (" + of + ")");
+  }
+
   void compute() {
     const Node& node = *table_.find("formula");
     formula::Stated stated;
@@ -120,8 +161,9 @@ private:
         const double none = 0; // the formula reads no quantity and no indication
         return formula::interpret<double>(program, {&none, known.data(), &none}).steps[program.outputs[0]];
       };
-      if (std::ranges::all_of(scope_.columns, [&](const auto& c) { return c.values.size() == scope_.readings.size(); }))
-        load(e);
+      load([&](std::size_t r) {
+        return e.formulas[0].problem(0, "the formula has no finite value at reading " + reading(r));
+      });
     } catch (const InputError& error) {
       problems_.add(error, node);
     }
@@ -169,17 +211,16 @@ private:
                                             right.has_unit() ? fmt::format("unit = \"{}\"", right.si_unit()) : "")});
   }
 
-  void load(const formula::Compiled& e) {
+  /// @param without the problem of a reading at which there is no value
+  void load(const std::function<Problem(std::size_t)>& without) {
+    const auto read = [&](const auto& c) { return c.values.size() == scope_.readings.size(); };
+    if (!std::ranges::all_of(scope_.columns, read)) return;
     bool any = false;
     for (std::size_t r = 0; r < scope_.readings.size(); ++r) {
       std::vector<double> columns;
       for (const TraceColumn& c : scope_.columns) columns.push_back(c.values[r]);
       const double x = out_.loading_at(scope_.readings[r].conditions, columns);
-      if (!std::isfinite(x)) {
-        const std::string of = text_of(scope_.readings[r].labels);
-        throw InputError({e.formulas[0].problem(0, fmt::format("the formula has no finite value at reading {}{}", r + 1,
-                                                               of.empty() ? "" : " (" + of + ")"))});
-      }
+      if (!std::isfinite(x)) throw InputError({without(r)});
       any |= x != 0;
       out_.loading.push_back(x);
     }

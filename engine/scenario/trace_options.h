@@ -21,7 +21,7 @@ struct TraceColumn {
 struct StatedEffect {
   std::string name, meaning, source;
   std::size_t indication = 0;  ///< by position in the model's card
-  std::string formula;         ///< as written
+  std::string formula;         ///< as written; "table of position" of a table
   std::string unit, si_unit;   ///< of the size
   std::vector<double> loading; ///< the formula's value at each reading, SI
   bool freed = false;

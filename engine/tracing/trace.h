@@ -122,6 +122,18 @@ struct Taken {
   std::string source;
 };
 
+/// A shape that no known effect explains, as a stated effect of the traced scenario: one for each of its sizes, or one
+/// with a size for each value of a label.
+struct Correction {
+  struct Key {
+    std::string name, unit, si_unit; ///< condition or column
+    std::vector<double> levels;      ///< by row, SI
+  };
+  std::string name, indication, unit, si_unit, meaning, source;
+  std::vector<Key> keys;       ///< empty: the size differs by label, and the loading is 1
+  std::vector<double> loading; ///< by row
+};
+
 /// A variance component that the scenario lacks.
 struct Addition {
   std::string quantity; ///< "reclamp.shift", or an indication for its noise
@@ -153,6 +165,7 @@ struct Trace {
   calibration::Estimate estimate;
   std::vector<Taken> taken;
   std::vector<Addition> additions;
+  std::vector<Correction> corrections;
 };
 
 struct Settings {

@@ -10,11 +10,14 @@ namespace {
 using quantities::InputQuantity;
 using scenario::Scenario;
 
-/// Quantities whose values come from these data ([trace] free): no prior, and tied to nothing.
+/// Quantities whose values come from these data ([trace] free): no prior, and tied to nothing. Of other data than the
+/// scenario's own, sizes of effects are known beforehand.
 void free_again(Scenario& s) {
+  const bool own = s.data.empty();
   const auto freed = [&](const std::string& name) {
     return std::ranges::any_of(s.trace.free, [&](const std::string& q) {
-      return name == q || name.starts_with(q + "[") || name.starts_with(q + ".");
+      return (own || q.find('.') == std::string::npos) &&
+             (name == q || name.starts_with(q + "[") || name.starts_with(q + "."));
     });
   };
   for (InputQuantity& q : s.quantities) {

@@ -57,7 +57,8 @@ public:
     std::vector<std::string> per{"reading"};
     for (const Grouping& g : c_.observations.labels)
       if (f.depends_on == std::vector<std::string>{g.name}) per = {g.name};
-    for (std::size_t i = 0; i < fit_.design.indications; ++i) {
+    const bool corrected = std::ranges::all_of(found.terms, [&](std::size_t t) { return left[t].isZero(0); });
+    for (std::size_t i = 0; i < fit_.design.indications && !corrected; ++i) {
       double square = 0, count = 0;
       for (const Index row : c_.fitter.rows()) {
         if (index(row) % fit_.design.indications != i) continue;
@@ -89,6 +90,14 @@ private:
 };
 
 } // namespace
+
+void add_estimated_noise(const TraceContext& c, const Search& s, Trace& out) {
+  if (c.fitter.noise_declared()) return;
+  Components components(c, s, out);
+  for (std::size_t i = 0; i < s.found.design.indications; ++i)
+    components.of_noise(i, s.found.design.reference[i] * std::sqrt(s.found.variance), {"reading"},
+                        "noise, estimated from the residuals of these readings");
+}
 
 void add_components(const TraceContext& c, const Search& s, const std::vector<Vector>& left, Trace& out) {
   Components components(c, s, out);

@@ -11,6 +11,7 @@
 #include "base/units.h"
 #include "quantities/cells.h"
 #include "tracing/scenario_out/composition.h"
+#include "tracing/scenario_out/corrections.h"
 
 namespace gumshoe::tracing {
 namespace {
@@ -37,16 +38,83 @@ public:
 
   void compose() {
     c_.fitter.settle(fit_);
+    write_shapes();
     absorb_shapes();
     constants();
     bool any = false;
-    for (std::size_t t = 0; t < fit_.terms.size(); ++t) any = term(t) || any;
+    for (std::size_t t = 0; t < fit_.terms.size(); ++t) any = (written_[t] ? correction(t) : term(t)) || any;
     add_components(c_, s_, left_, out_);
+    if (any || !out_.additions.empty()) add_estimated_noise(c_, s_, out_);
     if (any || !out_.additions.empty()) write();
   }
 
 private:
-  /// What is not in the catalogue is not corrected for; free unknowns take as much of it as they can follow.
+  /// Shapes that can be written as corrections; they keep what the fit gave them.
+  void write_shapes() {
+    const auto taken = [&](const std::string& name) {
+      const auto& quantities = out_.extended.quantities;
+      return std::ranges::any_of(quantities, [&](const auto& q) {
+        return q.name == name || q.name.starts_with(name + '.') || q.name.starts_with(name + '_');
+      });
+    };
+    int number = 1;
+    for (const Term& t : fit_.terms) {
+      written_.emplace_back();
+      if (!t.candidate.amplitudes[0].scenario_name.empty()) continue;
+      while (taken(fmt::format("shape_{}", number))) ++number;
+      written_.back() = written_shape(c_, t, fmt::format("shape_{}", number++));
+    }
+  }
+
+  /// The sizes of a shape, one for each stated effect, or by label.
+  bool correction(std::size_t t) {
+    const Term& one = fit_.terms[t];
+    const Finding* f = finding_of(t);
+    const std::string source =
+        fmt::format("not in the catalogue{}: depends on {}", f ? fmt::format(", p = {:.2g}", f->p_value) : "",
+                    fmt::join(one.candidate.depends_on, " and "));
+    for (Correction& c : written_[t]->effects) {
+      c.source = source + "; known at the levels measured, and linear between those of one condition";
+      out_.extended.quantities.push_back({c.name + ".size", c.unit, c.si_unit, {}, true});
+      if (written_[t]->label)
+        sizes_by_label(t, *written_[t]->label, source);
+      else
+        size_of_column(t, index(&c - written_[t]->effects.data()), source);
+      out_.corrections.push_back(c);
+    }
+    return true;
+  }
+
+  void size_of_column(std::size_t t, Index j, const std::string& source) {
+    const std::size_t q = out_.extended.quantities.size() - 1;
+    out_.extended.quantities[q].entries = {quantities::Entry{}};
+    lines_.push_back({unknown(q, 0), fit_.terms[t].size[j], first_column(fit_, t) + j, {false, {}, source}});
+  }
+
+  void sizes_by_label(std::size_t t, const Grouping& label, const std::string& source) {
+    const Observations& o = c_.observations;
+    const Matrix& columns = fit_.terms[t].candidate.columns;
+    const std::size_t q = out_.extended.quantities.size() - 1;
+    std::vector<bool> done(label.groups.size(), false);
+    for (std::size_t i = 0; i < o.readings; ++i) {
+      const std::size_t reading = o.sequence[i], group = label.group[reading];
+      if (done[group]) continue;
+      done[group] = true;
+      auto& entries = out_.extended.quantities[q].entries;
+      const auto& labels = c_.experiment.scenario().readings[reading].labels;
+      entries.push_back({{{label.name, *quantities::label_value(labels, label.name)}}, 0, {}, ""});
+      const auto rows = columns.middleRows(index(i * o.indications), index(o.indications)).colwise().sum();
+      Index column = -1;
+      for (Index j = 0; j < rows.size(); ++j)
+        if (rows[j] != 0) column = j;
+      lines_.push_back({unknown(q, entries.size() - 1),
+                        column < 0 ? 0 : rows[column] * fit_.terms[t].size[column],
+                        column < 0 ? -1 : first_column(fit_, t) + column,
+                        {false, entries.back().labels, source}});
+    }
+  }
+
+  /// What cannot be written as a correction is noise; free unknowns take as much of it as they can follow.
   void absorb_shapes() {
     const auto n = fit_.design.fixed.rows(), p = index(c_.fitter.unknowns().size());
     absorbed_ = Vector::Zero(p);
@@ -58,10 +126,11 @@ private:
     Vector scale(n);
     for (Index i = 0; i < n; ++i) scale[i] = 1 / own.reference[index(i) % own.indications];
     const Matrix free = own.fixed(Eigen::all, use);
-    for (const Term& t : fit_.terms) {
+    for (std::size_t t = 0; t < fit_.terms.size(); ++t) {
+      const Term& term = fit_.terms[t];
       left_.emplace_back(Vector::Zero(n));
-      if (!t.candidate.amplitudes[0].scenario_name.empty()) continue;
-      left_.back() = t.candidate.columns * t.size;
+      if (written_[t] || !term.candidate.amplitudes[0].scenario_name.empty()) continue;
+      left_.back() = term.candidate.columns * term.size;
       if (use.empty()) continue;
       const Vector x = (scale.asDiagonal() * free).colPivHouseholderQr().solve(scale.asDiagonal() * left_.back());
       left_.back() -= free * x;
@@ -240,6 +309,7 @@ private:
   const Search& s_;
   Trace& out_;
   JointFit fit_;
+  std::vector<std::optional<WrittenShape>> written_; ///< by term: a shape as a correction
   Vector absorbed_;          ///< by unknown: what it takes of shapes
   std::vector<Vector> left_; ///< by term: what no unknown takes
   std::vector<Line> lines_;

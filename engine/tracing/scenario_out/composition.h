@@ -11,4 +11,7 @@ void compose(const TraceContext& context, const Search& search, Trace& out);
 /// in the order of measurement.
 void add_components(const TraceContext& context, const Search& search, const std::vector<Vector>& left, Trace& out);
 
+/// The noise as fitted, where the scenario declares none: in the traced one it weighs the readings as it did here.
+void add_estimated_noise(const TraceContext& context, const Search& search, Trace& out);
+
 } // namespace gumshoe::tracing

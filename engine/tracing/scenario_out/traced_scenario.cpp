@@ -73,8 +73,9 @@ public:
                             std::filesystem::path(s.file).filename().string(), training(), s.hash)) {}
 
   std::string write() {
+    for (const Correction& c : t_.corrections) correct(c);
     for (std::size_t i = 0; i < t_.estimate.parameters.size(); ++i) parameter(i);
-    finish_constants();
+    finish_free();
     tie();
     for (const Addition& a : t_.additions) add(a);
     return text_.text(origin_);
@@ -90,6 +91,29 @@ private:
 
   std::string source(const std::string& what) const { return what + "; " + origin_; }
 
+  /// The stated effect; its size follows as a parameter.
+  void correct(const Correction& c) {
+    Node& effect = member(member(text_.document(), "stated_effects"), c.name);
+    effect.members = {{"indication", 0, 0, text_node(c.indication)},
+                      {"unit", 0, 0, text_node(c.unit)},
+                      {"meaning", 0, 0, text_node(c.meaning)},
+                      {"source", 0, 0, text_node(source(c.source))}};
+    if (c.keys.empty()) {
+      effect.members.push_back({"formula", 0, 0, text_node("1")});
+      return;
+    }
+    Node table;
+    for (const Correction::Key& key : c.keys) {
+      std::vector<Node> levels;
+      for (const double x : key.levels) levels.push_back(measure_node(x, key.unit, key.si_unit, false));
+      table.members.push_back({key.name, 0, 0, calibration::list_node(std::move(levels))});
+    }
+    std::vector<Node> loading;
+    for (const double x : c.loading) loading.push_back(calibration::number_node(x));
+    table.members.push_back({"loading", 0, 0, calibration::list_node(std::move(loading))});
+    effect.members.push_back({"table", 0, 0, std::move(table)});
+  }
+
   void parameter(std::size_t i) {
     const calibration::Parameter& p = t_.estimate.parameters[i];
     const Taken& taken = t_.taken[i];
@@ -97,7 +121,7 @@ private:
     const auto& labels = quantity.entries[p.unknown.entry].labels;
     Node& place = text_.entry(quantity.name, labels);
     auto components = kept(place, labels, taken.labels);
-    if (taken.block_offset) constants_.insert(quantity.name);
+    if (taken.block_offset) free_.insert(quantity.name);
     Node own;
     const Node u = measure_node(p.standard_uncertainty, p.unknown.unit, p.unknown.si_unit, true);
     own.members = {
@@ -123,24 +147,36 @@ private:
     }
   }
 
-  /// Known now, and free again when traced. A quantity with a value left that the data do not determine stays marked.
-  void finish_constants() {
-    if (constants_.empty()) return;
-    Node& free = member(member(text_.document(), "trace"), "free");
-    if (free.kind == Node::Kind::text) free = calibration::list_node({free});
-    free.kind = Node::Kind::array;
-    for (const std::string& name : constants_) {
-      if (std::ranges::none_of(free.items, [&](const Node& n) { return n.text == name; }))
-        free.items.push_back(text_node(name));
-      std::size_t entries = 0, known = 0;
-      for (std::size_t q = 0; q < t_.extended.quantities.size(); ++q) {
-        if (t_.extended.quantities[q].name != name) continue;
-        entries = t_.extended.quantities[q].entries.size();
-        for (const auto& p : t_.estimate.parameters) known += p.unknown.quantity == q;
-      }
-      if (known == entries) calibration::erase_member(text_.quantity(name), "estimated");
+  /// Known now, and free again when these data are traced: offsets of blocks, and sizes of effects, so that a further
+  /// round starts where this one ended. A quantity with a value left that the data do not determine stays marked.
+  void finish_free() {
+    for (const auto& q : t_.extended.quantities)
+      if (sized(q.name) && !q.entries.empty() && fitted(q.name) == q.entries.size()) free_.insert(q.name);
+    if (free_.empty()) return;
+    Node& list = member(member(text_.document(), "trace"), "free");
+    if (list.kind == Node::Kind::text) list = calibration::list_node({list});
+    list.kind = Node::Kind::array;
+    for (const std::string& name : free_) {
+      if (std::ranges::none_of(list.items, [&](const Node& n) { return n.text == name; }))
+        list.items.push_back(text_node(name));
+      for (const auto& q : t_.extended.quantities)
+        if (q.name == name && fitted(name) == q.entries.size()) calibration::erase_member(text_.quantity(name), "estimated");
     }
   }
+
+  /// How many entries of a quantity are parameters of the estimate; none if all of them are held exactly.
+  std::size_t fitted(const std::string& name) const {
+    std::size_t count = 0;
+    bool any = !sized(name);
+    for (const auto& p : t_.estimate.parameters) {
+      if (t_.extended.quantities[p.unknown.quantity].name != name) continue;
+      any = any || p.standard_uncertainty > 0;
+      ++count;
+    }
+    return any ? count : 0;
+  }
+  /// Whether a quantity is the size of an effect.
+  static bool sized(const std::string& name) { return name.find('.') != std::string::npos; }
 
   void tie() {
     const std::size_t n = uncertain_.size(), all = t_.estimate.parameters.size();
@@ -178,7 +214,7 @@ private:
   const Trace& t_;
   calibration::ScenarioText text_;
   std::string origin_;
-  std::set<std::string> constants_;
+  std::set<std::string> free_;
   std::vector<std::size_t> uncertain_; ///< parameters
   std::vector<std::string> draws_;
 };

@@ -1,0 +1,77 @@
+#include "cli/trace_rounds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "cli/command.h"
+#include "tracing/findings/sizes.h"
+#include "tracing/scenario_out/traced_scenario.h"
+
+namespace gumshoe::cli {
+namespace {
+
+Round round_of(const tracing::Trace& t) {
+  Round out{{}, t.rms, t.vetoed};
+  for (const tracing::Finding& f : t.findings) out.added.push_back(f.name);
+  return out;
+}
+
+/// The scenario read from its text; what is wrong with it goes to `statements`.
+std::optional<scenario::Scenario> readable(const std::string& text, const store::Claim& place,
+                                           std::vector<std::string>& statements) {
+  store::Draft trial;
+  try {
+    scenario::Scenario s = scenario::read(trial.add(place, text), catalogue());
+    s.file = place.path();
+    return s;
+  } catch (const InputError& error) {
+    for (const Problem& p : error.problems())
+      statements.push_back("no traced scenario is written, because it could not be read: " + p.what +
+                           (p.why.empty() ? "" : " (" + p.why + ")"));
+  }
+  return std::nullopt;
+}
+
+} // namespace
+
+Rounds trace_rounds(const scenario::Scenario& s, const tracing::Settings& settings, const store::Claim& place,
+                    int most) {
+  const std::string folder = std::filesystem::path(place.path()).parent_path().string();
+  Rounds out;
+  std::optional<scenario::Scenario> at;
+  while (static_cast<int>(out.table.size()) < most) {
+    const tracing::Trace found = tracing::trace(at ? *at : s, settings);
+    if (out.table.empty()) out.first = found;
+    out.table.push_back(round_of(found));
+    const std::string text = tracing::traced_scenario(at ? *at : s, found, folder);
+    if (text.empty()) break;
+    auto next = readable(text, place, out.first.statements);
+    if (!next) break;
+    out.text = text;
+    next->trace.draws = s.trace.draws; // as the command line says
+    next->trace.seed = s.trace.seed;
+    at = std::move(next);
+  }
+  return out;
+}
+
+std::string table(const std::vector<Round>& rounds) {
+  std::string out = fmt::format("{:<7}{:>12}{:>12}{:>12}{:>12}{:>12}   added\n", "round", "before", "after", "held out",
+                                "after", "noise");
+  for (std::size_t k = 0; k < rounds.size(); ++k) {
+    const tracing::Rms& r = rounds[k].rms;
+    const auto show = [&](double si) { return std::isfinite(si) ? tracing::shown_rms(si, r) : "-"; };
+    const std::string added = rounds[k].vetoed          ? "nothing: the held-out readings are not predicted better"
+                              : rounds[k].added.empty() ? "nothing"
+                                                        : fmt::format("{}", fmt::join(rounds[k].added, "; "));
+    out += fmt::format("{:<7}{:>12}{:>12}{:>12}{:>12}{:>12}   {}\n", k + 1, show(r.before), show(r.after),
+                       show(r.holdout_before), show(r.holdout_after), show(r.noise), added);
+  }
+  return out;
+}
+
+} // namespace gumshoe::cli

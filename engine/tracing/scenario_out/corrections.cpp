@@ -1,0 +1,101 @@
+#include "tracing/scenario_out/corrections.h"
+
+#include <algorithm>
+#include <map>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "base/units.h"
+
+namespace gumshoe::tracing {
+namespace {
+
+/// The indication that a shape moves: it has one alone.
+std::size_t indication_of(const Observations& o, const Matrix& columns) {
+  for (std::size_t i = 0; i < o.indications; ++i)
+    if (columns(Eigen::seq(index(i), Eigen::last, index(o.indications)), Eigen::all).norm() > 0) return i;
+  return 0;
+}
+
+/// Conditions and columns that the scenario knows by name, those that the shape is named after first.
+std::vector<const Covariate*> keys_of(const TraceContext& c, const std::vector<std::string>& first) {
+  const auto& s = c.experiment.scenario();
+  const auto known = [&](const Covariate& v) {
+    const auto is_it = [&](const auto& named) { return named.name == v.name; };
+    return std::ranges::any_of(c.experiment.model().card->conditions, is_it) ||
+           std::ranges::any_of(s.trace.columns, is_it);
+  };
+  std::vector<const Covariate*> keys;
+  for (const std::string& name : first)
+    for (const Covariate& v : c.observations.covariates)
+      if (v.name == name && known(v)) keys.push_back(&v);
+  if (keys.size() < first.size()) return {};
+  for (const Covariate& v : c.observations.covariates)
+    if (known(v) && std::ranges::find(first, v.name) == first.end()) keys.push_back(&v);
+  return keys;
+}
+
+/// Rows of a table: levels of the keys and the loadings there, or nothing if one level has several loadings.
+using Rows = std::map<std::vector<double>, Vector>;
+std::optional<Rows> rows_by(const Observations& o, const Matrix& loading, std::span<const Covariate* const> keys) {
+  Rows rows;
+  for (std::size_t i = 0; i < o.readings; ++i) {
+    std::vector<double> level;
+    for (const Covariate* key : keys) level.push_back(key->value[o.sequence[i]]);
+    const Vector here = loading.row(index(i));
+    const auto [known, fresh] = rows.insert({std::move(level), here});
+    if (!fresh && known->second != here) return std::nullopt;
+  }
+  return rows;
+}
+
+Correction common(const TraceContext& c, const std::string& name, std::size_t indication) {
+  const VariableCard& card = c.experiment.model().card->indications[indication];
+  Correction out;
+  out.name = name;
+  out.indication = card.name;
+  out.si_unit = card.si_unit;
+  const std::string unit = card.si_unit == "m" ? "um" : std::string(card.unit);
+  out.unit = units::to_si(0, unit, out.si_unit) == 0 ? unit : out.si_unit; // a size is a difference
+  return out;
+}
+
+} // namespace
+
+std::optional<WrittenShape> written_shape(const TraceContext& c, const Term& term, const std::string& name) {
+  const Observations& o = c.observations;
+  const std::size_t indication = indication_of(o, term.candidate.columns);
+  const Matrix loading =
+      term.candidate.columns(Eigen::seq(index(indication), Eigen::last, index(o.indications)), Eigen::all);
+  const auto& depends_on = term.candidate.depends_on;
+  const std::string meaning =
+      fmt::format("unknown: {}{}", term.candidate.name, term.candidate.shape.empty() ? "" : ", " + term.candidate.shape);
+  WrittenShape out;
+  for (const Grouping& g : o.labels)
+    if (depends_on == g.labels) {
+      out.effects = {common(c, name, indication)};
+      out.effects[0].meaning = meaning;
+      out.label = &g;
+      return out;
+    }
+  const auto keys = keys_of(c, depends_on);
+  std::optional<Rows> rows;
+  std::size_t used = depends_on.size();
+  for (; used > 0 && used <= keys.size(); ++used)
+    if ((rows = rows_by(o, loading, std::span(keys).first(used)))) break;
+  if (!rows) return std::nullopt;
+  for (Index j = 0; j < loading.cols(); ++j) {
+    Correction one = common(c, loading.cols() > 1 ? fmt::format("{}_{}", name, j + 1) : name, indication);
+    one.meaning = meaning;
+    for (std::size_t k = 0; k < used; ++k) {
+      one.keys.push_back({keys[k]->name, keys[k]->unit, keys[k]->si_unit, {}});
+      for (const auto& [level, here] : *rows) one.keys[k].levels.push_back(level[k]);
+    }
+    for (const auto& [level, here] : *rows) one.loading.push_back(here[j]);
+    out.effects.push_back(std::move(one));
+  }
+  return out;
+}
+
+} // namespace gumshoe::tracing
