@@ -59,8 +59,9 @@ double LoadingTable::at(const std::vector<double>& known) const {
 }
 
 Shape loading_table_shape() {
-  return shape::table({{"loading", shape::list(shape::number()), "change of the indication by a size of 1, by row", true}},
-                      "", shape::reference("series"));
+  return shape::table(
+      {{"loading", shape::list(shape::number()), "change of the indication by a size of 1, by row", true}}, "",
+      shape::reference("series"));
 }
 
 std::optional<LoadingTable> read_loading_table(Table& effect, const StatedScope& scope, Context& context) {

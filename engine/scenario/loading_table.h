@@ -1,11 +1,12 @@
 #pragma once
-/// The loading of a stated effect as a table, where no formula is known: its values at levels of conditions and columns.
+/// The loading of a stated effect as a table, where no formula is known: its values at levels of conditions and
+/// columns.
 #include "scenario/stated_effects.h"
 
 namespace gumshoe::scenario {
 
-/// Of one condition or column: linear between neighbouring levels. Of several: at their combinations only. NaN elsewhere,
-/// because nothing is known there.
+/// Of one condition or column: linear between neighbouring levels. Of several: at their combinations only. NaN
+/// elsewhere, because nothing is known there.
 class LoadingTable {
 public:
   /// @param inputs  places in the row of conditions followed by columns

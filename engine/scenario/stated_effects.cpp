@@ -22,14 +22,17 @@ Options<StatedEffect> stated_effect_options() {
   };
   return {
       by_hand("indication", shape::text(), "indication to which the effect is added; required if there are several"),
-      by_hand("formula", R"("type": ["string", "number"])", "formula of conditions and columns of [trace.columns], in "
-                                                            "SI units"),
-      by_hand("table", loading_table_shape(), "instead of a formula: its values at levels of conditions and columns, linear "
-                                              "between the levels of one; elsewhere there is no value"),
+      by_hand("formula", R"("type": ["string", "number"])",
+              "formula of conditions and columns of [trace.columns], in "
+              "SI units"),
+      by_hand("table", loading_table_shape(),
+              "instead of a formula: its values at levels of conditions and columns, linear "
+              "between the levels of one; elsewhere there is no value"),
       by_hand("unit", shape::text(), "unit of the size; size times formula has the dimension of the indication")
           .needed("unit = \"um\""),
-      by_hand("size", shape::reference("quantity"), "size of the effect; default: its null value, as a candidate of "
-                                                    "gumshoe trace"),
+      by_hand("size", shape::reference("quantity"),
+              "size of the effect; default: its null value, as a candidate of "
+              "gumshoe trace"),
       option::text("meaning", &StatedEffect::meaning, ""),
       option::source(&StatedEffect::source),
   };
@@ -124,7 +127,8 @@ private:
       load([&](std::size_t r) {
         return Problem{{problems_.file(), node.line, node.column},
                        fmt::format("{}: it has no value at reading {}", table_.path("table"), reading(r)),
-                       "a table says nothing beyond its levels", "add the level"};
+                       "a table says nothing beyond its levels",
+                       "add the level"};
       });
     } catch (const InputError& error) {
       problems_.add(error, node);

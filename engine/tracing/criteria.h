@@ -48,6 +48,8 @@ struct Criteria {
   std::size_t dependence_bins = 8;      ///< groups of neighbouring values of a condition there
   std::size_t most_label_groups = 30;   ///< groups of a label for which steps and dependence are tried
   std::size_t most_omnibus_groups = 12; ///< groups of a label for which "any value per group" is tried
+  std::size_t most_table_cells = 60;    ///< levels, or combinations of levels, at which "any value" is tried, by cost
+  std::size_t least_repeats = 2;        ///< readings at each of them, on average
   std::size_t most_harmonics = 6;
   int omnibus_columns = 5, fine_omnibus_columns = 12; ///< columns of a smooth dependence, and of a finer one
   std::size_t levels_for_fine_omnibus = 30;           ///< more levels than this for the finer one

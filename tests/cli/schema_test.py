@@ -142,6 +142,9 @@ adaptive = { digits = 2, validation = true }
 alpha = 0.01
 draws = 99
 free = "laser_z"
+[stated_effects.bend]
+table = { feed = ["1 mm/min", "9 mm/min"], loading = [0, 1] }
+unit = "um"
 [stated_effects.film]
 formula = "1 / feed"
 unit = "um*mm/min"

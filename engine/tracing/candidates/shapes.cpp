@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "tracing/criteria.h"
 
@@ -45,6 +47,7 @@ public:
           add(Family::omnibus, "omnibus:" + c.name, smooth_basis(o_, c, criteria.fine_omnibus_columns), {c.name},
               "fine");
       }
+    tables();
     // What scatters by a label is a variance component; any pattern of few groups is a shape.
     const auto scatters = [&](const Grouping& g) {
       return std::ranges::any_of(o_.replicate_groups, [&](const Grouping& r) { return r.group == g.group; });
@@ -141,6 +144,36 @@ private:
       for (std::size_t r = 0; r < o_.readings; ++r) one[index(r)] = g.group[o_.sequence[r]] == i ? 1 : 0;
       add(Family::shape, "step:" + g.groups[i], one, {g.name});
     }
+  }
+
+  /// Any value at each level of what was set again and again: of one covariate, of two, and of all of them together.
+  void tables() {
+    std::vector<const Covariate*> repeated;
+    for (const Covariate& c : o_.covariates)
+      if (c.name != "time" && c.name != "order" && c.levels.size() * criteria.least_repeats <= o_.readings)
+        repeated.push_back(&c);
+    for (std::size_t i = 0; i < repeated.size(); ++i) {
+      if (static_cast<int>(repeated[i]->levels.size()) > criteria.omnibus_columns + 1) table({repeated[i]});
+      for (std::size_t j = i + 1; j < repeated.size(); ++j) table({repeated[i], repeated[j]});
+    }
+    if (repeated.size() > 2) table(repeated);
+  }
+
+  void table(const std::vector<const Covariate*>& by) {
+    std::map<std::vector<double>, Index> cells;
+    std::vector<Index> cell;
+    std::vector<std::string> names;
+    for (const Covariate* c : by) names.push_back(c->name);
+    for (const std::size_t r : o_.sequence) {
+      std::vector<double> level;
+      for (const Covariate* c : by) level.push_back(c->value[r]);
+      cell.push_back(cells.insert({std::move(level), index(cells.size())}).first->second);
+    }
+    if (cells.size() > criteria.most_table_cells || cells.size() * criteria.least_repeats > o_.readings) return;
+    Matrix m = Matrix::Zero(index(o_.readings), index(cells.size()) - 1);
+    for (std::size_t i = 0; i < cell.size(); ++i)
+      if (cell[i] > 0) m(index(i), cell[i] - 1) = 1;
+    add(Family::omnibus, fmt::format("table:{}", fmt::join(names, "*")), m, names);
   }
 
   void product(const Covariate& a, const Covariate& b) {

@@ -5,6 +5,7 @@
 
 #include "tracing/candidates/shapes.h"
 #include "tracing/criteria.h"
+#include "tracing/judgement/apart.h"
 #include "tracing/judgement/holdout.h"
 
 namespace gumshoe::tracing {
@@ -58,7 +59,12 @@ bool Evidence::testable(std::size_t a) const {
   return candidates_[a].physical() && scan_->identifiable(a) > criteria.absorbed_share;
 }
 
-Term Evidence::linear_term(std::size_t a) const { return {candidates_[a], scan_->fit(a, data_).size}; }
+Term Evidence::linear_term(std::size_t a) const {
+  if (candidates_[a].physical()) return {candidates_[a], scan_->fit(a, data_).size};
+  Term shape{apart(candidates_[a], fit_, c_.observations, c_.fitter.rows()), {}};
+  shape.size = Vector::Zero(shape.candidate.columns.cols()); // linear: found in one step from anywhere
+  return shape;
+}
 
 JointFit Evidence::with(const std::vector<Term>& more) const {
   auto terms = fit_.terms;

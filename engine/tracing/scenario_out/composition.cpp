@@ -205,10 +205,9 @@ private:
   std::string source_of(const Finding& f, const Amplitude& a) const {
     std::string out = fmt::format("{}, p = {:.2g}", name(f.kind), f.p_value);
     if (f.kind == Kind::equivalence_class)
-      out +=
-          fmt::format(" of {}, which these data cannot distinguish; the first is written, with u enlarged by the "
-                      "difference between them",
-                      fmt::join(f.members, ", "));
+      out += fmt::format(" of {}, which these data cannot distinguish; the first is written, with u enlarged by the "
+                         "difference between them",
+                         fmt::join(f.members, ", "));
     for (const SizedQuantity& q : f.quantities) {
       if (q.scenario_name != a.scenario_name) continue;
       const bool shift = q.name.starts_with("shift of ");
@@ -310,8 +309,8 @@ private:
   Trace& out_;
   JointFit fit_;
   std::vector<std::optional<WrittenShape>> written_; ///< by term: a shape as a correction
-  Vector absorbed_;          ///< by unknown: what it takes of shapes
-  std::vector<Vector> left_; ///< by term: what no unknown takes
+  Vector absorbed_;                                  ///< by unknown: what it takes of shapes
+  std::vector<Vector> left_;                         ///< by term: what no unknown takes
   std::vector<Line> lines_;
 };
 

@@ -69,8 +69,8 @@ std::optional<WrittenShape> written_shape(const TraceContext& c, const Term& ter
   const Matrix loading =
       term.candidate.columns(Eigen::seq(index(indication), Eigen::last, index(o.indications)), Eigen::all);
   const auto& depends_on = term.candidate.depends_on;
-  const std::string meaning =
-      fmt::format("unknown: {}{}", term.candidate.name, term.candidate.shape.empty() ? "" : ", " + term.candidate.shape);
+  const std::string meaning = fmt::format("unknown: {}{}", term.candidate.name,
+                                          term.candidate.shape.empty() ? "" : ", " + term.candidate.shape);
   WrittenShape out;
   for (const Grouping& g : o.labels)
     if (depends_on == g.labels) {

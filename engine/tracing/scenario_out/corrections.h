@@ -11,9 +11,9 @@ struct WrittenShape {
   const Grouping* label = nullptr; ///< the size then takes a value for each of its groups
 };
 
-/// The shape as a function of conditions and columns, or of a label, over all readings. Where what it is named after does
-/// not fix it (a hysteresis), other conditions and columns are added until they do. Empty if they never do, or if it
-/// depends on the order of the rows, which is no part of a scenario.
+/// The shape as a function of conditions and columns, or of a label, over all readings. Where what it is named after
+/// does not fix it (a hysteresis), other conditions and columns are added until they do. Empty if they never do, or if
+/// it depends on the order of the rows, which is no part of a scenario.
 /// @param names the stated effects are called NAME, or NAME_1, NAME_2 ...
 std::optional<WrittenShape> written_shape(const TraceContext& context, const Term& term, const std::string& name);
 

@@ -160,7 +160,8 @@ private:
       if (std::ranges::none_of(list.items, [&](const Node& n) { return n.text == name; }))
         list.items.push_back(text_node(name));
       for (const auto& q : t_.extended.quantities)
-        if (q.name == name && fitted(name) == q.entries.size()) calibration::erase_member(text_.quantity(name), "estimated");
+        if (q.name == name && fitted(name) == q.entries.size())
+          calibration::erase_member(text_.quantity(name), "estimated");
     }
   }
 

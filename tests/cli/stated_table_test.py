@@ -1,0 +1,100 @@
+"""A stated effect given as a table: linear between the levels of one condition, exact combinations of several.
+
+usage: stated_table_test.py path/to/gumshoe [unittest options]
+"""
+import json
+import pathlib
+import tempfile
+import unittest
+
+from program import complaint, gumshoe
+
+TEXT = """schema = 1
+[model]
+name = "expression"
+[model.measurands]
+y = {{ formula = "d", unit = "um" }}
+[conditions]
+x = "0 mm"
+direction = 1
+[indications.d.readings]
+file = "r.csv"
+column = "d"
+unit = "um"
+conditions = {{ x = {{ column = "x", unit = "mm" }}, direction = {{ column = "dir", unit = "1" }} }}
+[stated_effects.bend]
+unit = "um"
+size = "2 um"
+{bend}
+[run]
+samples = 16
+"""
+
+
+class Table(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = pathlib.Path(temporary.name)
+
+    def run_with(self, bend, rows):
+        (self.folder / "r.csv").write_text("x,dir,d\n" + "\n".join(rows) + "\n")
+        (self.folder / "s.toml").write_text(TEXT.format(bend=bend))
+        return gumshoe("run", self.folder / "s.toml", "--format", "json", cwd=self.folder)
+
+    def corrections(self, bend, rows):
+        """What the evaluation takes from the readings, in um."""
+        run = self.run_with(bend, rows)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        found = json.loads(run.stdout)
+        self.assertEqual({o["unit"] for o in found}, {"um"})
+        return [-o["estimate"] for o in found]
+
+    def test_linear_between_levels_in_any_order(self):
+        bend = 'table = { x = ["100 mm", "0 mm", "50 mm"], loading = [0.5, 0, 1] }'
+        found = self.corrections(bend, ["0,1,0", "25,1,0", "50,1,0", "90,1,0", "100,1,0"])
+        for a, b in zip(found, (0, 1, 2, 1.2, 1), strict=True):  # twice the loading
+            self.assertAlmostEqual(a, b, places=9)
+
+    def test_combinations_of_two_conditions(self):
+        bend = 'table = { x = ["0 mm", "0 mm", "50 mm", "50 mm"], direction = [1, -1, 1, -1], loading = [0, 1, 2, 4] }'
+        found = self.corrections(bend, ["0,1,0", "0,-1,0", "50,1,0", "50,-1,0"])
+        for a, b in zip(found, (0, 2, 4, 8), strict=True):
+            self.assertAlmostEqual(a, b, places=9)
+
+    def refused(self, message, bend, rows=("0,1,0",)):
+        run = self.run_with(bend, rows)
+        self.assertIsNone(complaint(run), run.stderr)
+        self.assertIn(message, run.stderr)
+
+    def test_beyond_the_levels_there_is_no_value(self):
+        two = 'table = { x = ["0 mm", "50 mm"], loading = [0, 1] }'
+        for x in ("-1", "51"):
+            self.refused("it has no value at reading 2 (a table says nothing beyond its levels). Add the level", two,
+                         ("0,1,0", f"{x},1,0"))
+        both = 'table = { x = ["0 mm", "50 mm"], direction = [1, -1], loading = [0, 1] }'
+        self.refused("it has no value at reading 1", both, ("50,1,0",))
+
+    def test_bad_tables(self):
+        for bend, message in (
+                ('table = { loading = [0, 1] }', "it names no condition and no column"),
+                ('table = { x = ["0 mm", "1 mm"], loading = [0] }', "a column has 2 rows and loading has 1"),
+                ('table = { x = ["0 mm"], loading = [0] }', "a column has 1 rows and loading has 1"),
+                ('table = { x = ["0 mm", "0 mm"], loading = [0, 1] }', "rows 1 and 2 state the same level"),
+                ('table = { x = ["0 mm", "1 mm"] }', "table.loading is missing"),
+                ('table = { xx = ["0 mm", "1 mm"], loading = [0, 1] }', "unknown key 'xx'"),
+                ('formula = "1"\ntable = { x = ["0 mm", "1 mm"], loading = [0, 1] }', "it has a formula and a table"),
+                ('meaning = "?"', "it has neither a formula nor a table")):
+            self.refused(message, bend)
+
+    def test_the_unit_is_that_of_the_indication(self):
+        run = self.run_with("", ["0,1,0"])
+        text = TEXT.format(bend='table = { x = ["0 mm", "1 mm"], loading = [0, 1] }').replace('"um"\nsize = "2 um"', '"ms"')
+        (self.folder / "s.toml").write_text(text)
+        run = gumshoe("check", self.folder / "s.toml")
+        self.assertIsNone(complaint(run))
+        self.assertIn("a size in ms does not change d (the loadings of a table are plain numbers)", run.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
