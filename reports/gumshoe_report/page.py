@@ -10,7 +10,7 @@ import jinja2
 import markupsafe
 
 from . import certificate, choice, choice_figures, choice_surface, convergence, csv_tables, explain, figures, mathml
-from . import pictures, profile, profile_figures, reduce, region_figures, rounding, scatter, sensitivity_figures, studies, tables, trace, trace_figures, workbook
+from . import pictures, profile, profile_figures, reduce, region_figures, rounding, scatter, sensitivity_figures, spatial_figures, studies, tables, trace, trace_figures, workbook
 
 HERE = pathlib.Path(__file__).parent
 OPEN = 2      # outputs shown in full; the others are folded
@@ -133,6 +133,16 @@ def profiles(r):
             names={o.name for line in p.lines for o in line.outputs})
 
 
+def spatial(r):
+    """Figures in space and what they show."""
+    shown = varying(r)
+    contour, volume = spatial_figures.contour(r, shown), spatial_figures.volume(r, shown)
+    found = [(contour, "The commanded contour, dashed, and the measured one with its deviations magnified. Pale: symmetric coverage intervals.")] if contour else []
+    if volume:
+        found.append((volume[0], f"Standard uncertainty over the commanded points, in {volume[1]}."))
+    return [(markupsafe.Markup(figure), caption) for figure, caption in found]
+
+
 def overviews(r, drawn):
     """With many outputs: one figure per measurand, and all distributions small; without those `drawn` already."""
     outputs = [o for o in varying(r) if o.name not in drawn]
@@ -160,7 +170,7 @@ def run_page(r):
     shown = varying(r)
     along = list(profiles(r))
     return dict(
-        profiles=along, left_out=max(0, len(shown) - LISTED), downloads=downloads(r), convergences=convergences(r), validations=[tables.validation_row(v) for v in r.validations[:LISTED]],
+        spatial=spatial(r), profiles=along, left_out=max(0, len(shown) - LISTED), downloads=downloads(r), convergences=convergences(r), validations=[tables.validation_row(v) for v in r.validations[:LISTED]],
         diagnostics=[tables.diagnostic_text(o) for o in r.outputs if getattr(o, "diagnostic", 0)],
         effects=sorted({i.name.partition(".")[0] for i in r.inputs if "." in i.name}),
         kicker="Measurement uncertainty", title=r.title or r.model_title or r.model,

@@ -13,7 +13,8 @@ SHOWN = 6    # quantities with a colour of their own; the others together
 
 def values(r, outputs):
     """Value of every condition at the readings of the outputs, SI."""
-    names = [n for n in r.reading_units if n not in ("label", "repeats", "reading")]
+    read = {i.name for i in r.inputs} | {"label", "repeats", "reading"}  # what was read is no condition
+    names = [n for n in r.reading_units if n not in read]
     found = {n: [getattr(r.readings[int(o.reading)], n, math.nan) for o in outputs] for n in names}
     return {n: v for n, v in found.items() if all(map(math.isfinite, v))}
 

@@ -1,7 +1,8 @@
 """Contours measured with three laser ball bars on a machine whose servos are integrated in small steps, independent of the
-engine; writes the data of trace_contours.toml.
+engine; writes the data of trace_contours.toml, or those of ball_bar_circle.toml.
 
 usage: plain_contour.py > scenarios/data/trace_contours.csv
+       plain_contour.py --circle > scenarios/data/ball_bar_circle.csv
 """
 import math
 import random
@@ -63,6 +64,16 @@ def lengths(x):
     return [math.dist(at, (*s, 0.0)) for s in SOCKETS]
 
 
+def circle():
+    """One fast circle with the gains of X and Y the other way round, as the paper's ellipse has them."""
+    draw, feed = random.Random(51), 1778.0
+    end = 2 * math.pi * SIZES[2] / (feed / 60) + feed / 60 / ACCELERATION
+    times = [round(0.05 + (end - 0.05) * i / 72, 3) for i in range(72)]
+    print("time_s,length_1_mm,length_2_mm,length_3_mm")
+    for t, x in zip(times, follow(2, 0.0, feed, times, {"x": 33.0, "y": 30.0, "z": 30.0})):
+        print(t, *(f"{l + draw.gauss(0, NOISE):.5f}" for l in lengths(x)), sep=",")
+
+
 def main():
     draw = random.Random(1999)
     print("pass,contour,angle_deg,size_mm,feed_mm_min,start_s,time_s,length_1_mm,length_2_mm,length_3_mm")
@@ -84,4 +95,4 @@ def main():
 if __name__ == "__main__":
     if "-h" in sys.argv:
         sys.exit(print(__doc__))
-    main()
+    circle() if "--circle" in sys.argv else main()
