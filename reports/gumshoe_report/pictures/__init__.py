@@ -1,11 +1,12 @@
 """The picture of the measurement on top of a page, drawn from the scenario's own values; none for formulas."""
 from markupsafe import Markup
 
-from . import machine, mill, rod, socket, sphere
+from . import bars, machine, mill, rod, socket, sphere
 from .values import Values
 
 DRAWN = {"rod_gauging": rod.picture, "tool_length": mill.picture, "sphere_calibration": sphere.picture,
-         "sphere_probing": machine.picture, "single_socket": socket.socket, "single_socket_rotation": socket.turned}
+         "sphere_probing": machine.picture, "single_socket": socket.socket, "single_socket_rotation": socket.turned,
+         "laser_ball_bar": bars.picture}
 
 
 def of(r):
