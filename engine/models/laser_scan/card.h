@@ -8,22 +8,23 @@ namespace gumshoe::models::laser_scan {
 using si::deg, si::mm, si::um;
 
 // clang-format off: a row of a card stays together
+constexpr QuantityCard in_um(const Unitless& q) { return in_units(q, "um", "m"); }
 constexpr QuantityCard in_mrad(const Unitless& q) { return in_units(q, "mrad", "rad"); }
 inline constexpr QuantityCard quantity_cards[] = {
     in_mm({.name = "e_x", .symbol = "e_x", .meaning = "actual place of the part minus workpiece_x"}),
     in_mm({.name = "e_y", .symbol = "e_y", .meaning = "actual place of the part minus workpiece_y"}),
-    in_mm({.name = "e_z", .meaning = "by how much the part sits too high"}),
+    in_um({.name = "e_z", .meaning = "by how much the part sits too high"}),
     in_mrad({.name = "e_a", .limits = below_90, .symbol = "e_a", .meaning = "tilt of the part about the table's X"}),
     in_mrad({.name = "e_b", .limits = below_90, .symbol = "e_b", .meaning = "tilt of the part about the table's Y"}),
     in_mm({.name = "workpiece_x", .symbol = "q_center(1)", .meaning = "commanded centre of the part on the table"}),
     in_mm({.name = "workpiece_y", .symbol = "q_center(2)", .meaning = "commanded centre of the part on the table"}),
-    in_mm({.name = "E_X0B", .symbol = "dx_BR", .meaning = "position of the B axis along X"}),
-    in_mm({.name = "E_Y0C", .symbol = "dy_BR", .meaning = "position of the C axis along Y"}),
-    in_mm({.name = "E_Z0B", .symbol = "dz_BR", .meaning = "position of the B axis along Z"}),
+    in_um({.name = "E_X0B", .symbol = "dx_BR", .meaning = "position of the B axis along X"}),
+    in_um({.name = "E_Y0C", .symbol = "dy_BR", .meaning = "position of the C axis along Y"}),
+    in_um({.name = "E_Z0B", .symbol = "dz_BR", .meaning = "position of the B axis along Z"}),
     in_mrad({.name = "E_A0B", .limits = below_90, .symbol = "alpha_BR", .meaning = "orientation of the B axis about X"}),
     in_mrad({.name = "E_B0B", .limits = below_90, .symbol = "beta_BR", .meaning = "zero position of the B axis"}),
     in_mrad({.name = "E_C0B", .limits = below_90, .symbol = "gamma_BR", .meaning = "orientation of the B axis about Z"}),
-    in_mm({.name = "E_X0C_minus_E_X0B", .symbol = "dx_CB", .meaning = "offset of the C axis from the B axis along X"}),
+    in_um({.name = "E_X0C_minus_E_X0B", .symbol = "dx_CB", .meaning = "offset of the C axis from the B axis along X"}),
     in_mrad({.name = "E_A0C_minus_E_A0B", .limits = below_90, .symbol = "alpha_CB",
              .meaning = "orientation of the C axis to the B axis about X"}),
     in_mrad({.name = "E_C0Y", .limits = below_90, .symbol = "gamma_YX", .meaning = "squareness of Y to X: X moves by -E_C0Y Y"}),
@@ -32,7 +33,7 @@ inline constexpr QuantityCard quantity_cards[] = {
     in_mm({.name = "sensor_length", .limits = not_negative,
            .meaning = "from the spindle's reference point down to the commanded spot; it matters with a rotary axis in the "
                       "head, and to squareness"}),
-    in_mm({.name = "sensor_zero", .meaning = "indication where the surface is as far away as commanded"}),
+    in_um({.name = "sensor_zero", .meaning = "indication where the surface is as far away as commanded"}),
     pure({.name = "sensor_gain", .limits = {-0.5, 0.5}, .meaning = "relative: displacement = sensor_zero + (1 + sensor_gain) "
                                                                    "actual displacement"}),
     pure({.name = "cone_slope", .default_value = -0.005, .limits = any, .symbol = "m_0",
