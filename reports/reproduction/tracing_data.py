@@ -321,8 +321,9 @@ def cone_section(program):
     for title, centred in (("part's centre in the cone's equation", True), ("equation (11) as printed: cone at the table's centre", False)):
         p = 1e3 * cone.profile(2, e, centred)
         surfaces.append((title, *(f"{x:.1f}" for x in (p[:3].mean(), p[:3].std(), p[3:].mean(), p[3:].std(), p.mean(), p.std()))))
-    owners = ("sensor_zero", "dz_BR", "e_z", "growth_rate", "beta_BR[setup 1]")
-    astray = [m for f in constant["findings"] for m in f["members"] if not m.removeprefix("declared:").startswith(owners)]
+    owners = ("sensor_zero", "E_Z0B", "e_z", "thermal_growth", "E_B0B[setup 1]")
+    shared = ("declared:e_a", "declared:e_b")  # tilts that both set-ups have
+    astray = [m for f in constant["findings"] for m in f["members"] if m not in shared and not m.removeprefix("declared:").startswith(owners)]
     doubt = "" if not astray else f"""
 **A fault of the program**: {", ".join(f"`{m}`" for m in astray)} do not belong in this class. By the table above none of them
 can cause the constant, as their sizes show (radians, metres, or none).
@@ -332,7 +333,7 @@ can cause the constant, as their sizes show (radians, metres, or none).
 The paper scans a cone on the table's axis and, two hours later, off the axis; the profiles differ by 13.7 um on average with a
 standard deviation of 2.4 um. It names a part that lay (0.2, -0.2) mm off in set-up 2. The readings are simulated in its geometry by
 `tests/recovery/cone.py` (seeds {cone.TRUTH["constant"][0]} and {cone.TRUTH["shift"][0]}; 6 lines, {len(cone.ANGLES)} angles, two set-ups; height of the surfaces 20 mm, assumed),
-and traced by `scenarios/trace_cone.toml`, whose formulas agree with the matrices of `cone.py` within 1e-6 um
+and traced by `scenarios/trace_cone.toml`, whose model agrees with the matrices of `cone.py` within 1e-6 um
 (`tests/cli/trace_data_test.py`). Declared is what the paper declares: the part's place to 0.01 mm in set-up 1 and to 0.3 mm in set-up
 2, k = 2; its form is free at every point.
 
@@ -352,23 +353,25 @@ What the program says (um):
 {sizes(constant)}
 
 {doubt}
-**What can be said.** The constant can be a change of the sensor's zero, of the height of the B axis (dz_BR), growth of spindle or
+**What can be said.** The constant can be a change of the sensor's zero, of the height of the B axis (E_Z0B, dz_BR of the paper), growth of spindle or
 sensor holder, 6.8 um/h for two hours, or the height at which the part sits, each of 13.7 um; or a turn of B's zero by 0.2 mrad
-while set-up 1 was measured. These five give the same readings within the noise. It cannot be the part's place, its tilt, the squareness
+while set-up 1 was measured; or one tilt of 0.18 mrad that both set-ups share, such as a table that is not square to C: beside the
+axis it lifts the part, and its wave of 26 um would pass for the part's form, of which a measurement elsewhere shows 9 um. These six
+give the same readings within the noise. It cannot be the part's place, its tilt in one set-up, the squareness
 of B and C or the offsets of their axes: each would cause a wave of more than 2.4 um. For the second set the program rightly reports nothing: a
 part 0.28 mm off lies within the declared uncertainty of its place.
 
 **What would distinguish them**, by reasoning, in addition to what the program found by trying its conditions (a turn of B moves
-the seat with the table; zero, dz_BR and growth are the same under every condition that the scenario knows):
+the seat with the table; zero, E_Z0B and growth are the same under every condition that the scenario knows):
 
 | measurement | tells |
 |---|---|
-| set-up 1 again after set-up 2, part clamped anew | place from time: what stays is zero, growth or dz_BR; what goes is seat or beta_BR in set-up 1 |
+| set-up 1 again after set-up 2, part clamped anew | place from time: what stays is zero, growth or E_Z0B; what goes is seat or E_B0B in set-up 1 |
 | set-up 2 again after another two hours | growth from a step |
-| a gauge block on the bed, not on the table, before and after | dz_BR (not seen there) from zero and growth |
+| a gauge block on the bed, not on the table, before and after | E_Z0B (not seen there) from zero and growth |
 | a dial gauge or probe in the spindle beside the sensor, on the table | zero of the sensor from everything of the machine |
-| a surface that stays normal to the beam at B = 0 and 60 deg, such as a sphere on the table | seat (13.7 um to 6.9 um) from dz_BR |
-| set-up 1 with the part off C's axis | beta_BR, which then makes a wave, from all heights |
+| a surface that stays normal to the beam at B = 0 and 60 deg, such as a sphere on the table | seat (13.7 um to 6.9 um) from E_Z0B |
+| set-up 1 with the part off C's axis | E_B0B, which then makes a wave, from all heights |
 """
 
 

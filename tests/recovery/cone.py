@@ -5,8 +5,8 @@
 
 Six circles on two conical surfaces, 290 deg each, in set-up 1 (part on the axis of C) and two hours later in set-up 2
 (part beside it). `constant`: the sensor's zero moved by 13.7 um between the set-ups. `shift`: the part lies (0.2, -0.2)
-mm off in set-up 2, the cause that the paper names. Plain 4 x 4 matrices and a Newton iteration, apart from the formulas
-of scenarios/trace_cone.toml, which a test holds against them.
+mm off in set-up 2, the cause that the paper names. Plain 4 x 4 matrices and a Newton iteration, apart from the model
+laser_scan, which a test holds against them.
 """
 import sys
 
@@ -23,6 +23,8 @@ NOISE = 2.4 / np.sqrt(2)  # um: differences of two scatter by 2.4 um, as the pap
 FORM = [(2, 3.0, 20.0), (3, 2.5, 75.0), (5, 1.0, 140.0)]  # harmonic, um, deg: 11 um from peak to valley
 # R-test of the paper: mm and rad. Its alpha_CR, beta_CR are not in its Table 1; taken for alpha_CB and beta_BR.
 MACHINE = dict(dx_BR=6.3e-3, dy_BR=2.8e-3, dz_BR=10.7e-3, dx_CB=2.4e-3, alpha_BR=0.0, beta_BR=19.6e-6, gamma_BR=0.0, alpha_CB=20e-6)
+NAMES = dict(dx_BR="E_X0B", dy_BR="E_Y0C", dz_BR="E_Z0B", dx_CB="E_X0C_minus_E_X0B", alpha_BR="E_A0B", beta_BR="E_B0B", gamma_BR="E_C0B",
+             alpha_CB="E_A0C_minus_E_A0B", zero="sensor_zero")  # of the model laser_scan
 NONE = dict(e_x=0.0, e_y=0.0, e_z=0.0, e_a=0.0, e_b=0.0, zero=0.0, growth=0.0)
 TRUTH = {"constant": (11, dict(zero=13.7e-3)), "shift": (12, dict(e_x=0.2, e_y=-0.2))}  # seed; set-up 2, mm
 
@@ -49,7 +51,7 @@ def displacement(surface, radius, C, setup, errors, centred=True):
     commanded = turn("y", -B) @ turn("z", -C) @ [radius * np.cos(C) + cx, radius * np.sin(C) + cy, z, 1]
     machine_from_table = (move(e["dx_BR"], e["dy_BR"], e["dz_BR"]) @ turn("x", e["alpha_BR"]) @ turn("y", e["beta_BR"]) @ turn("z", e["gamma_BR"])
                           @ turn("y", -B) @ move(e["dx_CB"]) @ turn("x", e["alpha_CB"]) @ turn("z", -C))
-    to_part = turn("x", -e["e_a"]) @ turn("y", -e["e_b"]) @ move(-cx, -cy) @ np.linalg.inv(machine_from_table)
+    to_part = move(-cx, -cy) @ turn("x", -e["e_a"]) @ turn("y", -e["e_b"]) @ np.linalg.inv(machine_from_table)  # tilts about the table's origin
     spot, beam = to_part @ commanded, to_part @ [0, 0, 1, 0]
     off = np.array([e["e_x"], e["e_y"]]) - (0 if centred else np.array([cx, cy]))
     d = 0.0
