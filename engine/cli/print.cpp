@@ -25,17 +25,27 @@ double point(const propagation::Output& o, double x) { return units::from_si(x, 
 
 std::string unit_text(const propagation::Output& o) { return o.unit == "1" ? "" : " " + o.unit; }
 
-/// One line per verdict, with the outputs it holds for.
+/// One line per verdict and reason, with the outputs for which it holds; of reasons that differ in their numbers only,
+/// the one of the largest Monte Carlo tolerance over delta.
 void print_validations(const Results& r) {
-  std::vector<std::pair<std::string, std::vector<std::string>>> lines;
+  struct Line {
+    std::string kind, text;
+    double largest = 0;
+    std::vector<std::string> outputs;
+  };
+  std::vector<Line> lines;
   for (const auto& v : r.validations) {
     if (v.output.diagnostic) continue;
-    const std::string text = v.verdict + " (" + v.reason + ")";
-    auto line = std::ranges::find(lines, text, &decltype(lines)::value_type::first);
-    if (line == lines.end()) line = lines.insert(lines.end(), {text, {}});
-    line->second.push_back(v.output.name);
+    const std::string kind = v.verdict + v.reason.substr(0, v.reason.find("; about "));
+    auto line = std::ranges::find(lines, kind, &Line::kind);
+    if (line == lines.end()) line = lines.insert(lines.end(), Line{kind, "", -1, {}});
+    if (const double ratio = v.delta > 0 ? v.monte_carlo_tolerance / v.delta : 0; !(ratio <= line->largest)) {
+      line->largest = ratio;
+      line->text = v.verdict + " (" + v.reason + ")";
+    }
+    line->outputs.push_back(v.output.name);
   }
-  for (const auto& [text, outputs] : lines) {
+  for (const auto& [kind, text, largest, outputs] : lines) {
     std::string names;
     for (std::size_t i = 0; i < std::min(most, outputs.size()); ++i) names += (i == 0 ? "" : ", ") + outputs[i];
     if (outputs.size() > most) names = fmt::format("{} outputs", outputs.size());
@@ -49,8 +59,8 @@ void print_details(const Results& r, std::size_t o, bool budget) {
   const Budget& b = r.budgets[o];
   const Validation& v = r.validations[o];
   const auto width = [&](double x) { return with_suitable_unit(x, s.output.unit, s.output.si_unit); };
-  const int d = decimals_for(
-      units::from_si(s.standard_uncertainty, s.output.unit, s.output.si_unit, units::Kind::difference));
+  const int d =
+      decimals_for(units::from_si(s.standard_uncertainty, s.output.unit, s.output.si_unit, units::Kind::difference));
   if (!s.certificate.empty()) {
     std::cout << fmt::format("  u = {}; shortest {:.4g} % coverage interval [{}, {}]{}", width(s.standard_uncertainty),
                              100 * r.coverage_probability, fixed(point(s.output, s.shortest.low), d),
@@ -58,12 +68,13 @@ void print_details(const Results& r, std::size_t o, bool budget) {
     if (v.verdict == "validated")
       std::cout << "; U and k of the GUM framework, validated by Monte Carlo";
     else if (b.applicable)
-      std::cout << fmt::format("; U and k by Monte Carlo; GUM framework: U = {} with k = {:.2f}{} ({})",
-                               width(b.expanded_uncertainty), b.coverage_factor,
-                               std::isfinite(b.effective_degrees_of_freedom)
-                                   ? fmt::format(" ({:.0f} effective degrees of freedom)", b.effective_degrees_of_freedom)
-                                   : "",
-                               v.verdict);
+      std::cout << fmt::format(
+          "; U and k by Monte Carlo; GUM framework: U = {} with k = {:.2f}{} ({})", width(b.expanded_uncertainty),
+          b.coverage_factor,
+          std::isfinite(b.effective_degrees_of_freedom)
+              ? fmt::format(" ({:.0f} effective degrees of freedom)", b.effective_degrees_of_freedom)
+              : "",
+          v.verdict);
     else
       std::cout << "; U and k by Monte Carlo";
     std::cout << '\n';
@@ -88,7 +99,9 @@ void print_range(const Results& r, const std::vector<std::size_t>& outputs, bool
   const auto estimate = [&](std::size_t o) { return r.summaries[o].estimate; };
   const auto u = [&](std::size_t o) { return r.summaries[o].standard_uncertainty; };
   const auto known = [](const auto& value) {
-    return [&](std::size_t x, std::size_t y) { return std::isnan(value(y)) ? false : std::isnan(value(x)) || value(x) < value(y); };
+    return [&](std::size_t x, std::size_t y) {
+      return std::isnan(value(y)) ? false : std::isnan(value(x)) || value(x) < value(y);
+    };
   };
   const auto ends = [&](const auto& value) {
     const auto largest = *std::ranges::max_element(outputs, known(value));
@@ -107,12 +120,15 @@ void print_range(const Results& r, const std::vector<std::size_t>& outputs, bool
     return open == std::string::npos ? name : name.substr(open + 1, name.size() - open - 2);
   };
   const auto width = [&](double x) { return with_suitable_unit(x, output.unit, output.si_unit); };
-  const auto validated = std::ranges::count_if(outputs, [&](std::size_t o) { return r.validations[o].verdict == "validated"; });
-  std::cout << fmt::format(
-      "{} at {} readings: from {}{} ({}) to {}{} ({}); u from {} to {}; GUM framework validated for {}; the largest u:\n",
-      output.name.substr(0, output.name.find('[')), outputs.size(), fixed(point(output, estimate(low)), d),
-      unit_text(output), place(low), fixed(point(output, estimate(high)), d), unit_text(output), place(high),
-      width(u(least)), width(u(worst)), validated == static_cast<long>(outputs.size()) ? "all" : fmt::format("{}", validated));
+  const auto validated =
+      std::ranges::count_if(outputs, [&](std::size_t o) { return r.validations[o].verdict == "validated"; });
+  std::cout << fmt::format("{} at {} readings: from {}{} ({}) to {}{} ({}); u from {} to {}; GUM framework validated "
+                           "for {}; the largest u:\n",
+                           output.name.substr(0, output.name.find('[')), outputs.size(),
+                           fixed(point(output, estimate(low)), d), unit_text(output), place(low),
+                           fixed(point(output, estimate(high)), d), unit_text(output), place(high), width(u(least)),
+                           width(u(worst)),
+                           validated == static_cast<long>(outputs.size()) ? "all" : fmt::format("{}", validated));
   std::cout << head_line(r.summaries[worst]) << '\n';
   print_details(r, worst, budget);
 }

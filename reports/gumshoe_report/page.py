@@ -23,13 +23,14 @@ METHODS = {"propagation": "propagation of distributions (JCGM 101)",
 
 
 def question(text):
-    """The first sentence of the comment in which a scenario opens: '# Question: ...', may run over several lines."""
+    """The comment in which a scenario opens, '# Question: ...', to its first question mark, else its first sentence."""
     lines = itertools.takewhile(lambda line: line.startswith("#"), text.lstrip("\ufeff").splitlines())
     lines = [line.lstrip("# ").strip() for line in lines if not line.startswith("#:")]  # "#:schema" is for editors
     asked = next((k for k, line in enumerate(lines) if line.lower().startswith("question:")), 0)
     lines = itertools.dropwhile(lambda line: not line, lines[asked:])
     words = re.sub(r"(?i)^question:\s*", "", " ".join(itertools.takewhile(bool, lines)))
-    end = re.search(r"(?<![.\s]\w)(?<!\b(?:vs|no|cf))[.?!](?=\s+[A-Z0-9“\"(]|$)", words)
+    following = r"(?=\s+[A-Z0-9“\"(]|$)"
+    end = re.search(r"\?" + following, words) or re.search(r"(?<![.\s]\w)(?<!\b(?:vs|no|cf))[.!]" + following, words)
     words = words[:end.end()] if end else words
     return words[:1].upper() + words[1:]
 
