@@ -93,7 +93,8 @@ TEST_CASE("mistakes in [trace] are located", "[scenario][trace][errors]") {
       {"blocks = \"setup\"\nfinal = []", "s.toml:7:9: error: trace.final: empty"},
       {"blocks = \"setup\"\nfinal = [2]", "s.toml:7:10: error: trace.final: text is expected, not an integer"},
       {"final = [\"2\"]", "s.toml:6:9: error: trace.final: there are no blocks"},
-      {"order = \"tiem\"", "s.toml:6:9: error: trace.order: 'tiem' is neither a condition nor a column. Did you mean 'time'?"},
+      {"order = \"tiem\"",
+       "s.toml:6:9: error: trace.order: 'tiem' is neither a condition nor a column. Did you mean 'time'?"},
       {"order = \"temperatur\"\n" + columns, "Did you mean 'temperature'?"},
       {"redone = [[\"rod\", \"setpu\"]]", "s.toml:6:19: error: trace.redone[1]: no reading has the label 'setpu'"},
       {"redone = [[]]", "s.toml:6:11: error: trace.redone[1]: empty"},
@@ -106,7 +107,8 @@ TEST_CASE("mistakes in [trace] are located", "[scenario][trace][errors]") {
       {"[trace.columns]\nt = { column = \"Tt\" }", "has no column 'Tt'. Did you mean"},
       {"[trace.columns]\nt = { unit = \"s\" }", "s.toml:7:5: error: trace.columns.t.column is missing"},
       {"[trace.columns]\nt = { column = \"T\", unit = \"degX\" }", "'degX' is not a unit"},
-      {"[trace.columns]\nfeed = { column = \"T\" }", "s.toml:7:1: error: trace.columns.feed: the name already has a meaning"},
+      {"[trace.columns]\nfeed = { column = \"T\" }",
+       "s.toml:7:1: error: trace.columns.feed: the name already has a meaning"},
       {"[trace.columns]\n\"t x\" = { column = \"T\" }", "a formula cannot use this name"},
       {"[trace.columns]\nx = { column = \"rod\" }", "r.csv:2:1: error: 'a' is not a number"},
       {"[trace.columns]\nx = { column = \"z\" }", "s.toml:7:1: error: trace.columns.x: 'z' holds readings"},
@@ -172,7 +174,8 @@ TEST_CASE("a stated effect with a size is the last quantity", "[scenario][trace]
 
 TEST_CASE("mistakes in stated effects are located at the character", "[scenario][trace][errors]") {
   CHECK_THAT(wrong(effect("1 / feed", "um")), Contains("s.toml:6:12: error: stated_effects.film: the formula gives") &&
-                                                  Contains("spindle_z is a length") && Contains("Try: unit = \"m2.s-1\""));
+                                                  Contains("spindle_z is a length") &&
+                                                  Contains("Try: unit = \"m2.s-1\""));
   CHECK_THAT(wrong(effect("time + feed", "um")),
              Contains("s.toml:6:17: error: stated_effects.film: a time plus a speed"));
   CHECK_THAT(
@@ -183,18 +186,21 @@ TEST_CASE("mistakes in stated effects are located at the character", "[scenario]
                                                                 "is a quantity of the model"));
   CHECK_THAT(
       wrong(effect("tiem", "um/s")),
-      Contains("s.toml:6:12: error: stated_effects.film: 'tiem' is neither a condition nor a column. Did you mean 'time'?"));
+      Contains(
+          "s.toml:6:12: error: stated_effects.film: 'tiem' is neither a condition nor a column. Did you mean 'time'?"));
   CHECK_THAT(wrong(effect("1 +", "um")), Contains("s.toml:6:15: error"));
   CHECK_THAT(wrong(effect("1 / time", "um*s")), Contains("no finite value at reading 1 (rod = a, setup = 1)"));
   CHECK_THAT(wrong(effect("time", "um/fortnit")), Contains("s.toml:7:8: error: stated_effects.film.unit: "));
-  CHECK_THAT(wrong("[stated_effects.film]\nunit = \"um\"\n"), Contains("stated_effects.film.formula is missing"));
+  CHECK_THAT(wrong("[stated_effects.film]\nunit = \"um\"\n"),
+             Contains("stated_effects.film: it has neither a formula nor a table"));
   CHECK_THAT(wrong("[stated_effects.film]\nformula = 1\n"), Contains("stated_effects.film.unit is missing"));
   CHECK_THAT(wrong(effect("1", "um", "indication = \"spindel_z\"\n")), Contains("Did you mean 'spindle_z'?"));
   CHECK_THAT(wrong(effect("1", "um", "size = \"1 s\"\n")), Contains("stated_effects.film.size: '1 s' is not a length"));
   CHECK_THAT(wrong(effect("1", "um", "amount = \"1 um\"\n")), Contains("unknown key 'amount'"));
   for (const std::string name : {"trigger_latency", "feed", "rod_radius", "spindle_z"})
     CHECK_THAT(wrong("[stated_effects." + name + "]\nformula = 1\nunit = \"um\"\n"), Contains("has this name"));
-  CHECK_THAT(wrong("[stated_effects.\"a film\"]\nformula = 1\nunit = \"um\"\n"), Contains("the name cannot be used for an effect"));
+  CHECK_THAT(wrong("[stated_effects.\"a film\"]\nformula = 1\nunit = \"um\"\n"),
+             Contains("the name cannot be used for an effect"));
 }
 
 TEST_CASE("another data file for the same scenario", "[scenario][trace]") {
