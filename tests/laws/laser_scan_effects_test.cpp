@@ -1,0 +1,66 @@
+/// Size and sign of the effects on a scan, against closed forms.
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+#include "base/csv.h"
+#include "propagation/point_table.h"
+
+using namespace gumshoe;
+
+namespace {
+
+constexpr double deg = 3.14159265358979323846 / 180;
+
+/// Displacements in um with an effect, less those without it. `rest` stands in both tables.
+std::vector<double> change(const std::string& effect, const std::string& size, const std::string& rest, const std::vector<std::string>& rows) {
+  const auto read = [&](bool with) {
+    std::string text = (with ? effect + "," : "") + rest + "\n";
+    for (const std::string& row : rows) text += (with ? size + "," : "") + row + "\n";
+    const auto points = propagation::evaluate_points(*models::find("laser_scan"), parse_csv(text, "points.csv"), "");
+    for (const std::string& status : points.status) CHECK(status == "ok");
+    return points.columns.back();
+  };
+  auto out = read(true);
+  const auto without = read(false);
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = 1e3 * (out[i] - without[i]);
+  return out;
+}
+double change(const std::string& effect, const std::string& size, const std::string& rest, const std::string& row) {
+  return change(effect, size, rest, std::vector<std::string>{row})[0];
+}
+
+} // namespace
+
+TEST_CASE("lobes stay with the jaws, form with the part", "[laws][laser_scan][effects]") {
+  for (const int theta : {0, 20, 130}) {
+    const std::string row = std::to_string(theta) + ",40";
+    const double lobes = change("clamping_lobes.cosine (um)", "3", "theta (deg),part_angle (deg)", row),
+                 form = change("part_form.sine_3 (um)", "2", "theta (deg),part_angle (deg)", row);
+    CHECK(std::fabs(lobes - 3 * std::cos(3 * theta * deg)) < 1e-9);
+    CHECK(std::fabs(form - 2 * std::sin(3 * (theta - 40) * deg)) < 1e-9);
+  }
+}
+
+TEST_CASE("a late sensor sees what lies ahead in the direction of the scan", "[laws][laser_scan][effects]") {
+  // A part 0.1 mm off on a cone of slope 0.2, theta = C: the displacement is -m e_x cos(theta) / sqrt(1 + m^2) to first order, at
+  // 90 deg/s and 2 ms 0.18 deg ahead.
+  const double m = 0.2, ahead = 90 * 2e-3 * deg;
+  for (const int direction : {1, -1, 0}) {
+    const double found = change("stamp_skew.delay (ms)", "2", "cone_slope (1),B (deg),C (deg),theta (deg),e_x (mm),speed (deg/s),direction (1)",
+                                "0.2,-11.309932474,90,90,0.1,90," + std::to_string(direction));
+    CHECK(std::fabs(found - direction * 100 * m / std::sqrt(1 + m * m) * std::sin(ahead)) < 2e-3 * 0.062);
+  }
+}
+
+TEST_CASE("what the sensor adds, and how the axes move the part", "[laws][laser_scan][effects]") {
+  CHECK(std::fabs(change("standoff_shift.shift (um)", "7", "sensor_gain (1)", "0.01") - 7) < 1e-9);
+  CHECK(std::fabs(change("sensor_nonlinearity.quadratic (um)", "4", "e_z (mm)", "0.5") - 1) < 1e-9);
+  CHECK(std::fabs(change("sensor_nonlinearity.cubic (um)", "4", "e_z (mm)", "-0.5") + 0.5) < 1e-9);
+  // The spindle grows towards the part; the table rises; each makes the surface nearer.
+  CHECK(std::fabs(change("thermal_growth.rate (um/h)", "6", "surface (1),time (s)", "1,7200") - 12) < 1e-9);
+  CHECK(std::fabs(change("c_axial_motion.cosine (um)", "2", "surface (1),C (deg)", "1,30") - 2 * std::cos(60 * deg)) < 1e-9);
+  // The table that stands at -B turns by 10 arcsec about +Y: a plane of slope tan B is less steep.
+  const double turn = 10.0 / 3600 * deg;
+  CHECK(std::fabs(change("b_brake_shift.angle (arcsec)", "10", "surface (1),B (deg)", "1,30") + 0.07e6 * turn / std::cos(30 * deg)) < 1e-3);
+}
