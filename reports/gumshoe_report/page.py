@@ -171,7 +171,7 @@ def run_page(r):
     shown = varying(r)
     along = list(profiles(r))
     return dict(
-        spatial=spatial(r), profiles=along, left_out=max(0, len(shown) - LISTED), downloads=downloads(r), convergences=convergences(r), validations=[tables.validation_row(v) for v in r.validations[:LISTED]],
+        spatial=spatial(r), profiles=along, asked=[studies.target(t) for t in r.targets], left_out=max(0, len(shown) - LISTED), downloads=downloads(r), convergences=convergences(r), validations=[tables.validation_row(v) for v in r.validations[:LISTED]],
         diagnostics=[tables.diagnostic_text(o) for o in r.outputs if getattr(o, "diagnostic", 0)],
         effects=sorted({i.name.partition(".")[0] for i in r.inputs if "." in i.name}),
         kicker="Measurement uncertainty", title=r.title or r.model_title or r.model,

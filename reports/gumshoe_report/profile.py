@@ -114,4 +114,16 @@ def widest(profile, budgets, sobol):
     o = ends[0][1][3]
     found = sorted(of_variance(o, budgets, sobol).items(), key=lambda item: -item[1])[:3]
     main = [f"{name} {percent(share)}" for name, share in found if share > 0.05]
-    return text + (f" Where it is largest, its variance is due to {listed(main)}." if main else "")
+    return text + (f" Where it is largest, its variance is due to {listed(main)}." if main else "") + by_line(profile)
+
+
+def by_line(profile):
+    """The largest u of each line, so that lines are compared."""
+    ends = []
+    for line in profile.lines[:LINES]:
+        known = [o for o in line.outputs if math.isfinite(o.standard_uncertainty)]
+        if known and line.label:
+            o = max(known, key=lambda o: o.standard_uncertainty)
+            shown, by = finer(o.display_units, o.standard_uncertainty * o.display_factor)
+            ends.append(f"{significant(o.standard_uncertainty * o.display_factor * by)}{after(shown)} on {line.label}")
+    return f" At most it is {'; '.join(ends)}." if len(ends) > 1 else ""

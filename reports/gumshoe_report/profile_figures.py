@@ -46,9 +46,9 @@ def polar(p, drawn, unit, name, probability):
     """Deviations as distances from a circle, magnified: a dashed circle is zero."""
     reach = max(float(np.nanmax(np.abs(np.concatenate([low, high])))) for _, low, high in drawn) or 1.0
     shown = drawn[:profile.LINES]
-    columns = min(3, len(shown))
+    columns = 3 if len(shown) > 4 else min(2, len(shown))
     rows = math.ceil(len(shown) / columns)
-    size = 7.2 if columns > 1 else 4.6
+    size = (4.2, 5.8, 7.2)[columns - 1]
     figure, grid = plt.subplots(rows, columns, figsize=(size, size / columns * rows + 0.3), layout="constrained",
                                 squeeze=False, subplot_kw={"projection": "polar"})
     for axes in grid.flat[len(shown):]:
@@ -64,8 +64,8 @@ def polar(p, drawn, unit, name, probability):
         axes.plot(turn, 0 * turn, color=INK, linewidth=0.8, linestyle=(0, (4, 3)))
         axes.set_ylim(-3.2 * reach, 1.15 * reach)
         marks = step(reach)
-        axes.set_yticks([-marks, 0, marks], [f"{v:g} {unit}".replace("-", "−") for v in (-marks, 0, marks)], fontsize=6.5)
-        axes.set_rlabel_position(100)
+        axes.set_yticks([-marks, 0, marks], ["", "", f"+{marks:g} {unit}"], fontsize=6.5)
+        axes.set_rlabel_position(67)
         axes.tick_params(axis="x", labelsize=7, pad=-1)
         axes.grid(**GRID)
         axes.spines["polar"].set_visible(False)
@@ -117,18 +117,20 @@ def where(p, budgets, sobol, name):
     rows = math.ceil(len(shown) / columns)
     figure = plt.figure(figsize=(7.2, 1.9 * rows + 0.7), layout="constrained")
     top, key = figure.subfigures(2, 1, height_ratios=[1.9 * rows, 0.45])
-    grid = top.subplots(rows, columns, squeeze=False, sharex=True, sharey=True)
+    grid = top.subplots(rows, columns, squeeze=False, sharex=True, sharey="row")
     for axes in grid.flat[len(shown):]:
         axes.set_visible(False)
     for axes, line, height, table in zip(grid.flat, shown, u, tables):
         x = np.array(line.x) * x_factor
         stack = np.array(table)
+        stack /= np.maximum(1, np.nansum(stack, axis=0))  # indices are estimates: their sum may exceed 1
         rest = np.clip(1 - np.nansum(stack, axis=0), 0, None)
         layers = np.vstack([stack, rest]) * height * factor
         axes.stackplot(x, layers, colors=COLOURS[:len(order)] + [REST], linewidth=0)
         axes.plot(x, height * factor, color=INK, linewidth=1.0)
-        axes.set_ylim(bottom=0)
         axes.set_title(line.label, loc="left", fontsize=8, color=INK)
+    for row in grid:
+        row[0].set_ylim(0, 1.05 * max(float(np.max(axes.dataLim.ymax)) for axes in row if axes.get_visible()))
     unit = rounding.unit_text(unit)
     for axes in grid[-1]:
         axes.set_xlabel(p.along + (f", {x_unit}" if x_unit else ""))

@@ -205,7 +205,9 @@ def target(t):
         text = f"U = {size(t.present)} must be reduced to {size(t.wanted)}; improving a single quantity is not enough."
     if math.isfinite(t.reached):
         text += f" The cheapest combination reaches {size(t.reached)} at {significant(t.cost_ratio, 3)} times the present cost."
-    return types.SimpleNamespace(output=t.output, text=text, statement=t.statement, rows=lines,
+    cheapest = [f"{r.quantity} {significant(spread(r, r.cheapest))}{unit_after(r)} ({significant(spread(r, r.present))} now)"
+                for r in t.rows if math.isfinite(r.cheapest) and r.cheapest < r.present]
+    return types.SimpleNamespace(output=t.output, text=text, statement=t.statement, rows=lines, cheapest=", ".join(cheapest),
                                  has_cost=any(math.isfinite(r.cost) for r in t.rows))
 
 

@@ -87,6 +87,8 @@ class Profile(unittest.TestCase):
         share = re.search(r"its variance is due to e_x ([\d.]+) % and d ([\d.]+) %\.", words)
         self.assertAlmostEqual(float(share[1]), 100 * 4 / 4.25, delta=0.06)
         self.assertAlmostEqual(float(share[2]), 100 * 0.25 / 4.25, delta=0.06)
+        largest = f"{math.hypot(2, 0.5):.1f}"
+        self.assertTrue(f"At most it is {largest} µm on line inner; {largest} µm on line outer." in words)
         self.assertLess(page.index("Which quantity matters where"), page.index("All 24 outputs"))
         self.assertEqual(measured(self.drawn, CLIPPED), [])
 
@@ -103,6 +105,16 @@ class Profile(unittest.TestCase):
         _, page = self.report(12, text)
         self.assertTrue("deviation along place with symmetric coverage intervals" in page)
         self.assertFalse("magnified" in page)
+
+    def test_what_a_target_needs_stands_before_the_table(self):
+        asked = TEXT + """[[analysis.targets]]
+measurand = "deviation"
+labels = { line = "inner", point = "inner:0" }
+U = "2 um"
+costs = { e_x = 1 }
+"""
+        _, page = self.report(12, asked)
+        self.assertLess(page.index("It needs u of e_x"), page.index("All 24 outputs"))
 
     def test_few_points_are_no_profile(self):
         r, page = self.report(4)
