@@ -20,7 +20,9 @@ def design(rng, sockets=8, alike=False, one_way=False, **more):
         for axis, x in zip("xyz", place):
             cells.append(Cell(f"reference_{axis}", "mm", x, 0.0, "socket", level))
             cells.append(Cell(f"position_error_{axis}", "mm", round(rng.uniform(-0.05, 0.05), 3), 0.0, "socket", level, free=True, step=0.01))
-        cells += [Cell("bar_zero", "um", 0.0, 0.3, "socket", level), Cell("temperature_difference", "K", round(rng.uniform(-1, 1), 1), 0.1, "socket", level)]
+        if not more.get("scatter"):  # declared scatter is that of the zero
+            cells.append(Cell("bar_zero", "um", 0.0, 0.3, "socket", level))
+        cells += [Cell("temperature_difference", "K", round(rng.uniform(-1, 1), 1), 0.1, "socket", level)]
         for k in range(12):
             azimuth, height = rng.uniform(0, 2 * np.pi), 0.5 if alike else rng.uniform(-0.2, 0.98)
             n = np.array([np.sqrt(1 - height**2) * np.cos(azimuth), np.sqrt(1 - height**2) * np.sin(azimuth), height])
@@ -48,7 +50,7 @@ def simulate(program, d, vectors, extra=()):
         lever, length = bar(d, q)
         error = np.stack([q[f"position_error_{a}", "mm"] for a in "xyz"], -1)
         change = np.linalg.norm(lever + error, axis=1) - length - length * EXPANSION * q["temperature_difference", "K"]
-        out.append(1e3 * change + q["bar_zero", "um"])
+        out.append(1e3 * change + q.get(("bar_zero", "um"), 0.0))
     return np.array(out)[..., None]
 
 
@@ -116,7 +118,7 @@ method = "propagation"
 
 
 def scatter_toml(d):
-    raise NotImplementedError
+    return f'[quantities.bar_zero]\nvalue = "0 um"\ncomponents = [ {{ distribution = "normal", u = "{d.scatter:g} um", per = "socket" }} ]\n'
 
 
 def leave(program, d, q, left):

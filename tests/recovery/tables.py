@@ -100,7 +100,7 @@ def report(rows, run):
     judged = (f"This was judgement run {run['judgements']} on seeds that no earlier run has had" if run["judgement"]
               else "These are development seeds: the search may have been tuned on them")
     parts = [
-        f"Sets of readings of three measurements with an undeclared effect, or with none, made by `tests/recovery` with formulas of its own. {judged} "
+        f"Sets of readings of several measurements with an undeclared effect, or with none, made by `tests/recovery` with formulas of its own. {judged} "
         f"(from seed {run['first_seed']}). {len(rows)} sets: {run['nulls']} nulls per system and kind of noise with {run['null_draws']} bootstrap draws, "
         f"{run['effects']} sets per effect and strength with {run['draws']}. {run['version']}, {run['date']}, {run['machine']}, {run['processes']} processes, "
         f"{run['seconds'] / 60:.0f} min in all, {show(median(seconds))} s a set (median). "
