@@ -2,6 +2,8 @@
 /// A point that one or two rotary axes turn about a pivot: where it goes, and which errors of the angles take it to
 /// where it was found. For the single socket method on three types of five-axis machines; corrected equations:
 /// README.md of the model single_socket_rotation. Source: Wang et al. 2013, section 2.1.2.
+#include <array>
+
 #include "math/pose.h"
 
 namespace gumshoe::chain {
@@ -9,10 +11,21 @@ namespace gumshoe::chain {
 /// The axes that turn the point. RTTTR has one in the head and one in the table, each with a point of its own.
 enum class Turn { RRTTT, TTTRR, RTTTR_head, RTTTR_table };
 
+/// Whether it turns about X, Y, Z.
+constexpr std::array<bool, 3> turns_about(Turn turn) {
+  return {turn != Turn::RTTTR_head, turn == Turn::RRTTT || turn == Turn::RTTTR_head, turn == Turn::TTTRR};
+}
+
 /// Angles about X, Y and Z, or their errors, rad; 0 about an axis that the machine does not have.
 template <class T> struct Angles { T alpha = T(0.0), beta = T(0.0), gamma = T(0.0); };
 template <class T> Angles<T> operator+(const Angles<T>& a, const Angles<T>& b) {
   return {a.alpha + b.alpha, a.beta + b.beta, a.gamma + b.gamma};
+}
+
+/// The angles of those axes that there are, 0 else.
+template <class T> Angles<T> only(const std::array<bool, 3>& about, const Angles<T>& a) {
+  const T none(0.0);
+  return {about[0] ? a.alpha : none, about[1] ? a.beta : none, about[2] ? a.gamma : none};
 }
 
 /// The point from the pivot with all angles at 0, and how it is turned.

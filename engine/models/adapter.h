@@ -22,6 +22,7 @@
 ///   static constexpr bool scalar = true                      blocks run on doubles: the physics branches too much for
 ///                                                            lanes
 ///   static MadeModel on_machine(description, why)            Model::on_machine; its row carries a context, at.context
+///   static int machine_of(int evaluation)     Model::machine_of
 ///   using Joint = std::tuple<...>                            its joint evaluations, in the order of the card
 /// The card's limits are checked here, for points and for samples: a model states them once, in its card.
 #include <cmath>
@@ -207,6 +208,7 @@ template <class M> constexpr Model row_of(const Kernels* (*kernels)()) {
   row.check = &detail::check<M>;
   row.solve_reads = &detail::solve_reads<M>;
   if constexpr (requires { &M::on_machine; }) row.on_machine = &M::on_machine;
+  if constexpr (requires { &M::machine_of; }) row.machine_of = &M::machine_of;
   if constexpr (HasJoint<M>) {
     static_assert(detail::joint_rows_match<M>(), "a joint evaluation and its card differ in their measurands");
     row.measurands_in_use = &detail::measurands_in_use<M>;

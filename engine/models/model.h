@@ -128,6 +128,8 @@ struct Model {
   /// The model on another machine than the card's, as `[machine]` describes it without errors of the description; null
   /// where it does not fit, and `why` says what it lacks. Null: the model's machine is fixed.
   MadeModel (*on_machine)(const chain::MachineDescription& machine, std::string& why) = nullptr;
+  /// The evaluation whose machine a virtual experiment simulates, of one that is not joint. Null: the first.
+  int (*machine_of)(int evaluation) = nullptr;
 };
 
 /// The models of the catalogue; those that a scenario makes are not among them.

@@ -75,6 +75,10 @@ template <class T, class Quantities> Vector3<T> stated_from_pivot(const Quantiti
   return Vector3<T>{q.nominal_x, q.nominal_y, q.nominal_z} - Vector3<T>{q.pivot_x, q.pivot_y, q.pivot_z};
 }
 
+/// The nominal place from the pivot: as stated, or else as computed.
+template <class T, class Quantities> Vector3<T> nominal_place(const Quantities& q, const Vector3<T>& computed) {
+  return choose(is_stated<T>(q), stated_from_pivot<T>(q), computed);
+}
 /// @param q, c quantities of GUMSHOE_BODY_ROWS; alpha, beta, gamma
 template <class T, class Quantities, class Conditions>
 Body<T> body(chain::Turn turn, const Quantities& q, const Conditions& c) {
@@ -82,7 +86,7 @@ Body<T> body(chain::Turn turn, const Quantities& q, const Conditions& c) {
   b.nominal = {turn, {q.point_x, q.point_y, q.point_z}, q.z_alpha_gamma, {c.alpha, c.beta, c.gamma}};
   b.seated = b.nominal;
   b.seated.point = b.seated.point + Vector3<T>{q.seating_x, q.seating_y, q.seating_z};
-  b.turned = choose(is_stated<T>(q), stated_from_pivot<T>(q), place(b.nominal, b.nominal.commanded));
+  b.turned = nominal_place(q, place(b.nominal, b.nominal.commanded));
   return b;
 }
 
@@ -98,14 +102,35 @@ template <class T> Found<T> found(const Body<T>& b, const Vector3<T>& before, co
   return {error, v - place(b.seated, b.seated.commanded + error), length(v) - length(unturned)};
 }
 
-/// Refuses what determines no angles, or contradicts itself. @param turned mask: where the ball is turned
+/// Refuses commanded angles about axes that the machine does not have.
+template <class T, class Outcome>
+void refuse_angles(const std::array<bool, 3>& about, const chain::Angles<T>& angles, Outcome& outcome) {
+  const auto other = chain::only<T>({!about[0], !about[1], !about[2]}, angles);
+  outcome.refuse(num::abs(other.alpha) + num::abs(other.beta) + num::abs(other.gamma) > T(0.0),
+                 "alpha, beta or gamma is not 0, but the machine has no such axis");
+}
+/// Refuses the distance of axes that only TTTRR has.
+template <class T, class Outcome> void refuse_distance(chain::Turn turn, const T& z_alpha_gamma, Outcome& outcome) {
+  const T other = turn == chain::Turn::TTTRR ? T(0.0) : z_alpha_gamma;
+  outcome.refuse(num::abs(other) > T(0.0), "z_alpha_gamma is not 0, but the machine is not TTTRR");
+}
+/// Refuses what determines no angles. @param turned mask: where the ball is turned
+template <class T, class Mask, class Outcome>
+void refuse_levers(const T& smallest, const Mask& turned, Outcome& outcome) {
+  outcome.refuse(turned && (smallest < T(1e-6)),
+                 "point_x, point_y, point_z: the ball has no lever for one of the angles, so nothing determines it");
+}
+/// Refuses a stated nominal place that contradicts the computed one, from the pivot.
+template <class T, class Quantities, class Mask, class Outcome>
+void refuse_nominal(const Body<T>& b, const Vector3<T>& computed, const Quantities& q, const Mask& turned,
+                    Outcome& outcome) {
+  outcome.refuse(turned && is_stated<T>(q) && (length<T>(b.turned - computed) > T(1e-3)),
+                 "nominal_x, nominal_y, nominal_z are over 1 mm from where pivot, point and angles put the ball");
+}
 template <class T, class Quantities, class Mask>
 void check(const Body<T>& b, const Quantities& q, const Mask& turned, Outcome<T>& outcome) {
-  const T shortest(1e-6), farthest(1e-3);
-  outcome.refuse(turned && (smallest_lever(b.seated) < shortest),
-                 "point_x, point_y, point_z: the ball has no lever for one of the angles, so nothing determines it");
-  outcome.refuse(turned && is_stated<T>(q) && (length<T>(b.turned - place(b.nominal, b.nominal.commanded)) > farthest),
-                 "nominal_x, nominal_y, nominal_z are over 1 mm from where pivot, point and angles put the ball");
+  refuse_levers(smallest_lever(b.seated), turned, outcome);
+  refuse_nominal(b, place(b.nominal, b.nominal.commanded), q, turned, outcome);
 }
 
 } // namespace gumshoe::models::turned_ball

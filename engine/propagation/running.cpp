@@ -132,7 +132,8 @@ void Experiment::simulate(std::size_t rows, std::size_t n, Workspace& w, std::ui
   point_at_rows(w.true_measurands, rows, w.truth.data(), n);
   point_at_rows(w.simulated, w.indications.size() / n, w.indications.data(), n);
   auto call = forward_.call(w.block, w.simulated.data(), w.true_measurands.data(), status);
-  if (!joint_) call.evaluation = 0; // the machine itself, not what an approximate evaluation takes it for
+  // The machine itself, not what an approximate evaluation takes it for.
+  if (!joint_) call.evaluation = model().machine_of ? model().machine_of(call.evaluation) : 0;
   model().kernels()->simulate(call);
 }
 

@@ -4,6 +4,7 @@ usage: single_socket_test.py path/to/gumshoe [unittest options]
 """
 import csv
 import io
+import json
 import math
 import pathlib
 import tempfile
@@ -90,6 +91,67 @@ class SingleSocket(unittest.TestCase):
         self.refused("the ball has no lever for one of the angles", header, [(90, 0, 0, 0)], "rrttt", model="single_socket_rotation")
         self.refused("over 1 mm from where pivot, point and angles put the ball", [*header, "nominal_x (mm)"], [(0, 0, 0, 0, 2)],
                      "rrttt", model="single_socket_rotation")
+
+    def test_axes_that_a_machine_does_not_have(self):
+        header = ["gamma (deg)", "after_x (mm)", "after_y (mm)", "after_z (mm)"]
+        absent = "alpha, beta or gamma is not 0, but the machine has no such axis"
+        self.refused(absent, header, [(5, 0, 0, 0)], "rrttt", model="single_socket_rotation")
+        self.refused(absent, ["step", "gamma (deg)", *self.STATION], [(s, 5 * (s - 1), *at, 0) for s in (1, 2) for at in SQUARE], "rrttt")
+        self.refused("z_alpha_gamma is not 0, but the machine is not TTTRR", ["z_alpha_gamma (mm)", *header[1:]], [(5, 0, 0, 0)], "rrttt",
+                     model="single_socket_rotation")
+        self.refused("the evaluation 'described' belongs to a [machine]", header, [(0, 0, 0, 0)], "described",
+                     model="single_socket_rotation")
+
+    # on a described machine
+
+    MACHINE = """schema = 1
+[model]
+name = "single_socket_rotation"
+method = "virtual_experiment"
+evaluation = "described"
+[machine]
+name = "B and C in the table"
+workpiece_side = ["Y", {{ axis = "B", point = ["10 mm", "0 mm", "-50 mm"] }}, {{ axis = "C", point = ["-5 mm", "30 mm", "0 mm"] }}]
+tool_side = {tool}
+[conditions]
+beta = "20 deg"
+gamma = "-35 deg"
+[quantities]
+point_x = "120 mm"
+point_y = "40 mm"
+point_z = "90 mm"
+d_beta = "0.2 deg"
+d_gamma = "-0.15 deg"
+"""
+
+    def run_on(self, tool='["X", "Z"]', more=""):
+        scenario = self.path.with_name("machine.toml")
+        scenario.write_text(self.MACHINE.format(tool=tool) + '[indications.after_x]\ncomponents = [ { distribution = "normal", u = "1 um" } ]\n' + more)
+        return gumshoe("run", scenario, "--samples", 1000, "--format", "json", "--out", scenario.with_suffix(".h5"))
+
+    def test_any_two_rotary_axes(self):
+        # The machine that is simulated is the one that is evaluated: the errors that were given come back.
+        run = self.run_on()
+        self.assertEqual(run.returncode, 0, run.stderr)
+        for result in json.loads(run.stdout):
+            if result["measurand"].startswith("d_"):
+                self.assertLess(abs(result["estimate"]), 1e-4)
+
+    def test_a_virtual_experiment_simulates_the_machine_of_its_evaluation(self):
+        text = self.MACHINE.format(tool="[]")
+        text = text[:text.index("[machine]")].replace("described", "tttrr_linear") + text[text.index("[conditions]"):].replace(
+            'beta = "20 deg"', 'alpha = "20 deg"').replace("d_beta", "d_alpha")
+        scenario = self.path.with_name("tttrr.toml")
+        scenario.write_text(text + '[indications.after_x]\ncomponents = [ { distribution = "normal", u = "1 um" } ]\n')
+        run = gumshoe("run", scenario, "--samples", 1000, "--format", "json", "--out", scenario.with_suffix(".h5"))
+        self.assertEqual(run.returncode, 0, run.stderr)
+
+    def test_which_machines(self):
+        for tool, more, part in (('["X", "Z", "A"]', "", "single_socket_rotation has two rotary axes, both in the table or both in the head"),
+                                 ('["X", "Z"]', '[machine.errors]\nE_A0C = "1 urad"\n', "E_A0C is no quantity of single_socket_rotation")):
+            run = self.run_on(tool, more)
+            self.assertIsNone(complaint(run), run.stderr)
+            self.assertIn(part, run.stderr)
 
 
 if __name__ == "__main__":

@@ -7,6 +7,7 @@
 
 #include "chain/machine.h"
 #include "models/single_socket/single_socket.h"
+#include "models/single_socket_rotation/described.h"
 
 using namespace gumshoe;
 namespace socket = gumshoe::models::single_socket;
@@ -182,4 +183,46 @@ TEST_CASE("uncertainty of the angles of a head: sqrt(2) u(D) over the lever, tim
     CHECK(std::fabs(u(found.alpha) - 1.1668 / std::cos(40 * deg)) < 1e-3);
   }
   CHECK(std::fabs(std::sqrt(2.0) * um / 0.25 / arcsec - 1.1668) < 1e-4);
+}
+
+TEST_CASE("any two rotary axes: places of the chain, errors that undo the turn, least closure",
+          "[laws][single_socket]") {
+  Draw draw;
+  constexpr const char* names[] = {"A", "B", "C"};
+  const auto point = [&] { return Vector3<double>{draw(-0.1, 0.1), draw(-0.1, 0.1), draw(-0.1, 0.1)}; };
+  for (int first = 0; first < 3; ++first)
+    for (int second = 0; second < 3; ++second) {
+      if (first == second) continue;
+      const chain::TwoRotaryAxes axes{{first, 1, true, point()}, {second, 1, true, point()}};
+      const auto described = [](const char* name, const Vector3<double>& p) {
+        return chain::AxisDescription{name, "", {p.x, p.y, p.z}, 1};
+      };
+      const chain::Machine machine(
+          {"two", std::vector{described(names[first], axes.first.point), described(names[second], axes.second.point)},
+           std::vector<chain::AxisDescription>{}});
+      const models::single_socket_rotation::Described<double> ball{axes, axes.second.point - axes.first.point};
+      for (int n = 0; n < 20; ++n) {
+        const Vector3<double> at{draw(0.1, 0.2), draw(0.1, 0.2), draw(0.1, 0.2)};
+        Angles<double> by{draw(-0.3, 0.3), draw(-0.3, 0.3), draw(-0.3, 0.3)}, error{1e-3, -2e-3, 1.5e-3};
+        by = chain::only<double>({first == 0 || second == 0, first == 1 || second == 1, first == 2 || second == 2}, by);
+        error = chain::only<double>({first == 0 || second == 0, first == 1 || second == 1, first == 2 || second == 2},
+                                    error);
+        CAPTURE(first, second, n);
+        const double commands[] = {ball.about(first, by), ball.about(second, by)};
+        const auto pose = machine.bed_from_workpiece(commands, machine.errors().data());
+        CHECK(distance(pose * (axes.second.point + at), axes.first.point + ball.place(at, by)) < 1e-15);
+        if (ball.smallest_lever(at, by) < 0.05) continue;
+        auto there = ball.place(at, by + error);
+        const auto undone = ball.errors(at, by, there);
+        CHECK(std::fabs(undone.alpha - error.alpha) + std::fabs(undone.beta - error.beta) +
+                  std::fabs(undone.gamma - error.gamma) <
+              1e-14);
+        // 50 um off: what remains is square to both levers.
+        there = there + Vector3<double>{30 * um, -30 * um, 30 * um};
+        const auto nearest = by + ball.errors(at, by, there);
+        const auto closure = there - ball.place(at, nearest);
+        const auto [a, b] = ball.levers(at, nearest);
+        CHECK(std::fabs(dot(a, closure)) + std::fabs(dot(b, closure)) < 1e-16);
+      }
+    }
 }

@@ -20,11 +20,7 @@ template <class T> Vector3<T> seating(const At<T>& at) { return {at.q.seating_x,
 template <class T> Body<T> body(const At<T>& at) { return turned_ball::body<T>(turn_of(at.evaluation), at.q, at.c); }
 /// True errors of the angles, of those axes that the machine has.
 template <class T> chain::Angles<T> true_angle_errors(const At<T>& at) {
-  const Turn turn = turn_of(at.evaluation);
-  const T none(0.0);
-  return {turn == Turn::RTTTR_head ? none : at.q.d_alpha,
-          turn == Turn::RRTTT || turn == Turn::RTTTR_head ? at.q.d_beta : none,
-          turn == Turn::TTTRR ? at.q.d_gamma : none};
+  return chain::only<T>(chain::turns_about(turn_of(at.evaluation)), {at.q.d_alpha, at.q.d_beta, at.q.d_gamma});
 }
 
 /// The readings of one step, fixed by the conditions, and room for their stations.

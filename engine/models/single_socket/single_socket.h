@@ -27,6 +27,8 @@ struct SingleSocket {
     outcome.refuse((c.step != one) && (c.step != two), "step must be 1 or 2");
     outcome.refuse((c.direction != one) && (c.direction != -one) && (c.direction != zero),
                    "direction must be 1, -1 or 0");
+    if (is_rotated(at.evaluation))
+      turned_ball::refuse_angles<T>(chain::turns_about(turn_of(at.evaluation)), {c.alpha, c.beta, c.gamma}, outcome);
   }
   template <class T> static void check(const At<T>& at, Outcome<T>& outcome) {
     const T two(2.0);
@@ -35,7 +37,9 @@ struct SingleSocket {
     outcome.refuse(distance < T(si::mm), "station and reference are less than 1 mm apart");
     outcome.refuse(num::abs(s.nominal - distance) > T(0.01) * distance,
                    "bar_length differs from the distance between station and reference by more than 1 %");
-    if (is_rotated(at.evaluation)) turned_ball::check(body(at), at.q, at.c.step == two, outcome);
+    if (!is_rotated(at.evaluation)) return;
+    turned_ball::refuse_distance(turn_of(at.evaluation), at.q.z_alpha_gamma, outcome);
+    turned_ball::check(body(at), at.q, at.c.step == two, outcome);
   }
 
   /// Position error of the ball at the reading's step, its seating included.

@@ -1,0 +1,60 @@
+#pragma once
+/// A ball that the two rotary axes of a described machine turn, both in the table or both in the head: where it goes,
+/// and which errors of the angles bring it nearest to where it was found.
+#include "chain/turned_point.h"
+#include "chain/two_rotary_axes.h"
+
+namespace gumshoe::models::single_socket_rotation {
+
+/// The ball's place is counted from the point of the second axis, the result from that of the first.
+template <class T> struct Described {
+  const chain::TwoRotaryAxes& axes;
+  Vector3<T> offset; ///< from the first axis' point to the second's, m
+
+  static const T& about(int direction, const chain::Angles<T>& by) {
+    return direction == 0 ? by.alpha : direction == 1 ? by.beta : by.gamma;
+  }
+  Matrix3<T> first(const chain::Angles<T>& by) const {
+    return chain::turn_about(axes.first.direction, about(axes.first.direction, by));
+  }
+  Vector3<T> turned_by_second(const Vector3<T>& ball, const chain::Angles<T>& by) const {
+    return chain::turn_about(axes.second.direction, about(axes.second.direction, by)) * ball;
+  }
+  Vector3<T> place(const Vector3<T>& ball, const chain::Angles<T>& by) const {
+    return first(by) * (offset + turned_by_second(ball, by));
+  }
+
+  /// By how much an error of either angle moves the ball, m/rad.
+  struct Levers {
+    Vector3<T> first, second;
+  };
+  Levers levers(const Vector3<T>& ball, const chain::Angles<T>& by) const {
+    const T one(1.0);
+    return {cross(chain::along(axes.first.direction, one), place(ball, by)),
+            first(by) * cross(chain::along(axes.second.direction, one), turned_by_second(ball, by))};
+  }
+  /// Area that the levers span by the longer one, m: 0 where the errors cannot be distinguished.
+  T smallest_lever(const Vector3<T>& ball, const chain::Angles<T>& by) const {
+    const auto [a, b] = levers(ball, by);
+    const T aa = dot(a, a), bb = dot(b, b), longest = T(0.5) * (aa + bb + num::abs(aa - bb)) + T(1e-30);
+    return num::sqrt((aa * bb - dot(a, b) * dot(a, b)) / longest);
+  }
+
+  /// Least squares of all three equations, by Gauss-Newton in a fixed number of steps.
+  chain::Angles<T> errors(const Vector3<T>& ball, const chain::Angles<T>& commanded, const Vector3<T>& found) const {
+    constexpr int steps = 8;
+    T d[3] = {T(0.0), T(0.0), T(0.0)};
+    for (int k = 0; k < steps; ++k) {
+      const auto by = commanded + chain::Angles<T>{d[0], d[1], d[2]};
+      const auto [a, b] = levers(ball, by);
+      const Vector3<T> left = found - place(ball, by);
+      const T aa = dot(a, a), ab = dot(a, b), bb = dot(b, b), al = dot(a, left), bl = dot(b, left);
+      const T one_by = T(1.0) / (aa * bb - ab * ab);
+      d[axes.first.direction] = d[axes.first.direction] + one_by * (bb * al - ab * bl);
+      d[axes.second.direction] = d[axes.second.direction] + one_by * (aa * bl - ab * al);
+    }
+    return {d[0], d[1], d[2]};
+  }
+};
+
+} // namespace gumshoe::models::single_socket_rotation
