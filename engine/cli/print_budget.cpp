@@ -17,24 +17,37 @@ namespace {
 
 /// All components of one quantity.
 struct Part {
-  std::string name;
+  std::string name, quantity;
   double variance = 0, share = 0;
   std::size_t components = 0;
 };
 
-/// By quantity, the largest share first; shares that are not known are left out.
-std::vector<Part> parts(const Budget& b, bool monte_carlo) {
+/// By quantity, the largest share of the law of propagation first; shares that are not known are left out.
+std::vector<Part> parts(const Budget& b) {
   std::vector<Part> all;
-  std::vector<std::string> quantities;
   for (const Contribution& c : b.contributions) {
-    const double share = monte_carlo ? c.monte_carlo_share : c.share;
-    if (!std::isfinite(share) || share == 0) continue;
-    const auto at = static_cast<std::size_t>(std::ranges::find(quantities, c.quantity) - quantities.begin());
-    if (at == quantities.size()) quantities.push_back(c.quantity), all.push_back({c.name, 0, 0, 0});
-    Part& part = all[at];
+    if (!std::isfinite(c.share) || c.share == 0) continue;
+    const auto known = std::ranges::find(all, c.quantity, &Part::quantity);
+    Part& part = known != all.end() ? *known : all.emplace_back(Part{c.name, c.quantity});
     if (++part.components > 1) part.name = c.quantity;
     part.variance += c.contribution * c.contribution;
-    part.share += share;
+    part.share += c.share;
+  }
+  std::ranges::stable_sort(all, [](const Part& x, const Part& y) { return x.share > y.share; });
+  return all;
+}
+
+/// The same of Sobol' indices, which may be those of components or of whole quantities.
+std::vector<Part> parts(const Budget& b, const std::vector<SobolIndex>& indices) {
+  std::vector<Part> all;
+  for (const SobolIndex& index : indices) {
+    if (!std::isfinite(index.first) || index.first == 0) continue;
+    const auto c = std::ranges::find(b.contributions, index.input, &Contribution::name);
+    const std::string quantity = c == b.contributions.end() ? index.input : c->quantity;
+    const auto known = std::ranges::find(all, quantity, &Part::quantity);
+    Part& part = known != all.end() ? *known : all.emplace_back(Part{index.input, quantity});
+    if (++part.components > 1) part.name = quantity;
+    part.share += index.first;
   }
   std::ranges::stable_sort(all, [](const Part& x, const Part& y) { return x.share > y.share; });
   return all;
@@ -74,8 +87,7 @@ std::vector<std::string> cells(const Contribution& c, const propagation::Output&
           std::isfinite(c.standard_uncertainty) ? with_suitable_unit(c.standard_uncertainty, c.unit, c.si_unit) : "-",
           std::string(1, c.evaluation),
           c.distribution,
-          std::isfinite(c.degrees_of_freedom) ? fmt::format("{:.4g}", c.degrees_of_freedom)
-                                                                          : "inf",
+          std::isfinite(c.degrees_of_freedom) ? fmt::format("{:.4g}", c.degrees_of_freedom) : "inf",
           number_text(converted(c.sensitivity, In::coefficient, row, out)) +
               (output.unit == c.unit ? "" : " " + output.unit + over),
           std::isfinite(c.contribution) ? with_suitable_unit(c.contribution, output.unit, output.si_unit) : "-",
@@ -86,14 +98,15 @@ std::vector<std::string> cells(const Contribution& c, const propagation::Output&
 
 } // namespace
 
-std::string largest_contributions(const Budget& b) {
+std::string largest_contributions(const Budget& b, const std::vector<SobolIndex>& indices) {
   constexpr std::size_t most = 3;
   bool monte_carlo = !b.applicable;
-  const std::vector<Part> all = parts(b, monte_carlo);
+  const std::vector<Part> all = monte_carlo ? parts(b, indices) : parts(b);
   if (all.empty())
-    return b.contributions.empty() || !monte_carlo ? "no input is uncertain"
-                                   : "largest contributions: the GUM framework gives none here; set sensitivity = { "
-                                     "sobol = 65536 } in [analysis]";
+    return b.contributions.empty() || !monte_carlo
+               ? "no input is uncertain"
+               : "largest contributions: the GUM framework gives none here; set sensitivity = { "
+                 "sobol = 65536 } in [analysis]";
   std::string text = monte_carlo ? "largest contributions (first-order Sobol' indices): " : "largest contributions: ";
   for (std::size_t i = 0; i < std::min(most, all.size()); ++i)
     text += (i == 0 ? "" : ", ") + all[i].name + ' ' +
@@ -108,8 +121,8 @@ std::string largest_contributions(const Budget& b) {
 
 void print_budget(const Budget& b, std::ostream& out) {
   const auto width = [&](double x) { return with_suitable_unit(x, b.output.unit, b.output.si_unit); };
-  out << "  uncertainty budget of " << b.output.name << (b.applicable ? "" : " (GUM framework not applicable: " + b.reason + ")")
-      << '\n';
+  out << "  uncertainty budget of " << b.output.name
+      << (b.applicable ? "" : " (GUM framework not applicable: " + b.reason + ")") << '\n';
   std::vector<std::vector<std::string>> rows{
       {"component", "estimate", "u", "type", "distribution", "nu", "c", "|c| u", b.applicable ? "share" : "Sobol'"}};
   for (const Contribution& c : b.contributions) rows.push_back(cells(c, b.output));
@@ -120,10 +133,9 @@ void print_budget(const Budget& b, std::ostream& out) {
     if (b.correlation_share != 0) closing("correlations", "", percent(b.correlation_share));
     closing("combined standard uncertainty", width(b.combined_standard_uncertainty), "");
     closing("effective degrees of freedom",
-            std::isfinite(b.effective_degrees_of_freedom)
-                ? fmt::format("{:.0f}", b.effective_degrees_of_freedom)
-            : std::isnan(b.effective_degrees_of_freedom) ? "-"
-                                                         : "inf",
+            std::isfinite(b.effective_degrees_of_freedom) ? fmt::format("{:.0f}", b.effective_degrees_of_freedom)
+            : std::isnan(b.effective_degrees_of_freedom)  ? "-"
+                                                          : "inf",
             "");
     closing("coverage factor", fmt::format("{:.2f}", b.coverage_factor), "");
     closing("expanded uncertainty", width(b.expanded_uncertainty), "");

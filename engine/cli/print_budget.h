@@ -2,14 +2,15 @@
 /// The uncertainty budget on a terminal. Private to `print`.
 #include <ostream>
 #include <string>
+#include <vector>
 
 #include "analysis/results.h"
 
 namespace gumshoe::cli {
 
-/// "largest contributions: rod_length 1.0 um (65 %), beam_pitch 0.7 um (32 %), ...; 9 more", by quantity; first-order
-/// Sobol' indices where the GUM framework gives none.
-std::string largest_contributions(const analysis::Budget& budget);
+/// "largest contributions: rod_length 1.0 um (65 %), beam_pitch 0.7 um (32 %), ...; 9 more", by quantity; where the
+/// GUM framework gives none, the first-order `indices`, of components or of quantities.
+std::string largest_contributions(const analysis::Budget& budget, const std::vector<analysis::SobolIndex>& indices);
 
 /// The whole table, with the rows that close it.
 void print_budget(const analysis::Budget& budget, std::ostream& out);

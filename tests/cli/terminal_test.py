@@ -70,6 +70,36 @@ class Terminal(InOneFolder):
 
     # the answer
 
+    def test_the_largest_contributions_of_whole_quantities(self):
+        """Indices by quantity, where the quantity has a component by label: none is left out."""
+        text = """schema = 1
+[model]
+name = "rod_gauging"
+method = "virtual_experiment"
+[quantities.rod_length.by.rod]
+1 = { value = "160 mm", u = "3 um" }
+2 = { value = "180 mm", u = "3 um" }
+[quantities.beam_pitch]
+value = "0 deg"
+u = "0.0001 deg"
+[indications.spindle_z.readings]
+file = "read.csv"
+column = "z"
+unit = "mm"
+labels = { rod = "rod" }
+[run]
+samples = 1000
+[analysis]
+sensitivity = { sobol = 256, by = "quantity" }
+"""
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder)
+            (path / "read.csv").write_text("rod,z\n1,-300\n2,-280\n")
+            (path / "s.toml").write_text(text)
+            run = gumshoe("run", path / "s.toml", "--out", path / "s.h5")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertRegex(run.stdout, r"largest contributions \(first-order Sobol' indices\): rod_length (100|99|9\d) %")
+
     def test_the_terminal_alone_gives_value_u_k_and_the_three_largest_contributions(self):
         text = self.run_text(SUM)
         found = re.search(r"^y = \((\S+) \+- (\S+)\) mm, k = (\S+), 95 %$", text, re.M)
