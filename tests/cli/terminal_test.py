@@ -10,6 +10,7 @@ import os
 import pathlib
 import re
 import subprocess
+import tempfile
 import unittest
 
 os.environ["HDF5_USE_FILE_LOCKING"] = "FALSE"
