@@ -42,7 +42,7 @@ struct Block {
     fill(Row::insert_radial_angle, -12 * deg, 1e-3);
     fill(Row::insert_axial_angle, 6 * deg, 1e-3);
     fill(Row::inserts, inserts, 0);
-    for (std::size_t k = 0; k < chain::most_inserts; ++k) fill(Row::wear_1 + k, 2e-6 * (k % 2), 1e-6);
+    for (std::size_t k = 0; k < chain::most_inserts; ++k) fill(Row::wear_1 + k, 2e-6 * static_cast<double>(k % 2), 1e-6);
     fill(Row::offset, 4.9 * mm, 2e-5);
     fill(Row::beam_radius, 0.2 * mm, 3e-6);
     if (tilted) fill(Row::beam_yaw, 0, 1e-4), fill(Row::beam_pitch, 0, 1e-4), fill(Row::trigger_fraction, 0.5, 0.01);

@@ -38,6 +38,13 @@ print("y (mm)", *rows, sep="\\n")
 """
 
 
+def put(path, at, data):
+    """Writes the bytes at this place."""
+    with open(path, "r+b") as file:
+        file.seek(at)
+        file.write(data)
+
+
 def change(path, at, flipped=1):
     with open(path, "r+b") as file:
         file.seek(at)
@@ -165,8 +172,9 @@ class Damage(InFolder):
         path, _ = self.interrupted("killed.h5")
         places, done = record(path)["places"], self.done(path)
         values, status, digests, marker = (places[n][0] for n in ("outputs/y", "outputs/status", "digests", "samples_done"))
+        raised = min(SAMPLES, done + 8192).to_bytes(8, "little")
         whole = self.resumed("whole.h5")
-        for name, damage in (("marker", lambda p: change(p, marker + 1, 0x40)), ("first", lambda p: change(p, values)),
+        for name, damage in (("marker", lambda p: put(p, marker, raised)), ("first", lambda p: change(p, values)),
                              ("later", lambda p: change(p, values + 8 * 5000 + 6, 0x10)),
                              ("status", lambda p: change(p, status + 3000)), ("digest", lambda p: change(p, digests + 8)),
                              ("nothing", lambda p: None)):

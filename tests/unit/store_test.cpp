@@ -46,7 +46,8 @@ Identity identity() {
           true,
           "fedcba9876543210",
           "run",
-          "8899aabbccddeeff"};
+          "8899aabbccddeeff",
+          ""};
 }
 
 const std::vector<Output> outputs = {{"laser_z[1]", "laser_z", 0, "mm", "m"}, {"laser_z[2]", "laser_z", 1, "mm", "m"}};
