@@ -13,7 +13,7 @@ struct CardTexts {
   std::string name, title, summary, source;
   std::vector<Symbol> quantities, conditions, indications, measurands;
   std::vector<std::pair<std::string, std::string>> equations = {}; ///< as EquationCard; empty: of an unknown function
-  std::vector<AxisCard> axes = {};                          ///< copied with their names
+  std::vector<AxisCard> axes = {};                                 ///< copied with their names
 };
 
 class MadeCard {
