@@ -3,7 +3,12 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <map>
 #include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <utility>
 
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/global_control.h>
@@ -32,13 +37,6 @@ quantities::PointSet point_set(scenario::Design design) {
 namespace {
 
 int thread_count(int asked) { return asked > 0 ? asked : tbb::this_task_arena::max_concurrency(); }
-
-/// Runs `body` with as many workers as asked for, more than there are processors too.
-template <class Body> void on_threads(int threads, const Body& body) {
-  const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
-  tbb::task_arena arena(threads);
-  arena.execute(body);
-}
 
 std::shared_ptr<const quantities::Sampler> make_sampler(const Experiment& e) {
   const auto& run = e.scenario().run;
@@ -74,6 +72,89 @@ ResultBlock run_block(const Experiment& e, const quantities::Sampler& sampler, s
   return block;
 }
 
+#ifndef __SANITIZE_THREAD__
+
+/// Runs `body` with as many workers as asked for, more than there are processors too.
+template <class Body> void on_threads(int threads, const Body& body) {
+  const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+  tbb::task_arena arena(threads);
+  arena.execute(body);
+}
+
+/// Calls body(i) for i in [0, n).
+template <class Body> void each(std::size_t n, int threads, const Body& body) {
+  on_threads(threads, [&] { tbb::parallel_for(std::size_t{0}, n, body); });
+}
+
+/// Blocks in three steps: taken one after the other, computed side by side, finished in the order in which they were
+/// taken.
+template <class Take, class Compute, class Finish>
+void pipeline(int threads, const Take& take, const Compute& compute, const Finish& finish) {
+  tbb::enumerable_thread_specific<ThreadBuffers> buffers;
+  on_threads(threads, [&] {
+    tbb::parallel_pipeline(
+        4 * static_cast<std::size_t>(threads),
+        tbb::make_filter<void, std::uint64_t>(tbb::filter_mode::serial_in_order,
+                                              [&](tbb::flow_control& control) -> std::uint64_t {
+                                                const std::optional<std::uint64_t> first = take();
+                                                if (!first) control.stop();
+                                                return first.value_or(0);
+                                              }) &
+            tbb::make_filter<std::uint64_t, Tried>(
+                tbb::filter_mode::parallel, [&](std::uint64_t first) { return compute(first, buffers.local()); }) &
+            tbb::make_filter<Tried, void>(tbb::filter_mode::serial_in_order, finish));
+  });
+}
+
+#else // the same on plain threads: what oneTBB's tasks hand to each other looks unordered to the thread sanitizer
+
+template <class Body> void each(std::size_t n, int threads, const Body& body) {
+  std::atomic<std::size_t> next = 0;
+  std::exception_ptr failure;
+  std::mutex guard;
+  std::vector<std::jthread> workers;
+  for (int t = 0; t < threads; ++t)
+    workers.emplace_back([&] {
+      try {
+        for (std::size_t i; (i = next++) < n;) body(i);
+      } catch (...) {
+        const std::lock_guard lock(guard);
+        failure = std::current_exception();
+        next = n;
+      }
+    });
+  workers.clear();
+  if (failure) std::rethrow_exception(failure);
+}
+
+template <class Take, class Compute, class Finish>
+void pipeline(int threads, const Take& take, const Compute& compute, const Finish& finish) {
+  std::mutex taking, finishing;
+  std::uint64_t taken = 0, finished = 0;
+  std::map<std::uint64_t, Tried> waiting;
+  each(static_cast<std::size_t>(threads), threads, [&](std::size_t) {
+    ThreadBuffers own;
+    for (;;) {
+      std::optional<std::uint64_t> first;
+      std::uint64_t number = 0;
+      {
+        const std::lock_guard lock(taking);
+        if (!(first = take())) return;
+        number = taken++;
+      }
+      Tried tried = compute(*first, own);
+      const std::lock_guard lock(finishing);
+      waiting[number] = std::move(tried);
+      for (; !waiting.empty() && waiting.begin()->first == finished; ++finished) {
+        finish(waiting.begin()->second);
+        waiting.erase(waiting.begin());
+      }
+    }
+  });
+}
+
+#endif
+
 } // namespace
 
 std::uint64_t propagate(const Experiment& e, Sink& sink, const RunSettings& settings) {
@@ -81,45 +162,36 @@ std::uint64_t propagate(const Experiment& e, Sink& sink, const RunSettings& sett
   const std::uint64_t total = settings.last > 0 ? settings.last : e.scenario().run.samples;
   const std::uint64_t per_block = std::max<std::uint64_t>(1, e.model().block / block_samples) * block_samples;
   const int threads = thread_count(settings.threads);
-  tbb::enumerable_thread_specific<ThreadBuffers> buffers;
   std::uint64_t next = settings.first, done = settings.first;
   std::atomic<std::uint64_t> failed_at{total}; // first sample of the earliest block known to have failed
   std::exception_ptr failure;                  // of the first block that failed, in order: what follows it is discarded
   const auto end_of = [&](std::uint64_t first) {
     return std::min<std::uint64_t>(total, (first / per_block + 1) * per_block);
   };
-  on_threads(threads, [&] {
-    tbb::parallel_pipeline(
-        4 * static_cast<std::size_t>(threads),
-        tbb::make_filter<
-            void, std::uint64_t>(tbb::filter_mode::serial_in_order, [&](tbb::flow_control& control) -> std::uint64_t {
-          if (next >= total || failed_at < total || (settings.stop && *settings.stop)) {
-            control.stop();
-            return 0;
-          }
-          const std::uint64_t first = next;
-          next = end_of(first);
-          return first;
-        }) & tbb::make_filter<std::uint64_t, Tried>(tbb::filter_mode::parallel, [&](std::uint64_t first) -> Tried {
-          // Thrown here, an exception would cancel the pipeline with earlier blocks still in it.
-          try {
-            if (first > failed_at) return {};
-            return {run_block(e, *sampler, first, static_cast<std::size_t>(end_of(first) - first), buffers.local()),
-                    {}};
-          } catch (...) {
-            std::uint64_t known = failed_at;
-            while (first < known && !failed_at.compare_exchange_weak(known, first)) {
-            }
-            return {{}, std::current_exception()};
-          }
-        }) & tbb::make_filter<Tried, void>(tbb::filter_mode::serial_in_order, [&](const Tried& tried) {
-          if (!failure) failure = tried.failure;
-          if (failure) return;
-          sink.write(tried.block);
-          done = tried.block.first_sample + tried.block.samples;
-          if (settings.progress) settings.progress({done, total});
-        }));
-  });
+  const auto take = [&]() -> std::optional<std::uint64_t> {
+    if (next >= total || failed_at < total || (settings.stop && *settings.stop)) return std::nullopt;
+    return std::exchange(next, end_of(next));
+  };
+  const auto compute = [&](std::uint64_t first, ThreadBuffers& own) -> Tried {
+    // Thrown here, an exception would cancel the pipeline with earlier blocks still in it.
+    try {
+      if (first > failed_at) return {};
+      return {run_block(e, *sampler, first, static_cast<std::size_t>(end_of(first) - first), own), {}};
+    } catch (...) {
+      std::uint64_t known = failed_at;
+      while (first < known && !failed_at.compare_exchange_weak(known, first)) {
+      }
+      return {{}, std::current_exception()};
+    }
+  };
+  const auto finish = [&](const Tried& tried) {
+    if (!failure) failure = tried.failure;
+    if (failure) return;
+    sink.write(tried.block);
+    done = tried.block.first_sample + tried.block.samples;
+    if (settings.progress) settings.progress({done, total});
+  };
+  pipeline(threads, take, compute, finish);
   if (failure) std::rethrow_exception(failure);
   return done;
 }
@@ -143,12 +215,10 @@ std::vector<double> variates_of(const Experiment& e, std::uint64_t sample) {
 
 void parallel_for(std::size_t n, int threads, const std::function<void(std::size_t)>& body) {
   progress::Loop loop(n);
-  on_threads(thread_count(threads), [&] {
-    tbb::parallel_for(std::size_t{0}, n, [&](std::size_t i) {
-      stop_if_interrupted();
-      body(i);
-      loop.step();
-    });
+  each(n, thread_count(threads), [&](std::size_t i) {
+    stop_if_interrupted();
+    body(i);
+    loop.step();
   });
 }
 
