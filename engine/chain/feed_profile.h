@@ -53,7 +53,7 @@ public:
   }
 
 private:
-  /// Of a move of this length, half of which is the ramp up.
+  /// Highest feed that a move of this length reaches, m/s: its first half is the ramp up.
   static double highest_feed(double length, double a, double j) {
     if (!(j > 0)) return std::sqrt(length * a);
     const double v = a / (2 * j) * (std::sqrt(a * a + 4 * length * j * j / a) - a); // v/a + a/j is the ramp's time

@@ -124,7 +124,7 @@ template <class T> Angles<T> linear_angle_errors(const TurnedPoint<T>& at, const
     error.alpha = (at.point.y * ca - at.point.z * sa - found.y) / (at.point.z * ca + at.point.y * sa);
     return error;
   }
-  // The source's point lies on the spindle; here it may lie beside it.
+  // In the source the point is on the axis of the spindle; these equations also hold beside it.
   Vector3<T> p = place_before_alpha(at, at.point, at.commanded);
   error.beta = (found.x - p.x) / p.z;
   p.z = p.z - error.beta * p.x;

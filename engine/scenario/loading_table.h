@@ -5,8 +5,8 @@
 
 namespace gumshoe::scenario {
 
-/// Of one condition or column: linear between neighbouring levels. Of several: at their combinations only. NaN
-/// elsewhere, because nothing is known there.
+/// A table of one condition or column is linear between neighbouring levels; one of several holds at their combinations
+/// only. NaN elsewhere, because nothing is known there.
 class LoadingTable {
 public:
   /// @param inputs  places in the row of conditions followed by columns

@@ -228,7 +228,7 @@ private:
       any |= x != 0;
       out_.loading.push_back(x);
     }
-    if (!any) context_.notes.push_back(table_.path() + ": the formula is 0 at every reading and changes nothing");
+    if (!any) context_.notes.push_back(table_.path() + ": it is 0 at every reading and changes nothing");
   }
 
   Table table_;

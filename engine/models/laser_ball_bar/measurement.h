@@ -128,7 +128,7 @@ public:
   Distances<T> actual(const Distances<T>& l) const { return {actual(0, l.to_1), actual(1, l.to_2), actual(2, l.to_3)}; }
 
 private:
-  /// Of three rows of the card, the one of bar i.
+  /// Value of bar i, 0 to 2, where three rows of the card, from `first`, hold one for each bar.
   const T& of(std::size_t first, int i) const { return array_of(q_)[first + static_cast<std::size_t>(i)]; }
   T read(int i, const T& length) const {
     const T& h = of(Q::axis_offset_1, i);

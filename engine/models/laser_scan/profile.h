@@ -21,7 +21,7 @@ std::vector<Points> points_of(const std::vector<Rows::Conditions<double>>& condi
 
 inline double first_of(double x) { return x; }
 inline double first_of(const Lanes& x) { return x.get(0); }
-/// Of all readings; conditions are the same in all samples of a joint evaluation.
+/// Conditions of all readings. In a joint evaluation they are the same in all samples.
 template <class T> std::vector<Rows::Conditions<double>> conditions_of(const Together<Rows, T>& all) {
   std::vector<Rows::Conditions<double>> out;
   for (const auto& at : all.at) out.push_back(converted<double>(at.c, [](const T& x) { return first_of(x); }));
@@ -79,7 +79,7 @@ struct Profile {
       memory.deviations[r] = form_deviation(all.at[r], spot(all.at[r], memory.known.of(all.at[r]), outcome), all.read[r].displacement);
     return judged(memory.profiles, memory.deviations);
   }
-  /// Of the true form deviations.
+  /// The same figures, from the true form deviations.
   template <class T>
   static Measurands<T> truth(const Together<Rows, T>& all, const std::vector<Simulated<Rows, T>>& shown, Outcome<T>&) {
     std::vector<T> deviations;
