@@ -26,13 +26,6 @@ template <class T> struct Station {
   T nominal;         ///< length from which changes count, m
   chain::BallBar<T> bar;
 };
-inline double chosen(bool first, double a, double b) { return first ? a : b; }
-inline Lanes chosen(const Lanes::batch_bool_type& first, const Lanes& a, const Lanes& b) {
-  return num::select(first, a, b);
-}
-template <class R, int N> Dual<R, N> chosen(bool first, const Dual<R, N>& a, const Dual<R, N>& b) {
-  return first ? a : b;
-}
 
 template <class T> Station<T> station(const At<T>& at) {
   const auto& q = at.q;
@@ -40,7 +33,7 @@ template <class T> Station<T> station(const At<T>& at) {
   Station<T> s;
   s.lever = nominal - Vector3<T>{q.reference_x, q.reference_y, q.reference_z};
   const T distance = turned_ball::length(s.lever);
-  s.nominal = chosen(q.bar_length > T(0.0), q.bar_length, distance);
+  s.nominal = num::select(q.bar_length > T(0.0), q.bar_length, distance);
   s.bar.length = s.nominal;
   s.bar.along = T(1.0) / distance * s.lever;
   s.bar.speed = at.c.speed;
