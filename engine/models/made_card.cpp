@@ -40,8 +40,18 @@ MadeCard::MadeCard(const CardTexts& texts) {
     axis.name = keep(std::string(axis.name));
     axes_.push_back(axis);
   }
-  card_ = {keep(texts.name), keep(texts.title), keep(texts.summary), keep(texts.source), quantities_,
-           conditions_,      indications_,      measurands_,         evaluations_,       {}, {}, axes_};
+  card_ = {keep(texts.name),
+           keep(texts.title),
+           keep(texts.summary),
+           keep(texts.source),
+           quantities_,
+           conditions_,
+           indications_,
+           measurands_,
+           evaluations_,
+           {},
+           {},
+           axes_};
 }
 
 RenamedCard::RenamedCard(const ModelCard& card, const std::vector<Renamed>& renamed, std::vector<AxisCard> axes)
@@ -61,6 +71,14 @@ RenamedCard::RenamedCard(const ModelCard& card, const std::vector<Renamed>& rena
   }
   for (AxisCard& axis : axes_) axis.name = keep(std::string(axis.name));
   card_.quantities = quantities_, card_.conditions = conditions_, card_.axes = axes_;
+}
+
+std::vector<AxisCard> cards_of_axes(const chain::Machine& machine) {
+  std::vector<AxisCard> cards;
+  for (const chain::Axis& a : machine.axes())
+    cards.push_back(
+        {a.name, cards.size() < machine.on_workpiece_side(), a.rotary, a.direction, {a.point.x, a.point.y, a.point.z}});
+  return cards;
 }
 
 } // namespace gumshoe::models

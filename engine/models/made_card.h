@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/symbol.h"
+#include "chain/machine.h"
 
 namespace gumshoe::models {
 
@@ -57,5 +58,8 @@ private:
   std::vector<AxisCard> axes_;
   ModelCard card_;
 };
+
+/// The axes of a machine as a card lists them; their names are the machine's.
+std::vector<AxisCard> cards_of_axes(const chain::Machine& machine);
 
 } // namespace gumshoe::models

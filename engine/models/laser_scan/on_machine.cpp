@@ -97,11 +97,7 @@ MadeModel LaserScan::on_machine(const chain::MachineDescription& description, st
     }
     row->default_value = value;
   }
-  std::vector<AxisCard> shown;
-  for (std::size_t i = 0; i < axes.size(); ++i)
-    shown.push_back({axes[i].name, i < machine.on_workpiece_side(), axes[i].rotary, axes[i].direction,
-                     {axes[i].point.x, axes[i].point.y, axes[i].point.z}});
-  made->card = std::make_unique<RenamedCard>(card, rows, shown);
+  made->card = std::make_unique<RenamedCard>(card, rows, cards_of_axes(machine));
   made->row = model;
   made->row.card = &made->card->card();
   made->row.context = static_cast<const chain::TwoRotaryAxes*>(made.get());

@@ -22,13 +22,8 @@ MadeModel SingleSocketRotation::on_machine(const chain::MachineDescription& desc
   const chain::Machine machine(description);
   const auto axes = machine.axes();
   std::vector<chain::RotaryPlace> rotary;
-  std::vector<AxisCard> shown;
-  for (std::size_t i = 0; i < axes.size(); ++i) {
-    const bool workpiece = i < machine.on_workpiece_side();
-    const auto& [x, y, z] = axes[i].point;
-    if (axes[i].rotary) rotary.push_back({axes[i].direction, 1, workpiece, axes[i].point});
-    shown.push_back({axes[i].name, workpiece, axes[i].rotary, axes[i].direction, {x, y, z}});
-  }
+  for (std::size_t i = 0; i < axes.size(); ++i)
+    if (axes[i].rotary) rotary.push_back({axes[i].direction, 1, i < machine.on_workpiece_side(), axes[i].point});
   if (rotary.size() != 2 || rotary[0].carries_workpiece != rotary[1].carries_workpiece ||
       rotary[0].direction == rotary[1].direction) {
     why = "single_socket_rotation has two rotary axes, both in the table or both in the head, about two directions";
@@ -40,7 +35,7 @@ MadeModel SingleSocketRotation::on_machine(const chain::MachineDescription& desc
   }
   auto made = std::make_shared<OnMachine>();
   made->first = rotary[0], made->second = rotary[1];
-  made->card = std::make_unique<RenamedCard>(card, std::vector<Renamed>{}, shown);
+  made->card = std::make_unique<RenamedCard>(card, std::vector<Renamed>{}, cards_of_axes(machine));
   made->row = model;
   made->row.card = &made->card->card();
   made->row.context = static_cast<const chain::TwoRotaryAxes*>(made.get());

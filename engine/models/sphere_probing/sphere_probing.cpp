@@ -148,11 +148,7 @@ CardTexts texts_of(const SphereProbing& p, const chain::MachineDescription& d) {
     t.indications.push_back({p.machine.axes()[s].name, "mm", "m", "command at which the tip is at the sphere", 0});
   triple(t.measurands, "deviation_",
          "deviation of the tip from its nominal position by the recorded commands, in the workpiece's frame");
-  for (std::size_t i = 0; i < p.machine.axes().size(); ++i) {
-    const chain::Axis& axis = p.machine.axes()[i];
-    t.axes.push_back({axis.name, i < p.machine.on_workpiece_side(), axis.rotary, axis.direction,
-                      {axis.point.x, axis.point.y, axis.point.z}});
-  }
+  t.axes = cards_of_axes(p.machine);
   t.equations = {{"deviation = T * probe - W * sphere - contact",
                   "T, W: poses of the spindle and of the workpiece side at the recorded commands, by the axes of the "
                   "machine and their errors"}};
