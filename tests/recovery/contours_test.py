@@ -80,14 +80,19 @@ def data(kind, seed):
     return "\n".join(rows) + "\n"
 
 
+def write(folder, kind, seed):
+    """A set's files; returns the scenario."""
+    (folder / "data").mkdir()
+    (folder / "data/trace_contours.csv").write_text(data(kind, seed))
+    (folder / "set.toml").write_text((ROOT / "scenarios/trace_contours.toml").read_text())
+    return folder / "set.toml"
+
+
 def found(kind, seed):
     """Names that a trace of one set finds."""
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder)
-        (path / "data").mkdir()
-        (path / "data/trace_contours.csv").write_text(data(kind, seed))
-        (path / "set.toml").write_text((ROOT / "scenarios/trace_contours.toml").read_text())
-        run = subprocess.run([GUMSHOE, "trace", path / "set.toml", "--out", path / "out.h5", "--format", "json"],
+        run = subprocess.run([GUMSHOE, "trace", write(path, kind, seed), "--out", path / "out.h5", "--format", "json"],
                              capture_output=True, text=True)
         assert run.returncode == 0, run.stderr
         return verdict_names(json.loads(run.stdout))

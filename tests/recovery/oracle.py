@@ -4,19 +4,22 @@ import math
 
 import numpy as np
 
-from noise import noise
+from noise import CORRELATION, deviations
 
 
 def covariance_of_noise(kind, d, channels):
-    """True covariance, um^2; channels run fastest."""
-    n = d.readings
-    if kind in ("ar03", "ar06"):
-        rank = np.argsort(np.argsort(d.time, kind="stable"))
-        lag = np.abs(rank[:, None] - rank[None, :])
-        one = d.noise**2 * {"ar03": 0.3, "ar06": 0.6}[kind] ** lag
-    else:
-        one = (d.noise**2 + (d.resolution**2 / 12)) * np.eye(n)
+    """True covariance, um^2; channels run fastest. Of one bad reading nothing is known here."""
+    rank = np.argsort(np.argsort(d.time, kind="stable"))
+    lag = np.abs(rank[:, None] - rank[None, :])
+    sd = deviations(kind, d)
+    one = np.outer(sd, sd) * CORRELATION.get(kind, 0.0) ** lag + d.resolution**2 / 12 * np.eye(d.readings)
     return np.kron(one, np.eye(channels))
+
+
+def covariance_of_scatter(system, d, channels):
+    """Of what acts done anew leave, um^2."""
+    same = d.acts()[:, None] == d.acts()[None, :]
+    return d.scatter**2 * np.kron(same, np.diag(system.SCATTER) if hasattr(system, "SCATTER") else np.eye(channels))
 
 
 class Oracle:
@@ -34,8 +37,7 @@ class Oracle:
         prior = np.array([self.by_cell[i].ravel() * d.cells[i].u for i in declared]).T.reshape(self.keep.size, -1)
         v = covariance_of_noise(kind, d, channels) + prior @ prior.T
         if d.scatter:
-            same = d.acts()[:, None] == d.acts()[None, :]
-            v += d.scatter**2 * np.kron(same, np.diag(system.SCATTER) if hasattr(system, "SCATTER") else np.eye(channels))
+            v += covariance_of_scatter(system, d, channels)
         self.lower = np.linalg.cholesky(v[np.ix_(self.keep, self.keep)])
         j = self._white(np.array([self.by_cell[i].ravel() for i in free]).T) if free else np.zeros((self.keep.sum(), 0))
         j = j / np.maximum(np.linalg.norm(j, axis=0), 1e-300)

@@ -115,13 +115,18 @@ def data(kind, seed):
     return "\n".join(rows) + "\n"
 
 
+def write(folder, kind, seed):
+    """A set's files; returns the scenario."""
+    (folder / "r.csv").write_text(data(kind, seed))
+    (folder / "s.toml").write_text(scenario())
+    return folder / "s.toml"
+
+
 def found(kind, seed):
     """Names that a trace of one set finds: of each finding the members."""
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder)
-        (path / "r.csv").write_text(data(kind, seed))
-        (path / "s.toml").write_text(scenario())
-        run = subprocess.run([GUMSHOE, "trace", path / "s.toml", "--out", path / "out.h5", "--format", "json"],
+        run = subprocess.run([GUMSHOE, "trace", write(path, kind, seed), "--out", path / "out.h5", "--format", "json"],
                              capture_output=True, text=True, timeout=600)
         assert run.returncode == 0, run.stderr
         return [f["members"] or [f["name"]] for f in json.loads(run.stdout)["findings"]]

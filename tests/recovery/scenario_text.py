@@ -22,13 +22,13 @@ def number(value, unit):
 
 
 def scenario_toml(d, system):
-    out = [system.HEADER.rstrip() + "\n"]
+    out = [(system.header(d) if hasattr(system, "header") else system.HEADER).rstrip() + "\n"]
     labels = ", ".join(f'{n} = "{n}"' for n in d.labels)
     conditions = ", ".join(f'{n} = {{ column = "{column(n, u)}", unit = "{u}" }}' for n, (_, u) in d.conditions.items())
     for output in system.OUTPUTS:
         out.append(f'[indications.{output}]\nreadings = {{ file = "readings.csv", column = "{output}_mm", unit = "mm", '
                    f'labels = {{ {labels} }}, conditions = {{ {conditions} }} }}\n'
-                   f'components = [ {{ distribution = "normal", u = "{d.noise:g} um", per = "reading" }} ]\n'
+                   + (f'components = [ {{ distribution = "normal", u = "{d.noise:g} um", per = "reading" }} ]\n' if d.declared else "")
                    + (f'resolution = "{d.resolution:g} um"\n' if d.resolution else ""))
     for name in dict.fromkeys(c.name for c in d.cells):
         out.append(quantity([c for c in d.cells if c.name == name]))
@@ -38,7 +38,7 @@ def scenario_toml(d, system):
                                       'order  = "time"', f"redone = {json.dumps([list(r) for r in d.redone])}"]) + "\n")
     if d.columns:
         out.append("[trace.columns]\n" + "".join(f'{n} = {{ column = "{column(n, u)}", unit = "{u}" }}\n' for n, (_, u) in d.columns.items()))
-    out.append(getattr(system, "STATED", "").lstrip())
+    out.append((system.stated(d) if hasattr(system, "stated") else getattr(system, "STATED", "")).lstrip())
     return "\n".join(out)
 
 

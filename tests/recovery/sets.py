@@ -2,19 +2,25 @@
 `scenario.toml`, `readings.csv`; what is true stands in a folder of its own."""
 import json
 import zlib
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
+import levers
 import mills
+import positioning
+import proving_rings
 import rods
 import sockets
 import spheres
-from noise import noise
+from held_out import held_out
+from noise import deviations, noise
 from oracle import Oracle, power
 from scenario_text import readings_csv, scenario_toml
 
 SYSTEMS = {m.MODEL: m for m in (rods, mills, spheres, sockets)}
+EXPRESSIONS = {m.MODEL: m for m in (positioning, proving_rings, levers)}
 NULLS = ("white", "ar03", "ar06", "t3", "outliers", "quantised", "clamp_declared", "clamp_undeclared")
 STRENGTHS = (3, 5, 8, 15)
 # Development seeds are below, judgement seeds from here on; no number is both.
@@ -39,29 +45,32 @@ def title(kind, what, strength, seed, noise_kind):
     return f"{zlib.crc32(f'{kind}/{what}/{strength}/{noise_kind}'.encode()):08x}-{seed}"
 
 
-def make(program, system, kind, what, strength, seed, noise_kind="white"):
-    """One set: (design, readings um, truth)."""
+def make(program, system, kind, what, strength, seed, noise_kind="white", floor=False, **more):
+    """One set: (design, readings um, truth).
+    @param what: of kind `several`: ((name, strength), ...)
+    @param floor: whether the truth says how well held-out readings can be predicted
+    @param more: of the design"""
     rng = stream(seed, system.MODEL, kind, what, strength, noise_kind)
-    more, alias = {}, None
-    if kind == "alias":
-        alias = system.ALIASES[what]
-        more = dict(alias[0])
+    alias = system.ALIASES[what] if kind == "alias" else None
+    more = {**(alias[0] if alias else {}), **more}
     if noise_kind == "quantised":
         more.update(noise=0.3, resolution=1.0)  # um: mostly rounding
     if noise_kind == "clamp_declared":
         more.update(scatter=getattr(system, "CLAMP", 1.0))
     d = system.design(rng, **more)
+    if noise_kind == "coarse":
+        d = replace(d, resolution=2 * d.noise)
     q = np.array([c.value + (rng.uniform(-0.03, 0.03) * (c.step / 0.01) if c.free else c.u * rng.standard_normal()) for c in d.cells])
     if hasattr(system, "truth"):
         q = system.truth(d, q, rng)
-    names = {"single": lambda: [what], "outside": lambda: [what], "pair": lambda: list(what), "alias": lambda: [alias[1]],
+    names = {"single": lambda: [what], "outside": lambda: [what], "pair": lambda: list(what), "several": lambda: [n for n, _ in what], "alias": lambda: [alias[1]],
              "null": list, "scatter": list}[kind]()
     d0 = Oracle(system, program, d, noise_kind) if names else None
     base = system.simulate(program, d, [q])[0]
     total, effects = base.copy(), []
     for i, name in enumerate(names):
         # Of a pair the second is the weaker, half hidden by the first.
-        wanted = strength if i == 0 else max(0.6 * strength, 4)
+        wanted = what[i][1] if kind == "several" else strength if i == 0 else max(0.6 * strength, 4)
         one, truth = effect(program, system, d, d0, name, rng)
         size, shift = scaled(one, base, q, d0, wanted, alias)
         sign = rng.choice([-1, 1]) if truth["sign"] == "either" else 1
@@ -71,7 +80,7 @@ def make(program, system, kind, what, strength, seed, noise_kind="white"):
         shift = size * one.smooth if hasattr(one, "smooth") else shift
         truth.update(size=size, strength=d0.strength(shift), depends_on=list(truth["depends_on"]))
         effects.append((truth, shift))
-    e = noise(noise_kind, rng, d.time, base.shape[1], d.noise)
+    e = noise(noise_kind, rng, d.time, base.shape[1], deviations(noise_kind, d))
     if noise_kind.startswith("clamp") or kind == "scatter":
         sd = d.scatter or (strength / 8 if kind == "scatter" else 1) * 2 * d.noise
         total = total + system.leave(program, d, q, sd * rng.standard_normal(d.readings)[d.acts()]) - base
@@ -81,6 +90,8 @@ def make(program, system, kind, what, strength, seed, noise_kind="white"):
     truth = dict(system=system.MODEL, kind=kind, noise=noise_kind, seed=seed, nominal_strength=strength, readings=int(d.readings),
                  final=list(d.final), expected=expected(kind, alias, noise_kind), scatter=list(d.redone[0]), noise_um=float(d.noise))
     truth["effects"] = [judged(d0, t, shift, rng) for t, shift in effects]
+    if floor:
+        truth["held_out_um"] = held_out(system, program, d, noise_kind, q, y, base, [shift for _, shift in effects])
     return d, y, truth
 
 
@@ -89,7 +100,7 @@ def expected(kind, alias, noise_kind):
         return "scatter"
     if kind == "null" or (alias and not alias[2]):
         return "nothing_found"
-    return {"single": "named", "pair": "named", "alias": "class", "outside": "not_in_catalogue", "scatter": "scatter"}[kind]
+    return {"single": "named", "pair": "named", "several": "named", "alias": "class", "outside": "not_in_catalogue", "scatter": "scatter"}[kind]
 
 
 def effect(program, system, d, oracle, name, rng):

@@ -17,7 +17,7 @@ MACHINE = dict(probe_x=85.564, probe_y=287.428, probe_z=454.220, E_X0B=-0.406, E
 LINKS = dict(link_B_x=-120.0, link_B_z=110.0, link_C_x=50.0, link_C_y=180.0)
 
 
-def design(rng, sessions=8, feeds=FEEDS, one_way=False, clamped_upwards=False, **more):
+def design(rng, sessions=8, feeds=FEEDS, one_way=False, clamped_upwards=False, wide=False, **more):
     rows, t = [], 600.0
     for session in range(1, sessions + 1):
         turned = [(0.0, c) for c in rng.choice(np.arange(-90, 91, 15), 5, replace=False)]
@@ -34,7 +34,10 @@ def design(rng, sessions=8, feeds=FEEDS, one_way=False, clamped_upwards=False, *
     session, b, c, feed, b_up, c_up, clamp, time = map(np.array, zip(*rows))
     room = room_temperature(rng, time)
     known = lambda name: round(MACHINE[name] + rng.uniform(-0.004, 0.004), 3)
-    cells = [Cell(name, "deg" if name[:3] in ("E_A", "E_B", "E_C") else "mm", known(name), free=True, step=0.002) for name in MACHINE]
+    angle = lambda name: name[:3] in ("E_A", "E_B", "E_C")
+    # A machine just set up is known to 5 mm and half a degree, and that is declared.
+    prior = lambda name: dict(u=0.5 if angle(name) else 5.0) if wide else dict(free=True, step=0.002)
+    cells = [Cell(name, "deg" if angle(name) else "mm", known(name), **prior(name)) for name in MACHINE]
     cells += [Cell(f"S_{plane}", "um/m", 0.0, 4.0) for plane in ("XY", "XZ", "YZ")]
     cells += [Cell("sphere_distance", "mm", 184.183, 0.003), Cell("sphere_radius", "mm", 12.5, 0.0005), Cell("tip_radius", "mm", 3.0, 0.0005)]
     cells += [Cell(name, "mm", value) for name, value in LINKS.items()]

@@ -1,0 +1,82 @@
+"""What one trace of a set, with its rounds, is worth: plain counts, added up by `battery_tables.py`."""
+import itertools
+import math
+
+from score import covered, is_shape, number, plain, same_place
+
+SAME = 0.02      # relative difference of errors between the end of a round and the start of the next
+STRENGTH = 7.95  # from 8 on, as far as sizes are set to 1 %, an effect is plain to see
+UNKNOWN = "not in the catalogue"
+
+
+def names(finding):
+    return {plain(n) for n in (finding.get("members") or [finding["name"]])}
+
+
+def allowed(effect):
+    """Names that an oracle could not refuse."""
+    return {plain(n) for n in [effect["name"], *effect.get("twins", []), *effect.get("unsplit", [])]}
+
+
+def a_shape(finding):
+    return finding["kind"] == "not_in_catalogue" or is_shape(finding["name"])
+
+
+def right(finding, effect):
+    """The name, or a class that an oracle could not split either; what is in no catalogue: what it depends on."""
+    if a_shape(finding):
+        return effect["outside"] and same_place(finding.get("depends_on", []), effect["depends_on"])
+    known = {n for n in names(finding) if not is_shape(n)}
+    return bool(known & allowed(effect)) and (plain(effect["name"]) in known or effect["outside"]) and known <= allowed(effect)
+
+
+def wrong(finding, truth):
+    """A cause that is not there, alone or as a class of such."""
+    if a_shape(finding):
+        return False
+    if finding["kind"] == "scatter" and truth["expected"] == "scatter":
+        return False
+    return not any(names(finding) & allowed(e) for e in truth["effects"])
+
+
+def later(table):
+    """What rounds after the first add: names only."""
+    added = [n for r in table[1:] if not r["vetoed"] for n in r["added"] if n != UNKNOWN]
+    return [dict(name=n, kind="scatter" if n.startswith("scatter:") else "named") for n in added]
+
+
+def row(verdict, truth):
+    findings, effects = verdict["findings"], truth["effects"]
+    plain_to_see = [e for e in effects if e["strength"] >= STRENGTH]
+    out = dict(found=[f["name"] for f in findings], kinds=[f["kind"] for f in findings], vetoed=verdict["vetoed"],
+               told=len(plain_to_see), right=sum(any(right(f, e) for f in findings) for e in plain_to_see),
+               wider=sum(any(plain(e["name"]) in names(f) for f in findings) and not any(right(f, e) for f in findings) for e in plain_to_see),
+               wrong=[f["name"] for f in findings + later(verdict["rounds"]) if effects and wrong(f, truth)],
+               alarm=not effects and any(truth["expected"] != "scatter" or f["kind"] != "scatter" for f in findings))
+    out["intervals"] = [hit for e in effects for f in findings if right(f, e) and not a_shape(f) for hit in covered(f, e)]
+    return {**out, **rounds(verdict["rounds"]), **errors(verdict, truth)}
+
+
+def rounds(table):
+    """The laws of the loop."""
+    breaks = []
+    for k, (a, b) in enumerate(itertools.pairwise(table), 2):
+        for before, after in (("before", "after"), ("holdout_before", "holdout_after")):
+            if b[before] is not None and a[after] is not None and not abs(b[before] - a[after]) <= SAME * a[after]:
+                breaks.append([k, before, a[after], b[before]])
+    kept = [n for r in table if not r["vetoed"] for n in set(r["added"]) - {UNKNOWN}]
+    last = table[-1]
+    return dict(rounds=len(table), law_broken=breaks, ended=not last["added"] or last["vetoed"], again=sorted({n for n in kept if kept.count(n) > 1}))
+
+
+def lawful(r):
+    return not r["law_broken"] and r["ended"] and not r["again"]
+
+
+def errors(verdict, truth):
+    """Held-out errors at the end of the loop, over the noise the program states, and over what an oracle leaves."""
+    rms, last = verdict["rms"], verdict["rounds"][-1]
+    after, before = number(last["holdout_after"]), number(rms.get("holdout_before"))
+    over = lambda x, floor: x / floor if floor and floor > 0 else math.nan
+    floor, oracle = number(rms.get("holdout_noise")), number(truth.get("held_out_um")) * 1e-6
+    return dict(after_over_noise=over(after, floor), after_over_oracle=over(after, oracle), before_over_oracle=over(before, oracle))

@@ -1,0 +1,103 @@
+"""The battery's own parts against known answers, and a small selection of its families through `gumshoe trace --loop`.
+
+usage: battery_test.py path/to/gumshoe [unittest options]
+"""
+import pathlib
+import sys
+import unittest
+
+GUMSHOE = str(pathlib.Path(sys.argv.pop(1)).resolve()) if len(sys.argv) > 1 and not sys.argv[1].startswith("-") else ""
+
+import numpy as np
+
+import battery
+import battery_tables
+import families
+import sets
+from battery_score import lawful, row, rounds
+
+SURE = ("stated:lost_motion@8 white", "stated:lead@8 coarse", "alternating@100 white", "table_both@30 white", "hysteresis@12 white",
+        "trigger_latency@8 white", "lost_motion@12+")
+
+
+def chosen(*parts):
+    return [f for f in families.FAMILIES if any(p in f.name for p in parts)]
+
+
+def verdict(*findings, table=()):
+    found = [dict(dict(members=[], depends_on=[], quantities=[]), **f) for f in findings]
+    one = dict(added=[], before=1.0, after=1.0, holdout_before=1.0, holdout_after=1.0, vetoed=False)
+    return dict(findings=found, vetoed=False, rms=dict(holdout_before=1.0, holdout_noise=1.0), rounds=[one | r for r in table or ({},)])
+
+
+class Parts(unittest.TestCase):
+    def test_families_can_be_made_and_have_the_strength_they_say(self):
+        for f in chosen("positioning", "proving_ring", "lever"):
+            if f.missing and "thousands" not in f.traits:
+                truth = sets.make(GUMSHOE, sets.EXPRESSIONS[f.system], "several", f.missing, 0, 1, f.noise, **f.options)[2]
+                for (name, strength), effect in zip(f.missing, truth["effects"]):
+                    self.assertAlmostEqual(effect["strength"], strength, delta=0.02 * strength, msg=f.name)
+        self.assertGreaterEqual(len(families.FAMILIES), 60)
+        self.assertEqual(len({f.name for f in families.FAMILIES}), len(families.FAMILIES))
+
+    def test_who_knows_what_is_missing_leaves_the_noise_and_what_the_fit_costs(self):
+        """Two of six cycles are held out: of 72 readings 4 numbers are fitted, so that 36 others scatter by sqrt(1 + 4 / 72)."""
+        squares = []
+        for seed in range(60):
+            truth = sets.make(GUMSHOE, sets.EXPRESSIONS["positioning"], "several", (("stated:drift", 8.0),), 0, seed, floor=True)[2]
+            squares.append(truth["held_out_um"]**2)
+        expected = 1 + 4 / 72
+        self.assertAlmostEqual(np.mean(squares), expected, delta=4 * expected * (2 / 36 / 60)**0.5)
+
+    def test_a_name_is_right_wrong_or_too_wide(self):
+        effect = dict(name="drift", twins=["creep"], unsplit=[], strength=8.0, outside=False, quantity=None, depends_on=["time"])
+        truth = dict(expected="named", effects=[effect])
+        named = lambda name: dict(kind="named", name="stated:" + name)
+        group = lambda *members: dict(kind="class", name=members[0], members=list(members))
+        unknown = dict(kind="not_in_catalogue", name="not in the catalogue", depends_on=["time"])
+        count = lambda t, *f, **k: [row(verdict(*f, **k), t)[key] for key in ("right", "wider")] + [len(row(verdict(*f, **k), t)["wrong"])]
+        self.assertEqual(count(truth), [0, 0, 0])
+        self.assertEqual(count(truth, named("drift")), [1, 0, 0])
+        self.assertEqual(count(truth, named("drift"), named("lead")), [1, 0, 1])
+        self.assertEqual(count(truth, group("drift", "creep")), [1, 0, 0])
+        self.assertEqual(count(truth, group("drift", "lead")), [0, 1, 0])
+        self.assertEqual(count(truth, unknown), [0, 0, 0])
+        self.assertEqual(count(truth, named("drift"), table=[dict(added=["drift"]), dict(added=["scatter:cycle"])]), [1, 0, 1])
+        outside = dict(expected="named", effects=[dict(effect, name="bump", twins=["creep"], outside=True)])
+        self.assertEqual(count(outside, unknown), [1, 0, 0])
+        self.assertEqual(count(outside, named("creep")), [1, 0, 0])
+        self.assertEqual(count(outside, dict(unknown, depends_on=["x"])), [0, 0, 0])
+        self.assertEqual(count(outside, named("drift")), [0, 0, 1])
+        null = dict(expected="nothing_found", effects=[])
+        self.assertEqual([row(verdict(*f), null)["alarm"] for f in ((), (unknown,))], [False, True])
+
+    def test_laws_of_the_loop(self):
+        found = dict(added=["drift"], before=2.0)
+        self.assertTrue(lawful(rounds(verdict(table=[found, {}])["rounds"])))
+        self.assertFalse(lawful(rounds(verdict(table=[found, dict(before=1.1)])["rounds"])))
+        self.assertFalse(lawful(rounds(verdict(table=[found, dict(holdout_before=0.9)])["rounds"])))
+        self.assertFalse(lawful(rounds(verdict(table=[found])["rounds"])))
+        self.assertFalse(lawful(rounds(verdict(table=[found, dict(added=["drift"]), {}])["rounds"])))
+
+    def test_limits_of_a_share(self):
+        self.assertTrue(np.allclose(battery_tables.wilson(19, 20), (0.7639, 0.9911), atol=1e-4))  # Wilson 1927, z = 1.96
+
+
+class Selection(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        jobs = [(GUMSHOE, f, seed) for f in chosen(*SURE, "positioning - white") if "thousand" not in f.name for seed in (1, 2)]
+        cls.rows = [battery.one(job) for job in jobs]
+
+    def test_every_set_has_a_verdict_and_its_rounds_keep_the_laws(self):
+        for r in self.rows:
+            self.assertNotIn("failed", r, r)
+            self.assertTrue(lawful(r), r)
+
+    def test_what_is_plain_to_see_is_found(self):
+        there = [r for r in self.rows if r["told"] and any(p in r["family"] for p in SURE)]
+        self.assertGreaterEqual(sum(r["right"] for r in there), 0.85 * sum(r["told"] for r in there), [r for r in there if r["right"] < r["told"]])
+
+
+if __name__ == "__main__":
+    unittest.main()
