@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from noise import BAD
-from oracle import Oracle, covariance_of_noise, covariance_of_scatter
+from oracle import Oracle, basis, scatter_columns, whitened
 
 
 def held_out(system, program, d, kind, q, y, base, shifts):
@@ -15,24 +15,25 @@ def held_out(system, program, d, kind, q, y, base, shifts):
     if d.training().all():
         return float("nan")
     at = Oracle(system, program, replace(d, cells=[replace(c, value=v) for c, v in zip(d.cells, q)]), kind)
-    known = sorted(at.by_cell)
+    known, channels = sorted(at.by_cell), y.shape[1]
     columns = np.array([at.by_cell[i].ravel() for i in known] + [s.ravel() for s in shifts]).T
     train, r = at.keep.copy(), (y - base).ravel()
-    v = covariance_of_noise(kind, d, y.shape[1]) + covariance_of_scatter(system, d, y.shape[1])
     if kind == "one_bad":  # who knows the noise leaves it out
         train &= np.abs(r - sum(s.ravel() for s in shifts)) < 0.5 * BAD * d.noise
-    lower = np.linalg.cholesky(v[np.ix_(train, train)])
-    seen = np.linalg.norm(columns[train], axis=0) > 1e-12
+    scatter = scatter_columns(system, d, channels)
+    columns = np.hstack([columns, scatter])
     # Declared values are readings of their quantities, too: the truth lies q - value off.
-    priors = [(k, d.cells[i]) for k, i in enumerate(known) if d.cells[i].u > 0]
-    rows, aims = np.zeros((len(priors), columns.shape[1])), np.zeros(len(priors))
-    for row, (k, cell) in enumerate(priors):
-        rows[row, k], aims[row] = 1 / cell.u, (cell.value - q[known[k]]) / cell.u
-    a = np.vstack([np.linalg.solve(lower, columns[train]), rows])[:, seen]
+    u = [d.cells[i].u for i in known] + [0] * len(shifts) + [1] * scatter.shape[1]
+    off = [d.cells[i].value - q[i] for i in known] + [0] * (len(u) - len(known))
+    priors = [k for k in range(len(u)) if u[k]]
+    rows, aims = np.zeros((len(priors), len(u))), [off[k] / u[k] for k in priors]
+    rows[range(len(priors)), priors] = [1 / u[k] for k in priors]
+    white = lambda c: whitened(kind, d, channels, train, c)
+    seen = (np.linalg.norm(columns[train], axis=0) > 1e-12) | (np.array(u) > 0)
+    a = np.vstack([white(columns), rows])[:, seen]
     size = np.linalg.norm(a, axis=0)
-    x = np.linalg.lstsq(a / size, np.concatenate([np.linalg.solve(lower, r[train]), aims]), rcond=1e-10)[0] / size
+    x = np.linalg.lstsq(a / size, np.concatenate([white(r[:, None])[:, 0], aims]), rcond=1e-10)[0] / size
     rest = r[~at.keep] - columns[~at.keep][:, seen] @ x
-    own, s, _ = np.linalg.svd(columns[~at.keep][:, ~seen], full_matrices=False)
-    own = own[:, s > 1e-9 * max(s.max(initial=0), 1e-300)]
+    own = basis(columns[~at.keep][:, ~seen])
     rest = rest - own @ (own.T @ rest)
     return float(np.sqrt(rest @ rest / max(len(rest) - own.shape[1], 1)))

@@ -7,49 +7,65 @@ import numpy as np
 from noise import CORRELATION, deviations
 
 
-def covariance_of_noise(kind, d, channels):
-    """True covariance, um^2; channels run fastest. Of one bad reading nothing is known here."""
-    rank = np.argsort(np.argsort(d.time, kind="stable"))
-    lag = np.abs(rank[:, None] - rank[None, :])
-    sd = deviations(kind, d)
-    one = np.outer(sd, sd) * CORRELATION.get(kind, 0.0) ** lag + d.resolution**2 / 12 * np.eye(d.readings)
-    return np.kron(one, np.eye(channels))
+def whitened(kind, d, channels, keep, columns):
+    """Rows `keep` of the columns, in units of the true noise; channels run fastest. Of one bad reading nothing is known here."""
+    sd = np.repeat(np.sqrt(deviations(kind, d)**2 + d.resolution**2 / 12), channels)
+    out, a = (columns / sd[:, None])[keep], CORRELATION.get(kind, 0.0)
+    if not a:
+        return out
+    # AR(1) has no memory beyond the reading before: of what lies g readings back, a^g is expected.
+    place = np.repeat(np.argsort(np.argsort(d.time, kind="stable")), channels)[keep]
+    for channel in range(channels):
+        rows = np.flatnonzero(np.tile(np.arange(channels), d.readings)[keep] == channel)
+        rows = rows[np.argsort(place[rows])]
+        share = a ** np.diff(place[rows])[:, None]
+        out[rows[1:]] = (out[rows[1:]] - share * out[rows[:-1]]) / np.sqrt(1 - share**2)
+    return out
 
 
-def covariance_of_scatter(system, d, channels):
-    """Of what acts done anew leave, um^2."""
-    same = d.acts()[:, None] == d.acts()[None, :]
-    return d.scatter**2 * np.kron(same, np.diag(system.SCATTER) if hasattr(system, "SCATTER") else np.eye(channels))
+def scatter_columns(system, d, channels):
+    """What each act done anew moves by one standard deviation, um; no columns where none is declared."""
+    if not d.scatter:
+        return np.zeros((d.readings * channels, 0))
+    each = np.diag(np.sqrt(system.SCATTER)) if hasattr(system, "SCATTER") else np.eye(channels)
+    return d.scatter * np.kron(np.eye(d.acts().max() + 1)[d.acts()], each)
+
+
+def basis(columns):
+    """Orthonormal columns that span these."""
+    u, s, _ = np.linalg.svd(columns / np.maximum(np.linalg.norm(columns, axis=0), 1e-300), full_matrices=False)
+    return u[:, s > 1e-9 * max(s.max(initial=0), 1e-300)]
 
 
 class Oracle:
+    """What is declared is fitted like what is free, its declared value being one more reading of it: generalised least
+    squares without a covariance matrix."""
+
     def __init__(self, system, program, d, kind="white"):
-        self.system, self.program, self.d = system, program, d
+        self.system, self.program, self.d, self.kind = system, program, d, kind
         values, steps = d.values(), d.steps()
         known = [i for i, c in enumerate(d.cells) if c.u > 0 or c.free]
         y = system.simulate(program, d, [values] + [values + steps[i] * np.eye(len(values))[i] for i in known])
         self.base = y[0]
         self.by_cell = {i: (yi - y[0]) / steps[i] for i, yi in zip(known, y[1:])}  # um per shown unit
-        channels = y.shape[2]
-        self.keep = np.repeat(d.training(), channels)
-        free = [i for i, c in enumerate(d.cells) if c.free]
-        declared = [i for i, c in enumerate(d.cells) if c.u > 0]
-        prior = np.array([self.by_cell[i].ravel() * d.cells[i].u for i in declared]).T.reshape(self.keep.size, -1)
-        v = covariance_of_noise(kind, d, channels) + prior @ prior.T
-        if d.scatter:
-            v += covariance_of_scatter(system, d, channels)
-        self.lower = np.linalg.cholesky(v[np.ix_(self.keep, self.keep)])
-        j = self._white(np.array([self.by_cell[i].ravel() for i in free]).T) if free else np.zeros((self.keep.sum(), 0))
-        j = j / np.maximum(np.linalg.norm(j, axis=0), 1e-300)
-        u, s, _ = np.linalg.svd(j, full_matrices=False)
-        self.span = u[:, s > 1e-9 * max(s.max(initial=0), 1e-300)]
+        self.channels = y.shape[2]
+        self.keep = np.repeat(d.training(), self.channels)
+        columns = lambda cells: np.array([self.by_cell[i].ravel() * (d.cells[i].u or 1) for i in cells]).T.reshape(self.keep.size, -1)
+        declared = np.hstack([columns([i for i, c in enumerate(d.cells) if c.u > 0]), scatter_columns(system, d, self.channels)])
+        self.declared = declared.shape[1]
+        random = self._white(declared)
+        random[self.keep.sum():] = np.eye(self.declared)
+        self.random = basis(random)
+        self.span = basis(np.hstack([random, self._white(columns([i for i, c in enumerate(d.cells) if c.free]))]))
 
     def _white(self, columns):
-        return np.linalg.solve(self.lower, columns[self.keep] if len(columns) == self.keep.size else columns)
+        """Whitened training rows, and zeros for the declared values."""
+        rows = whitened(self.kind, self.d, self.channels, self.keep, np.asarray(columns, float).reshape(self.keep.size, -1))
+        return np.vstack([rows, np.zeros((self.declared, rows.shape[1]))])
 
     def projected(self, shift):
-        """Whitened training rows of a shift, minus the part that the free quantities explain."""
-        w = self._white(np.asarray(shift, float).reshape(self.keep.size, -1))
+        """Whitened training rows of a shift, minus the part that the free and declared quantities explain."""
+        w = self._white(shift)
         return w - self.span @ (self.span.T @ w)
 
     def strength(self, shift):
@@ -71,7 +87,8 @@ class Oracle:
             raw.append(("declared:" + name, sum(self.by_cell[i] for i, c in enumerate(d.cells) if c.name == name)))
         self._catalogue, self.per_unit = [], {}
         for name, shift in raw:
-            w, full = self.projected(shift), self._white(np.asarray(shift, float).reshape(self.keep.size, -1))
+            w, full = self.projected(shift), self._white(shift)
+            full -= self.random @ (self.random.T @ full)
             if np.linalg.norm(w) > 0.03 * np.linalg.norm(full) > 0:
                 self._catalogue.append((name, w[:, 0] / np.linalg.norm(w)))
                 self.per_unit.setdefault(name, w[:, 0])

@@ -19,7 +19,7 @@ def design(rng, blocks=8, loads=7, offsets=True, first=0.0, **more):
     for run in range(1, blocks + 1):
         for direction in (1.0, -1.0):
             for k in np.arange(loads)[::int(direction)]:
-                rows.append((str(run), FULL * k / (loads - 1), direction, 120.0 * (run % 3), t))
+                rows.append((str(run), FULL * k / (loads - 1), direction, 90.0 * (run % 4), t))
                 t += rng.uniform(25, 35)
         t += 300.0
     run, load, direction, turned, time = map(np.array, zip(*rows))
