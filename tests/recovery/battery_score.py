@@ -48,7 +48,7 @@ def later(table):
 def row(verdict, truth):
     findings, effects = verdict["findings"], truth["effects"]
     plain_to_see = [e for e in effects if e["strength"] >= STRENGTH]
-    out = dict(found=[f["name"] for f in findings], kinds=[f["kind"] for f in findings], vetoed=verdict["vetoed"],
+    out = dict(found=[f["name"] for f in findings], kinds=[f["kind"] for f in findings], depends=[f["depends_on"] for f in findings], vetoed=verdict["vetoed"],
                told=len(plain_to_see), right=sum(any(right(f, e) for f in findings) for e in plain_to_see),
                wider=sum(any(plain(e["name"]) in names(f) for f in findings) and not any(right(f, e) for f in findings) for e in plain_to_see),
                wrong=[f["name"] for f in findings + later(verdict["rounds"]) if effects and wrong(f, truth)],

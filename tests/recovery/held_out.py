@@ -1,5 +1,6 @@
-"""How well held-out readings can be predicted by somebody who knows what is missing, but not how large: its shape, the noise and
-everything declared. Generalised least squares at the truth, apart from the engine."""
+"""How well held-out readings can be predicted by somebody who knows the noise, everything declared and what is missing: an effect's
+signature without its size; of what is in no catalogue, only the conditions on which it depends, where these repeat.
+Generalised least squares at the truth, apart from the engine."""
 from dataclasses import replace
 
 import numpy as np
@@ -8,22 +9,31 @@ from noise import BAD
 from oracle import Oracle, basis, scatter_columns, whitened
 
 
-def held_out(system, program, d, kind, q, y, base, shifts):
+def by_level(d, truth, shift):
+    """Any value at each combination of the conditions on which a shape depends; the shape itself where these do not repeat."""
+    values = [d.conditions[n][0] for n in truth["depends_on"] if n in d.conditions and n != "time"]
+    level = np.unique(np.array(values), axis=1, return_inverse=True)[1].ravel() if len(values) == len(truth["depends_on"]) else []
+    if not len(level) or 2 * (level.max() + 1) > d.readings:
+        return shift.reshape(-1, 1)
+    return np.kron(np.eye(level.max() + 1)[level], np.eye(shift.shape[1]))
+
+
+def held_out(system, program, d, kind, q, y, base, total, missing):
     """Root mean square, um, of the held-out readings less their prediction; offsets that only they have are projected out, as the
     program does. NaN where nothing is held out.
-    @param base: readings at the true values q without effects; @param shifts: what each missing effect adds"""
+    @param base: readings at the true values q without effects; @param total: with them;
+    @param missing: columns of what is missing, of each effect those that are fitted"""
     if d.training().all():
         return float("nan")
     at = Oracle(system, program, replace(d, cells=[replace(c, value=v) for c, v in zip(d.cells, q)]), kind)
     known, channels = sorted(at.by_cell), y.shape[1]
-    columns = np.array([at.by_cell[i].ravel() for i in known] + [s.ravel() for s in shifts]).T
+    scatter = scatter_columns(system, d, channels)
+    columns = np.hstack([np.array([at.by_cell[i].ravel() for i in known]).T, *missing, scatter])
     train, r = at.keep.copy(), (y - base).ravel()
     if kind == "one_bad":  # who knows the noise leaves it out
-        train &= np.abs(r - sum(s.ravel() for s in shifts)) < 0.5 * BAD * d.noise
-    scatter = scatter_columns(system, d, channels)
-    columns = np.hstack([columns, scatter])
+        train &= np.abs((y - total).ravel()) < 0.5 * BAD * d.noise
     # Declared values are readings of their quantities, too: the truth lies q - value off.
-    u = [d.cells[i].u for i in known] + [0] * len(shifts) + [1] * scatter.shape[1]
+    u = [d.cells[i].u for i in known] + [0] * (columns.shape[1] - len(known) - scatter.shape[1]) + [1] * scatter.shape[1]
     off = [d.cells[i].value - q[i] for i in known] + [0] * (len(u) - len(known))
     priors = [k for k in range(len(u)) if u[k]]
     rows, aims = np.zeros((len(priors), len(u))), [off[k] / u[k] for k in priors]

@@ -63,11 +63,11 @@ CANDIDATES = {
 }
 ADDED = by_formula.added(CANDIDATES) | {
     "reversal": (along(1.0)(lambda d, rng: d.value("direction")), None, None, ("direction",)),
-    "alternating": (along(1.0)(lambda d, rng: d.value("direction") * (-1.0)**place(d)), None, None, ("x", "direction")),
-    "growing_reversal": (along(1.0)(lambda d, rng: d.value("direction") * d.value("x")), None, None, ("x", "direction")),
-    "table": (along(1.0)(table(False)), None, None, ("x",)),
-    "table_both": (along(1.0)(table(True)), None, None, ("x", "direction")),
-    "drift_by_position": (along(1.0)(lambda d, rng: d.time * d.value("x")), None, None, ("x", "time")),
+    "alternating": (along(1.0)(lambda d, rng: d.value("direction") * (-1.0)**place(d)), None, None, ("x", "screw", "direction")),
+    "growing_reversal": (along(1.0)(lambda d, rng: d.value("direction") * d.value("x")), None, None, ("x", "screw", "direction")),
+    "table": (along(1.0)(table(False)), None, None, ("x", "screw")),
+    "table_both": (along(1.0)(table(True)), None, None, ("x", "screw", "direction")),
+    "drift_by_position": (along(1.0)(lambda d, rng: d.time * d.value("x")), None, None, ("x", "screw", "time")),
     "first_cycle": (along(1.0)(lambda d, rng: np.exp(-d.time / 200)), None, None, ("time", "cycle")),
     "cycle_1": (along(1.0)(lambda d, rng: d.block() == "1"), None, None, ("time", "cycle")),
     "periodic": (along(1.0)(lambda d, rng: np.sin(2 * np.pi * d.value("x") / 95 + rng.uniform(0, 6))), None, None, ("x", "screw")),

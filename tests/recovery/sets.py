@@ -14,7 +14,7 @@ import proving_rings
 import rods
 import sockets
 import spheres
-from held_out import held_out
+from held_out import by_level, held_out
 from noise import deviations, noise
 from oracle import Oracle, power
 from scenario_text import readings_csv, scenario_toml
@@ -91,7 +91,8 @@ def make(program, system, kind, what, strength, seed, noise_kind="white", floor=
                  final=list(d.final), expected=expected(kind, alias, noise_kind), scatter=list(d.redone[0]), noise_um=float(d.noise))
     truth["effects"] = [judged(d0, t, shift, rng) for t, shift in effects]
     if floor:
-        truth["held_out_um"] = held_out(system, program, d, noise_kind, q, y, base, [shift for _, shift in effects])
+        truth["held_out_um"] = held_out(system, program, d, noise_kind, q, y, base, total, [
+            by_level(d, t, shift) if name in system.OUTSIDE else shift.reshape(-1, 1) for name, (t, shift) in zip(names, effects)])
     return d, y, truth
 
 
