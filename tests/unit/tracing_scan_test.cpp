@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <random>
 
 #include "tracing/noise/declared_response.h"
 #include "unit/tracing_dense.h"
@@ -207,6 +208,22 @@ TEST_CASE("rounded readings, most of them equal, still have a scale", "[tracing]
   CHECK((scan.winsorised(y, &scale, &weight) - y).norm() < 1e-18);
   CHECK(weight.minCoeff() == 1);
   CHECK(scale[0] > 0.1);
+}
+
+TEST_CASE("a third of the readings one step off are no outliers", "[tracing]") {
+  // Normal noise of half a step, read in steps, under a slope that leaves no two residuals equal.
+  Design d = random_design(90, 1, 0, 0, 0, 6);
+  for (Matrix& l : d.local) l(0, 0) = 1;
+  std::mt19937_64 generator(7);
+  std::normal_distribution<double> normal;
+  Vector y(90);
+  for (Index i = 0; i < 90; ++i) y[i] = 2 * std::round(normal(generator) / 2) + 1e-3 * static_cast<double>(i);
+  Matrix weight;
+  Vector scale;
+  const Scan scan(d, all_rows(d), {}, 1);
+  scan.winsorised(y, &scale, &weight);
+  CHECK(weight.minCoeff() == 1);
+  CHECK(scale[0] > 1);
 }
 
 TEST_CASE("readings far out are put among the draws in their share", "[tracing]") {

@@ -8,15 +8,17 @@
 namespace gumshoe::tracing {
 namespace {
 
+/// Of absolute residuals: by their median, unless more than a tenth of them (three, of few) would then be outliers. So
+/// many are the noise's own shape, as indications in coarse steps have it, and the tenth largest tells the scale.
 double robust_scale(std::vector<double>& sizes) {
-  const auto at = [&](double share) {
-    const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(sizes.size()));
-    std::nth_element(sizes.begin(), sizes.begin() + rank, sizes.end());
-    return sizes[index(rank)];
+  const auto at = [&](std::size_t rank) {
+    std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(rank), sizes.end());
+    return sizes[rank];
   };
-  const double half = at(0.5) / 0.6744897501960817, most = at(0.9) / 1.6448536269514722;
-  // Half the residuals equal but for rounding, as indications in steps may be: those that differ tell the scale.
-  return half > 1e-8 * most ? half : most;
+  const std::size_t n = sizes.size(), few = 3;
+  const double middle = at(n / 2) / 0.6744897501960817; // quantiles of absolute normal values
+  const double large = at(n > 10 * few ? n - n / 10 : n - std::min(n, few));
+  return large > criteria.winsor_limit * middle ? large / 1.6448536269514722 : middle;
 }
 
 } // namespace
