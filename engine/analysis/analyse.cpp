@@ -207,7 +207,7 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, int th
         std::ranges::any_of(s.analysis.comparisons, [&](const auto& c) { return c.measurand == output.measurand; });
     if (compared) kept[o].assign(values.begin(), values.end());
   });
-  if ((!e.model().evaluate_gradient || e.joint()) && !virtual_experiment)
+  if (!e.has_gradient() && !virtual_experiment)
     r.notes.push_back("sensitivity coefficients are differences over a standard uncertainty, because the model "
                       "provides no derivatives");
   if (s.analysis.sensitivity.sobol > 0) {
@@ -248,6 +248,7 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, int th
   if (s.run.store_inputs) r.draws = input_draws(e);
   r.comparisons = compare(e, kept, r.summaries);
   r.printed = beside_printed(e, r.summaries);
+  r.predicted = beside_read(e, r.summaries);
   return r;
 }
 

@@ -66,4 +66,18 @@ std::vector<PrintedResult> beside_printed(const propagation::Experiment& e, cons
   return results;
 }
 
+std::vector<PredictedReading> beside_read(const propagation::Experiment& e, const std::vector<Summary>& summaries) {
+  std::vector<PredictedReading> results;
+  if (e.scenario().method != scenario::Method::prediction) return results;
+  for (std::size_t o = 0; o < e.outputs().size(); ++o) {
+    const auto& read = e.scenario().readings[e.outputs()[o].reading].indications;
+    const Summary& s = summaries[o];
+    if (read.empty() || std::isnan(s.shortest.low)) continue;
+    const double x = read[o % e.measurands().size()];
+    results.push_back({s.output.name, s.output.unit, s.output.si_unit, x, s.estimate, s.shortest.low, s.shortest.high,
+                       s.shortest.low <= x && x <= s.shortest.high});
+  }
+  return results;
+}
+
 } // namespace gumshoe::analysis

@@ -13,7 +13,7 @@ constexpr std::size_t chunk = 8;
 
 double plain(const propagation::Experiment& e, std::size_t reading, std::size_t m, const std::vector<double>& point) {
   std::vector<models::Gradient> x(point.begin(), point.end()), y;
-  const auto outcome = e.forward().measurands(reading, x, y);
+  const auto outcome = e.outputs_at(reading, x, y);
   return outcome.status == 0 ? y[m].v : std::nan("");
 }
 
@@ -41,8 +41,7 @@ void one_sided(const propagation::Experiment& e, std::size_t reading, std::size_
 
 Derivatives differentiate(const propagation::Experiment& e, std::size_t reading, std::size_t m,
                           const std::vector<double>& point, bool second) {
-  if (e.joint() || !e.model().evaluate_gradient || (second && !e.model().evaluate_curvature))
-    return differences(e, reading, m, point, second);
+  if (!e.has_gradient() || (second && !e.has_curvature())) return differences(e, reading, m, point, second);
   const std::size_t n = point.size();
   Derivatives d;
   d.first.assign(n, 0);
@@ -52,7 +51,7 @@ Derivatives differentiate(const propagation::Experiment& e, std::size_t reading,
     std::vector<models::Gradient> x(point.begin(), point.end()), y;
     for (std::size_t q = at; q < std::min(n, at + chunk); ++q)
       x[q] = models::Gradient::variable(point[q], static_cast<int>(q - at));
-    const auto outcome = e.forward().measurands(reading, x, y);
+    const auto outcome = e.outputs_at(reading, x, y);
     d.status = std::max(d.status, static_cast<Status>(outcome.status));
     kink |= outcome.kink;
     d.value = y[m].v;
@@ -74,7 +73,7 @@ Derivatives differentiate(const propagation::Experiment& e, std::size_t reading,
         if (q >= row && q < row + chunk) c.d[q - row] = models::Gradient(1.0);
         x.push_back(c);
       }
-      e.forward().measurands(reading, x, y);
+      e.outputs_at(reading, x, y);
       for (std::size_t i = row; i < std::min(n, row + chunk); ++i)
         for (std::size_t j = column; j < std::min(n, column + chunk); ++j)
           d.second[i * n + j] = d.second[j * n + i] = y[m].d[i - row].d[j - column];

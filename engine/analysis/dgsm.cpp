@@ -95,8 +95,7 @@ std::vector<Dgsm> derivative_measures(const propagation::Experiment& e, std::uin
                                       const std::vector<Summary>& summaries, int threads) {
   const auto& plan = e.plan();
   const std::size_t d = plan.variates.size(), outputs = e.outputs().size();
-  const bool by_differences =
-      e.scenario().method == scenario::Method::virtual_experiment || e.model().evaluate_gradient == nullptr || e.joint();
+  const bool by_differences = e.scenario().method == scenario::Method::virtual_experiment || !e.has_gradient();
   const std::size_t block = screening_block(e, points);
   std::vector<std::vector<Reach>> reach;
   for (const auto& output : e.outputs()) reach.push_back(variates_reaching(e, output.reading));

@@ -191,6 +191,16 @@ constexpr Field<P> printed[] = {
     {"ours", of<&P::ours>, point, "our estimate", in_json},
     {"expanded_uncertainty", of<&P::expanded_uncertainty>, difference, "expanded uncertainty of ours", in_json}};
 
+using R = PredictedReading;
+constexpr Field<R> predicted[] = {
+    {"output", of<&R::output>, one, "output", in_json},
+    {"units", nullptr, units, "", {.json = "unit"}},
+    {"read", of<&R::read>, point, "the reading, which the prediction does not know", in_json},
+    {"predicted", of<&R::predicted>, point, "estimate of the prediction", in_json},
+    {"low", of<&R::low>, point, "shortest coverage interval, lower end", in_json},
+    {"high", of<&R::high>, point, "shortest coverage interval, upper end", in_json},
+    {"inside", of<&R::inside>, one, "1 if the reading lies in that interval", in_json}};
+
 using T = StoppingRecord;
 constexpr Field<T> stopping[] = {
     {"rule", of<&T::rule>, one, "jcgm_101 or stein", {.json = same}},
@@ -214,6 +224,7 @@ constinit const Fields<Contribution> contribution_fields{"budget/<k>", "componen
 constinit const Fields<Validation> validation_fields{"validation", "output", validation, "validation"};
 constinit const Fields<ComparisonResult> comparison_fields{"comparison", "comparison", comparison, "comparison"};
 constinit const Fields<PrintedResult> printed_fields{"printed", "result", printed};
+constinit const Fields<PredictedReading> predicted_fields{"predicted", "result", predicted};
 constinit const Fields<StoppingRecord> stopping_fields{"stopping", "", stopping};
 
 } // namespace gumshoe::analysis

@@ -14,6 +14,7 @@ extern const Fields<Contribution> contribution_fields;
 extern const Fields<Validation> validation_fields;
 extern const Fields<ComparisonResult> comparison_fields;
 extern const Fields<PrintedResult> printed_fields;
+extern const Fields<PredictedReading> predicted_fields;
 extern const Fields<StoppingRecord> stopping_fields; ///< attributes
 
 // study_fields.cpp

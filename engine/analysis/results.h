@@ -102,6 +102,13 @@ struct PrintedResult {
   double printed = 0, ours = 0, expanded_uncertainty = 0;
 };
 
+/// A reading beside its prediction, which does not know it.
+struct PredictedReading {
+  std::string output, unit, si_unit;
+  double read = 0, predicted = 0, low = 0, high = 0; ///< the ends are those of the shortest coverage interval
+  bool inside = false;
+};
+
 /// A quantity as the scenario knows it, for the record.
 struct InputRecord {
   std::string name, unit, si_unit, labels, distribution, evaluation, scope, source;
@@ -146,6 +153,7 @@ struct Results {
   std::vector<Sensitivity> sensitivities;
   std::vector<ComparisonResult> comparisons;
   std::vector<PrintedResult> printed;
+  std::vector<PredictedReading> predicted; ///< of a prediction of readings that were taken
   std::vector<Shapley> shapley;
   std::vector<GivenData> given_data;
   std::vector<Morris> morris;

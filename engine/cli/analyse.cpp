@@ -31,7 +31,8 @@ struct Options {
 
 void refuse_unusable(const store::Stored& stored, const std::string& file) {
   if (stored.command() == "choose" || stored.command() == "trace")
-    throw InputError(file + ": the file holds no samples", "gumshoe " + stored.command() + " made it", "use gumshoe run");
+    throw InputError(file + ": the file holds no samples", "gumshoe " + stored.command() + " made it",
+                     "use gumshoe run");
   if (!stored.identity.store_samples)
     throw InputError(file + ": the file holds no samples", "its scenario has store_samples = false",
                      "run again with store_samples = true");
@@ -81,6 +82,7 @@ ExitCode analyse(const Options& o) {
                                         {.external = stored.identity.external});
   s.run.samples = stored.identity.samples;
   s.run.seed = stored.identity.seed;
+  if (stored.identity.method == name(scenario::Method::prediction)) predict_readings(s);
   const propagation::Experiment experiment(s);
   const std::string hash = propagation::design_hash(experiment);
   if (hash != stored.identity.design_hash)

@@ -214,6 +214,13 @@ void print_published(const Results& r, bool all) {
   }
 }
 
+void print_predicted(const Results& r) {
+  if (r.predicted.empty()) return;
+  std::cout << fmt::format("{} of {} readings lie in their {:.4g} % coverage intervals\n",
+                           std::ranges::count(r.predicted, true, &PredictedReading::inside), r.predicted.size(),
+                           100 * r.coverage_probability);
+}
+
 } // namespace
 
 void print_text(const Results& r, const std::string& file, const PrintOptions& options) {
@@ -225,6 +232,7 @@ void print_text(const Results& r, const std::string& file, const PrintOptions& o
   print_studies(in_full, std::cout);
   print_comparisons(r, options.all);
   print_published(r, options.all);
+  print_predicted(r);
   for (std::size_t i = 0; i < r.notes.size(); ++i) {
     if (i == most && r.notes.size() > most + 1 && !options.all) {
       std::cout << fmt::format("note: {} more notes are in the result file\n", r.notes.size() - i);

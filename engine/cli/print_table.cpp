@@ -103,6 +103,8 @@ void print_json(const Results& r, const std::string& file) {
     add_studies(r, s.output, object);
     for (const ComparisonResult& c : r.comparisons)
       if (c.a == s.output.name || c.b == s.output.name) object["comparisons"].push_back(json(comparison_fields, c));
+    for (const PredictedReading& p : r.predicted)
+      if (p.output == s.output.name) object["predicted"] = json(predicted_fields, p);
     for (const PrintedResult& p : r.printed)
       if (p.output == s.output.name) object["printed"].push_back(json(printed_fields, p));
     object["run"] = run;

@@ -158,7 +158,8 @@ void print_trace(const Trace& t, const std::string& title, const std::vector<std
   if (t.findings.empty()) print_limits(t.detection_limits);
   for (const std::string& text : t.statements) std::cout << "note: " << text << '\n';
   if (!traced.empty())
-    std::cout << fmt::format("scenario with the findings: {} (use it with gumshoe run or gumshoe trace)\n", traced);
+    std::cout << fmt::format("scenario {}: {} (gumshoe run --predict says what it expects of readings)\n",
+                             t.findings.empty() || t.vetoed ? "as fitted" : "with the findings", traced);
   else
     std::cout << "no scenario is written, because nothing would be added to it\n";
   if (!written.empty()) std::cout << fmt::format("written: {}\n", fmt::join(written, ", "));

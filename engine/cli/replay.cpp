@@ -21,6 +21,7 @@ scenario::Scenario scenario_of(const store::Identity& identity, const std::strin
                      "restore the scenario and its data, or run again");
   s.run.samples = identity.samples;
   s.run.seed = identity.seed;
+  if (identity.method == name(scenario::Method::prediction)) predict_readings(s);
   return s;
 }
 
@@ -52,6 +53,7 @@ void print_reading(const propagation::Experiment& e, std::size_t r, const std::v
   } else {
     e.forward().subtract_stated(r, point.data());
   }
+  if (s.method == scenario::Method::prediction) return; // nothing is evaluated
   std::cout << "  intermediate values\n";
   for (const auto& i : e.forward().explain(r, point))
     std::cout << fmt::format("    {:<42} {:.17g} {}\n", i.name, i.value, i.unit);

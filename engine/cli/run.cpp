@@ -28,7 +28,7 @@ struct Options {
   std::string file, out, format = "text";
   std::optional<std::string> samples, seed;
   int threads = 0;
-  bool force = false, budget = false, all = false;
+  bool force = false, budget = false, all = false, predict = false;
 };
 
 /// The options of an adaptive run that determine its results, in addition to the scenario.
@@ -71,6 +71,22 @@ void stamp(analysis::Results& r, std::time_t started, std::chrono::steady_clock:
   r.duration = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
 }
 
+/// A scenario that measures nothing is asked for its readings. They may be many: as many samples as fit in 400 MB.
+void predict(scenario::Scenario& s, const Options& o) {
+  const models::Model* model = s.made ? s.made.get() : models::find(s.model);
+  const bool measures = !scenario::evaluated_card(*model->card, s.evaluation).measurands.empty();
+  if (measures && !o.predict) return;
+  predict_readings(s);
+  if (!measures && !o.predict) s.notes.push_back("no measurands: the readings are predicted");
+  if (o.samples) return;
+  constexpr std::uint64_t most_values = 50'000'000, least = 10'000;
+  const std::uint64_t values = s.readings.size() * model->card->indications.size(), stated = s.run.samples;
+  while (s.run.samples * values > most_values && s.run.samples / 10 >= least) s.run.samples /= 10;
+  if (s.run.samples != stated)
+    s.notes.push_back(fmt::format("{} samples instead of {}, for {} readings; --samples sets them", s.run.samples,
+                                  stated, s.readings.size()));
+}
+
 ExitCode run(const Options& o) {
   const auto began = std::chrono::steady_clock::now();
   const std::time_t started = std::time(nullptr);
@@ -82,10 +98,8 @@ ExitCode run(const Options& o) {
   if (s.run.adaptive.rule != scenario::StoppingRule::fixed)
     s.run.samples = propagation::block_samples; // room is made as the run goes
   if (o.seed) s.run.seed = whole_number(*o.seed, "--seed", 0, "1");
+  predict(s, o);
   const propagation::Experiment experiment(s);
-  if (experiment.outputs().empty())
-    throw InputError(
-        {{{s.file}, "model: there is nothing to measure", "a run evaluates measurands", "add [model.measurands]"}});
   const std::string out = !o.out.empty() ? o.out : default_output(o.file, ".h5");
 
   store::Identity identity = store::identity_of(s);
@@ -106,8 +120,8 @@ ExitCode run(const Options& o) {
   analysis::StoppingRecord stopping;
   if (!sample(s, experiment, file, settings, out, stopping)) {
     line.clear();
-    std::cerr << fmt::format("interrupted after {} of {} samples. Repeat the command to resume.\n",
-                             file.samples_done(), s.run.samples);
+    std::cerr << fmt::format("interrupted after {} of {} samples. Repeat the command to resume.\n", file.samples_done(),
+                             s.run.samples);
     return ExitCode::interrupted;
   }
   const StudyProgress studies(line);
@@ -136,6 +150,8 @@ void add_run(CLI::App& app, Action& action) {
   add_external(*command);
   command->add_option("--format", o->format, "text, csv or json")->check(CLI::IsMember({"text", "csv", "json"}));
   command->add_flag("--budget", o->budget, "text: with the uncertainty budgets; csv: these instead of the summary");
+  command->add_flag("--predict", o->predict,
+                    "the readings as they are expected, before they are taken, instead of the measurands");
   command->add_flag("--all", o->all, "text: every output, where one line would stand for many readings");
   command->callback([=, &action] { action = [=] { return run(*o); }; });
 }

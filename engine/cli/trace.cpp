@@ -146,8 +146,8 @@ void add_trace(CLI::App& app, Action& action) {
   add_external(*command);
   command->add_option("--json", o->json, "file for the verdict");
   command->add_option("--report", o->report, "file for the report, one HTML page");
-  command->add_option("--draws", o->draws, "seed of the bootstrap, instead of the scenario's");
-  command->add_option("--seed", o->seed, "instead of the scenario's");
+  command->add_option("--draws", o->draws, "data sets of the bootstrap, instead of the scenario's number");
+  command->add_option("--seed", o->seed, "seed of the bootstrap, instead of the scenario's");
   command->add_option("--loop", o->loop, "traces again what was written, until nothing is added, at most so many times")
       ->check(CLI::Range(1, 20));
   command->add_option("--threads", o->threads, "0: all processors")->check(CLI::Range(0, 1024));

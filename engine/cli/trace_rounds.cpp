@@ -55,6 +55,7 @@ Rounds trace_rounds(const scenario::Scenario& s, const tracing::Settings& settin
     next->trace.draws = s.trace.draws; // as the command line says
     next->trace.seed = s.trace.seed;
     at = std::move(next);
+    if (found.findings.empty() || found.vetoed) break;
   }
   return out;
 }

@@ -100,24 +100,28 @@ ForwardModel forward_model_of(const scenario::Scenario& s, const models::Model& 
 } // namespace
 
 Experiment::Experiment(const scenario::Scenario& s)
-    : scenario_(s), made_(s.made), virtual_(s.method == scenario::Method::virtual_experiment) {
+    : scenario_(s), made_(s.made), virtual_(s.method == scenario::Method::virtual_experiment),
+      prediction_(s.method == scenario::Method::prediction) {
   const models::Model* model = made_ ? made_.get() : models::find(s.model);
   if (!model) throw InputError(fmt::format("model: unknown model '{}'", s.model));
   if (virtual_ && !model->kernels()->simulate)
     throw InputError({{find_line(s, "[model]"), "model: the model does not simulate the readings",
                        "a virtual experiment simulates every indication", "method = \"propagation\""}});
+  if (prediction_ && !model->kernels()->simulate)
+    throw InputError({{find_line(s, "[model]"), "model: the model does not simulate the readings",
+                       "a prediction simulates every indication", "run it without --predict"}});
   plan_ = located_plan(s);
   reading_names_ = unique_names(s.readings, *model->card);
   forward_ = forward_model_of(s, *model);
-  mean_ = s.mean_of_readings && !forward_.joint();
-  joint_ = forward_.joint() || mean_;
+  mean_ = s.mean_of_readings && !forward_.joint() && !prediction_;
+  joint_ = (forward_.joint() || mean_) && !prediction_;
   for (std::size_t c = 0; c < plan_.columns.size(); ++c) {
     column_estimates_.push_back(plan_.estimate(c));
     if (joint_) every_column_.push_back(c);
   }
   for (std::size_t r = 0; r < s.readings.size(); ++r) check_reading(r);
-  measurands_ = model->card->measurands;
-  if (forward_.joint()) {
+  measurands_ = prediction_ ? model->card->indications : model->card->measurands;
+  if (forward_.joint() && !prediction_) {
     measurands_ = forward_.measurands(reading_point(0).data());
     forward_.declare(declared());
     check_together();
@@ -168,7 +172,7 @@ std::vector<double> Experiment::reading_point(std::size_t reading, const double*
   for (std::size_t q = 0; q < scenario_.quantities.size(); ++q) {
     const std::size_t c = plan_.gather[reading][q];
     double x = variates ? plan_.value(c, variates) : column_estimates_[c];
-    if (noise.contains(q) && !read.empty()) x += read[q - noise.begin];
+    if (noise.contains(q) && !read.empty() && !prediction_) x += read[q - noise.begin];
     values.push_back(x);
   }
   return values;

@@ -37,7 +37,8 @@ public:
   /// All readings together give one set of outputs, which have no reading of their own: a joint evaluation, or the mean
   /// over the readings (Scenario::mean_of_readings).
   bool joint() const { return joint_; }
-  /// Measurands of one reading, or of the joint evaluation; output o is measurand o % measurands().size().
+  /// Measurands of one reading, or of the joint evaluation; of a prediction its indications. Output o is measurand
+  /// o % measurands().size().
   std::span<const VariableCard> measurands() const { return measurands_; }
   /// Unique names of the readings: labels, then the conditions in which readings of equal labels differ, then the
   /// position. Empty for a single reading without labels.
@@ -55,7 +56,8 @@ public:
   const std::vector<std::string>& remarks() const { return remarks_; }
 
   /// Outputs for given variates (variates[v] points to n values, n a multiple of 8):
-  /// outputs[row * n + i], SI, NaN where status[i] is not ok. Virtual experiment: errors, evaluated minus true.
+  /// outputs[row * n + i], SI, NaN where status[i] is not ok. Virtual experiment: errors, evaluated minus true;
+  /// prediction: readings.
   /// `changed`: the only columns that differ from the last call with this workspace and this n; null: all.
   void run(std::span<const double* const> variates, std::size_t n, Workspace& w, double* outputs, std::uint8_t* status,
            const std::vector<std::size_t>* changed = nullptr) const;
@@ -73,8 +75,17 @@ public:
   Responses outputs_at(std::size_t reading, const std::vector<double>& point,
                        std::span<const Variation> variations) const;
 
-  /// Values of all quantities at a reading in the order of the layout, indications as read: the estimates, or one
-  /// sample's when `variates` holds one value per variate.
+  /// True if outputs_at has exact first, or first and second derivatives.
+  bool has_gradient() const;
+  bool has_curvature() const;
+  /// Outputs at a reading in dual numbers, at a point as point() gives it, of what has them.
+  models::PointOutcome outputs_at(std::size_t reading, const std::vector<models::Gradient>& point,
+                                  std::vector<models::Gradient>& out) const;
+  models::PointOutcome outputs_at(std::size_t reading, const std::vector<models::Curvature>& point,
+                                  std::vector<models::Curvature>& out) const;
+
+  /// Values of all quantities at a reading in the order of the layout, indications as read, or of a prediction their
+  /// noise alone: the estimates, or one sample's when `variates` holds one value per variate.
   std::vector<double> reading_point(std::size_t reading, const double* variates = nullptr) const;
   /// The estimates of all readings.
   Points estimates() const;
@@ -91,6 +102,7 @@ private:
   void wire(Workspace& w, std::size_t n, bool estimates) const;
   void run_drawn(std::size_t n, Workspace& w, double* outputs, std::uint8_t* status) const;
   void run_model(std::size_t n, Workspace& w, double* outputs, std::uint8_t* status) const;
+  void predict(std::size_t n, Workspace& w, double* outputs, std::uint8_t* status) const;
   void simulate(std::size_t rows, std::size_t n, Workspace& w, std::uint8_t* status) const;
   void add_noise(std::size_t n, Workspace& w) const;
 
@@ -100,7 +112,8 @@ private:
   quantities::SamplePlan plan_;
   std::vector<Output> outputs_;
   std::span<const VariableCard> measurands_;
-  bool virtual_ = false; ///< a virtual experiment
+  bool virtual_ = false;    ///< a virtual experiment
+  bool prediction_ = false; ///< its outputs are the indications
   bool joint_ = false;
   bool mean_ = false; ///< the outputs are the model's measurands averaged over the readings
   std::vector<std::size_t> solved_as_, every_column_;

@@ -53,6 +53,9 @@ public:
   /// Indications of all readings at the points, under each variation. Readings with equal quantities are placed next to
   /// each other, because a model may reuse the results of the previous reading.
   Responses indications(const Points& at, std::span<const Variation> variations) const;
+  /// Indications of one reading, under each variation.
+  Responses indications(std::size_t reading, const std::vector<double>& point,
+                        std::span<const Variation> variations) const;
   /// Indications of all readings at the points.
   Responses indications(const Points& at) const;
   /// Measurands of all readings, evaluated from the points' indications.

@@ -118,6 +118,11 @@ Responses ForwardModel::indications(const Points& at, std::span<const Variation>
   return respond(&ForwardModel::simulate, all_of(at), at, variations);
 }
 
+Responses ForwardModel::indications(std::size_t reading, const std::vector<double>& point,
+                                    std::span<const Variation> variations) const {
+  return respond(&ForwardModel::simulate, {&reading, 1}, {point}, variations);
+}
+
 Responses ForwardModel::indications(const Points& at) const {
   const Variation none;
   return indications(at, {&none, 1});

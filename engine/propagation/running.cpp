@@ -73,6 +73,17 @@ void Experiment::run_columns(std::span<const double* const> columns, std::size_t
 
 Responses Experiment::outputs_at(std::size_t reading, const std::vector<double>& point,
                                  std::span<const Variation> variations) const {
+  if (prediction_) {
+    Responses out = forward_.indications(reading, point, variations);
+    const Range noise = layout().indications;
+    for (std::size_t v = 0; v < variations.size(); ++v) {
+      std::vector<double> here = point;
+      for (const Change& c : variations[v].changes)
+        here[c.quantity] = c.absolute ? c.value : point[c.quantity] + c.value;
+      for (std::size_t k = 0; k < noise.size(); ++k) out.values[v * out.rows + k] += here[noise[k]];
+    }
+    return out;
+  }
   if (!joint_) return forward_.measurands(reading, point, variations);
   const std::size_t count = variations.size(), n = padded(count), width = point.size(), rows = outputs_.size();
   std::vector<double> columns(width * n), values(rows * n);
@@ -91,6 +102,24 @@ Responses Experiment::outputs_at(std::size_t reading, const std::vector<double>&
     out.status.push_back(static_cast<Status>(status[v]));
   }
   return out;
+}
+
+bool Experiment::has_gradient() const {
+  return prediction_ ? forward_.has_derivatives() : model().evaluate_gradient && !joint_;
+}
+bool Experiment::has_curvature() const { return !prediction_ && has_gradient() && model().evaluate_curvature; }
+
+models::PointOutcome Experiment::outputs_at(std::size_t reading, const std::vector<models::Gradient>& point,
+                                            std::vector<models::Gradient>& out) const {
+  if (!prediction_) return forward_.measurands(reading, point, out);
+  const auto outcome = forward_.indications(reading, point, out);
+  for (std::size_t k = 0; k < layout().indications.size(); ++k) out[k] = out[k] + point[layout().indications[k]];
+  return outcome;
+}
+
+models::PointOutcome Experiment::outputs_at(std::size_t reading, const std::vector<models::Curvature>& point,
+                                            std::vector<models::Curvature>& out) const {
+  return forward_.measurands(reading, point, out);
 }
 
 void Experiment::run_drawn(std::size_t n, Workspace& w, double* outputs, std::uint8_t* status) const {
@@ -158,10 +187,27 @@ void Experiment::add_noise(std::size_t n, Workspace& w) const {
     }
 }
 
+/// What the machine would read, stated effects and noise included.
+void Experiment::predict(std::size_t n, Workspace& w, double* outputs, std::uint8_t* status) const {
+  wire(w, n, false);
+  const BlockValues found = forward_.simulate(w.block);
+  std::copy(found.status.begin(), found.status.end(), status);
+  std::ranges::copy(found.indications, w.indications.begin());
+  const Range noise = layout().indications;
+  for (std::size_t r = 0; r < scenario_.readings.size(); ++r)
+    for (std::size_t k = 0; k < noise.size(); ++k) {
+      const std::size_t row = (r * noise.size() + k) * n;
+      const models::Column drawn = w.drawn[plan_.gather[r][noise[k]]];
+      for (std::size_t i = 0; i < n; ++i) outputs[row + i] = w.indications[row + i] += drawn.data[i * drawn.stride];
+    }
+  mark_failed(outputs_.size(), n, outputs, status);
+}
+
 void Experiment::run_model(std::size_t n, Workspace& w, double* outputs, std::uint8_t* status) const {
   const std::size_t readings = scenario_.readings.size(), rows = outputs_.size() * (mean_ ? readings : 1);
   w.indications.resize(readings * layout().indications.size() * n);
   std::fill_n(status, n, std::uint8_t{0});
+  if (prediction_) return predict(n, w, outputs, status);
   wire(w, n, false);
   if (virtual_) {
     simulate(rows, n, w, status);

@@ -214,6 +214,15 @@ std::vector<std::string> notes_of_a_run(const Scenario& s) {
   return notes;
 }
 
+void predict_readings(Scenario& s) {
+  s.method = Method::prediction;
+  AnalysisOptions kept;
+  kept.coverage_probability = s.analysis.coverage_probability;
+  kept.validation_digits = s.analysis.validation_digits;
+  kept.sensitivity = s.analysis.sensitivity;
+  s.analysis = std::move(kept);
+}
+
 Scenario read(const std::string& path, const Catalogue& catalogue, const Overrides& overrides) {
   return ScenarioReader(path, catalogue, overrides).read();
 }

@@ -18,6 +18,7 @@ namespace gumshoe::scenario {
 enum class Method {
   propagation,        ///< propagation of distributions, JCGM 101
   virtual_experiment, ///< draw the truth, simulate, evaluate: distribution of the error
+  prediction,         ///< draw the quantities, simulate: distribution of the readings, before they are taken
 };
 enum class Design { monte_carlo, latin_hypercube, sobol };
 /// How many samples: as many as asked for, or until the results are known to a number of digits.
@@ -27,7 +28,9 @@ enum class StoppingRule {
   stein,    ///< two stages: Wuebbeler, Harris, Cox, Elster 2010
 };
 /// As written in a scenario.
-constexpr const char* name(Method m) { return m == Method::propagation ? "propagation" : "virtual_experiment"; }
+constexpr const char* name(Method m) {
+  return m == Method::propagation ? "propagation" : m == Method::prediction ? "prediction" : "virtual_experiment";
+}
 constexpr const char* name(StoppingRule r) {
   return r == StoppingRule::fixed ? "fixed" : r == StoppingRule::jcgm_101 ? "jcgm_101" : "stein";
 }
@@ -208,6 +211,10 @@ ModelCard evaluated_card(const ModelCard& model, const std::string& evaluation);
 
 /// The notes, and those on quantities marked `estimated` that a run, which does not fit them, takes as exact.
 std::vector<std::string> notes_of_a_run(const Scenario& scenario);
+
+/// The same scenario, asked for the readings themselves before they are taken, whatever it measures. What [analysis]
+/// says of measurands is left out.
+void predict_readings(Scenario& scenario);
 
 /// What a command says in place of the scenario.
 struct Overrides {

@@ -155,6 +155,7 @@ void write_results(hid_t file, const Results& r) {
   write_draws(file, r.draws, r.samples);
   write_table(file, comparison_fields, r.comparisons);
   write_table(file, printed_fields, r.printed);
+  write_table(file, predicted_fields, r.predicted);
   write_list(file, "failures", r.failures, "samples that have no value, by reason");
   write_list(file, "notes", r.notes, "decisions and warnings a reader must see");
 }

@@ -124,7 +124,7 @@ Trace trace(const scenario::Scenario& scenario, const Settings& settings) {
     out.statements.push_back("the p-value of the search is not a finite number; nothing can be judged");
     out.outcome = Outcome::insufficient_data;
   }
-  if (!out.vetoed) compose(c, found, out);
+  compose(c, out.vetoed ? without_findings(found) : found, out);
   summarise(out);
   return out;
 }

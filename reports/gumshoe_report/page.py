@@ -19,7 +19,8 @@ LISTED = 200  # outputs with a section; the CSV tables have all
 CARRIED = 3_000_000  # bytes of the tables that the page carries as links
 MULTIPLES = 24  # most panels in the figure of all distributions
 METHODS = {"propagation": "propagation of distributions (JCGM 101)",
-           "virtual_experiment": "virtual experiment: distribution of the error"}
+           "virtual_experiment": "virtual experiment: distribution of the error",
+           "prediction": "prediction: distribution of the readings, before they are taken"}
 
 
 def question(text):

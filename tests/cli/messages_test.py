@@ -247,8 +247,6 @@ class Messages(InFolder):
                 f'[model.indications]\nz = "a * 2"\nw = "a"\n[indications.z]\n{readings}\n{of_z}\n'
                 f'[indications.w]\n{readings}\n{of_w}\n')
         for text, command, words in [
-            (fit.replace('[model.measurands]\ny = "a + b"\n', "").replace('[quantities]\n', '').replace(
-                'a = {', '[quantities]\na = {'), ["run", "S", "--out", "O"], "there is nothing to measure"),
             (SCENARIO, ["run", "S", "--out", "O" * 300], "too long"),
             (SCENARIO, ["estimate", "S"], "no quantity is marked estimated"),
             (estimated, ["estimate", "S"], "their own noise"),

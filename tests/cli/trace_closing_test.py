@@ -99,7 +99,6 @@ class Closing(InFolder):
     def traced_again(self):
         verdict = self.trace(self.traced)
         self.assertEqual(verdict["verdict"], "nothing_found", [(f["name"], f["p_value"]) for f in verdict["findings"]])
-        self.assertFalse((self.folder / "results/s.traced.traced.toml").exists())
         return verdict
 
     def test_effect_beside_the_constants_of_the_data(self):
@@ -322,13 +321,15 @@ class Closing(InFolder):
         self.assertAlmostEqual(float(s["stated_effects"]["film"]["size"]["value"].split()[0]), size["value"], delta=1e-6)
         self.traced_again()
 
-    def test_nothing_found_nothing_written(self):
+    def test_nothing_found_the_fit_is_written(self):
         rods = Rods()
         rods.write(self.folder, rods.latency(0.5))
         self.assertIn(f"scenario with the findings: {self.traced.relative_to(self.folder)}", self.program("trace", "s.toml"))
         rods.write(self.folder, lambda i: 0)
-        self.assertIn("no scenario is written", self.program("trace", "s.toml"))
-        self.assertFalse(self.traced.exists())  # it told of other data
+        self.assertIn("scenario as fitted: ", self.program("trace", "s.toml"))
+        fitted = self.traced.read_text()
+        self.assertNotIn("trigger_latency", fitted)  # of the other data
+        self.assertIn("fitted to these readings;", fitted)
 
     def test_what_somebody_else_wrote_is_left_alone(self):
         rods = Rods()

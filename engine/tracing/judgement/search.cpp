@@ -290,4 +290,10 @@ private:
 
 Search search(const TraceContext& context) { return Searcher(context).run(); }
 
+Search without_findings(Search search) {
+  search.found = search.base;
+  search.findings.clear();
+  return search;
+}
+
 } // namespace gumshoe::tracing

@@ -23,6 +23,9 @@ struct Search {
   int tried = 0;                        ///< signatures and variance components of the first round
 };
 
+/// What remains of a search whose findings were dropped: the declared model, as fitted.
+Search without_findings(Search search);
+
 /// Fits the declared model, then adds terms until nothing more is found.
 Search search(const TraceContext& context);
 

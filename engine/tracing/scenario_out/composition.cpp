@@ -41,11 +41,14 @@ public:
     write_shapes();
     absorb_shapes();
     constants();
-    bool any = false;
-    for (std::size_t t = 0; t < fit_.terms.size(); ++t) any = (written_[t] ? correction(t) : term(t)) || any;
+    for (std::size_t t = 0; t < fit_.terms.size(); ++t)
+      if (written_[t])
+        correction(t);
+      else
+        term(t);
     add_components(c_, s_, left_, out_);
-    if (any || !out_.additions.empty()) add_estimated_noise(c_, s_, out_);
-    if (any || !out_.additions.empty()) write();
+    add_estimated_noise(c_, s_, out_);
+    write();
   }
 
 private:
@@ -67,7 +70,7 @@ private:
   }
 
   /// The sizes of a shape, one for each stated effect, or by label.
-  bool correction(std::size_t t) {
+  void correction(std::size_t t) {
     const Term& one = fit_.terms[t];
     const Finding* f = finding_of(t);
     const std::string source =
@@ -82,7 +85,6 @@ private:
         size_of_column(t, index(&c - written_[t]->effects.data()), source);
       out_.corrections.push_back(c);
     }
-    return true;
   }
 
   void size_of_column(std::size_t t, Index j, const std::string& source) {
@@ -163,7 +165,9 @@ private:
       lines_.push_back({unknown(free.quantity, free.entry),
                         value_at(free.quantity, entry.labels) + absorbed_[column],
                         column,
-                        {true, entry.labels, "fitted to these readings together with what was found"}});
+                        {true, entry.labels,
+                         fit_.terms.empty() ? "fitted to these readings"
+                                            : "fitted to these readings together with what was found"}});
     }
   }
 
@@ -173,10 +177,10 @@ private:
     return nullptr;
   }
 
-  /// False if it is a description only.
-  bool term(std::size_t t) {
+  /// Sizes of effects; of a description nothing.
+  void term(std::size_t t) {
     const Term& one = fit_.terms[t];
-    if (one.candidate.amplitudes[0].scenario_name.empty()) return false;
+    if (one.candidate.amplitudes[0].scenario_name.empty()) return;
     const Finding* f = finding_of(t);
     for (const auto& [shape, value] : one.candidate.held)
       lines_.push_back({unknown(shape, 0), value, -1, {false, {}, "held at the best of the values tried"}});
@@ -190,7 +194,6 @@ private:
       else
         shifted(a, column, source);
     }
-    return true;
   }
 
   /// The members' predictions differ: the size is no better known than that (JCGM 100, F.2.4.5, in its spirit).

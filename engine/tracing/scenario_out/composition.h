@@ -5,7 +5,7 @@
 namespace gumshoe::tracing {
 
 /// Composes the traced scenario: unknowns and sizes with their joint covariance, the scenario in which they are
-/// estimated quantities, and variance components. Empty if nothing was found.
+/// estimated quantities, and variance components. Empty if nothing was found in a scenario that leaves nothing free.
 void compose(const TraceContext& context, const Search& search, Trace& out);
 /// Variance components of scatter and of unknown effects. `left` by term: the part that no free unknown absorbs, rows
 /// in the order of measurement.

@@ -223,7 +223,7 @@ private:
 } // namespace
 
 std::string traced_scenario(const scenario::Scenario& scenario, const Trace& trace, const std::string& folder) {
-  if (trace.vetoed || (trace.estimate.parameters.empty() && trace.additions.empty())) return {};
+  if (trace.estimate.parameters.empty() && trace.additions.empty()) return {};
   return Writer(scenario, trace, folder).write();
 }
 

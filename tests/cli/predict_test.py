@@ -1,0 +1,99 @@
+"""`gumshoe run --predict`: the readings before they are taken.
+
+usage: predict_test.py path/to/gumshoe [unittest options]
+"""
+import json
+import math
+import re
+import unittest
+
+from program import SCENARIO, InFolder, gumshoe
+
+LINE = """schema = 1
+[model]
+name = "expression"
+[model.indications]
+d = "gain * x + offset"
+[conditions]
+x = "0 mm"
+[quantities]
+gain = { value = "20 um/m", u = "3 um/m" }
+offset = { value = "2 um", u = "0.5 um" }
+[[correlations]]
+quantities = ["gain", "offset"]
+coefficient = -0.5
+kind = "pearson"
+[indications.d]
+components = [ { u = "1 um", per = "reading" }, { u = "0.7 um", per = "cycle" } ]
+[indications.d.readings]
+file = "r.csv"
+column = "d"
+unit = "um"
+labels = { cycle = "cycle" }
+conditions = { x = { column = "x", unit = "mm" } }
+"""
+ROWS = "cycle,x,d\n1,0,2.5\n1,100,30\n2,300,8.5\n"
+
+
+class Predict(InFolder):
+    def predict(self, file, *words):
+        run = gumshoe("run", file, *words, "--out", self.folder / "r.h5", "--force", "--format", "json")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        return json.loads(run.stdout)
+
+    def line(self, *words):
+        (self.folder / "s.toml").write_text(LINE)
+        (self.folder / "r.csv").write_text(ROWS)
+        return self.predict(self.folder / "s.toml", *words)
+
+    def test_mean_and_u_of_a_line(self):
+        """u^2 = (x u_g)^2 + u_o^2 + 2 r x u_g u_o + noise^2, the draw of a cycle and that of a reading."""
+        samples = 200_000
+        for o, (x, read, inside) in zip(self.line("--samples", samples), ((0, 2.5, 1), (0.1, 30, 0), (0.3, 8.5, 1)), strict=True):
+            u = math.sqrt((3 * x) ** 2 + 0.25 - 3 * x * 0.5 + 1 + 0.49)
+            self.assertAlmostEqual(o["gum"]["estimate"], 20 * x + 2, delta=1e-12)
+            self.assertAlmostEqual(o["gum"]["combined_standard_uncertainty"], u, delta=1e-12)
+            self.assertAlmostEqual(o["estimate"], 20 * x + 2, delta=5 * u / samples ** 0.5)
+            self.assertAlmostEqual(o["standard_uncertainty"], u, delta=5 * u / (2 * samples) ** 0.5)
+            self.assertAlmostEqual(o["predicted"]["read"], read, delta=1e-12)
+            self.assertEqual(bool(o["predicted"]["inside"]), bool(inside))
+            self.assertEqual(o["run"]["method"], "prediction")
+
+    def test_a_scenario_without_measurands_predicts_and_says_so(self):
+        for o in self.line("--samples", "1e4"):
+            self.assertIn("no measurands: the readings are predicted", o["run"]["notes"])
+
+    def test_a_sample_again_and_another_analysis(self):
+        outputs = self.line("--samples", "1e4")
+        again = gumshoe("replay", self.folder / "r.h5", "--sample", 7)
+        self.assertEqual(again.returncode, 0, again.stderr)
+        for o in outputs:
+            self.assertIn(o["output"], again.stdout)
+        analysed = gumshoe("analyse", self.folder / "r.h5", "--format", "json")
+        self.assertEqual(analysed.returncode, 0, analysed.stderr)
+        for a, b in zip(outputs, json.loads(analysed.stdout), strict=True):
+            self.assertEqual((a["output"], a["shortest"], a["predicted"]), (b["output"], b["shortest"], b["predicted"]))
+
+    def test_what_a_model_predicts_its_evaluation_takes_back(self):
+        """The laser's height that follows from the reading predicted at the estimates is the height that was put in."""
+        (self.folder / "s.toml").write_text(SCENARIO + '[quantities.laser_z]\nvalue = "10 mm"\n')
+        predicted, = self.predict(self.folder / "s.toml", "--predict", "--samples", "1e4")
+        self.assertEqual((predicted["measurand"], predicted["unit"]), ("spindle_z", "mm"))
+        reading = f"{predicted['gum']['estimate']:.15g} mm"
+        (self.folder / "s.toml").write_text(re.sub(r'readings = .*', f'readings = ["{reading}"]', SCENARIO))
+        evaluated, = (o for o in self.predict(self.folder / "s.toml", "--samples", "1e4") if o["measurand"] == "laser_z")
+        self.assertAlmostEqual(evaluated["gum"]["estimate"], 10, delta=1e-9)
+
+    def test_stated_effects_are_part_of_a_reading(self):
+        (self.folder / "s.toml").write_text(LINE + '[stated_effects.warm]\nindication = "d"\nformula = "x"\nunit = "um/m"\n'
+                                            'size = { value = "10 um/m", u = "4 um/m" }\n')
+        (self.folder / "r.csv").write_text(ROWS)
+        for o, x in zip(self.predict(self.folder / "s.toml", "--samples", "1e4"), (0, 0.1, 0.3), strict=True):
+            self.assertAlmostEqual(o["gum"]["estimate"], 20 * x + 2 + 10 * x, delta=1e-12)
+            u = math.sqrt((3 * x) ** 2 + 0.25 - 3 * x * 0.5 + 1 + 0.49 + (4 * x) ** 2)
+            self.assertAlmostEqual(o["gum"]["combined_standard_uncertainty"], u, delta=1e-12)
+            self.assertAlmostEqual(o["standard_uncertainty"], u, delta=5 * u / 2e4 ** 0.5)
+
+
+if __name__ == "__main__":
+    unittest.main()
