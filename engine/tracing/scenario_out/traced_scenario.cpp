@@ -4,9 +4,11 @@
 #include <filesystem>
 #include <set>
 
+#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include "calibration/scenario_text.h"
+#include "tracing/matrix.h"
 
 namespace gumshoe::tracing {
 namespace {
@@ -18,8 +20,16 @@ using calibration::text_node;
 using scenario::Member;
 using scenario::Node;
 
-/// Draws of equal size that are one and the same are tied this closely: a factor of their matrix must exist.
-constexpr double almost_one = 1 - 1e-9;
+/// Correlations that nearly determine one another, as those of draws that are one and the same or of sizes that only
+/// together are known, come out of a fit with eigenvalues below zero by rounding. A factor of the matrix must exist:
+/// coefficients are reduced, all by one factor, until none is below this.
+constexpr double least_eigenvalue = 1e-9;
+
+void make_definite(Matrix& correlation) {
+  const double least = Eigen::SelfAdjointEigenSolver<Matrix>(correlation, Eigen::EigenvaluesOnly).eigenvalues()[0];
+  if (least < least_eigenvalue) correlation *= (1 - least_eigenvalue) / (1 - least);
+  correlation.diagonal().setOnes();
+}
 
 std::set<std::string> names(const quantities::Labels& labels) {
   std::set<std::string> out;
@@ -182,13 +192,12 @@ private:
   void tie() {
     const std::size_t n = uncertain_.size(), all = t_.estimate.parameters.size();
     if (n < 2) return;
-    std::vector<double> matrix;
+    Matrix matrix(index(n), index(n));
     for (std::size_t i = 0; i < n; ++i)
-      for (std::size_t j = 0; j < n; ++j) {
-        const double r = t_.estimate.correlation[uncertain_[i] * all + uncertain_[j]];
-        matrix.push_back(i == j ? 1 : almost_one * r);
-      }
-    text_.tie(draws_, matrix, "pearson", source("estimated together"));
+      for (std::size_t j = 0; j < n; ++j)
+        matrix(index(i), index(j)) = i == j ? 1 : t_.estimate.correlation[uncertain_[i] * all + uncertain_[j]];
+    make_definite(matrix);
+    text_.tie(draws_, {matrix.data(), matrix.data() + matrix.size()}, "pearson", source("estimated together"));
   }
 
   void add(const Addition& a) {
