@@ -18,7 +18,7 @@ import battery_sets
 import battery_tables
 from battery_score import row as scored
 from families import EXPRESSIONS, FAMILIES
-from predictions import predicted
+from predictions import predicted, runs
 
 ROOT = Path(__file__).resolve().parents[2]
 ROUNDS, DRAWS, SECONDS = 6, 199, 600
@@ -38,8 +38,10 @@ def one(job):
             if run.returncode:
                 return {**out, "failed": f"exit code {run.returncode}: {run.stderr.strip()[-200:]}"}
             out.update(seconds=time.monotonic() - begun, **scored(json.loads((folder / "v.json").read_text()), truth))
-            if family.system in EXPRESSIONS:
-                out["predicted"] = predicted(program, folder / f"{scenario.stem}.traced.toml", scenario)
+            # Beside found.h5 stands what was found as a scenario, if anything was.
+            traced = folder / f"{scenario.stem}.traced.toml"
+            if family.system in EXPRESSIONS and traced.exists():
+                out.update(predicted=predicted(traced), runs=runs(program, traced) if seed == 1 else None)
             return out
         except Exception as problem:
             return {**out, "failed": f"{type(problem).__name__}: {problem}"[:300]}

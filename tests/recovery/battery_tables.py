@@ -91,6 +91,10 @@ def goals(rows, families):
             out.append(("sets with a wrong name", system, "at most 0.03", share(k, len(there)), verdict(k <= 0.03 * len(there))))
         if hits:
             out.append(("coverage of sizes", system, "0.90 to 0.98", share(sum(hits), len(hits)), verdict(0.90 <= sum(hits) / len(hits) <= 0.98)))
+        inside, readings = (sum(r["predicted"][i] for r in own if "predicted" in r) for i in (0, 1))
+        if readings:
+            out.append(("held-out readings in their prediction interval", system, "0.90 to 0.98", share(inside, readings),
+                        verdict(0.90 * readings <= inside <= 0.98 * readings)))
         if finite(own, "after_over_oracle"):
             m, q = (quantile(own, "after_over_oracle", p) for p in (0.5, 0.95))
             out.append(("held out: end / oracle", system, "1.05; 1.2 in 95 %", f"{m:.3f}; {q:.3f}", verdict(m <= 1.05 and q <= 1.2)))
@@ -120,12 +124,12 @@ def broken(rows):
             yield r["family"], r["seed"], "; ".join(what)
 
 
-def predictions(rows):
+def runs(rows):
     count = defaultdict(int)
     for r in counted(rows):
-        if "predicted" in r:
-            count[str(r["predicted"])] += 1
-    return table(["what `gumshoe run` of the traced scenario says", "sets"], sorted(count.items(), key=lambda item: -item[1])[:8])
+        if r.get("runs"):
+            count[r["runs"]] += 1
+    return table(["does `gumshoe run` take the traced scenario of an expression?", "sets"], sorted(count.items(), key=lambda item: -item[1])[:8])
 
 
 def page(rows, families, version, rounds, draws):
@@ -144,7 +148,7 @@ def page(rows, families, version, rounds, draws):
         "## Families\n\n" + table(HEAD, family_rows(rows, families)),
         "## Wrong names and alarms\n\n" + table(["family", "what was said", "sets"], wrong_names(rows)[:60]),
         "## Laws that were broken\n\n" + table(["family", "seed", "what"], list(broken(rows))[:40]),
-        "## Prediction\n\n" + predictions(rows),
+        "## Prediction\n\nIntervals are computed from the traced scenario by `tests/recovery/predictions.py`.\n\n" + runs(rows),
     ]
     if failed:
         parts.append("## Without a verdict\n\n" + table(["family", "seed", "why"], [(r["family"], r["seed"], r["failed"].replace("|", "/").replace("\n", " ")) for r in failed[:40]]))
