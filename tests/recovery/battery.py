@@ -17,8 +17,8 @@ from pathlib import Path
 import battery_sets
 import battery_tables
 from battery_score import row as scored
-from families import EXPRESSIONS, FAMILIES
-from predictions import predicted, runs
+from families import FAMILIES
+from predictions import covered
 
 ROOT = Path(__file__).resolve().parents[2]
 ROUNDS, DRAWS, SECONDS = 6, 199, 600
@@ -38,10 +38,9 @@ def one(job):
             if run.returncode:
                 return {**out, "failed": f"exit code {run.returncode}: {run.stderr.strip()[-200:]}"}
             out.update(seconds=time.monotonic() - begun, **scored(json.loads((folder / "v.json").read_text()), truth))
-            # Beside found.h5 stands what was found as a scenario, if anything was.
             traced = folder / f"{scenario.stem}.traced.toml"
-            if family.system in EXPRESSIONS and traced.exists():
-                out.update(predicted=predicted(traced), runs=runs(program, traced) if seed == 1 else None)
+            if traced.exists() and truth.get("final"):
+                out["predicted"] = covered(program, traced, truth["blocks"], truth["final"])
             return out
         except Exception as problem:
             return {**out, "failed": f"{type(problem).__name__}: {problem}"[:300]}

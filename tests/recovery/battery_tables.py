@@ -45,12 +45,22 @@ def by_family(rows):
 
 
 HEAD = ["family", "sets", "right of what is plain", "wrong names", "alarms", "laws of the loop", "end / oracle, median", "95 %", "start / oracle",
-        "end / stated noise", "intervals", "s"]
+        "end / stated noise", "intervals of sizes", "predicted", "s"]
 
 
 def right_of(group):
     told, right, wider = (sum(r[k] for r in group) for k in ("told", "right", "wider"))
     return f"{right} of {told}" + (f", {wider} in a wider class" if wider else "")
+
+
+def inside(group):
+    """Held-out readings in their prediction interval, of how many."""
+    return [sum(r["predicted"][i] for r in group if "predicted" in r) for i in (0, 1)]
+
+
+def predicted_of(group):
+    k, n = inside(group)
+    return f"{k / n:.2f}" if n else ""
 
 
 def family_rows(rows, families):
@@ -63,7 +73,7 @@ def family_rows(rows, families):
         yield (f.name, n, "" if f.null else right_of(group), "" if f.null else sum(bool(r["wrong"]) for r in group),
                f"{sum(r['alarm'] for r in group)}" if f.null else "", f"{sum(map(lawful, group))} of {n}",
                show(quantile(group, "after_over_oracle", 0.5)), show(quantile(group, "after_over_oracle", 0.95)),
-               show(quantile(group, "before_over_oracle", 0.5)), show(quantile(group, "after_over_noise", 0.5)), f"{sum(hits)} of {len(hits)}" if hits else "", show(quantile(group, "seconds", 0.5), 1))
+               show(quantile(group, "before_over_oracle", 0.5)), show(quantile(group, "after_over_noise", 0.5)), f"{sum(hits)} of {len(hits)}" if hits else "", predicted_of(group), show(quantile(group, "seconds", 0.5), 1))
 
 
 def goals(rows, families):
@@ -91,10 +101,9 @@ def goals(rows, families):
             out.append(("sets with a wrong name", system, "at most 0.03", share(k, len(there)), verdict(k <= 0.03 * len(there))))
         if hits:
             out.append(("coverage of sizes", system, "0.90 to 0.98", share(sum(hits), len(hits)), verdict(0.90 <= sum(hits) / len(hits) <= 0.98)))
-        inside, readings = (sum(r["predicted"][i] for r in own if "predicted" in r) for i in (0, 1))
-        if readings:
-            out.append(("held-out readings in their prediction interval", system, "0.90 to 0.98", share(inside, readings),
-                        verdict(0.90 * readings <= inside <= 0.98 * readings)))
+        k, n = inside(own)
+        if n:
+            out.append(("held-out readings in their prediction interval", system, "0.90 to 0.98", share(k, n), verdict(0.90 * n <= k <= 0.98 * n)))
         if finite(own, "after_over_oracle"):
             m, q = (quantile(own, "after_over_oracle", p) for p in (0.5, 0.95))
             out.append(("held out: end / oracle", system, "1.05; 1.2 in 95 %", f"{m:.3f}; {q:.3f}", verdict(m <= 1.05 and q <= 1.2)))
@@ -124,14 +133,6 @@ def broken(rows):
             yield r["family"], r["seed"], "; ".join(what)
 
 
-def runs(rows):
-    count = defaultdict(int)
-    for r in counted(rows):
-        if r.get("runs"):
-            count[r["runs"]] += 1
-    return table(["does `gumshoe run` take the traced scenario of an expression?", "sets"], sorted(count.items(), key=lambda item: -item[1])[:8])
-
-
 def page(rows, families, version, rounds, draws):
     failed = [r for r in rows if "failed" in r]
     parts = [
@@ -143,12 +144,11 @@ def page(rows, families, version, rounds, draws):
         "conditions on which it depends. *What is plain* has a strength of 8 or more (`tests/recovery/README.md`). *Wrong*: a cause that is not "
         "there. *End / oracle*: held-out error at the end of the loop over that of an oracle, who knows noise and shape and "
         "fits the size to the same readings. *Laws of the loop*: each round starts within 2 % of where the one before ended, the loop ends, and no name "
-        "comes twice. Limits are Wilson's, 95 %; those of alarms Clopper and Pearson's, one-sided.",
+        "comes twice. Prediction intervals are those of `gumshoe run --predict` of the traced scenario, 95 %. Limits are Wilson's, 95 %; those of alarms Clopper and Pearson's, one-sided.",
         "## Goals\n\n" + goals(rows, families),
         "## Families\n\n" + table(HEAD, family_rows(rows, families)),
         "## Wrong names and alarms\n\n" + table(["family", "what was said", "sets"], wrong_names(rows)[:60]),
         "## Laws that were broken\n\n" + table(["family", "seed", "what"], list(broken(rows))[:40]),
-        "## Prediction\n\nIntervals are computed from the traced scenario by `tests/recovery/predictions.py`.\n\n" + runs(rows),
     ]
     if failed:
         parts.append("## Without a verdict\n\n" + table(["family", "seed", "why"], [(r["family"], r["seed"], r["failed"].replace("|", "/").replace("\n", " ")) for r in failed[:40]]))

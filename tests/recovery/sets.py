@@ -88,7 +88,7 @@ def make(program, system, kind, what, strength, seed, noise_kind="white", floor=
     if d.resolution:
         y = d.resolution * np.round(y / d.resolution)
     truth = dict(system=system.MODEL, kind=kind, noise=noise_kind, seed=seed, nominal_strength=strength, readings=int(d.readings),
-                 final=list(d.final), expected=expected(kind, alias, noise_kind), scatter=list(d.redone[0]), noise_um=float(d.noise))
+                 blocks=d.blocks, final=list(d.final), expected=expected(kind, alias, noise_kind), scatter=list(d.redone[0]), noise_um=float(d.noise))
     truth["effects"] = [judged(d0, t, shift, rng) for t, shift in effects]
     if floor:
         truth["held_out_um"] = held_out(system, program, d, noise_kind, q, y, base, total, [
