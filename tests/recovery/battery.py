@@ -16,6 +16,7 @@ from pathlib import Path
 
 import battery_sets
 import battery_tables
+import tables
 from battery_score import row as scored
 from families import FAMILIES
 from predictions import covered
@@ -39,7 +40,7 @@ def one(job):
                 return {**out, "failed": f"exit code {run.returncode}: {run.stderr.strip()[-200:]}"}
             out.update(seconds=time.monotonic() - begun, **scored(json.loads((folder / "v.json").read_text()), truth))
             traced = folder / f"{scenario.stem}.traced.toml"
-            if traced.exists() and truth.get("final"):
+            if traced.exists() and truth.get("final") and family.foretells(seed):
                 out["predicted"] = covered(program, traced, truth["blocks"], truth["final"])
             return out
         except Exception as problem:
@@ -102,8 +103,9 @@ def main(words):
                 print(f"\r{i} of {len(jobs)}", end="", file=sys.stderr, flush=True)
     version = subprocess.run([a.program, "--version"], capture_output=True, text=True).stdout.strip()
     report = a.report or a.out / "battery.md"
-    report.write_text(battery_tables.page([r for r in rows if r["family"] in {f.name for f in chosen}], chosen, version, ROUNDS, DRAWS))
-    print(battery_tables.goals(rows, chosen))
+    own = [r for r in rows if r["family"] in {f.name for f in chosen}]
+    tables.into(report, battery_tables.page(own, chosen, version, ROUNDS, DRAWS), battery_tables.TITLE)
+    print(battery_tables.goals(own, chosen))
     print(f"{len(rows)} sets; {report}")
 
 

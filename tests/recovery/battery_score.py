@@ -42,7 +42,7 @@ def wrong(finding, truth):
 def later(table):
     """What rounds after the first add: names only."""
     added = [n for r in table[1:] if not r["vetoed"] for n in r["added"] if n != UNKNOWN]
-    return [dict(name=n, kind="scatter" if n.startswith("scatter:") else "named") for n in added]
+    return [dict(name=n, members=n.split(" | "), kind="scatter" if n.startswith("scatter:") else "named") for n in added]
 
 
 def row(verdict, truth):

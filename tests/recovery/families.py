@@ -31,6 +31,7 @@ positioning         -                                                         ar
 positioning         -                                                         t3
 positioning         -                                                         outliers
 positioning         -                                                         clamp_declared
+positioning         -                                                         clamp_undeclared
 proving_ring        -                                                         white
 proving_ring        -                                                         white      undeclared
 proving_ring        -                                                         one_bad
@@ -71,6 +72,7 @@ positioning         reversal@15                                               wh
 positioning         alternating@100                                           white
 positioning         alternating@100                                           white      undeclared
 positioning         alternating@100                                           ar06
+positioning         alternating@50                                            ar08       undeclared
 positioning         growing_reversal@15                                       white
 positioning         table@30                                                  white
 positioning         table@30                                                  one_bad    undeclared
@@ -158,6 +160,10 @@ class Family:
     @property
     def options(self):
         return {k: v for t in self.traits for k, v in TRAITS[t].items()}
+
+    def foretells(self, seed):
+        """Whether its predictions are asked for: they take longer than tracing nothing."""
+        return not self.null or self.system not in EXPRESSIONS or seed % PLENTY == 0
 
     def sets(self, seeds):
         """How many of them are asked for."""

@@ -126,9 +126,9 @@ def report(rows, run):
     return "\n\n".join(parts)
 
 
-def into(path, text):
+def into(path, text, title="# Tracing a residual to a missing effect\n\n## Study on made-up readings"):
     """Replaces the study's part of the report, leaves what people wrote around it."""
-    old = path.read_text() if path.exists() else f"# Tracing a residual to a missing effect\n\n## Study on made-up readings\n\n{BEGIN}\n{END}\n"
+    old = path.read_text() if path.exists() else f"{title}\n\n{BEGIN}\n{END}\n"
     if BEGIN not in old:
         old += f"\n## Study on made-up readings\n\n{BEGIN}\n{END}\n"
     head, rest = old.split(BEGIN, 1)
