@@ -1,25 +1,22 @@
 #pragma once
 /// A point that one or two rotary axes turn about a pivot: where it goes, and which errors of the angles take it to
-/// where it was found. For the single socket method on three types of five-axis machines; corrected equations:
-/// README.md of the model single_socket_rotation. Source: Wang et al. 2013, section 2.1.2.
+/// where it was found. For the single socket method on three types of five-axis machines, in closed form, and on others
+/// (turned_by_two.h); corrected equations: README.md of the model single_socket_rotation. Source: Wang et al. 2013,
+/// section 2.1.2.
 #include <array>
 
-#include "math/pose.h"
+#include "chain/turned_by_two.h"
 
 namespace gumshoe::chain {
 
-/// The axes that turn the point. RTTTR has one in the head and one in the table, each with a point of its own.
-enum class Turn { RRTTT, TTTRR, RTTTR_head, RTTTR_table };
+/// The axes that turn the point. RTTTR has one in the head and one in the table, each with a point of its own; those of
+/// a described machine are stated.
+enum class Turn { RRTTT, TTTRR, RTTTR_head, RTTTR_table, described };
 
-/// Whether it turns about X, Y, Z.
-constexpr std::array<bool, 3> turns_about(Turn turn) {
+/// Whether it turns about X, Y, Z. @param axes of a described machine
+constexpr std::array<bool, 3> turns_about(Turn turn, const TwoRotaryAxes* axes = nullptr) {
+  if (turn == Turn::described) return {axes->across() != 0, axes->across() != 1, axes->across() != 2};
   return {turn != Turn::RTTTR_head, turn == Turn::RRTTT || turn == Turn::RTTTR_head, turn == Turn::TTTRR};
-}
-
-/// Angles about X, Y and Z, or their errors, rad; 0 about an axis that the machine does not have.
-template <class T> struct Angles { T alpha = T(0.0), beta = T(0.0), gamma = T(0.0); };
-template <class T> Angles<T> operator+(const Angles<T>& a, const Angles<T>& b) {
-  return {a.alpha + b.alpha, a.beta + b.beta, a.gamma + b.gamma};
 }
 
 /// The angles of those axes that there are, 0 else.
@@ -34,6 +31,14 @@ template <class T> struct TurnedPoint {
   Vector3<T> point;         ///< from the pivot, or TTTRR: from the centre of the turn by gamma, m
   T z_alpha_gamma = T(0.0); ///< TTTRR: that centre above the pivot of alpha, m
   Angles<T> commanded;
+  const TwoRotaryAxes* axes =
+      nullptr; ///< of a described machine; `point` is from the second one's, the pivot the first one's
+
+  /// Turn::described: z_alpha_gamma adds to the distance of the axes along Z.
+  TurnedByTwo<T> by_two() const {
+    const T zero(0.0);
+    return {*axes, point_of<T>(axes->second) - point_of<T>(axes->first) + Vector3<T>{zero, zero, z_alpha_gamma}};
+  }
 };
 
 /// Right-handed turns about X, Y and Z.
@@ -59,6 +64,7 @@ Vector3<T> place_before_alpha(const TurnedPoint<T>& at, const Vector3<T>& point,
 }
 /// The place of a point from the pivot, m.
 template <class T> Vector3<T> place(const TurnedPoint<T>& at, const Vector3<T>& point, const Angles<T>& by) {
+  if (at.turn == Turn::described) return at.by_two().place(point, by);
   const Vector3<T> p = place_before_alpha(at, point, by);
   return at.turn == Turn::RTTTR_head ? p : about_x(by.alpha, p);
 }
@@ -78,13 +84,14 @@ template <class T> T other_component(const T& known, const T& other, const T& no
 } // namespace detail
 
 /// Errors of the angles, exactly, of a point that was found at `found` from the pivot, m. Each type solves two of the
-/// three equations, RTTTR one; NaN where no angle fulfils them.
+/// three equations, RTTTR one; NaN where no angle fulfils them. A described machine takes all three by least squares.
 ///
 /// - RRTTT: the direction of `found`; its length is not used
 /// - TTTRR: the equation of X, then that of Y
 /// - RTTTR: the direction of `found` square to the axis
 template <class T> Angles<T> angle_errors(const TurnedPoint<T>& at, const Vector3<T>& found) {
   using detail::angle, detail::other_component;
+  if (at.turn == Turn::described) return at.by_two().errors(at.point, at.commanded, found);
   Vector3<T> p = place_before_alpha(at, at.point, at.commanded);
   Angles<T> error;
   if (at.turn == Turn::RRTTT) {
@@ -107,7 +114,7 @@ template <class T> Angles<T> angle_errors(const TurnedPoint<T>& at, const Vector
   return error;
 }
 
-/// The same to first order: eqs (6), (7), (17), (18), and (11), (12) corrected.
+/// The same to first order, of the printed types: eqs (6), (7), (17), (18), and (11), (12) corrected.
 template <class T> Angles<T> linear_angle_errors(const TurnedPoint<T>& at, const Vector3<T>& found) {
   const T &alpha = at.commanded.alpha, &gamma = at.commanded.gamma;
   const T ca = num::cos(alpha), sa = num::sin(alpha);
@@ -136,6 +143,7 @@ template <class T> Angles<T> linear_angle_errors(const TurnedPoint<T>& at, const
 /// Length of the smallest lever by which an angle acts on the equations that are solved, m: 0 where they do not
 /// determine the angles.
 template <class T> T smallest_lever(const TurnedPoint<T>& at) {
+  if (at.turn == Turn::described) return at.by_two().smallest_lever(at.point, at.commanded);
   const Vector3<T> p = place_before_alpha(at, at.point, at.commanded), q = about_x(at.commanded.alpha, p);
   const auto less = [](const T& a, const T& b) { return T(0.5) * (a + b - num::abs(a - b)); };
   switch (at.turn) {
@@ -146,6 +154,7 @@ template <class T> T smallest_lever(const TurnedPoint<T>& at) {
   case Turn::RTTTR_head:
     return num::sqrt(p.x * p.x + p.z * p.z);
   case Turn::RTTTR_table:
+  case Turn::described:
     break;
   }
   return num::sqrt(q.y * q.y + q.z * q.z);

@@ -20,6 +20,12 @@ template <class T> T dot(const Vector3<T>& a, const Vector3<T>& b) { return a.x 
 template <class T> Vector3<T> cross(const Vector3<T>& a, const Vector3<T>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
+template <class T> T length(const Vector3<T>& a) { return num::sqrt(dot(a, a)); }
+/// a where the mask holds, else b.
+template <class T> Vector3<T> choose(bool first, const Vector3<T>& a, const Vector3<T>& b) { return first ? a : b; }
+inline Vector3<Lanes> choose(const Lanes::batch_bool_type& first, const Vector3<Lanes>& a, const Vector3<Lanes>& b) {
+  return {xsimd::select(first, a.x, b.x), xsimd::select(first, a.y, b.y), xsimd::select(first, a.z, b.z)};
+}
 /// The unit vector along a; a must not be the null vector (the result is NaN).
 template <class T> Vector3<T> normalised(const Vector3<T>& a) { return T(1.0) / num::sqrt(dot(a, a)) * a; }
 

@@ -56,7 +56,9 @@ MadeCard::MadeCard(const CardTexts& texts) {
 
 RenamedCard::RenamedCard(const ModelCard& card, const std::vector<Renamed>& renamed, std::vector<AxisCard> axes)
     : quantities_(card.quantities.begin(), card.quantities.end()),
-      conditions_(card.conditions.begin(), card.conditions.end()), axes_(std::move(axes)), card_(card) {
+      conditions_(card.conditions.begin(), card.conditions.end()),
+      evaluations_(card.evaluations.begin(), card.evaluations.end()), axes_(std::move(axes)), card_(card) {
+  for (const EvaluationCard& e : card.evaluations) measurands_.emplace_back(e.measurands.begin(), e.measurands.end());
   const auto rename = [&](const auto& from, auto& rows, const Renamed& to, const auto& further) {
     const auto at = std::ranges::find(from, to.from, &std::ranges::range_value_t<decltype(from)>::name) - from.begin();
     if (at == std::ssize(from)) return;
@@ -68,9 +70,12 @@ RenamedCard::RenamedCard(const ModelCard& card, const std::vector<Renamed>& rena
   for (const Renamed& to : renamed) {
     rename(card.quantities, quantities_, to, [&](QuantityCard& q) { q.default_value = to.default_value; });
     rename(card.conditions, conditions_, to, [](VariableCard&) {});
+    for (std::size_t e = 0; e < evaluations_.size(); ++e)
+      rename(card.evaluations[e].measurands, measurands_[e], to, [](VariableCard&) {});
   }
+  for (std::size_t e = 0; e < evaluations_.size(); ++e) evaluations_[e].measurands = measurands_[e];
   for (AxisCard& axis : axes_) axis.name = keep(std::string(axis.name));
-  card_.quantities = quantities_, card_.conditions = conditions_, card_.axes = axes_;
+  card_.quantities = quantities_, card_.conditions = conditions_, card_.evaluations = evaluations_, card_.axes = axes_;
 }
 
 std::vector<AxisCard> cards_of_axes(const chain::Machine& machine) {

@@ -36,7 +36,7 @@ private:
   ModelCard card_{};
 };
 
-/// Another name, meaning or default of a quantity, condition or axis of a card.
+/// Another name, meaning or default of a quantity, condition, measurand of a joint evaluation or axis of a card.
 struct Renamed {
   std::string from, name, meaning = {}; ///< an empty meaning stays
   double default_value = 0;             ///< of a quantity
@@ -55,6 +55,8 @@ private:
   std::deque<std::string> texts_;
   std::vector<QuantityCard> quantities_;
   std::vector<VariableCard> conditions_;
+  std::deque<std::vector<VariableCard>> measurands_; ///< of each evaluation
+  std::vector<EvaluationCard> evaluations_;
   std::vector<AxisCard> axes_;
   ModelCard card_;
 };

@@ -22,7 +22,7 @@ using si::deg, si::mm;
   in_mm({.name = "point_z", .default_value = -250 * mm, .symbol = "z_r",                                               \
          .meaning = "the same along Z; of a tool below the pivot it is negative"}),                                    \
   in_mm({.name = "z_alpha_gamma", .symbol = "z_alphagamma",                                                            \
-         .meaning = "TTTRR: height of the centre of the turn by gamma above the axis of alpha"}),                      \
+         .meaning = "TTTRR: height of the centre of the turn by gamma above the axis of alpha; with [machine] it adds to the distance of the axes"}),                      \
   in_mm({.name = "seating_x", .meaning = "offset of the ball from its nominal place along X with all angles at 0; it " \
                                          "turns with the ball"}),                                                      \
   in_mm({.name = "seating_y", .meaning = "the same along Y"}),                                                         \
@@ -50,13 +50,6 @@ inline constexpr VariableCard closure_cards[] = {
                  .meaning = "distance of the ball from the pivot, measured minus nominal: no rotation changes it"})};
 // clang-format on
 
-/// a where the mask holds, else b.
-template <class T> Vector3<T> choose(bool first, const Vector3<T>& a, const Vector3<T>& b) { return first ? a : b; }
-inline Vector3<Lanes> choose(const Lanes::batch_bool_type& first, const Vector3<Lanes>& a, const Vector3<Lanes>& b) {
-  return {xsimd::select(first, a.x, b.x), xsimd::select(first, a.y, b.y), xsimd::select(first, a.z, b.z)};
-}
-template <class T> T length(const Vector3<T>& v) { return num::sqrt(dot(v, v)); }
-
 /// The ball as it is nominally, and as it sits.
 template <class T> struct Body {
   chain::TurnedPoint<T> nominal, seated;
@@ -79,11 +72,16 @@ template <class T, class Quantities> Vector3<T> stated_from_pivot(const Quantiti
 template <class T, class Quantities> Vector3<T> nominal_place(const Quantities& q, const Vector3<T>& computed) {
   return choose(is_stated<T>(q), stated_from_pivot<T>(q), computed);
 }
-/// @param q, c quantities of GUMSHOE_BODY_ROWS; alpha, beta, gamma
+/// The axes of [machine]; where none is described, which refuse_machine refuses, any.
+inline const chain::TwoRotaryAxes* axes_of(const void* context) {
+  return context ? static_cast<const chain::TwoRotaryAxes*>(context) : &chain::table_BC;
+}
+/// @param context of the reading  @param q, c quantities of GUMSHOE_BODY_ROWS; alpha, beta, gamma
 template <class T, class Quantities, class Conditions>
-Body<T> body(chain::Turn turn, const Quantities& q, const Conditions& c) {
+Body<T> body(chain::Turn turn, const void* context, const Quantities& q, const Conditions& c) {
   Body<T> b;
-  b.nominal = {turn, {q.point_x, q.point_y, q.point_z}, q.z_alpha_gamma, {c.alpha, c.beta, c.gamma}};
+  b.nominal = {
+      turn, {q.point_x, q.point_y, q.point_z}, q.z_alpha_gamma, {c.alpha, c.beta, c.gamma}, axes_of(context)};
   b.seated = b.nominal;
   b.seated.point = b.seated.point + Vector3<T>{q.seating_x, q.seating_y, q.seating_z};
   b.turned = nominal_place(q, place(b.nominal, b.nominal.commanded));
@@ -98,10 +96,15 @@ template <class T> Vector3<T> after(const Body<T>& b, const Vector3<T>& before, 
 template <class T> Found<T> found(const Body<T>& b, const Vector3<T>& before, const Vector3<T>& after, bool linear) {
   const Vector3<T> v = b.turned + after - before;
   const auto error = linear ? linear_angle_errors(b.seated, v) : angle_errors(b.seated, v);
-  const auto unturned = place(b.seated, chain::Angles<T>{});
-  return {error, v - place(b.seated, b.seated.commanded + error), length(v) - length(unturned)};
+  const auto there = place(b.seated, b.seated.commanded + error);
+  return {error, v - there, length(v) - length(there)};
 }
 
+/// Refuses the evaluation of a machine that is not described, and that of a printed one where a machine is.
+template <class T, class Outcome> void refuse_machine(chain::Turn turn, const void* context, Outcome& outcome) {
+  const T wrong((turn == chain::Turn::described) == (context != nullptr) ? 0.0 : 1.0);
+  outcome.refuse(wrong > T(0.0), "the evaluation 'described' belongs to a [machine], and a [machine] to this evaluation");
+}
 /// Refuses commanded angles about axes that the machine does not have.
 template <class T, class Outcome>
 void refuse_angles(const std::array<bool, 3>& about, const chain::Angles<T>& angles, Outcome& outcome) {
@@ -109,28 +112,21 @@ void refuse_angles(const std::array<bool, 3>& about, const chain::Angles<T>& ang
   outcome.refuse(num::abs(other.alpha) + num::abs(other.beta) + num::abs(other.gamma) > T(0.0),
                  "alpha, beta or gamma is not 0, but the machine has no such axis");
 }
-/// Refuses the distance of axes that only TTTRR has.
+/// Refuses the distance of axes where the two do not stand apart.
 template <class T, class Outcome> void refuse_distance(chain::Turn turn, const T& z_alpha_gamma, Outcome& outcome) {
-  const T other = turn == chain::Turn::TTTRR ? T(0.0) : z_alpha_gamma;
+  const T other = turn == chain::Turn::TTTRR || turn == chain::Turn::described ? T(0.0) : z_alpha_gamma;
   outcome.refuse(num::abs(other) > T(0.0), "z_alpha_gamma is not 0, but the machine is not TTTRR");
 }
-/// Refuses what determines no angles. @param turned mask: where the ball is turned
-template <class T, class Mask, class Outcome>
-void refuse_levers(const T& smallest, const Mask& turned, Outcome& outcome) {
-  outcome.refuse(turned && (smallest < T(1e-6)),
-                 "point_x, point_y, point_z: the ball has no lever for one of the angles, so nothing determines it");
-}
-/// Refuses a stated nominal place that contradicts the computed one, from the pivot.
-template <class T, class Quantities, class Mask, class Outcome>
-void refuse_nominal(const Body<T>& b, const Vector3<T>& computed, const Quantities& q, const Mask& turned,
-                    Outcome& outcome) {
-  outcome.refuse(turned && is_stated<T>(q) && (length<T>(b.turned - computed) > T(1e-3)),
-                 "nominal_x, nominal_y, nominal_z are over 1 mm from where pivot, point and angles put the ball");
-}
+/// Refuses a ball that determines no angles, and a stated nominal place that contradicts the computed one.
+/// @param turned mask: where the ball is turned
 template <class T, class Quantities, class Mask>
 void check(const Body<T>& b, const Quantities& q, const Mask& turned, Outcome<T>& outcome) {
-  refuse_levers(smallest_lever(b.seated), turned, outcome);
-  refuse_nominal(b, place(b.nominal, b.nominal.commanded), q, turned, outcome);
+  refuse_distance(b.nominal.turn, q.z_alpha_gamma, outcome);
+  outcome.refuse(turned && (smallest_lever(b.seated) < T(1e-6)),
+                 "point_x, point_y, point_z: the ball has no lever for one of the angles, so nothing determines it");
+  const Vector3<T> computed = place(b.nominal, b.nominal.commanded);
+  outcome.refuse(turned && is_stated<T>(q) && (length<T>(b.turned - computed) > T(1e-3)),
+                 "nominal_x, nominal_y, nominal_z are over 1 mm from where pivot, point and angles put the ball");
 }
 
 } // namespace gumshoe::models::turned_ball

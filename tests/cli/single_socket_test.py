@@ -146,6 +146,88 @@ d_gamma = "-0.15 deg"
         run = gumshoe("run", scenario, "--samples", 1000, "--format", "json", "--out", scenario.with_suffix(".h5"))
         self.assertEqual(run.returncode, 0, run.stderr)
 
+    # Both steps with bars.
+
+    BARS = """schema = 1
+[model]
+name = "single_socket"
+method = "{method}"
+evaluation = "{evaluation}"
+{machine}
+[conditions]
+{conditions}
+[quantities]
+point_x = "{point[0]} mm"
+point_y = "{point[1]} mm"
+point_z = "{point[2]} mm"
+{more}
+[indications.length_change]
+components = [ {{ distribution = "normal", u = "{u} um", per = "reading" }} ]
+{readings}
+"""
+    TABLES = {  # name: axes from the bed, directions, from the first axis to the second in mm, [machine]
+        "B C": ((1, 2), (-15, 30, 50), '[{ axis = "B", point = ["10 mm", "0 mm", "-50 mm"] }, { axis = "C", point = ["-5 mm", "30 mm", "0 mm"] }]'),
+        "A C": ((0, 2), (0, 0, 60), '["A", { axis = "C", point = ["0 mm", "0 mm", "60 mm"] }]'),
+    }
+
+    def run_bars(self, readings="", more="", u=1, **parts):
+        scenario = self.path.with_name("bars.toml")
+        scenario.write_text(self.BARS.format(readings=readings, more=more, u=u, **parts))
+        run = gumshoe("run", scenario, "--samples", 1000, "--format", "json", "--out", scenario.with_suffix(".h5"))
+        self.assertEqual(run.returncode, 0, run.stderr)
+        return {result["measurand"]: result["estimate"] for result in json.loads(run.stdout)}
+
+    def test_a_described_head_as_printed(self):
+        # RRTTT, of which the reference tests know the results: the same draws give the same mean errors.
+        conditions = ["step = [1, 1, 1, 2, 2, 2]"]
+        conditions += [f'station_{axis} = ["{{}} mm", "{{}} mm", "{{}} mm", "{{}} mm", "{{}} mm", "{{}} mm"]'.format(*2 * [at[i] for at in SQUARE])
+                       for i, axis in enumerate("xyz")]
+        conditions += [f'{name} = ["0 deg", "0 deg", "0 deg", "{a} deg", "{a} deg", "{a} deg"]' for name, a in (("alpha", 25), ("beta", -40))]
+        parts = {"method": "virtual_experiment", "point": (3, -7, -250), "conditions": "\n".join(conditions),
+                 "more": 'd_alpha = "0.15 deg"\nd_beta = "-0.3 deg"\nposition_error_x = "80 um"\nseating_y = { value = "0 um", u = "5 um" }'}
+        printed = self.run_bars(evaluation="rrttt", machine="", **parts)
+        described = self.run_bars(evaluation="described", machine='[machine]\nworkpiece_side = []\ntool_side = ["X", "Y", "Z", "A", "B"]', **parts)
+        self.assertEqual(list(printed), list(described))
+        for name, value in printed.items():
+            self.assertAlmostEqual(described[name], value, delta=math.degrees(1e-12) if name.startswith("d_") else 1e-9, msg=name)
+
+    def test_bars_on_tables_of_two_axes(self):
+        # Readings from rotations written out here, without noise; the closed form of TTTRR, where there is one, agrees.
+        def about(axis, angle, at):
+            i, j = (axis + 1) % 3, (axis + 2) % 3
+            out = list(at)
+            out[i], out[j] = (math.cos(angle) * at[i] - math.sin(angle) * at[j], math.sin(angle) * at[i] + math.cos(angle) * at[j])
+            return out
+        point, commanded, wrong, before = (120, 40, 90), (20, -35), (0.2, -0.15), (0.030, -0.020, 0.050)
+        for name, (axes, apart, table) in self.TABLES.items():
+            def place(*angles):
+                first, second = (math.radians(a) for a in angles)
+                return about(axes[0], first, [a + c for a, c in zip(apart, about(axes[1], second, point))])
+            actual = place(*(a + b for a, b in zip(commanded, wrong)))
+            after = [d + x - y for d, x, y in zip(before, actual, place(*commanded))]
+            letters = [("alpha", "beta", "gamma")[axis] for axis in axes]
+            rows = [(step, *(a * (step - 1) for a in commanded), *at, math.dist([p + e for p, e in zip(at, error)], (0, 0, 0)) - 150)
+                    for step, error in ((1, before), (2, after)) for at in SQUARE]
+            columns = ["step", *letters, "station_x", "station_y", "station_z"]
+            self.path.write_text("\n".join(",".join(map(repr, row)) for row in rows).join([",".join([*columns, "change"]) + "\n", "\n"]))
+            unit = {"step": "1"} | dict.fromkeys(letters, "deg")
+            read = ", ".join(f'{c} = {{ column = "{c}", unit = "{unit.get(c, "mm")}" }}' for c in columns)
+            machines = {"described": f'[machine]\nworkpiece_side = {table}\ntool_side = ["X", "Y", "Z"]'} | ({"tttrr": ""} if name == "A C" else {})
+            for evaluation, machine in machines.items():
+                found = self.run_bars(
+                    method="propagation", evaluation=evaluation, point=point, machine=machine, conditions="", u=1e-9,
+                    more='z_alpha_gamma = "60 mm"' if evaluation == "tttrr" else "",
+                    readings=f'readings = {{ file = "{self.path}", column = "change", unit = "mm", conditions = {{ {read} }} }}')
+                for letter, angle in zip(letters, wrong):
+                    self.assertAlmostEqual(found[f"d_{letter}"], angle, delta=math.degrees(1e-12), msg=(name, evaluation))
+                self.assertEqual({n for n in found if n.startswith("d_")}, {f"d_{letter}" for letter in letters})
+                for measurand, true in (("before_z", before[2]), ("after_x", after[0]), ("closure_length", 0)):
+                    self.assertAlmostEqual(found[measurand], true, delta=1e-9, msg=(name, evaluation, measurand))
+
+    def test_machine_and_evaluation_belong_together(self):
+        stations = [(s, *at, 0) for s in (1, 2) for at in SQUARE]
+        self.refused("the evaluation 'described' belongs to a [machine]", ["step", *self.STATION], stations, "described")
+
     def test_which_machines(self):
         for tool, more, part in (('["X", "Z", "A"]', "", "single_socket_rotation has two rotary axes, both in the table or both in the head"),
                                  ('["X", "Z"]', '[machine.errors]\nE_A0C = "1 urad"\n', "E_A0C is no quantity of single_socket_rotation")):

@@ -101,7 +101,7 @@ template <class T> Vector3<T> origin(const Rows::Quantities<T>& q) { return {q.o
 
 /// Lengths of the bars with the ball at a point in the bars' frame, m.
 template <class T> Distances<T> distances(const Sockets<T>& s, const Vector3<T>& ball) {
-  return {norm(from_socket(s, 0, ball)), norm(from_socket(s, 1, ball)), norm(from_socket(s, 2, ball))};
+  return {length(from_socket(s, 0, ball)), length(from_socket(s, 1, ball)), length(from_socket(s, 2, ball))};
 }
 
 /// What the bars read of their lengths, and the inverse.
@@ -118,7 +118,7 @@ public:
     for (int i = 0; i < 3; ++i) {
       const Vector3<T> bar = from_socket(sockets, i, ball);
       chain::BallBar<T> as_read;
-      as_read.speed = dot(bar, velocity) / norm(bar);
+      as_read.speed = dot(bar, velocity) / length(bar);
       as_read.zero = of(Q::initialisation_1, i) + of(Q::form_1, i) - fixture;
       as_read.skew = of(Q::skew_1, i) + now.delay;
       error_[i] = chain::indication_error(as_read);

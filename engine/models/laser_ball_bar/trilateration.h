@@ -35,7 +35,6 @@ template <class T> Sockets<T> sockets(const T& b12, const T& b23, const T& b31) 
 
 template <class T> struct Distances { T to_1, to_2, to_3; };
 
-template <class T> T norm(const Vector3<T>& v) { return num::sqrt(dot(v, v)); }
 /// From the sockets to a point.
 template <class T> Vector3<T> from_socket(const Sockets<T>& s, int socket, const Vector3<T>& p) {
   return socket == 0 ? p : Vector3<T>{p.x - (socket == 1 ? s.b : s.x3), socket == 1 ? p.y : p.y - s.y3, p.z};

@@ -81,6 +81,12 @@ template <> inline constexpr VariableCard cards<Turn::RRTTT>[] = {GUMSHOE_STEPS,
 template <> inline constexpr VariableCard cards<Turn::TTTRR>[] = {GUMSHOE_STEPS, d_alpha, d_gamma, GUMSHOE_END};
 template <> inline constexpr VariableCard cards<Turn::RTTTR_head>[] = {GUMSHOE_STEPS, d_beta, GUMSHOE_END};
 template <> inline constexpr VariableCard cards<Turn::RTTTR_table>[] = {GUMSHOE_STEPS, d_alpha, GUMSHOE_END};
+/// [machine] gives these the names d_alpha, d_beta, d_gamma.
+inline constexpr std::string_view first_error = "d_first", second_error = "d_second";
+template <> inline constexpr VariableCard cards<Turn::described>[] = {
+    GUMSHOE_STEPS,
+    shown_in_deg({.name = first_error, .meaning = "orientation error of the first rotary axis from the bed; [machine] names it by its direction"}),
+    shown_in_deg({.name = second_error, .meaning = "that of the second one"}), GUMSHOE_END};
 #undef GUMSHOE_END
 #undef GUMSHOE_STEPS
 
@@ -99,14 +105,21 @@ inline constexpr EquationCard turned_equations[] = {
 inline constexpr EquationCard turned_linear_equations[] = {
     {GUMSHOE_TURNED, "R: turns of the machine, to first order in the errors as in single_socket_rotation"},
     linear_equations[0], length_equations[0]};
+inline constexpr EquationCard turned_described_equations[] = {
+    {GUMSHOE_TURNED, "R: turns about the axes of the machine; least squares in X, Y and Z"},
+    exact_equations[0], length_equations[0]};
 #undef GUMSHOE_TURNED
 #undef GUMSHOE_SYMBOLS
 
 // The first is computed at each reading; then the joint evaluations, those of a rotation in the order of chain::Turn.
-enum Evaluation { length, position, position_linear, rotated, rotated_linear = rotated + 4 };
+enum Evaluation { each_length, position, position_linear, rotated, rotated_linear = rotated + 4, described = rotated_linear + 4 };
 constexpr bool is_rotated(int evaluation) { return evaluation >= rotated; }
-constexpr bool is_linear(int evaluation) { return evaluation == position_linear || evaluation >= rotated_linear; }
-constexpr Turn turn_of(int evaluation) { return static_cast<Turn>((evaluation - rotated) % 4); }
+constexpr bool is_linear(int evaluation) {
+  return evaluation == position_linear || (evaluation >= rotated_linear && evaluation != described);
+}
+constexpr Turn turn_of(int evaluation) {
+  return evaluation == described ? Turn::described : static_cast<Turn>((evaluation - rotated) % 4);
+}
 #define GUMSHOE_TURN(name_, meaning_, turn, equations_)                                                                \
   {.name = name_, .meaning = meaning_, .measurands = cards<turn>, .equations = equations_}
 inline constexpr EvaluationCard evaluation_cards[] = {
@@ -124,6 +137,8 @@ inline constexpr EvaluationCard evaluation_cards[] = {
     GUMSHOE_TURN("tttrr_linear", "eqs (1), (11) and (12), corrected", Turn::TTTRR, turned_linear_equations),
     GUMSHOE_TURN("rtttr_head_linear", "eqs (1) and (17)", Turn::RTTTR_head, turned_linear_equations),
     GUMSHOE_TURN("rtttr_table_linear", "eqs (1) and (18)", Turn::RTTTR_table, turned_linear_equations),
+    GUMSHOE_TURN("described", "both steps with both rotary axes of [machine], in table or head, exact", Turn::described,
+                 turned_described_equations),
 };
 #undef GUMSHOE_TURN
 inline constexpr Stage stages[] = {Stage::motion, Stage::slides, Stage::slide_directions, Stage::bar};

@@ -17,10 +17,16 @@ template <class T> Vector3<T> true_error(const At<T>& at) {
   return {at.q.position_error_x, at.q.position_error_y, at.q.position_error_z};
 }
 template <class T> Vector3<T> seating(const At<T>& at) { return {at.q.seating_x, at.q.seating_y, at.q.seating_z}; }
-template <class T> Body<T> body(const At<T>& at) { return turned_ball::body<T>(turn_of(at.evaluation), at.q, at.c); }
+template <class T> Body<T> body(const At<T>& at) {
+  return turned_ball::body<T>(turn_of(at.evaluation), at.context, at.q, at.c);
+}
+/// Directions about which the machine turns the ball: X, Y, Z.
+template <class T> std::array<bool, 3> turns(const At<T>& at) {
+  return chain::turns_about(turn_of(at.evaluation), turned_ball::axes_of(at.context));
+}
 /// True errors of the angles, of those axes that the machine has.
 template <class T> chain::Angles<T> true_angle_errors(const At<T>& at) {
-  return chain::only<T>(chain::turns_about(turn_of(at.evaluation)), {at.q.d_alpha, at.q.d_beta, at.q.d_gamma});
+  return chain::only<T>(turns(at), {at.q.d_alpha, at.q.d_beta, at.q.d_gamma});
 }
 
 /// The readings of one step, fixed by the conditions, and room for their stations.
@@ -85,8 +91,8 @@ template <Turn turn> struct Rotated {
     explicit Memory(const Readings<double>& all) : before(all, 1), after(all, 2) {}
   };
   template <class T>
-  static Measurands<T> in_rows(const Vector3<T>& before, const Vector3<T>& after, const Found<T>& found,
-                               const T& residual, const T& amplification) {
+  static Measurands<T> in_rows(const At<T>& at, const Vector3<T>& before, const Vector3<T>& after,
+                               const Found<T>& found, const T& residual, const T& amplification) {
     const auto& [e, c] = std::tie(found.error, found.closure);
     const std::array<T, 10> first{before.x, before.y, before.z, after.x, after.y,
                                   after.z,  c.x,      c.y,      c.z,     found.closure_length};
@@ -94,6 +100,11 @@ template <Turn turn> struct Rotated {
     if constexpr (turn == Turn::TTTRR) return with(first, e.alpha, e.gamma, residual, amplification);
     if constexpr (turn == Turn::RTTTR_head) return with(first, e.beta, residual, amplification);
     if constexpr (turn == Turn::RTTTR_table) return with(first, e.alpha, residual, amplification);
+    if constexpr (turn == Turn::described) {
+      const auto& axes = *turned_ball::axes_of(at.context);
+      return with(first, chain::angle_about(axes.first.direction, e), chain::angle_about(axes.second.direction, e),
+                  residual, amplification);
+    }
   }
 
   template <class T> static Measurands<T> evaluate(const Readings<T>& all, Memory<T>& m, Outcome<T>& outcome) {
@@ -104,7 +115,7 @@ template <Turn turn> struct Rotated {
     const T squares = T(static_cast<double>(m.before.readings.size())) * one.residual_rms * one.residual_rms +
                       T(static_cast<double>(m.after.readings.size())) * two.residual_rms * two.residual_rms;
     const T count(static_cast<double>(m.before.readings.size() + m.after.readings.size()));
-    return in_rows(before, two.error, f, num::sqrt(squares / count), larger(one.amplification, two.amplification));
+    return in_rows(at, before, two.error, f, num::sqrt(squares / count), larger(one.amplification, two.amplification));
   }
   template <class T, class Shown>
   static Measurands<T> truth(const Readings<T>& all, const std::vector<Shown>&, Outcome<T>&) {
@@ -112,7 +123,7 @@ template <Turn turn> struct Rotated {
     while (r + 1 < all.size() && num::any(all.at[r].c.step != T(2.0))) ++r;
     const auto& at = all.at[r];
     const Found<T> none{true_angle_errors(at), {}, T(0.0)};
-    return in_rows(true_error(at), after(body(at), true_error(at), none.error), none, T(0.0), T(0.0));
+    return in_rows(at, true_error(at), after(body(at), true_error(at), none.error), none, T(0.0), T(0.0));
   }
   static std::string check(const Readings<double>& all);
   static std::vector<std::string> remarks(const Readings<double>& all) {

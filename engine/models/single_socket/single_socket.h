@@ -27,18 +27,18 @@ struct SingleSocket {
     outcome.refuse((c.step != one) && (c.step != two), "step must be 1 or 2");
     outcome.refuse((c.direction != one) && (c.direction != -one) && (c.direction != zero),
                    "direction must be 1, -1 or 0");
-    if (is_rotated(at.evaluation))
-      turned_ball::refuse_angles<T>(chain::turns_about(turn_of(at.evaluation)), {c.alpha, c.beta, c.gamma}, outcome);
+    if (!is_rotated(at.evaluation)) return; // a position error is one on every machine
+    turned_ball::refuse_machine<T>(turn_of(at.evaluation), at.context, outcome);
+    turned_ball::refuse_angles<T>(turns(at), {c.alpha, c.beta, c.gamma}, outcome);
   }
   template <class T> static void check(const At<T>& at, Outcome<T>& outcome) {
     const T two(2.0);
     const auto s = station(at);
-    const T distance = turned_ball::length(s.lever);
+    const T distance = length(s.lever);
     outcome.refuse(distance < T(si::mm), "station and reference are less than 1 mm apart");
     outcome.refuse(num::abs(s.nominal - distance) > T(0.01) * distance,
                    "bar_length differs from the distance between station and reference by more than 1 %");
     if (!is_rotated(at.evaluation)) return;
-    turned_ball::refuse_distance(turn_of(at.evaluation), at.q.z_alpha_gamma, outcome);
     turned_ball::check(body(at), at.q, at.c.step == two, outcome);
   }
 
@@ -58,9 +58,11 @@ struct SingleSocket {
     return {chain::actual_of(read.length_change, station(at).bar)};
   }
 
-  using Joint = std::tuple<Translated, Translated, Rotated<Turn::RRTTT>, Rotated<Turn::TTTRR>,
-                           Rotated<Turn::RTTTR_head>, Rotated<Turn::RTTTR_table>, Rotated<Turn::RRTTT>,
-                           Rotated<Turn::TTTRR>, Rotated<Turn::RTTTR_head>, Rotated<Turn::RTTTR_table>>;
+  using Joint =
+      std::tuple<Translated, Translated, Rotated<Turn::RRTTT>, Rotated<Turn::TTTRR>, Rotated<Turn::RTTTR_head>,
+                 Rotated<Turn::RTTTR_table>, Rotated<Turn::RRTTT>, Rotated<Turn::TTTRR>, Rotated<Turn::RTTTR_head>,
+                 Rotated<Turn::RTTTR_table>, Rotated<Turn::described>>;
+  static MadeModel on_machine(const chain::MachineDescription& machine, std::string& why);
 };
 
 } // namespace gumshoe::models::single_socket

@@ -32,7 +32,7 @@ template <class T> Station<T> station(const At<T>& at) {
   const Vector3<T> nominal{at.c.station_x, at.c.station_y, at.c.station_z};
   Station<T> s;
   s.lever = nominal - Vector3<T>{q.reference_x, q.reference_y, q.reference_z};
-  const T distance = turned_ball::length(s.lever);
+  const T distance = length(s.lever);
   s.nominal = num::select(q.bar_length > T(0.0), q.bar_length, distance);
   s.bar.length = s.nominal;
   s.bar.along = T(1.0) / distance * s.lever;
@@ -91,7 +91,7 @@ Position<T> position_of(const std::vector<Station<T>>& stations, const std::vect
     const T one_by = T(1.0) / dot(normal.x, a); // of the determinant
     const Vector3<T> step = one_by * Vector3<T>{dot(a, right), dot(b, right), dot(c, right)};
     p.error = p.error + step;
-    p.last_step = turned_ball::length(step);
+    p.last_step = length(step);
     p.residual_rms = num::sqrt(squares / count);
     p.amplification = num::sqrt(one_by * (a.x + b.y + c.z) / T(3.0));
   }

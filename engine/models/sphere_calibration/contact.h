@@ -66,11 +66,6 @@ template <class T> auto has_closed_form(const Conditions<T>& c) {
   return (second && (num::abs(c.C - right_angle) < tolerance)) || (!second && (num::abs(c.B) < tolerance));
 }
 
-template <class T> Vector3<T> choose(bool first, const Vector3<T>& a, const Vector3<T>& b) { return first ? a : b; }
-inline Vector3<Lanes> choose(const Lanes::batch_bool_type& first, const Vector3<Lanes>& a, const Vector3<Lanes>& b) {
-  return {xsimd::select(first, a.x, b.x), xsimd::select(first, a.y, b.y), xsimd::select(first, a.z, b.z)};
-}
-
 /// One touch, along Z, as the stages of the measuring chain see it.
 template <class T> struct Touch {
   chain::ProbingEvent<T> event;
