@@ -80,17 +80,24 @@ std::string only(const char* section, const std::vector<std::string>& names) {
   return fmt::format(R"("{}": {{"propertyNames": {{"enum": {}}}}})", section, shape::quoted(names));
 }
 
-/// What a model of the catalogue has: other names are refused.
+/// What a model of the catalogue has: other names are refused. A described machine renames quantities and conditions.
 std::string rules_of(const ModelCard& model, const Catalogue& catalogue) {
   std::vector<std::string> effects;
   for (const EffectCard* e : catalogue.effects)
     if (!catalogue.applies || catalogue.applies(model, *e)) effects.emplace_back(e->name);
-  return fmt::format(
-      R"({{"if": {{"properties": {{"model": {{"properties": {{"name": {{"const": {}}}}}}}}}}}, )"
-      R"("then": {{"properties": {{"model": {{"properties": {{"evaluation": {{{}}}}}}}, {}, {}, {}, {}}}}}}})",
-      shape::quoted(model.name), shape::words(names_of(model.evaluations)),
-      only("conditions", names_of(model.conditions)), only("indications", names_of(model.indications)),
-      only("quantities", names_of(model.quantities)), only("effects", effects));
+  const std::string fixed = fmt::format(R"("model": {{"properties": {{"evaluation": {{{}}}}}}}, {}, {})",
+                                        shape::words(names_of(model.evaluations)),
+                                        only("indications", names_of(model.indications)), only("effects", effects));
+  const std::string named =
+      only("conditions", names_of(model.conditions)) + ", " + only("quantities", names_of(model.quantities));
+  const auto rule = [&](const std::string& also_if, const std::string& then) {
+    return fmt::format(R"({{"if": {{"properties": {{"model": {{"properties": {{"name": {{"const": {}}}}}}}}}{}}}, )"
+                       R"("then": {{"properties": {{{}}}}}}})",
+                       shape::quoted(model.name), also_if, then);
+  };
+  const models::Model* row = models::find(model.name);
+  if (!row || !row->on_machine) return rule("", fixed + ", " + named);
+  return rule("", fixed) + ", " + rule(R"(, "not": {"required": ["machine"]})", named);
 }
 
 Shape effects_shape(const Catalogue& catalogue) {
@@ -120,8 +127,7 @@ std::vector<Key> model_keys() {
       {"name", text(), "one that gumshoe models lists; or " + described, true},
       {"method", words({"propagation", "virtual_experiment"}),
        "propagation of distributions (JCGM 101), or virtual experiment: draw the true value, simulate and evaluate",
-       false,
-       quoted("propagation")},
+       false, quoted("propagation")},
       {"evaluation", text(), "evaluation of the model; default: the first"},
       {"intermediates", map(formula), "expression: formulas used by others, in any order"},
       {"measurands", map(any_of({formula, measurand})),
@@ -142,7 +148,9 @@ const std::vector<Key>& sections() {
       {"schema", R"("const": 1)", "version of this format", true},
       {"title", text(), "one line, shown in the report"},
       {"model", table(model_keys()), "the model, and how it is evaluated", true},
-      {"machine", machine_shape(), "sphere_probing, laser_scan: the name of a predefined machine, or the axes of your own"},
+      {"machine", machine_shape(),
+       "the machine on which a model measures, where it works on any: the name of a predefined one, or the axes of "
+       "your own"},
       {"conditions", map(reference("condition")), "what was commanded; exact"},
       {"quantities", map(reference("quantity")), "quantities of the model; those left out keep their defaults"},
       {"effects", "", "effects left out stay at their null value"},
@@ -151,10 +159,12 @@ const std::vector<Key>& sections() {
       {"estimate", table_shape(estimate_options()), "options of gumshoe estimate"},
       {"run", table_shape(run_options()), "number and kind of samples"},
       {"analysis", table_shape(analysis_options()), "studies of the samples"},
-      {"expected", list(expected_shape()), "published or exact figures; gumshoe gauge compares the computed ones with "
-                                           "them"},
-      {"choose", choose_shape(), "options of gumshoe choose: the fastest settings within a target expanded "
-                                 "uncertainty"},
+      {"expected", list(expected_shape()),
+       "published or exact figures; gumshoe gauge compares the computed ones with "
+       "them"},
+      {"choose", choose_shape(),
+       "options of gumshoe choose: the fastest settings within a target expanded "
+       "uncertainty"},
       {"trace", trace_shape(),
        "options of gumshoe trace: blocks, order, re-done set-up steps, and what was recorded with the readings"},
       {"stated_effects", stated_effects_shape(),

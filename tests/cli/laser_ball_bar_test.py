@@ -4,11 +4,15 @@ usage: laser_ball_bar_test.py path/to/gumshoe [unittest options]
 """
 import csv
 import io
+import json
 import math
 import pathlib
 import tempfile
 import unittest
 
+import numpy as np
+
+import plain_machine
 from program import complaint, gumshoe
 
 FEED = 1778 / 60  # mm/s
@@ -17,8 +21,8 @@ PRINTED = 1e-11  # mm
 
 # header, row, words
 IMPOSSIBLE = {
-    "no contour": ("contour", "3", "contour must be 0, 1 or 2"),
-    "half a contour": ("contour", "0.5", "contour must be 0, 1 or 2"),
+    "no contour": ("contour", "4", "contour must be 0, 1, 2 or 3"),
+    "half a contour": ("contour", "0.5", "contour must be 0, 1, 2 or 3"),
     "third order": ("order", "3", "order of the servos must be 1 or 2"),
     "neither sense": ("sense", "0", "sense must be 1 or -1"),
     "standing": ("feed (mm/min)", "0", "feed is not positive"),
@@ -27,6 +31,9 @@ IMPOSSIBLE = {
     "negative jerk": ("jerk (m/s3)", "-1", "jerk is negative"),
     "before the start": ("time (s)", "-0.1", "time is before the start of the contour"),
     "long after the end": ("contour,time (s)", "1,60", "time lies more than 1 s after the end of the contour"),
+    "two sides": ("contour,sides", "3,2", "sides must be a whole number from 3 to 12"),
+    "half a side": ("contour,sides", "3,4.5", "sides must be a whole number from 3 to 12"),
+    "no time at a corner": ("contour,dwell (s)", "3,-0.1", "dwell is negative"),
     "flat base": ("base_length_1 (mm)", "800", "the base lengths make no triangle"),
     "one direction": ("X_motion_x,X_motion_z", "0,1", "Z_motion and X_motion have one direction, or none"),
     "under the sockets": ("origin_z (mm)", "-1", None),
@@ -108,6 +115,122 @@ class LaserBallBar(unittest.TestCase):
             self.assertAlmostEqual(float(found[f"Z_motion_{axis} (1)"]), want, delta=1e-12)
         self.assertAlmostEqual(float(found["E_B0X (um/m)"]), 70, delta=70 * 70e-6 + 1e-6)
 
+    def test_a_square_is_what_its_servos_make_of_it(self):
+        # Runge-Kutta integration of the servos' equations, the command written out here: a square of 20 mm at 1778 mm/min,
+        # 0.98 m/s2, clockwise, with a stop of 0.02 s; the corners are rounded by what is left of the lag.
+        size, feed, ramp, dwell = 20.0, FEED, FEED / 980, 0.02
+        side = size / feed + ramp  # s
+        def path(t):
+            t = min(max(t, 0), side)
+            up = min(t, ramp)
+            down = max(t - (side - ramp), 0)
+            return 490 * up ** 2 + feed * max(min(t, side - ramp) - ramp, 0) + feed * down - 490 * down ** 2
+        def command(t):
+            s = [path(t - k * (side + dwell)) for k in range(4)]
+            return s[0] - s[2], s[3] - s[1]
+        step, moments = 1e-4, [0.05, side - 0.01, side + 0.01, side + 0.03, 2 * side + 0.05, 4 * (side + dwell) + 0.2]
+        for order in (1, 2):
+            def rate(t, state):
+                out = []
+                for (x, v), u, gain in zip(state, command(t), (30, 33)):
+                    w = 2 * 0.7 * gain
+                    out.append((gain * (u - x), 0) if order == 1 else (v, w * w * (u - x) - 2 * 0.7 * w * v))
+                return out
+            def moved(state, by, h):
+                return [(x + h * a, v + h * b) for (x, v), (a, b) in zip(state, by)]
+            state, way = [(0.0, 0.0), (0.0, 0.0)], []
+            for i in range(round(moments[-1] / step) + 1):
+                way.append([x for x, _ in state])
+                t = i * step
+                a = rate(t, state)
+                b = rate(t + step / 2, moved(state, a, step / 2))
+                c = rate(t + step / 2, moved(state, b, step / 2))
+                d = rate(t + step, moved(state, c, step))
+                state = [(x + step / 6 * (p[0] + 2 * q[0] + 2 * r[0] + s[0]), v + step / 6 * (p[1] + 2 * q[1] + 2 * r[1] + s[1]))
+                         for (x, v), p, q, r, s in zip(state, a, b, c, d)]
+            header = ["contour", "sides", "sense", "size (mm)", "feed (mm/min)", "dwell (s)", "order", "servo_gain_mismatch.y (%)", "time (s)"]
+            fixed = [3, 4, -1, size, FEED * 60, dwell, order, 10]
+            steps = [round(t / step) for t in moments]
+            for found, at in zip(self.rows(header, *([*fixed, repr(i * step)] for i in steps)), steps):
+                # The trapezoid's kinks cost a Runge-Kutta step up to a h^2 / 8 of acceleration, 1e-9 mm, some times.
+                self.assertAlmostEqual(float(found["tool_x (mm)"]) - 200, way[at][0], delta=1e-7)
+                self.assertAlmostEqual(float(found["tool_y (mm)"]) - 120, way[at][1], delta=1e-7)
+            every = range(0, steps[-1], 10)
+            found = self.together("polygon", header, *([*fixed, repr(i * step)] for i in every), falsified=["servo"])
+            corners = [(size, 0), (size, -size), (0, -size)]
+            worst = max(min(math.dist(corner, way[i]) for i in every) for corner in corners)
+            # Readings are up to 0.03 mm apart; straight between them the way is nearer than at them.
+            self.assertAlmostEqual(float(found["corner_error (mm)"]), worst, delta=0.005)
+            inside = max(min(x, -y, size - x, size + y) for x, y in (way[i] for i in every))
+            self.assertAlmostEqual(float(found["undershoot (mm)"]), max(inside, 0), delta=1e-6)
+
+    MACHINE = """schema = 1
+[model]
+name = "laser_ball_bar"
+method = "virtual_experiment"
+evaluation = "commanded"
+[machine]
+name = "any"
+workpiece_side = {workpiece}
+tool_side = {tool}
+[conditions]
+x = "60 mm"
+y = "-20 mm"
+z = "30 mm"
+A = "25 deg"
+C = "-40 deg"
+[quantities]
+tool_length = "150 mm"
+{errors}
+[indications.length_1]
+components = [ {{ u = "1e-9 um", per = "reading" }} ]
+"""
+
+    def test_bars_on_a_machine_see_where_the_tool_truly_is(self):
+        # The chain of plain_machine.py by 4 x 4 matrices, with the slides at the places that a machine without errors needs. The
+        # frame of the bars is that which the slides X, Y, Z span at angles 0, from the tool at 0, 0, 0. The chain turns a head by
+        # its zero position at angle 0 already, where the model takes the tool to be upright.
+        common = {"E_Y0A": 8e-6, "E_Z0A": -6e-6, "E_B0A": 12e-6, "E_C0A": -9e-6}
+        point = (0.01, -0.02, -0.06)
+        stated = '{{ axis = "{}", point = ["10 mm", "-20 mm", "-60 mm"] }}'
+        A, C = stated.format("A"), stated.format("C")
+        slides, angles = ("X", "Y", "Z"), {"A": math.radians(25), "C": math.radians(-40)}
+        for workpiece, tool, sides, second in (
+                (f"[{A}, {C}]", '["X", "Y", "Z"]', ([("A", point), ("C", point)], slides), {"E_Y0C": 5e-6, "E_B0C": 7e-6}),
+                ("[]", f'["X", "Y", "Z", {A}, {C}]', ([], (*slides, ("A", point), ("C", point))), {"E_Y0C": 5e-6, "E_B0C": 7e-6}),
+                (f'["X", {A}]', f'["Y", "Z", {C}]', (["X", ("A", point)], ("Y", "Z", ("C", point))), {"E_Y0C": 5e-6, "E_B0C": 7e-6})):
+            in_each = C in tool and A in workpiece
+            truth = common | ({"E_A0A": 10e-6} if A in workpiece else {})
+            values = {"probe_z": -0.15, "E_X0C": 4e-6} | truth | second
+            stated_values = {"E_X0C": 4e-6} | truth
+            for name, value in second.items():
+                stated_values[name if in_each else f"{name}_minus_{name[:-1]}A"] = value - (0 if in_each else truth[name[:-1] + "A"])
+            workpiece_side, tool_side = plain_machine.side(*sides[0], workpiece=True), plain_machine.side(*sides[1])
+            at = {"probe_z": -0.15, "sphere_x": 0.06, "sphere_y": -0.02, "sphere_z": 0.03}
+            commands = dict(zip(slides, plain_machine.closing(workpiece_side, tool_side, angles, at))) | angles
+            def tool_on_table(**commanded):
+                off, table = plain_machine.gap(workpiece_side, tool_side, dict.fromkeys((*slides, *angles), 0.0) | commanded, values)
+                return table[:3, :3].T @ off
+            zero = tool_on_table()
+            spanned = np.array([tool_on_table(**{s: 1.0}) - zero for s in slides]).T
+            on_table = np.linalg.solve(spanned, tool_on_table(**commands) - zero) + [0, 0, -0.15] - [0.06, -0.02, 0.03]
+            scenario = self.table.with_name("machine.toml")
+            scenario.write_text(self.MACHINE.format(workpiece=workpiece, tool=tool, errors="\n".join(
+                f'{name} = "{value * 1e6!r} {"um" if name[2] in "XYZ" else "urad"}"' for name, value in stated_values.items())))
+            run = gumshoe("run", scenario, "--samples", 1000, "--format", "json", "--out", scenario.with_suffix(".h5"))
+            self.assertEqual(run.returncode, 0, run.stderr)
+            found = {r["measurand"]: r["estimate"] for r in json.loads(run.stdout)}
+            for i, axis in enumerate("xyz"):
+                # As commanded minus as it is; what differs in second order is 1e-10 of 0.2 m.
+                self.assertAlmostEqual(found[f"tool_{axis}"], -1e3 * on_table[i], delta=1e-7, msg=(tool, axis))
+
+    def test_a_machine_that_the_bars_cannot_follow(self):
+        scenario = self.table.with_name("machine.toml")
+        scenario.write_text(self.MACHINE.format(workpiece='["C", "X"]', tool='["Y", "Z", "A"]', errors=""))
+        run = gumshoe("check", scenario)
+        self.assertIsNone(complaint(run), run.stderr)
+        self.assertIn("the slide X is carried by the rotary axis C, and laser_ball_bar moves its slides on the bed", run.stderr)
+
     def test_a_joint_evaluation_needs_its_readings(self):
         lengths = ["length_1 (mm)", "length_2 (mm)", "length_3 (mm)"]
         two = [[1, 0.5, 400, 400, 400], [1, 0.6, 400, 400, 400]]
@@ -117,6 +240,8 @@ class LaserBallBar(unittest.TestCase):
                  "readings of one line differ only in their time, but other conditions differ, too"),
                 ("circle", ["contour", "time (s)"], [[2, 1, *two[0][2:]]],
                  "fewer than 5 readings lie in the stretch of constant feed, later than settling; is the feed reached?"),
+                ("polygon", ["contour", "time (s)"], [[3, 0.1, *two[0][2:]], [3, 0.2, *two[0][2:]]],
+                 "the readings pass no corner between two sides of the polygon (all are of one side)"),
                 ("machine_frame", ["motion", "x (mm)"], [[3, 0, *two[0][2:]], [3, 1, *two[0][2:]]],
                  "a line along X needs two points or more; their condition motion must be 1")):
             with self.subTest(words):

@@ -265,6 +265,17 @@ class Schema(unittest.TestCase):
             with self.subTest(machine):
                 self.assertEqual(self.validator.is_valid(good | {"machine": machine}), fine)
 
+    def test_names_of_a_described_machine_are_accepted(self):
+        # A machine of one's own renames quantities and conditions: an editor must not flag them.
+        own = {"workpiece_side": ["A", "C"], "tool_side": ["X", "Y", "Z"]}
+        for model in ("laser_scan", "laser_ball_bar"):
+            renamed = {"schema": 1, "model": {"name": model}, "conditions": {"A": "5 deg"}, "quantities": {"E_Y0A": "5 um"}}
+            with self.subTest(model):
+                self.assertTrue(self.validator.is_valid(renamed | {"machine": own}))
+                self.assertFalse(self.validator.is_valid(renamed))
+                self.assertFalse(self.validator.is_valid(renamed | {"machine": own, "effects": {"rod_expansion": {}}}))
+                self.assertFalse(self.validator.is_valid(renamed | {"machine": own, "model": {"name": model, "evaluation": "none"}}))
+
     def test_mistakes_of_tracing_are_refused(self):
         good = load(FOLDER / "rod_gauging.toml")
         film = {"formula": "1 / feed", "unit": "um*mm/min"}

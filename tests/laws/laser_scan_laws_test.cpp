@@ -73,7 +73,8 @@ TEST_CASE("of two points on a cone the beam takes the nearer one, on the nappe t
   CHECK(std::fabs(displacement(names, "-1,70,70,45,0.1") - 0.1 / std::sqrt(2.0)) < 1e-12);
   CHECK(std::fabs(displacement(names, "1,70,70,-45,0.1") - 0.1 / std::sqrt(2.0)) < 1e-12);
   CHECK(std::fabs(displacement(names, "-1,70,70,45.5,0") - 0) < 1e-12);
-  CHECK(refusal("cone_slope (1),cone_radius (mm),radius (mm),e_x (mm),B (deg)", "-10,1,0,5,88") == "the beam misses the surface");
+  CHECK(refusal("cone_slope (1),cone_radius (mm),radius (mm),e_x (mm),B (deg)", "-10,1,0,5,88") ==
+        "the beam meets only the other nappe of the cone, beyond its tip, where the part has no surface");
 }
 
 TEST_CASE("a joint evaluation judges each profile by its extremes and its plane", "[laws][laser_scan]") {

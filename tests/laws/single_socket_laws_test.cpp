@@ -7,7 +7,6 @@
 
 #include "chain/machine.h"
 #include "models/single_socket/single_socket.h"
-#include "models/single_socket_rotation/described.h"
 
 using namespace gumshoe;
 namespace socket = gumshoe::models::single_socket;
@@ -200,7 +199,7 @@ TEST_CASE("any two rotary axes: places of the chain, errors that undo the turn, 
       const chain::Machine machine(
           {"two", std::vector{described(names[first], axes.first.point), described(names[second], axes.second.point)},
            std::vector<chain::AxisDescription>{}});
-      const models::single_socket_rotation::Described<double> ball{axes, axes.second.point - axes.first.point};
+      const chain::TurnedByTwo<double> ball{axes, axes.second.point - axes.first.point};
       for (int n = 0; n < 20; ++n) {
         const Vector3<double> at{draw(0.1, 0.2), draw(0.1, 0.2), draw(0.1, 0.2)};
         Angles<double> by{draw(-0.3, 0.3), draw(-0.3, 0.3), draw(-0.3, 0.3)}, error{1e-3, -2e-3, 1.5e-3};
@@ -208,7 +207,7 @@ TEST_CASE("any two rotary axes: places of the chain, errors that undo the turn, 
         error = chain::only<double>({first == 0 || second == 0, first == 1 || second == 1, first == 2 || second == 2},
                                     error);
         CAPTURE(first, second, n);
-        const double commands[] = {ball.about(first, by), ball.about(second, by)};
+        const double commands[] = {angle_about(first, by), angle_about(second, by)};
         const auto pose = machine.bed_from_workpiece(commands, machine.errors().data());
         CHECK(distance(pose * (axes.second.point + at), axes.first.point + ball.place(at, by)) < 1e-15);
         if (ball.smallest_lever(at, by) < 0.05) continue;

@@ -1,6 +1,6 @@
 #pragma once
 /// Card of the laser ball bars: quantities, conditions, indications, measurands, evaluations.
-#include "models/cards.h"
+#include "models/location_rows.h"
 
 namespace gumshoe::models::laser_ball_bar {
 
@@ -62,16 +62,19 @@ inline constexpr QuantityCard quantity_cards[] = {
               .meaning = "position loop gain of the slides, a feed over its following error; used in simulation, and with skews or effects"}, "1/s", "1/s"),
     pure({.name = "damping", .default_value = 0.7, .limits = {0.05, 20},
           .meaning = "damping of a slide's position loop; only a second-order servo has it"}),
+    in_mm({.name = "tool_length", .limits = not_negative,
+           .meaning = "from the spindle's reference point down to the tool; it matters with a rotary axis in the head"}),
+    GUMSHOE_LOCATION_ROWS,
 };
 inline constexpr VariableCard condition_cards[] = {
-    shown_pure({.name = "contour", .meaning = "0: a point at x, y, z; 1: a line from there; 2: a full circle about it"}),
-    shown_in_mm({.name = "x", .meaning = "commanded: the point, the line's start or the circle's centre"}),
+    shown_pure({.name = "contour", .meaning = "0: a point at x, y, z; 1: a line from there; 2: a full circle about it; 3: a regular polygon that starts there"}),
+    shown_in_mm({.name = "x", .meaning = "commanded, in the frame of the table: the point, the start of the line or polygon, or the circle's centre"}),
     shown_in_mm({.name = "y", .meaning = "likewise"}),
     shown_in_mm({.name = "z", .meaning = "likewise"}),
-    shown_in_mm({.name = "size", .default_value = 100 * mm, .meaning = "length of the line, radius of the circle"}),
-    shown_in_deg({.name = "angle", .meaning = "azimuth of the line from +X towards +Y; the circle starts there"}),
-    shown_in_deg({.name = "elevation", .meaning = "by which the line, or the circle's plane at its start, rises"}),
-    shown_pure({.name = "sense", .default_value = 1, .meaning = "1: a circle runs counter-clockwise, seen from above; -1: clockwise"}),
+    shown_in_mm({.name = "size", .default_value = 100 * mm, .meaning = "length of the line or of a polygon's side, radius of the circle"}),
+    shown_in_deg({.name = "angle", .meaning = "azimuth of the line, or of the polygon's first side, from +X towards +Y; the circle starts there"}),
+    shown_in_deg({.name = "elevation", .meaning = "by which the line, the polygon's first side, or the circle's plane at its start rises"}),
+    shown_pure({.name = "sense", .default_value = 1, .meaning = "1: a circle or polygon runs counter-clockwise, seen from above; -1: clockwise"}),
     {.name = "feed", .unit = "mm/min", .si_unit = "m/s", .default_value = 889 * mm / minute, .meaning = "commanded along the contour"},
     {.name = "acceleration", .unit = "m/s2", .si_unit = "m/s2", .default_value = 0.98, .meaning = "commanded along the contour, from rest and to rest"},
     {.name = "jerk", .unit = "m/s3", .si_unit = "m/s3", .default_value = 0, .meaning = "limit along the contour; 0: none, a trapezoidal feed"},
@@ -80,6 +83,10 @@ inline constexpr VariableCard condition_cards[] = {
     shown_in_s({.name = "contour_start", .meaning = "start of the contour since the start of the work"}),
     shown_in_s({.name = "settling", .default_value = 0.2, .meaning = "joint evaluations of a contour use readings later than this in its stretch of constant feed"}),
     shown_pure({.name = "motion", .meaning = "a label that only machine_frame reads: 3 for points along Z, 1 for points along X, else 0"}),
+    shown_pure({.name = "sides", .default_value = 4, .meaning = "of a polygon, 3 to 12"}),
+    shown_in_s({.name = "dwell", .meaning = "of a polygon: pause at a corner, where the command has stopped"}),
+    B_card,
+    C_card,
 };
 inline constexpr VariableCard indication_cards[] = {
     shown_in_mm({.name = "length_1", .meaning = "read of bar 1, from socket 1 to the tool"}),
@@ -90,7 +97,7 @@ inline constexpr VariableCard measurand_cards[] = {
     shown_in_mm({.name = "tool_x", .meaning = "position of the tool from socket 1 along the machine's X"}),
     shown_in_mm({.name = "tool_y", .meaning = "position of the tool from socket 1 along the machine's Y"}),
     shown_in_mm({.name = "tool_z", .meaning = "position of the tool from socket 1 along the machine's Z"}),
-    shown_in_mm({.name = "contour_error", .meaning = "of the tool in the contour's plane: outwards from a circle, to the left of a line"}),
+    shown_in_mm({.name = "contour_error", .meaning = "of the tool in the contour's plane: outwards from a circle or polygon, to the left of a line"}),
     shown_in_mm({.name = "plane_error", .meaning = "of the tool out of the contour's plane, upwards"}),
     shown_in_mm({.name = "following_error", .meaning = "by which the command is ahead of the tool along the contour"}),
 };
@@ -118,7 +125,12 @@ inline constexpr VariableCard circle_cards[] = {
     shown_in_mm({.name = "axis_difference", .meaning = "major_axis minus minor_axis"}),
     shown_in_deg({.name = "major_angle", .meaning = "azimuth of the major axis in the circle's plane, as `angle` counts: -90 to 90 deg"}),
 };
-enum Evaluation { full, commanded, machine_frame, line, circle };
+inline constexpr VariableCard polygon_cards[] = {
+    shown_in_mm({.name = "corner_error", .meaning = "distance at which the tool passes a corner between two sides; of the worst corner"}),
+    shown_in_mm({.name = "overshoot", .meaning = "largest contour error outwards"}),
+    shown_in_mm({.name = "undershoot", .meaning = "largest contour error inwards"}),
+};
+enum Evaluation { full, commanded, machine_frame, line, circle, polygon };
 inline constexpr EquationCard full_equations[] = {
     {"x = (L_1^2 - L_2^2 + L_B1^2) / (2 * L_B1)", "x, y, z: in the frame of the bars; L_i: lengths, corrected"},
     {"y = (L_1^2 - L_3^2 + L_B3^2 - 2 * x * x_3) / (2 * y_3)", "x_3, y_3: place of socket 3, from the base lengths"},
@@ -135,6 +147,9 @@ inline constexpr EquationCard circle_equations[] = {
     {"sum(norm(tool_i - centre - a * cos(phi_i) - b * sin(phi_i))^2) = minimum",
      "i: readings at constant feed; phi: commanded angle; centre, a, b: in the circle's plane; the axes are those of this ellipse"},
 };
+inline constexpr EquationCard polygon_equations[] = {
+    {"corner_error = max(norm(way - corner_k))", "k: corners between two sides; way: its nearest point, straight from reading to reading"},
+};
 inline constexpr std::string_view per_reading = "0 * retract", once = "size / feed + retract";
 inline constexpr EvaluationCard evaluation_cards[] = {
     {.name = "full", .meaning = "trilateration from three bars at once, Schmitz and Ziegert 1999",
@@ -147,6 +162,8 @@ inline constexpr EvaluationCard evaluation_cards[] = {
      .time_per_reading = per_reading, .time_once = once, .equations = line_equations},
     {.name = "circle", .meaning = "what a circle shows at constant feed", .measurands = circle_cards,
      .time_per_reading = per_reading, .time_once = "2 * pi * size / feed + retract", .equations = circle_equations},
+    {.name = "polygon", .meaning = "how a polygon's corners are passed", .measurands = polygon_cards,
+     .time_per_reading = per_reading, .time_once = "sides * (size / feed + dwell) + retract", .equations = polygon_equations},
 };
 inline constexpr QuantityCard timing_cards[] = {
     in_s({.name = "retract", .default_value = 2, .limits = not_negative, .meaning = "return to the contour's start, once"}),

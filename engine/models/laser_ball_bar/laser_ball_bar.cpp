@@ -16,9 +16,9 @@ std::vector<Intermediate> LaserBallBar::explain(const At<double>& at, const Rows
           in_mm("tool's ball, x in the frame of the bars", ball.x),
           in_mm("tool's ball, y in the frame of the bars", ball.y),
           in_mm("tool's ball, z in the frame of the bars", ball.z),
-          in_mm("predicted position of the slide X", now.tool.position.x),
-          in_mm("predicted position of the slide Y", now.tool.position.y),
-          in_mm("predicted position of the slide Z", now.tool.position.z)};
+          in_mm("predicted position of the slide X", now.slides.x),
+          in_mm("predicted position of the slide Y", now.slides.y),
+          in_mm("predicted position of the slide Z", now.slides.z)};
 }
 
 } // namespace gumshoe::models::laser_ball_bar

@@ -62,7 +62,7 @@ template <class Of> Spread spread(const std::vector<std::size_t>& readings, cons
 }
 double contour_error(const Measured& m) { return m.contour_error; }
 
-std::string check_contour(const Points<double>& all, chain::ContourKind kind, std::size_t fewest, const char* what) {
+std::string check_one(const Points<double>& all, chain::ContourKind kind, const char* what) {
   for (const auto& at : all.at) {
     if (static_cast<int>(at.c.contour) != static_cast<int>(kind))
       return fmt::format("not every reading is of a {}; its condition contour must be {}", what, static_cast<int>(kind));
@@ -71,9 +71,35 @@ std::string check_contour(const Points<double>& all, chain::ContourKind kind, st
     if (!std::ranges::equal(std::span(array_of(first), rows_of<Rows::Conditions>), std::span(array_of(same), rows_of<Rows::Conditions>)))
       return fmt::format("readings of one {} differ only in their time, but other conditions differ, too", what);
   }
+  return "";
+}
+std::string check_steady(const Points<double>& all, chain::ContourKind kind, std::size_t fewest, const char* what) {
+  if (std::string problem = check_one(all, kind, what); !problem.empty()) return problem;
   if (steady(all).size() < fewest)
     return fmt::format("fewer than {} readings lie in the stretch of constant feed, later than settling; is the feed reached?", fewest);
   return "";
+}
+
+/// Numbers of the readings in the order of time.
+std::vector<std::size_t> by_time(const Points<double>& all) {
+  std::vector<std::size_t> order(all.size());
+  for (std::size_t r = 0; r < order.size(); ++r) order[r] = r;
+  std::ranges::stable_sort(order, {}, [&](std::size_t r) { return all.at[r].c.time; });
+  return order;
+}
+/// Distance of a point from the straight way between two others.
+double from_way(const Vector& point, const Vector& a, const Vector& b) {
+  const Vector way = b - a, d = point - a;
+  const double whole = dot(way, way), share = whole > 0 ? std::clamp(dot(d, way) / whole, 0.0, 1.0) : 0;
+  return length(d - share * way);
+}
+/// Corners that are passed between the first and the last reading, by the side that begins there.
+std::vector<int> passed(const chain::Contour& contour, const Points<double>& all) {
+  const auto order = by_time(all);
+  std::vector<int> out;
+  for (int k = contour.side(all.at[order.front()].c.time) + 1; k <= contour.side(all.at[order.back()].c.time); ++k)
+    out.push_back(k);
+  return out;
 }
 
 } // namespace
@@ -98,7 +124,7 @@ LineRows::Measurands<double> SteadyLine::of(const Points<double>& all, const std
   return {normal.mean, normal.range, spread(readings, found, [](const Measured& m) { return m.following_error; }).mean};
 }
 std::string SteadyLine::check(const Points<double>& all) {
-  return check_contour(all, chain::ContourKind::line, 1, "line");
+  return check_steady(all, chain::ContourKind::line, 1, "line");
 }
 
 CircleRows::Measurands<double> SteadyCircle::of(const Points<double>& all, const std::vector<Measured>& found) {
@@ -129,7 +155,30 @@ CircleRows::Measurands<double> SteadyCircle::of(const Points<double>& all, const
           std::fabs(forth - back), 2 * std::fmin(forth, back), azimuth - half_turns * std::numbers::pi};
 }
 std::string SteadyCircle::check(const Points<double>& all) {
-  return check_contour(all, chain::ContourKind::circle, 5, "circle");
+  return check_steady(all, chain::ContourKind::circle, 5, "circle");
+}
+
+
+PolygonRows::Measurands<double> Corners::of(const Points<double>& all, const std::vector<Measured>& found) {
+  const chain::Contour contour = contour_of(all.at[0].c);
+  const auto order = by_time(all);
+  double worst = 0;
+  for (const int k : passed(contour, all)) {
+    const Vector corner = origin(all.at[0].q) + contour.corner(k);
+    double nearest = INFINITY;
+    for (std::size_t i = 0; i + 1 < order.size(); ++i)
+      nearest = std::fmin(nearest, from_way(corner, position(found[order[i]]), position(found[order[i + 1]])));
+    worst = std::fmax(worst, nearest);
+  }
+  double most = 0, least = 0;
+  for (const Measured& m : found) most = std::fmax(most, m.contour_error), least = std::fmin(least, m.contour_error);
+  return {worst, most, -least};
+}
+std::string Corners::check(const Points<double>& all) {
+  if (std::string problem = check_one(all, chain::ContourKind::polygon, "polygon"); !problem.empty()) return problem;
+  if (passed(contour_of(all.at[0].c), all).empty())
+    return "the readings pass no corner between two sides of the polygon (all are of one side)";
+  return "";
 }
 
 } // namespace gumshoe::models::laser_ball_bar

@@ -1,6 +1,6 @@
 #pragma once
 /// Joint evaluations of the laser ball bars: the machine's frame from motions along Z and X, and what a line or a circle
-/// shows at constant feed.
+/// shows at constant feed, and a polygon at its corners.
 #include <string>
 #include <vector>
 
@@ -42,6 +42,10 @@ struct CircleRows {
   GUMSHOE_NAMED(Measurands, steady_offset, peak_to_valley, major_axis, minor_axis, axis_difference, major_angle);
 };
 
+struct PolygonRows {
+  GUMSHOE_NAMED(Measurands, corner_error, overshoot, undershoot);
+};
+
 /// Directions of Z and X by best lines, and the squareness between them: appendix A.
 struct MachineFrame : OfMeasurands<MachineFrame> {
   template <class T> using Measurands = FrameRows::Measurands<T>;
@@ -61,6 +65,14 @@ struct SteadyCircle : OfMeasurands<SteadyCircle> {
   template <class T> using Measurands = CircleRows::Measurands<T>;
   using Names = CircleRows::MeasurandsRow;
   static CircleRows::Measurands<double> of(const Points<double>& all, const std::vector<Measured>& found);
+  static std::string check(const Points<double>& all);
+};
+
+/// How a polygon's corners are passed.
+struct Corners : OfMeasurands<Corners> {
+  template <class T> using Measurands = PolygonRows::Measurands<T>;
+  using Names = PolygonRows::MeasurandsRow;
+  static PolygonRows::Measurands<double> of(const Points<double>& all, const std::vector<Measured>& found);
   static std::string check(const Points<double>& all);
 };
 

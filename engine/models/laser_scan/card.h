@@ -1,15 +1,12 @@
 #pragma once
 /// Card of the scanner: quantities, conditions, measurands, evaluations.
-#include "chain/two_rotary_axes.h"
-#include "models/cards.h"
+#include "models/location_rows.h"
 
 namespace gumshoe::models::laser_scan {
 
 using si::deg, si::mm, si::um;
 
 // clang-format off: a row of a card stays together
-constexpr QuantityCard in_um(const Unitless& q) { return in_units(q, "um", "m"); }
-constexpr QuantityCard in_mrad(const Unitless& q) { return in_units(q, "mrad", "rad"); }
 inline constexpr QuantityCard quantity_cards[] = {
     in_mm({.name = "e_x", .symbol = "e_x", .meaning = "actual place of the part minus workpiece_x"}),
     in_mm({.name = "e_y", .symbol = "e_y", .meaning = "actual place of the part minus workpiece_y"}),
@@ -18,15 +15,7 @@ inline constexpr QuantityCard quantity_cards[] = {
     in_mrad({.name = "e_b", .limits = below_90, .symbol = "e_b", .meaning = "tilt of the part about the table's Y"}),
     in_mm({.name = "workpiece_x", .symbol = "q_center(1)", .meaning = "commanded centre of the part on the table"}),
     in_mm({.name = "workpiece_y", .symbol = "q_center(2)", .meaning = "commanded centre of the part on the table"}),
-    in_um({.name = "E_X0B", .symbol = "dx_BR", .meaning = "position of the B axis along X"}),
-    in_um({.name = "E_Y0C", .symbol = "dy_BR", .meaning = "position of the C axis along Y"}),
-    in_um({.name = "E_Z0B", .symbol = "dz_BR", .meaning = "position of the B axis along Z"}),
-    in_mrad({.name = "E_A0B", .limits = below_90, .symbol = "alpha_BR", .meaning = "orientation of the B axis about X"}),
-    in_mrad({.name = "E_B0B", .limits = below_90, .symbol = "beta_BR", .meaning = "zero position of the B axis"}),
-    in_mrad({.name = "E_C0B", .limits = below_90, .symbol = "gamma_BR", .meaning = "orientation of the B axis about Z"}),
-    in_um({.name = "E_X0C_minus_E_X0B", .symbol = "dx_CB", .meaning = "offset of the C axis from the B axis along X"}),
-    in_mrad({.name = "E_A0C_minus_E_A0B", .limits = below_90, .symbol = "alpha_CB",
-             .meaning = "orientation of the C axis to the B axis about X"}),
+    GUMSHOE_LOCATION_ROWS,
     in_mrad({.name = "E_C0Y", .limits = below_90, .symbol = "gamma_YX", .meaning = "squareness of Y to X: X moves by -E_C0Y Y"}),
     in_mrad({.name = "E_A0Z", .limits = below_90, .symbol = "alpha_ZY", .meaning = "squareness of Z to Y: Y moves by -E_A0Z Z"}),
     in_mrad({.name = "E_B0Z", .limits = below_90, .symbol = "beta_ZX", .meaning = "squareness of Z to X: X moves by E_B0Z Z"}),
@@ -53,8 +42,8 @@ inline constexpr QuantityCard quantity_cards[] = {
      .meaning = "true, by how much the surface is nearer than nominal along the beam; only simulation reads it"},
 };
 inline constexpr VariableCard condition_cards[] = {
-    shown_in_deg({.name = "B", .meaning = "commanded angle of the first rotary axis"}),
-    shown_in_deg({.name = "C", .meaning = "commanded angle of the second rotary axis"}),
+    B_card,
+    C_card,
     shown_in_mm({.name = "radius", .default_value = 70 * mm, .meaning = "of the commanded spot from the part's centre"}),
     shown_in_deg({.name = "theta", .meaning = "azimuth of the commanded spot about the part's centre, from the table's X"}),
     shown_pure({.name = "surface", .meaning = "0 cone, 1 plane, 2 cylinder, 3 sphere, 4 torus"}),
@@ -110,10 +99,6 @@ inline constexpr EvaluationCard evaluation_cards[] = {
 inline constexpr QuantityCard timing_cards[] = {
     in_s({.name = "sampling_period", .default_value = 0.001, .limits = not_negative, .meaning = "for every reading"}),
     in_s({.name = "set_up", .default_value = 300, .limits = not_negative, .meaning = "clamping and levelling the part, once"}),
-};
-inline constexpr AxisCard axis_cards[] = {
-    {"B", true, true, 1, {}}, {"C", true, true, 2, {}},
-    {"X", false, false, 0, {}}, {"Y", false, false, 1, {}}, {"Z", false, false, 2, {}},
 };
 inline constexpr Stage stages[] = {Stage::motion, Stage::scanning, Stage::rotary, Stage::slides, Stage::surface, Stage::sensor};
 // clang-format on

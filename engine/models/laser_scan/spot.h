@@ -26,11 +26,6 @@ struct Rows {
 template <class T> using Quantities = Rows::Quantities<T>;
 template <class T> using At = Reading<Rows, T>;
 
-/// The machine of a reading: that of the paper, or as a scenario describes it (Model::context).
-inline const chain::TwoRotaryAxes& axes_of(const void* context) {
-  return context ? *static_cast<const chain::TwoRotaryAxes*>(context) : chain::table_BC;
-}
-
 /// What the readings of a sample share: the axes as they are located, and the part as it is set up.
 template <class T> struct SetUp {
   chain::OfTwo<T> axes;
@@ -38,14 +33,8 @@ template <class T> struct SetUp {
 };
 template <class T> SetUp<T> set_up(const At<T>& at) {
   const auto& q = at.q;
-  // Eq (8) states the first axis' shifts in X, Y, Z; a made card lists them in the order across, along it, along the other.
-  const chain::TwoRotaryAxes& axes = axes_of(at.context);
-  const Vector3<T> shift = chain::along(axes.across(), q.E_X0B) + chain::along(axes.first.direction, q.E_Y0C) +
-                           chain::along(axes.second.direction, q.E_Z0B);
-  const auto located = chain::located<T>(
-      axes, {shift, {q.E_A0B, q.E_B0B, q.E_C0B}, q.E_X0C_minus_E_X0B, q.E_A0C_minus_E_A0B});
   const Vector3<T> centre{q.workpiece_x + q.e_x, q.workpiece_y + q.e_y, q.e_z};
-  return {located, {chain::turn_about(0, T(-q.e_a)) * chain::turn_about(1, T(-q.e_b)), -centre}};
+  return {located<T>(axes_of(at.context), q), {chain::turn_about(0, T(-q.e_a)) * chain::turn_about(1, T(-q.e_b)), -centre}};
 }
 
 template <class T> Shape<T> shape(const Quantities<T>& q) {
@@ -114,6 +103,8 @@ template <class T> T displacement(const At<T>& at, const Beam<T>& beam, Outcome<
               : s == plane    ? meet_plane(form, beam)
               : s == cylinder ? meet_cylinder(form, beam)
                               : meet_sphere(form, beam);
+    outcome.refuse(here && found.behind_tip,
+                   "the beam meets only the other nappe of the cone, beyond its tip, where the part has no surface");
     outcome.refuse(here && !found.there, "the beam misses the surface");
     t = num::select(here, found.t, t);
   });

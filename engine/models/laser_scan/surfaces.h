@@ -22,10 +22,10 @@ template <class T> struct Shape {
 template <class T> struct Beam { Vector3<T> from, along; };
 template <class T> using Mask = decltype(T() < T());
 
-/// A root, and whether there is one.
+/// A root, and whether there is one. Of a cone, whether there are only such as lie on its other nappe.
 template <class T> struct Meeting {
   T t;
-  Mask<T> there;
+  Mask<T> there, behind_tip = T(0.0) != T(0.0);
 };
 
 template <class T> T square(const T& x) { return x * x; }
@@ -78,7 +78,8 @@ template <class T> Meeting<T> meet_cone(const Shape<T>& s, const Beam<T>& beam) 
   const auto steep = near.there && (num::abs(u.z) > T(1e-9));
   const auto near_there = steep && (rho + near.t >= zero), far_there = steep && (a != zero) && (rho + far >= zero);
   const auto take_far = far_there && (!near_there || (num::abs(t_far) < num::abs(t_near)));
-  return {num::select(take_far, t_far, t_near), near_there || far_there};
+  const auto there = near_there || far_there;
+  return {num::select(take_far, t_far, t_near), there, steep && !there};
 }
 
 template <class T> Meeting<T> meet_plane(const Shape<T>& s, const Beam<T>& beam) {
