@@ -10,7 +10,7 @@ import pathlib
 import tempfile
 import unittest
 
-from program import complaint, gumshoe
+from program import ROOT, complaint, gumshoe
 
 SQUARE = [(150, 0, 0), (0, 150, 0), (0, 0, 150)]
 
@@ -223,6 +223,22 @@ components = [ {{ distribution = "normal", u = "{u} um", per = "reading" }} ]
                 self.assertEqual({n for n in found if n.startswith("d_")}, {f"d_{letter}" for letter in letters})
                 for measurand, true in (("before_z", before[2]), ("after_x", after[0]), ("closure_length", 0)):
                     self.assertAlmostEqual(found[measurand], true, delta=1e-9, msg=(name, evaluation, measurand))
+
+    def test_choose_finds_the_best_height_of_a_ring(self):
+        # d_alpha moves the ball along c = (0, 1, sqrt 3) / 2 by 160.7 mm / rad; least u at tan^4 h = 2 (1 / sqrt 3)^2, h from Z.
+        out = self.path.with_name("choice.h5")
+        run = gumshoe("choose", ROOT / "scenarios/choose_socket_directions.toml", "--format", "json", "--out", out)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        best = json.loads(run.stdout)["recommended"]
+        height = 120 / (2 / 3) ** 0.25
+        lever = 250 * math.cos(math.radians(50))
+        def u(height):
+            h = math.atan(120 / height)
+            return math.sqrt(2 * (0.25 / (1.5 * math.sin(h) ** 2) + 0.75 / (3 * math.cos(h) ** 2))) * 1e-3 / lever
+        found = -best["settings"]["reference_z"]
+        self.assertLess(abs(found - height), 20)  # flat: within 20 mm U grows by 2 %
+        self.assertLess(u(height + 20) / u(height), 1.02)
+        self.assertAlmostEqual(best["average"]["U"] / (1.96 * math.degrees(u(found)) * 3600), 1, delta=0.01)
 
     def test_machine_and_evaluation_belong_together(self):
         stations = [(s, *at, 0) for s in (1, 2) for at in SQUARE]
