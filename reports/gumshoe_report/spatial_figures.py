@@ -11,7 +11,7 @@ from .pictures.values import Values
 
 PANELS = 4           # contours, heights
 SIDE = 9             # cells of a grid with their numbers
-CONTOUR = ("contour", "x", "y", "z", "size", "angle", "elevation", "sense", "feed", "contour_start")
+CONTOUR = ("contour", "x", "y", "z", "size", "angle", "elevation", "sense", "sides", "feed", "contour_start")
 
 
 def millimetres(x):
@@ -88,8 +88,37 @@ def contours(r, outputs):
     for o in outputs:
         c = reading(r, o)
         if o.measurand == "contour_error" and c.get("contour", 0) > 0 and len(tools.get(int(o.reading), ())) == 3:
-            found.setdefault(tuple(c[name] for name in CONTOUR), []).append((c["time"], tools[int(o.reading)], o))
+            found.setdefault(tuple(c.get(name) for name in CONTOUR), []).append((c["time"], tools[int(o.reading)], o))
     return {key: sorted(rows, key=lambda row: row[0]) for key, rows in found.items() if len(rows) >= 8}
+
+
+def polygon(c):
+    """Corners of a commanded polygon in its plane, m, one a column."""
+    turn = c["sense"] * 2 * math.pi / c["sides"] * np.arange(c["sides"])
+    sides = c["size"] * np.array([np.cos(turn), np.sin(turn)])
+    return np.cumsum(sides, axis=1) - sides
+
+
+def nearest(corners, points):
+    """Nearest points of a polygon, and unit vectors outwards there."""
+    best = np.full(points.shape[1], np.inf)
+    on, out = np.zeros_like(points), np.zeros_like(points)
+    centre = corners.mean(axis=1, keepdims=True)
+    for start, end in zip(corners.T, np.roll(corners, -1, axis=1).T):
+        side = end - start
+        share = np.clip(((points.T - start) @ side) / (side @ side), 0, 1)
+        foot = start[:, None] + side[:, None] * share
+        normal = np.array([side[1], -side[0]]) / np.hypot(*side)
+        normal *= math.copysign(1, normal @ (start - centre[:, 0]))
+        away = points - foot
+        distance = np.hypot(*away)
+        at_corner = ((share <= 0) | (share >= 1)) & (distance > 0)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            outwards = np.where(at_corner, away / distance, normal[:, None])
+        closer = distance < best
+        best = np.where(closer, distance, best)
+        on, out = np.where(closer, foot, on), np.where(closer, outwards, out)
+    return on, out
 
 
 def contour(r, outputs):
@@ -118,7 +147,11 @@ def contour(r, outputs):
         largest = float(np.nanmax(np.abs(ends))) or 1e-6
         power = 10.0 ** math.floor(math.log10(0.25 * c["size"] / largest))
         times = next(s * power for s in (5, 2, 1) if s * power <= 0.25 * c["size"] / largest)
-        if c["contour"] == 2:
+        if c["contour"] == 3:
+            corners = polygon(c)
+            on, n = nearest(corners, np.array([u, v]))
+            axes.plot(*(1e3 * np.append(corners, corners[:, :1], axis=1)), color=INK, linewidth=0.8, linestyle=(0, (4, 3)))
+        elif c["contour"] == 2:
             n = np.array([u, v]) / np.hypot(u, v)
             on, turn = c["size"] * n, np.linspace(0, 2 * math.pi, 361)
             axes.plot(1e3 * c["size"] * np.cos(turn), 1e3 * c["size"] * np.sin(turn), color=INK, linewidth=0.8, linestyle=(0, (4, 3)))

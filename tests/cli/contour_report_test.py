@@ -8,6 +8,8 @@ import sys
 import tempfile
 import unittest
 
+import numpy as np
+
 from program import ROOT, gumshoe
 
 sys.dont_write_bytecode = True
@@ -35,6 +37,14 @@ class Figures(unittest.TestCase):
         outwards = max(rows, key=lambda row: row[2].estimate)[1]
         self.assertLess((outwards["x"] - 0.2031) * (outwards["y"] - 0.1184), 0)
         self.assertEqual(spatial_figures.volume(r, r.outputs), "")
+
+    def test_a_square_is_drawn_with_its_corners(self):
+        corners = spatial_figures.polygon({"size": 40.0, "sense": -1, "sides": 4})
+        self.assertTrue(np.allclose(corners, [[0, 40, 40, 0], [0, 0, -40, -40]]))
+        # Inside near a side, outside of it, and beyond a corner.
+        on, out = spatial_figures.nearest(corners, np.array([[10, 10, 43.0], [-1, 2, 4.0]]))
+        self.assertTrue(np.allclose(on, [[10, 10, 40], [0, 0, 0]]))
+        self.assertTrue(np.allclose(out, [[0, 0, 0.6], [1, 1, 0.8]]))
 
     def test_what_was_read_is_no_condition_of_a_profile(self):
         r = self.result("ball_bar_circle.toml")

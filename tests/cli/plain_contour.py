@@ -1,8 +1,9 @@
 """Contours measured with three laser ball bars on a machine whose servos are integrated in small steps, independent of the
-engine; writes the data of trace_contours.toml, or those of ball_bar_circle.toml.
+engine; writes the data of trace_contours.toml, or those of ball_bar_circle.toml and ball_bar_square.toml.
 
 usage: plain_contour.py > scenarios/data/trace_contours.csv
        plain_contour.py --circle > scenarios/data/ball_bar_circle.csv
+       plain_contour.py --square > scenarios/data/ball_bar_square.csv
 """
 import math
 import random
@@ -16,7 +17,7 @@ NOISE = 0.7e-3                             # of every length, mm
 STEP = 5e-4                                # of the integration, s: fourth order, exact to 1e-9 mm
 PASSES, READINGS = 4, 15                   # passes over all contours, readings of a contour
 CONTOURS = [(kind, angle, feed) for feed in (889.0, 1778.0) for kind, angle in ((1, 45.0), (1, 135.0), (2, 0.0))]
-SIZES = {1: 100.0, 2: 50.0}                # length of a line, radius of a circle, mm
+SIZES = {1: 100.0, 2: 50.0, 3: 40.0}       # length of a line, radius of a circle, side of a square, mm
 
 
 def path(length, feed, t):
@@ -35,6 +36,10 @@ def command(kind, angle, feed, t):
     if kind == 1:
         s = path(size, feed / 60, t)
         return s * math.cos(a), s * math.sin(a), 0.0
+    if kind == 3:  # counter-clockwise from 0, 0 along X, with a stop at each corner
+        side = size / (feed / 60) + feed / 60 / ACCELERATION
+        s = [path(size, feed / 60, t - k * side) for k in range(4)]
+        return s[0] - s[2], s[1] - s[3], 0.0
     phi = a + path(2 * math.pi * size, feed / 60, t) / size
     return size * math.cos(phi), size * math.sin(phi), 0.0
 
@@ -74,6 +79,16 @@ def circle():
         print(t, *(f"{l + draw.gauss(0, NOISE):.5f}" for l in lengths(x)), sep=",")
 
 
+def square():
+    """One fast square with the gains of the circle above."""
+    draw, feed = random.Random(52), 1778.0
+    end = 4 * (SIZES[3] / (feed / 60) + feed / 60 / ACCELERATION)
+    times = [round(0.02 + end * i / 160, 3) for i in range(160)]
+    print("time_s,length_1_mm,length_2_mm,length_3_mm")
+    for t, x in zip(times, follow(3, 0.0, feed, times, {"x": 33.0, "y": 30.0, "z": 30.0})):
+        print(t, *(f"{l + draw.gauss(0, NOISE):.5f}" for l in lengths(x)), sep=",")
+
+
 def main():
     draw = random.Random(1999)
     print("pass,contour,angle_deg,size_mm,feed_mm_min,start_s,time_s,length_1_mm,length_2_mm,length_3_mm")
@@ -95,4 +110,4 @@ def main():
 if __name__ == "__main__":
     if "-h" in sys.argv:
         sys.exit(print(__doc__))
-    circle() if "--circle" in sys.argv else main()
+    circle() if "--circle" in sys.argv else square() if "--square" in sys.argv else main()

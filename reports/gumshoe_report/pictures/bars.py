@@ -22,8 +22,14 @@ def picture(v):
     flat = lambda p: (scale * (p[0] + 0.45 * p[1]), scale * (p[2] + 0.3 * p[1]))
     d = Drawing()
     d.path([flat(s) for s in sockets], INK, PALE, 1.0, closed=True)
-    tool = at(0.6) if kind == 2 else tuple(p + 0.6 * size * s for p, s in zip(place, along)) if kind == 1 else tuple(place)
-    if kind == 2:
+    tool = at(0.6) if kind == 2 else tuple(p + 0.6 * size * s for p, s in zip(place, along)) if kind in (1, 3) else tuple(place)
+    if kind == 3:
+        turns = [v("sense", 1) * 2 * math.pi * k / round(v("sides", 4)) for k in range(round(v("sides", 4)))]
+        corners = [tuple(place)]
+        for turn in turns[:-1]:
+            corners.append(tuple(p + size * (math.cos(turn) * s + math.sin(turn) * t) for p, s, t in zip(corners[-1], along, left)))
+        d.path([flat(p) for p in corners], ORANGE, width=1.6, closed=True)
+    elif kind == 2:
         d.path([flat(at(2 * math.pi * k / 72)) for k in range(72)], ORANGE, width=1.6, closed=True)
     elif kind == 1:
         d.path([flat(place), flat([p + size * s for p, s in zip(place, along)])], ORANGE, width=1.6, tip="end")
@@ -40,6 +46,7 @@ def picture(v):
         end = flat([0.17 * b12 * c for c in direction])
         d.path([corner, end], QUIET, tip="end")
         d.label(end[0] + 5, end[1] + 3, name, colour=QUIET)
-    what = {1: ", which follows the line (orange)", 2: ", which follows the circle (orange)"}.get(kind, ", at the first point")
+    what = {1: ", which follows the line (orange)", 2: ", which follows the circle (orange)",
+            3: ", which follows the polygon (orange)"}.get(kind, ", at the first point")
     caption = f"Three laser ball bars (blue) from sockets on the table to the tool{what}."
     return d.svg("Three laser ball bars to a tool"), caption + v.caption()

@@ -16,7 +16,9 @@ def socket(v):
     stations = [[r.get(f"station_{a}", v(f"station_{a}")) for a in "xyz"] for r in v.readings
                 if r.get("step", v("step", 1)) == v("step", 1)]
     bars = [[s - o for s, o in zip(station, reference)] for station in stations]
-    longest = max((math.hypot(*bar) for bar in bars), default=0) or 1
+    if not bars:  # a choice records no readings
+        return "", ""
+    longest = max(math.hypot(*bar) for bar in bars) or 1
     d = Drawing()
     d.path([(-16, -14), (16, -14), (16, -40), (-16, -40)], fill=LINE, closed=True)
     d.circle(0, -4, 10, INK, PALE, 1.8)
@@ -25,11 +27,10 @@ def socket(v):
         x, y = seen(bar, 170 / longest)
         d.path([(0, -4), (x, y - 4)], BLUE, width=3)
         d.circle(x, y - 4, 7, ORANGE, ORANGE)
-    if bars:
-        x, y = seen(max(bars, key=lambda b: seen(b)[1]), 170 / longest)
-        d.label(x + 12, y - 2, "moving ball, on the machine", colour=ORANGE)
-        d.label(x + 12, y - 20, f"{len(bars)} stations, bars of " + ", ".join(
-            dict.fromkeys(f"{1e3 * math.hypot(*b):.4g} mm" for b in bars)), colour=BLUE)
+    x, y = seen(max(bars, key=lambda b: seen(b)[1]), 170 / longest)
+    d.label(x + 12, y - 2, "moving ball, on the machine", colour=ORANGE)
+    d.label(x + 12, y - 20, f"{len(bars)} stations, bars of " + ", ".join(
+        dict.fromkeys(f"{1e3 * math.hypot(*b):.4g} mm" for b in bars)), colour=BLUE)
     triad(d, d.box[0] - 50, -30)
     return d.svg("Ball bars from a socket to the stations of the moving ball"), \
         "The bars of the first step from the front and above, to scale." + v.caption()
