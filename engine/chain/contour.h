@@ -11,8 +11,8 @@
 
 namespace gumshoe::chain {
 
-/// A point at which the slides stand; a line from there; a full circle about it, from where its plane's first direction
-/// points; a regular polygon that starts there along its first side, with a stop at each corner.
+/// A point at which the slides stand; a line from there; a circle about it, from where its plane's first direction points,
+/// which may rise evenly along `up`, a helix; a regular polygon that starts there along its first side, with a stop at each corner.
 enum class ContourKind { point, line, circle, polygon };
 
 /// The plane of a contour: `along` has the azimuth `angle` from +X towards +Y and rises by `elevation`; `left` is
@@ -23,6 +23,12 @@ struct ContourPlane {
     const double c = num::cos(angle), s = num::sin(angle), ce = num::cos(elevation), se = num::sin(elevation);
     along = {c * ce, s * ce, se}, left = {-s, c, 0.0}, up = {-(c * se), -(s * se), ce};
   }
+};
+
+/// How a circle goes on: once round and level, if it does not rise.
+struct Winding {
+  double turns = 1; ///< positive
+  double rise = 0;  ///< along `up` per turn, m
 };
 
 /// The corners of a regular polygon in its plane. A side's direction turns towards `left` if `sense` is 1, else away.
@@ -43,11 +49,12 @@ public:
   /// @param size   length of a line or of a polygon's side, radius of a circle, m, positive; not read for a point
   /// @param sense  of a circle or polygon in its plane: 1 from `along` towards `left` (counter-clockwise from above), or -1
   Contour(ContourKind kind, const Vector3<double>& place, const ContourPlane& plane, double size, double sense,
-          double feed, double acceleration, double jerk, const Corners& corners = {})
+          double feed, double acceleration, double jerk, const Corners& corners = {}, const Winding& winding = {})
       : kind_(kind), place_(place), plane_(plane), size_(size), sense_(sense),
-        corners_(kind == ContourKind::polygon ? corners : Corners{}) {
+        corners_(kind == ContourKind::polygon ? corners : Corners{}), rise_(winding.rise / (2 * std::numbers::pi)),
+        way_(std::hypot(size, rise_)) {
     if (kind != ContourKind::point)
-      move_.emplace(kind == ContourKind::circle ? 2 * std::numbers::pi * size : size, feed, acceleration, jerk);
+      move_.emplace(kind == ContourKind::circle ? 2 * std::numbers::pi * winding.turns * way_ : size, feed, acceleration, jerk);
   }
 
   /// Turns the contour with the frame in which it is stated.
@@ -73,7 +80,7 @@ public:
     return at;
   }
   /// Commanded angle round a circle from its start, rad; positive in the circle's sense.
-  double angle(double t) const { return move_ ? move_->path(t) / size_ : 0; }
+  double angle(double t) const { return move_ ? move_->path(t) / way_ : 0; }
 
   /// The commanded point.
   Vector3<double> commanded(double t) const {
@@ -82,7 +89,8 @@ public:
       const int k = side(t);
       return corner(k) + move_->path(t - start_of(k)) * direction_of(k);
     }
-    return place_ + size_ * (num::cos(angle(t)) * plane_.along + sense_ * num::sin(angle(t)) * plane_.left);
+    return place_ + size_ * (num::cos(angle(t)) * plane_.along + sense_ * num::sin(angle(t)) * plane_.left) +
+           rise_ * angle(t) * plane_.up;
   }
 
   /// Motion of the slides at time t: servo[i] moves slide i.
@@ -101,8 +109,10 @@ public:
         for (int i = 0; i < 3; ++i) add_side(slide[i], path, k, i);
       }
     } else if (kind_ == ContourKind::circle) {
-      const auto turn = servo.circle(*move_, size_, t);
+      const auto turn = servo.circle(*move_, way_, t);
       for (int i = 0; i < 3; ++i) slide[i] = on_circle(turn, i);
+      if (rise_ != 0)
+        for (int i = 0; i < 3; ++i) rise(slide[i], servo, i, t);
     } else {
       for (int i = 0; i < 3; ++i) slide[i].position = T(component(place_, i));
     }
@@ -117,7 +127,10 @@ public:
     if (kind_ != ContourKind::circle) return {v, w, (move_ ? move_->path(t) : 0.0) - u};
     const double c = num::cos(angle(t)), s = sense_ * num::sin(angle(t));
     const T ahead = num::atan2(v * c - u * s, u * c + v * s); // from the commanded point
-    return {num::sqrt(u * u + v * v) - size_, w, (-sense_ * size_) * ahead};
+    if (rise_ == 0) return {num::sqrt(u * u + v * v) - size_, w, (-sense_ * size_) * ahead};
+    // On the unrolled cylinder the helix is a straight line: across it and along it.
+    const T arc = (sense_ * size_) * ahead, up = w - rise_ * angle(t);
+    return {num::sqrt(u * u + v * v) - size_, (size_ * up - rise_ * arc) / way_, -(size_ * arc + rise_ * up) / way_};
   }
 
   /// A slide at a command: the direction in which it last moved, -1 or +1, and the time at which it last turned round,
@@ -132,7 +145,10 @@ public:
         if (const double d = component(direction_of(k), slide); moves(d) && d * now.sign < 0) now = {-now.sign, start_of(k)};
       return now;
     }
-    if (!moves(first) && !moves(second)) return {};
+    if (!moves(first) && !moves(second)) {
+      const double up = rise_ * component(plane_.up, slide);
+      return moves(up) && up < 0 ? Direction{-1.0, 0.0} : Direction{};
+    }
     // Velocity -first sin(angle) + second cos(angle) vanishes at `turning` plus half turns.
     double turning = std::atan2(second, first);
     while (turning > tiny) turning -= std::numbers::pi;
@@ -140,7 +156,7 @@ public:
     const double half_turns = std::floor((angle(t) - turning) / std::numbers::pi);
     const double last = turning + half_turns * std::numbers::pi, inside = last + std::numbers::pi / 2;
     const double sign = second * std::cos(inside) - first * std::sin(inside) > 0 ? 1 : -1;
-    if (half_turns > 0) return {sign, move_->time_at(last * size_)};
+    if (half_turns > 0) return {sign, move_->time_at(last * way_)};
     return {sign, sign > 0 ? -1.0 : 0.0};
   }
 
@@ -162,11 +178,13 @@ private:
     if (side == 0) return plane_.along;
     return num::cos(azimuth(side)) * plane_.along + num::sin(azimuth(side)) * plane_.left;
   }
+  template <class T> static void add(Motion<T>& slide, double share, const Motion<T>& path) {
+    slide.position = slide.position + share * path.position;
+    slide.velocity = slide.velocity + share * path.velocity;
+    slide.acceleration = slide.acceleration + share * path.acceleration;
+  }
   template <class T> void add_side(Motion<T>& slide, const Motion<T>& path, int side, int i) const {
-    const double d = component(direction_of(side), i);
-    slide.position = slide.position + d * path.position;
-    slide.velocity = slide.velocity + d * path.velocity;
-    slide.acceleration = slide.acceleration + d * path.acceleration;
+    add(slide, component(direction_of(side), i), path);
   }
   /// From the nearest point of the polygon: on a side, or a corner, which only points outside are nearest to.
   template <class T> ContourDeviation<T> from_polygon(const T& u, const T& v, const T& w, double t) const {
@@ -194,8 +212,16 @@ private:
     const auto mixed = [&](const Complex<T>& x) { return c * x.re + s * x.im; };
     return {component(place_, i) + mixed(turn.position), mixed(turn.velocity), mixed(turn.acceleration)};
   }
+  /// Adds what a slide rises on a helix.
+  template <class T> void rise(Motion<T>& slide, const Servo<T>& servo, int i, double t) const {
+    add(slide, rise_ / way_ * component(plane_.up, i), servo.path(*move_, t));
+  }
   template <class T> Motion<T> follow(const Servo<T>& servo, int i, double t) const {
-    if (kind_ == ContourKind::circle) return on_circle(servo.circle(*move_, size_, t), i);
+    if (kind_ == ContourKind::circle) {
+      auto slide = on_circle(servo.circle(*move_, way_, t), i);
+      if (rise_ != 0) rise(slide, servo, i, t);
+      return slide;
+    }
     Motion<T> slide{T(component(place_, i)), T(0.0), T(0.0)};
     if (kind_ != ContourKind::point)
       for (int k = 0; k <= side(t); ++k) add_side(slide, servo.path(*move_, t - start_of(k)), k, i);
@@ -207,6 +233,7 @@ private:
   ContourPlane plane_;
   double size_, sense_;
   Corners corners_;
+  double rise_, way_; ///< of a circle, m per rad: along `up`, and in all
   std::optional<FeedProfile> move_;
 };
 

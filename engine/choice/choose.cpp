@@ -187,8 +187,10 @@ private:
     if (choose_.worst_case) text += fmt::format(" in the worst case, {}", choose_.cases[r_.fresh.worst].name);
     if (choose_.definition == scenario::Choose::Definition::corrected)
       text += fmt::format(" after a correction of {}", width(-r_.fresh.average.mean));
-    text += fmt::format("; by {} fresh samples it meets the target with a probability of {:.3g}.",
-                        choose_.confirm_samples, r_.probability);
+    text += fmt::format("; by {} fresh samples it meets the target with a probability of {}.", choose_.confirm_samples,
+                        r_.probability > 0.9995   ? "more than 0.999"
+                        : r_.probability < 0.0005 ? "less than 0.001"
+                                                  : fmt::format("{:.3g}", r_.probability));
     if (r_.reached && !r_.confirmed)
       text += fmt::format(" No faster or slower setting that was tried meets it with the required probability of "
                           "{:.3g}. Use more samples "

@@ -34,6 +34,9 @@ IMPOSSIBLE = {
     "two sides": ("contour,sides", "3,2", "sides must be a whole number from 3 to 12"),
     "half a side": ("contour,sides", "3,4.5", "sides must be a whole number from 3 to 12"),
     "no time at a corner": ("contour,dwell (s)", "3,-0.1", "dwell is negative"),
+    "no turn": ("contour,turns", "2,0", "turns must be above 0 and at most 1000"),
+    "a line that rises": ("contour,rise (mm)", "1,5", "rise is not 0, but the contour is no level circle (a helix stands upright)"),
+    "an oblique helix": ("contour,rise (mm),elevation (deg)", "2,5,10", "rise is not 0, but the contour is no level circle (a helix stands upright)"),
     "flat base": ("base_length_1 (mm)", "800", "the base lengths make no triangle"),
     "one direction": ("X_motion_x,X_motion_z", "0,1", "Z_motion and X_motion have one direction, or none"),
     "under the sockets": ("origin_z (mm)", "-1", None),
@@ -163,6 +166,41 @@ class LaserBallBar(unittest.TestCase):
             self.assertAlmostEqual(float(found["corner_error (mm)"]), worst, delta=0.005)
             inside = max(min(x, -y, size - x, size + y) for x, y in (way[i] for i in every))
             self.assertAlmostEqual(float(found["undershoot (mm)"]), max(inside, 0), delta=1e-6)
+
+    def test_a_helix_is_what_its_servos_make_of_it(self):
+        # Two turns of 15 mm that rise by 10 mm each, clockwise: Runge-Kutta of first order with the command written out here.
+        size, rise, turns, feed, gains = 15.0, 10.0, 2, FEED, (30, 33, 27)
+        way = math.hypot(size, rise / (2 * math.pi))  # mm per rad
+        ramp = feed / 980
+        end = 2 * math.pi * turns * way / feed + ramp
+        def command(t):
+            s = 490 * t * t if t < ramp else feed * (t - ramp / 2) if t < end - ramp else 2 * math.pi * turns * way - 490 * max(end - t, 0) ** 2
+            return size * math.cos(s / way), -size * math.sin(s / way), rise / (2 * math.pi) * s / way
+        state, step, moments, at = list(command(0)), 1e-4, (0.02, 1.0, end + 0.3), {}
+        for i in range(round(moments[-1] / step) + 1):
+            if any(round(m / step) == i for m in moments):
+                at[i] = list(state)
+            u0, u1, u2 = (command((i + f) * step) for f in (0, 0.5, 1))
+            for j, k in enumerate(gains):
+                a = k * (u0[j] - state[j])
+                b = k * (u1[j] - state[j] - step / 2 * a)
+                c = k * (u1[j] - state[j] - step / 2 * b)
+                d = k * (u2[j] - state[j] - step * c)
+                state[j] += step / 6 * (a + 2 * b + 2 * c + d)
+        header = ["contour", "sense", "size (mm)", "rise (mm)", "turns", "feed (mm/min)", "servo_gain_mismatch.y (%)",
+                  "servo_gain_mismatch.z (%)", "time (s)"]
+        rows = self.rows(header, *([2, -1, size, rise, turns, 60 * feed, 10, -10, repr(i * step)] for i in at))
+        for found, (x, y, z) in zip(rows, at.values()):
+            for axis, value, origin in (("x", x, 200), ("y", y, 120), ("z", z, 300)):
+                self.assertAlmostEqual(float(found[f"tool_{axis} (mm)"]) - origin, value, delta=1e-7)
+            self.assertAlmostEqual(float(found["contour_error (mm)"]), math.hypot(x, y) - size, delta=1e-7)
+        # In the middle of the steady stretch: across the helix on the unrolled cylinder, and behind along it.
+        x, y, z = at[round(1 / step)]
+        s = feed * (1.0 - ramp / 2)
+        arc = -math.remainder(math.atan2(y, x) + s / way, 2 * math.pi) * size
+        up = z - rise / (2 * math.pi) * s / way
+        self.assertAlmostEqual(float(rows[1]["plane_error (mm)"]), (size * up - rise / (2 * math.pi) * arc) / way, delta=1e-7)
+        self.assertAlmostEqual(float(rows[1]["following_error (mm)"]), -(size * arc + rise / (2 * math.pi) * up) / way, delta=1e-7)
 
     MACHINE = """schema = 1
 [model]

@@ -67,7 +67,7 @@ inline constexpr QuantityCard quantity_cards[] = {
     GUMSHOE_LOCATION_ROWS,
 };
 inline constexpr VariableCard condition_cards[] = {
-    shown_pure({.name = "contour", .meaning = "0: a point at x, y, z; 1: a line from there; 2: a full circle about it; 3: a regular polygon that starts there"}),
+    shown_pure({.name = "contour", .meaning = "0: a point at x, y, z; 1: a line from there; 2: a circle about it, or a helix; 3: a regular polygon that starts there"}),
     shown_in_mm({.name = "x", .meaning = "commanded, in the frame of the table: the point, the start of the line or polygon, or the circle's centre"}),
     shown_in_mm({.name = "y", .meaning = "likewise"}),
     shown_in_mm({.name = "z", .meaning = "likewise"}),
@@ -85,6 +85,8 @@ inline constexpr VariableCard condition_cards[] = {
     shown_pure({.name = "motion", .meaning = "a label that only machine_frame reads: 3 for points along Z, 1 for points along X, else 0"}),
     shown_pure({.name = "sides", .default_value = 4, .meaning = "of a polygon, 3 to 12"}),
     shown_in_s({.name = "dwell", .meaning = "of a polygon: pause at a corner, where the command has stopped"}),
+    shown_pure({.name = "turns", .default_value = 1, .meaning = "of a circle or helix"}),
+    shown_in_mm({.name = "rise", .meaning = "of a circle, per turn: not 0 for an upright helix"}),
     B_card,
     C_card,
 };
@@ -161,7 +163,7 @@ inline constexpr EvaluationCard evaluation_cards[] = {
     {.name = "line", .meaning = "what a line shows at constant feed", .measurands = line_cards,
      .time_per_reading = per_reading, .time_once = once, .equations = line_equations},
     {.name = "circle", .meaning = "what a circle shows at constant feed", .measurands = circle_cards,
-     .time_per_reading = per_reading, .time_once = "2 * pi * size / feed + retract", .equations = circle_equations},
+     .time_per_reading = per_reading, .time_once = "2 * pi * turns * size / feed + retract", .equations = circle_equations},
     {.name = "polygon", .meaning = "how a polygon's corners are passed", .measurands = polygon_cards,
      .time_per_reading = per_reading, .time_once = "sides * (size / feed + dwell) + retract", .equations = polygon_equations},
 };

@@ -41,6 +41,9 @@ struct LaserBallBar {
     outcome.refuse(!(c.sides >= T(3.0)) || c.sides > T(12.0) || c.sides != T(std::floor(num::value(c.sides))),
                    "sides must be a whole number from 3 to 12");
     outcome.refuse(c.dwell < zero, "dwell is negative");
+    outcome.refuse(!(c.turns > zero) || c.turns > T(1000.0), "turns must be above 0 and at most 1000");
+    outcome.refuse(!(c.rise == zero) && (!(c.contour == two) || !(c.elevation == zero)),
+                   "rise is not 0, but the contour is no level circle (a helix stands upright)");
     outcome.refuse(c.time < zero, "time is before the start of the contour");
     if (outcome.failed) return;
     const auto contour = contour_of(c);

@@ -23,7 +23,7 @@ struct Rows {
                 skew_2, skew_3, loop_gain, damping, tool_length, E_X0B, E_Y0C, E_Z0B, E_A0B, E_B0B, E_C0B,
                 E_X0C_minus_E_X0B, E_A0C_minus_E_A0B);
   GUMSHOE_NAMED(Conditions, contour, x, y, z, size, angle, elevation, sense, feed, acceleration, jerk, order, time,
-                contour_start, settling, motion, sides, dwell, B, C);
+                contour_start, settling, motion, sides, dwell, turns, rise, B, C);
   GUMSHOE_NAMED(Indications, length_1, length_2, length_3);
   GUMSHOE_NAMED(Measurands, tool_x, tool_y, tool_z, contour_error, plane_error, following_error);
 };
@@ -43,7 +43,8 @@ template <class T> chain::Contour contour_of(const Rows::Conditions<T>& c) {
           value(c.feed),
           value(c.acceleration),
           value(c.jerk),
-          {static_cast<int>(value(c.sides)), value(c.dwell)}};
+          {static_cast<int>(value(c.sides)), value(c.dwell)},
+          {value(c.turns), value(c.rise)}};
 }
 
 /// Sockets at their present temperature.
