@@ -57,6 +57,8 @@ void print_verdict(const Trace& t) {
   for (const std::string& sentence : t.plain) std::cout << sentence << '\n';
   if (t.findings.empty())
     std::cout << (t.outcome == Outcome::insufficient_data ? "verdict: these data cannot decide\n"
+                  : t.lack_of_fit.found                   ? "verdict: lack of fit\n"
+                  : !t.anomalous_blocks.empty()           ? "verdict: a block differs from the others\n"
                                                           : "verdict: nothing found\n");
   if (std::isfinite(t.p_anything))
     std::cout << fmt::format("p-value of the whole search: {} ({} draws, {} candidates; false-alarm rate {:g})\n",
@@ -99,10 +101,34 @@ void print_rms(const Rms& r) {
        noise(r.holdout_noise, r.holdout_noise_low, r.holdout_noise_high));
   line("  worst block: " + r.worst_block, r.worst_block_before, r.worst_block_after, "");
   line("  worst point: " + r.worst_point, r.worst_point_before, r.worst_point_after, "");
+  if (std::isfinite(r.replicate_floor))
+    std::cout << fmt::format("  replicate floor: readings of equal conditions scatter by {} (95 %: {} to {})\n",
+                             show(r.replicate_floor), show(r.replicate_floor_low), show(r.replicate_floor_high));
   if (std::isfinite(r.share_removed))
     std::cout << fmt::format("  {} of the removable mean square of the hold-out residuals has been removed\n",
                              r.share_removed > 1 ? "all" : fmt::format("{:.0f} %", 100 * r.share_removed));
   if (!std::isfinite(r.holdout_before) && !r.holdout.empty()) std::cout << "  hold-out: " << r.holdout << '\n';
+}
+
+void print_repeats(const Trace& t) {
+  const Lengths lengths(t.rms);
+  if (const LackOfFit& l = t.lack_of_fit; std::isfinite(l.p_value))
+    std::cout << fmt::format("lack of fit: {}, p = {} ({} sets of equal conditions)\n",
+                             l.found ? fmt::format("what repeats and is not explained is {}, by {}",
+                                                   lengths.with_unit(l.size), fmt::join(l.depends_on, ", "))
+                                     : "what repeats is no more than chance gives",
+                             probability(l.p_value), l.cells);
+  for (const AnomalousBlock& b : t.anomalous_blocks)
+    std::cout << fmt::format("{} differs: scatter {}, of the other blocks {}, p = {}\n", b.name,
+                             lengths.with_unit(b.spread), lengths.with_unit(b.others), probability(b.p_value));
+  for (std::size_t i = 0; i < std::min(listed, t.outliers.size()); ++i) {
+    const Outlier& o = t.outliers[i];
+    std::cout << fmt::format("outlier: {}{}, residual {}, weight {:.2f}\n", o.reading,
+                             t.rows.size() > 0 && t.rows.back().indication > 0 ? ", " + o.indication : "",
+                             lengths.with_unit(o.residual), o.weight);
+  }
+  if (t.outliers.size() > listed)
+    std::cout << fmt::format("(and {} more outliers in the result file)\n", t.outliers.size() - listed);
 }
 
 void print_candidates(const std::vector<RankedCandidate>& candidates) {
@@ -153,6 +179,7 @@ void print_trace(const Trace& t, const std::string& title, const std::vector<std
   if (std::isfinite(t.rms.before)) {
     print_rms(t.rms);
     print_noise(t.noise, t.rms);
+    print_repeats(t);
   }
   print_candidates(t.candidates);
   if (t.findings.empty()) print_limits(t.detection_limits);

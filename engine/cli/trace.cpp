@@ -91,6 +91,7 @@ std::string signed_verdict(const Rounds& rounds, const store::Origin& origin) {
                                  {"holdout_before", number(r.rms.holdout_before)},
                                  {"holdout_after", number(r.rms.holdout_after)},
                                  {"noise", number(r.rms.noise)},
+                                 {"replicate_floor", number(r.rms.replicate_floor)},
                                  {"vetoed", r.vetoed}});
   verdict["made_by"] = store::signature(origin);
   return verdict.dump(2) + '\n';

@@ -65,6 +65,18 @@ void write_sizes_of_noise(hid_t parent, const Noise& n, const Rms& r) {
   write_attributes(noise, noise_fields, n);
 }
 
+void write_repeats(hid_t file, hid_t parent, const Trace& t) {
+  const hdf5::Handle group = hdf5::create_group(parent, "lack_of_fit");
+  hdf5::write_attribute(group, "units", t.rms.si_unit);
+  write_display(group, t.rms.unit, t.rms.si_unit);
+  write_attributes(group, lack_of_fit_fields, LackOfFitRow{t.lack_of_fit, t.rms.unit, t.rms.si_unit});
+  write_list(group, "depends_on", t.lack_of_fit.depends_on, "conditions, columns and labels that what repeats depends on");
+  std::vector<AnomalousBlockRow> blocks;
+  for (const AnomalousBlock& b : t.anomalous_blocks) blocks.push_back({b, t.rms.unit, t.rms.si_unit});
+  if (!blocks.empty()) write_table(file, anomalous_block_fields, blocks);
+  if (!t.outliers.empty()) write_table(file, outlier_fields, t.outliers);
+}
+
 /// A name for a dataset: "/" would make a group of it, and the dimension has a name, too.
 std::string free_name(hid_t group, std::string name) {
   std::ranges::replace(name, '/', '_');
@@ -152,6 +164,7 @@ void write_trace_group(hid_t file, const Trace& t) {
   const hdf5::Handle group = hdf5::create_group(file, "trace");
   write_attributes(group, trace_fields, t);
   write_sizes_of_noise(group, t.noise, t.rms);
+  write_repeats(file, group, t);
   write_numbered(group, "findings", t.findings, write_finding);
   if (!t.candidates.empty()) write_table(file, candidate_fields, t.candidates);
   if (!t.detection_limits.empty()) write_table(file, limit_fields, t.detection_limits);

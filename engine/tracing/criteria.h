@@ -31,6 +31,17 @@ struct Criteria {
   std::size_t most_replicate_groups = 3; ///< labels or pairs tried as variance components, by cost
   /// A label with more groups than so many per five readings cannot be distinguished from the noise of a reading.
   std::size_t most_groups_of_five = 4;
+  /// Degrees of freedom that the scatter of readings under equal conditions needs: with eight it is known within 25 %.
+  double least_pure_freedom = 8;
+  /// Readings of a cell from which a straight line in time is projected out of them: two of four are left.
+  std::size_t repeats_for_line = 4;
+  /// Cells up to which the covariance of the noise is judged by the scatter about their means, by cost.
+  std::size_t most_cells_of_noise = 200;
+  /// 2 ln L by which the scatter about the cells' means must speak against more correlation: three standard deviations.
+  double too_much_structure = 9;
+  std::size_t readings_of_block = 6; ///< indications of a block that show its scatter
+  /// What repeats depends on a factor if, without it, this many standard deviations more of squares are left.
+  double factor_counts = 3;
   std::size_t blocks_for_holdout = 4;    ///< at least: one is held out, three remain to train on
   std::size_t holdout_part = 4;          ///< one block in so many is held out, the last in the order of measurement
   std::size_t least_training_blocks = 2; ///< blocks that must remain to train on

@@ -64,6 +64,20 @@ bool enough(const TraceContext& c, Trace& out) {
   return false;
 }
 
+/// Compares before and after. If the hold-out blocks veto, what was found last is dropped, with all that was found beside
+/// it, and they judge the rest anew.
+void judge_by_holdout(const TraceContext& c, Search& found, Trace& out) {
+  const Trace start = out;
+  std::vector<std::string> rejected;
+  for (out.vetoed = compare(c, found, out); out.vetoed && found.stages.size() > 1; out.vetoed = compare(c, found, out)) {
+    const auto dropped = step_back(c, found);
+    rejected.insert(rejected.begin(), dropped.begin(), dropped.end());
+    out = start;
+  }
+  for (const std::string& name : rejected)
+    out.statements.push_back(fmt::format("found after the others and rejected by the hold-out blocks: {}", name));
+}
+
 } // namespace
 
 const char* name(Kind kind) {
@@ -107,7 +121,7 @@ Trace trace(const scenario::Scenario& scenario, const Settings& settings) {
     summarise(out);
     return out;
   }
-  const Search found = search(c);
+  Search found = search(c);
   out.tried = found.tried;
   out.p_anything = found.first.p_anything;
   out.candidates = found.ranking;
@@ -117,7 +131,12 @@ Trace trace(const scenario::Scenario& scenario, const Settings& settings) {
   if (found.base.kink)
     out.statements.push_back(
         "the model has a kink at the point of linearisation; its derivatives hold for one side only");
-  out.vetoed = compare(c, found, out);
+  judge_by_holdout(c, found, out);
+  if (found.capped)
+    out.statements.push_back(fmt::format("the search ended at its limit of {} findings; more would be found",
+                                         criteria.most_findings));
+  out.capped = found.capped;
+  describe_repeats(c, found, out);
   describe_noise(c, found, out);
   collect(c, found, out);
   if (!std::isfinite(out.p_anything)) {

@@ -53,6 +53,7 @@ struct Finding {
   double spread = 0;
   double removed_share = 0;         ///< share of the residuals' mean square in the training data that it explains
   std::vector<Curve> curves;        ///< curves of an unknown effect
+  std::string described_by;         ///< shape of an unknown effect: "table:position*direction"; else empty
   std::vector<std::string> remarks; ///< implausible size, kept shapes, also described by ...
 };
 
@@ -82,13 +83,16 @@ struct Rms {
   std::string unit, si_unit;
   double before = none, after = none, noise = none; ///< training data, in sample
   double noise_low = none, noise_high = none;       ///< 95 % limits for noise alone
+  /// Scatter of readings of equal conditions, free of slow drift (noise/pure_error.h), with 95 % limits; training data.
+  double replicate_floor = none, replicate_floor_low = none, replicate_floor_high = none;
   double holdout_before = none, holdout_after = none, holdout_noise = none;
   double holdout_noise_low = none, holdout_noise_high = none;
   double worst_block_before = none, worst_block_after = none; ///< hold-out block with the largest
   std::string worst_block;
   double worst_point_before = none, worst_point_after = none; ///< largest residual of a hold-out reading
   std::string worst_point;
-  double share_removed = none; ///< (before^2 - after^2) / (before^2 - noise^2) of the hold-out
+  /// (before^2 - after^2) / (before^2 - floor^2) of the hold-out; the floor is that of replicates, else the declared noise
+  double share_removed = none;
   std::string holdout;         ///< the hold-out: "setup 3, 4", "each block left out in turn", "none: one block"
 };
 
@@ -113,6 +117,31 @@ struct Noise {
   double scatter_u = 0;     ///< SI
   double chi_squared_p = 1; ///< p-value of the size of the residuals under the declared noise
   int outliers = 0;
+};
+
+/// What still comes back with the conditions after everything found, against the scatter of readings of equal conditions.
+struct LackOfFit {
+  bool found = false;                  ///< more repeats than chance gives, and nothing that was found explains it
+  double p_value = Rms::none;          ///< over all tests of the last round; NaN: too few readings repeat
+  double size = Rms::none;             ///< root mean square of what repeats, SI of the first indication
+  std::vector<std::string> depends_on; ///< conditions, columns, labels or "place in the block"
+  int cells = 0;                       ///< sets of equal conditions
+  double freedom = 0;                  ///< degrees of freedom of the replicate floor
+};
+
+/// A block whose readings scatter about what the other blocks show by more than theirs do.
+struct AnomalousBlock {
+  std::string name;           ///< "cycle 3"
+  double p_value = 1;         ///< over all tests of the last round
+  double spread = Rms::none;  ///< typical scatter of its readings, SI of the first indication
+  double others = Rms::none;  ///< the same of the other blocks
+};
+
+/// A reading of reduced weight.
+struct Outlier {
+  std::string reading; ///< "reading 80 (cycle 5, x 350 mm)"
+  std::string block, indication, unit, si_unit;
+  double residual = 0, weight = 1;
 };
 
 /// How one parameter of the estimate enters the traced scenario.
@@ -151,6 +180,13 @@ struct Trace {
   double p_anything = 1; ///< p-value of the whole search
   Rms rms;
   Noise noise;
+  LackOfFit lack_of_fit;
+  std::vector<AnomalousBlock> anomalous_blocks;
+  std::vector<Outlier> outliers; ///< the largest first
+  /// True if the hold-out blocks lie beyond the range over which what was found is known: their veto stands, but what
+  /// was found is reported.
+  bool beyond_range = false;
+  bool capped = false;           ///< true if the search ended at its largest number of findings, with more to be found
   std::vector<DetectionLimit> detection_limits;
   std::vector<RankedCandidate> candidates; ///< candidates of the first round, best first
   std::vector<Row> rows;

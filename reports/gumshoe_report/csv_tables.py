@@ -126,6 +126,8 @@ def trace(t):
                          for f in t.findings for q in f.quantities],
             "candidates": [line("trace/candidates", c) for c in t.candidates],
             "detection_limits": [line("trace/detection_limits", d) for d in t.limits],
+            "anomalous_blocks": [line("trace/anomalous_blocks", b) for b in t.anomalous_blocks],
+            "outliers": [line("trace/outliers", o) for o in t.outliers],
             "residuals": [{"reading": row.reading + 1, "indication": row.indication, "order": row.order, "block": row.block,
                            "final": row.final, **{heads(n, c): value(c, row.reading) for n, c in beside.items()},
                            **line("residuals", row)} for row in t.residuals]}

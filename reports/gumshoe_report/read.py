@@ -97,6 +97,9 @@ def trace(file):
     return types.SimpleNamespace(
         **attributes(group), rms=types.SimpleNamespace(**attributes(group["rms"])),
         noise=types.SimpleNamespace(**attributes(group["noise"])),
+        lack_of_fit=types.SimpleNamespace(**attributes(group["lack_of_fit"]), depends_on=texts(group["lack_of_fit"], "depends_on")),
+        anomalous_blocks=rows(group.get("anomalous_blocks"), "anomalous_block"),
+        outliers=rows(group.get("outliers"), "outlier"),
         findings=[finding(group["findings"][k]) for k in sorted(group.get("findings", ()))],
         candidates=rows(group.get("candidates")), limits=rows(group.get("detection_limits"), "limit"),
         plain=texts(group, "plain"), statements=texts(group, "statements"), residuals=rows(file["residuals"]),

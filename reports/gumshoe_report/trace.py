@@ -68,7 +68,17 @@ class Trace:
         least = 1 / (self.t.draws + 1)
         return ("≤ " if value <= 1.001 * least else "= ") + significant(value, 2 if value > 0.01 else 1)
 
+    def exceeds(self):
+        """Whether the held-out readings are off by more than noise alone gives."""
+        return self.t.rms.holdout_after > self.t.rms.holdout_noise_high
+
     def headline(self):
+        off = "held-out readings are off by more than noise"
+        if not self.exceeds():
+            return self.found_headline()
+        return capitalised(off) if not self.t.findings and not self.t.vetoed else f"{self.found_headline()}; {off}"
+
+    def found_headline(self):
         t = self.t
         if t.findings:
             names = [f"one of {len(f.members)} effects" if f.kind == "class" else
@@ -77,7 +87,13 @@ class Trace:
             return f"Found: {joined(names)}"
         if t.verdict == "insufficient_data":
             return "These data cannot decide"
-        return "Found, and withdrawn" if t.vetoed else "Nothing found"
+        if t.vetoed:
+            return "Found, and withdrawn"
+        if t.lack_of_fit.found:
+            return "Lack of fit: a part of the error repeats"
+        if t.anomalous_blocks:
+            return f"{t.anomalous_blocks[0].name} differs from the others"
+        return "Nothing found"
 
     def explanation(self):
         """How sure the verdict is."""
@@ -107,6 +123,9 @@ class Trace:
         low, high = (r.holdout_noise_low, r.holdout_noise_high) if kept else (r.noise_low, r.noise_high)
         found.append(("noise alone", self.size(noise)) if not math.isfinite(high) else
                      (f"noise alone, 95{SPACE}%", with_unit(f"[{self.number(low)}, {self.number(high)}]", self.unit)))
+        if math.isfinite(r.replicate_floor):
+            found.append((f"replicate floor, 95{SPACE}%", with_unit(
+                f"[{self.number(r.replicate_floor_low)}, {self.number(r.replicate_floor_high)}]", self.unit)))
         if math.isfinite(r.share_removed) and self.added:
             found.append(("share of the removable mean square removed", self.removed()))
         return found
@@ -206,9 +225,31 @@ class Trace:
         if n.scatter:
             text.append(f"In addition there is scatter by {joined([s.strip() for s in n.scatter.split(',')])}, "
                         f"standard deviation {self.size(n.scatter_u)}.")
-        if n.outliers:
-            text.append(f"{n.outliers} reading{'s' if n.outliers > 1 else ''} with reduced weight as outliers.")
+        r = self.t.rms
+        if math.isfinite(r.replicate_floor):
+            text.append(f"Readings of equal conditions scatter by {self.size(r.replicate_floor)}, 95{SPACE}% interval "
+                        f"[{self.number(r.replicate_floor_low)}, {self.number(r.replicate_floor_high)}]; what repeats and "
+                        "what drifts slowly does not count.")
         return text
+
+    def repeats(self):
+        """What is left that repeats, and blocks that differ, in sentences."""
+        lack, text = self.t.lack_of_fit, []
+        if self.known and math.isfinite(lack.p_value):
+            text.append(f"What repeats with the conditions and is not explained is {self.size(lack.size)}, p {self.p(lack.p_value)}. "
+                        f"It depends on {joined(lack.depends_on)}." if lack.found else
+                        f"What is left does not repeat with the conditions more than chance gives, p {self.p(lack.p_value)} "
+                        f"({lack.cells} sets of equal conditions).")
+        for b in self.t.anomalous_blocks:
+            text.append(f"{capitalised(b.name)} differs: its readings scatter by {self.size(b.spread)}, those of the other "
+                        f"blocks by {self.size(b.others)}, p {self.p(b.p_value)}.")
+        return text
+
+    def outliers(self):
+        for o in self.t.outliers[:LISTED]:
+            unit, factor = shown_unit(o, o.residual)
+            yield types.SimpleNamespace(reading=o.reading, block=o.block, weight=fixed(o.weight, 2),
+                                        residual=with_unit(significant(factor * o.residual), unit))
 
     def budgets(self):
         """Both budgets of each output, component by component."""

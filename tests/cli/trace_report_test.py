@@ -22,7 +22,8 @@ from browser import CLIPPED, measured
 from choose_report_test import Elements, labels, words_of
 from gumshoe_report import trace, trace_figures
 
-KINDS = ("named", "class", "scatter", "not_in_catalogue", "two_findings", "vetoed", "nothing_found", "insufficient_data")
+KINDS = ("named", "class", "scatter", "not_in_catalogue", "two_findings", "vetoed", "nothing_found", "lack_of_fit",
+         "insufficient_data")
 
 
 def made(*words):
@@ -147,7 +148,8 @@ class Page(Made):
                                "scatter": "Found: scatter by rod and setup", "vetoed": "Found, and withdrawn",
                                "not_in_catalogue": "Found: an unknown effect",
                                "two_findings": "Found: trigger latency and an unknown effect",
-                               "nothing_found": "Nothing found", "insufficient_data": "These data cannot decide"}.items():
+                               "nothing_found": "Nothing found", "lack_of_fit": "Held-out readings are off by more than noise",
+                               ""insufficient_data": "These data cannot decide"}.items():
             self.assertTrue(self.first(kind).startswith(f" {headline} "), self.first(kind)[:80])
             plain = self.said[kind]["plain"][0].replace(" um", " µm")
             self.assertIn(plain, self.first(kind))
@@ -167,6 +169,19 @@ class Page(Made):
         self.assertIn(f"[{low}, {high}]", part)
         self.assertIn("in sample", part)
         self.assertIn("neither for the search nor for the fit", part)
+
+    def test_what_is_left_is_said(self):
+        text = words_of(self.pages["lack_of_fit"])
+        for words in ("not explained is 2.9", "It depends on feed and rod", "Setup 3 differs", "reading 7 (setup 1, rod 1)", "replicate floor"):
+            self.assertIn(words, text)
+        said = self.said["lack_of_fit"]
+        self.assertEqual((said["verdict"], said["lack_of_fit"]["depends_on"]), ("lack_of_fit", ["feed", "rod"]))
+        self.assertEqual([b["name"] for b in said["anomalous_blocks"]], ["setup 3"])
+        self.assertEqual([(o["block"], o["weight"]) for o in said["outliers"]], [("setup 1", 0.21)])
+        self.assertEqual(self.table("lack_of_fit", "outliers")[0]["reading"], "reading 7 (setup 1, rod 1)")
+        with h5py.File(self.file("lack_of_fit")) as file:
+            self.assertEqual(file["trace/lack_of_fit"].attrs["found"], 1)
+            self.assertAlmostEqual(file["trace/outliers/residual"][0], -9.1e-6)
 
     def test_sizes_are_rounded_by_their_uncertainty(self):
         self.assertRegex(words_of(self.pages["named"]), r"delay ?trigger_latency\.delay ?1\.520 ?0\.041 ?\[1\.430, 1\.610\] ?ms")

@@ -335,6 +335,20 @@ Traced nothing_found(bool vetoed) {
   return t;
 }
 
+/// What repeats is left; one block scatters, one reading is bad, and the held-out readings are off.
+Traced lack_of_fit() {
+  Traced t = nothing_found(false);
+  Trace& trace = t.trace;
+  trace.rms.replicate_floor = noise_u, trace.rms.replicate_floor_low = 0.8 * noise_u;
+  trace.rms.replicate_floor_high = 1.3 * noise_u;
+  trace.rms.holdout_noise_high = 0.9 * trace.rms.holdout_after;
+  trace.lack_of_fit = {true, 0.002, 2.9 * um, {"feed", "rod"}, 12, 40};
+  trace.anomalous_blocks = {{"setup 3", 0.004, 5.5 * um, 0.6 * um}};
+  trace.outliers = {{"reading 7 (setup 1, rod 1)", "setup 1", "spindle_z", "mm", "m", -9.1 * um, 0.21}};
+  trace.plain = {"A repeatable part of 2.9 um is left that no effect of the catalogue explains; it depends on feed and rod."};
+  return t;
+}
+
 Traced insufficient_data() {
   Traced t{rods(), {}, {}};
   t.scenario.readings.resize(3);
@@ -353,6 +367,7 @@ const std::map<std::string, std::function<Traced()>> makers = {
     {"scatter", scatter},
     {"not_in_catalogue", [] { return not_in_catalogue(false); }},
     {"two_findings", [] { return not_in_catalogue(true); }},
+    {"lack_of_fit", lack_of_fit},
     {"vetoed", [] { return nothing_found(true); }},
     {"nothing_found", [] { return nothing_found(false); }},
     {"insufficient_data", insufficient_data}};

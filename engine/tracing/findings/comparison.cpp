@@ -11,6 +11,7 @@
 #include "tracing/criteria.h"
 #include "tracing/judgement/decisions.h"
 #include "tracing/judgement/holdout.h"
+#include "tracing/noise/pure_error.h"
 
 namespace gumshoe::tracing {
 namespace {
@@ -116,18 +117,22 @@ void noise_alone(std::vector<double> sizes, double& middle, double& low, double&
   high = quantile(0.975);
 }
 
+constexpr std::uint16_t scale_of_noise = 5; ///< stream of random numbers, after those of noise/draws
+
 class Comparison {
 public:
   Comparison(const TraceContext& c, const Search& s, Trace& out)
-      : c_(c), rows_(c.fitter.rows()), before_(s.base), after_(s.found), out_(out) {
-    // Both in the units of one noise: the fit without the effect takes it for noise.
-    before_.design.local = after_.design.local;
-    before_.design.reference = after_.design.reference;
-    before_.covariance_model = after_.covariance_model;
+      : c_(c), rows_(c.fitter.rows()), before_(s.base), after_(s.found),
+        previous_(s.stages.size() > 1 ? s.stages[s.stages.size() - 2].fit : s.base), out_(out) {
+    // All in the units of one noise: the fit without the effect takes it for noise.
+    for (JointFit* fit : {&before_, &previous_}) {
+      fit->design.local = after_.design.local;
+      fit->design.reference = after_.design.reference;
+      fit->covariance_model = after_.covariance_model;
+    }
     std::vector<Index> every(index(after_.residual.size()));
     std::iota(every.begin(), every.end(), 0);
-    const Whitened w(after_.design, every, {}, after_.covariance_model);
-    noise_ = std::sqrt(after_.variance) * w.draw(criteria.noise_draws, c.seed ^ 0xf100full);
+    noise_ = noise_of_readings(every);
   }
 
   bool compare() {
@@ -137,6 +142,7 @@ public:
     out_.rms.after = after.rms[0];
     const Vector noise = in_sample(after_, rows_, noise_).rms;
     noise_alone({noise.data(), noise.data() + noise.size()}, out_.rms.noise, out_.rms.noise_low, out_.rms.noise_high);
+    replicate_floor();
     const Blocks blocks = blocks_of(c_.observations);
     const bool held_out = !c_.observations.holdout_blocks.empty();
     out_.rms.holdout = blocks.rows.empty() ? "none"
@@ -148,17 +154,64 @@ public:
   }
 
 private:
+  /// Draws of the fitted noise, all rows x sets. Declared draws that the training data show are part of the fit and stay
+  /// out; those of a single block are not predicted, and so belong to what its readings scatter.
+  Matrix noise_of_readings(const std::vector<Index>& every) const {
+    Design design = after_.design;
+    std::vector<Index> own;
+    for (Index j = 0; j < design.random.cols() && !c_.observations.holdout_blocks.empty(); ++j)
+      if (design.random(rows_, j).isZero(0)) own.push_back(j);
+    design.random = Matrix(design.random(Eigen::all, own));
+    std::vector<int> bent;
+    for (const Index j : own) bent.push_back(design.bent[index(j)]);
+    design.bent = std::move(bent);
+    const Whitened w(design, every, {}, after_.covariance_model);
+    return std::sqrt(after_.variance) * w.draw(criteria.noise_draws, c_.seed ^ 0xf100full);
+  }
+
+  /// The same of readings that were not fitted: the scale of the noise is known to its degrees of freedom only.
+  Matrix of_unknown_scale(Matrix noise) const {
+    const std::size_t freedom = rows_.size() - independent(after_.design, rows_).size();
+    const Matrix chance = normals(freedom, index(noise.cols()), c_.seed ^ 0xf100full, scale_of_noise);
+    for (Index j = 0; j < noise.cols(); ++j)
+      noise.col(j) *= std::sqrt(static_cast<double>(freedom) / chance.col(j).squaredNorm());
+    return noise;
+  }
+
+  /// Scatter of readings of equal conditions; its interval by what the fitted noise gives in draws.
+  void replicate_floor() {
+    const PureError pure(after_.design, rows_, c_.fitter.replicates(), after_.covariance_model);
+    if (!pure.known()) return;
+    const double reference = after_.design.reference[0];
+    Vector drawn = pure.scale(noise_(rows_, Eigen::all));
+    const double middle = std::sqrt(drawn.squaredNorm() / static_cast<double>(drawn.size()));
+    std::ranges::sort(drawn);
+    const auto ratio = [&](double p) { return drawn[static_cast<Index>(p * static_cast<double>(drawn.size()))] / middle; };
+    Rms& rms = out_.rms;
+    rms.replicate_floor = reference * pure.scale(after_.residual(rows_))[0];
+    rms.replicate_floor_low = rms.replicate_floor / ratio(0.975);
+    rms.replicate_floor_high = rms.replicate_floor / ratio(0.025);
+    out_.lack_of_fit.freedom = pure.freedom();
+    out_.lack_of_fit.cells = static_cast<int>(pure.cells());
+  }
+
+  /// What the error cannot fall below: the replicates' scatter, else the declared noise.
+  double floor() const {
+    if (std::isfinite(out_.rms.replicate_floor)) return out_.rms.replicate_floor;
+    return c_.fitter.noise_declared() ? after_.design.reference[0] / after_.noise : Rms::none;
+  }
+
   /// True if they veto.
   bool hold_out_blocks(const Blocks& blocks) {
     Rms& rms = out_.rms;
     scored_before_ = score(before_, before_.residual, rows_, blocks);
     scored_after_ = score(after_, after_.residual, rows_, blocks);
     if (scored_before_.scored())
-      noise_alone(score(after_, noise_, rows_, blocks).rms, rms.holdout_noise, rms.holdout_noise_low,
+      noise_alone(score(after_, of_unknown_scale(noise_), rows_, blocks).rms, rms.holdout_noise, rms.holdout_noise_low,
                   rms.holdout_noise_high);
     else
       rms.holdout += "; not scored, because it has no more readings than block offsets";
-    const bool refused = judge(blocks);
+    const bool refused = judge(blocks) && !confirmed_between_blocks();
     if (refused) {
       scored_after_ = scored_before_;
       rms.after = rms.before;
@@ -169,7 +222,7 @@ private:
     rms.worst_block_after = scored_after_.worst_block;
     rms.worst_block = scored_after_.worst_name;
     const auto square = [](double x) { return x * x; };
-    const double removable = square(rms.holdout_before) - square(rms.holdout_noise);
+    const double removable = square(rms.holdout_before) - square(floor());
     if (removable > 0) rms.share_removed = (square(rms.holdout_before) - square(rms.holdout_after)) / removable;
     rms.worst_point_before = scored_before_.worst_point();
     rms.worst_point_after = scored_after_.worst_point();
@@ -193,6 +246,52 @@ private:
           "the hold-out blocks are insensitive to the finding and can neither confirm nor reject it");
     return sensitive &&
            vetoed({scored_before_.whitened, scored_before_.rms[0]}, {scored_after_.whitened, scored_after_.rms[0]});
+  }
+
+  /// Names of what was found to depend on, of which the hold-out readings lie outside the training range.
+  std::vector<std::string> extrapolated() const {
+    const Observations& o = c_.observations;
+    std::vector<std::string> out;
+    for (const Covariate& covariate : o.covariates) {
+      const bool found = std::ranges::any_of(after_.terms, [&](const Term& t) {
+        const auto& on = t.candidate.depends_on;
+        return std::ranges::find(on, covariate.name) != on.end();
+      });
+      double low = 1e300, high = -1e300;
+      for (std::size_t r = 0; r < o.readings; ++r)
+        if (!o.held_out[r]) low = std::min(low, covariate.value[r]), high = std::max(high, covariate.value[r]);
+      bool outside = found;
+      for (std::size_t r = 0; r < o.readings && outside; ++r)
+        outside = !o.held_out[r] || covariate.value[r] < low || covariate.value[r] > high;
+      if (outside) out.push_back(covariate.name);
+    }
+    return out;
+  }
+
+  /// A drift cannot be judged by blocks beyond its end, to which it would have to be extrapolated: every block between
+  /// the first and the last is predicted from all others as well. The search has used most of these, so that only a gain
+  /// beyond doubt outweighs the veto.
+  bool confirmed_between_blocks() {
+    const auto names = extrapolated();
+    out_.beyond_range = !names.empty();
+    const Observations& o = c_.observations;
+    if (names.empty() || o.blocks.groups.size() < criteria.blocks_for_folds) return false;
+    Blocks between;
+    for (std::size_t g = 1; g + 1 < o.blocks.groups.size(); ++g) { // numbered in the order of measurement
+      std::vector<bool> chosen;
+      for (std::size_t r = 0; r < o.readings; ++r) chosen.push_back(o.blocks.group[r] == g);
+      between.rows.push_back(rows_where(o, chosen));
+      between.names.push_back(o.blocks.groups[g]);
+    }
+    const std::vector<Index> all = rows_where(o, std::vector<bool>(o.readings, true));
+    const Scores before = score(previous_, previous_.residual, all, between),
+                 after = score(after_, after_.residual, all, between);
+    const bool rejected = !before.scored() || !(before.whitened - after.whitened > criteria.beyond_doubt);
+    out_.statements.push_back(fmt::format(
+        "the hold-out blocks lie beyond the {} of the training data, to which what was found does not extend; blocks "
+        "between the first and the last, each predicted from all others, {} it",
+        fmt::join(names, " and "), rejected ? "do not confirm" : "confirm"));
+    return !rejected;
   }
 
   /// Training residuals in sample, held-out ones as predicted.
@@ -219,14 +318,23 @@ private:
       row.before = left_before(index(i), 0);
       row.after = left_after(index(i), 0);
       row.weight = weight(index(i), 0);
-      if (row.weight < 1) ++out_.noise.outliers;
+      if (row.weight < 1) add_outlier(row);
     }
+    std::ranges::stable_sort(out_.outliers, {}, &Outlier::weight);
+    out_.noise.outliers = static_cast<int>(out_.outliers.size());
+  }
+
+  void add_outlier(const Row& row) {
+    const VariableCard& v = c_.experiment.model().card->indications[row.indication];
+    out_.outliers.push_back({c_.experiment.reading_text(row.reading), row.block, std::string(v.name),
+                             std::string(v.unit), std::string(v.si_unit), row.after, row.weight});
   }
 
   const TraceContext& c_;
   const std::vector<Index>& rows_;
   JointFit before_;
   const JointFit& after_;
+  JointFit previous_; ///< without what the last round found
   Trace& out_;
   Matrix noise_; ///< draws of the fitted noise, all rows x sets
   Scores scored_before_, scored_after_;

@@ -4,7 +4,7 @@
 
 namespace gumshoe::tracing {
 
-/// Fills out.rms, out.rows and the number of outliers. Returns true if the hold-out blocks veto the findings; the
+/// Fills out.rms, out.rows and the outliers. Returns true if the hold-out blocks veto the findings; the
 /// figures "after" then equal those "before".
 bool compare(const TraceContext& context, const Search& search, Trace& out);
 

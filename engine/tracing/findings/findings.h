@@ -6,6 +6,8 @@ namespace gumshoe::tracing {
 
 /// Findings with their sizes, and the outcome. A veto of the hold-out blocks (out.vetoed) leaves only scatter.
 void collect(const TraceContext& context, const Search& search, Trace& out);
+/// Fills out.lack_of_fit, but for what comparison.h gives, and out.anomalous_blocks.
+void describe_repeats(const TraceContext& context, const Search& search, Trace& out);
 void describe_noise(const TraceContext& context, const Search& search, Trace& out);
 /// Size of a variance component, with the interval of its profile likelihood; with none, size of the noise.
 void describe_scatter(const TraceContext& context, const JointFit& fit, int component, Finding& finding);

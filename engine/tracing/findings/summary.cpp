@@ -1,4 +1,4 @@
-/// The two sentences for a machinist.
+/// What it means, in words for a machinist.
 #include <cmath>
 
 #include <fmt/format.h>
@@ -29,6 +29,11 @@ std::string what_was_found(const Finding& f) {
   case Kind::scatter:
     return fmt::format("The readings scatter more than declared from one {} to the next{}.", depends_on, size);
   case Kind::not_in_catalogue:
+    if (f.described_by.starts_with("table:"))
+      return fmt::format("A part of the error repeats that no effect of the catalogue explains; it depends on {}.",
+                         depends_on);
+    if (const std::string step = "step:"; f.described_by.starts_with(step) && f.described_by.find(depends_on + " ") != std::string::npos)
+      return fmt::format("{} differs from the others by a constant.", f.described_by.substr(step.size()));
     return fmt::format("An unknown effect changes the readings with {}.", depends_on);
   }
   return {};
@@ -51,44 +56,101 @@ std::string what_to_do(const Finding& f, const Rms& r) {
                      change(r.before, r.after, r));
 }
 
-/// Nothing was found: are the residuals, those of the held-out readings above all, as small as noise makes them?
-std::string what_residuals_show(const Rms& r) {
-  const auto noise = [&](double size, double low, double high) {
-    return std::isfinite(high) ? fmt::format("{} to {} in 95 % of cases", shown_rms(low, r), shown_rms(high, r))
-                               : shown_rms(size, r);
-  };
-  const auto exceeds = [&](const char* of, double size, const std::string& alone) {
-    return fmt::format("No candidate explains the residuals, but those of the {} ({}) are larger than noise alone "
-                       "gives ({}): the model or the declared noise lacks something that these data do not identify.",
-                       of, shown_rms(size, r), alone);
-  };
-  const std::string in_sample = noise(r.noise, r.noise_low, r.noise_high);
-  if (r.holdout_before > r.holdout_noise_high)
-    return exceeds("held-out readings", r.holdout_before,
-                   noise(r.holdout_noise, r.holdout_noise_low, r.holdout_noise_high));
-  if (r.before > r.noise_high) return exceeds("training data", r.before, in_sample);
+std::string in_95(double low, double high, const Rms& r) {
+  return fmt::format("{} to {} in 95 % of cases", shown_rms(low, r), shown_rms(high, r));
+}
+
+/// The error that counts most: of readings that took no part, beyond what their noise allows.
+bool held_out_exceeds(const Rms& r) { return r.holdout_after > r.holdout_noise_high; }
+std::string held_out_error(const Rms& r) {
+  return fmt::format("Held-out readings differ from the model by {}, more than noise alone gives ({}); the worst, {}, "
+                     "by {}.",
+                     shown_rms(r.holdout_after, r), in_95(r.holdout_noise_low, r.holdout_noise_high, r), r.worst_point,
+                     shown_rms(r.worst_point_after, r));
+}
+
+/// Nothing was found: are the residuals as small as noise makes them?
+std::string what_residuals_show(const Trace& t) {
+  const Rms& r = t.rms;
+  constexpr const char* lacks = "the model or the declared noise lacks something that these data do not identify.";
+  const std::string noise =
+      std::isfinite(r.noise_high) ? in_95(r.noise_low, r.noise_high, r) : shown_rms(r.noise, r);
+  if (held_out_exceeds(r)) return fmt::format("No candidate explains it: {}", lacks);
+  if (r.before > r.noise_high && t.p_anything > t.alpha && !t.outliers.empty())
+    return fmt::format("The residuals of the training data ({}) are larger than noise alone gives ({}), because {} outlying; "
+                       "the worst, {}, by {}. Check it.",
+                       shown_rms(r.before, r), noise,
+                       t.outliers.size() == 1 ? "one reading is" : fmt::format("{} readings are", t.outliers.size()),
+                       t.outliers[0].reading, shown_rms(std::fabs(t.outliers[0].residual), r));
+  if (r.before > r.noise_high)
+    return fmt::format("No candidate explains the residuals, but those of the training data ({}) are larger than noise "
+                       "alone gives ({}): {}",
+                       shown_rms(r.before, r), noise, lacks);
+  // Nothing agrees whose chance is small.
+  for (const auto& [p, of] : {std::pair{t.p_anything, "residuals like these"},
+                              std::pair{t.noise.chi_squared_p, "residuals as large as these"}})
+    if (p <= t.alpha)
+      return fmt::format("No candidate explains the residuals ({}), but noise alone gives {} in only {:.2g} % of cases: "
+                         "{}",
+                         shown_rms(r.before, r), of, 100 * p, lacks);
   return fmt::format("The measured values agree with the model: the residuals ({}) are no larger than noise alone "
                      "gives ({}).",
-                     shown_rms(r.before, r), in_sample);
+                     shown_rms(r.before, r), noise);
+}
+
+std::string scatter_of_replicates(const Rms& r) {
+  return fmt::format("{} (95 % interval {} to {})", shown_rms(r.replicate_floor, r),
+                     shown_rms(r.replicate_floor_low, r), shown_rms(r.replicate_floor_high, r));
+}
+
+std::string what_repeats(const Trace& t) {
+  const LackOfFit& lack = t.lack_of_fit;
+  return fmt::format("A repeatable part of {} is left that {} explains; it depends on {}.", shown_rms(lack.size, t.rms),
+                     t.findings.empty() ? "no effect of the catalogue" : "nothing found",
+                     fmt::join(lack.depends_on, " and "));
+}
+
+std::string which_block_differs(const Trace& t) {
+  const AnomalousBlock& b = t.anomalous_blocks.front();
+  return fmt::format("{} differs from the others: its readings scatter by {}, those of the other blocks by {}.", b.name,
+                     shown_rms(b.spread, t.rms), shown_rms(b.others, t.rms));
+}
+
+/// First what was found and what to do; then what is left all the same.
+std::vector<std::string> verdict_in_words(const Trace& t) {
+  const Rms& r = t.rms;
+  std::vector<std::string> out;
+  if (!t.findings.empty())
+    out = {what_was_found(t.findings.front()), what_to_do(t.findings.front(), r)};
+  else if (t.vetoed)
+    out = {"An effect was found in the training data, but it does not improve the prediction of held-out readings.",
+           "Nothing is added to the model. Measure more blocks to decide."};
+  if (t.lack_of_fit.found) {
+    out.push_back(what_repeats(t));
+    if (t.findings.empty())
+      out.push_back(fmt::format("Readings of equal conditions scatter by only {}: what repeats can be corrected for.",
+                                scatter_of_replicates(r)));
+  }
+  if (!t.anomalous_blocks.empty()) {
+    out.push_back(which_block_differs(t));
+    if (t.findings.empty()) out.push_back("Find out what was different, or leave it out, and trace again.");
+  }
+  if (out.empty())
+    out = {what_residuals_show(t),
+           "Effects smaller than the detection limits may still be present; the table lists those limits."};
+  return out;
 }
 
 } // namespace
 
 void summarise(Trace& out) {
-  const Rms& r = out.rms;
   if (out.outcome == Outcome::insufficient_data) {
     out.plain = {"These data are not sufficient to judge what the model lacks."};
     if (!out.statements.empty()) out.plain.push_back("Why: " + out.statements.back() + ".");
-  } else if (!out.findings.empty()) {
-    out.plain = {what_was_found(out.findings.front()), what_to_do(out.findings.front(), r)};
-  } else if (out.vetoed) {
-    out.plain = {
-        "An effect was found in the training data, but it does not improve the prediction of held-out readings.",
-        "Nothing is added to the model. Measure more blocks to decide."};
-  } else {
-    out.plain = {what_residuals_show(r),
-        "Effects smaller than the detection limits may still be present; the table lists those limits."};
+    return;
   }
+  out.plain = verdict_in_words(out);
+  if (held_out_exceeds(out.rms)) out.plain.insert(out.plain.begin(), held_out_error(out.rms));
 }
 
 } // namespace gumshoe::tracing

@@ -18,11 +18,12 @@ constexpr Shown in_json{.json = analysis::same}, in_csv{.csv = analysis::same}, 
 
 constexpr Field<Trace> search[] = {
     {"verdict", [](const Trace& t) -> Value { return verdict(t); }, one,
-     "kind of the first finding, else nothing_found or insufficient_data", in_json},
+     "kind of the first finding, else lack_of_fit, anomalous_block, nothing_found or insufficient_data", in_json},
     {"tried", of<&Trace::tried>, one, "candidates tried", in_json},
     {"p_anything", of<&Trace::p_anything>, one, "p-value of the verdict over all tests", in_json},
     {"alpha", of<&Trace::alpha>, one, "requested false-alarm rate", in_json},
     {"draws", of<&Trace::draws>, one, "draws of the bootstrap", in_json},
+    {"capped", of<&Trace::capped>, one, "1 if the search ended at its largest number of findings, with more to be found", in_json},
     {"vetoed", of<&Trace::vetoed>, one, "1 if the hold-out blocks rejected the findings", in_json}};
 
 using F = Finding;
@@ -30,6 +31,7 @@ constexpr Field<F> finding[] = {
     {"kind", [](const F& f) -> Value { return std::string(name(f.kind)); }, one,
      "named, class, scatter or not_in_catalogue", in_json},
     {"name", of<&F::name>, one, "effect, declared quantity or scatter", in_json},
+    {"described_by", of<&F::described_by>, one, "shape that describes an unknown effect, or empty", in_json},
     {"suggestion", of<&F::suggestion>, one, "measurement that would distinguish the members of the class", in_json},
     {"p_value", of<&F::p_value>, one, "p-value of the largest statistic over all candidates tried", in_json},
     {"removed_share", of<&F::removed_share>, one, "share of the residuals' mean square that it removes", in_json}};
@@ -79,6 +81,10 @@ constexpr Field<Rms> rms[] = {
     {"worst_block_after", of<&Rms::worst_block_after>, difference, "largest root mean square residual of a hold-out block with the findings added", in_json},
     {"noise_low", of<&Rms::noise_low>, difference, "noise, lower 95 % limit", {.json = "noise_interval95/0"}},
     {"noise_high", of<&Rms::noise_high>, difference, "noise, upper 95 % limit", {.json = "noise_interval95/1"}},
+    {"replicate_floor", of<&Rms::replicate_floor>, difference,
+     "scatter of readings of equal conditions, free of slow drift; training data; NaN if too few repeat", in_json},
+    {"replicate_floor_low", of<&Rms::replicate_floor_low>, difference, "replicate_floor, lower 95 % limit", {.json = "replicate_floor_interval95/0"}},
+    {"replicate_floor_high", of<&Rms::replicate_floor_high>, difference, "replicate_floor, upper 95 % limit", {.json = "replicate_floor_interval95/1"}},
     {"holdout_noise", of<&Rms::holdout_noise>, difference, "root mean square residual of the hold-out readings for noise alone", in_json},
     {"holdout_noise_low", of<&Rms::holdout_noise_low>, difference, "holdout_noise, lower 95 % limit", {.json = "holdout_noise_interval95/0"}},
     {"holdout_noise_high", of<&Rms::holdout_noise_high>, difference, "holdout_noise, upper 95 % limit", {.json = "holdout_noise_interval95/1"}},
@@ -87,7 +93,7 @@ constexpr Field<Rms> rms[] = {
     {"worst_point_before", of<&Rms::worst_point_before>, difference, "largest residual of one hold-out reading", in_json},
     {"worst_point_after", of<&Rms::worst_point_after>, difference, "the same with the findings added", in_json},
     {"worst_point", of<&Rms::worst_point>, one, "name of the reading of worst_point_after", in_json},
-    {"share_removed", of<&Rms::share_removed>, one, "(before^2 - after^2) / (before^2 - noise^2) of the hold-out readings", in_json},
+    {"share_removed", of<&Rms::share_removed>, one, "(before^2 - after^2) / (before^2 - floor^2) of the hold-out readings; the floor is replicate_floor, else the declared noise", in_json},
     {"holdout", of<&Rms::holdout>, one, "description of the hold-out", in_json}};
 
 constexpr Field<Noise> noise[] = {
@@ -100,6 +106,32 @@ constexpr Field<Noise> noise[] = {
     {"scatter", of<&Noise::scatter>, one, "labels of the variance component in use, or empty", in_json},
     {"declared", of<&Noise::declared>, one, "1 if the scenario declares the noise", in_json},
     {"outliers", of<&Noise::outliers>, one, "number of readings that were down-weighted", in_json}};
+
+using L = LackOfFitRow;
+constexpr Field<L> lack_of_fit[] = {
+    {"found", of<&L::found>, one, "1 if more repeats with the conditions than chance gives, and no finding explains it", in_json},
+    {"p_value", of<&L::p_value>, one, "p-value over all tests of the last round; NaN if too few readings repeat", in_json},
+    {"units", nullptr, units, "", {.json = "unit"}},
+    {"size", of<&L::size>, difference, "root mean square of what repeats after everything found", in_json},
+    {"cells", of<&L::cells>, one, "sets of equal conditions", in_json},
+    {"degrees_of_freedom", of<&L::freedom>, one, "degrees of freedom of replicate_floor", in_json}};
+
+using A = AnomalousBlockRow;
+constexpr Field<A> anomalous_block[] = {
+    {"name", of<&A::name>, one, "block", in_both},
+    {"p_value", of<&A::p_value>, one, "p-value over all tests of the last round", in_both},
+    {"units", nullptr, units, "", {"unit", "unit"}},
+    {"spread", of<&A::spread>, difference, "scatter of its readings about what the other blocks show, robust", in_both},
+    {"others", of<&A::others>, difference, "the same of the other blocks", in_both}};
+
+using O = Outlier;
+constexpr Field<O> outlier[] = {
+    {"reading", of<&O::reading>, one, "reading, with its labels and conditions", in_both},
+    {"block", of<&O::block>, one, "block", in_both},
+    {"indication", of<&O::indication>, one, "indication", in_both},
+    {"units", nullptr, units, "", {"unit", "unit"}},
+    {"residual", of<&O::residual>, difference, "measured minus simulated, with the findings added to the model", in_both},
+    {"weight", of<&O::weight>, one, "weight of the reading, below 1", in_both}};
 
 using R = ResidualRow;
 constexpr Field<R> residuals[] = {
@@ -126,6 +158,9 @@ constinit const Fields<RankedCandidate> candidate_fields{"trace/candidates", "ca
 constinit const Fields<DetectionLimit> limit_fields{"trace/detection_limits", "limit", limits, "detection_limits"};
 constinit const Fields<Rms> rms_fields{"trace/rms", "", rms};
 constinit const Fields<Noise> noise_fields{"trace/noise", "", noise};
+constinit const Fields<LackOfFitRow> lack_of_fit_fields{"trace/lack_of_fit", "", lack_of_fit};
+constinit const Fields<AnomalousBlockRow> anomalous_block_fields{"trace/anomalous_blocks", "anomalous_block", anomalous_block, "anomalous_blocks"};
+constinit const Fields<Outlier> outlier_fields{"trace/outliers", "outlier", outlier, "outliers"};
 constinit const Fields<ResidualRow> residual_fields{"residuals", "row", residuals, "residuals"};
 
 } // namespace gumshoe::tracing

@@ -67,6 +67,8 @@ Json limits_json(const std::vector<DetectionLimit>& limits) {
 
 std::string verdict(const Trace& t) {
   if (!t.findings.empty()) return name(t.findings.front().kind);
+  if (t.lack_of_fit.found) return "lack_of_fit";
+  if (!t.anomalous_blocks.empty()) return "anomalous_block";
   return t.outcome == Outcome::insufficient_data ? "insufficient_data" : "nothing_found";
 }
 
@@ -94,6 +96,14 @@ std::string verdict_json(const Trace& t) {
            {"rms", rms_json(t.rms)},
            {"detection_limits", limits_json(t.detection_limits)}};
   add_json(out, trace_fields, t);
+  const std::string unit = t.rms.si_unit.empty() ? "1" : t.rms.si_unit; // empty where nothing was fitted
+  out["lack_of_fit"] = json(lack_of_fit_fields, LackOfFitRow{t.lack_of_fit, unit, unit});
+  out["lack_of_fit"]["depends_on"] = t.lack_of_fit.depends_on;
+  out["anomalous_blocks"] = Json::array();
+  for (const AnomalousBlock& b : t.anomalous_blocks)
+    out["anomalous_blocks"].push_back(json(anomalous_block_fields, AnomalousBlockRow{b, unit, unit}));
+  out["outliers"] = Json::array();
+  for (const Outlier& o : t.outliers) out["outliers"].push_back(json(outlier_fields, o));
   out["noise"] = json(noise_fields, t.noise);
   out["statements"] = t.statements;
   out["plain"] = t.plain;

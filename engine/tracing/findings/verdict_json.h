@@ -6,7 +6,7 @@
 
 namespace gumshoe::tracing {
 
-/// Kind of the first finding, else "nothing_found", else "insufficient_data".
+/// Kind of the first finding, else "lack_of_fit", "anomalous_block", "nothing_found" or "insufficient_data".
 std::string verdict(const Trace& trace);
 
 /// A size in its display unit, or in SI if the conversion fails, so that a finished search is never lost. A quantity of

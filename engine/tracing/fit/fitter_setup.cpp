@@ -1,20 +1,23 @@
 /// What a fit needs to know of the scenario: its free unknowns, its declared draws, and how readings respond to those.
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
 #include "quantities/cells.h"
+#include "tracing/criteria.h"
 #include "tracing/fit/joint_fit.h"
+#include "tracing/noise/pure_error.h"
 
 namespace gumshoe::tracing {
 
 Fitter::Fitter(const propagation::Experiment& experiment, const Simulator& simulator, const Observations& observations,
                std::vector<Index> rows, int threads)
     : experiment_(experiment), simulator_(simulator), observations_(observations), rows_(std::move(rows)),
-      threads_(threads) {
+      replicates_(find_replicates(observations)), threads_(threads) {
   find_unknowns();
   find_draws();
   std::set<std::size_t> needed;
@@ -28,6 +31,7 @@ Fitter::Fitter(const propagation::Experiment& experiment, const Simulator& simul
   if (noise_declared_) need_independent_noise();
   needed_.assign(needed.begin(), needed.end());
   find_responses();
+  find_covariance_models();
 }
 
 void Fitter::need_independent_noise() const {
@@ -98,6 +102,39 @@ void Fitter::find_responses() {
     if (!(u > 0)) continue;
     responses_[i] = declared_response(simulator_, simulator_.estimates(), needed_[i], u, alone);
     if (!responses_[i].straight()) offset_ += responses_[i].offset;
+  }
+}
+
+/// What comes back in every block is no noise, however well a serial correlation or a variance component would explain
+/// it: models of more of either than the scatter about the cells' means admits are left out.
+void Fitter::find_covariance_models() {
+  const JointFit fit = linearised(1);
+  const PureError pure(fit.design, rows_, replicates_);
+  if (!fit.valid || !pure.known() || pure.cells() * observations_.indications > criteria.most_cells_of_noise) return;
+  Design cells = fit.design;
+  const Index own = cells.fixed.cols() + cells.random.cols(), k = index(observations_.indications);
+  cells.fixed.conservativeResize(Eigen::NoChange, own + index(pure.cells()) * k);
+  cells.fixed.middleCols(fit.design.fixed.cols(), cells.random.cols()) = cells.random;
+  cells.random.resize(cells.random.rows(), 0);
+  cells.bent.clear();
+  std::map<std::size_t, Index> known;
+  cells.fixed.rightCols(cells.fixed.cols() - own).setZero();
+  for (const Index row : rows_) {
+    const auto [at, fresh] = known.insert({replicates_.cell[index(row / k)], index(known.size())});
+    cells.fixed(row, own + at->second * k + row % k) = 1;
+  }
+  const Scan scan(cells, rows_, {}, threads_);
+  const auto& models = scan.covariance_models();
+  const Vector criterion = scan.criteria_of(fit.residual(rows_));
+  const auto no_more = [](const CovarianceModel& a, const CovarianceModel& b) {
+    const bool part = a.scatter < 0 || (a.scatter == b.scatter && a.indication == b.indication && a.ratio <= b.ratio);
+    return part && a.correlation <= b.correlation;
+  };
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    double least = criterion[index(i)];
+    for (std::size_t j = 0; j < models.size(); ++j)
+      if (no_more(models[j], models[i])) least = std::min(least, criterion[index(j)]);
+    if (criterion[index(i)] - least <= criteria.too_much_structure) covariance_models_.push_back(models[i]);
   }
 }
 

@@ -5,6 +5,7 @@
 #include "tracing/candidates/candidates.h"
 #include "tracing/fit/scan.h"
 #include "tracing/noise/declared_response.h"
+#include "tracing/noise/replicates.h"
 
 namespace gumshoe::tracing {
 
@@ -62,6 +63,7 @@ public:
   const std::vector<FreeUnknown>& unknowns() const { return unknowns_; }
   bool noise_declared() const { return noise_declared_; }
   const std::vector<Index>& rows() const { return rows_; }
+  const Replicates& replicates() const { return replicates_; }
 
 private:
   /// A declared draw with the (reading, quantity) pairs that it changes.
@@ -81,6 +83,7 @@ private:
   void need_independent_noise() const;
   /// Computes the responses to declared draws of effects over their values, at the estimates.
   void find_responses();
+  void find_covariance_models();
 
   bool linearise(JointFit& fit) const;
   void set_fixed(const Matrix& derivative, const std::vector<std::size_t>& wanted, JointFit& fit) const;
@@ -107,6 +110,8 @@ private:
   const Simulator& simulator_;
   const Observations& observations_;
   std::vector<Index> rows_;
+  Replicates replicates_;
+  std::vector<CovarianceModel> covariance_models_; ///< those that the scatter about what repeats admits; empty: all
   int threads_;
   std::vector<FreeUnknown> unknowns_;
   std::vector<Draw> draws_;

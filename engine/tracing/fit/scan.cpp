@@ -150,6 +150,14 @@ Matrix Scan::with_signatures(const Matrix& data, const Matrix& without, double r
   return out;
 }
 
+Vector Scan::criteria_of(const Vector& residuals) const {
+  const Matrix data = winsorised(residuals);
+  Vector out(index(models_.size()));
+  for (std::size_t k = 0; k < models_.size(); ++k)
+    out[index(k)] = criterion(whitened_[k].left(whitened_[k].whiten(data))[0], k);
+  return out;
+}
+
 Statistics Scan::run(const Matrix& residuals, double reach) const {
   Statistics out;
   const Matrix data = winsorised(residuals, &out.scale);

@@ -41,6 +41,8 @@ public:
   /// @param reach      covariance models whose criterion is further above the best one's are not tried with a
   ///                   signature: for noise alone, where no signature makes up for so much
   Statistics run(const Matrix& residuals, double reach = std::numeric_limits<double>::infinity()) const;
+  /// Minus 2 ln likelihood of one data set under each covariance model without a signature, but for a constant.
+  Vector criteria_of(const Vector& residuals) const;
   Fit fit(std::size_t candidate, const Vector& residuals) const;
   /// Two candidates together, under a given covariance model: 2 ln of the likelihood ratio against neither.
   double pair_ratio(std::size_t a, std::size_t b, const Vector& residuals, std::size_t model) const;

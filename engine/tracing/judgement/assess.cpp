@@ -7,6 +7,7 @@
 #include <boost/math/distributions/normal.hpp>
 
 #include "tracing/criteria.h"
+#include "tracing/noise/block_spread.h"
 
 namespace gumshoe::tracing {
 namespace {
@@ -70,6 +71,43 @@ private:
   bool judged_ = false;
 };
 
+/// What repeats, and the scatter of each block, as statistics. Serial correlation within a block does not come back in
+/// the next one, and so takes nothing from what does.
+class RepeatStatistics {
+public:
+  RepeatStatistics(const Repeats* repeats, const Vector& residuals) : repeats_(repeats), observed_(of(residuals)) {}
+  void match(const Matrix& draws) {
+    drawn_ = of(draws);
+    nulls_ = nulls_of(drawn_);
+  }
+  double p_lack_of_fit() const { return tests_fit() ? nulls_[0].p(observed_(0, 0)) : 1; }
+  std::vector<double> p_blocks() const {
+    std::vector<double> out;
+    for (std::size_t j = tests_fit() ? 1 : 0; j < nulls_.size(); ++j) out.push_back(nulls_[j].p(observed_(index(j), 0)));
+    return out;
+  }
+  double least() const { return least_p(nulls_, observed_, 0); }
+  double least_drawn(Index set) const { return least_p(nulls_, drawn_, set); }
+
+private:
+  bool tests_fit() const { return repeats_ && repeats_->pure.known(); }
+  /// Rows: lack of fit if it is tested, then blocks.
+  Matrix of(const Matrix& residuals) const {
+    if (!repeats_) return Matrix(0, residuals.cols());
+    const Index first = tests_fit() ? 1 : 0;
+    Matrix out(first + index(repeats_->blocks), residuals.cols());
+    if (first > 0) out.row(0) = repeats_->pure.lack_of_fit(residuals).transpose();
+    if (repeats_->blocks > 0)
+      out.bottomRows(index(repeats_->blocks)) =
+          block_spread(repeats_->pure.about_cells(residuals), repeats_->block, repeats_->blocks).statistic;
+    return out;
+  }
+
+  const Repeats* repeats_;
+  Matrix observed_, drawn_;
+  std::vector<Null> nulls_;
+};
+
 } // namespace
 
 double Null::p(double statistic) const {
@@ -85,7 +123,8 @@ double Null::quantile(double p) const {
 }
 
 Assessment assess(const Scan& scan, const Vector& residuals, int draws, std::uint64_t seed, double alpha,
-                  double declared, const ScatterResponse& response) {
+                  double declared, const ScatterResponse& response,
+                  const Repeats* repeats) {
   Assessment out;
   out.data = scan.run(residuals);
   out.noise_shape = scan.noise_shape(residuals);
@@ -93,9 +132,11 @@ Assessment assess(const Scan& scan, const Vector& residuals, int draws, std::uin
   // Two lots: one tells how each statistic is distributed, the other, as new to that as the data are, how small the
   // least of all probabilities comes out by chance.
   const Index sets = draws;
+  RepeatStatistics repeated(repeats, residuals);
   const auto null_draws = [&](std::size_t k, double variance, std::uint64_t key) {
-    return scan.run(std::sqrt(variance) * scan.whitened(k).draw(2 * index(sets), key, out.noise_shape),
-                    criteria.beyond_chance);
+    const Matrix drawn = std::sqrt(variance) * scan.whitened(k).draw(2 * index(sets), key, out.noise_shape);
+    repeated.match(drawn);
+    return scan.run(drawn, criteria.beyond_chance);
   };
   // Nothing at all: no variance component either.
   const Statistics nothing = null_draws(k0, out.data.variance_without_scatter[0], seed);
@@ -106,20 +147,24 @@ Assessment assess(const Scan& scan, const Vector& residuals, int draws, std::uin
   out.noise_small = size.judged() && 1 - out.p_noise < criteria.noise_small_p;
   std::vector<double> least;
   for (Index i = sets; i < 2 * sets; ++i)
-    least.push_back(least_p(component, nothing.scatter, i, least_p(out.null, nothing.ratio, i, size.p_drawn(i))));
+    least.push_back(least_p(component, nothing.scatter, i,
+                            least_p(out.null, nothing.ratio, i, std::min(size.p_drawn(i), repeated.least_drawn(i)))));
   for (std::size_t j = 0; j < component.size(); ++j)
     out.p_component.push_back(share_at_most(least, component[j].p(out.data.scatter(index(j), 0))));
   out.p_anything =
-      share_at_most(least, least_p(component, out.data.scatter, 0, least_p(out.null, out.data.ratio, 0, out.p_noise)));
+      share_at_most(least, least_p(component, out.data.scatter, 0,
+                                   least_p(out.null, out.data.ratio, 0, std::min(out.p_noise, repeated.least()))));
   out.p_noise_overall = share_at_most(least, out.p_noise);
   // Signatures given the noise as it seems to be, with its variance component.
   if (k1 != k0) {
     if (response) out.noise_shape.scatter = response(scan.covariance_models()[k1], out.data.variance[0]);
     const Statistics given_scatter = null_draws(k1, out.data.variance[0], seed ^ 0x5ca77e5ull);
     out.null = nulls_of(given_scatter.ratio);
-    for (Index i = 0; i < sets; ++i) least[index(i)] = least_p(out.null, given_scatter.ratio, sets + i);
+    for (Index i = 0; i < sets; ++i) least[index(i)] = least_p(out.null, given_scatter.ratio, sets + i, repeated.least_drawn(sets + i));
   }
   for (std::size_t j = 0; j < out.null.size(); ++j) out.p.push_back(out.null[j].p(out.data.ratio(index(j), 0)));
+  out.p_lack_of_fit = share_at_most(least, repeated.p_lack_of_fit());
+  for (const double p : repeated.p_blocks()) out.p_block.push_back(share_at_most(least, p));
   out.p_signature = share_at_most(least, least_p(out.null, out.data.ratio, 0));
   std::ranges::sort(least);
   const auto rank = static_cast<std::size_t>(alpha * static_cast<double>(least.size() + 1));

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "tracing/fit/scan.h"
+#include "tracing/noise/pure_error.h"
 
 namespace gumshoe::tracing {
 
@@ -18,11 +19,13 @@ struct Assessment {
   Statistics data;                 ///< statistics of the measured data
   std::vector<Null> null;          ///< by signature
   std::vector<double> p;           ///< p-value by signature, if it were the only one tried
-  double p_anything = 1;           ///< p-value of signatures, components and the noise's size together
+  double p_anything = 1;           ///< p-value of signatures, components, lack of fit and the noise's size together
   double p_signature = 1;          ///< p-value of the largest signature, given the noise as fitted
   std::vector<double> p_component; ///< p-value by variance component, over all candidates tried
   double p_noise = 1;              ///< p-value of the size of the residuals under the declared noise
   double p_noise_overall = 1;      ///< the same over all candidates tried
+  double p_lack_of_fit = 1;        ///< p-value of what repeats, over all candidates tried; 1: nothing repeats
+  std::vector<double> p_block;     ///< p-value by block of its scatter, over all candidates tried; empty: no blocks
   bool noise_small = false;        ///< true if the noise is smaller than declared, at a level of 1 in 1000
   double threshold = 0;            ///< p-value below which a single signature counts
   NoiseShape noise_shape;          ///< shape of the draws
@@ -32,10 +35,18 @@ struct Assessment {
 /// the noise; empty: as in the covariance model.
 using ScatterResponse = std::function<Matrix(const CovarianceModel&, double variance)>;
 
+/// Readings of equal conditions and of blocks: what repeats, and which block scatters.
+struct Repeats {
+  PureError pure; ///< not known: lack of fit is not tested
+  std::vector<std::size_t> block; ///< by row of the scan; empty: no blocks
+  std::size_t blocks = 0;
+};
+
 /// Assesses one data set (residuals of the scan's rows, SI) against 2 x `draws` sets of the fitted noise.
 /// @param alpha     probability of any finding if there is nothing to find
 /// @param declared  ratio of the true standard deviation to the design's under the declared noise; 0: none is declared
+/// @param repeats   what comes back, of the same rows; null: it is not tested
 Assessment assess(const Scan& scan, const Vector& residuals, int draws, std::uint64_t seed, double alpha,
-                  double declared, const ScatterResponse& response = {});
+                  double declared, const ScatterResponse& response = {}, const Repeats* repeats = nullptr);
 
 } // namespace gumshoe::tracing

@@ -69,7 +69,8 @@ std::optional<std::size_t> scatter_found(const Assessment& a, double alpha) {
 }
 
 bool larger_noise_found(const Assessment& a, double alpha, std::size_t findings) {
-  return findings == 0 && a.p_noise_overall <= alpha && a.p_signature > alpha &&
+  return findings == 0 && a.p_noise_overall <= alpha && a.p_signature > alpha && a.p_lack_of_fit > alpha &&
+         std::ranges::none_of(a.p_block, [&](double p) { return p <= alpha; }) &&
          std::ranges::none_of(a.p_component, [&](double p) { return p <= alpha; });
 }
 
@@ -79,8 +80,8 @@ bool vetoed(const HoldoutError& before, const HoldoutError& after) {
 
 std::optional<Kind> left_by_veto(Kind kind, bool scatter_in_class, bool scatter_found_alone) {
   if (kind == Kind::equivalence_class && scatter_in_class && !scatter_found_alone) return Kind::scatter;
-  if (kind == Kind::named || kind == Kind::equivalence_class) return std::nullopt;
-  return kind;
+  if (kind == Kind::scatter) return kind;
+  return std::nullopt;
 }
 
 std::string refusal(double identifiable, const std::string& absorbed_by, double p, double threshold) {

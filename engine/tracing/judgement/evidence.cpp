@@ -20,10 +20,19 @@ bool is_term(const JointFit& fit, const Candidate& a) {
 
 Design without_components(Design design) {
   design.scatter.clear();
+  std::erase_if(design.covariance_models, [](const CovarianceModel& m) { return m.scatter >= 0; });
   return design;
 }
 
 } // namespace
+
+Repeats repeats_of(const TraceContext& c, const JointFit& fit) {
+  Repeats out{PureError(fit.design, c.fitter.rows(), c.fitter.replicates()), {}, c.observations.blocks.groups.size()};
+  if (out.blocks < criteria.blocks_for_folds) out.blocks = 0;
+  for (const Index row : c.fitter.rows())
+    if (out.blocks > 0) out.block.push_back(c.observations.blocks.group[fit.design.reading[index(row)]]);
+  return out;
+}
 
 Evidence::Evidence(const TraceContext& c, const JointFit& fit, std::size_t round) : c_(c), fit_(fit) {
   const double size = std::sqrt(std::max(1e-300, fit.variance)) * fit.design.reference[0];
@@ -36,9 +45,10 @@ Evidence::Evidence(const TraceContext& c, const JointFit& fit, std::size_t round
   scan_ = std::make_unique<Scan>(fit.design, c.fitter.rows(), pointers_, c.threads);
   data_ = scan_->whitened(scan_->plain()).take(fit.residual);
   const double declared = c.fitter.noise_declared() ? 1 / fit.noise : 0;
-  assessment_ =
-      assess(*scan_, data_, c.draws, c.seed + round, c.alpha, declared,
-             [&](const CovarianceModel& model, double variance) { return scatter_response(model, variance); });
+  const Repeats repeats = repeats_of(c, fit);
+  assessment_ = assess(
+      *scan_, data_, c.draws, c.seed + round, c.alpha, declared,
+      [&](const CovarianceModel& model, double variance) { return scatter_response(model, variance); }, &repeats);
 }
 
 Matrix Evidence::scatter_response(const CovarianceModel& model, double variance) const {

@@ -14,6 +14,9 @@ struct Trial {
   double score = 0; ///< the ratio minus twice its expectation by chance
 };
 
+/// Readings of equal conditions and of blocks among the training readings. Keeps a reference to the fit's design.
+Repeats repeats_of(const TraceContext& context, const JointFit& fit);
+
 class Evidence {
 public:
   /// Finds the candidates at the point of `fit` (kept by reference) and assesses them. @param round keys the draws

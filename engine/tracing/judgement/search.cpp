@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "tracing/criteria.h"
 #include "tracing/judgement/decisions.h"
@@ -27,11 +31,16 @@ public:
     const auto mean_square = [](const JointFit& fit) { return fit.noise * fit.noise * fit.variance; };
     for (bool more = true; search_goes_on(more, out_.findings.size());) {
       const double before = mean_square(out_.found);
-      const std::size_t known = out_.findings.size();
+      const std::size_t known = out_.findings.size(), terms = out_.found.terms.size();
       more = round();
+      if (out_.found.terms.size() > terms) out_.stages.push_back({out_.found, out_.findings.size()});
       for (std::size_t i = known; i < out_.findings.size(); ++i)
         out_.findings[i].finding.removed_share = (before - mean_square(out_.found)) / mean_square(out_.base) /
                                                  static_cast<double>(out_.findings.size() - known);
+    }
+    if (out_.findings.size() >= criteria.most_findings) {
+      out_.last = Evidence(c_, out_.found, out_.findings.size()).assessment();
+      out_.capped = out_.last.p_anything <= c_.alpha;
     }
     c_.fitter.widen_jumping(out_.found);
     return std::move(out_);
@@ -215,6 +224,7 @@ private:
 
   void add_shape(std::size_t a, const JointFit& fit, const std::string& remark) {
     SearchFinding found = found_by(a, Kind::not_in_catalogue);
+    found.finding.described_by = candidate(a).name;
     found.finding.remarks.push_back("described by " + with_shape(candidate(a)));
     if (!remark.empty()) found.finding.remarks.push_back(remark);
     outcomes_[a] = "describes an unknown effect";
@@ -224,24 +234,10 @@ private:
 
   /// A variance component, or an effect that these data cannot distinguish from it. True if an effect was taken in.
   bool take_component() {
-    const auto& assessment = evidence_->assessment();
-    SearchFinding found;
-    found.finding.kind = Kind::scatter;
-    if (const auto c = scatter_found(assessment, c_.alpha)) {
-      const Grouping& group = c_.observations.replicate_groups[*c];
-      found.component = static_cast<int>(*c);
-      found.finding.p_value = assessment.p_component[*c];
-      found.finding.depends_on = group.labels;
-      found.finding.members = {"scatter:" + group.name};
-      if (take_instead(found)) return true;
-    } else if (larger_noise_found(assessment, c_.alpha, out_.findings.size())) {
-      found.finding.p_value = assessment.p_noise_overall;
-      found.finding.depends_on = {"reading"};
-      found.finding.members = {"scatter:reading"};
-    } else {
-      return false;
-    }
-    out_.findings.push_back(std::move(found));
+    const auto found = scatter_shown(c_, evidence_->assessment(), out_.findings.size());
+    if (!found) return false;
+    if (found->component >= 0 && take_instead(*found)) return true;
+    out_.findings.push_back(*found);
     return false;
   }
 
@@ -294,6 +290,42 @@ Search without_findings(Search search) {
   search.found = search.base;
   search.findings.clear();
   return search;
+}
+
+std::optional<SearchFinding> scatter_shown(const TraceContext& c, const Assessment& a, std::size_t findings) {
+  SearchFinding found;
+  found.finding.kind = Kind::scatter;
+  if (const auto component = scatter_found(a, c.alpha)) {
+    const Grouping& group = c.observations.replicate_groups[*component];
+    found.component = static_cast<int>(*component);
+    found.finding.p_value = a.p_component[*component];
+    found.finding.depends_on = group.labels;
+    found.finding.members = {"scatter:" + group.name};
+    return found;
+  }
+  if (!larger_noise_found(a, c.alpha, findings)) return std::nullopt;
+  found.finding.p_value = a.p_noise_overall;
+  found.finding.depends_on = {"reading"};
+  found.finding.members = {"scatter:reading"};
+  return found;
+}
+
+std::vector<std::string> step_back(const TraceContext& c, Search& s) {
+  s.stages.pop_back();
+  const auto known = s.findings.begin() + static_cast<std::ptrdiff_t>(s.stages.back().findings);
+  std::vector<std::string> dropped;
+  for (auto f = known; f != s.findings.end(); ++f) {
+    const auto& [kind, name, members] = std::tie(f->finding.kind, f->finding.described_by, f->finding.members);
+    dropped.push_back(kind == Kind::not_in_catalogue ? name : fmt::format("{}", fmt::join(members, " | ")));
+  }
+  s.findings.erase(known, s.findings.end());
+  s.found = s.stages.back().fit;
+  s.capped = false;
+  s.last = Evidence(c, s.found, s.findings.size()).assessment();
+  if (look_for_scatter(s.last, c.alpha))
+    if (const auto scatter = scatter_shown(c, s.last, s.findings.size())) s.findings.push_back(*scatter);
+  c.fitter.widen_jumping(s.found);
+  return dropped;
 }
 
 } // namespace gumshoe::tracing

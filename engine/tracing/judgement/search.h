@@ -1,5 +1,7 @@
 #pragma once
 /// The search for effects that the model lacks, one finding at a time.
+#include <optional>
+
 #include "tracing/fit/trace_context.h"
 #include "tracing/judgement/assess.h"
 
@@ -14,12 +16,20 @@ struct SearchFinding {
   int component = -1;             ///< index into Design::scatter, if found or a member of the class; -1: none
 };
 
+/// What stood after a round that took in a term.
+struct Stage {
+  JointFit fit;
+  std::size_t findings = 0;
+};
+
 struct Search {
   JointFit base, found; ///< without and with the terms, fitted to the training readings
   std::vector<SearchFinding> findings;
+  std::vector<Stage> stages; ///< one for each round that took in a term
   Assessment first, last;               ///< assessment of the declared model, and after all findings
   std::vector<RankedCandidate> ranking; ///< of the first round
   std::vector<DetectionLimit> limits;   ///< of the first round
+  bool capped = false;                  ///< ended at criteria.most_findings while more would be found
   int tried = 0;                        ///< signatures and variance components of the first round
 };
 
@@ -28,5 +38,11 @@ Search without_findings(Search search);
 
 /// Fits the declared model, then adds terms until nothing more is found.
 Search search(const TraceContext& context);
+/// Drops the terms of the last round and all that was found beside them, and tests anew whether what is left scatters.
+/// Names of the dropped findings. At least two rounds must have taken in terms.
+std::vector<std::string> step_back(const TraceContext& context, Search& search);
+/// The variance component or the larger noise that an assessment shows; none: neither.
+std::optional<SearchFinding> scatter_shown(const TraceContext& context, const Assessment& assessment,
+                                           std::size_t findings);
 
 } // namespace gumshoe::tracing

@@ -5,6 +5,7 @@
 namespace gumshoe::tracing {
 
 std::vector<CovarianceModel> covariance_models(const Design& d, std::size_t rows) {
+  if (!d.covariance_models.empty()) return d.covariance_models;
   std::vector<double> correlations(criteria.correlations.begin(), criteria.correlations.end());
   if (rows / d.indications < criteria.readings_for_correlation) correlations = {0.0};
   std::vector<CovarianceModel> out;

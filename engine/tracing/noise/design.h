@@ -7,6 +7,14 @@
 
 namespace gumshoe::tracing {
 
+/// Covariance of the noise in addition to what is declared: serial correlation and one variance component.
+struct CovarianceModel {
+  double correlation = 0; ///< correlation of successive readings
+  int scatter = -1;       ///< index into Design::scatter; -1: none
+  double ratio = 0;       ///< standard deviation of the component over that of the noise
+  int indication = -1;    ///< the only one that the component moves; -1: each by itself
+};
+
 /// Rows are [place in the sequence][indication]: always in the order of measurement. SI units.
 struct Design {
   std::size_t indications = 1;
@@ -23,21 +31,14 @@ struct Design {
   std::vector<int> bent;         ///< by column of U: its table of `bends`, or -1
   std::vector<double> reference; ///< by indication: typical standard uncertainty of its noise
   std::vector<Grouping> scatter; ///< possible variance components; group by reading of the scenario
+  std::vector<CovarianceModel> covariance_models; ///< those that are tried; empty: all
 };
 
 /// Columns of Design::fixed that the chosen rows can distinguish, in the order in which they are declared: a column
 /// that earlier ones explain is left out.
 std::vector<Index> independent(const Design& design, const std::vector<Index>& rows);
 
-/// Covariance of the noise in addition to what is declared: serial correlation and one variance component.
-struct CovarianceModel {
-  double correlation = 0; ///< correlation of successive readings
-  int scatter = -1;       ///< index into Design::scatter; -1: none
-  double ratio = 0;       ///< standard deviation of the component over that of the noise
-  int indication = -1;    ///< the only one that the component moves; -1: each by itself
-};
-
-/// All models that are tried: correlations alone, and with each variance component at each ratio (criteria.h).
+/// The models that are tried; all are correlations alone, and with each variance component at each ratio (criteria.h).
 std::vector<CovarianceModel> covariance_models(const Design& design, std::size_t rows);
 
 } // namespace gumshoe::tracing

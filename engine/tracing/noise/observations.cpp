@@ -46,10 +46,10 @@ std::vector<std::string> label_names(const Scenario& s) {
 }
 
 void add_covariate(Observations& o, const std::string& name, const std::string& unit, const std::string& si,
-                   const std::vector<double>& value) {
+                   const std::vector<double>& value, bool commanded = false) {
   const std::set<double> levels(value.begin(), value.end());
   if (levels.size() < 2) return;
-  o.covariates.push_back({name, unit, si, value, {levels.begin(), levels.end()}, si == "rad"});
+  o.covariates.push_back({name, unit, si, value, {levels.begin(), levels.end()}, si == "rad", commanded});
 }
 
 /// Readings in the order of measurement; ties, and data without an order, by what they are and not by where they stand.
@@ -186,7 +186,7 @@ Observations observe(const propagation::Experiment& e) {
   for (std::size_t c = 0; c < card.conditions.size(); ++c) {
     for (std::size_t r = 0; r < o.readings; ++r) one[r] = s.readings[r].conditions[c];
     add_covariate(o, std::string(card.conditions[c].name), std::string(card.conditions[c].unit),
-                  std::string(card.conditions[c].si_unit), one);
+                  std::string(card.conditions[c].si_unit), one, true);
   }
   for (const auto& c : s.trace.columns) add_covariate(o, c.name, c.unit, c.si_unit, c.values);
   const bool ordered = std::ranges::any_of(

@@ -13,6 +13,7 @@ struct Covariate {
   std::vector<double> value;  ///< by reading of the scenario, SI
   std::vector<double> levels; ///< distinct values, ascending
   bool angle = false;
+  bool commanded = false; ///< a condition of the model, and no column that was only recorded
 };
 
 /// Number of the group of each reading, if the levels are cut into at most so many groups of neighbours.

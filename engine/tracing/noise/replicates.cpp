@@ -1,0 +1,73 @@
+#include "tracing/noise/replicates.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "tracing/criteria.h"
+
+namespace gumshoe::tracing {
+namespace {
+
+/// Numbers equal values alike, in the order in which they are met.
+template <class T> std::vector<std::size_t> numbered(const std::vector<T>& values) {
+  std::map<T, std::size_t> known;
+  std::vector<std::size_t> out;
+  for (const T& x : values) out.push_back(known.insert({x, known.size()}).first->second);
+  return out;
+}
+
+std::size_t count(const std::vector<std::size_t>& level) { return std::set(level.begin(), level.end()).size(); }
+
+/// Whether a level comes back in half of the blocks or more, on average: what was set again, and no name of a block.
+bool comes_back(const std::vector<std::size_t>& level, const std::vector<std::size_t>& block) {
+  std::set<std::pair<std::size_t, std::size_t>> met;
+  for (std::size_t i = 0; i < level.size(); ++i) met.insert({level[i], block[i]});
+  return 2 * met.size() >= count(level) * count(block);
+}
+
+} // namespace
+
+std::vector<std::size_t> Replicates::cells(std::size_t without) const {
+  std::vector<std::vector<std::size_t>> all(pass.size());
+  for (std::size_t f = 0; f < factors.size(); ++f)
+    for (std::size_t i = 0; i < all.size() && f != without; ++i) all[i].push_back(factors[f].level[i]);
+  return numbered(all);
+}
+
+Replicates find_replicates(const Observations& o) {
+  const std::size_t n = o.readings;
+  Replicates out;
+  out.passes_are_blocks = o.blocks.groups.size() > 1;
+  for (std::size_t i = 0; i < n; ++i)
+    out.pass.push_back(out.passes_are_blocks ? o.blocks.group[o.sequence[i]] : i * criteria.stretches / n);
+  const auto in_order = [&](const auto& by_reading) {
+    auto values = by_reading;
+    for (std::size_t i = 0; i < n; ++i) values[i] = by_reading[o.sequence[i]];
+    return numbered(values);
+  };
+  for (const Covariate& c : o.covariates) {
+    // What is hardly ever equal, such as time, was not set.
+    if (c.levels.size() * criteria.least_repeats > n) continue;
+    auto level = in_order(c.value);
+    if (c.commanded || !out.passes_are_blocks || comes_back(level, out.pass)) out.factors.push_back({c.name, level});
+  }
+  for (const Grouping& g : o.labels) {
+    const bool repeated_step =
+        std::ranges::any_of(o.replicate_groups, [&](const Grouping& r) { return r.labels == g.labels; });
+    auto level = in_order(g.group);
+    if (g.group != o.blocks.group && (out.passes_are_blocks ? comes_back(level, out.pass) : !repeated_step))
+      out.factors.push_back({g.name, level});
+  }
+  if (out.passes_are_blocks) {
+    std::map<std::pair<std::size_t, std::size_t>, std::size_t> met;
+    std::vector<std::size_t> place;
+    const auto cell = out.cells(out.factors.size());
+    for (std::size_t i = 0; i < n; ++i) place.push_back(met[{cell[i], out.pass[i]}]++);
+    if (count(place) > 1) out.factors.push_back({"place in the block", place});
+  }
+  out.cell = out.cells(out.factors.size());
+  return out;
+}
+
+} // namespace gumshoe::tracing

@@ -1,0 +1,62 @@
+"""Readings of an axis whose conditions come back in every cycle: what repeats, what drifts, what scatters, and one cycle
+or one reading that differs from the others. The true scatter of a reading is 1 um."""
+import random
+
+import axis
+
+CYCLES, POSITIONS, PITCH, STEP = 5, 9, 50.0, 20  # mm, s
+
+
+def walk(seed, size, rho):
+    """A pattern over the places of a cycle that looks like noise of serial correlation rho."""
+    chance = random.Random(f"walk {seed}")
+    out = [chance.gauss(0, size)]
+    while len(out) < 2 * POSITIONS:
+        out.append(rho * out[-1] + (1 - rho * rho) ** 0.5 * chance.gauss(0, size))
+    return out
+
+
+# What is missing, in um, by cycle c (from 0), place k in the cycle, position p, its coordinate x, direction d, time t.
+MISSING = {
+    "nothing": lambda c, k, p, x, d, t, w: 0,
+    "alternating_reversal": lambda c, k, p, x, d, t, w: 10 * d * (-1) ** p,
+    "correlated_pattern": lambda c, k, p, x, d, t, w: w[k],
+    "drift_by_position": lambda c, k, p, x, d, t, w: 2e-5 * t * x,
+    "first_cycle_shifted": lambda c, k, p, x, d, t, w: 8 if c == 0 else 0,
+    "third_cycle_noisy": lambda c, k, p, x, d, t, w: 0,
+    "one_bad": lambda c, k, p, x, d, t, w: 30 if (c, k) == (2, 7) else 0,
+    "last_cycle_tilted": lambda c, k, p, x, d, t, w: 0.05 * x if c == CYCLES - 1 else 0,
+}
+
+
+def rows(missing, seed=1, cycles=CYCLES):
+    """Rows of r.csv with their header."""
+    chance = random.Random(f"{missing} {seed}")
+    pattern = walk(seed, 3, 0.9)
+    out, t = [("cycle", "x", "direction", "t", "T", "d")], 0
+    for c in range(cycles):
+        for k, p in enumerate((*range(POSITIONS), *reversed(range(POSITIONS)))):
+            d, x = (1 if k < POSITIONS else -1), PITCH * p
+            noise = 6 if missing == "third_cycle_noisy" and c == 2 else 1
+            out.append((c + 1, x, d, t, 20 + 1e-3 * t, 2 + MISSING[missing](c, k, p, x, d, t, pattern) + chance.gauss(0, noise)))
+            t += STEP
+    return out
+
+
+def write(folder, missing, seed=1, declared=True, cycles=CYCLES, draws=99):
+    (folder / "r.csv").write_text("".join(",".join(map(str, row)) + "\n" for row in rows(missing, seed, cycles)))
+    (folder / "s.toml").write_text(axis.scenario(declared, draws))
+
+
+def write_unrecorded(folder, seed=1, declared=True, draws=99):
+    """Two runs through the positions in each cycle, told apart by a label only; what reads 3 um more in
+    one reads 3 um less in the other, and so from position to position."""
+    lines = ["cycle,run,x,direction,t,T,d"]
+    chance = random.Random(f"unrecorded {seed}")
+    for c in range(6):
+        for run in (1, 2):
+            for p in range(POSITIONS):
+                d = 2 + 3 * (-1) ** (run + p) + chance.gauss(0, 1)
+                lines.append(f"{c + 1},{run},{PITCH * p},1,{STEP * len(lines)},{20 + 1e-3 * len(lines)},{d}")
+    (folder / "r.csv").write_text("\n".join(lines) + "\n")
+    (folder / "s.toml").write_text(axis.scenario(declared, draws).replace('{ cycle = "cycle" }', '{ cycle = "cycle", run = "run" }'))
