@@ -41,11 +41,10 @@ bool enough(const TraceContext& c, Trace& out) {
   if (rows.size() < unknowns + criteria.readings_above_unknowns) {
     const auto& readings = c.experiment.scenario().readings;
     const bool repeated = std::ranges::any_of(readings, [](const auto& r) { return r.repeats > 1; });
-    out.statements.push_back(
-        fmt::format("{} readings{} determine {} unknowns; at least four more readings than unknowns are needed to "
-                    "judge the residuals",
-                    rows.size(), repeated ? " (readings with equal labels and conditions count as one)" : "",
-                    unknowns));
+    out.statements.push_back(fmt::format(
+        "{} readings{} determine {} unknowns; at least four more readings than unknowns are needed to "
+        "judge the residuals",
+        rows.size(), repeated ? " (readings with equal labels and conditions count as one)" : "", unknowns));
     out.outcome = Outcome::insufficient_data;
     return false;
   }
@@ -64,12 +63,13 @@ bool enough(const TraceContext& c, Trace& out) {
   return false;
 }
 
-/// Compares before and after. If the hold-out blocks veto, what was found last is dropped, with all that was found beside
-/// it, and they judge the rest anew.
+/// Compares before and after. If the hold-out blocks veto, what was found last is dropped, with all that was found
+/// beside it, and they judge the rest anew.
 void judge_by_holdout(const TraceContext& c, Search& found, Trace& out) {
   const Trace start = out;
   std::vector<std::string> rejected;
-  for (out.vetoed = compare(c, found, out); out.vetoed && found.stages.size() > 1; out.vetoed = compare(c, found, out)) {
+  for (out.vetoed = compare(c, found, out); out.vetoed && found.stages.size() > 1;
+       out.vetoed = compare(c, found, out)) {
     const auto dropped = step_back(c, found);
     rejected.insert(rejected.begin(), dropped.begin(), dropped.end());
     out = start;
@@ -100,8 +100,8 @@ Trace trace(const scenario::Scenario& scenario, const Settings& settings) {
   const propagation::Experiment experiment(out.extended);
   const auto& model = experiment.model();
   if (!model.simulate_gradient && !(model.kernels && model.kernels() && model.kernels()->simulate))
-    calibration::refuse(scenario.file, fmt::format("model {}: the model cannot simulate its indications",
-                                                   scenario.model),
+    calibration::refuse(scenario.file,
+                        fmt::format("model {}: the model cannot simulate its indications", scenario.model),
                         "residuals are measured minus simulated indications",
                         scenario.made ? "add [model.indications] with a formula for each" : "");
   const Observations observations = observe(experiment);
@@ -133,8 +133,8 @@ Trace trace(const scenario::Scenario& scenario, const Settings& settings) {
         "the model has a kink at the point of linearisation; its derivatives hold for one side only");
   judge_by_holdout(c, found, out);
   if (found.capped)
-    out.statements.push_back(fmt::format("the search ended at its limit of {} findings; more would be found",
-                                         criteria.most_findings));
+    out.statements.push_back(
+        fmt::format("the search ended at its limit of {} findings; more would be found", criteria.most_findings));
   out.capped = found.capped;
   describe_repeats(c, found, out);
   describe_noise(c, found, out);

@@ -91,9 +91,10 @@ struct Rms {
   std::string worst_block;
   double worst_point_before = none, worst_point_after = none; ///< largest residual of a hold-out reading
   std::string worst_point;
-  /// (before^2 - after^2) / (before^2 - floor^2) of the hold-out; the floor is that of replicates, else the declared noise
+  /// (before^2 - after^2) / (before^2 - floor^2) of the hold-out; the floor is that of replicates, else the declared
+  /// noise
   double share_removed = none;
-  std::string holdout;         ///< the hold-out: "setup 3, 4", "each block left out in turn", "none: one block"
+  std::string holdout; ///< the hold-out: "setup 3, 4", "each block left out in turn", "none: one block"
 };
 
 /// One reading of one indication.
@@ -119,7 +120,8 @@ struct Noise {
   int outliers = 0;
 };
 
-/// What still comes back with the conditions after everything found, against the scatter of readings of equal conditions.
+/// What still comes back with the conditions after everything found, against the scatter of readings of equal
+/// conditions.
 struct LackOfFit {
   bool found = false;                  ///< more repeats than chance gives, and nothing that was found explains it
   double p_value = Rms::none;          ///< over all tests of the last round; NaN: too few readings repeat
@@ -131,10 +133,10 @@ struct LackOfFit {
 
 /// A block whose readings scatter about what the other blocks show by more than theirs do.
 struct AnomalousBlock {
-  std::string name;           ///< "cycle 3"
-  double p_value = 1;         ///< over all tests of the last round
-  double spread = Rms::none;  ///< typical scatter of its readings, SI of the first indication
-  double others = Rms::none;  ///< the same of the other blocks
+  std::string name;          ///< "cycle 3"
+  double p_value = 1;        ///< over all tests of the last round
+  double spread = Rms::none; ///< typical scatter of its readings, SI of the first indication
+  double others = Rms::none; ///< the same of the other blocks
 };
 
 /// A reading of reduced weight.
@@ -186,7 +188,7 @@ struct Trace {
   /// True if the hold-out blocks lie beyond the range over which what was found is known: their veto stands, but what
   /// was found is reported.
   bool beyond_range = false;
-  bool capped = false;           ///< true if the search ended at its largest number of findings, with more to be found
+  bool capped = false; ///< true if the search ended at its largest number of findings, with more to be found
   std::vector<DetectionLimit> detection_limits;
   std::vector<RankedCandidate> candidates; ///< candidates of the first round, best first
   std::vector<Row> rows;

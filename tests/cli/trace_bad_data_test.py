@@ -117,7 +117,7 @@ class BadData(InFolder):
         data = [[s, r, f, f"{round(float(z), 2):.2f}"] for s, r, f, z in rows(delay=0)]
         for noise in (NOISE, ""):
             self.assertIn(self.verdict(data, noise=noise)["verdict"],
-                          ("nothing_found", "insufficient_data", "scatter", "not_in_catalogue"))
+                          ("nothing_found", "insufficient_data", "scatter", "not_in_catalogue", "anomalous_block"))
 
     def test_without_noise_the_effect_is_exact(self):
         for noise in (NOISE, ""):

@@ -149,8 +149,8 @@ class Page(Made):
                                "not_in_catalogue": "Found: an unknown effect",
                                "two_findings": "Found: trigger latency and an unknown effect",
                                "nothing_found": "Nothing found", "lack_of_fit": "Held-out readings are off by more than noise",
-                               ""insufficient_data": "These data cannot decide"}.items():
-            self.assertTrue(self.first(kind).startswith(f" {headline} "), self.first(kind)[:80])
+                               "insufficient_data": "These data cannot decide"}.items():
+            self.assertRegex(self.first(kind), f"^ {headline}[; ]")
             plain = self.said[kind]["plain"][0].replace(" um", " µm")
             self.assertIn(plain, self.first(kind))
 

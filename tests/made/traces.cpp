@@ -345,7 +345,8 @@ Traced lack_of_fit() {
   trace.lack_of_fit = {true, 0.002, 2.9 * um, {"feed", "rod"}, 12, 40};
   trace.anomalous_blocks = {{"setup 3", 0.004, 5.5 * um, 0.6 * um}};
   trace.outliers = {{"reading 7 (setup 1, rod 1)", "setup 1", "spindle_z", "mm", "m", -9.1 * um, 0.21}};
-  trace.plain = {"A repeatable part of 2.9 um is left that no effect of the catalogue explains; it depends on feed and rod."};
+  trace.plain = {
+      "A repeatable part of 2.9 um is left that no effect of the catalogue explains; it depends on feed and rod."};
   return t;
 }
 

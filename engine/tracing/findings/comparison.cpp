@@ -154,8 +154,8 @@ public:
   }
 
 private:
-  /// Draws of the fitted noise, all rows x sets. Declared draws that the training data show are part of the fit and stay
-  /// out; those of a single block are not predicted, and so belong to what its readings scatter.
+  /// Draws of the fitted noise, all rows x sets. Declared draws that the training data show are part of the fit and
+  /// stay out; those of a single block are not predicted, and so belong to what its readings scatter.
   Matrix noise_of_readings(const std::vector<Index>& every) const {
     Design design = after_.design;
     std::vector<Index> own;
@@ -186,7 +186,9 @@ private:
     Vector drawn = pure.scale(noise_(rows_, Eigen::all));
     const double middle = std::sqrt(drawn.squaredNorm() / static_cast<double>(drawn.size()));
     std::ranges::sort(drawn);
-    const auto ratio = [&](double p) { return drawn[static_cast<Index>(p * static_cast<double>(drawn.size()))] / middle; };
+    const auto ratio = [&](double p) {
+      return drawn[static_cast<Index>(p * static_cast<double>(drawn.size()))] / middle;
+    };
     Rms& rms = out_.rms;
     rms.replicate_floor = reference * pure.scale(after_.residual(rows_))[0];
     rms.replicate_floor_low = rms.replicate_floor / ratio(0.975);
@@ -269,8 +271,8 @@ private:
   }
 
   /// A drift cannot be judged by blocks beyond its end, to which it would have to be extrapolated: every block between
-  /// the first and the last is predicted from all others as well. The search has used most of these, so that only a gain
-  /// beyond doubt outweighs the veto.
+  /// the first and the last is predicted from all others as well. The search has used most of these, so that only a
+  /// gain beyond doubt outweighs the veto.
   bool confirmed_between_blocks() {
     const auto names = extrapolated();
     out_.beyond_range = !names.empty();

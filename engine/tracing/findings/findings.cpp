@@ -23,10 +23,9 @@ void state_veto(const Search& s, Trace& out) {
                            "hold-out blocks; nothing is added");
   for (const SearchFinding& one : s.findings)
     if (const Finding& f = one.finding; f.kind != Kind::scatter)
-      out.statements.push_back(fmt::format("rejected by the hold-out blocks: {} (p = {:.2g})",
-                                           f.described_by.empty() ? fmt::format("{}", fmt::join(f.members, ", "))
-                                                                  : f.described_by,
-                                           f.p_value));
+      out.statements.push_back(fmt::format(
+          "rejected by the hold-out blocks: {} (p = {:.2g})",
+          f.described_by.empty() ? fmt::format("{}", fmt::join(f.members, ", ")) : f.described_by, f.p_value));
 }
 
 /// What a veto leaves of a finding; false if nothing.

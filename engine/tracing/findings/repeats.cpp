@@ -29,8 +29,7 @@ void describe_repeats(const TraceContext& c, const Search& s, Trace& out) {
   for (std::size_t b = 0; b < assessment.p_block.size(); ++b)
     if (assessment.p_block[b] <= c.alpha)
       out.anomalous_blocks.push_back({c.observations.blocks.groups[b], assessment.p_block[b],
-                                      reference * spread.typical(index(b), 0),
-                                      reference * spread.others(index(b), 0)});
+                                      reference * spread.typical(index(b), 0), reference * spread.others(index(b), 0)});
   std::ranges::stable_sort(out.anomalous_blocks, {}, &AnomalousBlock::p_value);
 }
 

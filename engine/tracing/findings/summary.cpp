@@ -32,7 +32,8 @@ std::string what_was_found(const Finding& f) {
     if (f.described_by.starts_with("table:"))
       return fmt::format("A part of the error repeats that no effect of the catalogue explains; it depends on {}.",
                          depends_on);
-    if (const std::string step = "step:"; f.described_by.starts_with(step) && f.described_by.find(depends_on + " ") != std::string::npos)
+    if (const std::string step = "step:";
+        f.described_by.starts_with(step) && f.described_by.find(depends_on + " ") != std::string::npos)
       return fmt::format("{} differs from the others by a constant.", f.described_by.substr(step.size()));
     return fmt::format("An unknown effect changes the readings with {}.", depends_on);
   }
@@ -73,26 +74,24 @@ std::string held_out_error(const Rms& r) {
 std::string what_residuals_show(const Trace& t) {
   const Rms& r = t.rms;
   constexpr const char* lacks = "the model or the declared noise lacks something that these data do not identify.";
-  const std::string noise =
-      std::isfinite(r.noise_high) ? in_95(r.noise_low, r.noise_high, r) : shown_rms(r.noise, r);
+  const std::string noise = std::isfinite(r.noise_high) ? in_95(r.noise_low, r.noise_high, r) : shown_rms(r.noise, r);
   if (held_out_exceeds(r)) return fmt::format("No candidate explains it: {}", lacks);
   if (r.before > r.noise_high && t.p_anything > t.alpha && !t.outliers.empty())
-    return fmt::format("The residuals of the training data ({}) are larger than noise alone gives ({}), because {} outlying; "
-                       "the worst, {}, by {}. Check it.",
-                       shown_rms(r.before, r), noise,
-                       t.outliers.size() == 1 ? "one reading is" : fmt::format("{} readings are", t.outliers.size()),
-                       t.outliers[0].reading, shown_rms(std::fabs(t.outliers[0].residual), r));
+    return fmt::format(
+        "The residuals of the training data ({}) are larger than noise alone gives ({}), because {} outlying; "
+        "the worst, {}, by {}. Check it.",
+        shown_rms(r.before, r), noise,
+        t.outliers.size() == 1 ? "one reading is" : fmt::format("{} readings are", t.outliers.size()),
+        t.outliers[0].reading, shown_rms(std::fabs(t.outliers[0].residual), r));
   if (r.before > r.noise_high)
     return fmt::format("No candidate explains the residuals, but those of the training data ({}) are larger than noise "
                        "alone gives ({}): {}",
                        shown_rms(r.before, r), noise, lacks);
   // Nothing agrees whose chance is small.
-  for (const auto& [p, of] : {std::pair{t.p_anything, "residuals like these"},
-                              std::pair{t.noise.chi_squared_p, "residuals as large as these"}})
-    if (p <= t.alpha)
-      return fmt::format("No candidate explains the residuals ({}), but noise alone gives {} in only {:.2g} % of cases: "
-                         "{}",
-                         shown_rms(r.before, r), of, 100 * p, lacks);
+  if (t.p_anything <= t.alpha)
+    return fmt::format("No candidate explains the residuals ({}), but noise alone gives residuals like these in only "
+                       "{:.2g} % of cases: {}",
+                       shown_rms(r.before, r), 100 * t.p_anything, lacks);
   return fmt::format("The measured values agree with the model: the residuals ({}) are no larger than noise alone "
                      "gives ({}).",
                      shown_rms(r.before, r), noise);

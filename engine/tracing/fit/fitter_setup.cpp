@@ -40,8 +40,8 @@ void Fitter::need_independent_noise() const {
   for (std::size_t k = 0; k < noise.size(); ++k) {
     const auto independent = [&](const Draw& d) {
       return d.local && d.u > 0 && std::any_of(d.moves.begin(), d.moves.end(), [&](const auto& move) {
-        return move.second == noise[k] || !noise.contains(move.second);
-      });
+               return move.second == noise[k] || !noise.contains(move.second);
+             });
     };
     if (std::any_of(draws_.begin(), draws_.end(), independent)) continue;
     const std::string name = s.quantities[noise[k]].name;

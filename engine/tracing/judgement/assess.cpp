@@ -83,7 +83,8 @@ public:
   double p_lack_of_fit() const { return tests_fit() ? nulls_[0].p(observed_(0, 0)) : 1; }
   std::vector<double> p_blocks() const {
     std::vector<double> out;
-    for (std::size_t j = tests_fit() ? 1 : 0; j < nulls_.size(); ++j) out.push_back(nulls_[j].p(observed_(index(j), 0)));
+    for (std::size_t j = tests_fit() ? 1 : 0; j < nulls_.size(); ++j)
+      out.push_back(nulls_[j].p(observed_(index(j), 0)));
     return out;
   }
   double least() const { return least_p(nulls_, observed_, 0); }
@@ -123,8 +124,7 @@ double Null::quantile(double p) const {
 }
 
 Assessment assess(const Scan& scan, const Vector& residuals, int draws, std::uint64_t seed, double alpha,
-                  double declared, const ScatterResponse& response,
-                  const Repeats* repeats) {
+                  double declared, const ScatterResponse& response, const Repeats* repeats) {
   Assessment out;
   out.data = scan.run(residuals);
   out.noise_shape = scan.noise_shape(residuals);
@@ -160,7 +160,8 @@ Assessment assess(const Scan& scan, const Vector& residuals, int draws, std::uin
     if (response) out.noise_shape.scatter = response(scan.covariance_models()[k1], out.data.variance[0]);
     const Statistics given_scatter = null_draws(k1, out.data.variance[0], seed ^ 0x5ca77e5ull);
     out.null = nulls_of(given_scatter.ratio);
-    for (Index i = 0; i < sets; ++i) least[index(i)] = least_p(out.null, given_scatter.ratio, sets + i, repeated.least_drawn(sets + i));
+    for (Index i = 0; i < sets; ++i)
+      least[index(i)] = least_p(out.null, given_scatter.ratio, sets + i, repeated.least_drawn(sets + i));
   }
   for (std::size_t j = 0; j < out.null.size(); ++j) out.p.push_back(out.null[j].p(out.data.ratio(index(j), 0)));
   out.p_lack_of_fit = share_at_most(least, repeated.p_lack_of_fit());

@@ -37,7 +37,7 @@ using ScatterResponse = std::function<Matrix(const CovarianceModel&, double vari
 
 /// Readings of equal conditions and of blocks: what repeats, and which block scatters.
 struct Repeats {
-  PureError pure; ///< not known: lack of fit is not tested
+  PureError pure;                 ///< not known: lack of fit is not tested
   std::vector<std::size_t> block; ///< by row of the scan; empty: no blocks
   std::size_t blocks = 0;
 };

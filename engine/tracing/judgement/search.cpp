@@ -53,8 +53,9 @@ private:
 
   /// Takes in one more effect; false if there is none.
   bool round() {
-    report_progress(out_.findings.empty() ? "searching for what is missing from the declared model" : "searching for "
-                                                                                                      "more");
+    report_progress(out_.findings.empty() ? "searching for what is missing from the declared model"
+                                          : "searching for "
+                                            "more");
     const bool first = out_.findings.empty() && out_.first.p.empty();
     const Evidence evidence(c_, out_.found, out_.findings.size());
     evidence_ = &evidence;

@@ -25,7 +25,7 @@ struct Stage {
 struct Search {
   JointFit base, found; ///< without and with the terms, fitted to the training readings
   std::vector<SearchFinding> findings;
-  std::vector<Stage> stages; ///< one for each round that took in a term
+  std::vector<Stage> stages;            ///< one for each round that took in a term
   Assessment first, last;               ///< assessment of the declared model, and after all findings
   std::vector<RankedCandidate> ranking; ///< of the first round
   std::vector<DetectionLimit> limits;   ///< of the first round

@@ -125,7 +125,8 @@ PureError::PureError(const Design& d, const std::vector<Index>& rows, const Repl
   add(drifts, pass, true);
   if (model.scatter >= 0) {
     const Grouping& g = d.scatter[index(model.scatter)];
-    add(drifts, [&](Index place) { return g.group[d.reading[index(place * k)]]; }, false);
+    add(
+        drifts, [&](Index place) { return g.group[d.reading[index(place * k)]]; }, false);
   }
   drifts = whitened(drifts);
   pure_ = projection(replicates.cell, true, drifts);
@@ -140,7 +141,7 @@ PureError::Cleaned PureError::cleaned(const Matrix& residuals) const {
   std::vector<Index> open;
   for (Index j = 0; j < residuals.cols(); ++j) open.push_back(j);
   std::vector<std::vector<Index>> missing(index(residuals.cols()));
-  constexpr int most = 100;      // what replaces a reading converges at least by half each time
+  constexpr int most = 100;        // what replaces a reading converges at least by half each time
   constexpr double settled = 1e-2; // of the scale: far below what counts
   for (int pass = 0; pass < most && !open.empty(); ++pass) {
     const Matrix left = pure_(out.data(Eigen::all, open));

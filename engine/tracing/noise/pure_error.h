@@ -1,12 +1,12 @@
 #pragma once
 /// Pure error: the scatter of readings whose conditions come back; and lack of fit, what comes back with them.
 ///
-/// A whitened residual of cell c in pass b is m_c + (drift) + e, where m_c is any function of the cell. The pure error is
-/// what is left when these are projected out together: the model's own columns and its declared draws; a constant and,
-/// from four readings of a cell on, a straight line in time for every cell; a constant and a straight line for every
-/// pass. So neither what repeats nor a slow drift counts, even one that differs from cell to cell. Readings beyond
-/// criteria.winsor_limit robust standard deviations are left out, each with its degree of freedom. The lack of fit is what
-/// the cells' constants take.
+/// A whitened residual of cell c in pass b is m_c + (drift) + e, where m_c is any function of the cell. The pure error
+/// is what is left when these are projected out together: the model's own columns and its declared draws; a constant
+/// and, from four readings of a cell on, a straight line in time for every cell; a constant and a straight line for
+/// every pass. So neither what repeats nor a slow drift counts, even one that differs from cell to cell. Readings
+/// beyond criteria.winsor_limit robust standard deviations are left out, each with its degree of freedom. The lack of
+/// fit is what the cells' constants take.
 #include "tracing/noise/replicates.h"
 #include "tracing/noise/whitened.h"
 
@@ -58,7 +58,7 @@ private:
   std::vector<Index> rows_;
   const Replicates& replicates_;
   std::size_t cells_ = 0;
-  Matrix nuisance_;                   ///< whitened columns of the model and, where they are blocks, constants of passes
+  Matrix nuisance_;                  ///< whitened columns of the model and, where they are blocks, constants of passes
   Projection without_, with_, pure_; ///< without and with the cells' constants; with all that drifts, too
 };
 

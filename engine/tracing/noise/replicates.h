@@ -17,8 +17,8 @@ struct Factor {
 /// from block to block, and in their place among the equal readings of their block.
 struct Replicates {
   std::vector<Factor> factors;
-  std::vector<std::size_t> cell;  ///< combination of the factors' levels
-  std::vector<std::size_t> pass;  ///< block, or without blocks a stretch of the sequence
+  std::vector<std::size_t> cell; ///< combination of the factors' levels
+  std::vector<std::size_t> pass; ///< block, or without blocks a stretch of the sequence
   bool passes_are_blocks = false;
   /// Cells that the factors other than one distinguish; `without` = their number: all of them.
   std::vector<std::size_t> cells(std::size_t without) const;
