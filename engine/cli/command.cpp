@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include <fmt/chrono.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -61,6 +62,11 @@ void require_different(const std::string& out, const std::string& in) {
   if (std::filesystem::equivalent(out, in, ignored))
     throw OutputError(out + ": this is the file that is read", "it would be overwritten",
                       "choose another name for the output");
+}
+
+std::string date_text(std::time_t moment) {
+  const char* given = std::getenv("SOURCE_DATE_EPOCH");
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(given ? std::time_t(std::atoll(given)) : moment));
 }
 
 std::string default_output(const std::string& scenario, const std::string& ending) {

@@ -1,5 +1,6 @@
 #pragma once
 /// The subcommands of `gumshoe`, one file each. Numbers go to stdout, progress and errors to stderr.
+#include <ctime>
 #include <functional>
 #include <string>
 
@@ -42,6 +43,9 @@ std::uint64_t whole_number(const std::string& text, const std::string& option, s
 
 /// Refuses to write over what was read.
 void require_different(const std::string& out, const std::string& in);
+
+/// A moment as files state it; SOURCE_DATE_EPOCH instead, where a file is to be reproduced byte by byte.
+std::string date_text(std::time_t moment);
 
 /// Where a command writes unless told otherwise: results/NAME + `ending`, NAME being that of the scenario. Makes the
 /// folder.

@@ -6,7 +6,6 @@
 #include <memory>
 #include <optional>
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -63,9 +62,8 @@ bool sample(scenario::Scenario& s, const propagation::Experiment& e, store::Resu
 
 /// When, where and how long: of a file that is to be reproduced byte by byte (SOURCE_DATE_EPOCH) only the given time.
 void stamp(analysis::Results& r, std::time_t started, std::chrono::steady_clock::time_point began) {
-  const char* given = std::getenv("SOURCE_DATE_EPOCH");
-  r.date = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(given ? std::time_t(std::atoll(given)) : started));
-  if (given) return;
+  r.date = date_text(started);
+  if (std::getenv("SOURCE_DATE_EPOCH")) return;
   char name[256] = {};
   if (gethostname(name, sizeof name - 1) == 0) r.host = name;
   r.duration = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();

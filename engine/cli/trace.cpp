@@ -15,6 +15,7 @@
 #include "cli/generator.h"
 #include "cli/print_trace.h"
 #include "cli/progress_line.h"
+#include "cli/trace_history.h"
 #include "cli/trace_rounds.h"
 #include "cli/traced_budgets.h"
 #include "store/origin.h"
@@ -26,7 +27,7 @@ namespace gumshoe::cli {
 namespace {
 
 struct Options {
-  std::string file, data, out, json, report, format = "text";
+  std::string file, data, out, json, report, history, format = "text";
   std::optional<std::string> draws, seed;
   int threads = 0, loop = 1;
   bool force = false;
@@ -80,8 +81,8 @@ void close_loop(const scenario::Scenario& s, const std::string& text, const Outp
   draft.add(out.scenario, store::signed_scenario(text, out.origin));
 }
 
-/// The verdict with the rounds, and with the signature by which the file may be replaced.
-std::string signed_verdict(const Rounds& rounds, const store::Origin& origin) {
+/// The verdict with the rounds and the history, and with the signature by which the file may be replaced.
+std::string signed_verdict(const Rounds& rounds, const History& history, const store::Origin& origin) {
   auto verdict = nlohmann::ordered_json::parse(tracing::verdict_json(rounds.first));
   const auto number = [](double x) { return std::isfinite(x) ? nlohmann::ordered_json(x) : nlohmann::ordered_json(); };
   for (const Round& r : rounds.table)
@@ -93,6 +94,7 @@ std::string signed_verdict(const Rounds& rounds, const store::Origin& origin) {
                                  {"noise", number(r.rms.noise)},
                                  {"replicate_floor", number(r.rms.replicate_floor)},
                                  {"vetoed", r.vetoed}});
+  if (history) verdict["history"] = history.json();
   verdict["made_by"] = store::signature(origin);
   return verdict.dump(2) + '\n';
 }
@@ -105,17 +107,19 @@ ExitCode trace(const Options& o) {
   Outputs outputs = claimed_outputs(o, s);
   const std::string out = outputs.result.path();
   if (!outputs.result.remark.empty()) std::cerr << outputs.result.remark << '\n';
+  History history(o.history, s);
   const ModelCard& card = s.made ? *s.made->card : *models::find(s.model)->card;
   ProgressLine line;
   const StudyProgress studies(line);
-  const Rounds rounds = trace_rounds(s, {o.threads, progress::stage}, outputs.scenario, o.loop);
+  const Rounds rounds = trace_rounds(s, {o.threads, progress::stage, bool(history)}, outputs.scenario, o.loop);
   line.clear();
   store::TracedBudgets budgets;
   store::Draft draft;
   close_loop(s, rounds.text, outputs, draft, budgets);
   store::write_trace(draft, outputs.result, s, card, rounds.first, budgets);
   std::vector<std::string> written{out};
-  const std::string verdict = signed_verdict(rounds, outputs.origin);
+  if (history) history.append(rounds.first, draft);
+  const std::string verdict = signed_verdict(rounds, history, outputs.origin);
   if (!o.json.empty()) {
     draft.add(outputs.json, verdict);
     written.push_back(o.json);
@@ -132,6 +136,7 @@ ExitCode trace(const Options& o) {
   else
     print_trace(rounds.first, s.title, written, rounds.text.empty() ? "" : outputs.scenario.path());
   if (o.format != "json" && o.loop > 1) std::cout << table(rounds.table);
+  if (o.format != "json" && history) std::cout << history.text(s.trace.alpha);
   return code;
 }
 
@@ -151,6 +156,7 @@ void add_trace(CLI::App& app, Action& action) {
   command->add_option("--seed", o->seed, "seed of the bootstrap, instead of the scenario's");
   command->add_option("--loop", o->loop, "traces again what was written, until nothing is added, at most so many times")
       ->check(CLI::Range(1, 20));
+  command->add_option("--append", o->history, "history file, to which the evidence of these readings is added");
   command->add_option("--threads", o->threads, "0: all processors")->check(CLI::Range(0, 1024));
   command->add_option("--format", o->format, "text or json")->check(CLI::IsMember({"text", "json"}));
   command->callback([=, &action] { action = [=] { return trace(*o); }; });

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/units.h"
+#include "tracing/campaigns/scores.h"
 #include "tracing/candidates/extended_scenario.h"
 #include "tracing/criteria.h"
 #include "tracing/findings/comparison.h"
@@ -122,6 +123,7 @@ Trace trace(const scenario::Scenario& scenario, const Settings& settings) {
     return out;
   }
   Search found = search(c);
+  if (settings.scores) out.campaign = scores_of(c, found.base);
   out.tried = found.tried;
   out.p_anything = found.first.p_anything;
   out.candidates = found.ranking;

@@ -9,6 +9,7 @@
 
 #include "calibration/estimate.h"
 #include "propagation/experiment.h"
+#include "tracing/campaigns/campaign.h"
 
 namespace gumshoe::tracing {
 
@@ -204,11 +205,13 @@ struct Trace {
   std::vector<Taken> taken;
   std::vector<Addition> additions;
   std::vector<Correction> corrections;
+  Campaign campaign; ///< where Settings::scores
 };
 
 struct Settings {
   int threads = 0; ///< 0: all processors
   std::function<void(const std::string& what)> progress = {};
+  bool scores = false; ///< fills Trace::campaign
 };
 
 /// Traces a scenario with readings. Throws InputError for bad input. The result says what the data leave undetermined.

@@ -1,0 +1,104 @@
+#include "cli/trace_history.h"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+
+#include <fmt/format.h>
+
+#include "analysis/rounding.h"
+#include "base/hash.h"
+#include "base/units.h"
+#include "cli/command.h"
+
+namespace gumshoe::cli {
+namespace {
+
+constexpr std::size_t most = 5; ///< effects that the text lists; the file has all
+
+double shown(double si, const tracing::ScoredSize& s) {
+  return units::from_si(si, s.unit, s.si_unit, units::Kind::difference);
+}
+
+/// What was read, in which order and under which conditions.
+std::string id_of(const std::vector<quantities::Reading>& readings) {
+  std::vector<double> values;
+  for (const auto& r : readings) {
+    values.insert(values.end(), r.indications.begin(), r.indications.end());
+    values.insert(values.end(), r.conditions.begin(), r.conditions.end());
+  }
+  return fmt::format("{:016x}", digest64(values.data(), values.size()));
+}
+
+/// "430", "2.1e+05", "0.02".
+std::string odds(double log_evidence) { return fmt::format("{:.2g}", std::exp(std::min(log_evidence, 700.0))); }
+
+std::string sizes_of(const tracing::EffectEvidence& e) {
+  std::string out;
+  for (std::size_t i = 0; i < e.sizes.size() && e.u.size() > 0; ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    const double u = shown(e.u[k], e.sizes[i]);
+    const int d = analysis::decimals_for(u);
+    out += fmt::format("{}{} {}, u {}{}", i == 0 ? "" : "; ", e.sizes[i].name,
+                       analysis::fixed(shown(e.size[k], e.sizes[i]), d), analysis::fixed(u, d),
+                       e.sizes[i].unit == "1" ? "" : " " + e.sizes[i].unit);
+  }
+  return out;
+}
+
+} // namespace
+
+History::History(const std::string& path, const scenario::Scenario& s) : path_(path), id_(id_of(s.readings)) {
+  if (path.empty()) return;
+  claim_ = store::Claim(path);
+  campaigns_ = store::read_history(claim_.target());
+  if (std::ranges::find(campaigns_, id_, &tracing::Campaign::id) != campaigns_.end())
+    throw InputError(path + ": it holds these readings already", "evidence that is counted twice is no evidence",
+                     "append each campaign once");
+}
+
+void History::append(const tracing::Trace& trace, store::Draft& draft) {
+  if (trace.campaign.readings == 0) return;
+  campaigns_.push_back(trace.campaign);
+  campaigns_.back().id = id_;
+  campaigns_.back().date = date_text(std::time(nullptr));
+  evidence_ = tracing::evidence_over_time(campaigns_);
+  store::write_history(draft, claim_, campaigns_, evidence_);
+}
+
+std::string History::text(double alpha) const {
+  if (evidence_.campaigns == 0) return "nothing is appended, because these data cannot decide\n";
+  std::string out =
+      fmt::format("evidence over {} campaign{} in {}, valid whenever one looks, the search for {} effects allowed for "
+                  "(shown at {:.0f} to 1):\n",
+                  evidence_.campaigns, evidence_.campaigns == 1 ? "" : "s", path_, evidence_.effects.size(), 1 / alpha);
+  for (std::size_t i = 0; i < std::min(most, evidence_.effects.size()); ++i) {
+    const auto& e = evidence_.effects[i];
+    out +=
+        fmt::format("  {} to 1 for {}{}{}\n", odds(e.log_evidence), e.candidate,
+                    e.log_evidence >= -std::log(alpha) ? ": shown" : "", e.log_evidence >= 0 ? "; " + sizes_of(e) : "");
+  }
+  return out + fmt::format("  {} to 1 for any of them\n", odds(evidence_.log_overall));
+}
+
+nlohmann::ordered_json History::json() const {
+  nlohmann::ordered_json effects = nlohmann::ordered_json::array();
+  for (const auto& e : evidence_.effects) {
+    nlohmann::ordered_json sizes = nlohmann::ordered_json::array();
+    for (std::size_t i = 0; i < e.sizes.size() && e.u.size() > 0; ++i)
+      sizes.push_back({{"name", e.sizes[i].name},
+                       {"value", shown(e.size[static_cast<Eigen::Index>(i)], e.sizes[i])},
+                       {"u", shown(e.u[static_cast<Eigen::Index>(i)], e.sizes[i])},
+                       {"unit", e.sizes[i].unit}});
+    effects.push_back({{"name", e.candidate},
+                       {"log10_evidence", e.log_evidence / std::log(10)},
+                       {"campaigns", e.campaigns},
+                       {"quantities", sizes}});
+  }
+  return {{"file", path_},
+          {"campaigns", evidence_.campaigns},
+          {"log10_overall", evidence_.log_overall / std::log(10)},
+          {"effects", effects}};
+}
+
+} // namespace gumshoe::cli

@@ -1,0 +1,33 @@
+#pragma once
+/// What one campaign (one trace of one set of readings) says of each effect, in numbers that add up over campaigns.
+#include <string>
+#include <vector>
+
+#include "tracing/matrix.h"
+
+namespace gumshoe::tracing {
+
+/// A size that a score is about.
+struct ScoredSize {
+  std::string name, unit, si_unit; ///< name in a scenario: "z_reversal.backlash"
+};
+
+/// Of one signature g. W is the inverse of the residuals' covariance, less all that is fitted: g'Wr = 0 for g of J.
+struct Score {
+  std::string candidate; ///< "z_reversal"
+  int variant = 0;       ///< by the shape parameter that is held (a time constant), in the order tried
+  std::vector<ScoredSize> sizes;
+  Vector score;       ///< g'Wr, by size
+  Matrix information; ///< g'Wg
+};
+
+struct Campaign {
+  std::string id; ///< hash of the readings, whatever the scenario makes of them
+  std::string title, date;
+  int readings = 0;
+  double squares = 0; ///< r'Wr, without any effect
+  double freedom = 0; ///< readings less unknowns
+  std::vector<Score> scores;
+};
+
+} // namespace gumshoe::tracing

@@ -1,0 +1,64 @@
+"""Evidence that adds up over campaigns, by the program.
+
+usage: weeks_test.py path/to/gumshoe [unittest options]
+"""
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import h5py
+
+import axis
+import weeks
+
+GUMSHOE = str(pathlib.Path(sys.argv.pop(1)).resolve()) if len(sys.argv) > 1 and not sys.argv[1].startswith("-") else ""
+
+
+class Weeks(unittest.TestCase):
+    def test_what_is_there_is_shown_and_nothing_else(self):
+        """A reversal of 3 um in noise of 1 um: its evidence grows week by week, that of the others does not."""
+        found = list(weeks.campaigns(GUMSHOE, "reversal", 1, 4))
+        evidence = [{e["name"]: e for e in h["effects"]} for h in found]
+        self.assertEqual([h["campaigns"] for h in found], [1, 2, 3, 4])
+        for before, after in zip(evidence, evidence[1:]):
+            self.assertGreater(after["reversal"]["log10_evidence"], before["reversal"]["log10_evidence"] + 5)
+        for name, e in evidence[-1].items():
+            if name != "reversal":
+                self.assertLess(e["log10_evidence"], 1)
+        size, = evidence[-1]["reversal"]["quantities"]
+        self.assertAlmostEqual(size["value"], 3, delta=4 * size["u"])
+        # Of 90 training readings a week; without the effect the noise looks correlated, which costs up to a factor of 3.
+        self.assertGreater(size["u"], 0.9 / (4 * 90) ** 0.5)
+        self.assertLess(size["u"], 3 / (4 * 90) ** 0.5)
+
+    def test_the_file(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            run = lambda *words: subprocess.run([GUMSHOE, "trace", "s.toml", *words], cwd=folder, capture_output=True, text=True)
+            for seed in (1, 2):
+                axis.write(folder, "reversal", seed)
+                (folder / "s.toml").write_text(axis.scenario(True) + weeks.STATED)
+                said = run("--append", "h.h5")
+                self.assertEqual(said.returncode, 0, said.stderr)
+            self.assertIn("evidence over 2 campaigns in h.h5", said.stdout)
+            self.assertRegex(said.stdout, r"to 1 for reversal: shown; reversal.size 3\.\d")
+            with h5py.File(folder / "h.h5") as file:
+                self.assertEqual(file.attrs["campaigns"], 2)
+                self.assertEqual(file["evidence/effect"].asstr()[0], "reversal")
+                self.assertEqual(set(file["campaigns"]), {"000", "001"})
+                self.assertEqual(file["campaigns/000/score"].shape, file["campaigns/000/quantity"].shape)
+            again = run("--append", "h.h5")
+            self.assertEqual(again.returncode, 2)
+            self.assertIn("it holds these readings already", again.stderr)
+            for content, words in ((b"no HDF5", "cannot be read as a history"), ((folder / "results/s.traced.h5").read_bytes(), "it is no history")):
+                (folder / "other.h5").write_bytes(content)
+                refused = run("--append", "other.h5")
+                self.assertEqual(refused.returncode, 2, refused.stderr)
+                self.assertIn(words, refused.stderr)
+                self.assertEqual((folder / "other.h5").read_bytes(), content)
+
+
+if __name__ == "__main__":
+    unittest.main()
