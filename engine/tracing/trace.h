@@ -186,9 +186,6 @@ struct Trace {
   LackOfFit lack_of_fit;
   std::vector<AnomalousBlock> anomalous_blocks;
   std::vector<Outlier> outliers; ///< the largest first
-  /// True if the hold-out blocks lie beyond the range over which what was found is known: their veto stands, but what
-  /// was found is reported.
-  bool beyond_range = false;
   bool capped = false; ///< true if the search ended at its largest number of findings, with more to be found
   std::vector<DetectionLimit> detection_limits;
   std::vector<RankedCandidate> candidates; ///< candidates of the first round, best first

@@ -275,7 +275,6 @@ private:
   /// gain beyond doubt outweighs the veto.
   bool confirmed_between_blocks() {
     const auto names = extrapolated();
-    out_.beyond_range = !names.empty();
     const Observations& o = c_.observations;
     if (names.empty() || o.blocks.groups.size() < criteria.blocks_for_folds) return false;
     Blocks between;

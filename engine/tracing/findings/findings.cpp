@@ -22,16 +22,14 @@ void state_veto(const Search& s, Trace& out) {
   out.statements.push_back("an effect was found in the training data, but it does not improve the prediction of the "
                            "hold-out blocks; nothing is added");
   for (const SearchFinding& one : s.findings)
-    if (const Finding& f = one.finding; f.kind != Kind::scatter)
-      out.statements.push_back(fmt::format(
-          "rejected by the hold-out blocks: {} (p = {:.2g})",
-          f.described_by.empty() ? fmt::format("{}", fmt::join(f.members, ", ")) : f.described_by, f.p_value));
+    if (const Finding& f = one.finding; f.kind != Kind::scatter && f.kind != Kind::not_in_catalogue)
+      out.statements.push_back(
+          fmt::format("rejected by the hold-out blocks: {} (p = {:.2g})", fmt::join(f.members, ", "), f.p_value));
 }
 
 /// What a veto leaves of a finding; false if nothing.
-bool survives_veto(const TraceContext& c, const Search& s, bool beyond_range, SearchFinding& found) {
+bool survives_veto(const TraceContext& c, const Search& s, SearchFinding& found) {
   Finding& f = found.finding;
-  if (f.kind == Kind::not_in_catalogue) return beyond_range;
   // Scatter was found given what is rejected: it counts only if the declared model shows it, too.
   if (f.kind == Kind::scatter) {
     const auto shown = scatter_shown(c, s.first, 0);
@@ -108,7 +106,7 @@ void collect(const TraceContext& c, const Search& s, Trace& out) {
   const JointFit& fit = s.found;
   if (out.vetoed) state_veto(s, out);
   for (SearchFinding found : s.findings) {
-    if (out.vetoed && !survives_veto(c, s, out.beyond_range, found)) continue;
+    if (out.vetoed && !survives_veto(c, s, found)) continue;
     Finding f = found.finding;
     f.name = f.kind == Kind::not_in_catalogue ? "not in the catalogue" : fmt::format("{}", fmt::join(f.members, " | "));
     for (const std::size_t t : found.terms) {

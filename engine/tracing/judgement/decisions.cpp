@@ -80,8 +80,8 @@ bool vetoed(const HoldoutError& before, const HoldoutError& after) {
 
 std::optional<Kind> left_by_veto(Kind kind, bool scatter_in_class, bool scatter_found_alone) {
   if (kind == Kind::equivalence_class && scatter_in_class && !scatter_found_alone) return Kind::scatter;
-  if (kind == Kind::scatter) return kind;
-  return std::nullopt;
+  if (kind == Kind::named || kind == Kind::equivalence_class) return std::nullopt;
+  return kind;
 }
 
 std::string refusal(double identifiable, const std::string& absorbed_by, double p, double threshold) {

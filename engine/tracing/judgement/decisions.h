@@ -71,7 +71,7 @@ struct HoldoutError {
 /// True if the hold-out blocks are sensitive to the findings and reject them.
 bool vetoed(const HoldoutError& before, const HoldoutError& after);
 /// Kind of a finding after a veto: scatter if it was a member of the class and is not another finding; none for an
-/// effect or a shape.
+/// effect. A shape is reported, though not added: what it describes is there, in some blocks.
 std::optional<Kind> left_by_veto(Kind kind, bool scatter_in_class, bool scatter_found_alone);
 
 /// Reason why a candidate was not pursued. @param absorbed_by  quantity that absorbs almost all of it, or empty
