@@ -93,7 +93,7 @@ def main(words):
         file.write_text(json.dumps(dict(program=program)) + "\n")
     known = {(r["family"], r["seed"]) for r in rows}
     jobs = [(a.program, f, seed) for f in chosen for seed in range(a.first_seed, a.first_seed + f.sets(a.seeds)) if (f.name, seed) not in known]
-    jobs.sort(key=lambda job: job[2])  # broken off at any time, all families have had about as many
+    jobs.sort(key=lambda job: (job[1].large, job[2]))  # broken off at any time, all families have had about as many
     with multiprocessing.Pool(a.processes) as pool, file.open("a") as log:
         for i, r in enumerate(pool.imap_unordered(one, jobs), 1):
             rows.append(r)

@@ -163,7 +163,11 @@ class Family:
 
     def foretells(self, seed):
         """Whether its predictions are asked for: they take longer than tracing nothing."""
-        return not self.null or self.system not in EXPRESSIONS or seed % PLENTY == 0
+        return not self.large and (not self.null or self.system not in EXPRESSIONS or seed % PLENTY == 0)
+
+    @property
+    def large(self):
+        return bool(set(self.traits) & set(FEW))
 
     def sets(self, seeds):
         """How many of them are asked for."""
