@@ -45,8 +45,16 @@ def later(table):
     return [dict(name=n, members=n.split(" | "), kind="scatter" if n.startswith("scatter:") else "named") for n in added]
 
 
+def said(verdict):
+    """Findings, and what is a verdict of its own: that something repeats, that a block differs. Both name conditions, no cause."""
+    unknown = lambda name, depends: dict(kind="not_in_catalogue", name=name, members=[], quantities=[], depends_on=depends)
+    fit = verdict.get("lack_of_fit", {})
+    blocks = [unknown(f"{b['name']} differs", b["name"].split(" ")[:1]) for b in verdict.get("anomalous_blocks", [])]
+    return verdict["findings"] + ([unknown("lack of fit", fit["depends_on"])] if fit.get("found") else []) + blocks
+
+
 def row(verdict, truth):
-    findings, effects = verdict["findings"], truth["effects"]
+    findings, effects = said(verdict), truth["effects"]
     plain_to_see = [e for e in effects if e["strength"] >= STRENGTH]
     out = dict(found=[f["name"] for f in findings], kinds=[f["kind"] for f in findings], depends=[f["depends_on"] for f in findings], vetoed=verdict["vetoed"],
                told=len(plain_to_see), right=sum(any(right(f, e) for f in findings) for e in plain_to_see),
@@ -79,4 +87,4 @@ def errors(verdict, truth):
     after, before = number(last["holdout_after"]), number(rms.get("holdout_before"))
     over = lambda x, floor: x / floor if floor and floor > 0 else math.nan
     floor, oracle = number(rms.get("holdout_noise")), number(truth.get("held_out_um")) * 1e-6
-    return dict(after_over_noise=over(after, floor), after_over_oracle=over(after, oracle), before_over_oracle=over(before, oracle))
+    return dict(after_over_floor=over(after, number(rms.get("replicate_floor"))), after_over_noise=over(after, floor), after_over_oracle=over(after, oracle), before_over_oracle=over(before, oracle))

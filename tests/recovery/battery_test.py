@@ -74,6 +74,9 @@ class Parts(unittest.TestCase):
         self.assertEqual(count(outside, named("drift")), [0, 0, 1])
         null = dict(expected="nothing_found", effects=[])
         self.assertEqual([row(verdict(*f), null)["alarm"] for f in ((), (unknown,))], [False, True])
+        for more in (dict(lack_of_fit=dict(found=True, depends_on=["time"])), dict(anomalous_blocks=[dict(name="time 3")])):
+            self.assertTrue(row(verdict() | more, null)["alarm"])
+            self.assertEqual([row(verdict() | more, t)["right"] for t in (truth, outside)], [0, 1])
 
     def test_laws_of_the_loop(self):
         found = dict(added=["drift"], before=2.0)

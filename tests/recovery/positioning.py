@@ -73,7 +73,7 @@ ADDED = by_formula.added(CANDIDATES) | {
     "periodic": (along(1.0)(lambda d, rng: np.sin(2 * np.pi * d.value("x") / 95 + rng.uniform(0, 6))), None, None, ("x", "screw")),
     "temperature": (along(1.0)(lambda d, rng: d.value("warmth")), None, None, ("warmth",)),
     "jump": (along(1.0)(shapes.giving_way), None, None, ("time",)),
-    "bump": (along(1.0)(shapes.passing(200, 500)), None, None, ("time",)),
+    "bump": (along(1.0)(shapes.passing(200, 500)), None, None, ("time", "cycle")),
 }
 SINGLES = (*(n for n in ADDED if n.startswith("stated:")), "declared:sag")
 PAIRS = (("stated:lost_motion", "stated:drift"),)
