@@ -7,6 +7,8 @@
 #include <array>
 #include <cstddef>
 
+#include "tracing/matrix.h"
+
 namespace gumshoe::tracing {
 
 struct Criteria {
@@ -24,6 +26,9 @@ struct Criteria {
   double single_scatter_low = 0.5, single_scatter_high = 10;
   /// Readings that bend about a straight line by less than this share of their movement are taken as straight. Tuned.
   double straight = 0.02;
+  /// Half a step leaves a quarter of what a smooth function bends about its tangent; a kink leaves half, and jumps
+  /// about seven tenths. More than this share is not smooth.
+  double curved = 0.4;
   /// Equally likely values of a scattering quantity at which the model is evaluated.
   int response_nodes = 16;
   /// Groups that a stated and an unstated replicate label need: fewer do not show a variance.
@@ -62,6 +67,13 @@ struct Criteria {
   std::size_t most_table_cells = 60;    ///< levels, or combinations of levels, at which "any value" is tried, by cost
   std::size_t least_repeats = 2;        ///< readings at each of them, on average
   std::size_t most_harmonics = 6;
+  /// A shape of which the first so many readings hold this share is one of outliers at the start.
+  Index first_readings = 3;
+  double first_share = 0.9;
+  /// Time constants tried: so many, from this share of the duration (three readings at least) to this multiple of it.
+  /// Beyond the ends a rise is a step or a line.
+  int time_constants = 6;
+  double shortest = 1.0 / 30, longest = 2;
   int omnibus_columns = 5, fine_omnibus_columns = 12; ///< columns of a smooth dependence, and of a finer one
   std::size_t levels_for_fine_omnibus = 30;           ///< more levels than this for the finer one
   double confounded = 0.98; ///< covariates correlated more than this have no product of their own
@@ -90,8 +102,13 @@ struct Criteria {
   double tangent_serves = 0.1; ///< largest difference of the tangent from the line through the steps, as its share
 
   // ---- Judgement ----
-  std::size_t most_findings = 5;  ///< terms or scatter found in one trace
-  double beyond_doubt = 25;       ///< 2 ln L beyond which no simulation is needed: five standard deviations
+  std::size_t most_findings = 5; ///< terms or scatter found in one trace
+  double beyond_doubt = 25;      ///< 2 ln L beyond which no simulation is needed: five standard deviations
+  /// 2 ln L up to which a shape that fits better than an effect is of equal merit: the effect has a cause.
+  double equal_merit = 4;
+  /// A p-value between these multiples of alpha asks for more draws, each time this many times as many, up to the
+  /// second factor, unless it is this many standard deviations of the draws away from alpha.
+  double unsure_low = 0.4, unsure_high = 2, more_draws = 4, most_draws = 16, sure = 3;
   double alike = 0.995;           ///< cosine of projected signatures that no data of this design distinguish. Tuned.
   std::size_t rival_draws = 199;  ///< simulated data sets that judge a lead
   double shape_lead_p = 0.01;     ///< p-value below which a shape's lead over an effect excludes the effect
@@ -114,9 +131,12 @@ struct Criteria {
   double mostly_absorbed = 0.1; ///< identifiable share below which the ranking names what absorbs the signature
 
   // ---- Findings ----
-  double veto_growth = 1.05;         ///< growth of the hold-out's root mean square that vetoes a finding
-  double insensitive = 1e-9;         ///< share of a signature in the hold-out blocks below which they cannot judge it
-  std::size_t noise_draws = 199;     ///< data sets of pure noise that "noise alone" is computed from
+  double veto_growth = 1.05;     ///< growth of the hold-out's root mean square that vetoes a finding
+  double insensitive = 1e-9;     ///< share of a signature in the hold-out blocks below which they cannot judge it
+  std::size_t noise_draws = 199; ///< data sets of pure noise that "noise alone" is computed from
+  /// A shape parameter is a size where its u is below this share of it, and has a distribution in the traced scenario
+  /// below the second: a normal one must not reach beyond zero.
+  double known_shape = 1, normal_shape = 0.2;
   double implausible_size = 5;       ///< times the typical size of an effect that cause a remark
   double implausible_shift = 10;     ///< times the declared standard uncertainty of a quantity that cause a remark
   double reported_correlation = 0.2; ///< serial correlation from which the trace mentions it

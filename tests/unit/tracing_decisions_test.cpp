@@ -54,9 +54,11 @@ TEST_CASE("the best candidates are of different names", "[tracing]") {
 
 TEST_CASE("a candidate is refitted as long as it could still win", "[tracing]") {
   const double best = 50, margin = criteria.contender_share * best - criteria.contender_margin; // 25
-  CHECK(could_still_win(0.001, 0.01, margin, best));
-  CHECK_FALSE(could_still_win(0.001, 0.01, margin - 0.1, best));
-  CHECK_FALSE(could_still_win(0.02, 0.01, 49, best));
+  CHECK(could_still_win(margin, best));
+  CHECK_FALSE(could_still_win(margin - 0.1, best));
+  // A finding that another one explains is dropped, by more than chance.
+  CHECK(still_counts(12 - criteria.decisive + 0.01, 12));
+  CHECK_FALSE(still_counts(12 - criteria.decisive - 0.01, 12));
   // Once refitted it counts by either fit: the whole model may show what the linear one hides.
   CHECK(passes(0.01, 0.01, 0, 12));
   CHECK(passes(0.02, 0.01, 12.1, 12));
@@ -64,7 +66,7 @@ TEST_CASE("a candidate is refitted as long as it could still win", "[tracing]") 
 }
 
 TEST_CASE("a shape excludes an effect only by a lead that the effect would hardly let it have", "[tracing]") {
-  CHECK_FALSE(shape_excludes(3.8, unasked));
+  CHECK_FALSE(shape_excludes(4.0, unasked));
   CHECK_FALSE(shape_excludes(10, [] { return 0.01; }));
   CHECK(shape_excludes(10, [] { return 0.005; }));
   CHECK(shape_excludes(25.1, unasked));

@@ -42,8 +42,12 @@ TEST_CASE("a block is predicted from the others, its own constant projected out"
     for (Index j = 0; j < residual.cols(); ++j) {
       const Gls fit = gls(covariance(d, train, s), f, chosen(residual.col(j), train));
       const Vector rest = chosen(residual.col(j), test) - chosen(d.fixed, test).leftCols(4) * fit.size;
-      const Gls constant = gls(local, own, rest);
-      CHECK((held.residual.col(j) - (rest - own * constant.size)).norm() < 1e-9 * rest.norm());
+      // The draws as the training rows have them: their expectation given the residuals.
+      const Vector left = chosen(residual.col(j), train) - f * fit.size,
+                   draws = chosen(d.random, train).transpose() * solved(covariance(d, train, s), left),
+                   given = rest - chosen(d.random, test) * draws;
+      const Gls constant = gls(local, own, given);
+      CHECK((held.residual.col(j) - (given - own * constant.size)).norm() < 1e-9 * given.norm());
       CHECK(held.squares[j] == Approx(constant.squares).epsilon(1e-9));
       CHECK(held.whitened[j] ==
             Approx(gls(covariance(d, test, {0, s.scatter, s.ratio}), own, rest).squares).epsilon(1e-9));
@@ -88,6 +92,7 @@ TEST_CASE("a block with no more readings than constants of its own is not scored
   CHECK(hold_out(d, Matrix::Ones(28, 1), range(0, 21), {21, 22, 23}, {}).count == 2);
 }
 
+/// Near nothing the interval that excludes zero covers less: of what passes there, the search's error rate is the bound.
 TEST_CASE("the interval after selection covers 95 % of what passes the threshold", "[tracing]") {
   const boost::math::normal normal;
   const auto phi = [&](double x) { return boost::math::cdf(normal, x); };
@@ -107,7 +112,12 @@ TEST_CASE("the interval after selection covers 95 % of what passes the threshold
                              std::max(0.0, phi(edge(-mean, true) + mean) - phi(edge(-mean, false) + mean));
       const double passed = phi(mean - c) + phi(-c - mean);
       CAPTURE(c, mean);
-      CHECK(covered / passed == Approx(0.95).margin(1e-6));
+      if (c < 1.96)
+        CHECK(covered / passed == Approx(0.95).margin(1e-6));
+      else if (std::fabs(mean) > 2)
+        CHECK(covered / passed == Approx(0.95).margin(0.01));
+      else
+        CHECK(covered / passed < 0.95 + 1e-6);
     }
 }
 
@@ -134,10 +144,10 @@ TEST_CASE("the interval after selection: limits and symmetries", "[tracing]") {
     low = a;
     high = b;
   }
-  CHECK(interval_after_selection(3.05, 1, 3).first < 0); // might be nothing
-  // A size that would not have passed holds its plain interval, and zero.
+  CHECK(interval_after_selection(3.05, 1, 3).first == Approx(0.05)); // the test excludes zero
+  // A size that would not have passed has its plain interval.
   const auto short_of = interval_after_selection(2.5, 1, 3);
-  CHECK(short_of.first < 0);
+  CHECK(short_of.first == Approx(2.5 - z));
   CHECK(short_of.second == Approx(2.5 + z));
   const auto plus = interval_after_selection(4, 1, 3), minus = interval_after_selection(-4, 1, 3);
   CHECK(plus.first == -minus.second);

@@ -63,7 +63,7 @@ void CandidateMaker::add_single(Candidate a, std::size_t quantity, const std::ve
 
 Amplitude CandidateMaker::amplitude(std::size_t quantity, const QuantityCard& card) const {
   const auto& q = experiment.scenario().quantities[quantity];
-  return {quantity, std::string(card.name), q.unit,           q.si_unit,         q.name,
+  return {quantity, std::string(card.name), q.unit,           q.si_unit,        q.name,
           {},       card.limits.low,        card.limits.high, card.typical.high};
 }
 
@@ -88,6 +88,34 @@ std::vector<Candidate> stated_candidates(const CandidateMaker& make) {
     one.columns = in_sequence(o, column);
     make.add(std::move(one), out);
   }
+  return out;
+}
+
+Candidate with_free_shape(const Candidate& a, const propagation::Experiment& experiment) {
+  Candidate out = a;
+  out.shape.clear();
+  for (const auto& [q, value] : a.held) {
+    const auto& quantity = experiment.scenario().quantities[q];
+    const effects::Active& active = *std::ranges::find_if(experiment.forward().active(), [&](const effects::Active& e) {
+      const std::size_t first = experiment.layout().effects[e.first];
+      return q >= first && q < first + effects::cards()[e.effect]->quantities.size();
+    });
+    const QuantityCard& card =
+        effects::cards()[active.effect]->quantities[q - experiment.layout().effects[active.first]];
+    Amplitude shape;
+    shape.quantity = q;
+    shape.name = card.name;
+    shape.unit = quantity.unit;
+    shape.si_unit = quantity.si_unit;
+    shape.scenario_name = quantity.name;
+    shape.low = card.limits.low - value;
+    shape.high = card.limits.high - value;
+    shape.is_shape = true;
+    shape.held = value;
+    out.amplitudes.push_back(shape);
+  }
+  out.columns.conservativeResize(Eigen::NoChange, index(out.amplitudes.size()));
+  out.columns.rightCols(index(a.held.size())).setZero();
   return out;
 }
 

@@ -26,6 +26,9 @@ struct Amplitude {
   double low = -1e300, high = 1e300;                       ///< limits of its card, SI
   double typical = 0;  ///< upper end of the card's typical magnitude, SI; 0: not stated
   double declared = 0; ///< standard uncertainty declared for a quantity that may be shifted, SI
+  /// A shape parameter that is fitted: its size is the shift from `held`, and zero is no null.
+  bool is_shape = false;
+  double held = 0;
   static constexpr std::size_t npos = ~std::size_t{0};
 };
 
@@ -50,7 +53,11 @@ std::vector<Candidate> physical_candidates(const propagation::Experiment& experi
                                            const Points& at, const Observations& observations, double step,
                                            const std::function<bool(const Candidate&)>& skip);
 
-/// Names of the covariates, else of the labels, on which a signature depends.
+/// A candidate whose shape parameters are sizes, too, from the values at which they were held.
+Candidate with_free_shape(const Candidate& candidate, const propagation::Experiment& experiment);
+
+/// Names of the covariates, else of the labels, on which a signature depends. What those named explain is no dependence
+/// on another that happens to go along with them.
 std::vector<std::string> dependence(const Observations& observations, const Matrix& columns);
 
 } // namespace gumshoe::tracing

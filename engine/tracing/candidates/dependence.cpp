@@ -1,4 +1,7 @@
 #include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
 
 #include "tracing/candidates/candidates.h"
 #include "tracing/criteria.h"
@@ -6,40 +9,102 @@
 namespace gumshoe::tracing {
 namespace {
 
-/// Share of x's variance between groups of equal values.
-double explained(const Vector& x, const std::vector<std::size_t>& group) {
-  const std::size_t groups = *std::ranges::max_element(group) + 1;
-  std::vector<double> sum(groups, 0), count(groups, 0);
-  for (std::size_t i = 0; i < group.size(); ++i) sum[group[i]] += x[index(i)], ++count[group[i]];
-  const double mean = x.mean(), total = (x.array() - mean).square().sum();
-  double between = 0;
-  for (std::size_t g = 0; g < groups; ++g)
-    if (count[g] > 0) between += count[g] * (sum[g] / count[g] - mean) * (sum[g] / count[g] - mean);
-  const double n = static_cast<double>(group.size()), k = static_cast<double>(groups);
-  if (!(total > 0) || n <= k) return 0;
-  return 1 - (total - between) / total * (n - 1) / (n - k);
+using Groups = std::vector<std::size_t>;
+
+/// x less its mean in each group; with a covariate's values less its straight line there, which groups of neighbouring
+/// values leave.
+Vector within(const Vector& x, const Groups& group, const Vector* value = nullptr) {
+  std::map<std::size_t, std::vector<Index>> members;
+  for (std::size_t i = 0; i < group.size(); ++i) members[group[i]].push_back(index(i));
+  Vector out = x;
+  for (const auto& [number, rows] : members) {
+    out(rows).array() -= x(rows).mean();
+    if (!value) continue;
+    const Vector v = (*value)(rows).array() - (*value)(rows).mean();
+    if (const double square = v.squaredNorm(); square > 0) out(rows) -= v * (v.dot(out(rows)) / square);
+  }
+  return out;
+}
+
+/// Share of x's variance between groups of equal values, less what chance gives.
+double explained(const Vector& x, const Groups& group) {
+  const double total = (x.array() - x.mean()).square().sum(), left = within(x, group).squaredNorm();
+  const double n = static_cast<double>(group.size()),
+               k = static_cast<double>(std::set<std::size_t>(group.begin(), group.end()).size());
+  return total > 0 && n > k ? 1 - left / total * (n - 1) / (n - k) : 0;
+}
+
+/// Numbers of the combinations of two groupings.
+Groups crossed(const Groups& a, const Groups& b) {
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> number;
+  Groups out;
+  for (std::size_t i = 0; i < a.size(); ++i) out.push_back(number.insert({{a[i], b[i]}, number.size()}).first->second);
+  return out;
+}
+
+/// The part of one column, or of its size, that no covariate named so far explains.
+struct Part {
+  Vector left;
+  double whole;
+
+  double share(const Groups& group) const { return explained(left, group) * variance(left) / whole; }
+  static double variance(const Vector& x) { return (x.array() - x.mean()).square().sum(); }
+};
+
+std::vector<Part> parts_of(const Observations& o, const Matrix& columns) {
+  const auto k = index(o.indications);
+  std::vector<Part> out;
+  for (Index j = 0; j < columns.cols(); ++j)
+    for (Index i = 0; i < k; ++i) {
+      const Vector x = columns(Eigen::seq(i, Eigen::last, k), j);
+      if (!(x.norm() > 1e-9 * columns.norm())) continue;
+      for (const Vector& one : {x, Vector(x.cwiseAbs())})
+        if (const double whole = Part::variance(one); whole > 1e-18 * one.squaredNorm()) out.push_back({one, whole});
+    }
+  return out;
+}
+
+double largest_share(const std::vector<Part>& parts, const Groups& group) {
+  double out = 0;
+  for (const Part& part : parts) out = std::max(out, part.share(group));
+  return out;
 }
 
 } // namespace
 
 std::vector<std::string> dependence(const Observations& o, const Matrix& columns) {
-  const auto k = index(o.indications);
-  std::vector<std::string> out;
-  const auto depends = [&](const std::vector<std::size_t>& by_reading) {
-    std::vector<std::size_t> group;
-    for (const std::size_t r : o.sequence) group.push_back(by_reading[r]);
-    for (Index j = 0; j < columns.cols(); ++j)
-      for (Index i = 0; i < k; ++i) {
-        const Vector x = columns(Eigen::seq(i, Eigen::last, k), j);
-        if (!(x.norm() > 1e-9 * columns.norm())) continue;
-        if (std::max(explained(x, group), explained(x.cwiseAbs(), group)) > criteria.dependence_share) return true;
-      }
-    return false;
+  std::vector<Part> parts = parts_of(o, columns);
+  const auto in_order = [&](const Groups& by_reading) {
+    Groups out;
+    for (const std::size_t r : o.sequence) out.push_back(by_reading[r]);
+    return out;
   };
-  for (const Covariate& c : o.covariates)
-    if (depends(neighbours(c, criteria.dependence_bins))) out.push_back(c.name);
+  std::vector<Groups> groups;
+  for (const Covariate& c : o.covariates) groups.push_back(in_order(neighbours(c, criteria.dependence_bins)));
+  std::vector<bool> named(groups.size(), false);
+  std::optional<Groups> cells;
+  for (;;) {
+    std::size_t best = groups.size();
+    double most = criteria.dependence_share;
+    for (std::size_t c = 0; c < groups.size(); ++c)
+      if (const double share = named[c] ? 0 : largest_share(parts, groups[c]); share > most) most = share, best = c;
+    if (best == groups.size()) break;
+    named[best] = true;
+    const Groups both = cells ? crossed(*cells, groups[best]) : groups[best];
+    // Combinations that hardly repeat would explain anything: then one after the other.
+    const bool repeats = (*std::ranges::max_element(both) + 1) * criteria.least_repeats <= both.size();
+    if (repeats) cells = both;
+    Vector value(index(o.readings));
+    for (std::size_t i = 0; i < o.readings; ++i) value[index(i)] = o.covariates[best].value[o.sequence[i]];
+    for (Part& part : parts) part.left = within(part.left, repeats ? both : groups[best], &value);
+  }
+  std::vector<std::string> out;
+  for (std::size_t c = 0; c < groups.size(); ++c)
+    if (named[c]) out.push_back(o.covariates[c].name);
   for (const Grouping& g : o.labels)
-    if (out.empty() && g.groups.size() <= criteria.most_label_groups && depends(g.group)) out.push_back(g.name);
+    if (out.empty() && g.groups.size() <= criteria.most_label_groups &&
+        largest_share(parts, in_order(g.group)) > criteria.dependence_share)
+      out.push_back(g.name);
   return out;
 }
 

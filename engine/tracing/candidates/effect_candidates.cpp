@@ -5,6 +5,7 @@
 
 #include "base/units.h"
 #include "tracing/candidates/candidate_families.h"
+#include "tracing/criteria.h"
 
 namespace gumshoe::tracing {
 namespace {
@@ -62,12 +63,20 @@ void with_default_shapes(const CandidateMaker& make, std::vector<Candidate>& fou
     }
 }
 
-/// Values at which a shape quantity is tried, SI: its default, then from half the typical range's lower end to twice its
+/// Values at which a shape quantity is tried, SI: its default, then a time constant by the duration of the data; others
+/// from half the typical range's lower end to twice its
 /// upper one, or a share of 0, 1/2 and 1.
-std::vector<double> grid_of(const QuantityCard& card) {
+std::vector<double> grid_of(const QuantityCard& card, const Observations& o) {
   std::vector<double> out{card.default_value};
   const auto& [low, high, note] = card.typical;
-  if (high > low && low > 0)
+  const auto time = std::ranges::find(o.covariates, "time", &Covariate::name);
+  if (card.si_unit == "s" && time != o.covariates.end()) {
+    const double duration = time->levels.back() - time->levels.front(),
+                 least = duration * std::max(criteria.shortest, static_cast<double>(criteria.first_readings) /
+                                                                    static_cast<double>(time->levels.size()));
+    for (int i = 0; i < criteria.time_constants; ++i)
+      out.push_back(least * std::pow(criteria.longest * duration / least, i / (criteria.time_constants - 1.0)));
+  } else if (high > low && low > 0)
     for (int i = 0; i <= 5; ++i) out.push_back(0.5 * low * std::pow(4 * high / low, i / 5.0));
   else if (card.limits.low == 0 && card.limits.high == 1)
     out.insert(out.end(), {0.0, 0.5, 1.0});
@@ -84,13 +93,16 @@ struct Grid {
   std::vector<Group> groups;
 };
 
-std::vector<Grid> grids_of(const propagation::Experiment& e) {
+std::vector<Grid> grids_of(const propagation::Experiment& e, const Observations& o) {
   std::vector<Grid> out;
   for (const effects::Active& active : e.forward().active()) {
     const auto& card = effects::cards()[active.effect]->quantities;
-    for (std::size_t i = 0; i < card.size(); ++i)
+    std::vector<Group> groups = groups_of(e, active);
+    // A size that is free has its shape, and none beside it.
+    std::erase_if(groups, [&](const Group& g) { return e.scenario().quantities[g.first].estimated; });
+    for (std::size_t i = 0; i < card.size() && !groups.empty(); ++i)
       if (card[i].role == Role::shape)
-        out.push_back({e.layout().effects[active.first + i], grid_of(card[i]), groups_of(e, active)});
+        out.push_back({e.layout().effects[active.first + i], grid_of(card[i], o), groups});
   }
   return out;
 }
@@ -98,7 +110,7 @@ std::vector<Grid> grids_of(const propagation::Experiment& e) {
 /// Amplitudes again with every shape quantity at the other values of its grid; the amplitudes are at null, so all
 /// effects can stand at their next grid value together.
 void with_other_shapes(const CandidateMaker& make, std::vector<Candidate>& found) {
-  const std::vector<Grid> grids = grids_of(make.experiment);
+  const std::vector<Grid> grids = grids_of(make.experiment, make.observations);
   std::size_t longest = 0;
   for (const Grid& grid : grids) longest = std::max(longest, grid.values.size());
   for (std::size_t g = 1; g < longest; ++g) {

@@ -26,6 +26,15 @@ Vector plain(const Observations& o, const Covariate& c) {
   return x;
 }
 
+/// Whether next to nothing of a column, by reading of the sequence, lies after the first readings: that is one of
+/// outliers at the start.
+bool of_the_start(const Vector& curve) {
+  const Index n = curve.size(), first = criteria.first_readings;
+  if (n <= 2 * first) return false;
+  const Vector x = curve.array() - curve.tail(n - first).mean();
+  return x.head(first).squaredNorm() > criteria.first_share * x.squaredNorm();
+}
+
 class Shapes {
 public:
   explicit Shapes(const Observations& o) : o_(o) {}
@@ -66,6 +75,7 @@ private:
   /// One candidate per indication.
   void add(Family family, const std::string& name, const Matrix& by_reading, std::vector<std::string> depends_on,
            const std::string& shape = "") {
+    if (by_reading.cols() == 1 && of_the_start(by_reading)) return;
     const auto k = index(o_.indications);
     for (Index i = 0; i < k; ++i) {
       Candidate a;
@@ -85,6 +95,12 @@ private:
     }
   }
 
+  /// Time, under whatever name: it never goes back.
+  bool elapses(const Covariate& c) const {
+    const Vector x = plain(o_, c);
+    return (x.tail(x.size() - 1) - x.head(x.size() - 1)).minCoeff() > 0;
+  }
+
   void polynomials(const Covariate& c) {
     const Vector x = scaled(o_, c), raw = plain(o_, c);
     add(Family::shape, "polynomial:" + c.name, x, {c.name});
@@ -93,7 +109,7 @@ private:
     const Vector y = raw / size;
     add(Family::shape, "polynomial:" + c.name + "^2", y.array().square(), {c.name});
     add(Family::shape, "polynomial:" + c.name + "^3", y.array().cube(), {c.name});
-    if (c.levels.front() > 0)
+    if (c.levels.front() > 0 && !elapses(c)) // the zero of time is an accident
       add(Family::shape, "polynomial:1/" + c.name, y.array().inverse() * (c.levels.front() / size), {c.name});
     if (c.levels.size() < 4) return;
     // About the middle: what is left of a curve when a line is absorbed.
@@ -181,6 +197,14 @@ private:
     const Vector cx = x.array() - x.mean(), cy = y.array() - y.mean();
     if (std::fabs(cx.dot(cy)) > criteria.confounded * cx.norm() * cy.norm()) return; // one and the same, confounded
     add(Family::shape, "product:" + a.name + "*" + b.name, cx.cwiseProduct(cy), {a.name, b.name});
+    // A drift that grows along a slide starts at nothing and has a fixed end.
+    for (const auto& [time, place] : {std::pair{&a, &b}, std::pair{&b, &a}}) {
+      if (!elapses(*time) || place->angle || place->levels.size() * criteria.least_repeats > o_.readings) continue;
+      const Vector t = 0.5 * (scaled(o_, *time).array() + 1), along = scaled(o_, *place);
+      for (const int end : {-1, 1})
+        add(Family::shape, "product:" + a.name + "*" + b.name, t.array() * (along.array() - end), {a.name, b.name},
+            fmt::format("a drift from the {} {}", end < 0 ? "lowest" : "highest", place->name));
+    }
     Matrix surface(x.size(), 0);
     const Matrix first = smooth_basis(o_, a, 2), second = smooth_basis(o_, b, 2);
     for (Index i = 0; i < first.cols(); ++i)

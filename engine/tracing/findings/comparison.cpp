@@ -78,7 +78,7 @@ Scores score(const JointFit& fit, const Matrix& residual, const std::vector<Inde
   return out;
 }
 
-/// The fit's own readings about the fitted unknowns, declared quantities as declared.
+/// The fit's own readings about the fitted unknowns and declared draws.
 struct InSample {
   Matrix left; ///< residuals, training rows x sets, SI
   Vector rms;  ///< by set, SI
@@ -87,16 +87,18 @@ struct InSample {
 InSample in_sample(const JointFit& fit, const std::vector<Index>& rows, const Matrix& residual) {
   const auto use = independent(fit.design, rows);
   const Whitened w(fit.design, rows, use, fit.covariance_model);
-  const Matrix x = w.solve(w.whiten_rows(residual));
+  Matrix covariance;
+  const Matrix x = w.solve(w.whiten_rows(residual), &covariance);
+  const auto p = index(use.size()), q = fit.design.random.cols();
   InSample out{w.take(residual), {}};
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    for (std::size_t j = 0; j < use.size(); ++j)
-      out.left.row(index(i)) -= fit.design.fixed(rows[i], use[j]) * x.row(index(j));
+  out.left -= fit.design.fixed(rows, use) * x.topRows(p) + fit.design.random(rows, Eigen::all) * x.bottomRows(q);
+  // A draw of which the readings say nothing is no unknown; one that they determine is.
+  double freedom = static_cast<double>(rows.size() - use.size());
+  for (Index j = p; j < p + q; ++j) freedom -= 1 - covariance(j, j);
   Design plain = fit.design;
   plain.random.resize(plain.random.rows(), 0);
   const Matrix white = Whitened(plain, rows, {}, {}).whiten(out.left);
-  out.rms = fit.design.reference[0] *
-            (white.colwise().squaredNorm() / static_cast<double>(rows.size() - use.size())).cwiseSqrt().transpose();
+  out.rms = fit.design.reference[0] * (white.colwise().squaredNorm() / freedom).cwiseSqrt().transpose();
   return out;
 }
 

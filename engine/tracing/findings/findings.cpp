@@ -104,7 +104,10 @@ void describe_noise(const TraceContext& c, const Search& s, Trace& out) {
 
 void collect(const TraceContext& c, const Search& s, Trace& out) {
   const JointFit& fit = s.found;
-  if (out.vetoed) state_veto(s, out);
+  if (out.vetoed)
+    state_veto(s, out);
+  else
+    out.statements.insert(out.statements.end(), s.dropped.begin(), s.dropped.end());
   for (SearchFinding found : s.findings) {
     if (out.vetoed && !survives_veto(c, s, found)) continue;
     Finding f = found.finding;
@@ -114,7 +117,8 @@ void collect(const TraceContext& c, const Search& s, Trace& out) {
         add_curves(c, fit, t, f);
         continue;
       }
-      f.quantities = sizes(c, fit, t, found.threshold);
+      const auto more = sizes(c, fit, t, found.threshold);
+      f.quantities.insert(f.quantities.end(), more.begin(), more.end());
       remark_on_size(fit.terms[t], f);
     }
     if (f.kind == Kind::equivalence_class) describe_class(c, s, found, f);

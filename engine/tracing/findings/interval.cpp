@@ -34,10 +34,11 @@ std::pair<double, double> interval_after_selection(double x, double u, double le
   if (!(u > 0)) return {x, x};
   const double sign = x < 0 ? -1 : 1, z = std::fabs(x) / u, passes = std::fabs(least) / u, c = std::min(passes, z);
   double a = mean_at(z, c, 0.975), b = mean_at(z, c, 0.025);
-  if (passes > z) { // found by another size: both what chance lets pass and what the fit says
-    constexpr double quantile = 1.959963984540054;
-    a = std::min(a, z - quantile), b = std::max(b, z + quantile);
-  }
+  constexpr double quantile = 1.959963984540054;
+  if (passes > z) // found by another size: what the fit says, and on the far side what chance lets pass
+    a = z - quantile, b = std::max(b, z + quantile);
+  else if (passes > quantile) // the test excludes zero at the search's error rate, and so does the interval
+    a = std::max(a, z - passes);
   return sign > 0 ? std::pair{u * a, u * b} : std::pair{-u * b, -u * a};
 }
 

@@ -2,8 +2,11 @@
 #include <array>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "tracing/criteria.h"
 #include "tracing/findings/findings.h"
+#include "tracing/findings/sizes.h"
 
 namespace gumshoe::tracing {
 
@@ -20,6 +23,10 @@ void describe_scatter(const TraceContext& c, const JointFit& fit, int component,
     q.u = unit / std::sqrt(2 * freedom);
     q.low95 = q.value - 1.96 * q.u;
     q.high95 = q.value + 1.96 * q.u;
+    if (const double declared = unit / (fit.noise * std::sqrt(fit.variance)); c.fitter.noise_declared())
+      finding.remarks.push_back(fmt::format("single readings scatter by {}; {} is declared",
+                                            shown_size(unit, q.unit, q.si_unit),
+                                            shown_size(declared, q.unit, q.si_unit)));
     finding.quantities = {q};
     return;
   }

@@ -25,20 +25,27 @@ std::vector<SizedQuantity> sizes(const TraceContext& c, const JointFit& fit, std
   const Term& t = fit.terms[term];
   const Vector u = uncertainties(fit, term);
   std::vector<SizedQuantity> out;
+  const auto amplitudes = std::ranges::count(t.candidate.amplitudes, false, &Amplitude::is_shape);
   for (Index j = 0; j < t.size.size(); ++j) {
     const Amplitude& a = t.candidate.amplitudes[index(j)];
     if (a.scenario_name.empty()) continue;
     SizedQuantity q{a.name, a.unit, a.si_unit, t.size[j], u[j], 0, 0, a.scenario_name, a.labels};
     // A size alone was reported because it passed the limit; of a pair neither was.
-    const double least = t.size.size() == 1 ? std::sqrt(limit) * u[j] : 0;
+    const double least = amplitudes == 1 && !a.is_shape ? std::sqrt(limit) * u[j] : 0;
     std::tie(q.low95, q.high95) = interval_after_selection(q.value, q.u, least);
+    if (a.is_shape) {
+      q.low95 = std::max(q.low95, a.low);
+      q.high95 = std::min(q.high95, a.high);
+      for (double* x : {&q.value, &q.low95, &q.high95}) *x += a.held;
+    }
     // A declared quantity is reported as it stands; by its shift where it differs from reading to reading.
     if (t.candidate.family == Family::declared) {
+      const Points at = c.fitter.without_draws(fit);
       double low = 1e300, high = -1e300;
-      for (std::size_t r = 0; r < fit.at.size(); ++r) {
+      for (std::size_t r = 0; r < at.size(); ++r) {
         if (!quantities::holds_for(a.labels, c.experiment.scenario().readings[r].labels)) continue;
-        low = std::min(low, fit.at[r][a.quantity]);
-        high = std::max(high, fit.at[r][a.quantity]);
+        low = std::min(low, at[r][a.quantity]);
+        high = std::max(high, at[r][a.quantity]);
       }
       if (low != high) {
         q.name = "shift of " + q.name;

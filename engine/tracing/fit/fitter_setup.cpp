@@ -20,6 +20,7 @@ Fitter::Fitter(const propagation::Experiment& experiment, const Simulator& simul
       replicates_(find_replicates(observations)), threads_(threads) {
   find_unknowns();
   find_draws();
+  find_fitted();
   std::set<std::size_t> needed;
   for (const FreeUnknown& u : unknowns_) needed.insert(u.quantity);
   for (const Draw& d : draws_)
@@ -79,6 +80,50 @@ void Fitter::find_draws() {
       for (const std::size_t v : plan.columns[plan.gather[r][q]].variates) draws_[v].moves.push_back({r, q});
   for (Draw& d : draws_)
     d.local = std::ranges::all_of(d.moves, [&](const auto& m) { return m.first == d.moves.front().first; });
+}
+
+/// Where readings jump or have a kink, the tangent leads nowhere, and declared draws stay as declared.
+void Fitter::find_fitted() {
+  std::map<std::size_t, double> largest; // by quantity
+  for (Draw& d : draws_) {
+    d.fitted = !d.local && !d.moves.empty() && std::ranges::all_of(d.moves, [&](const auto& m) {
+      return experiment_.layout().model.contains(m.second);
+    });
+    if (!d.fitted) continue;
+    for (const auto& [r, q] : d.moves) largest[q] = std::max(largest[q], d.u);
+  }
+  const bool jumps = !smooth(largest);
+  for (Draw& d : draws_) d.fitted = d.fitted && !jumps;
+  // Tied draws move together or not at all.
+  for (const auto& group : experiment_.plan().copulas) {
+    const bool all = std::ranges::all_of(group.variates, [&](std::size_t v) { return draws_[v].fitted; });
+    for (const std::size_t v : group.variates) draws_[v].fitted = all;
+  }
+}
+
+bool Fitter::smooth(const std::map<std::size_t, double>& steps) const {
+  std::vector<std::size_t> quantities;
+  std::vector<Variation> variations;
+  for (const auto& [q, u] : steps) {
+    quantities.push_back(q);
+    for (const double share : {1.0, -1.0, 0.5, -0.5}) variations.push_back({{{q, share * u, false}}});
+  }
+  if (quantities.empty()) return true;
+  const Points at = simulator_.estimates();
+  Vector here;
+  Matrix slope, f;
+  std::vector<bool> valid;
+  if (!simulator_.derivatives(at, quantities, here, slope)) return false;
+  simulator_.vary(at, variations, f, valid);
+  for (std::size_t i = 0; i < quantities.size(); ++i) {
+    const auto first = index(4 * i);
+    if (!(valid[4 * i] && valid[4 * i + 1] && valid[4 * i + 2] && valid[4 * i + 3])) continue;
+    const Vector line = slope.col(index(i)) * steps.at(quantities[i]);
+    const auto off = [&](Index column, double share) { return (f.col(first + column) - here - share * line).norm(); };
+    const double whole = off(0, 1) + off(1, -1), half = off(2, 0.5) + off(3, -0.5);
+    if (whole > criteria.straight * line.norm() && half > criteria.curved * whole) return false;
+  }
+  return true;
 }
 
 void Fitter::find_responses() {

@@ -55,14 +55,55 @@ void Fitter::apply(JointFit& fit, const Vector& change, double share) const {
     }
 }
 
-/// Sum of squares of the residuals, winsorised as in the step, so that an outlier cannot stop the fit.
-double Fitter::objective(const JointFit& fit, const Whitened& prior, const Scan& scan) const {
-  return prior.left(prior.whiten(scan.winsorised(prior.take(fit.residual))))[0];
+void Fitter::move_draws(JointFit& fit, const Vector& change) const {
+  fit.drawn += change;
+  Vector moved = change;
+  for (const auto& group : experiment_.plan().copulas) {
+    const std::size_t m = group.variates.size();
+    for (std::size_t i = 0; i < m; ++i) {
+      double& own = moved[index(group.variates[i])] = 0;
+      for (std::size_t j = 0; j <= i; ++j) own += group.cholesky[i * m + j] * change[index(group.variates[j])];
+    }
+  }
+  for (std::size_t v = 0; v < draws_.size(); ++v)
+    if (const double by = draws_[v].u * moved[index(v)]; by != 0)
+      for (const auto& [r, q] : draws_[v].moves) fit.at[r][q] += by;
+}
+
+Points Fitter::without_draws(JointFit fit) const {
+  move_draws(fit, -fit.drawn);
+  return std::move(fit.at);
+}
+
+Vector Fitter::released_draws(const JointFit& fit) const {
+  Vector out = Vector::Zero(fit.drawn.size());
+  for (std::size_t v = 0; v < draws_.size(); ++v)
+    if (fit.drawn[index(v)] != 0 && released(draws_[v], fit)) out[index(v)] = -fit.drawn[index(v)];
+  return out;
+}
+
+/// Squares of the residuals at the point itself, winsorised as in the step, so that an outlier cannot stop the fit, and
+/// of the fitted draws. What is shared but not fitted is left out by the linearised model.
+double Fitter::objective(const JointFit& fit, const CovarianceModel& model, const Scan& scan) const {
+  Design others = fit.design;
+  others.random.resize(others.random.rows(), 0);
+  double squares = 0;
+  for (std::size_t j = 0; j < fit.draw_of.size(); ++j) {
+    const std::size_t v = fit.draw_of[j];
+    squares += fit.drawn[index(v)] * fit.drawn[index(v)];
+    if (draws_[v].fitted) continue;
+    others.random.conservativeResize(Eigen::NoChange, others.random.cols() + 1);
+    others.random.rightCols(1) = fit.design.random.col(index(j));
+  }
+  const Whitened here(others, rows_, {}, model);
+  const Matrix chosen = scan.winsorised(here.take(fit.residual)) - here.take(drawn_part(fit));
+  return here.left(here.whiten(chosen))[0] + squares;
 }
 
 JointFit Fitter::linearised(double noise) const {
   JointFit fit;
   fit.at = simulator_.estimates();
+  fit.drawn = Vector::Zero(index(draws_.size()));
   fit.noise = noise;
   fit.valid = linearise(fit);
   return fit;
@@ -79,7 +120,9 @@ Points Fitter::without_terms(JointFit fit) const {
 JointFit Fitter::fit(const std::vector<Term>& terms, double noise, const JointFit* start) const {
   JointFit fit;
   fit.at = start ? without_terms(*start) : simulator_.estimates();
+  fit.drawn = start ? start->drawn : Vector::Zero(index(draws_.size()));
   fit.terms = terms;
+  move_draws(fit, released_draws(fit));
   fit.noise = noise > 0 ? noise : start ? start->noise : 1;
   for (Term& t : fit.terms) {
     for (const auto& [q, value] : t.candidate.held)
@@ -102,6 +145,7 @@ JointFit Fitter::fit(const std::vector<Term>& terms, double noise, const JointFi
 
 void Fitter::converge(JointFit& fit, double noise) const {
   fit.converged = false;
+  bool draws_move = true; // false where readings jump, and their tangent leads nowhere
   for (fit.iterations = 1; fit.iterations <= criteria.most_iterations; ++fit.iterations) {
     const Scan scan(fit.design, rows_, {}, threads_);
     const Whitened& plain = scan.whitened(scan.plain());
@@ -125,6 +169,14 @@ void Fitter::converge(JointFit& fit, double noise) const {
       if (u > 0) largest = std::max(largest, std::fabs(x[i]) / u);
       for (Index j = 0; j < p; ++j) fit.covariance(column, scan.used()[index(j)]) = fit.variance * covariance(i, j);
     }
+    Vector drawn = Vector::Zero(fit.drawn.size());
+    for (std::size_t j = 0; j < fit.draw_of.size() && draws_move; ++j) {
+      const std::size_t v = fit.draw_of[j];
+      if (!draws_[v].fitted) continue;
+      const Index i = p + index(j);
+      drawn[index(v)] = x[i] - fit.drawn[index(v)];
+      largest = std::max(largest, std::fabs(drawn[index(v)]) / std::sqrt(fit.variance * covariance(i, i)));
+    }
     fit.converged = largest < criteria.converged;
     // The noise's scale once the fit stands, as far as the readings know it.
     if (fit.converged || fit.iterations == criteria.most_iterations) {
@@ -138,17 +190,19 @@ void Fitter::converge(JointFit& fit, double noise) const {
       linearise(fit);
       continue;
     }
-    const Whitened prior(fit.design, rows_, {}, fit.covariance_model);
-    const double before = objective(fit, prior, scan);
+    const double before = objective(fit, fit.covariance_model, scan);
     bool better = false;
     for (double share = 1; share > 0.05 && !better; share /= 2) {
       JointFit next = fit;
       apply(next, change, share);
+      move_draws(next, share * drawn);
       if (!linearise(next)) continue;
-      better = objective(next, prior, scan) <= before * (1 + 1e-9);
+      better = objective(next, next.covariance_model, scan) <= before * (1 + 1e-9);
       if (better) fit = std::move(next);
     }
-    if (!better) { // at the floor of what steps can do
+    if (!better && drawn.norm() > 0) {
+      draws_move = false;
+    } else if (!better) { // at the floor of what steps can do
       fit.converged = largest < criteria.stalled;
       break;
     }

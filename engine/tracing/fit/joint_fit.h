@@ -1,5 +1,6 @@
 #pragma once
 /// The declared model and the effects found so far, fitted to some of the readings with the full non-linear model.
+#include <map>
 #include <optional>
 
 #include "tracing/candidates/candidates.h"
@@ -17,9 +18,15 @@ struct Term {
 
 struct JointFit {
   std::vector<Term> terms;
-  Points at;                        ///< all quantities, sizes of terms included
-  Vector residual;                  ///< measured minus simulated, SI, in the order of measurement, all readings
+  Points at; ///< all quantities, sizes of terms and fitted declared draws included
+  /// By declared draw of the fitter: its most likely value given the readings, in standard uncertainties and before
+  /// draws are tied; 0 where it is not fitted.
+  Vector drawn;
+  /// Measured minus simulated without the declared draws, which the design's random columns therefore explain as a
+  /// whole; SI, in the order of measurement, all readings.
+  Vector residual;
   Design design;                    ///< linearised there; the terms' columns are its last fixed ones
+  std::vector<std::size_t> draw_of; ///< by random column of the design: the declared draw
   Matrix covariance;                ///< covariance of all fixed columns, SI; NaN if no reading is sensitive
   double noise = 1;                 ///< scale of the declared noise that the design holds
   CovarianceModel covariance_model; ///< model of the noise
@@ -60,6 +67,8 @@ public:
   /// If readings jump with a term's size, its tangent does not give its uncertainty. Replaces it in the covariance by
   /// that of the likelihood along the size or of the straight line through the jumps, whichever is larger.
   void widen_jumping(JointFit& fit) const;
+  /// The point of a fit with every declared draw at null, as a scenario states its values.
+  Points without_draws(JointFit fit) const;
   const std::vector<FreeUnknown>& unknowns() const { return unknowns_; }
   bool noise_declared() const { return noise_declared_; }
   const std::vector<Index>& rows() const { return rows_; }
@@ -71,7 +80,8 @@ private:
     std::string name;
     double u = 0;
     std::vector<std::pair<std::size_t, std::size_t>> moves;
-    bool local = false; ///< acts on one reading only
+    bool local = false;  ///< acts on one reading only
+    bool fitted = false; ///< moves the point of linearisation, as priors of the model's quantities do
   };
   struct Profile;
   /// True if a profile is needed: readings jump with the size, or do not follow its tangent.
@@ -79,6 +89,9 @@ private:
 
   void find_unknowns();
   void find_draws();
+  void find_fitted();
+  /// Whether readings follow these steps of quantities (of both signs) like a smooth function.
+  bool smooth(const std::map<std::size_t, double>& steps) const;
   /// Throws InputError if noise is declared, and an indication has none that differs from reading to reading.
   void need_independent_noise() const;
   /// Computes the responses to declared draws of effects over their values, at the estimates.
@@ -89,16 +102,21 @@ private:
   void set_fixed(const Matrix& derivative, const std::vector<std::size_t>& wanted, JointFit& fit) const;
   void set_local_noise(const Matrix& derivative, JointFit& fit) const;
   void set_declared(const Matrix& derivative, JointFit& fit) const;
-  /// True if a draw belongs to a quantity that is a term; its prior is then released.
+  /// Part of the readings that the fitted draws give by the random columns, by row of the design.
+  Vector drawn_part(const JointFit& fit) const;
+  /// True if a draw is of just the readings at which a term shifts its quantity; its prior is then released.
   bool released(const Draw& draw, const JointFit& fit) const;
   /// Column of a quantity among the derivatives of `needed_`.
   Index needed(std::size_t quantity) const;
 
   void converge(JointFit& fit, double noise) const;
+  /// Moves fitted draws, by their column in `draws_`, and the point with them.
+  void move_draws(JointFit& fit, const Vector& change) const;
+  Vector released_draws(const JointFit& fit) const;   ///< the change that undoes those of quantities that are terms
   Vector sizes(const std::vector<Term>& terms) const; ///< after a zero for every unknown
   Points without_terms(JointFit fit) const;
   void apply(JointFit& fit, const Vector& change, double share) const;
-  double objective(const JointFit& fit, const Whitened& prior, const Scan& scan) const;
+  double objective(const JointFit& fit, const CovarianceModel& model, const Scan& scan) const;
   /// If readings jump, Gauss-Newton may end in a poor optimum: sets the last term to a nearby size that fits better,
   /// with all others fitted. Returns false if there is none or nothing jumps.
   bool explore(JointFit& fit) const;

@@ -43,7 +43,7 @@ std::optional<Fitter::Profile> Fitter::profile(const JointFit& fit, std::size_t 
   const Term& t = fit.terms[term];
   const Amplitude& a = t.candidate.amplitudes[index(amplitude)];
   // The tool itself is solved anew for every size: there no more than Gauss-Newton.
-  if (a.quantity == Amplitude::npos || experiment_.layout().model.contains(a.quantity) || !(unit > 0))
+  if (a.quantity == Amplitude::npos || a.is_shape || experiment_.layout().model.contains(a.quantity) || !(unit > 0))
     return std::nullopt;
   Profile out;
   Matrix f;

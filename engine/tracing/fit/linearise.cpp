@@ -34,6 +34,7 @@ bool Fitter::linearise(JointFit& fit) const {
     if (responses_[i].slope.size() > 0) derivative.col(index(i)) = responses_[i].slope;
   set_local_noise(derivative, fit);
   set_declared(derivative, fit);
+  fit.residual += drawn_part(fit);
   return fit.residual.allFinite() && d.fixed.allFinite() && d.random.allFinite();
 }
 
@@ -119,10 +120,13 @@ void Fitter::set_local_noise(const Matrix& derivative, JointFit& fit) const {
 bool Fitter::released(const Draw& draw, const JointFit& fit) const {
   return std::ranges::any_of(fit.terms, [&](const Term& t) {
     const Amplitude& a = t.candidate.amplitudes[0];
-    return t.candidate.family == Family::declared && std::ranges::all_of(draw.moves, [&](const auto& m) {
-             return m.second == a.quantity &&
-                    quantities::holds_for(a.labels, experiment_.scenario().readings[m.first].labels);
-           });
+    const auto moved = [&](const auto& r) { return quantities::holds_for(a.labels, r.labels); };
+    const auto& readings = experiment_.scenario().readings;
+    // The draw of just these readings: those of single labels within them stay as declared.
+    return t.candidate.family == Family::declared &&
+           draw.moves.size() == index(std::ranges::count_if(readings, moved)) &&
+           std::ranges::all_of(draw.moves,
+                               [&](const auto& m) { return m.second == a.quantity && moved(readings[m.first]); });
   });
 }
 
@@ -157,6 +161,7 @@ void Fitter::set_declared(const Matrix& derivative, JointFit& fit) const {
   }
   d.random.resize(n, 0);
   d.random_names.clear();
+  fit.draw_of.clear();
   d.bent.clear();
   d.bends.clear();
   std::vector<int> table_of(responses_.size(), -1);
@@ -169,14 +174,22 @@ void Fitter::set_declared(const Matrix& derivative, JointFit& fit) const {
   std::ranges::stable_sort(used, [&](std::size_t a, std::size_t b) { return draws_[a].name < draws_[b].name; });
   for (const std::size_t v : used) {
     const Vector one = in_sequence(o, shared.col(index(v)));
-    if (!(one.norm() > 1e-6 * d.reference[0])) continue;
+    if (!(one.norm() > 1e-6 * d.reference[0]) && fit.drawn[index(v)] == 0) continue;
     d.random.conservativeResize(n, d.random.cols() + 1);
     d.random.rightCols(1) = one;
     d.random_names.push_back(draws_[v].name);
+    fit.draw_of.push_back(v);
     const std::size_t moved = draws_[v].moves.front().second;
     const bool may_bend = std::binary_search(needed_.begin(), needed_.end(), moved);
     d.bent.push_back(may_bend ? table_of[index(needed(moved))] : -1);
   }
+}
+
+Vector Fitter::drawn_part(const JointFit& fit) const {
+  Vector out = Vector::Zero(fit.design.random.rows());
+  for (std::size_t j = 0; j < fit.draw_of.size(); ++j)
+    out += fit.design.random.col(index(j)) * fit.drawn[index(fit.draw_of[j])];
+  return out;
 }
 
 } // namespace gumshoe::tracing

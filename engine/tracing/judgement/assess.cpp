@@ -47,7 +47,8 @@ double least_p(const std::vector<Null>& nulls, const Matrix& statistics, Index s
 /// the root mean square.
 class NoiseSize {
 public:
-  NoiseSize(const Scan& scan, const Statistics& data, const Statistics& draws, double core, double declared) {
+  NoiseSize(const Scan& scan, const Statistics& data, const Statistics& draws, double core, double declared,
+            double freedom) {
     const bool few = scan.degrees_of_freedom() < criteria.robust_freedom;
     const Vector size = few ? Vector(draws.variance_without_scatter.cwiseSqrt()) : draws.scale;
     const double observed = few ? std::sqrt(data.variance_without_scatter[0]) : data.scale[0];
@@ -55,19 +56,21 @@ public:
     const auto first = drawn_.head(drawn_.size() / 2);
     middle_ = first.mean();
     spread_ = std::sqrt((first.array() - middle_).square().mean());
+    // A declared s of nu degrees of freedom has a relative uncertainty of 1 / sqrt(2 nu) itself.
+    spread_of_data_ = std::sqrt(spread_ * spread_ + 1 / (2 * freedom));
     judged_ = declared > 0 && spread_ > 0;
     if (judged_) observed_ = std::log(observed / declared);
   }
   bool judged() const { return judged_; } ///< a noise is declared
-  double p() const { return judged_ ? p_of(observed_) : 1; }
-  double p_drawn(Index set) const { return judged_ ? p_of(drawn_[set]) : 1; }
+  double p() const { return judged_ ? p_of(observed_, spread_of_data_) : 1; }
+  double p_drawn(Index set) const { return judged_ ? p_of(drawn_[set], spread_) : 1; }
 
 private:
-  double p_of(double log_size) const {
-    return boost::math::cdf(boost::math::complement(boost::math::normal(), (log_size - middle_) / spread_));
+  double p_of(double log_size, double spread) const {
+    return boost::math::cdf(boost::math::complement(boost::math::normal(), (log_size - middle_) / spread));
   }
   Vector drawn_;
-  double middle_ = 0, spread_ = 0, observed_ = 0;
+  double middle_ = 0, spread_ = 0, spread_of_data_ = 0, observed_ = 0;
   bool judged_ = false;
 };
 
@@ -124,7 +127,7 @@ double Null::quantile(double p) const {
 }
 
 Assessment assess(const Scan& scan, const Vector& residuals, int draws, std::uint64_t seed, double alpha,
-                  double declared, const ScatterResponse& response, const Repeats* repeats) {
+                  double declared, const ScatterResponse& response, const Repeats* repeats, double freedom) {
   Assessment out;
   out.data = scan.run(residuals);
   out.noise_shape = scan.noise_shape(residuals);
@@ -142,7 +145,7 @@ Assessment assess(const Scan& scan, const Vector& residuals, int draws, std::uin
   const Statistics nothing = null_draws(k0, out.data.variance_without_scatter[0], seed);
   out.null = nulls_of(nothing.ratio);
   const auto component = nulls_of(nothing.scatter);
-  const NoiseSize size(scan, out.data, nothing, out.noise_shape.core(), declared);
+  const NoiseSize size(scan, out.data, nothing, out.noise_shape.core(), declared, freedom);
   out.p_noise = size.p();
   out.noise_small = size.judged() && 1 - out.p_noise < criteria.noise_small_p;
   std::vector<double> least;
@@ -171,6 +174,19 @@ Assessment assess(const Scan& scan, const Vector& residuals, int draws, std::uin
   const auto rank = static_cast<std::size_t>(alpha * static_cast<double>(least.size() + 1));
   out.threshold = least[std::min(least.size() - 1, rank > 0 ? rank - 1 : 0)];
   return out;
+}
+
+Assessment assess_surely(const Scan& scan, const Vector& residuals, int draws, std::uint64_t seed, double alpha,
+                         double declared, const ScatterResponse& response, const Repeats* repeats, double freedom) {
+  const auto unsure = [&](double p, double n) {
+    return p > criteria.unsure_low * alpha && p < criteria.unsure_high * alpha &&
+           std::fabs(p - alpha) < criteria.sure * std::sqrt(alpha * (1 - alpha) / n);
+  };
+  for (double times = 1;; times *= criteria.more_draws) {
+    const double n = times * draws;
+    Assessment out = assess(scan, residuals, static_cast<int>(n), seed, alpha, declared, response, repeats, freedom);
+    if (times >= criteria.most_draws || !(unsure(out.p_anything, n) || unsure(out.p_signature, n))) return out;
+  }
 }
 
 } // namespace gumshoe::tracing

@@ -46,7 +46,12 @@ struct Repeats {
 /// @param alpha     probability of any finding if there is nothing to find
 /// @param declared  ratio of the true standard deviation to the design's under the declared noise; 0: none is declared
 /// @param repeats   what comes back, of the same rows; null: it is not tested
+/// @param freedom   degrees of freedom of the declared noise
 Assessment assess(const Scan& scan, const Vector& residuals, int draws, std::uint64_t seed, double alpha,
-                  double declared, const ScatterResponse& response = {}, const Repeats* repeats = nullptr);
+                  double declared, const ScatterResponse& response = {}, const Repeats* repeats = nullptr,
+                  double freedom = std::numeric_limits<double>::infinity());
+/// The same with more draws as long as a p-value that decides is near alpha (criteria.h).
+Assessment assess_surely(const Scan& scan, const Vector& residuals, int draws, std::uint64_t seed, double alpha,
+                         double declared, const ScatterResponse& response, const Repeats* repeats, double freedom);
 
 } // namespace gumshoe::tracing

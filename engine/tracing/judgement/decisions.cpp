@@ -40,14 +40,16 @@ std::vector<std::size_t> explain_scatter(const std::vector<Scored>& candidates, 
   return out;
 }
 
-bool could_still_win(double p, double threshold, double score, double best) {
-  return p <= threshold && score >= criteria.contender_share * best - criteria.contender_margin;
+bool could_still_win(double score, double best) {
+  return score >= criteria.contender_share * best - criteria.contender_margin;
 }
+
+bool still_counts(double gain, double limit) { return gain > limit - criteria.decisive; }
 
 bool passes(double p, double threshold, double ratio, double limit) { return p <= threshold || ratio > limit; }
 
 bool shape_excludes(double lead, const Chance& chance) {
-  return lead >= criteria.decisive && (lead > criteria.beyond_doubt || chance() < criteria.shape_lead_p);
+  return lead > criteria.equal_merit && (lead > criteria.beyond_doubt || chance() < criteria.shape_lead_p);
 }
 
 Standing standing(double lead, double correlation, const Chance& chance, const std::function<double()>& added,

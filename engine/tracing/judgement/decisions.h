@@ -32,7 +32,9 @@ std::vector<std::size_t> best_of(const std::vector<Scored>& candidates, std::siz
 std::vector<std::size_t> explain_scatter(const std::vector<Scored>& candidates, double gain_of_scatter);
 
 /// Whether a candidate is refitted with the whole model once another was. @param best score of the first in order
-bool could_still_win(double p, double threshold, double score, double best);
+bool could_still_win(double score, double best);
+/// Whether a finding still counts given all others, by the ratio that it adds and the one that it had to exceed.
+bool still_counts(double gain, double limit);
 /// Whether a refitted candidate counts: by its p-value in the linear fit, or its ratio in the whole model.
 bool passes(double p, double threshold, double ratio, double limit);
 

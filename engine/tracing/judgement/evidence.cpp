@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "tracing/candidates/shapes.h"
 #include "tracing/criteria.h"
@@ -24,6 +25,54 @@ Design without_components(Design design) {
   return design;
 }
 
+/// Criterion of the residuals at a fit's point, with the same unknowns as without some of its terms.
+double criterion_at(const TraceContext& c, const JointFit& fit, const std::vector<std::size_t>& terms) {
+  Design design = fit.design;
+  std::vector<Index> kept;
+  for (Index j = 0; j < design.fixed.cols(); ++j)
+    if (std::ranges::none_of(terms, [&](std::size_t t) {
+          const Index first = first_column(fit, t);
+          return j >= first && j < first + fit.terms[t].size.size();
+        }))
+      kept.push_back(j);
+  design.fixed = Matrix(fit.design.fixed(Eigen::all, kept));
+  const Scan scan(design, c.fitter.rows(), {}, c.threads);
+  return scan.run(scan.whitened(scan.plain()).take(fit.residual)).criterion[0];
+}
+
+/// Whether the last term's shape parameters are known by the fit, and not at a limit.
+bool shape_known(const JointFit& fit) {
+  const std::size_t last = fit.terms.size() - 1;
+  const Term& t = fit.terms[last];
+  const Vector u = uncertainties(fit, last);
+  for (Index j = 0; j < t.size.size(); ++j) {
+    const Amplitude& a = t.candidate.amplitudes[index(j)];
+    if (a.is_shape && !(fit.converged && u[j] < criteria.known_shape * std::fabs(a.held + t.size[j]) &&
+                        t.size[j] > a.low && t.size[j] < a.high))
+      return false;
+  }
+  return true;
+}
+
+/// Degrees of freedom of the declared noise by Welch and Satterthwaite's formula (JCGM 100, G.4.1), the fewest of all
+/// indications.
+double noise_freedom(const propagation::Experiment& experiment) {
+  const auto& quantities = experiment.scenario().quantities;
+  const propagation::Range noise = experiment.layout().indications;
+  double fewest = std::numeric_limits<double>::infinity();
+  for (std::size_t q = noise.begin; q < noise.end; ++q)
+    for (const auto& entry : quantities[q].entries) {
+      double variance = 0, sum = 0;
+      for (const auto& component : entry.components) {
+        const double u = component.distribution.standard_uncertainty();
+        variance += u * u;
+        sum += u * u * u * u / component.degrees_of_freedom;
+      }
+      if (sum > 0) fewest = std::min(fewest, variance * variance / sum);
+    }
+  return fewest;
+}
+
 } // namespace
 
 Repeats repeats_of(const TraceContext& c, const JointFit& fit) {
@@ -34,9 +83,10 @@ Repeats repeats_of(const TraceContext& c, const JointFit& fit) {
   return out;
 }
 
-Evidence::Evidence(const TraceContext& c, const JointFit& fit, std::size_t round) : c_(c), fit_(fit) {
+Evidence::Evidence(const TraceContext& c, const JointFit& fit, std::size_t round, const std::set<std::string>& dropped)
+    : c_(c), fit_(fit) {
   const double size = std::sqrt(std::max(1e-300, fit.variance)) * fit.design.reference[0];
-  const auto known = [&](const Candidate& a) { return is_term(fit, a); };
+  const auto known = [&](const Candidate& a) { return dropped.contains(a.name) || is_term(fit, a); };
   candidates_ =
       physical_candidates(c.experiment, c.simulator, fit.at, c.observations, criteria.secant_step * size, known);
   for (Candidate& a : shapes(c.observations))
@@ -46,9 +96,10 @@ Evidence::Evidence(const TraceContext& c, const JointFit& fit, std::size_t round
   data_ = scan_->whitened(scan_->plain()).take(fit.residual);
   const double declared = c.fitter.noise_declared() ? 1 / fit.noise : 0;
   const Repeats repeats = repeats_of(c, fit);
-  assessment_ = assess(
+  assessment_ = assess_surely(
       *scan_, data_, c.draws, c.seed + round, c.alpha, declared,
-      [&](const CovarianceModel& model, double variance) { return scatter_response(model, variance); }, &repeats);
+      [&](const CovarianceModel& model, double variance) { return scatter_response(model, variance); }, &repeats,
+      noise_freedom(c.experiment));
 }
 
 Matrix Evidence::scatter_response(const CovarianceModel& model, double variance) const {
@@ -83,16 +134,37 @@ JointFit Evidence::with(const std::vector<Term>& more) const {
 }
 
 Trial Evidence::trial(std::size_t a) const {
-  Trial out{a, with({linear_term(a)})};
+  const Term start = linear_term(a);
+  Trial held = trial(a, start);
+  if (start.candidate.held.empty() || !held.fit.valid) return held;
+  Term freed{with_free_shape(start.candidate, c_.experiment), start.size};
+  freed.size.conservativeResizeLike(Vector::Zero(freed.candidate.columns.cols()));
+  Trial out = trial(a, freed);
+  if (!out.fit.valid || !shape_known(out.fit)) return held;
+  // Less twice what chance gives a size.
+  out.score = std::max(held.score, out.score - 2 * static_cast<double>(start.candidate.held.size()));
+  return out;
+}
+
+Trial Evidence::trial(std::size_t a, const Term& term) const {
+  Trial out{a, with({term})};
   if (!out.fit.valid) return out;
-  // At the fitted size, with the same unknowns as without the term.
-  Design without = out.fit.design;
-  without.fixed = Matrix(without.fixed.leftCols(without.fixed.cols() - candidates_[a].columns.cols()));
-  const Scan scan(without, c_.fitter.rows(), {}, c_.threads);
-  out.ratio = assessment_.data.criterion[0] - scan.run(scan.whitened(scan.plain()).take(out.fit.residual)).criterion[0];
+  out.ratio = assessment_.data.criterion[0] - criterion_at(c_, out.fit, {out.fit.terms.size() - 1});
   if (!std::isfinite(out.ratio)) out.ratio = 0;
   out.score = out.ratio - 2 * assessment_.null[a].mean;
   return out;
+}
+
+JointFit without(const TraceContext& c, const JointFit& fit, const std::vector<std::size_t>& dropped) {
+  std::vector<Term> terms;
+  for (std::size_t t = 0; t < fit.terms.size(); ++t)
+    if (std::ranges::find(dropped, t) == dropped.end()) terms.push_back(fit.terms[t]);
+  return c.fitter.fit(terms, fit.noise, &fit);
+}
+
+double gain_of(const TraceContext& c, const JointFit& fit, const std::vector<std::size_t>& terms) {
+  const JointFit less = without(c, fit, terms);
+  return less.valid ? criterion_at(c, less, {}) - criterion_at(c, fit, terms) : std::numeric_limits<double>::infinity();
 }
 
 bool Evidence::predicts_better(const JointFit& other, const CovarianceModel& model) const {
@@ -100,6 +172,17 @@ bool Evidence::predicts_better(const JointFit& other, const CovarianceModel& mod
     return cross_validated(c_.observations, c_.fitter.rows(), fit, model);
   };
   return error(other) < error(fit_);
+}
+
+double Evidence::start_share(const JointFit& other) const {
+  const auto squares = [&](const JointFit& fit) {
+    const Scan scan(fit.design, c_.fitter.rows(), {}, c_.threads);
+    const Whitened& w = scan.whitened(scan.plain());
+    return Vector(w.project(w.whiten(scan.winsorised(w.take(fit.residual)))).array().square());
+  };
+  const Vector removed = squares(fit_) - squares(other);
+  return removed.head(std::min(removed.size(), criteria.first_readings * index(c_.observations.indications))).sum() /
+         removed.sum();
 }
 
 double Evidence::chance_of_lead(std::size_t better, std::size_t than, double lead) const {

@@ -1,6 +1,8 @@
 #pragma once
 /// Evidence of one round of the search: its candidates, their assessment by the bootstrap, and figures that require a
 /// fit or a simulation.
+#include <set>
+
 #include "tracing/fit/trace_context.h"
 #include "tracing/judgement/assess.h"
 
@@ -20,7 +22,8 @@ Repeats repeats_of(const TraceContext& context, const JointFit& fit);
 class Evidence {
 public:
   /// Finds the candidates at the point of `fit` (kept by reference) and assesses them. @param round keys the draws
-  Evidence(const TraceContext& context, const JointFit& fit, std::size_t round);
+  /// @param dropped  names of candidates that are not tried again
+  Evidence(const TraceContext& context, const JointFit& fit, std::size_t round, const std::set<std::string>& dropped);
 
   const std::vector<Candidate>& candidates() const { return candidates_; }
   const Assessment& assessment() const { return assessment_; }
@@ -36,12 +39,15 @@ public:
   Term linear_term(std::size_t candidate) const;
   /// The fit with one more term, or more, by the whole model. Not `valid` where the model has no value.
   JointFit with(const std::vector<Term>& more) const;
+  /// With its shape parameters fitted, where the data determine them.
   Trial trial(std::size_t candidate) const;
 
   /// Whether parts of the training readings, left out in turn, are predicted better by `other`; both under one
   /// covariance model.
   bool predicts_better(const JointFit& other, const CovarianceModel& model) const;
   bool predicts_better(const JointFit& other) const { return predicts_better(other, other.covariance_model); }
+  /// Share of what `other` removes from the squares that the first readings have (criteria.h).
+  double start_share(const JointFit& other) const;
   /// Probability that `better` would lead `than` by so much if `than` were true; by simulation.
   double chance_of_lead(std::size_t better, std::size_t than, double lead) const;
   /// Cosine of two projected signatures.
@@ -54,6 +60,7 @@ public:
 private:
   /// Shape of draws of the seat of a clamping: if readings jump with the seat, so do the draws.
   Matrix scatter_response(const CovarianceModel& model, double variance) const;
+  Trial trial(std::size_t candidate, const Term& term) const;
 
   const TraceContext& c_;
   const JointFit& fit_;
@@ -63,6 +70,11 @@ private:
   Vector data_;
   Assessment assessment_;
 };
+
+/// Likelihood ratio (2 ln) that some terms of a fit add to all others, all fitted again without them.
+double gain_of(const TraceContext& context, const JointFit& fit, const std::vector<std::size_t>& terms);
+/// The fit without some of its terms.
+JointFit without(const TraceContext& context, const JointFit& fit, const std::vector<std::size_t>& terms);
 
 /// The same candidates with a noise that has no variance component.
 class WithoutScatter {

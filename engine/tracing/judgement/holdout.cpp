@@ -14,13 +14,10 @@ HeldOut hold_out(const Design& d, const Matrix& residual, const std::vector<Inde
   const auto use = independent(d, train);
   const Whitened w(d, train, use, model);
   const Matrix x = w.solve(w.whiten_rows(residual));
-  out.residual.resize(index(test.size()), residual.cols());
-  for (Index i = 0; i < out.residual.rows(); ++i) {
-    const Index row = test[index(i)];
-    Eigen::RowVectorXd predicted = Eigen::RowVectorXd::Zero(residual.cols());
-    for (std::size_t j = 0; j < use.size(); ++j) predicted += d.fixed(row, use[j]) * x.row(index(j));
-    out.residual.row(i) = residual.row(row) - predicted;
-  }
+  const auto p = index(use.size()), q = d.random.cols();
+  Matrix as_declared = residual(test, Eigen::all);
+  as_declared -= d.fixed(test, use) * x.topRows(p);
+  out.residual = as_declared - d.random(test, Eigen::all) * x.bottomRows(q);
   // The block's offsets: columns to which no training row is sensitive.
   std::vector<Index> offsets;
   const auto sensitive = [&](const std::vector<Index>& rows, Index j) {
@@ -37,16 +34,17 @@ HeldOut hold_out(const Design& d, const Matrix& residual, const std::vector<Inde
   const Whitened declared(own, test, seen, {0, model.scatter, model.ratio, model.indication});
   own.random.resize(own.random.rows(), 0);
   const Whitened local(own, test, seen, {});
-  if (!seen.empty()) {
-    const Matrix offset = local.solve(local.whiten(out.residual));
-    for (Index i = 0; i < out.residual.rows(); ++i)
+  for (Matrix* of : {&out.residual, &as_declared}) {
+    if (seen.empty()) break;
+    const Matrix offset = local.solve(local.whiten(*of));
+    for (Index i = 0; i < of->rows(); ++i)
       for (std::size_t j = 0; j < seen.size(); ++j)
-        out.residual.row(i) -= own.fixed(test[index(i)], seen[j]) * offset.row(index(j));
+        of->row(i) -= own.fixed(test[index(i)], seen[j]) * offset.row(index(j));
   }
   if (out.count <= 0) return out;
   // Squares of what the offsets leave: those may be millions of times the noise, and differences would lose digits.
   out.squares = local.left(local.whiten(out.residual));
-  out.whitened = declared.left(declared.whiten(out.residual));
+  out.whitened = declared.left(declared.whiten(as_declared));
   return out;
 }
 

@@ -14,7 +14,8 @@ struct HeldOut {
 };
 
 /// Predicts `test` rows from a fit of `train` rows under a covariance model. Fixed columns, those of terms included,
-/// are fitted to the training rows; declared quantities stay as declared, so their uncertainty is part of the error.
+/// and declared draws are fitted to the training rows. `whitened` holds the draws as declared, with their uncertainty:
+/// a declared value that the training rows contradict counts against the fit.
 /// Fixed columns to which no training row is sensitive are the block's offsets: they are projected out of its
 /// residuals, and a block with no more rows than offsets is not scored.
 /// @param residual  all rows x sets, SI, at the point where the design was linearised

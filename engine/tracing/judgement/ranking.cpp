@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
+#include <string>
+#include <utility>
 
 #include "tracing/criteria.h"
 #include "tracing/judgement/decisions.h"
@@ -42,24 +43,59 @@ std::vector<RankedCandidate> ranking(const Scan& scan, const Assessment& assessm
   return out;
 }
 
+namespace {
+
+/// What is known of an effect's size: whitened length of the readings' change by a unit of it, and over a finite size.
+struct Response {
+  std::size_t candidate = 0, amplitude = 0;
+  double passes = 0, tangent = 0;
+  std::vector<std::pair<double, double>> finite; ///< size, length by the unit
+
+  /// The size that changes the readings by `needed`, with the curvature that the finite sizes show; of both signs the
+  /// larger one.
+  double size(double needed) const {
+    const double straight = tangent > 0 ? needed / tangent : std::numeric_limits<double>::infinity();
+    double out = 0;
+    for (const auto& [at, length] : finite) {
+      const double bend = (length - tangent) / std::fabs(at); // length of x: tangent x + bend x^2
+      out = std::max(out,
+                     bend > 0 ? (std::sqrt(tangent * tangent + 4 * bend * needed) - tangent) / (2 * bend) : straight);
+    }
+    return finite.empty() ? straight : out;
+  }
+};
+
+} // namespace
+
 std::vector<DetectionLimit> detection_limits(const Scan& scan, const Assessment& assessment,
                                              const std::vector<Candidate>& candidates) {
   const double s = std::sqrt(assessment.data.variance[0]);
-  std::vector<DetectionLimit> out;
-  std::set<std::string> seen;
+  std::vector<std::pair<std::string, Response>> responses; // by effect and quantity, in the order of the candidates
   for (std::size_t a = 0; a < candidates.size(); ++a) {
     const Candidate& one = candidates[a];
-    if (!one.physical() || one.finite != 0) continue;
+    if (!one.physical()) continue;
     const bool told = scan.identifiable(a) > criteria.absorbed_share;
-    const double passes = std::sqrt(assessment.null[a].quantile(std::max(assessment.threshold, 1e-12)));
     for (std::size_t j = 0; j < one.amplitudes.size(); ++j) {
-      const Amplitude& amplitude = one.amplitudes[j];
-      if (!seen.insert(one.name + "/" + amplitude.name).second) continue;
-      const double information = told ? scan.information(a, index(j), assessment.data.covariance_model[0]) : 0;
-      out.push_back({one.name, amplitude.name, amplitude.unit, amplitude.si_unit,
-                     information > 0 ? (passes + criteria.detected) * s / std::sqrt(information)
-                                     : std::numeric_limits<double>::infinity()});
+      const std::string key = one.name + "/" + one.amplitudes[j].name;
+      auto known = std::ranges::find(responses, key, &std::pair<std::string, Response>::first);
+      const bool fresh = known == responses.end();
+      if (fresh) {
+        const double passes = std::sqrt(assessment.null[a].quantile(std::max(assessment.threshold, 1e-12)));
+        known = responses.insert(known, {key, {a, j, passes, 0, {}}});
+      }
+      const double length = told ? std::sqrt(scan.information(a, index(j), assessment.data.covariance_model[0])) : 0;
+      if (one.finite != 0)
+        known->second.finite.emplace_back(one.finite, length);
+      else if (fresh)
+        known->second.tangent = length;
     }
+  }
+  std::vector<DetectionLimit> out;
+  for (const auto& [key, response] : responses) {
+    const Candidate& one = candidates[response.candidate];
+    const Amplitude& amplitude = one.amplitudes[response.amplitude];
+    out.push_back({one.name, amplitude.name, amplitude.unit, amplitude.si_unit,
+                   response.size((response.passes + criteria.detected) * s)});
   }
   return out;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -31,15 +32,18 @@ public:
     const auto mean_square = [](const JointFit& fit) { return fit.noise * fit.noise * fit.variance; };
     for (bool more = true; search_goes_on(more, out_.findings.size());) {
       const double before = mean_square(out_.found);
-      const std::size_t known = out_.findings.size(), terms = out_.found.terms.size();
+      const std::size_t terms = out_.found.terms.size();
+      latest_.clear();
       more = round();
-      if (out_.found.terms.size() > terms) out_.stages.push_back({out_.found, out_.findings.size()});
-      for (std::size_t i = known; i < out_.findings.size(); ++i)
-        out_.findings[i].finding.removed_share = (before - mean_square(out_.found)) / mean_square(out_.base) /
-                                                 static_cast<double>(out_.findings.size() - known);
+      for (const std::size_t i : latest_)
+        out_.findings[i].finding.removed_share +=
+            (before - mean_square(out_.found)) / mean_square(out_.base) / static_cast<double>(latest_.size());
+      const bool took_one = out_.found.terms.size() > terms;
+      if (took_one) prune();
+      if (took_one) out_.stages.push_back({out_.found, out_.findings, out_.dropped});
     }
     if (out_.findings.size() >= criteria.most_findings) {
-      out_.last = Evidence(c_, out_.found, out_.findings.size()).assessment();
+      out_.last = Evidence(c_, out_.found, rounds_, dropped_).assessment();
       out_.capped = out_.last.p_anything <= c_.alpha;
     }
     c_.fitter.widen_jumping(out_.found);
@@ -51,13 +55,56 @@ private:
     if (c_.progress) c_.progress(what);
   }
 
+  /// Drops, one after the other, what no longer counts given all that was found.
+  void prune() {
+    std::vector<double> gains;
+    do {
+      gains.clear();
+      for (const SearchFinding& f : out_.findings)
+        gains.push_back(f.terms.empty() || out_.findings.size() == 1 ? std::numeric_limits<double>::infinity()
+                                                                     : gain_of(c_, out_.found, f.terms) - f.threshold);
+    } while (drop_least(gains));
+  }
+
+  /// @param gains  by finding: the ratio that it adds less the one that it must exceed
+  bool drop_least(const std::vector<double>& gains) {
+    const auto least = std::ranges::min_element(gains);
+    if (least == gains.end() || still_counts(*least, 0)) return false;
+    const auto at = static_cast<std::size_t>(least - gains.begin());
+    const SearchFinding gone = out_.findings[at];
+    const std::string name = out_.found.terms[gone.terms[0]].candidate.name;
+    dropped_.insert(name);
+    out_.dropped.push_back(
+        fmt::format("{} was found and then dropped: beside the other findings it no longer counts", name));
+    const JointFit rest = without(c_, out_.found, gone.terms);
+    out_.findings.erase(out_.findings.begin() + static_cast<std::ptrdiff_t>(at));
+    for (SearchFinding& f : out_.findings)
+      for (std::size_t& t : f.terms)
+        t -= index(std::ranges::count_if(gone.terms, [&](std::size_t other) { return other < t; }));
+    adopt(rest);
+    return true;
+  }
+
+  /// Adds a finding; a size of an effect that is named already joins it.
+  void add(SearchFinding found) {
+    const auto same = std::ranges::find_if(out_.findings, [&](const SearchFinding& f) {
+      return f.finding.kind == Kind::named && found.finding.kind == Kind::named &&
+             f.finding.members == found.finding.members;
+    });
+    latest_.push_back(index(same - out_.findings.begin()));
+    if (same == out_.findings.end())
+      out_.findings.push_back(std::move(found));
+    else
+      same->terms.insert(same->terms.end(), found.terms.begin(), found.terms.end());
+  }
+
   /// Takes in one more effect; false if there is none.
   bool round() {
     report_progress(out_.findings.empty() ? "searching for what is missing from the declared model"
                                           : "searching for "
                                             "more");
     const bool first = out_.findings.empty() && out_.first.p.empty();
-    const Evidence evidence(c_, out_.found, out_.findings.size());
+    const Evidence evidence(c_, out_.found, rounds_++, dropped_);
     evidence_ = &evidence;
     out_.last = evidence.assessment();
     if (first) {
@@ -100,26 +147,29 @@ private:
 
   /// Candidates that could win, by the whole model, best first.
   std::vector<Trial> trials() const {
-    const auto& assessment = evidence_->assessment();
     const auto physical = best_of([](const Candidate& a) { return a.physical(); }, criteria.most_refitted);
     std::vector<Trial> out;
     for (const std::size_t a : physical) {
-      if (!out.empty() &&
-          !could_still_win(assessment.p[a], assessment.threshold, evidence_->score(a), evidence_->score(physical[0])))
-        break;
+      if (!out.empty() && !could_still_win(evidence_->score(a), evidence_->score(physical[0]))) break;
       if (Trial one = evidence_->trial(a); one.fit.valid) out.push_back(std::move(one));
     }
+    // Those that do not pass by themselves may be members of the class of one that does.
+    const auto counts = [&](const Trial& t) {
+      return passes(evidence_->assessment().p[t.candidate], evidence_->assessment().threshold, t.ratio,
+                    evidence_->limit(t.candidate));
+    };
     std::ranges::sort(out, std::ranges::greater{}, &Trial::score);
+    const auto best = std::ranges::find_if(out, counts);
+    if (best == out.end()) return {};
+    std::rotate(out.begin(), best, best + 1);
     return out;
   }
 
   bool take_signature() {
-    const auto& assessment = evidence_->assessment();
     const auto plain = best_of([](const Candidate& a) { return a.family == Family::shape; }, criteria.rival_shapes);
     const std::vector<Trial> tried = trials();
     if (tried.empty()) return take_shape();
     const std::size_t best = tried[0].candidate;
-    if (!passes(assessment.p[best], assessment.threshold, tried[0].ratio, evidence_->limit(best))) return take_shape();
     if (const auto shape = shape_instead(tried[0], plain)) {
       if (take_pair(plain)) return true;
       for (const Trial& t : tried)
@@ -161,9 +211,9 @@ private:
     const JointFit fit = evidence_->with(both);
     if (!fit.valid || !evidence_->predicts_better(fit)) return false;
     for (const std::size_t i : {0, 1}) {
-      out_.findings.push_back(found_by(pair[i], Kind::named, i));
-      out_.findings.back().finding.remarks.push_back("found together with " + candidate(pair[1 - i]).name +
-                                                     "; each masks the other");
+      SearchFinding found = found_by(pair[i], Kind::named, i);
+      found.finding.remarks.push_back("found together with " + candidate(pair[1 - i]).name + "; each masks the other");
+      add(std::move(found));
       outcomes_[pair[i]] = "named";
     }
     adopt(fit);
@@ -197,7 +247,7 @@ private:
     }
     if (members.size() > 1) found.finding.kind = Kind::equivalence_class;
     for (const std::size_t a : members) outcomes_[a] = members.size() > 1 ? "in the class" : "named";
-    out_.findings.push_back(std::move(found));
+    add(std::move(found));
     adopt(best.fit);
   }
 
@@ -209,6 +259,10 @@ private:
       if (assessment.p[a] > assessment.threshold) continue;
       JointFit fit = evidence_->with({evidence_->linear_term(a)});
       if (!fit.valid) continue;
+      if (evidence_->start_share(fit) > criteria.first_share) {
+        outcomes_[a] = "refused: it is of the first readings only";
+        continue;
+      }
       if (evidence_->predicts_better(fit)) {
         add_shape(a, fit, {});
         return true;
@@ -229,7 +283,7 @@ private:
     found.finding.remarks.push_back("described by " + with_shape(candidate(a)));
     if (!remark.empty()) found.finding.remarks.push_back(remark);
     outcomes_[a] = "describes an unknown effect";
-    out_.findings.push_back(std::move(found));
+    add(std::move(found));
     adopt(fit);
   }
 
@@ -238,7 +292,7 @@ private:
     const auto found = scatter_shown(c_, evidence_->assessment(), out_.findings.size());
     if (!found) return false;
     if (found->component >= 0 && take_instead(*found)) return true;
-    out_.findings.push_back(*found);
+    add(*found);
     return false;
   }
 
@@ -272,7 +326,7 @@ private:
     }
     if (found.terms.empty()) return false;
     found.finding.members.push_back(scatter.finding.members[0]);
-    out_.findings.push_back(std::move(found));
+    add(std::move(found));
     adopt(best);
     return true;
   }
@@ -280,6 +334,9 @@ private:
   const TraceContext& c_;
   Search out_;
   const Evidence* evidence_ = nullptr; ///< of this round
+  std::size_t rounds_ = 0;
+  std::vector<std::size_t> latest_; ///< findings of this round
+  std::set<std::string> dropped_;   ///< names of candidates that another finding made superfluous
   std::map<std::size_t, std::string> outcomes_;
 };
 
@@ -313,16 +370,21 @@ std::optional<SearchFinding> scatter_shown(const TraceContext& c, const Assessme
 
 std::vector<std::string> step_back(const TraceContext& c, Search& s) {
   s.stages.pop_back();
-  const auto known = s.findings.begin() + static_cast<std::ptrdiff_t>(s.stages.back().findings);
+  const Stage& left = s.stages.back();
   std::vector<std::string> dropped;
-  for (auto f = known; f != s.findings.end(); ++f) {
-    const auto& [kind, name, members] = std::tie(f->finding.kind, f->finding.described_by, f->finding.members);
-    dropped.push_back(kind == Kind::not_in_catalogue ? name : fmt::format("{}", fmt::join(members, " | ")));
+  for (const SearchFinding& f : s.findings) {
+    const auto& [kind, name, members] = std::tie(f.finding.kind, f.finding.described_by, f.finding.members);
+    const bool known = std::ranges::any_of(left.findings, [&](const SearchFinding& other) {
+      return std::tie(other.finding.kind, other.finding.described_by, other.finding.members) ==
+             std::tie(kind, name, members);
+    });
+    if (!known) dropped.push_back(kind == Kind::not_in_catalogue ? name : fmt::format("{}", fmt::join(members, " | ")));
   }
-  s.findings.erase(known, s.findings.end());
+  s.findings = left.findings;
+  s.dropped = left.dropped;
   s.found = s.stages.back().fit;
   s.capped = false;
-  s.last = Evidence(c, s.found, s.findings.size()).assessment();
+  s.last = Evidence(c, s.found, s.findings.size(), {}).assessment();
   if (look_for_scatter(s.last, c.alpha))
     if (const auto scatter = scatter_shown(c, s.last, s.findings.size())) s.findings.push_back(*scatter);
   c.fitter.widen_jumping(s.found);

@@ -19,7 +19,8 @@ struct SearchFinding {
 /// What stood after a round that took in a term.
 struct Stage {
   JointFit fit;
-  std::size_t findings = 0;
+  std::vector<SearchFinding> findings;
+  std::vector<std::string> dropped;
 };
 
 struct Search {
@@ -30,6 +31,7 @@ struct Search {
   std::vector<RankedCandidate> ranking; ///< of the first round
   std::vector<DetectionLimit> limits;   ///< of the first round
   bool capped = false;                  ///< ended at criteria.most_findings while more would be found
+  std::vector<std::string> dropped;     ///< sentences on findings that another one made superfluous
   int tried = 0;                        ///< signatures and variance components of the first round
 };
 

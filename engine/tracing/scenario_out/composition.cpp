@@ -10,6 +10,7 @@
 #include "analysis/rounding.h"
 #include "base/units.h"
 #include "quantities/cells.h"
+#include "tracing/criteria.h"
 #include "tracing/scenario_out/composition.h"
 #include "tracing/scenario_out/corrections.h"
 
@@ -38,6 +39,7 @@ public:
 
   void compose() {
     c_.fitter.settle(fit_);
+    at_ = c_.fitter.without_draws(fit_);
     write_shapes();
     absorb_shapes();
     constants();
@@ -150,8 +152,8 @@ private:
 
   /// At the first reading for which an entry holds.
   double value_at(std::size_t quantity, const Labels& labels) const {
-    for (std::size_t r = 0; r < fit_.at.size(); ++r)
-      if (quantities::holds_for(labels, c_.experiment.scenario().readings[r].labels)) return fit_.at[r][quantity];
+    for (std::size_t r = 0; r < at_.size(); ++r)
+      if (quantities::holds_for(labels, c_.experiment.scenario().readings[r].labels)) return at_[r][quantity];
     return 0;
   }
 
@@ -183,12 +185,21 @@ private:
     if (one.candidate.amplitudes[0].scenario_name.empty()) return;
     const Finding* f = finding_of(t);
     for (const auto& [shape, value] : one.candidate.held)
-      lines_.push_back({unknown(shape, 0), value, -1, {false, {}, "held at the best of the values tried"}});
+      if (std::ranges::none_of(one.candidate.amplitudes, [&](const Amplitude& a) { return a.quantity == shape; }))
+        lines_.push_back({unknown(shape, 0), value, -1, {false, {}, "held at the best of the values tried"}});
     for (std::size_t j = 0; j < one.candidate.amplitudes.size(); ++j) {
       const Amplitude& a = one.candidate.amplitudes[j];
       const Index column = first_column(fit_, t) + index(j);
       const std::string source = f ? source_of(*f, a) : "";
-      if (f && f->spread > 0) widen(*f, t, index(j), column);
+      if (a.is_shape && !(std::sqrt(fit_.covariance(column, column)) <
+                          criteria.normal_shape * std::fabs(a.held + one.size[index(j)]))) {
+        lines_.push_back({unknown(a.quantity, 0),
+                          a.held + one.size[index(j)],
+                          -1,
+                          {false, {}, source + "; held, because a normal distribution would reach beyond zero"}});
+        continue;
+      }
+      if (f && f->spread > 0 && !a.is_shape) widen(*f, t, index(j), column);
       if (a.quantity == Amplitude::npos)
         lines_.push_back({unknown(stated(a), 0), one.size[index(j)], column, {false, {}, source}});
       else
@@ -311,6 +322,7 @@ private:
   const Search& s_;
   Trace& out_;
   JointFit fit_;
+  Points at_;                                        ///< of the fit, declared draws at null
   std::vector<std::optional<WrittenShape>> written_; ///< by term: a shape as a correction
   Vector absorbed_;                                  ///< by unknown: what it takes of shapes
   std::vector<Vector> left_;                         ///< by term: what no unknown takes

@@ -1,0 +1,156 @@
+"""Right names and right sizes, on made-up sets that once got wrong ones.
+
+usage: names_test.py path/to/gumshoe [unittest options]
+"""
+import json
+import math
+import pathlib
+import random
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE), str(HERE.parent / "cli")]
+
+import sets
+import spheres
+from program import GUMSHOE, gumshoe
+from trace_closing_test import Rods
+
+LINE = """schema = 1
+title = "a line against a reference"
+[model]
+name = "expression"
+[model.indications]
+d = "gain * x + offset"
+[conditions]
+x = "0 mm"
+place = 0
+[quantities]
+gain = { estimated = true, value = 0, unit = "um/m" }
+offset = { estimated = true, value = "0 um" }
+[indications.d]
+components = [ { distribution = "normal", u = "1 um", per = "reading"FREEDOM } ]
+[indications.d.readings]
+file = "r.csv"
+column = "d"
+unit = "um"
+labels = { cycle = "cycle" }
+conditions = { x = { column = "x", unit = "mm" }, place = { column = "x", unit = "1" } }
+[trace]
+blocks = "cycle"
+order = "t"
+draws = 199
+[trace.columns]
+t = { column = "t", unit = "s" }
+STATED
+"""
+
+
+class Names(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.path = pathlib.Path(temporary.name)
+
+    def trace(self, scenario, *words):
+        run = gumshoe("trace", scenario, "--format", "json", "--out", self.path / "o.h5", "--force", *words, cwd=self.path)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        return json.loads(run.stdout)
+
+    def line(self, shift, seed, noise=1.0, cycles=6, stated=(), freedom=""):
+        """A line at 20 places over cycles, with shift(x in mm, t in s) in um."""
+        chance, rows, t = random.Random(seed), ["cycle,x,t,d"], 0
+        for cycle in range(1, cycles + 1):
+            for x in range(0, 400, 20):
+                rows.append(f"{cycle},{x},{t},{shift(x, t) + chance.gauss(0, noise):.6f}")
+                t += 10
+        text = "".join(f'[stated_effects.{name}]\nindication = "d"\nunit = "um"\nmeaning = "{name}"\nformula = "{formula}"\n' for name, formula in stated)
+        (self.path / "r.csv").write_text("\n".join(rows) + "\n")
+        (self.path / "s.toml").write_text(LINE.replace("STATED", text).replace("FREEDOM", freedom))
+        return self.trace("s.toml")
+
+    # quantities with wide priors are fitted with the whole model
+
+    def wide(self, seed, reversal=0.0):
+        rng = sets.stream(seed, "wide priors")
+        d = spheres.design(rng, wide=True)
+        q = np.array([c.value + c.u * rng.standard_normal() for c in d.cells])
+        turned = -0.5 * reversal * spheres.ARCSEC * d.value("C_direction")
+        y = spheres.simulate(None, d, [q], C_error=turned)[0]
+        y = y + d.noise * rng.standard_normal(y.shape)
+        return self.trace(sets.write(self.path, self.path / "truth", "set", d, y, {}, spheres), "--draws", "199"), d.noise
+
+    def test_wide_priors_and_nothing_else(self):
+        alarms = 0
+        for seed in (1, 2, 3, 4):
+            v, noise = self.wide(seed)
+            alarms += bool(v["findings"])
+            for key in ("before", "holdout_before"):  # the millimetres of the priors are gone
+                self.assertLess(v["rms"][key] * 1e6, 1.5 * noise, (seed, key))
+        self.assertLessEqual(alarms, 1)  # at 0.05 each, two or more of four come once in seventy
+
+    def test_reversal_beside_wide_priors(self):
+        v, _ = self.wide(5, reversal=8.0)
+        self.assertEqual([f["name"] for f in v["findings"]], ["c_axis_reversal"])
+        q = v["findings"][0]["quantities"][0]
+        self.assertLess(abs(q["value"] - 8), 4 * q["u"])
+
+    # what another finding explains is dropped
+
+    def test_a_name_that_stands_for_two_is_dropped_for_them(self):
+        a, b = (lambda x: math.sin(x / 23)), (lambda x: math.cos(x / 31))
+        stated = (("first", "sin(place / 23)"), ("second", "cos(place / 31)"), ("mixture", "sin(place / 23) + 0.6 * cos(place / 31) + 0.3 * sin(place / 9)"))
+        v = self.line(lambda x, t: 2.5 * a(x) + 2.5 * b(x), 1, stated=stated)
+        self.assertEqual(sorted(f["name"] for f in v["findings"]), ["first", "second"], v["findings"])
+
+    # shape parameters are sizes
+
+    def test_a_time_constant_is_a_size(self):
+        rods = Rods(setups=8, per_clamp=12)
+        rods.write(self.path, lambda i: 20e-3 * math.exp(-i / 17.0), seed=3)  # 96 readings, one a minute
+        v = self.trace("s.toml", "--draws", "199")
+        self.assertEqual([f["name"] for f in v["findings"]], ["thermal_growth"], v["findings"])
+        sizes = {q["name"]: q for q in v["findings"][0]["quantities"]}
+        q = sizes["time_constant"]
+        self.assertLess(abs(q["value"] - 17), 4 * q["u"])
+        self.assertLess(q["u"], 3)
+        low, high = q["interval95"]
+        self.assertTrue(0 < low < q["value"] < high)
+        run = gumshoe("run", next(self.path.rglob("*.traced.toml")), "--out", self.path / "run.h5", cwd=self.path)
+        self.assertEqual(run.returncode, 0, run.stderr)
+
+    # a shift of all leaves what is declared of each
+
+    def test_a_shared_shift_leaves_the_draws_of_labels(self):
+        names = ("1", "2", "3", "4")
+        cells = "\n".join(f'"{r}" = {{ value = "150 mm", u = "3 um" }}' for r in names)
+        rods = Rods(rods=names, setups=6, per_clamp=6, own=False, length=f"[quantities.rod_length.by.rod]\n{cells}")
+        rods.text = rods.text.replace("[quantities.rod_length]\n[quantities.rod_length.by.rod]", "[quantities.rod_length.by.rod]")
+        chance = random.Random(7)
+        own = {r: chance.gauss(0, 3e-3) for r in names}
+        rods.write(self.path, lambda i: 0.05 + own[rods.cells[i][1]], seed=4)
+        v = self.trace("s.toml", "--draws", "199")
+        self.assertEqual(len(v["findings"]), 1, [f["name"] for f in v["findings"]])
+
+    # noise
+
+    def test_a_declared_s_is_known_by_its_degrees_of_freedom(self):
+        self.assertEqual(self.line(lambda x, t: 0, 2, noise=2)["verdict"], "scatter")
+        self.assertEqual(self.line(lambda x, t: 0, 2, noise=2, freedom=", degrees_of_freedom = 3")["verdict"], "nothing_found")
+
+    def test_both_numbers_of_a_noise_that_is_too_large(self):
+        f = self.line(lambda x, t: 0, 2, noise=2.5)["findings"][0]
+        self.assertTrue(any("1 um is declared" in r for r in f["remarks"]), f)
+
+    def test_outliers_at_the_start_are_no_shape(self):
+        for seed in (1, 2, 3):
+            v = self.line(lambda x, t: (20, 8, 5)[t // 10] if t < 30 else 0, seed)
+            self.assertFalse([f for f in v["findings"] if f["kind"] == "not_in_catalogue" and f["depends_on"][0] in ("t", "order")], v["findings"])
+
+
+if __name__ == "__main__":
+    unittest.main()
