@@ -168,7 +168,7 @@ samples = 100_000
         u = json.loads(run.stdout)[0]["standard_uncertainty"]
         self.assertAlmostEqual(u / (1 + 1.8**2) ** 0.5 * 1e3, 1, delta=5 / (2 * 100_000) ** 0.5)
 
-    def test_nothing_measured_is_no_run(self):
+    def test_where_nothing_is_measured_the_readings_are_predicted(self):
         text = """schema = 1
 [model]
 name = "expression"
@@ -183,7 +183,10 @@ readings = [2.1]
 """
         file = self.scenario(text)
         self.assertEqual(gumshoe("check", file).returncode, 0)
-        self.assertIsNone(complaint(gumshoe("run", file, "--out", self.folder / "n.h5")))
+        run = gumshoe("run", file, "--samples", 1000, "--format", "json", "--out", self.folder / "n.h5")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        predicted, = json.loads(run.stdout)
+        self.assertEqual((predicted["estimate"], predicted["standard_uncertainty"], predicted["predicted"]["read"]), (2, 0, 2.1))
 
     def test_virtual_experiment_needs_formulas_of_indications(self):
         text = H2.replace('name = "expression"', 'name = "expression"\nmethod = "virtual_experiment"')
