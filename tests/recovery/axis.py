@@ -51,6 +51,7 @@ MISSING = {
     "first_cycle": lambda x, p, d, t, T: 6 * math.exp(-t / 200),
     "periodic": lambda x, p, d, t, T: 4 * math.sin(2 * math.pi * x / 170),
     "temperature": lambda x, p, d, t, T: 3 * (T - 20),
+    "cycles": lambda x, p, d, t, T: (3, -2, 1, -3, 2, -1)[int(t // 360)],  # each 18 readings long
 }
 # The noise, in um: plain, of which one reading is bad, read in coarse steps, larger at the far end.
 NOISE = ("plain", "one_bad", "coarse", "unequal")

@@ -132,6 +132,11 @@ public:
       fit->design.reference = after_.design.reference;
       fit->covariance_model = after_.covariance_model;
     }
+    // Scatter that was found is declared from now on, as in the traced scenario.
+    if (std::ranges::any_of(s.findings, [&](const SearchFinding& f) {
+          return f.finding.kind == Kind::scatter && f.component >= 0 && f.component == after_.covariance_model.scatter;
+        }))
+      declare_scatter(after_.design, after_.covariance_model);
     std::vector<Index> every(index(after_.residual.size()));
     std::iota(every.begin(), every.end(), 0);
     noise_ = noise_of_readings(every);
@@ -336,7 +341,7 @@ private:
   const TraceContext& c_;
   const std::vector<Index>& rows_;
   JointFit before_;
-  const JointFit& after_;
+  JointFit after_;
   JointFit previous_; ///< without what the last round found
   Trace& out_;
   Matrix noise_; ///< draws of the fitted noise, all rows x sets
