@@ -52,6 +52,12 @@ class Weeks(unittest.TestCase):
             again = run("--append", "h.h5")
             self.assertEqual(again.returncode, 2)
             self.assertIn("it holds these readings already", again.stderr)
+            with h5py.File(folder / "h.h5", "a") as file:
+                cut = file["campaigns/000/information"][:-1]
+                del file["campaigns/000/information"]
+                file["campaigns/000/information"] = cut
+            axis.write(folder, "reversal", 3)
+            self.assertIn("a matrix of information is cut short", run("--append", "h.h5").stderr)
             for content, words in ((b"no HDF5", "cannot be read as a history"), ((folder / "results/s.traced.h5").read_bytes(), "it is no history")):
                 (folder / "other.h5").write_bytes(content)
                 refused = run("--append", "other.h5")
