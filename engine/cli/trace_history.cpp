@@ -68,6 +68,10 @@ void History::append(const tracing::Trace& trace, store::Draft& draft) {
 
 std::string History::text(double alpha) const {
   if (evidence_.campaigns == 0) return "nothing is appended, because these data cannot decide\n";
+  if (evidence_.effects.empty())
+    return fmt::format("{} has {} campaign{}, but no evidence: the first shows no effect of the catalogue, and none is "
+                       "stated ([stated_effects])\n",
+                       path_, evidence_.campaigns, evidence_.campaigns == 1 ? "" : "s");
   std::string out =
       fmt::format("evidence over {} campaign{} in {}, valid whenever one looks, the search for {} effects allowed for "
                   "(shown at {:.0f} to 1):\n",
