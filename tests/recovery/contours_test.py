@@ -4,14 +4,13 @@
 usage: contours_test.py path/to/gumshoe [unittest options]
        contours_test.py path/to/gumshoe --score N      # N sets of each kind: a table of what was found
 """
-import json
 import math
 import pathlib
 import random
-import subprocess
 import sys
-import tempfile
 import unittest
+
+import kinds
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests/cli"))
@@ -21,7 +20,7 @@ GUMSHOE = str(pathlib.Path(sys.argv.pop(1)).resolve()) if len(sys.argv) > 1 and 
 PASSES, READINGS = 4, 15
 plain.STEP = 4e-3  # exact to 1e-6 mm once the slides move
 
-# name: effect as it is planted, what may be said of it
+# name: what may be said of it
 KINDS = {
     "nothing": set(),
     "unequal gains": {"servo_gain_mismatch"},
@@ -89,17 +88,7 @@ def write(folder, kind, seed):
 
 
 def found(kind, seed):
-    """Names that a trace of one set finds."""
-    with tempfile.TemporaryDirectory() as folder:
-        path = pathlib.Path(folder)
-        run = subprocess.run([GUMSHOE, "trace", write(path, kind, seed), "--out", path / "out.h5", "--format", "json"],
-                             capture_output=True, text=True)
-        assert run.returncode == 0, run.stderr
-        return verdict_names(json.loads(run.stdout))
-
-
-def verdict_names(verdict):
-    return [sorted(m["name"] if isinstance(m, dict) else m for m in f.get("members", [f.get("name")])) for f in verdict["findings"]]
+    return kinds.found_in(GUMSHOE, write, kind, seed)
 
 
 class Contours(unittest.TestCase):
@@ -112,15 +101,5 @@ class Contours(unittest.TestCase):
         self.assertIn("servo_gain_mismatch", names[0])
 
 
-def score(n):
-    for kind, right in KINDS.items():
-        seen = [found(kind, 100 + i) for i in range(n)]
-        good = sum(any(right & set(names) for names in s) if right else not s for s in seen)
-        print(f"| {kind} | {good} of {n} | {'; '.join(' + '.join(' or '.join(m) for m in s) or 'nothing' for s in seen)} |", flush=True)
-
-
 if __name__ == "__main__":
-    if "--score" in sys.argv:
-        score(int(sys.argv[sys.argv.index("--score") + 1]))
-    else:
-        unittest.main()
+    kinds.main(found, KINDS)

@@ -4,12 +4,9 @@ import numpy as np
 
 import by_formula
 import shapes
-from by_formula import scatter_toml
 from design import Cell, Design, hold_out, room_temperature
-from shapes import along
 
 MODEL = "lever"
-OUTPUTS = ("d",)
 RAD = np.pi / 180
 
 
@@ -51,31 +48,10 @@ CANDIDATES = {
     "growth": ("sin(swivel) * warmth", "um/K", lambda d: np.sin(d.value("swivel") * RAD) * d.value("warmth"), ("swivel", "warmth")),
     "drift": ("time", "um/h", lambda d: d.time / 3600, ("time",)),
 }
-ADDED = by_formula.added(CANDIDATES) | {
-    "table": (along(1.0)(table), None, None, ("swivel",)),
-    "third": (along(1.0)(lambda d, rng: np.cos(3 * d.value("swivel") * RAD + rng.uniform(0, 6))), None, None, ("swivel",)),
-    "jump": (along(1.0)(shapes.giving_way), None, None, ("time",)),
+ADDED = {
+    "table": (table, ("swivel",)),
+    "third": (lambda d, rng: np.cos(3 * d.value("swivel") * RAD + rng.uniform(0, 6)), ("swivel",)),
+    "jump": (shapes.giving_way, ("time",)),
 }
-SINGLES = tuple(n for n in ADDED if n.startswith("stated:"))
-PAIRS = (("stated:play", "stated:oval"),)
-OUTSIDE = tuple(n for n in ADDED if not n.startswith("stated:"))
-ALIASES = ()
-CATALOGUE = []
-
-
-def own_catalogue(d):
-    return by_formula.own_catalogue(CANDIDATES, d)
-
-
-def header(d):
-    return by_formula.header("a gauge in a swivelling arm", d, "arm * sin(swivel + tilt) + cross * cos(swivel + lean) + offset",
-                             {"swivel": '"0 deg"', "direction": 1, "time": '"0 s"'})
-
-
-def stated(d):
-    return by_formula.stated_toml(CANDIDATES, d)
-
-
-def leave(program, d, q, left):
-    """Readings with what each mounting of the gauge left (um, by reading)."""
-    return simulate(program, d, [q])[0] + left[:, None]
+SYSTEM = by_formula.System(MODEL, design, simulate, "a gauge in a swivelling arm", "arm * sin(swivel + tilt) + cross * cos(swivel + lean) + offset",
+                           {"swivel": '"0 deg"', "direction": 1, "time": '"0 s"'}, CANDIDATES, ADDED, ("play", "oval"), ())

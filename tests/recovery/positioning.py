@@ -4,12 +4,9 @@ import numpy as np
 
 import by_formula
 import shapes
-from by_formula import scatter_toml
 from design import Cell, Design, hold_out, room_temperature
-from shapes import along
 
 MODEL = "positioning"
-OUTPUTS = ("d",)
 PITCH = 43.0  # mm
 
 
@@ -61,40 +58,19 @@ CANDIDATES = {
     "drift": ("time", "um/h", lambda d: d.time / 3600, ("time",)),
     "lead": ("sin(screw)", "um", lambda d: np.sin(d.value("screw") * np.pi / 180), ("screw", "x")),
 }
-ADDED = by_formula.added(CANDIDATES) | {
-    "reversal": (along(1.0)(lambda d, rng: d.value("direction")), None, None, ("direction",)),
-    "alternating": (along(1.0)(lambda d, rng: d.value("direction") * (-1.0)**place(d)), None, None, ("x", "screw", "direction")),
-    "growing_reversal": (along(1.0)(lambda d, rng: d.value("direction") * d.value("x")), None, None, ("x", "screw", "direction")),
-    "table": (along(1.0)(table(False)), None, None, ("x", "screw")),
-    "table_both": (along(1.0)(table(True)), None, None, ("x", "screw", "direction")),
-    "drift_by_position": (along(1.0)(lambda d, rng: d.time * d.value("x")), None, None, ("x", "screw", "time")),
-    "first_cycle": (along(1.0)(lambda d, rng: np.exp(-d.time / 200)), None, None, ("time", "cycle")),
-    "cycle_1": (along(1.0)(lambda d, rng: d.block() == "1"), None, None, ("time", "cycle")),
-    "periodic": (along(1.0)(lambda d, rng: np.sin(2 * np.pi * d.value("x") / 95 + rng.uniform(0, 6))), None, None, ("x", "screw")),
-    "temperature": (along(1.0)(lambda d, rng: d.value("warmth")), None, None, ("warmth",)),
-    "jump": (along(1.0)(shapes.giving_way), None, None, ("time",)),
-    "bump": (along(1.0)(shapes.passing(200, 500)), None, None, ("time", "cycle")),
+ADDED = {
+    "reversal": (lambda d, rng: d.value("direction"), ("direction",)),
+    "alternating": (lambda d, rng: d.value("direction") * (-1.0)**place(d), ("x", "screw", "direction")),
+    "growing_reversal": (lambda d, rng: d.value("direction") * d.value("x"), ("x", "screw", "direction")),
+    "table": (table(False), ("x", "screw")),
+    "table_both": (table(True), ("x", "screw", "direction")),
+    "drift_by_position": (lambda d, rng: d.time * d.value("x"), ("x", "screw", "time")),
+    "first_cycle": (lambda d, rng: np.exp(-d.time / 200), ("time", "cycle")),
+    "cycle_1": (lambda d, rng: d.block() == "1", ("time", "cycle")),
+    "periodic": (lambda d, rng: np.sin(2 * np.pi * d.value("x") / 95 + rng.uniform(0, 6)), ("x", "screw")),
+    "temperature": (lambda d, rng: d.value("warmth"), ("warmth",)),
+    "jump": (shapes.giving_way, ("time",)),
+    "bump": (shapes.passing(200, 500), ("time", "cycle")),
 }
-SINGLES = (*(n for n in ADDED if n.startswith("stated:")), "declared:sag")
-PAIRS = (("stated:lost_motion", "stated:drift"),)
-OUTSIDE = tuple(n for n in ADDED if not n.startswith("stated:"))
-ALIASES = ()
-CATALOGUE = []
-
-
-def own_catalogue(d):
-    return by_formula.own_catalogue(CANDIDATES, d)
-
-
-def header(d):
-    return by_formula.header("a linear axis against a laser", d, "gain * x + sag * x^2 + offset",
-                             {"x": '"0 mm"', "direction": 1, "time": '"0 s"', "screw": '"0 deg"'})
-
-
-def stated(d):
-    return by_formula.stated_toml(CANDIDATES, d)
-
-
-def leave(program, d, q, left):
-    """Readings with what each mounting of the reflector left (um, by reading)."""
-    return simulate(program, d, [q])[0] + left[:, None]
+SYSTEM = by_formula.System(MODEL, design, simulate, "a linear axis against a laser", "gain * x + sag * x^2 + offset",
+                           {"x": '"0 mm"', "direction": 1, "time": '"0 s"', "screw": '"0 deg"'}, CANDIDATES, ADDED, ("lost_motion", "drift"), ("sag",))

@@ -4,12 +4,9 @@ import numpy as np
 
 import by_formula
 import shapes
-from by_formula import scatter_toml
 from design import Cell, Design, hold_out, room_temperature
-from shapes import along
 
 MODEL = "proving_ring"
-OUTPUTS = ("d",)
 FULL = 50.0  # kN
 
 
@@ -54,34 +51,13 @@ CANDIDATES = {
     "creep": ("time", "um/h", lambda d: d.time / 3600, ("time",)),
 }
 half = lambda d: d.value("load") / FULL * (1 - d.value("load") / FULL)
-ADDED = by_formula.added(CANDIDATES) | {
-    "hysteresis": (along(1.0)(lambda d, rng: d.value("direction") * half(d)), None, None, ("direction", "load")),
-    "table": (along(1.0)(table), None, None, ("load",)),
-    "cubic": (along(1.0)(lambda d, rng: (d.value("load") / FULL)**3), None, None, ("load",)),
-    "first_run": (along(1.0)(lambda d, rng: (d.block() == "1") * d.value("load")), None, None, ("time", "run", "load")),
-    "temperature": (along(1.0)(lambda d, rng: d.value("warmth")), None, None, ("warmth",)),
-    "jump": (along(1.0)(shapes.giving_way), None, None, ("time",)),
+ADDED = {
+    "hysteresis": (lambda d, rng: d.value("direction") * half(d), ("direction", "load")),
+    "table": (table, ("load",)),
+    "cubic": (lambda d, rng: (d.value("load") / FULL)**3, ("load",)),
+    "first_run": (lambda d, rng: (d.block() == "1") * d.value("load"), ("time", "run", "load")),
+    "temperature": (lambda d, rng: d.value("warmth"), ("warmth",)),
+    "jump": (shapes.giving_way, ("time",)),
 }
-SINGLES = (*(n for n in ADDED if n.startswith("stated:")), "declared:bend")
-PAIRS = (("stated:friction", "stated:softening"),)
-OUTSIDE = tuple(n for n in ADDED if not n.startswith("stated:"))
-ALIASES = ()
-CATALOGUE = []
-
-
-def own_catalogue(d):
-    return by_formula.own_catalogue(CANDIDATES, d)
-
-
-def header(d):
-    return by_formula.header("a proving ring under dead weights", d, "rate * load + bend * load^2 + zero",
-                             {"load": '"0 kN"', "direction": 1, "turned": '"0 deg"', "time": '"0 s"'})
-
-
-def stated(d):
-    return by_formula.stated_toml(CANDIDATES, d)
-
-
-def leave(program, d, q, left):
-    """Readings with what each setting up of the ring left (um, by reading)."""
-    return simulate(program, d, [q])[0] + left[:, None]
+SYSTEM = by_formula.System(MODEL, design, simulate, "a proving ring under dead weights", "rate * load + bend * load^2 + zero",
+                           {"load": '"0 kN"', "direction": 1, "turned": '"0 deg"', "time": '"0 s"'}, CANDIDATES, ADDED, ("friction", "softening"), ("bend",))

@@ -4,14 +4,13 @@
 usage: scans_test.py path/to/gumshoe [unittest options]
        scans_test.py path/to/gumshoe --score N      # N sets of each kind: a table of what was found
 """
-import json
 import math
 import pathlib
 import random
-import subprocess
 import sys
-import tempfile
 import unittest
+
+import kinds
 
 GUMSHOE = str(pathlib.Path(sys.argv.pop(1)).resolve()) if len(sys.argv) > 1 and not sys.argv[1].startswith("-") else ""
 SLOPE, RADIUS, HEIGHT = math.tan(math.radians(3.6)), 70.0, 20.0  # mm
@@ -123,13 +122,7 @@ def write(folder, kind, seed):
 
 
 def found(kind, seed):
-    """Names that a trace of one set finds: of each finding the members."""
-    with tempfile.TemporaryDirectory() as folder:
-        path = pathlib.Path(folder)
-        run = subprocess.run([GUMSHOE, "trace", write(path, kind, seed), "--out", path / "out.h5", "--format", "json"],
-                             capture_output=True, text=True, timeout=600)
-        assert run.returncode == 0, run.stderr
-        return [f["members"] or [f["name"]] for f in json.loads(run.stdout)["findings"]]
+    return kinds.found_in(GUMSHOE, write, kind, seed)
 
 
 class Scans(unittest.TestCase):
@@ -142,15 +135,5 @@ class Scans(unittest.TestCase):
             self.assertTrue(names and KINDS[kind] & set(names[0]), (kind, names))
 
 
-def score(n):
-    for kind, right in KINDS.items():
-        seen = [found(kind, 100 + i) for i in range(n)]
-        good = sum(any(right & set(names) for names in s) if right else not s for s in seen)
-        print(f"| {kind} | {good} of {n} | {'; '.join(' + '.join(' or '.join(m) for m in s) or 'nothing' for s in seen)} |", flush=True)
-
-
 if __name__ == "__main__":
-    if "--score" in sys.argv:
-        score(int(sys.argv[sys.argv.index("--score") + 1]))
-    else:
-        unittest.main()
+    kinds.main(found, KINDS)

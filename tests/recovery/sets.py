@@ -20,7 +20,7 @@ from oracle import Oracle, power
 from scenario_text import readings_csv, scenario_toml
 
 SYSTEMS = {m.MODEL: m for m in (rods, mills, spheres, sockets)}
-EXPRESSIONS = {m.MODEL: m for m in (positioning, proving_rings, levers)}
+EXPRESSIONS = {m.MODEL: m.SYSTEM for m in (positioning, proving_rings, levers)}
 NULLS = ("white", "ar03", "ar06", "t3", "outliers", "quantised", "clamp_declared", "clamp_undeclared")
 STRENGTHS = (3, 5, 8, 15)
 # Development seeds are below, judgement seeds from here on; no number is both.
