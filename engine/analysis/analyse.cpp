@@ -248,7 +248,7 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, int th
   if (s.run.store_inputs) r.draws = input_draws(e);
   r.comparisons = compare(e, kept, r.summaries);
   r.printed = beside_printed(e, r.summaries);
-  r.predicted = beside_read(e, r.summaries);
+  r.predicted = predicted_readings(e, r.summaries);
   return r;
 }
 

@@ -66,7 +66,7 @@ std::vector<PrintedResult> beside_printed(const propagation::Experiment& e, cons
   return results;
 }
 
-std::vector<PredictedReading> beside_read(const propagation::Experiment& e, const std::vector<Summary>& summaries) {
+std::vector<PredictedReading> predicted_readings(const propagation::Experiment& e, const std::vector<Summary>& summaries) {
   std::vector<PredictedReading> results;
   if (e.scenario().method != scenario::Method::prediction) return results;
   for (std::size_t o = 0; o < e.outputs().size(); ++o) {

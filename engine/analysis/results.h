@@ -102,7 +102,7 @@ struct PrintedResult {
   double printed = 0, ours = 0, expanded_uncertainty = 0;
 };
 
-/// A reading beside its prediction, which does not know it.
+/// A reading next to its prediction, which was made without it. SI.
 struct PredictedReading {
   std::string output, unit, si_unit;
   double read = 0, predicted = 0, low = 0, high = 0; ///< the ends are those of the shortest coverage interval

@@ -131,7 +131,7 @@ template <class T> Angles<T> linear_angle_errors(const TurnedPoint<T>& at, const
     error.alpha = (at.point.y * ca - at.point.z * sa - found.y) / (at.point.z * ca + at.point.y * sa);
     return error;
   }
-  // In the source the point is on the axis of the spindle; these equations also hold beside it.
+  // In the source the point is on the axis of the spindle; these equations hold for any point.
   Vector3<T> p = place_before_alpha(at, at.point, at.commanded);
   error.beta = (found.x - p.x) / p.z;
   p.z = p.z - error.beta * p.x;

@@ -69,8 +69,9 @@ public:
   /// Turns a contour on the table into what the slides follow, up to slides().
   const Matrix3<double>& to_bed() const { return to_bed_; }
   const Vector3<T>& slides() const { return slides_; }
-  /// Of the tool on the table, by the places of the slides; a direction likewise.
+  /// Where the tool is on the table when the slides are there, m.
   Vector3<T> tool(const Vector3<T>& slides) const { return to_table_ * (slides + tool_); }
+  /// A direction of the machine as seen from the table.
   Vector3<T> on_table(const Vector3<T>& direction) const { return to_table_.turn * direction; }
 
 private:

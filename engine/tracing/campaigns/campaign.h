@@ -12,7 +12,8 @@ struct ScoredSize {
   std::string name, unit, si_unit; ///< name in a scenario: "z_reversal.backlash"
 };
 
-/// Of one signature g. W is the inverse of the residuals' covariance, less all that is fitted: g'Wr = 0 for g of J.
+/// How one signature g agrees with the residuals r. W is the inverse of their covariance, from which every fitted column
+/// is projected, so that g'Wr = 0 for a column of J.
 struct Score {
   std::string candidate; ///< "z_reversal"
   int variant = 0;       ///< by the shape parameter that is held (a time constant), in the order tried

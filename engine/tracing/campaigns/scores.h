@@ -5,8 +5,8 @@
 
 namespace gumshoe::tracing {
 
-/// Of the training readings, of every physical candidate by its tangent, under the covariance model of `fit`, which has
-/// no terms. Candidates that the declared model absorbs are left out.
+/// Scores of every physical candidate, by its tangent, on the training readings. `fit` has no terms; its covariance model
+/// weighs the readings. Candidates that the declared model absorbs are left out.
 Campaign scores_of(const TraceContext& context, const JointFit& fit);
 
 } // namespace gumshoe::tracing

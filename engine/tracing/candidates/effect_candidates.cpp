@@ -98,7 +98,7 @@ std::vector<Grid> grids_of(const propagation::Experiment& e, const Observations&
   for (const effects::Active& active : e.forward().active()) {
     const auto& card = effects::cards()[active.effect]->quantities;
     std::vector<Group> groups = groups_of(e, active);
-    // A size that is free has its shape, and none beside it.
+    // The shape of a size that is free already is fitted with it.
     std::erase_if(groups, [&](const Group& g) { return e.scenario().quantities[g.first].estimated; });
     for (std::size_t i = 0; i < card.size() && !groups.empty(); ++i)
       if (card[i].role == Role::shape)
