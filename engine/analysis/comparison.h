@@ -18,10 +18,10 @@ std::vector<ComparisonResult> compare(const propagation::Experiment& experiment,
 
 /// Each reading that was taken, next to its prediction, SI. Empty unless the method is prediction.
 std::vector<PredictedReading> predicted_readings(const propagation::Experiment& experiment,
-                                                  const std::vector<Summary>& summaries);
+                                                 const std::vector<Summary>& summaries);
 
 /// The published values that the scenario lists under `printed`, each with our estimate of the same measurand.
 std::vector<PrintedResult> beside_printed(const propagation::Experiment& experiment,
-                                                  const std::vector<Summary>& summaries);
+                                          const std::vector<Summary>& summaries);
 
 } // namespace gumshoe::analysis
