@@ -67,9 +67,9 @@ struct Criteria {
   std::size_t most_table_cells = 60;    ///< levels, or combinations of levels, at which "any value" is tried, by cost
   std::size_t least_repeats = 2;        ///< readings at each of them, on average
   std::size_t most_harmonics = 6;
-  /// A shape of which the first so many readings hold this share is one of outliers at the start.
-  Index first_readings = 3;
-  double first_share = 0.9;
+  /// A shape of which so many successive readings hold this share is one of outliers.
+  Index few_readings = 3;
+  double few_share = 0.9;
   /// Time constants tried: so many, from this share of the duration (three readings at least) to this multiple of it.
   /// Beyond the ends a rise is a step or a line.
   int time_constants = 6;
@@ -96,6 +96,7 @@ struct Criteria {
   double noise_prior = 4;          ///< weight of the declared size of the noise, as a number of readings
   /// Sizes tried where readings jump: up to so many standard uncertainties either side, in these two spacings.
   double profile_reach = 6, profile_spacing = 0.25, profile_coarse = 1.5;
+  int most_reaches = 6; ///< reaches tried, each twice the one before, while the likelihood rises to the end of one
   /// Readings jump if they bend by more than this many standard deviations of the noise, and by less than this share of
   /// their movement; beyond it some size would fit anything. Tuned.
   double least_jump = 0.1, most_jump = 0.25;

@@ -64,8 +64,8 @@ bool enough(const TraceContext& c, Trace& out) {
   return false;
 }
 
-/// Compares before and after. If the hold-out blocks veto, what was found last is dropped, with all that was found
-/// beside it, and they judge the rest anew.
+/// Compares before and after. If the hold-out blocks veto, all that was found in the last round is dropped, and they
+/// judge the rest anew.
 void judge_by_holdout(const TraceContext& c, Search& found, Trace& out) {
   const Trace start = out;
   std::vector<std::string> rejected;

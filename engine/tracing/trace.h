@@ -87,6 +87,8 @@ struct Rms {
   /// Scatter of readings of equal conditions, free of slow drift (noise/pure_error.h), with 95 % limits; training data.
   double replicate_floor = none, replicate_floor_low = none, replicate_floor_high = none;
   double holdout_before = none, holdout_after = none, holdout_noise = none;
+  /// The same, but readings that are bad before and after are cut to 3.5 robust standard deviations.
+  double holdout_before_winsorised = none, holdout_after_winsorised = none;
   double holdout_noise_low = none, holdout_noise_high = none;
   double worst_block_before = none, worst_block_after = none; ///< hold-out block with the largest
   std::string worst_block;

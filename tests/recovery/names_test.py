@@ -44,6 +44,7 @@ conditions = { x = { column = "x", unit = "mm" }, place = { column = "x", unit =
 blocks = "cycle"
 order = "t"
 draws = 199
+MORE
 [trace.columns]
 t = { column = "t", unit = "s" }
 STATED
@@ -61,16 +62,17 @@ class Names(unittest.TestCase):
         self.assertEqual(run.returncode, 0, run.stderr)
         return json.loads(run.stdout)
 
-    def line(self, shift, seed, noise=1.0, cycles=6, stated=(), freedom=""):
-        """A line at 20 places over cycles, with shift(x in mm, t in s) in um."""
+    def line(self, shift, seed, noise=1.0, cycles=6, stated=(), freedom="", more=""):
+        """A line at 20 places over cycles of 200 s, with shift(x in mm, t in s) in um."""
         chance, rows, t = random.Random(seed), ["cycle,x,t,d"], 0
         for cycle in range(1, cycles + 1):
             for x in range(0, 400, 20):
                 rows.append(f"{cycle},{x},{t},{shift(x, t) + chance.gauss(0, noise):.6f}")
                 t += 10
-        text = "".join(f'[stated_effects.{name}]\nindication = "d"\nunit = "um"\nmeaning = "{name}"\nformula = "{formula}"\n' for name, formula in stated)
+        entry = '[stated_effects.{}]\nindication = "d"\nmeaning = "{}"\nformula = "{}"\nunit = "{}"\n'
+        text = "".join(entry.format(name, name, formula, *(unit or ["um"])) for name, formula, *unit in stated)
         (self.path / "r.csv").write_text("\n".join(rows) + "\n")
-        (self.path / "s.toml").write_text(LINE.replace("STATED", text).replace("FREEDOM", freedom))
+        (self.path / "s.toml").write_text(LINE.replace("STATED", text).replace("FREEDOM", freedom).replace("MORE", more))
         return self.trace("s.toml")
 
     # quantities with wide priors are fitted with the whole model
@@ -145,6 +147,41 @@ class Names(unittest.TestCase):
     def test_both_numbers_of_a_noise_that_is_too_large(self):
         f = self.line(lambda x, t: 0, 2, noise=2.5)["findings"][0]
         self.assertTrue(any("1 um is declared" in r for r in f["remarks"]), f)
+
+    # cycles, drifts and bad readings
+
+    REDONE = 'redone = [["cycle"]]\nfinal = ["2", "4"]'
+
+    def test_one_cycle_that_differs_is_no_scatter(self):
+        for seed in (3, 4):
+            v = self.line(lambda x, t: 4 if t < 200 else 0, seed, more=self.REDONE)
+            self.assertEqual([f["kind"] for f in v["findings"]], ["not_in_catalogue"], v["findings"])
+            self.assertIn("cycle 1 differs", v["plain"][0])
+
+    def test_cycles_that_all_differ_are_scatter(self):
+        shifts = (2.1, -1.4, 0.9, -2.6, 3.2, -0.8)
+        v = self.line(lambda x, t: shifts[t // 200], 3, more=self.REDONE)
+        self.assertEqual([f["name"] for f in v["findings"]], ["scatter:cycle"], v["findings"])
+
+    def test_a_drift_stays_where_cycles_might_scatter(self):
+        """Each cycle's mean drifts; beside a wave that is found first, the drift stays, alone or in a class."""
+        stated = (("wave", "sin(place / 23)"), ("drift", "t", "um/s"))
+        v = self.line(lambda x, t: 3 * math.sin(x / 23) + 4e-3 * t, 3, stated=stated, more=self.REDONE)
+        self.assertEqual(v["findings"][0]["name"], "wave", v["findings"])
+        self.assertIn("drift", [m for f in v["findings"][1:] for m in f["members"]], v["findings"])
+        self.assertLess(v["rms"]["holdout_after"], 1.2e-6)
+
+    def test_correlation_does_not_take_a_drift(self):
+        v = self.line(lambda x, t: 4e-3 * t, 5, stated=(("drift", "t", "um/s"),))
+        self.assertEqual([f["name"] for f in v["findings"]], ["drift"], v["findings"])
+
+    def test_one_bad_reading_held_out_does_not_decide(self):
+        bad = lambda x, t: 3 * math.sin(x / 23) + (25 if (x, t) == (100, 650) else 0)
+        v = self.line(bad, 3, stated=(("wave", "sin(place / 23)"),), more=self.REDONE)
+        self.assertEqual([f["name"] for f in v["findings"]], ["wave"], v["findings"])
+        self.assertLess(v["rms"]["holdout_after_winsorised"], 0.5 * v["rms"]["holdout_after"])
+        self.assertIn("bad readings cut", v["plain"][1])
+        self.assertEqual([round(abs(o["residual"])) for o in v["outliers"]], [25], v["outliers"])
 
     def test_outliers_at_the_start_are_no_shape(self):
         for seed in (1, 2, 3):

@@ -33,7 +33,7 @@ TEST_CASE("a block is predicted from the others, its own constant projected out"
   std::mt19937_64 chance(2);
   const Matrix residual = 1e-6 * normal_matrix(28, 3, chance);
   for (const CovarianceModel& s : {CovarianceModel{}, CovarianceModel{0.4, -1, 0}, CovarianceModel{0.2, 0, 1.4}}) {
-    const HeldOut held = hold_out(d, residual, train, test, s);
+    const HeldOut held = hold_out(d, residual, train, test, s, s);
     CHECK(held.count == 6); // seven readings, one constant
     // By dense matrices: coefficients of the training rows, without the column to which none of them is sensitive.
     const Matrix f = chosen(d.fixed, train).leftCols(4),
@@ -56,7 +56,7 @@ TEST_CASE("a block is predicted from the others, its own constant projected out"
     Matrix shifted = residual;
     // A metre: 1e6 times the noise, of which double precision leaves 1e-10.
     shifted.bottomRows(7).array() += 1;
-    const HeldOut again = hold_out(d, shifted, train, test, s);
+    const HeldOut again = hold_out(d, shifted, train, test, s, s);
     CHECK((again.residual - held.residual).norm() < 1e-9 * held.residual.norm());
     CHECK((again.squares - held.squares).norm() < 1e-8 * held.squares.norm());
     CHECK((again.whitened - held.whitened).norm() < 1e-8 * held.whitened.norm());
@@ -71,13 +71,13 @@ TEST_CASE("a term is fitted to the training rows only", "[tracing]") {
   with.fixed.conservativeResize(28, 6);
   with.fixed.col(5) = signature;
   // A residual that is the signature is predicted in full; without it nothing is.
-  CHECK(hold_out(with, 2e-6 * signature, train, test, {}).squares[0] <
-        1e-15 * hold_out(without, 2e-6 * signature, train, test, {}).squares[0]);
+  CHECK(hold_out(with, 2e-6 * signature, train, test, {}, {}).squares[0] <
+        1e-15 * hold_out(without, 2e-6 * signature, train, test, {}, {}).squares[0]);
 }
 
 TEST_CASE("a block with no more readings than constants of its own is not scored", "[tracing]") {
   Design d = blocks_of_seven();
-  const HeldOut one = hold_out(d, Matrix::Ones(28, 1), range(0, 21), {24}, {});
+  const HeldOut one = hold_out(d, Matrix::Ones(28, 1), range(0, 21), {24}, {}, {});
   CHECK(one.count == 0);
   CHECK(one.squares[0] == 0);
   // Two constants of their own, two readings; three readings leave one.
@@ -85,11 +85,11 @@ TEST_CASE("a block with no more readings than constants of its own is not scored
   d.fixed.col(5).setZero();
   d.fixed(22, 5) = 1;
   d.fixed(25, 5) = 1;
-  CHECK(hold_out(d, Matrix::Ones(28, 1), range(0, 21), {21, 22}, {}).count == 0);
-  CHECK(hold_out(d, Matrix::Ones(28, 1), range(0, 21), {21, 22, 23}, {}).count == 1);
+  CHECK(hold_out(d, Matrix::Ones(28, 1), range(0, 21), {21, 22}, {}, {}).count == 0);
+  CHECK(hold_out(d, Matrix::Ones(28, 1), range(0, 21), {21, 22, 23}, {}, {}).count == 1);
   // Constants that these readings cannot distinguish count once.
   d.fixed.col(5) = d.fixed.col(4);
-  CHECK(hold_out(d, Matrix::Ones(28, 1), range(0, 21), {21, 22, 23}, {}).count == 2);
+  CHECK(hold_out(d, Matrix::Ones(28, 1), range(0, 21), {21, 22, 23}, {}, {}).count == 2);
 }
 
 /// Near nothing the interval that excludes zero covers less: of what passes there, the search's error rate is the bound.

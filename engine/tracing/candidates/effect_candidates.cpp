@@ -72,7 +72,7 @@ std::vector<double> grid_of(const QuantityCard& card, const Observations& o) {
   const auto time = std::ranges::find(o.covariates, "time", &Covariate::name);
   if (card.si_unit == "s" && time != o.covariates.end()) {
     const double duration = time->levels.back() - time->levels.front(),
-                 least = duration * std::max(criteria.shortest, static_cast<double>(criteria.first_readings) /
+                 least = duration * std::max(criteria.shortest, static_cast<double>(criteria.few_readings) /
                                                                     static_cast<double>(time->levels.size()));
     for (int i = 0; i < criteria.time_constants; ++i)
       out.push_back(least * std::pow(criteria.longest * duration / least, i / (criteria.time_constants - 1.0)));

@@ -29,10 +29,10 @@ Vector plain(const Observations& o, const Covariate& c) {
 /// Whether next to nothing of a column, by reading of the sequence, lies after the first readings: that is one of
 /// outliers at the start.
 bool of_the_start(const Vector& curve) {
-  const Index n = curve.size(), first = criteria.first_readings;
+  const Index n = curve.size(), first = criteria.few_readings;
   if (n <= 2 * first) return false;
   const Vector x = curve.array() - curve.tail(n - first).mean();
-  return x.head(first).squaredNorm() > criteria.first_share * x.squaredNorm();
+  return x.head(first).squaredNorm() > criteria.few_share * x.squaredNorm();
 }
 
 class Shapes {

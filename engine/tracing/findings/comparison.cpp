@@ -9,98 +9,13 @@
 
 #include "propagation/experiment.h"
 #include "tracing/criteria.h"
+#include "tracing/findings/errors.h"
 #include "tracing/judgement/decisions.h"
 #include "tracing/judgement/holdout.h"
 #include "tracing/noise/pure_error.h"
 
 namespace gumshoe::tracing {
 namespace {
-
-struct Blocks {
-  std::vector<std::vector<Index>> rows; ///< held out in turn
-  std::vector<std::string> names;
-};
-
-/// The hold-out blocks; where there are too few to hold some out, every block in turn.
-Blocks blocks_of(const Observations& o) {
-  const bool any = std::ranges::find(o.held_out, true) != o.held_out.end();
-  Blocks out;
-  for (std::size_t g = 0; g < o.blocks.groups.size() && (any || o.blocks.groups.size() > 1); ++g) {
-    std::vector<bool> chosen;
-    for (std::size_t r = 0; r < o.readings; ++r) chosen.push_back(o.blocks.group[r] == g && (!any || o.held_out[r]));
-    if (std::ranges::find(chosen, true) == chosen.end()) continue;
-    out.rows.push_back(rows_where(o, chosen));
-    out.names.push_back(o.blocks.groups[g]);
-  }
-  return out;
-}
-
-/// Errors of blocks predicted from the others.
-struct Scores {
-  std::vector<double> rms; ///< by set of residuals, SI
-  double whitened = 0;     ///< sum of squares of the first set in units of all that is declared
-  double worst_block = Rms::none;
-  std::string worst_name;
-  Vector residual; ///< of the first set, all rows; NaN where not scored
-
-  bool scored() const { return !rms.empty() && std::isfinite(rms[0]); }
-  /// Row of the largest residual; -1: none was scored.
-  Index worst_row() const {
-    Index worst = -1;
-    for (Index i = 0; i < residual.size(); ++i)
-      if (std::isfinite(residual[i]) && (worst < 0 || std::fabs(residual[i]) > std::fabs(residual[worst]))) worst = i;
-    return worst;
-  }
-  double worst_point() const { return worst_row() < 0 ? Rms::none : std::fabs(residual[worst_row()]); }
-};
-
-Scores score(const JointFit& fit, const Matrix& residual, const std::vector<Index>& training, const Blocks& blocks) {
-  const double reference = fit.design.reference[0];
-  Scores out;
-  Vector squares = Vector::Zero(residual.cols());
-  double count = 0;
-  out.residual = Vector::Constant(residual.rows(), Rms::none);
-  for (std::size_t b = 0; b < blocks.rows.size(); ++b) {
-    std::vector<Index> train;
-    std::set_difference(training.begin(), training.end(), blocks.rows[b].begin(), blocks.rows[b].end(),
-                        std::back_inserter(train));
-    const HeldOut held = hold_out(fit.design, residual, train, blocks.rows[b], fit.covariance_model);
-    if (held.count <= 0) continue;
-    squares += held.squares;
-    out.whitened += held.whitened[0];
-    count += held.count;
-    const double rms = reference * std::sqrt(held.squares[0] / held.count);
-    if (!(rms <= out.worst_block)) out.worst_block = rms, out.worst_name = blocks.names[b];
-    out.residual(held.rows) = held.residual.col(0);
-  }
-  for (Index j = 0; j < residual.cols(); ++j)
-    out.rms.push_back(count > 0 ? reference * std::sqrt(squares[j] / count) : Rms::none);
-  return out;
-}
-
-/// The fit's own readings about the fitted unknowns and declared draws.
-struct InSample {
-  Matrix left; ///< residuals, training rows x sets, SI
-  Vector rms;  ///< by set, SI
-};
-
-InSample in_sample(const JointFit& fit, const std::vector<Index>& rows, const Matrix& residual) {
-  const auto use = independent(fit.design, rows);
-  const Whitened w(fit.design, rows, use, fit.covariance_model);
-  Matrix covariance;
-  const Matrix x = w.solve(w.whiten_rows(residual), &covariance);
-  const auto p = index(use.size()), q = fit.design.random.cols();
-  InSample out{w.take(residual), {}};
-  out.left -= fit.design.fixed(rows, use) * x.topRows(p) + fit.design.random(rows, Eigen::all) * x.bottomRows(q);
-  // A draw of which the readings say nothing is no unknown; one that they determine is.
-  double freedom = static_cast<double>(rows.size() - use.size());
-  for (Index j = p; j < p + q; ++j) freedom -= 1 - covariance(j, j);
-  Design plain = fit.design;
-  plain.random.resize(plain.random.rows(), 0);
-  const Matrix white = Whitened(plain, rows, {}, {}).whiten(out.left);
-  out.rms = fit.design.reference[0] * (white.colwise().squaredNorm() / freedom).cwiseSqrt().transpose();
-  return out;
-}
 
 double root_mean_square(const std::vector<double>& x) {
   double sum = 0;
@@ -109,7 +24,7 @@ double root_mean_square(const std::vector<double>& x) {
 }
 
 /// Root mean square and 95 % of what noise alone gives.
-void noise_alone(std::vector<double> sizes, double& middle, double& low, double& high) {
+void set_noise_alone(std::vector<double> sizes, double& middle, double& low, double& high) {
   middle = root_mean_square(sizes);
   std::ranges::sort(sizes);
   const auto quantile = [&](double p) {
@@ -126,11 +41,11 @@ public:
   Comparison(const TraceContext& c, const Search& s, Trace& out)
       : c_(c), rows_(c.fitter.rows()), before_(s.base), after_(s.found),
         previous_(s.stages.size() > 1 ? s.stages[s.stages.size() - 2].fit : s.base), out_(out) {
-    // All in the units of one noise: the fit without the effect takes it for noise.
+    // All in the units of one noise: the fit without the effect takes it for noise. Each predicts by its own covariance
+    // model, as a trace of the scenario would that it stands for.
     for (JointFit* fit : {&before_, &previous_}) {
       fit->design.local = after_.design.local;
       fit->design.reference = after_.design.reference;
-      fit->covariance_model = after_.covariance_model;
     }
     // Scatter that was found is declared from now on, as in the traced scenario.
     if (std::ranges::any_of(s.findings, [&](const SearchFinding& f) {
@@ -148,9 +63,10 @@ public:
     out_.rms.before = before.rms[0];
     out_.rms.after = after.rms[0];
     const Vector noise = in_sample(after_, rows_, noise_).rms;
-    noise_alone({noise.data(), noise.data() + noise.size()}, out_.rms.noise, out_.rms.noise_low, out_.rms.noise_high);
+    set_noise_alone({noise.data(), noise.data() + noise.size()}, out_.rms.noise, out_.rms.noise_low,
+                    out_.rms.noise_high);
     replicate_floor();
-    const Blocks blocks = blocks_of(c_.observations);
+    const Blocks blocks = predicted_blocks(c_.observations);
     const bool held_out = !c_.observations.holdout_blocks.empty();
     out_.rms.holdout = blocks.rows.empty() ? "none"
                        : held_out          ? fmt::format("{}", fmt::join(blocks.names, ", "))
@@ -204,6 +120,10 @@ private:
     out_.lack_of_fit.cells = static_cast<int>(pure.cells());
   }
 
+  Scores predict(const JointFit& fit, const Matrix& residual, const Blocks& blocks) const {
+    return score(fit, residual, rows_, blocks, after_.covariance_model);
+  }
+
   /// What the error cannot fall below: the replicates' scatter, else the declared noise.
   double floor() const {
     if (std::isfinite(out_.rms.replicate_floor)) return out_.rms.replicate_floor;
@@ -213,20 +133,26 @@ private:
   /// True if they veto.
   bool hold_out_blocks(const Blocks& blocks) {
     Rms& rms = out_.rms;
-    scored_before_ = score(before_, before_.residual, rows_, blocks);
-    scored_after_ = score(after_, after_.residual, rows_, blocks);
+    scored_before_ = predict(before_, before_.residual, blocks);
+    scored_after_ = predict(after_, after_.residual, blocks);
     if (scored_before_.scored())
-      noise_alone(score(after_, of_unknown_scale(noise_), rows_, blocks).rms, rms.holdout_noise, rms.holdout_noise_low,
-                  rms.holdout_noise_high);
+      set_noise_alone(predict(after_, of_unknown_scale(noise_), blocks).rms, rms.holdout_noise, rms.holdout_noise_low,
+                      rms.holdout_noise_high);
     else
       rms.holdout += "; not scored, because it has no more readings than block offsets";
-    const bool refused = judge(blocks) && !confirmed_between_blocks();
+    const Vector bad = excess(scored_before_, scored_after_, after_.design);
+    const Scores clean_before = predict(before_, before_.residual - bad, blocks);
+    Scores clean_after = predict(after_, after_.residual - bad, blocks);
+    const bool refused = judge(blocks, clean_before, clean_after) && !confirmed_between_blocks();
     if (refused) {
       scored_after_ = scored_before_;
+      clean_after = clean_before;
       rms.after = rms.before;
     }
     rms.holdout_before = scored_before_.rms[0];
     rms.holdout_after = scored_after_.rms[0];
+    rms.holdout_before_winsorised = clean_before.rms[0];
+    rms.holdout_after_winsorised = clean_after.rms[0];
     rms.worst_block_before = scored_before_.worst_block;
     rms.worst_block_after = scored_after_.worst_block;
     rms.worst_block = scored_after_.worst_name;
@@ -241,8 +167,8 @@ private:
     return refused;
   }
 
-  /// Blocks that are insensitive to what was found can neither confirm nor reject it.
-  bool judge(const Blocks& blocks) {
+  /// Blocks that are insensitive to what was found can neither confirm nor reject it. One bad reading must not decide.
+  bool judge(const Blocks& blocks, const Scores& before, const Scores& after) {
     if (c_.observations.holdout_blocks.empty() || !scored_before_.scored() || after_.terms.empty()) return false;
     const bool sensitive = std::ranges::any_of(after_.terms, [&](const Term& t) {
       return std::ranges::any_of(blocks.rows, [&](const std::vector<Index>& rows) {
@@ -253,8 +179,7 @@ private:
     if (!sensitive)
       out_.statements.push_back(
           "the hold-out blocks are insensitive to the finding and can neither confirm nor reject it");
-    return sensitive &&
-           vetoed({scored_before_.whitened, scored_before_.rms[0]}, {scored_after_.whitened, scored_after_.rms[0]});
+    return sensitive && vetoed({before.whitened, before.rms[0]}, {after.whitened, after.rms[0]});
   }
 
   /// Names of what was found to depend on, of which the hold-out readings lie outside the training range.
@@ -292,8 +217,8 @@ private:
       between.names.push_back(o.blocks.groups[g]);
     }
     const std::vector<Index> all = rows_where(o, std::vector<bool>(o.readings, true));
-    const Scores before = score(previous_, previous_.residual, all, between),
-                 after = score(after_, after_.residual, all, between);
+    const Scores before = score(previous_, previous_.residual, all, between, after_.covariance_model),
+                 after = score(after_, after_.residual, all, between, after_.covariance_model);
     const bool rejected = !before.scored() || !(before.whitened - after.whitened > criteria.beyond_doubt);
     out_.statements.push_back(fmt::format(
         "the hold-out blocks lie beyond the {} of the training data, to which what was found does not extend; blocks "
@@ -318,6 +243,13 @@ private:
       row.after = row.held_out ? scored_after_.residual[index(i)] : Rms::none;
       row.noise_u = after_.design.local[i / o.indications].row(index(row.indication)).norm();
     }
+    const Vector bad =
+        scored_after_.residual.size() > 0 ? excess(scored_after_, scored_after_, after_.design) : Vector();
+    for (Index i = 0; i < bad.size(); ++i)
+      if (Row& row = out_.rows[index(i)]; row.held_out && bad[i] != 0) {
+        row.weight = 1 - bad[i] / row.after;
+        add_outlier(row);
+      }
     Matrix weight;
     const Whitened plain(after_.design, rows_, independent(after_.design, rows_), {});
     plain.winsorised(plain.take(winsorised.residual), nullptr, &weight);

@@ -50,9 +50,15 @@ std::string change(double before, double after, const Rms& r) {
 std::string what_to_do(const Finding& f, const Rms& r) {
   if (f.kind == Kind::scatter) return "It cannot be corrected for; include it in the uncertainty budget.";
   if (f.kind == Kind::equivalence_class && !f.suggestion.empty()) return "To distinguish them, " + f.suggestion + ".";
-  if (std::isfinite(r.holdout_after))
-    return fmt::format("On held-out readings the error {} with it; noise alone gives {}.",
-                       change(r.holdout_before, r.holdout_after, r), shown_rms(r.holdout_noise, r));
+  if (std::isfinite(r.holdout_after)) {
+    const bool bad = r.holdout_after_winsorised < r.holdout_after;
+    return fmt::format("On held-out readings the error {} with it{}; noise alone gives {}.",
+                       change(r.holdout_before_winsorised, r.holdout_after_winsorised, r),
+                       bad ? fmt::format(" (bad readings cut; the worst, {}, is off by {})", r.worst_point,
+                                         shown_rms(r.worst_point_after, r))
+                           : "",
+                       shown_rms(r.holdout_noise, r));
+  }
   return fmt::format("In the training data the error {} with it; no readings were held out to check.",
                      change(r.before, r.after, r));
 }
@@ -62,7 +68,7 @@ std::string in_95(double low, double high, const Rms& r) {
 }
 
 /// The error that counts most: of readings that took no part, beyond what their noise allows.
-bool held_out_exceeds(const Rms& r) { return r.holdout_after > r.holdout_noise_high; }
+bool held_out_exceeds(const Rms& r) { return r.holdout_after_winsorised > r.holdout_noise_high; }
 std::string held_out_error(const Rms& r) {
   return fmt::format("Held-out readings differ from the model by {}, more than noise alone gives ({}); the worst, {}, "
                      "by {}.",

@@ -93,6 +93,8 @@ constexpr Field<Rms> rms[] = {
     {"worst_point_before", of<&Rms::worst_point_before>, difference, "largest residual of one hold-out reading", in_json},
     {"worst_point_after", of<&Rms::worst_point_after>, difference, "the same with the findings added", in_json},
     {"worst_point", of<&Rms::worst_point>, one, "name of the reading of worst_point_after", in_json},
+    {"holdout_before_winsorised", of<&Rms::holdout_before_winsorised>, difference, "holdout_before with bad readings cut to 3.5 robust standard deviations", in_json},
+    {"holdout_after_winsorised", of<&Rms::holdout_after_winsorised>, difference, "holdout_after with bad readings cut to 3.5 robust standard deviations", in_json},
     {"share_removed", of<&Rms::share_removed>, one, "(before^2 - after^2) / (before^2 - floor^2) of the hold-out readings; the floor is replicate_floor, else the declared noise", in_json},
     {"holdout", of<&Rms::holdout>, one, "description of the hold-out", in_json}};
 

@@ -150,36 +150,42 @@ void Fitter::find_responses() {
   }
 }
 
-/// What comes back in every block is no noise, however well a serial correlation or a variance component would explain
-/// it: models of more of either than the scatter about the cells' means admits are left out.
+/// What comes back in every block is no noise, nor is a slow drift, however well a serial correlation or a variance
+/// component would explain it: models of more of either than the scatter about the cells' means admits are left out,
+/// and of more correlation than the scatter about a straight line for every pass admits.
 void Fitter::find_covariance_models() {
   const JointFit fit = linearised(1);
   const PureError pure(fit.design, rows_, replicates_);
   if (!fit.valid || !pure.known() || pure.cells() * observations_.indications > criteria.most_cells_of_noise) return;
-  Design cells = fit.design;
-  const Index own = cells.fixed.cols() + cells.random.cols(), k = index(observations_.indications);
-  cells.fixed.conservativeResize(Eigen::NoChange, own + index(pure.cells()) * k);
-  cells.fixed.middleCols(fit.design.fixed.cols(), cells.random.cols()) = cells.random;
-  cells.random.resize(cells.random.rows(), 0);
-  cells.bent.clear();
-  std::map<std::size_t, Index> known;
-  cells.fixed.rightCols(cells.fixed.cols() - own).setZero();
-  for (const Index row : rows_) {
-    const auto [at, fresh] = known.insert({replicates_.cell[index(row / k)], index(known.size())});
-    cells.fixed(row, own + at->second * k + row % k) = 1;
-  }
-  const Scan scan(cells, rows_, {}, threads_);
-  const auto& models = scan.covariance_models();
-  const Vector criterion = scan.criteria_of(fit.residual(rows_));
-  const auto no_more = [](const CovarianceModel& a, const CovarianceModel& b) {
-    const bool part = a.scatter < 0 || (a.scatter == b.scatter && a.indication == b.indication && a.ratio <= b.ratio);
-    return part && a.correlation <= b.correlation;
+  Design d = fit.design;
+  const auto fix = [&](const Matrix& columns) {
+    d.fixed.conservativeResize(Eigen::NoChange, d.fixed.cols() + columns.cols());
+    d.fixed.rightCols(columns.cols()).setZero();
+    d.fixed(rows_, Eigen::lastN(columns.cols())) = columns;
   };
+  fix(d.random(rows_, Eigen::all));
+  d.random.resize(d.random.rows(), 0);
+  d.bent.clear();
+  fix(columns_by_group(rows_, d.indications, replicates_.cell, false));
+  const Vector residual = fit.residual(rows_);
+  const auto models = covariance_models(d, rows_.size());
+  const Vector about_cells = Scan(d, rows_, {}, threads_).criteria_of(residual);
+  for (const bool line : {false, true}) fix(columns_by_group(rows_, d.indications, replicates_.pass, line));
+  const Scan lines(d, rows_, {}, threads_);
+  const Vector about_lines = lines.criteria_of(residual);
+  const bool few = static_cast<double>(lines.degrees_of_freedom()) < criteria.least_pure_freedom;
   for (std::size_t i = 0; i < models.size(); ++i) {
-    double least = criterion[index(i)];
-    for (std::size_t j = 0; j < models.size(); ++j)
-      if (no_more(models[j], models[i])) least = std::min(least, criterion[index(j)]);
-    if (criterion[index(i)] - least <= criteria.too_much_structure) covariance_models_.push_back(models[i]);
+    double least = about_cells[index(i)], least_by_lines = about_lines[index(i)];
+    for (std::size_t j = 0; j < models.size(); ++j) {
+      const auto &a = models[j], &b = models[i];
+      const bool same = a.scatter == b.scatter && a.indication == b.indication;
+      if (a.correlation > b.correlation) continue;
+      if (a.scatter < 0 || (same && a.ratio <= b.ratio)) least = std::min(least, about_cells[index(j)]);
+      if (same && a.ratio == b.ratio) least_by_lines = std::min(least_by_lines, about_lines[index(j)]);
+    }
+    if (about_cells[index(i)] - least > criteria.too_much_structure) continue;
+    if (few || about_lines[index(i)] - least_by_lines <= criteria.too_much_structure)
+      covariance_models_.push_back(models[i]);
   }
 }
 

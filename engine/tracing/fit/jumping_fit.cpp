@@ -8,18 +8,21 @@
 namespace gumshoe::tracing {
 namespace {
 
-bool jumps(const Matrix& f, const std::vector<double>& steps, double noise) {
+/// How readings follow a size: like a line; in jumps about a line; in jumps as large as what the size moves.
+enum class Following { smooth, jumps, rough };
+
+Following following(const Matrix& f, const std::vector<double>& steps, double noise) {
   const Eigen::Map<const Vector> x(steps.data(), f.cols());
   const Vector sizes = x.array() - x.mean();
   const Matrix moved = f.colwise() - f.rowwise().mean(), line = moved * sizes / sizes.squaredNorm() * sizes.transpose();
   const double bend = (moved - line).norm();
-  return bend > criteria.least_jump * noise * std::sqrt(static_cast<double>(f.size())) &&
-         bend < criteria.most_jump * line.norm();
+  if (!(bend > criteria.least_jump * noise * std::sqrt(static_cast<double>(f.size())))) return Following::smooth;
+  return bend < criteria.most_jump * line.norm() ? Following::jumps : Following::rough;
 }
 
 } // namespace
 
-/// The likelihood along one size, all else fitted.
+/// The likelihood along one size, all else fitted. `left` is empty if jumps are as large as what the size moves.
 struct Fitter::Profile {
   std::vector<double> steps; ///< from the size found, SI
   Index here = 0;            ///< the step of none
@@ -67,9 +70,10 @@ std::optional<Fitter::Profile> Fitter::profile(const JointFit& fit, std::size_t 
   const Index own = first_column(fit, term) + amplitude;
   if (!try_each(criteria.profile_coarse)) return std::nullopt;
   const Matrix line = line_through();
-  if (worth == Worth::jumps ? !jumps(f, out.steps, fit.design.reference[0])
-                            : (line - fit.design.fixed.col(own)).norm() < criteria.tangent_serves * line.norm())
-    return std::nullopt;
+  const bool tangent_serves = (line - fit.design.fixed.col(own)).norm() < criteria.tangent_serves * line.norm();
+  const Following how = following(f, out.steps, fit.design.reference[0]);
+  if (tangent_serves && (worth == Worth::tangent_wrong || how == Following::smooth)) return std::nullopt;
+  if (worth == Worth::jumps && how == Following::rough) return out;
   if (!try_each(criteria.profile_spacing)) return std::nullopt;
   const auto found = std::ranges::find(out.steps, 0.0);
   if (found == out.steps.end()) return std::nullopt;
@@ -99,9 +103,24 @@ bool Fitter::explore(JointFit& fit) const {
   const std::size_t term = fit.terms.size() - 1;
   for (Index i = 0; i < fit.terms[term].size.size(); ++i) {
     const Index own = first_column(fit, term) + i;
-    const auto p = profile(fit, term, i, std::sqrt(fit.covariance(own, own)), Worth::jumps);
+    std::optional<Profile> p;
     Index best = 0;
-    if (!p || !(p->left.minCoeff(&best) < p->left[p->here] * (1 - 1e-6))) continue;
+    double unit = std::sqrt(fit.covariance(own, own));
+    for (int tries = 0; tries < criteria.most_reaches; ++tries) {
+      auto other = profile(fit, term, i, unit, Worth::jumps);
+      if (!other) break;
+      if (other->left.size() > 0) {
+        p = std::move(other);
+        p->left.minCoeff(&best);
+        const bool at_end = best == 0 || best == p->left.size() - 1;
+        if (best != p->here && !at_end) break;
+        const double u = p->u * std::sqrt(p->left[best] / p->left[p->here]);
+        if (best == p->here && unit < 2 * u) break;
+        if (best == p->here) unit /= 8; // too coarse to see the likelihood's peak
+      }
+      unit *= 2; // rough, or the likelihood rises to the end
+    }
+    if (!p || !(p->left[best] < p->left[p->here] * (1 - 1e-6))) continue;
     Vector change = Vector::Zero(fit.design.fixed.cols());
     for (std::size_t j = 0; j < p->columns.size(); ++j) change[p->columns[j]] = p->others(index(j), best);
     change[own] = p->steps[index(best)];
@@ -121,7 +140,7 @@ void Fitter::widen_jumping(JointFit& fit) const {
       const double u = std::sqrt(fit.covariance(own, own));
       // A pattern of jumps that fits pins the size, were all else of the model exact: the line does not rely on that.
       double unit = u, widened = 0;
-      for (int tries = 0; tries < 6; ++tries) {
+      for (int tries = 0; tries < criteria.most_reaches; ++tries) {
         const auto p = profile(fit, term, i, unit, Worth::tangent_wrong);
         if (!p) break;
         widened = std::max(p->u, p->spread());

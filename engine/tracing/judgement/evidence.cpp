@@ -19,6 +19,15 @@ bool is_term(const JointFit& fit, const Candidate& a) {
   });
 }
 
+/// The largest share of all squares (by row) that a few successive readings hold.
+double share_of_few(const Vector& squares, std::size_t indications) {
+  const Index few = std::min(squares.size(), criteria.few_readings * index(indications));
+  double most = 0;
+  for (Index from = 0; from + few <= squares.size(); from += index(indications))
+    most = std::max(most, squares.segment(from, few).sum());
+  return most / squares.sum();
+}
+
 Design without_components(Design design) {
   design.scatter.clear();
   std::erase_if(design.covariance_models, [](const CovarianceModel& m) { return m.scatter >= 0; });
@@ -26,8 +35,9 @@ Design without_components(Design design) {
 }
 
 /// Criterion of the residuals at a fit's point, with the same unknowns as without some of its terms.
-double criterion_at(const TraceContext& c, const JointFit& fit, const std::vector<std::size_t>& terms) {
-  Design design = fit.design;
+double criterion_at(const TraceContext& c, const JointFit& fit, const std::vector<std::size_t>& terms,
+                    bool in_place_of_scatter = false) {
+  Design design = in_place_of_scatter ? without_components(fit.design) : fit.design;
   std::vector<Index> kept;
   for (Index j = 0; j < design.fixed.cols(); ++j)
     if (std::ranges::none_of(terms, [&](std::size_t t) {
@@ -162,9 +172,11 @@ JointFit without(const TraceContext& c, const JointFit& fit, const std::vector<s
   return c.fitter.fit(terms, fit.noise, &fit);
 }
 
-double gain_of(const TraceContext& c, const JointFit& fit, const std::vector<std::size_t>& terms) {
+double gain_of(const TraceContext& c, const JointFit& fit, const std::vector<std::size_t>& terms,
+               bool in_place_of_scatter) {
   const JointFit less = without(c, fit, terms);
-  return less.valid ? criterion_at(c, less, {}) - criterion_at(c, fit, terms) : std::numeric_limits<double>::infinity();
+  if (!less.valid) return std::numeric_limits<double>::infinity();
+  return criterion_at(c, less, {}, in_place_of_scatter) - criterion_at(c, fit, terms, in_place_of_scatter);
 }
 
 bool Evidence::predicts_better(const JointFit& other, const CovarianceModel& model) const {
@@ -174,15 +186,13 @@ bool Evidence::predicts_better(const JointFit& other, const CovarianceModel& mod
   return error(other) < error(fit_);
 }
 
-double Evidence::start_share(const JointFit& other) const {
+bool Evidence::of_few(const JointFit& other) const {
   const auto squares = [&](const JointFit& fit) {
     const Scan scan(fit.design, c_.fitter.rows(), {}, c_.threads);
     const Whitened& w = scan.whitened(scan.plain());
     return Vector(w.project(w.whiten(scan.winsorised(w.take(fit.residual)))).array().square());
   };
-  const Vector removed = squares(fit_) - squares(other);
-  return removed.head(std::min(removed.size(), criteria.first_readings * index(c_.observations.indications))).sum() /
-         removed.sum();
+  return share_of_few(squares(fit_) - squares(other), c_.observations.indications) > criteria.few_share;
 }
 
 double Evidence::chance_of_lead(std::size_t better, std::size_t than, double lead) const {

@@ -46,8 +46,8 @@ public:
   /// covariance model.
   bool predicts_better(const JointFit& other, const CovarianceModel& model) const;
   bool predicts_better(const JointFit& other) const { return predicts_better(other, other.covariance_model); }
-  /// Share of what `other` removes from the squares that the first readings have (criteria.h).
-  double start_share(const JointFit& other) const;
+  /// Whether what `other` removes is of a few successive readings (criteria.h): outliers, and no shape.
+  bool of_few(const JointFit& other) const;
   /// Probability that `better` would lead `than` by so much if `than` were true; by simulation.
   double chance_of_lead(std::size_t better, std::size_t than, double lead) const;
   /// Cosine of two projected signatures.
@@ -72,7 +72,9 @@ private:
 };
 
 /// Likelihood ratio (2 ln) that some terms of a fit add to all others, all fitted again without them.
-double gain_of(const TraceContext& context, const JointFit& fit, const std::vector<std::size_t>& terms);
+/// @param in_place_of_scatter  true: no variance component may take their place
+double gain_of(const TraceContext& context, const JointFit& fit, const std::vector<std::size_t>& terms,
+               bool in_place_of_scatter = false);
 /// The fit without some of its terms.
 JointFit without(const TraceContext& context, const JointFit& fit, const std::vector<std::size_t>& terms);
 

@@ -8,7 +8,7 @@
 namespace gumshoe::tracing {
 
 HeldOut hold_out(const Design& d, const Matrix& residual, const std::vector<Index>& train,
-                 const std::vector<Index>& test, const CovarianceModel& model) {
+                 const std::vector<Index>& test, const CovarianceModel& model, const CovarianceModel& units) {
   HeldOut out;
   out.rows = test;
   const auto use = independent(d, train);
@@ -31,7 +31,7 @@ HeldOut hold_out(const Design& d, const Matrix& residual, const std::vector<Inde
   out.count = static_cast<double>(test.size() - seen.size());
   out.squares = out.whitened = Vector::Zero(residual.cols());
   // With declared draws and scatter, as they are expected of readings not seen.
-  const Whitened declared(own, test, seen, {0, model.scatter, model.ratio, model.indication});
+  const Whitened declared(own, test, seen, {0, units.scatter, units.ratio, units.indication});
   own.random.resize(own.random.rows(), 0);
   const Whitened local(own, test, seen, {});
   for (Matrix* of : {&out.residual, &as_declared}) {
@@ -83,7 +83,7 @@ double cross_validated(const Observations& o, const std::vector<Index>& rows, co
     std::vector<Index> train;
     std::set_difference(rows.begin(), rows.end(), fold.begin(), fold.end(), std::back_inserter(train));
     // Terms are fixed columns of the design: their sizes are fitted again without the fold.
-    const HeldOut held = hold_out(fit.design, clean, train, fold, model);
+    const HeldOut held = hold_out(fit.design, clean, train, fold, model, model);
     if (held.count > 0) squares += held.whitened[0];
   }
   return squares;

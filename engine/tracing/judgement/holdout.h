@@ -19,8 +19,9 @@ struct HeldOut {
 /// Fixed columns to which no training row is sensitive are the block's offsets: they are projected out of its
 /// residuals, and a block with no more rows than offsets is not scored.
 /// @param residual  all rows x sets, SI, at the point where the design was linearised
+/// @param units     covariance model in whose units `whitened` is: one and the same for fits that are compared
 HeldOut hold_out(const Design& design, const Matrix& residual, const std::vector<Index>& train,
-                 const std::vector<Index>& test, const CovarianceModel& model);
+                 const std::vector<Index>& test, const CovarianceModel& model, const CovarianceModel& units);
 
 /// Rows of all readings for which `chosen` holds.
 std::vector<Index> rows_where(const Observations& observations, const std::vector<bool>& chosen);

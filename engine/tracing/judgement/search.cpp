@@ -61,8 +61,9 @@ private:
     do {
       gains.clear();
       for (const SearchFinding& f : out_.findings)
-        gains.push_back(f.terms.empty() || out_.findings.size() == 1 ? std::numeric_limits<double>::infinity()
-                                                                     : gain_of(c_, out_.found, f.terms) - f.threshold);
+        gains.push_back(f.terms.empty() || out_.findings.size() == 1
+                            ? std::numeric_limits<double>::infinity()
+                            : gain_of(c_, out_.found, f.terms, f.component >= 0) - f.threshold);
     } while (drop_least(gains));
   }
 
@@ -188,7 +189,9 @@ private:
     for (const std::size_t g : plain) {
       if (candidate(g).columns.cols() > candidate(best.candidate).columns.cols()) continue;
       const double lead = evidence_->score(g) - best.score;
-      if (shape_excludes(lead, [&] { return evidence_->chance_of_lead(g, best.candidate, lead); })) return g;
+      if (!shape_excludes(lead, [&] { return evidence_->chance_of_lead(g, best.candidate, lead); })) continue;
+      if (const JointFit fit = evidence_->with({evidence_->linear_term(g)}); fit.valid && !evidence_->of_few(fit))
+        return g;
     }
     return std::nullopt;
   }
@@ -259,12 +262,12 @@ private:
       if (assessment.p[a] > assessment.threshold) continue;
       JointFit fit = evidence_->with({evidence_->linear_term(a)});
       if (!fit.valid) continue;
-      if (evidence_->start_share(fit) > criteria.first_share) {
-        outcomes_[a] = "refused: it is of the first readings only";
+      if (evidence_->of_few(fit)) {
+        outcomes_[a] = "refused: it is of a few successive readings only";
         continue;
       }
       if (evidence_->predicts_better(fit)) {
-        add_shape(a, fit, {});
+        add_shape(a, fit, assessment.p_signature);
         return true;
       }
       outcomes_[a] = not_predicted;
@@ -272,13 +275,14 @@ private:
     }
     // What shows in one block only cannot be predicted from the others: there it is nevertheless.
     if (!unconfirmed || !out_.findings.empty()) return false;
-    add_shape(unconfirmed->first, unconfirmed->second,
+    add_shape(unconfirmed->first, unconfirmed->second, assessment.p_signature,
               "it does not improve the prediction of held-out blocks; it may belong to some blocks only");
     return true;
   }
 
-  void add_shape(std::size_t a, const JointFit& fit, const std::string& remark) {
+  void add_shape(std::size_t a, const JointFit& fit, double p, const std::string& remark = {}) {
     SearchFinding found = found_by(a, Kind::not_in_catalogue);
+    found.finding.p_value = p;
     found.finding.described_by = candidate(a).name;
     found.finding.remarks.push_back("described by " + with_shape(candidate(a)));
     if (!remark.empty()) found.finding.remarks.push_back(remark);
@@ -298,19 +302,33 @@ private:
 
   /// A slow drift looks like scatter from one clamping to the next: given the scatter it is not worth its name. Effects
   /// that explain as much without the component, and predict held-out readings better, form a class with it. Quantities
-  /// declared by label do not: of so many, some look like scatter by chance.
+  /// declared by label do not: of so many, some look like scatter by chance. One group that differs from all others,
+  /// which agree, explains more than scatter: it is what was found.
   bool take_instead(const SearchFinding& scatter) {
     const WithoutScatter without(c_, *evidence_);
+    const Grouping& group = c_.observations.replicate_groups[index(scatter.component)];
+    const auto one_group = [&](const Candidate& a) {
+      return a.family == Family::shape &&
+             std::ranges::any_of(group.groups, [&](const std::string& g) { return a.name == "step:" + g; });
+    };
     std::vector<Scored> all;
     for (std::size_t a = 0; a < evidence_->candidates().size(); ++a)
-      all.push_back(
-          {candidate(a).name, without.score(a), evidence_->testable(a) && candidate(a).family != Family::declared});
+      all.push_back({candidate(a).name, without.score(a),
+                     one_group(candidate(a)) || (evidence_->testable(a) && candidate(a).family != Family::declared)});
     SearchFinding found = scatter;
     found.finding.kind = Kind::equivalence_class;
     found.finding.members.clear();
     JointFit best;
-    for (const std::size_t a : explain_scatter(all, evidence_->assessment().data.scatter(scatter.component, 0))) {
+    const auto rivals = explain_scatter(all, evidence_->assessment().data.scatter(scatter.component, 0));
+    for (const std::size_t a : rivals) {
       const Fit linear = without.fit(a);
+      if (one_group(candidate(a))) {
+        if (a != rivals[0]) continue;
+        JointFit fit = evidence_->with({evidence_->linear_term(a)});
+        if (!fit.valid || !evidence_->predicts_better(fit, without.model(linear))) continue;
+        add_shape(a, fit, scatter.finding.p_value);
+        return true;
+      }
       JointFit fit = evidence_->with({{candidate(a), linear.size}});
       if (!fit.valid || !evidence_->predicts_better(fit, without.model(linear))) continue;
       outcomes_[a] = "in the class";

@@ -40,7 +40,7 @@ Search without_findings(Search search);
 
 /// Fits the declared model, then adds terms until nothing more is found.
 Search search(const TraceContext& context);
-/// Drops the terms of the last round and all that was found beside them, and tests anew whether what is left scatters.
+/// Drops all that was found in the last round, and tests anew whether what is left scatters.
 /// Names of the dropped findings. At least two rounds must have taken in terms.
 std::vector<std::string> step_back(const TraceContext& context, Search& search);
 /// The variance component or the larger noise that an assessment shows; none: neither.

@@ -102,31 +102,23 @@ PureError::Projection PureError::projection(const std::vector<std::size_t>& cell
 PureError::PureError(const Design& d, const std::vector<Index>& rows, const Replicates& replicates,
                      const CovarianceModel& model)
     : design_(d), rows_(rows), replicates_(replicates) {
-  const auto k = index(d.indications), n = index(rows.size());
-  const auto add = [&](Matrix& to, const auto& group, bool line) {
-    std::map<std::size_t, std::vector<Index>> places;
-    for (Index i = 0; i < n; i += k) places[group(rows[index(i)] / k)].push_back(i);
-    for (const auto& [number, first] : places)
-      for (Index j = 0; j < k; ++j) {
-        to.conservativeResize(n, to.cols() + 1);
-        to.rightCols(1).setZero();
-        for (const Index i : first)
-          to(i + j, to.cols() - 1) =
-              line ? static_cast<double>(rows[index(i)] - rows[index(first[first.size() / 2])]) : 1.0;
-      }
+  const auto add = [&](Matrix& to, const std::vector<std::size_t>& group, bool line) {
+    const Matrix more = columns_by_group(rows, d.indications, group, line);
+    to.conservativeResize(Eigen::NoChange, to.cols() + more.cols());
+    to.rightCols(more.cols()) = more;
   };
-  const auto pass = [&](Index place) { return replicates.pass[index(place)]; };
-  Matrix own(n, d.fixed.cols() + d.random.cols());
+  Matrix own(index(rows.size()), d.fixed.cols() + d.random.cols());
   own << d.fixed(rows, Eigen::all), d.random(rows, Eigen::all);
-  if (replicates.passes_are_blocks) add(own, pass, false);
+  if (replicates.passes_are_blocks) add(own, replicates.pass, false);
   nuisance_ = whitened(own);
   Matrix drifts = own;
-  if (!replicates.passes_are_blocks) add(drifts, pass, false);
-  add(drifts, pass, true);
+  if (!replicates.passes_are_blocks) add(drifts, replicates.pass, false);
+  add(drifts, replicates.pass, true);
   if (model.scatter >= 0) {
     const Grouping& g = d.scatter[index(model.scatter)];
-    add(
-        drifts, [&](Index place) { return g.group[d.reading[index(place * k)]]; }, false);
+    std::vector<std::size_t> group;
+    for (std::size_t i = 0; i < d.reading.size(); i += d.indications) group.push_back(g.group[d.reading[i]]);
+    add(drifts, group, false);
   }
   drifts = whitened(drifts);
   pure_ = projection(replicates.cell, true, drifts);

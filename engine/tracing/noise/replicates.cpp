@@ -70,4 +70,18 @@ Replicates find_replicates(const Observations& o) {
   return out;
 }
 
+Matrix columns_by_group(const std::vector<Index>& rows, std::size_t indications, const std::vector<std::size_t>& group,
+                        bool line) {
+  const auto k = index(indications);
+  std::map<std::size_t, std::vector<Index>> places;
+  for (std::size_t i = 0; i < rows.size(); i += indications) places[group[index(rows[i] / k)]].push_back(index(i));
+  Matrix out = Matrix::Zero(index(rows.size()), index(places.size()) * k);
+  Index column = 0;
+  for (const auto& [number, first] : places)
+    for (Index j = 0; j < k; ++j, ++column)
+      for (const Index i : first)
+        out(i + j, column) = line ? static_cast<double>(rows[index(i)] - rows[index(first[first.size() / 2])]) : 1.0;
+  return out;
+}
+
 } // namespace gumshoe::tracing

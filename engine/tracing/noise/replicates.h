@@ -26,4 +26,9 @@ struct Replicates {
 
 Replicates find_replicates(const Observations& observations);
 
+/// Columns of the chosen rows, whole readings of k indications: for each group and indication a constant or a straight
+/// line in the order of measurement. @param group  by place in the sequence
+Matrix columns_by_group(const std::vector<Index>& rows, std::size_t k, const std::vector<std::size_t>& group,
+                        bool line);
+
 } // namespace gumshoe::tracing

@@ -68,6 +68,11 @@ private:
   double log_determinant_ = 0;
 };
 
+/// Robust standard deviation by absolute residuals, which it sorts in part: by their median, unless more than a tenth
+/// of them (three, of few) would then be outliers. So many are the noise's own shape, as indications in coarse steps
+/// have it, and the tenth largest tells the scale.
+double robust_scale(std::vector<double>& sizes);
+
 /// Independent standard normal numbers: row i is stream (seed, i, purpose).
 Matrix normals(std::size_t rows, std::size_t columns, std::uint64_t seed, std::uint16_t purpose);
 

@@ -6,10 +6,7 @@
 #include "tracing/noise/whitened.h"
 
 namespace gumshoe::tracing {
-namespace {
 
-/// Of absolute residuals: by their median, unless more than a tenth of them (three, of few) would then be outliers. So
-/// many are the noise's own shape, as indications in coarse steps have it, and the tenth largest tells the scale.
 double robust_scale(std::vector<double>& sizes) {
   const auto at = [&](std::size_t rank) {
     std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(rank), sizes.end());
@@ -20,8 +17,6 @@ double robust_scale(std::vector<double>& sizes) {
   const double large = at(n > 10 * few ? n - n / 10 : n - std::min(n, few));
   return large > criteria.winsor_limit * middle ? large / 1.6448536269514722 : middle;
 }
-
-} // namespace
 
 Matrix Whitened::winsorised(const Matrix& residuals, Vector* scale, Matrix* weight) const {
   Matrix white = whiten(residuals);

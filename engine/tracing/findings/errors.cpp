@@ -1,0 +1,95 @@
+#include "tracing/findings/errors.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tracing/criteria.h"
+#include "tracing/judgement/holdout.h"
+
+namespace gumshoe::tracing {
+
+Blocks predicted_blocks(const Observations& o) {
+  const bool any = std::ranges::find(o.held_out, true) != o.held_out.end();
+  Blocks out;
+  for (std::size_t g = 0; g < o.blocks.groups.size() && (any || o.blocks.groups.size() > 1); ++g) {
+    std::vector<bool> chosen;
+    for (std::size_t r = 0; r < o.readings; ++r) chosen.push_back(o.blocks.group[r] == g && (!any || o.held_out[r]));
+    if (std::ranges::find(chosen, true) == chosen.end()) continue;
+    out.rows.push_back(rows_where(o, chosen));
+    out.names.push_back(o.blocks.groups[g]);
+  }
+  return out;
+}
+
+bool Scores::scored() const { return !rms.empty() && std::isfinite(rms[0]); }
+
+Index Scores::worst_row() const {
+  Index worst = -1;
+  for (Index i = 0; i < residual.size(); ++i)
+    if (std::isfinite(residual[i]) && (worst < 0 || std::fabs(residual[i]) > std::fabs(residual[worst]))) worst = i;
+  return worst;
+}
+
+double Scores::worst_point() const { return worst_row() < 0 ? none : std::fabs(residual[worst_row()]); }
+
+Scores score(const JointFit& fit, const Matrix& residual, const std::vector<Index>& training, const Blocks& blocks,
+             const CovarianceModel& units) {
+  const double reference = fit.design.reference[0];
+  Scores out;
+  Vector squares = Vector::Zero(residual.cols());
+  double count = 0;
+  out.residual = Vector::Constant(residual.rows(), Scores::none);
+  for (std::size_t b = 0; b < blocks.rows.size(); ++b) {
+    std::vector<Index> train;
+    std::set_difference(training.begin(), training.end(), blocks.rows[b].begin(), blocks.rows[b].end(),
+                        std::back_inserter(train));
+    const HeldOut held = hold_out(fit.design, residual, train, blocks.rows[b], fit.covariance_model, units);
+    if (held.count <= 0) continue;
+    squares += held.squares;
+    out.whitened += held.whitened[0];
+    count += held.count;
+    const double rms = reference * std::sqrt(held.squares[0] / held.count);
+    if (!(rms <= out.worst_block)) out.worst_block = rms, out.worst_name = blocks.names[b];
+    out.residual(held.rows) = held.residual.col(0);
+  }
+  for (Index j = 0; j < residual.cols(); ++j)
+    out.rms.push_back(count > 0 ? reference * std::sqrt(squares[j] / count) : Scores::none);
+  return out;
+}
+
+Vector excess(const Scores& before, const Scores& after, const Design& design) {
+  const auto k = index(design.indications);
+  const auto noise = [&](Index row) { return design.local[index(row / k)].row(row % k).norm(); };
+  std::vector<double> sizes;
+  for (Index i = 0; i < after.residual.size(); ++i)
+    if (std::isfinite(after.residual[i])) sizes.push_back(std::fabs(after.residual[i]) / noise(i));
+  Vector out = Vector::Zero(after.residual.size());
+  const double bound = sizes.empty() ? 0 : criteria.winsor_limit * robust_scale(sizes);
+  if (!(bound > 0)) return out; // nearly all equal
+  for (Index i = 0; i < out.size(); ++i) {
+    const double a = before.residual[i], b = after.residual[i];
+    if (!std::isfinite(a) || !std::isfinite(b) || a * b < 0) continue;
+    out[i] = std::copysign(std::max(0.0, std::min(std::fabs(a), std::fabs(b)) - bound * noise(i)), b);
+  }
+  return out;
+}
+
+InSample in_sample(const JointFit& fit, const std::vector<Index>& rows, const Matrix& residual) {
+  const auto use = independent(fit.design, rows);
+  const Whitened w(fit.design, rows, use, fit.covariance_model);
+  Matrix covariance;
+  const Matrix x = w.solve(w.whiten_rows(residual), &covariance);
+  const auto p = index(use.size()), q = fit.design.random.cols();
+  InSample out{w.take(residual), {}};
+  out.left -= fit.design.fixed(rows, use) * x.topRows(p) + fit.design.random(rows, Eigen::all) * x.bottomRows(q);
+  // A draw of which the readings say nothing is no unknown; one that they determine is.
+  double freedom = static_cast<double>(rows.size() - use.size());
+  for (Index j = p; j < p + q; ++j) freedom -= 1 - covariance(j, j);
+  Design plain = fit.design;
+  plain.random.resize(plain.random.rows(), 0);
+  const Matrix white = Whitened(plain, rows, {}, {}).whiten(out.left);
+  out.rms = fit.design.reference[0] * (white.colwise().squaredNorm() / freedom).cwiseSqrt().transpose();
+  return out;
+}
+
+} // namespace gumshoe::tracing

@@ -1,0 +1,49 @@
+#pragma once
+/// Errors of a fit in SI units: of the readings that it was fitted to, and of blocks that it predicts.
+#include <string>
+#include <vector>
+
+#include "tracing/fit/joint_fit.h"
+
+namespace gumshoe::tracing {
+
+/// Blocks that are predicted from other readings, each by itself.
+struct Blocks {
+  std::vector<std::vector<Index>> rows;
+  std::vector<std::string> names;
+};
+/// The hold-out blocks; where there are too few to hold some out, every block in turn.
+Blocks predicted_blocks(const Observations& observations);
+
+/// Errors of blocks that were predicted.
+struct Scores {
+  std::vector<double> rms; ///< by set of residuals; NaN where nothing was scored
+  double whitened = 0;     ///< sum of squares of the first set in units of all that is declared
+  double worst_block = none;
+  std::string worst_name;
+  Vector residual; ///< of the first set, all rows; NaN where not scored
+
+  bool scored() const;
+  Index worst_row() const; ///< row of the largest residual; -1: none was scored
+  double worst_point() const;
+  static constexpr double none = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// Predicts blocks by the training rows (those outside the block).
+/// @param residual  measured minus simulated at the fit's point, all rows x sets
+/// @param units     covariance model of `whitened`
+Scores score(const JointFit& fit, const Matrix& residual, const std::vector<Index>& training, const Blocks& blocks,
+             const CovarianceModel& units);
+
+/// What bad readings of the blocks exceed the bound by (criteria.winsor_limit robust standard deviations) in both of
+/// two predictions, the lesser of the two; all rows, zero elsewhere.
+Vector excess(const Scores& before, const Scores& after, const Design& design);
+
+/// The fit's own readings about the fitted unknowns and declared draws.
+struct InSample {
+  Matrix left; ///< residuals, training rows x sets
+  Vector rms;  ///< by set
+};
+InSample in_sample(const JointFit& fit, const std::vector<Index>& rows, const Matrix& residual);
+
+} // namespace gumshoe::tracing
