@@ -157,6 +157,9 @@ class Names(unittest.TestCase):
             v = self.line(lambda x, t: 4 if t < 200 else 0, seed, more=self.REDONE)
             self.assertEqual([f["kind"] for f in v["findings"]], ["not_in_catalogue"], v["findings"])
             self.assertIn("cycle 1 differs", v["plain"][0])
+            first, second = self.trace("s.toml", "--loop", "2")["rounds"]
+            for before, after in (("before", "after"), ("holdout_before", "holdout_after")):
+                self.assertAlmostEqual(second[before] / first[after], 1, delta=0.02)
 
     def test_cycles_that_all_differ_are_scatter(self):
         shifts = (2.1, -1.4, 0.9, -2.6, 3.2, -0.8)

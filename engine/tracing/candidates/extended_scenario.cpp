@@ -23,7 +23,13 @@ void free_again(Scenario& s) {
   for (InputQuantity& q : s.quantities) {
     if (!freed(q.name)) continue;
     q.estimated = true;
-    for (auto& entry : q.entries) entry.components.clear();
+    // A size that was found for some labels is exactly null for all others.
+    const bool some = std::ranges::any_of(q.entries, [](const auto& entry) { return !entry.components.empty(); });
+    quantities::Component held;
+    held.name = "held";
+    held.distribution = {quantities::Family::constant, {0}, nullptr, nullptr};
+    for (auto& entry : q.entries)
+      entry.components = some && entry.components.empty() ? std::vector{held} : std::vector<quantities::Component>{};
   }
   for (auto& c : s.correlations) {
     const std::size_t n = c.quantities.size();
