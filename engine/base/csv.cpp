@@ -22,7 +22,8 @@ std::string trimmed(const std::string& text) {
 /// Reads the text once, row by row.
 class Reader {
 public:
-  Reader(std::string_view text, const std::string& file) : text_(text), file_(file) {
+  Reader(std::string_view text, const std::string& file, char separator)
+      : text_(text), file_(file), separator_(separator) {
     if (text_.starts_with("\xEF\xBB\xBF")) text_.remove_prefix(3);
   }
 
@@ -37,7 +38,8 @@ public:
       if (separator_ == '\0') find_separator();
       bool more = true;
       while (more) more = cell(row);
-      if (row.size() == 1 && row[0].text.empty() && !row[0].quoted) { // a blank line
+      const auto blank = [](const CsvCell& c) { return c.text.empty() && !c.quoted; };
+      if (std::ranges::all_of(row, blank)) { // a blank line, or one of separators
         row.clear();
         continue;
       }
@@ -67,24 +69,23 @@ private:
     new_line();
   }
 
-  /// From the header: a semicolon outside quotes, and no comma there.
+  /// From the header: a comma outside quotes, otherwise a semicolon or a tab.
   void find_separator() {
-    separator_ = ',';
     bool quoted = false;
     for (std::size_t i = at_; i < text_.size() && (quoted || (text_[i] != '\n' && text_[i] != '\r')); ++i) {
-      if (text_[i] == '"') quoted = !quoted;
-      if (!quoted && text_[i] == ';') separator_ = ';';
-      if (!quoted && text_[i] == ',') {
-        separator_ = ',';
-        return;
-      }
+      const char c = text_[i];
+      if (c == '"') quoted = !quoted;
+      if (quoted) continue;
+      if (c == ',' || c == ';' || (c == '\t' && separator_ == '\0')) separator_ = c;
+      if (c == ',') return;
     }
+    if (separator_ == '\0') separator_ = ',';
   }
 
   /// Reads one cell; true if another one follows on the same row.
   bool cell(std::vector<CsvCell>& row) {
     CsvCell cell{{}, line_, static_cast<int>(at_ - line_start_) + 1};
-    while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t')) ++at_, ++cell.column;
+    while (at_ < text_.size() && is_blank(text_[at_])) ++at_, ++cell.column;
     if (at_ < text_.size() && text_[at_] == '"') {
       quoted(cell);
       cell.quoted = true;
@@ -98,9 +99,11 @@ private:
       cell.text = trimmed(std::string(text_.substr(begin, at_ - begin)));
     }
     row.push_back(std::move(cell));
+    if (separator_ == ' ') // any number of them separates, and none follows the last cell
+      while (at_ < text_.size() && is_blank(text_[at_]) && at_ + 1 < text_.size() && ends_cell(text_[at_ + 1])) ++at_;
     if (at_ >= text_.size()) return false;
     const char end = text_[at_++];
-    if (end == separator_) return true;
+    if (end != '\n' && end != '\r') return separator_ != ' ' || at_ < text_.size();
     if (end == '\r' && at_ < text_.size() && text_[at_] == '\n') ++at_;
     new_line();
     return false;
@@ -124,7 +127,9 @@ private:
     throw InputError({{{file_, cell.line, cell.column}, "a quote is not closed", "", ""}});
   }
 
-  bool ends_cell(char c) const { return c == separator_ || c == '\n' || c == '\r'; }
+  bool ends_cell(char c) const { return c == separator_ || c == '\n' || c == '\r' || (separator_ == ' ' && c == '\t'); }
+  /// Blank within a row, around a cell.
+  bool is_blank(char c) const { return c == ' ' || (c == '\t' && separator_ != '\t'); }
   void new_line() {
     ++line_;
     line_start_ = at_;
@@ -134,7 +139,7 @@ private:
   const std::string& file_;
   std::size_t at_ = 0, line_start_ = 0, cells_ = 0; ///< cells of the header
   int line_ = 1, comments_like_rows_ = 0;
-  char separator_ = '\0';
+  char separator_; ///< '\0' until the header is read
 };
 
 } // namespace
@@ -168,10 +173,10 @@ double Csv::number(const CsvCell& cell, char decimal) const {
                      other_sign ? fmt::format("decimal = \"{}\"", decimal == ',' ? '.' : ',') : ""}});
 }
 
-Csv parse_csv(std::string_view text, const std::string& file) {
+Csv parse_csv(std::string_view text, const std::string& file, char separator) {
   Csv csv;
   csv.file = file;
-  Reader reader(text, csv.file);
+  Reader reader(text, csv.file, separator);
   std::vector<Problem> problems;
   if (!reader.next(csv.header)) throw InputError({{{file, 0, 0}, "the file is empty", "", "write a header and rows"}});
   for (std::size_t i = 0; i < csv.header.size(); ++i) {
@@ -192,6 +197,42 @@ Csv parse_csv(std::string_view text, const std::string& file) {
   if (!problems.empty()) throw InputError(std::move(problems));
   csv.comments_like_rows = reader.comments_like_rows();
   return csv;
+}
+
+Csv join_csv(std::vector<Csv> parts, const std::string& name,
+             const std::vector<std::pair<std::string, std::vector<std::string>>>& added) {
+  Csv out;
+  out.file = name;
+  std::vector<Problem> problems;
+  for (const auto& column : added) out.header.push_back({column.first, 1, 1});
+  for (const CsvCell& cell : parts.front().header) {
+    if (std::ranges::any_of(added, [&](const auto& a) { return a.first == cell.text; }))
+      problems.push_back({parts.front().at(cell), fmt::format("the file has a column '{}' itself", cell.text),
+                          "the name of the file gives this column", "use another name in the braces"});
+    out.header.push_back(cell);
+  }
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    Csv& part = parts[p];
+    out.parts.push_back(part.file);
+    out.comments_like_rows += part.comments_like_rows;
+    std::vector<std::size_t> from;
+    for (const CsvCell& cell : parts.front().header) {
+      const int column = part.find(cell.text);
+      if (column < 0)
+        problems.push_back({part.at(part.header.front()), fmt::format("there is no column '{}'", cell.text),
+                            "files that are read as one have the columns of the first, " + parts.front().file, ""});
+      from.push_back(static_cast<std::size_t>(std::max(column, 0)));
+    }
+    for (auto& row : part.rows) {
+      std::vector<CsvCell> cells;
+      for (const auto& column : added) cells.push_back({column.second[p], row.front().line, 1});
+      for (const std::size_t column : from) cells.push_back(row[column]);
+      for (CsvCell& cell : cells) cell.part = static_cast<int>(p);
+      out.rows.push_back(std::move(cells));
+    }
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
+  return out;
 }
 
 Csv read_csv(const std::string& path, std::size_t limit) { return parse_csv(read_text_file(path, limit), path); }

@@ -1,7 +1,8 @@
 #pragma once
-/// Comma- or semicolon-separated values (RFC 4180): a header, then rows; every cell knows its place in the file.
+/// Values separated by commas, semicolons, tabs or blanks (RFC 4180): a header, then rows; every cell knows its place in the file.
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -13,6 +14,7 @@ struct CsvCell {
   int line = 0;
   int column = 0; ///< in bytes, from 1
   bool quoted = false;
+  int part = 0; ///< of a table joined from several files: which one
 };
 
 struct Csv {
@@ -20,8 +22,11 @@ struct Csv {
   std::vector<CsvCell> header;
   std::vector<std::vector<CsvCell>> rows; ///< each as long as the header
   int comments_like_rows = 0;             ///< comments with as many cells as the header, of which one is a number
+  std::vector<std::string> parts = {}; ///< files of a joined table, in the order of their rows; empty: one file
 
-  Location at(const CsvCell& cell) const { return {file, cell.line, cell.column}; }
+  Location at(const CsvCell& cell) const {
+    return {parts.empty() ? file : parts[static_cast<std::size_t>(cell.part)], cell.line, cell.column};
+  }
   /// Index of the column, or -1.
   int find(std::string_view name) const;
   std::vector<std::string> names() const; ///< column names, in order
@@ -29,11 +34,18 @@ struct Csv {
   double number(const CsvCell& cell, char decimal = '.') const;
 };
 
-/// Semicolons separate the cells if the header has one outside quotes and no comma. A line that begins with # is a
-/// comment. Quoted cells may contain separators, doubled quotes and line ends; blank lines are skipped; a byte
-/// order mark and CR LF are accepted. Throws InputError with every problem, located: no header, an
-/// unnamed or repeated column, a row of another length, an unclosed quote.
-Csv parse_csv(std::string_view text, const std::string& file);
+/// `separator`: ',', ';', '\t', or ' ' for any number of blanks. '\0' takes it from the header: a comma if it has one outside
+/// quotes, otherwise a semicolon or a tab. A line that begins with # is a comment. Quoted cells may contain separators,
+/// doubled quotes and line ends; rows without any text are skipped; a byte order mark and CR LF are accepted. Throws
+/// InputError with every problem, located: no header, an unnamed or repeated column, a row of another length, an unclosed
+/// quote.
+Csv parse_csv(std::string_view text, const std::string& file, char separator = '\0');
+
+/// A table of the parts' rows, one after the other. Columns are matched by name to those of the first part; further ones
+/// are left out. `added`: names of columns that come first, and their text in each part. Throws InputError where a part
+/// lacks a column, or has one that `added` names.
+Csv join_csv(std::vector<Csv> parts, const std::string& name,
+             const std::vector<std::pair<std::string, std::vector<std::string>>>& added);
 
 /// parse_csv of a file; refuses files of more than `limit` bytes.
 Csv read_csv(const std::string& path, std::size_t limit = std::size_t{1} << 30);

@@ -65,6 +65,8 @@ void replace_readings(Node& document, const std::string& file) {
     for (Member& m : indications->members)
       if (Node* readings = find_member(m.value, "readings"))
         if (Node* old = find_member(*readings, "file")) *old = text_node(file);
+  if (Node* data = find_member(document, "data"))
+    if (Node* old = find_member(*data, "file")) *old = text_node(file);
 }
 
 /// Data files are named relative to the scenario's folder.

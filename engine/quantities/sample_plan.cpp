@@ -62,6 +62,15 @@ private:
   /// The entry that holds for a reading; with several, the one that asks for the most labels.
   std::size_t entry_of(std::size_t q, std::size_t r) {
     const auto& entries = quantities_[q].entries;
+    const std::string number = std::to_string(r + 1);
+    const auto numbered = [&](const Entry& e) {
+      const std::string* of = label_value(e.labels, reading_label);
+      return of && *of == number;
+    };
+    // Entries of single readings stand in their order.
+    if (r < entries.size() && numbered(entries[r])) return r;
+    for (std::size_t e = 0; e < entries.size(); ++e)
+      if (numbered(entries[e])) return e;
     std::size_t best = entries.size();
     for (std::size_t e = 0; e < entries.size(); ++e)
       if (holds_for(entries[e].labels, readings_[r].labels) &&

@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/csv.h"
@@ -16,16 +17,26 @@
 
 namespace gumshoe::scenario {
 
+/// How the text of a data file becomes a table.
+struct TextTable {
+  std::string name = {}; ///< equal names stand for equal functions
+  std::function<Csv(std::string_view text, const std::string& file)> parse = [](std::string_view text,
+                                                                               const std::string& file) {
+    return parse_csv(text, file);
+  };
+};
+
 /// Data files named by a scenario, relative to its folder; each is read once and hashed.
 class DataFiles {
 public:
   /// `of_readings`: stands for every data file of readings, relative to the current directory; empty: none does.
   /// `notes` take what a reader must know of a file.
   DataFiles(const std::string& scenario_file, std::string of_readings, std::vector<std::string>& notes);
-  /// The file named by the text node; null and a problem if it cannot be read or is no CSV.
-  const Csv* open(const Node& name, const std::string& path, Problems& problems);
+  /// The file named by the text node; null and a problem if it cannot be read or is no table. A name may be a pattern
+  /// of several files, which are read as one (file_pattern.h).
+  const Csv* open(const Node& name, const std::string& path, const TextTable& form, Problems& problems);
   /// The same for a file of readings.
-  const Csv* open_readings(const Node& name, const std::string& path, Problems& problems);
+  const Csv* open_readings(const Node& name, const std::string& path, const TextTable& form, Problems& problems);
   bool readings_replaced() const { return !of_readings_.empty(); }
   /// A file that fixes the numbers in another way (a model's library or script): its bytes enter the hash. No such
   /// file: nothing.
@@ -36,12 +47,15 @@ public:
 private:
   struct File {
     std::string name, bytes;
-    std::unique_ptr<Csv> csv; ///< null if it was no CSV
   };
-  const Csv* open_file(const std::string& file, const std::function<void(const Problem&)>& no_file, Problems& problems);
+  using NoFile = std::function<void(const Problem&)>;
+  const Csv* open_table(const std::string& name, const TextTable& form, const NoFile& no_file, Problems& problems);
+  std::unique_ptr<Csv> read_file(const std::string& file, const TextTable& form);
+  std::unique_ptr<Csv> read_files(const std::string& pattern, const TextTable& form);
   std::string folder_, of_readings_;
   std::vector<std::string>& notes_;
-  std::vector<File> files_;
+  std::vector<File> files_;                           ///< bytes read, in order
+  std::map<std::string, std::unique_ptr<Csv>> tables_; ///< by name and form; null if it was no table
 };
 
 /// What may be started, and what a scenario names (external.h).
@@ -61,6 +75,8 @@ struct Context {
   std::map<std::string, std::set<std::string>> label_values;
   bool readings_known = true; ///< false if they had problems: then labels are not checked
   External external{};
+  const Node* data = nullptr;  ///< [data]: what the readings of all indications share
+  const Node* trace = nullptr; ///< [trace]: its columns, and blocks that are stretches of the data
 
   std::vector<std::string> label_names() const;
   /// False, and a problem at the node, if it is known that no reading has a label of this name.

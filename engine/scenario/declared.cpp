@@ -2,15 +2,17 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 
 #include <fmt/format.h>
 
 #include "formula/operation.h"
+#include "scenario/number_column.h"
 
 namespace gumshoe::scenario {
 namespace {
 
-constexpr std::array worded{"distribution", "evaluation", "source", "per",    "name",      "kind",
+constexpr std::array worded{"distribution", "evaluation", "source", "per",    "name",       "kind",
                             "labels",       "where",      "file",   "column", "conditions", "decimal"};
 constexpr std::array widths{"u", "U", "half_width"}; ///< which may be shares of the value
 
@@ -54,26 +56,41 @@ std::vector<Symbol> symbols(Table& top, const char* key, Problems& problems) {
   return out;
 }
 
-/// Conditions that only readouts name: readings = { file, ..., conditions.x = { column, unit } }.
-void add_conditions_of_files(Table& top, std::vector<Symbol>& conditions, Problems& problems) {
-  const auto member = [](const Node& node, std::string_view key) -> const Node* {
-    for (const Member& m : node.members)
-      if (m.key == key) return &m.value;
-    return nullptr;
-  };
+const Node* member(const Node& node, std::string_view key) {
+  const auto it = std::ranges::find(node.members, key, &Member::key);
+  return it == node.members.end() ? nullptr : &it->value;
+}
+
+/// Conditions that are columns of a data file.
+void add_conditions(const Node* named, const std::string& path, const std::map<std::string, std::string>& units,
+                    std::vector<Symbol>& conditions, Problems& problems) {
+  if (!named) return;
+  for (const Member& m : named->members) {
+    if (std::ranges::find(conditions, m.key, &Symbol::name) != conditions.end()) continue;
+    std::string unit = unit_of_column(m.value, units);
+    if (unit.empty() || is_unknown_unit(unit)) unit = "1";
+    if (const auto si_unit = read_si_unit(m.value, path + '.' + m.key, unit, problems))
+      conditions.push_back({m.key, unit, *si_unit, ""});
+  }
+}
+
+/// Conditions that only [data] or readouts name, and the units of indications that [data] states.
+void add_data(Table& top, Declared& out, Problems& problems) {
+  const Node* const data = member(top.node(), "data");
+  const auto units = stated_units(data);
+  if (data) add_conditions(member(*data, "conditions"), "data.conditions", units, out.conditions, problems);
   const Node* indications = member(top.node(), "indications");
   if (!indications) return;
   for (const Member& indication : indications->members) {
     const Node* readings = member(indication.value, "readings");
-    const Node* named = readings ? member(*readings, "conditions") : nullptr;
-    if (!named) continue;
-    for (const Member& m : named->members) {
-      if (std::ranges::find(conditions, m.key, &Symbol::name) != conditions.end()) continue;
-      const std::string unit = declared_unit(m.value);
-      const std::string path = fmt::format("indications.{}.readings.conditions.{}", indication.key, m.key);
-      if (const auto si_unit = read_si_unit(m.value, path, unit, problems))
-        conditions.push_back({m.key, unit, *si_unit, ""});
-    }
+    if (!readings) continue;
+    const std::string path = fmt::format("indications.{}.readings", indication.key);
+    add_conditions(member(*readings, "conditions"), path + ".conditions", units, out.conditions, problems);
+    const std::string unit = unit_of_column(*readings, units);
+    if (unit.empty() || is_unknown_unit(unit)) continue;
+    const auto symbol = std::ranges::find(out.indications, indication.key, &Symbol::name);
+    const auto si_unit = read_si_unit(*readings, path, unit, problems);
+    if (si_unit && symbol != out.indications.end()) *symbol = {indication.key, unit, *si_unit, ""};
   }
 }
 
@@ -87,7 +104,7 @@ std::string declared_unit(const Node& node) {
 Declared declared_symbols(Table& top, Problems& problems) {
   Declared out{symbols(top, "quantities", problems), symbols(top, "conditions", problems),
                symbols(top, "indications", problems)};
-  add_conditions_of_files(top, out.conditions, problems);
+  add_data(top, out, problems);
   return out;
 }
 

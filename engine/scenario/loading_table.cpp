@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "scenario/data_column.h"
+#include "scenario/series.h"
 
 namespace gumshoe::scenario {
 namespace {

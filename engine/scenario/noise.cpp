@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <fmt/format.h>
 
+#include "scenario/number_column.h"
 #include "scenario/quantity.h"
 #include "scenario/repeatability.h"
 
@@ -19,13 +21,15 @@ using quantities::Labels;
 
 class NoiseReader {
 public:
-  NoiseReader(Table& table, const VariableCard& card, const IndicationReadouts& readouts, bool several, Context& context)
+  NoiseReader(Table& table, const VariableCard& card, const IndicationReadouts& readouts, bool several,
+              Context& context)
       : table_(table), card_(card), readouts_(readouts), several_(several), context_(context) {}
 
   InputQuantity read() {
     InputQuantity out{std::string(card_.name), std::string(card_.unit), std::string(card_.si_unit), {}};
     const auto step = table_.width("resolution", std::string(card_.si_unit));
     const Repeatability repeatability = read_repeatability(table_, card_, readouts_, context_);
+    const std::vector<double> own = own_uncertainties();
     double unused = 0;
     const auto further = read_components(table_, std::string(card_.si_unit), true, unused, context_);
     const std::size_t before = context_.problems.size();
@@ -33,12 +37,16 @@ public:
       for (Table& one : table_.tables("components")) need_scope(one);
     const bool scoped = context_.problems.size() == before;
     for (const Component& c : further) {
-      if (c.name == "resolution" || c.name == "repeatability")
+      if (c.name == "resolution" || c.name == "repeatability" || (c.name == "u" && !own.empty()))
         table_.add(fmt::format("{}.components: the name '{}' is already used", table_.path(), c.name), "",
                    "choose another name");
     }
     std::vector<Entry> entries;
-    for (const Readouts& reading : readouts_.used) add(entries, reading, choose(reading, step, repeatability));
+    for (std::size_t r = 0; r < readouts_.used.size(); ++r) {
+      entries.push_back({readouts_.used[r].labels, 0, choose(readouts_.used[r], step, repeatability), {}});
+      if (!own.empty()) entries.back().components.push_back(stated(own[r]));
+    }
+    number_or_merge(entries);
     if (entries.empty()) entries.push_back({});
     if (std::ranges::all_of(entries, [&](const Entry& e) { return alike(e, entries.front()); })) {
       entries.resize(1);
@@ -133,12 +141,6 @@ private:
                     "write per = \"reading\", or per = [] if they do share it");
   }
 
-  static double spread(const Entry& e) {
-    if (e.components.empty()) return 0;
-    const auto& d = e.components.front().distribution;
-    return d.family == Family::rectangular ? d.parameters[1] / std::sqrt(3.0) : d.parameters[1];
-  }
-
   static bool alike(const Entry& a, const Entry& b) {
     return std::ranges::equal(a.components, b.components, [](const Component& x, const Component& y) {
       return x.name == y.name && x.distribution.family == y.distribution.family &&
@@ -146,19 +148,72 @@ private:
     });
   }
 
-  /// Entries are told apart by labels; of readings that differ by conditions only the largest noise holds.
-  void add(std::vector<Entry>& entries, const Readouts& reading, std::vector<Component> components) {
-    Entry entry{reading.labels, 0, std::move(components), {}};
-    for (Entry& e : entries) {
-      if (e.labels != entry.labels) continue;
-      if (!alike(e, entry)) {
-        note(fmt::format("readings with equal labels ({}) differ in noise: the largest noise is used for all of them",
-                         text_of(e.labels)));
-        if (spread(entry) > spread(e)) e = std::move(entry);
-      }
-      return;
+  /// u of every reading's mean, SI; empty if it is not stated. A column states it for every indication.
+  std::vector<double> own_uncertainties() {
+    const Node* const node = table_.find("u");
+    if (!node) return {};
+    const Dimension width{std::string(card_.si_unit), units::Kind::difference};
+    std::vector<double> out;
+    if (node->kind != Node::Kind::table) {
+      const auto u = table_.width("u", std::string(card_.si_unit));
+      for (const Readouts& r : readouts_.used)
+        if (u) out.push_back(*u / std::sqrt(static_cast<double>(r.repeats)));
+      return out;
     }
-    entries.push_back(std::move(entry));
+    if (!readouts_.file) {
+      if (context_.readings_known)
+        table_.refuse_key("u", "the readings are not in a data file",
+                          "the column belongs to the file that holds the readings", "u = \"0.7 um\"");
+      return {};
+    }
+    const std::size_t problems = context_.problems.size();
+    const auto column = NumberColumn::read(table_, "u", *readouts_.file, width);
+    for (const Readouts& r : readouts_.used) {
+      if (!column) break;
+      double squares = 0;
+      const auto values = column->values(r.rows, context_.problems);
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        if (values[i] && !(*values[i] > 0)) refuse_uncertainty(*column, r.rows[i]);
+        squares += values[i].value_or(0) * values[i].value_or(0);
+      }
+      out.push_back(std::sqrt(squares) / static_cast<double>(r.repeats));
+    }
+    return context_.problems.size() == problems ? out : std::vector<double>{};
+  }
+
+  void refuse_uncertainty(const NumberColumn& column, std::size_t row) {
+    const Csv& csv = *readouts_.file->csv;
+    const CsvCell& cell = csv.rows[row][static_cast<std::size_t>(csv.find(column.name()))];
+    context_.problems.add({csv.at(cell), fmt::format("'{}' is no standard uncertainty", cell.text),
+                           fmt::format("{}.u must be above 0", table_.path()),
+                           "leave the reading out by where, or correct it"});
+  }
+
+  static Component stated(double u) {
+    Component c;
+    c.name = "u";
+    c.distribution = {Family::normal, {0, u}, nullptr, nullptr};
+    c.per = {"reading"};
+    c.source = "stated for every indication";
+    return c;
+  }
+
+  /// Entries are told apart by labels, and by the number of the reading where equal labels have different noise.
+  void number_or_merge(std::vector<Entry>& entries) const {
+    std::map<Labels, std::size_t> first;
+    bool numbered = false;
+    for (std::size_t r = 0; r < entries.size() && !numbered; ++r) {
+      const auto [known, fresh] = first.try_emplace(entries[r].labels, r);
+      numbered = !fresh && !alike(entries[known->second], entries[r]);
+    }
+    std::vector<Entry> kept;
+    for (std::size_t r = 0; r < entries.size(); ++r) {
+      if (!numbered && first.at(entries[r].labels) != r) continue;
+      kept.push_back(std::move(entries[r]));
+      if (numbered)
+        kept.back().labels.emplace_back(quantities::reading_label, fmt::format("{}", readouts_.used[r].reading + 1));
+    }
+    entries = std::move(kept);
   }
 
   void refuse_shared(const std::vector<Component>& further, const std::vector<Entry>& entries) {
@@ -188,9 +243,18 @@ std::vector<Key> noise_keys() {
   return {
       {"resolution", shape::reference("width"),
        "step of the display: a rectangular distribution of half a step on either side, with one draw per mean"},
+      {"u",
+       shape::any_of(
+           {shape::reference("width"),
+            shape::table({{"column", shape::text(), "column name in the first row of the file", true},
+                          {"unit", shape::text(), "unit of the numbers in the column; default: that of [data]"}})}),
+       "standard uncertainty of one indication, the same for all or a column of their data file; means of n repeats "
+       "have "
+       "the root of the sum of squares, over n"},
       repeatability_key(),
-      {"components", shape::list(shape::reference("component")), "further deviations of the mean of the readings; of several readings each "
-                                                                       "states its scope `per`: [] is one draw for all of them"},
+      {"components", shape::list(shape::reference("component")),
+       "further deviations of the mean of the readings; of several readings each "
+       "states its scope `per`: [] is one draw for all of them"},
   };
 }
 

@@ -8,7 +8,7 @@ namespace gumshoe::scenario {
 /// Keys of an indication that state its noise.
 std::vector<Key> noise_keys();
 
-/// Reads the keys resolution, repeatability and components of [indications.NAME].
+/// Reads the keys resolution, repeatability, u and components of [indications.NAME].
 ///
 /// Resolution is rectangular, half a step either way, one draw per mean. Repeatability has the scale
 /// s/sqrt(n), one draw per mean, with s from the reading's own repeats, declared, or pooled over all

@@ -9,6 +9,10 @@
 
 namespace gumshoe::scenario {
 
+namespace {
+constexpr std::size_t most_in_data = 20; ///< a column read wrongly is wrong in every row
+}
+
 void Problems::add(int line, int column, std::string what, std::string why, std::string remedy) {
   list_.push_back({{file_, line, column}, std::move(what), std::move(why), std::move(remedy)});
 }
@@ -29,6 +33,18 @@ void Problems::add(const Node& node, const std::string& path, const InputError& 
   add(node, path + ": " + p.what, p.why, p.remedy);
 }
 
+void Problems::shorten(std::vector<Problem>& sorted) const {
+  const auto in_data = [&](const Problem& p) { return p.where.file != file_ && p.where.line > 0; };
+  const auto first = std::ranges::find_if(sorted, in_data);
+  const std::size_t count = static_cast<std::size_t>(std::ranges::count_if(sorted, in_data));
+  if (count <= most_in_data) return;
+  const auto last = std::remove_if(first, sorted.end(), [&, n = std::size_t{0}](const Problem& p) mutable {
+    return in_data(p) && ++n > most_in_data;
+  });
+  sorted.erase(last, sorted.end());
+  sorted.push_back({{}, fmt::format("{} more problems of the data are not listed", count - most_in_data), "", ""});
+}
+
 void Problems::raise() const {
   if (list_.empty()) return;
   std::vector<Problem> sorted = list_;
@@ -40,6 +56,7 @@ void Problems::raise() const {
   sorted.erase(std::unique(sorted.begin(), sorted.end(),
                            [](const Problem& a, const Problem& b) { return format(a) == format(b); }),
                sorted.end());
+  shorten(sorted);
   throw InputError(std::move(sorted));
 }
 

@@ -40,6 +40,8 @@ public:
   void raise() const;
 
 private:
+  /// Leaves the first problems of data files only.
+  void shorten(std::vector<Problem>& sorted) const;
   std::string file_;
   std::vector<Problem> list_;
 };

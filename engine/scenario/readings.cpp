@@ -89,21 +89,31 @@ private:
       }
   }
 
+  /// The reading with these labels and conditions. Indications in one file have theirs in one order: it is looked for at
+  /// this place first.
+  std::vector<Reading>::iterator same_reading(const Readouts& r, std::size_t place) {
+    const auto same = [&](const Reading& known) {
+      return known.conditions == r.conditions && quantities::holds_for(r.labels, known.labels) &&
+             quantities::holds_for(known.labels, r.labels);
+    };
+    if (place < out_.readings.size() && same(out_.readings[place]))
+      return out_.readings.begin() + static_cast<std::ptrdiff_t>(place);
+    return std::ranges::find_if(out_.readings, same);
+  }
+
   /// One reading per group of equal labels and conditions, in the order of the first indication.
   void merge(std::vector<Table>& tables) {
-    const std::vector<IndicationReadouts>& readouts = out_.readouts;
+    std::vector<IndicationReadouts>& readouts = out_.readouts;
     for (std::size_t i = 0; i < readouts.size(); ++i) {
-      for (const Readouts& r : readouts[i].used) {
-        auto it = std::find_if(out_.readings.begin(), out_.readings.end(), [&](const Reading& known) {
-          return quantities::holds_for(r.labels, known.labels) && quantities::holds_for(known.labels, r.labels) &&
-                 known.conditions == r.conditions;
-        });
-        if (i == 0) it = out_.readings.insert(out_.readings.end(), {r.labels, r.conditions, {}, r.repeats});
+      for (Readouts& r : readouts[i].used) {
+        const auto it = i == 0 ? out_.readings.insert(out_.readings.end(), {r.labels, r.conditions, {}, r.repeats})
+                               : same_reading(r, static_cast<std::size_t>(&r - readouts[i].used.data()));
         if (it == out_.readings.end()) {
           tables[i].refuse(fmt::format("{} has no reading {}", model_.indications[0].name, text_of(r.labels)),
                            "every indication of a reading is needed");
           continue;
         }
+        r.reading = static_cast<std::size_t>(it - out_.readings.begin());
         if (r.values.empty()) continue;
         double mean = 0;
         for (const double v : r.values) mean += (v - r.values.front()) / static_cast<double>(r.values.size());

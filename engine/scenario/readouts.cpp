@@ -82,8 +82,8 @@ void one_each(const Conditions& commanded, const Labels& labels, const std::vect
 std::vector<Key> readout_keys() {
   const Shape measure = shape::reference("measure"), text_or_number = R"("type": ["string", "number"])";
   return {
-      {"readings", shape::any_of({shape::list(measure, R"("minItems": 1)"), shape::table(readouts_file_keys())}),
-       "repeats of one reading, or a data file"},
+      {"readings", shape::any_of({shape::list(measure, R"("minItems": 1)"), shape::text(), shape::table(readouts_file_keys())}),
+       "repeats of one reading, or a column of a data file: that of [data], or one of its own"},
       {"rows", shape::list(shape::table(row_keys(), "", text_or_number), R"("minItems": 1)"),
        "labels and conditions of readings, with their values"},
       {"labels", shape::reference("labels"), "labels of the readings in `readings`"},
@@ -99,24 +99,23 @@ IndicationReadouts read_readouts(Table& table, const VariableCard& card, const M
   const auto* rows = table.array("rows");
   if (readings && table.has("rows"))
     table.refuse("readings is given together with rows", "both state what was read", "leave one out");
-  if (context.files.readings_replaced() && (!readings || readings->kind != Node::Kind::table))
+  const bool in_file = readings && (readings->kind == Node::Kind::table || readings->kind == Node::Kind::text);
+  if (context.files.readings_replaced() && !in_file)
     problems.add(readings ? *readings : table.node(),
                  fmt::format("{}: there is no data file for --data to replace", table.path()),
                  "its readings are written in the scenario", "readings = { file = \"...\", column = \"...\" }");
   Labels labels;
   if (table.has("labels")) {
-    if (readings && readings->kind == Node::Kind::table) {
+    if (in_file) {
       table.refuse_key("labels", "the labels of a data file are its columns", "", "move it into readings");
     } else if (auto own = table.table("labels")) {
       labels = read_own_labels(*own);
     }
   }
-  if (commanded.listed && (rows || (readings && readings->kind == Node::Kind::table)))
+  if (commanded.listed && (rows || in_file))
     table.refuse("conditions are listed, one per reading", "here the file's columns or the rows state them",
                  "remove the list from [conditions]");
-  if (readings && readings->kind == Node::Kind::table) {
-    return read_readouts_file(Table(*readings, table.path("readings"), problems), card, model, conditions, context);
-  }
+  if (in_file) return read_readouts_file(table, card, model, conditions, context);
   if (readings) {
     if (const auto* items = table.array("readings")) {
       const auto values = read_list(*items, table.path("readings"), card, problems);

@@ -3,7 +3,7 @@
 /// are repeats of one reading.
 #include "base/card.h"
 #include "scenario/conditions.h"
-#include "scenario/context.h"
+#include "scenario/data_file.h"
 
 namespace gumshoe::scenario {
 
@@ -14,15 +14,15 @@ struct Readouts {
   std::vector<double> values;     ///< SI; empty in a virtual experiment
   int repeats = 1;
   std::vector<std::size_t> rows = {}; ///< of the data file, by readout; empty without one
+  std::size_t reading = 0;            ///< position among the readings of the scenario
 };
 
 struct IndicationReadouts {
   std::vector<Readouts> used;
   std::vector<Readouts> all; ///< also the rows that `where` leaves out by their labels: what can be pooled
-  const Csv* csv = nullptr;  ///< the data file; null without one
-  std::string column;        ///< of it
-  char decimal = '.';        ///< decimal sign of its numbers
-  quantities::Labels fixed;  ///< labels of which `where` leaves one value
+  std::optional<DataFile> file; ///< that they stand in
+  std::string column;           ///< of it
+  quantities::Labels fixed;     ///< labels of which `where` leaves one value
 };
 
 /// Keys of an indication that say what was read.

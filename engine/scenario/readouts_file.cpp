@@ -1,169 +1,264 @@
 #include "scenario/readouts_file.h"
 
 #include <algorithm>
+#include <map>
 
 #include <fmt/format.h>
 
-#include "scenario/data_column.h"
+#include "scenario/number_column.h"
+#include "scenario/row_filter.h"
+#include "scenario/stretches.h"
 
 namespace gumshoe::scenario {
 namespace {
 
 using quantities::Labels;
 
-void add_row(std::vector<Readouts>& groups, const Labels& labels, const std::vector<double>& conditions, double value,
-             std::size_t row) {
-  for (Readouts& g : groups) {
-    if (g.labels != labels || g.conditions != conditions) continue;
-    g.values.push_back(value);
-    g.rows.push_back(row);
-    ++g.repeats;
-    return;
-  }
-  groups.push_back({labels, conditions, {value}, 1, {row}});
-}
-
-} // namespace
-
-std::vector<Key> readouts_file_keys() {
-  std::vector<Key> keys = data_column_keys();
+/// Keys that [data] and the readings of an indication have in common.
+std::vector<Key> shared_keys() {
+  std::vector<Key> keys = data_file_keys();
   keys.push_back({"labels", shape::map(shape::text()), "label = column"});
-  keys.push_back({"conditions", shape::map(shape::table(column_keys())), "conditions that are columns"});
+  keys.push_back({"conditions", shape::map(number_column_shape()), "conditions that are columns"});
   keys.push_back(where_key());
   return keys;
 }
 
-namespace {
+/// { column = "x" } for the name of a column alone.
+Node as_table(const Node& node) {
+  if (node.kind != Node::Kind::text) return node;
+  Node out;
+  out.line = node.line;
+  out.column = node.column;
+  out.members = {{"column", node.line, node.column, node}};
+  return out;
+}
 
-/// readings = { file, column, unit, labels, conditions, where }
+/// Readouts of the file, gathered by their labels and conditions in the order in which these occur first.
+class Groups {
+public:
+  void add(const Labels& labels, const std::vector<double>& conditions, double value, std::size_t row) {
+    const auto [at, fresh] = known_.try_emplace({labels, conditions}, groups_.size());
+    if (fresh) groups_.push_back({labels, conditions, {}, 0});
+    Readouts& group = groups_[at->second];
+    group.values.push_back(value);
+    group.rows.push_back(row);
+    ++group.repeats;
+  }
+  std::vector<Readouts> take() { return std::move(groups_); }
+
+private:
+  std::vector<Readouts> groups_;
+  std::map<std::pair<Labels, std::vector<double>>, std::size_t> known_;
+};
+
+/// readings = { column, unit } with what else they say of the file, and [data] where they name no file of their own.
 class FileReader {
 public:
-  FileReader(Table table, const VariableCard& card, const ModelCard& model, Context& context)
-      : table_(std::move(table)), card_(card), model_(model), context_(context) {}
+  FileReader(Table& indication, const VariableCard& card, const ModelCard& model, Context& context)
+      : node_(as_table(*indication.find("readings"))), own_(node_, indication.path("readings"), context.problems),
+        card_(card), model_(model), context_(context), problems_before_(context.problems.size()) {
+    if (context.data && context.data->kind == Node::Kind::table && !own_.has("file"))
+      shared_.emplace(*context.data, "data", context.problems);
+  }
 
   IndicationReadouts read(const std::vector<double>& conditions) {
     IndicationReadouts out;
-    const std::size_t problems = context_.problems.size();
-    table_.declare(readouts_file_keys());
-    const auto data = read_data_column(table_, std::string(card_.si_unit), context_.files, true);
-    // Without the file its other columns cannot be judged.
-    const Csv* csv = nullptr;
-    if (const Node* file = table_.find("file"); file && file->kind == Node::Kind::text) {
-      Problems silent(context_.problems.file());
-      csv = context_.files.open_readings(*file, table_.path("file"), silent);
+    own_.declare(readouts_file_keys());
+    out.file = read_data_file(shared_ ? *shared_ : own_, context_.files, true);
+    if (out.file && shared_) out.file->units = read_units(*shared_, *out.file->csv);
+    if (out.file) {
+      file_ = &*out.file;
+      labels();
+      for (Table* table : tables()) filter_.add(*table, *file_->csv, labels_);
+      out.fixed = filter_.fixed();
+      rows(conditions, out);
     }
-    decimal_ = read_decimal(table_);
-    if (csv) {
-      columns(*csv);
-    } else {
-      complete_ = false;
-      for (const char* key : {"labels", "conditions", "where"}) table_.find(key);
-    }
-    const RowFilter filter = csv && complete_ ? RowFilter(table_, *csv, labels_) : RowFilter{};
-    table_.find("where");
-    table_.refuse_unknown();
-    out.csv = csv;
-    if (!data || !complete_) return out;
-    out.decimal = decimal_;
-    out.fixed = filter.fixed();
-    out.column = csv->header[static_cast<std::size_t>(data->column)].text;
-    for (std::size_t i = 0; i < csv->rows.size(); ++i) {
-      const auto& row = csv->rows[i];
-      Labels labels;
-      std::vector<double> here = conditions;
-      if (!filter.keeps_columns(row) || !read_row(*csv, row, labels, here)) continue;
-      const auto value = read_cell(*csv, row[static_cast<std::size_t>(data->column)], data->unit, decimal_,
-                                   {std::string(card_.si_unit)}, context_.problems);
-      if (!value) continue;
-      add_row(out.all, labels, here, *value, i);
-      if (filter.keeps_labels(row)) add_row(out.used, labels, here, *value, i);
-    }
-    if (out.used.empty() && context_.problems.size() == problems) nothing(*csv, filter);
+    for (const char* key : {"column", "unit", "labels", "conditions", "where"}) own_.find(key);
+    own_.refuse_unknown();
+    if (out.used.empty() && out.file && good()) nothing();
     return out;
   }
 
 private:
-  struct ConditionColumn {
-    std::size_t condition, column;
-    std::string unit;
-  };
+  bool good() const { return context_.problems.size() == problems_before_; }
 
-  void columns(const Csv& csv) {
-    if (auto labels = table_.table("labels")) {
-      for (const Member& m : labels->members()) {
-        const int column = find_column(*labels, m.key, csv);
-        if (column < 0 || reserved(m, labels->path(), context_.problems))
-          complete_ = false;
-        else
+  /// [data] comes first: what an indication says itself replaces it.
+  std::vector<Table*> tables() {
+    if (!shared_) return {&own_};
+    return {&*shared_, &own_};
+  }
+
+  void labels() {
+    for (Table* from : tables())
+      if (auto labels = from->table("labels"))
+        for (const Member& m : labels->members()) {
+          const int column = find_column(*labels, m.key, *file_->csv);
+          if (column < 0 || reserved(m, labels->path(), context_.problems)) continue;
+          std::erase_if(labels_, [&](const auto& known) { return known.first == m.key; });
           labels_.push_back({m.key, static_cast<std::size_t>(column)});
-      }
-    }
-    auto conditions = table_.table("conditions");
-    if (!conditions) return;
-    for (const Member& m : conditions->members()) {
-      const std::size_t index = condition_index(model_, m.key);
-      if (index == model_.conditions.size()) {
-        context_.problems.add(m, fmt::format("{}: {} has no condition '{}'", conditions->path(), model_.name, m.key),
-                              "", did_you_mean(m.key, names_of(model_.conditions)));
-        complete_ = false;
-        continue;
-      }
-      auto one = conditions->table(m.key);
-      if (!one) continue;
-      one->declare(column_keys());
-      if (one->require("column")) {
-        const int column = find_column(*one, "column", csv);
-        const std::string unit = one->text("unit").value_or("1"), si(model_.conditions[index].si_unit);
-        complete_ &= column >= 0;
-        if (!units::convertible(unit, si)) {
-          one->refuse_key("unit", fmt::format("'{}' is not {}", unit, units::kind_name(si)), "must convert to " + si);
-          complete_ = false;
         }
-        if (complete_) conditions_.push_back({index, static_cast<std::size_t>(column), unit});
-      }
-      one->refuse_unknown();
-    }
   }
 
-  bool read_row(const Csv& csv, const std::vector<CsvCell>& row, Labels& labels, std::vector<double>& conditions) {
-    bool good = true;
+  std::map<std::size_t, NumberColumn> conditions() {
+    std::map<std::size_t, NumberColumn> out;
+    for (Table* from : tables()) {
+      auto conditions = from->table("conditions");
+      if (!conditions) continue;
+      for (const Member& m : conditions->members()) {
+        const std::size_t index = condition_index(model_, m.key);
+        if (index == model_.conditions.size()) {
+          context_.problems.add(m, fmt::format("{}: {} has no condition '{}'", conditions->path(), model_.name, m.key),
+                                "", did_you_mean(m.key, names_of(model_.conditions)));
+          continue;
+        }
+        if (auto column =
+                NumberColumn::read(*conditions, m.key, *file_, {std::string(model_.conditions[index].si_unit)}))
+          out.insert_or_assign(index, std::move(*column));
+      }
+    }
+    return out;
+  }
+
+  /// `readings` itself is the column of a number.
+  std::optional<NumberColumn> readings() {
+    Node parent, column;
+    for (const Member& m : node_.members)
+      if (m.key == "column" || m.key == "unit") column.members.push_back(m);
+    column.line = own_.node().line;
+    column.column = own_.node().column;
+    parent.members = {{"readings", column.line, column.column, column}};
+    const std::string path = own_.path();
+    Table table(parent, path.substr(0, path.rfind('.')), context_.problems);
+    return NumberColumn::read(table, "readings", *file_, {std::string(card_.si_unit)});
+  }
+
+  void rows(std::vector<double> here, IndicationReadouts& out) {
+    const auto column = readings();
+    const auto columns = conditions();
+    if (!column || !good()) return;
+    out.column = column->name();
+    const Csv& csv = *file_->csv;
+    std::vector<std::size_t> rows;
+    for (std::size_t i = 0; i < csv.rows.size(); ++i)
+      if (filter_.keeps_columns(csv.rows[i])) rows.push_back(i);
+    const auto values = column->values(rows, context_.problems);
+    std::map<std::size_t, std::vector<std::optional<double>>> at;
+    for (const auto& [condition, from] : columns) at[condition] = from.values(rows, context_.problems);
+    const std::vector<std::string> blocks = stretches_of(rows, at);
+    Groups used, all;
+    std::size_t next = 0;
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      const auto& row = csv.rows[rows[k]];
+      const bool counts = filter_.keeps_labels(row);
+      Labels labels = labels_of(row);
+      if (counts && next < blocks.size()) labels.emplace_back(stretch_label, blocks[next++]);
+      bool good = values[k].has_value();
+      for (const auto& [condition, value] : at) {
+        good &= value[k].has_value();
+        here[condition] = value[k].value_or(0);
+      }
+      if (!good) continue;
+      all.add(labels, here, *values[k], rows[k]);
+      if (counts) used.add(labels, here, *values[k], rows[k]);
+    }
+    out.used = used.take();
+    out.all = all.take();
+  }
+
+  Labels labels_of(const std::vector<CsvCell>& row) {
+    Labels out;
     for (const auto& [label, column] : labels_) {
-      const CsvCell& cell = row[column];
-      if (cell.text.empty()) {
-        context_.problems.add(Problem{csv.at(cell), fmt::format("the label '{}' is empty", label), "", ""});
-        good = false;
-      }
-      labels.emplace_back(label, cell.text);
+      if (row[column].text.empty())
+        context_.problems.add(
+            Problem{file_->csv->at(row[column]), fmt::format("the label '{}' is empty", label), "", ""});
+      out.emplace_back(label, row[column].text);
     }
-    for (const ConditionColumn& c : conditions_) {
-      const auto value = read_cell(csv, row[c.column], c.unit, decimal_, {std::string(model_.conditions[c.condition].si_unit)},
-                                   context_.problems);
-      if (value)
-        conditions[c.condition] = *value;
-      else
-        good = false;
-    }
-    return good;
+    return out;
   }
 
-  void nothing(const Csv& csv, const RowFilter& filter) {
-    const Node* at = table_.find("where");
-    context_.problems.add(at ? *at : table_.node(),
-                          at ? fmt::format("{}: no row of '{}' has {}", table_.path("where"), csv.file, filter.text())
-                             : fmt::format("{}: '{}' has no rows", table_.path(), csv.file));
+  /// By row used, in their order; empty without blocks that are stretches.
+  std::vector<std::string> stretches_of(const std::vector<std::size_t>& rows,
+                                        const std::map<std::size_t, std::vector<std::optional<double>>>& at) {
+    if (!has_stretches(context_.trace) || !good()) return {};
+    if (std::ranges::find(labels_, stretch_label, &RowFilter::Columns::value_type::first) != labels_.end()) {
+      own_.refuse(fmt::format("the label '{}' is already used", stretch_label),
+                  "blocks that are stretches have this name", "choose another name for the label");
+      return {};
+    }
+    std::vector<std::size_t> used;
+    std::map<std::string, StretchAxis> axes;
+    for (const auto& [condition, values] : at)
+      axes[std::string(model_.conditions[condition].name)].si_unit = model_.conditions[condition].si_unit;
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      if (!filter_.keeps_labels(file_->csv->rows[rows[k]])) continue;
+      used.push_back(rows[k]);
+      for (const auto& [condition, values] : at)
+        axes[std::string(model_.conditions[condition].name)].values.push_back(values[k].value_or(0));
+    }
+    return stretches(*context_.trace, {*file_, used, axes}, context_.problems);
   }
 
-  Table table_;
+  void nothing() {
+    Table* of = nullptr;
+    for (Table* table : tables())
+      if (table->has("where")) of = table;
+    if (of)
+      context_.problems.add(*of->find("where"), fmt::format("{}: no row of '{}' has {}", of->path("where"),
+                                                            file_->csv->file, filter_.text()));
+    else
+      own_.refuse(fmt::format("'{}' has no rows", file_->csv->file));
+  }
+
+  const Node node_;
+  Table own_;
+  std::optional<Table> shared_;
   const VariableCard& card_;
   const ModelCard& model_;
   Context& context_;
-  bool complete_ = true;
-  char decimal_ = '.';
+  const std::size_t problems_before_;
+  const DataFile* file_ = nullptr;
   RowFilter::Columns labels_; ///< label, column
-  std::vector<ConditionColumn> conditions_;
+  RowFilter filter_;
 };
 
 } // namespace
+
+std::vector<Key> readouts_file_keys() {
+  std::vector<Key> keys = shared_keys();
+  keys.insert(keys.begin() + 1, {{"column", shape::text(), "column name in the first row of the file", true},
+                                 {"unit", shape::text(),
+                                  "unit of the numbers in the column; default: that of [data], or a plain number"}});
+  return keys;
+}
+
+std::vector<Key> data_keys() {
+  std::vector<Key> keys = shared_keys();
+  keys.front().required = true;
+  keys.insert(keys.begin() + 3, units_key());
+  return keys;
+}
+
+void check_data(Table& top, Context& context) {
+  auto data = top.table("data");
+  if (!data) return;
+  data->declare(data_keys());
+  if (const auto file = read_data_file(*data, context.files, true)) read_units(*data, *file->csv);
+  for (const Key& key : data_keys()) data->find(key.name);
+  data->refuse_unknown();
+  const Node* const indications = top.find("indications");
+  const auto refers = [](const Member& indication) {
+    const auto& members = indication.value.members;
+    const auto readings = std::ranges::find(members, "readings", &Member::key);
+    if (readings == members.end()) return false;
+    const Node& node = readings->value;
+    return node.kind == Node::Kind::text ||
+           (node.kind == Node::Kind::table &&
+            std::ranges::find(node.members, "file", &Member::key) == node.members.end());
+  };
+  if (!indications || std::ranges::none_of(indications->members, refers))
+    context.problems.add(data->node(), "data: no indication reads a column of it", "",
+                         "readings = { column = \"...\", unit = \"mm\" }");
+}
 
 bool reserved(const Member& label, const std::string& path, Problems& problems) {
   if (label.key != "reading") return false;
@@ -185,9 +280,9 @@ std::size_t condition_index(const ModelCard& model, const std::string& name) {
                                   model.conditions.begin());
 }
 
-IndicationReadouts read_readouts_file(Table table, const VariableCard& card, const ModelCard& model,
+IndicationReadouts read_readouts_file(Table& indication, const VariableCard& card, const ModelCard& model,
                                       const std::vector<double>& conditions, Context& context) {
-  return FileReader(std::move(table), card, model, context).read(conditions);
+  return FileReader(indication, card, model, context).read(conditions);
 }
 
 } // namespace gumshoe::scenario

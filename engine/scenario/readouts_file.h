@@ -1,12 +1,18 @@
 #pragma once
-/// Readouts that stand in a data file: readings = { file, column, unit, labels, conditions, where }.
+/// Readouts that stand in a data file: readings = { column, unit }, or the column's name alone. The file, its labels,
+/// conditions and selection are those of [data], or stand next to the column.
 #include "scenario/readouts.h"
 
 namespace gumshoe::scenario {
 
 std::vector<Key> readouts_file_keys();
-/// `conditions`: SI, by position in the model's card; columns of the file replace them.
-IndicationReadouts read_readouts_file(Table table, const VariableCard& card, const ModelCard& model,
+/// [data]
+std::vector<Key> data_keys();
+/// Checks what no indication or all of them ask for: unknown keys, the file, the units, whether it is used.
+void check_data(Table& top, Context& context);
+/// Reads `readings` of the indication. `conditions`: SI, by position in the model's card; columns of the file replace
+/// them.
+IndicationReadouts read_readouts_file(Table& indication, const VariableCard& card, const ModelCard& model,
                                       const std::vector<double>& conditions, Context& context);
 
 /// Labels as a table of texts: { rod = "rod 1" }.

@@ -16,6 +16,7 @@
 #include "scenario/options.h"
 #include "scenario/quantity.h"
 #include "scenario/readings.h"
+#include "scenario/readouts_file.h"
 #include "scenario/schema.h"
 #include "scenario/stated_effects.h"
 #include "scenario/trace.h"
@@ -46,6 +47,13 @@ public:
     top.declare(sections());
     if (top.require("schema", "schema = 1")) top.integer("schema", 1, 1);
     out_.title = top.text("title").value_or("");
+    context_.data = top.find("data");
+    context_.trace = top.find("trace");
+    check_data(top, context_);
+    if (!problems_.empty()) { // formulas have no dimension without the units of the data
+      top.members();
+      problems_.raise();
+    }
     const ModelCard* model = read_model(top);
     if (!model) { // nothing below has a meaning without its model
       top.members();

@@ -8,12 +8,14 @@
 #include "scenario/choose.h"
 #include "scenario/conditions.h"
 #include "scenario/correlations.h"
-#include "scenario/data_column.h"
+#include "scenario/series.h"
 #include "scenario/expected.h"
 #include "scenario/machine.h"
 #include "scenario/made_models.h"
 #include "scenario/options.h"
 #include "scenario/quantity.h"
+#include "scenario/readouts_file.h"
+#include "scenario/row_filter.h"
 #include "scenario/readings.h"
 #include "scenario/stated_effects.h"
 #include "scenario/trace.h"
@@ -151,6 +153,8 @@ const std::vector<Key>& sections() {
       {"machine", machine_shape(),
        "the machine on which a model measures, where it works on any: the name of a predefined one, or the axes of "
        "your own"},
+      {"data", table(data_keys()),
+       "the data file that the readings stand in: its columns that are labels and conditions, and the rows that count"},
       {"conditions", map(reference("condition")), "what was commanded; exact"},
       {"quantities", map(reference("quantity")), "quantities of the model; those left out keep their defaults"},
       {"effects", "", "effects left out stay at their null value"},

@@ -1,4 +1,3 @@
-#include "scenario/data_column.h"
 #include "scenario/trace.h"
 
 #include <algorithm>
@@ -6,6 +5,8 @@
 #include <fmt/format.h>
 
 #include "formula/formula.h"
+#include "scenario/number_column.h"
+#include "scenario/stretches.h"
 
 namespace gumshoe::scenario {
 namespace {
@@ -48,33 +49,26 @@ private:
     return false;
   }
 
-  /// name = { column = "...", unit = "..." }
+  /// name = { column = "...", unit = "..." }, or another form of a column of numbers
   void column(const Member& m, Table& columns) {
-    auto table = columns.table(m.key);
-    if (!table) return;
-    table->declare(column_keys());
     const bool named = writable(m);
-    const bool given = table->require("column", "column = \"...\"") != nullptr;
-    const std::string unit = table->text("unit").value_or("1");
-    const Csv* csv = scope_.readouts.empty() ? nullptr : scope_.readouts.front().csv;
-    if (!csv && context_.readings_known)
-      refuse(m, "the readings are not in a data file", "columns belong to the file that holds the readings");
-    const int index = csv && given ? find_column(*table, "column", *csv) : -1;
-    table->find("column");
-    table->refuse_unknown();
-    const Node* unit_node = table->find("unit");
-    const auto si_unit = read_si_unit(unit_node ? *unit_node : table->node(), table->path("unit"), unit, problems_);
-    if (!si_unit || !named) return;
-    TraceColumn out{m.key, unit, *si_unit, {}};
-    if (index >= 0 && context_.readings_known && own(m, *csv, index))
-      values(*csv, static_cast<std::size_t>(index), out);
+    const auto& file = scope_.readouts.empty() ? std::nullopt : scope_.readouts.front().file;
+    if (!file) {
+      if (context_.readings_known)
+        refuse(m, "the readings are not in a data file", "columns belong to the file that holds the readings");
+      return;
+    }
+    const auto column = NumberColumn::read(columns, m.key, *file);
+    if (!column || !named) return;
+    TraceColumn out{m.key, column->unit(), column->si_unit(), {}};
+    if (context_.readings_known && own(m, *file->csv, column->name())) values(*column, out);
     out_.columns.push_back(std::move(out));
   }
 
   /// Not one of the readings themselves.
-  bool own(const Member& m, const Csv& csv, int column) {
+  bool own(const Member& m, const Csv& csv, const std::string& column) {
     for (const IndicationReadouts& of_one : scope_.readouts)
-      if (of_one.csv == &csv && of_one.column == csv.header[static_cast<std::size_t>(column)].text) {
+      if (of_one.file && of_one.file->csv == &csv && of_one.column == column) {
         refuse(m, fmt::format("'{}' holds readings", of_one.column),
                "a signature computed from what was measured explains itself");
         return false;
@@ -83,29 +77,34 @@ private:
   }
 
   /// Means over the readouts of each reading; a cell without a number is a problem at its place, and there are none.
-  void values(const Csv& csv, std::size_t column, TraceColumn& out) {
+  void values(const NumberColumn& column, TraceColumn& out) {
     const std::size_t before = problems_.size();
+    std::vector<std::size_t> rows;
+    for (const Readouts& r : scope_.readouts.front().used) rows.insert(rows.end(), r.rows.begin(), r.rows.end());
+    std::ranges::sort(rows);
+    const auto numbers = column.values(rows, problems_);
+    if (problems_.size() != before) return;
     for (const Readouts& r : scope_.readouts.front().used) {
       double sum = 0;
       for (const std::size_t row : r.rows)
-        sum += read_cell(csv, csv.rows[row][column], out.unit, scope_.readouts.front().decimal, {out.si_unit}, problems_)
-                   .value_or(0);
+        sum += *numbers[static_cast<std::size_t>(std::ranges::lower_bound(rows, row) - rows.begin())];
       out.values.push_back(sum / static_cast<double>(r.rows.size()));
     }
-    if (problems_.size() != before) out.values.clear();
   }
 
   void blocks() {
+    const Node* const node = table_.find("blocks");
+    if (node && node->kind == Node::Kind::table)
+      stretches(*node);
+    else
+      out_.blocks = table_.text("blocks").value_or("");
     const Node* const final_node = table_.find("final");
     const std::string& label = out_.blocks;
     if (final_node && !table_.has("blocks"))
       table_.refuse_key("final", "there are no blocks", "blocks are the values of a label", "blocks = \"setup\"");
     if (final_node && final_node->kind == Node::Kind::array && final_node->items.empty())
       table_.refuse_key("final", "empty", "without it the last quarter of the blocks is held out", "leave it out");
-    const Node* const node = table_.find("blocks");
-    if (!node || node->kind != Node::Kind::text || !context_.is_label(*node, "trace.blocks", label) ||
-        !context_.readings_known)
-      return;
+    if (!node || label.empty() || !context_.is_label(*node, "trace.blocks", label) || !context_.readings_known) return;
     std::set<std::string> known;
     for (const quantities::Reading& r : scope_.readings) {
       const std::string* value = quantities::label_value(r.labels, label);
@@ -115,6 +114,17 @@ private:
       known.insert(*value);
     }
     if (final_node) final_blocks(*final_node, known);
+  }
+
+  /// The readings have their stretch as a label (readouts_file.cpp).
+  void stretches(const Node& node) {
+    const bool in_file =
+        std::ranges::any_of(scope_.readouts, [](const auto& of_one) { return of_one.file.has_value(); });
+    if (in_file)
+      out_.blocks = stretch_label;
+    else if (context_.readings_known)
+      problems_.add(node, "trace.blocks: the readings are not in a data file", "stretches are of the rows of a file",
+                    "name a label: blocks = \"setup\"");
   }
 
   void final_blocks(const Node& node, const std::set<std::string>& known) {
@@ -188,7 +198,10 @@ private:
 Options<TraceOptions> trace_options() {
   const Shape act = shape::texts(R"("minItems": 1)");
   return {
-      option::text("blocks", &TraceOptions::blocks, "label whose values define the blocks: set-ups, days, clampings"),
+      option::by_hand<TraceOptions>(
+          "blocks", shape::any_of({shape::text(), stretches_shape()}),
+          "label whose values define the blocks: set-ups, days, clampings; or stretches of the "
+          "data, { every = \"30 min\", of = \"time\" } or { count = 6 }, with the label `block`"),
       option::texts("final", &TraceOptions::final_blocks, R"("minItems": 1)",
                     "hold-out blocks; default: the last quarter, at least one"),
       option::by_hand<TraceOptions>("order", shape::text(),
@@ -201,11 +214,12 @@ Options<TraceOptions> trace_options() {
           "was redone. Left out: every set of one or two labels with at least six combinations"),
       option::texts("free", &TraceOptions::free, "",
                     "quantities whose stated values come from these data: fitted again, as if marked estimated"),
-      option::share("alpha", &TraceOptions::alpha, true, "false-alarm rate: probability of any finding if there is "
-                                                         "nothing to find"),
+      option::share("alpha", &TraceOptions::alpha, true,
+                    "false-alarm rate: probability of any finding if there is "
+                    "nothing to find"),
       option::whole("draws", &TraceOptions::draws, 99, 1'000'000, "number of draws of the parametric bootstrap"),
       option::whole("seed", &TraceOptions::seed, 0, most_seed, "seed of the bootstrap"),
-      option::by_hand<TraceOptions>("columns", shape::map(shape::table(column_keys())),
+      option::by_hand<TraceOptions>("columns", shape::map(number_column_shape()),
                                     "quantities recorded with the readings, in the same data file, such as a "
                                     "temperature"),
   };

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "scenario/data_column.h"
+#include "scenario/series.h"
 #include "scenario/family.h"
 
 namespace gumshoe::scenario {

@@ -195,6 +195,52 @@ y = { unit = "mm", meaning = "a length" }
 [quantities]
 x = "1 mm"
 ''',
+    "data": '''
+schema = 1
+[model]
+name = "expression"
+[model.indications]
+x = "g * p"
+y = "g * p * d"
+z = "g * p * s"
+[data]
+file = "values.csv"
+delimiter = ","
+decimal = "."
+labels = { w = "w" }
+units = { r = "mm" }
+where = { w = ["a", "b"] }
+conditions = { s = { column = "w", map = { a = 1, b = -1 } }, p = { column = "r", unit = "mm" }, d = { column = "w", map = { a = 1, b = -1 } }, t = { column = "c", clock = "%H:%M" } }
+[quantities]
+g = { value = 1, estimated = true }
+h = { distribution = "empirical", values = { file = "values.csv", column = "r", unit = "mm", delimiter = "," } }
+[indications.x]
+readings = "r"
+u = { column = "r", unit = "mm" }
+[indications.y]
+readings = { column = "r", unit = "mm", where = { w = ["a", "b"] } }
+[indications.z]
+readings = { file = "values.csv", delimiter = ",", column = "r", unit = "mm", labels = { w = "w" }, conditions = { p = { column = "r", unit = "mm" }, d = { column = "w", map = { a = 1, b = -1 } }, t = { column = "c", clock = "%H:%M" }, s = { column = "w", map = { a = 1, b = -1 } } } }
+[trace]
+blocks = { every = "1 min", of = "t" }
+columns = { q = { column = "v", unit = "mm" }, f = { column = "w", map = { a = 1, b = -1 } }, m = { column = "c", clock = "%H:%M" } }
+''',
+    "counted": '''
+schema = 1
+[model]
+name = "expression"
+[model.indications]
+x = "g * p"
+[data]
+file = "values.csv"
+conditions = { p = "r" }
+[quantities]
+g = { value = 1, estimated = true }
+[indications.x]
+readings = "r"
+[trace]
+blocks = { count = 2 }
+''',
     "machine": '''
 schema = 1
 [model]
@@ -316,7 +362,7 @@ class Schema(unittest.TestCase):
         for file in shipped():
             seen.update(used_keys(self.schema, self.schema, load(file)))
         with tempfile.TemporaryDirectory() as folder:
-            (pathlib.Path(folder) / "values.csv").write_text("r\n5\n6\n9\n")
+            (pathlib.Path(folder) / "values.csv").write_text("r,w,c,v\n5,a,10:00,1\n6,b,10:01,2\n9,a,10:02,3\n")
             (pathlib.Path(folder) / "model.py").write_text(
                 "import sys\nprint('y')\nfor row in sys.stdin.read().splitlines()[1:]: print(row)\n")
             for name, text in EVERY_KEY.items():

@@ -58,3 +58,32 @@ TEST_CASE("malformed tables are refused with their place", "[csv]") {
   CHECK_THROWS_AS(csv.number(csv.rows[1][0]), InputError);
   CHECK_THROWS_AS(csv.number(csv.rows[1][1]), InputError);
 }
+
+TEST_CASE("tabs and blanks separate cells", "[csv]") {
+  const auto tabs = parse_csv("a\tb c\td\n1\t\t3\n", "t.csv");
+  REQUIRE(tabs.header.size() == 3);
+  CHECK(tabs.header[1].text == "b c");
+  CHECK(tabs.rows[0][1].text.empty());
+  const auto blanks = parse_csv("  a   b\tc  \n1 2    3\n\n -4   5 6 \r\n", "t.csv", ' ');
+  REQUIRE(blanks.header.size() == 3);
+  REQUIRE(blanks.rows.size() == 2);
+  CHECK(blanks.number(blanks.rows[1][0]) == -4);
+  CHECK(blanks.rows[1][2].text == "6");
+  CHECK(parse_csv("a;b,c\n1,5;2\n", "t.csv", ';').number(parse_csv("a;b,c\n1,5;2\n", "t.csv", ';').rows[0][0], ',') == 1.5);
+  CHECK(parse_csv("a;b\n1;2\n;\n\t\n", "t.csv").rows.size() == 1); // a row without any text
+}
+
+TEST_CASE("several tables are read as one", "[csv]") {
+  const auto all = gumshoe::join_csv({parse_csv("a,b\n1,2\n", "1.csv"), parse_csv("b,x,a\n3,9,4\n", "2.csv")}, "*.csv",
+                                     {{"run", {"1", "2"}}});
+  CHECK(all.names() == std::vector<std::string>{"run", "a", "b"});
+  REQUIRE(all.rows.size() == 2);
+  CHECK(all.rows[1][0].text == "2");
+  CHECK(all.rows[1][1].text == "4");
+  CHECK(all.at(all.rows[1][1]).file == "2.csv");
+  CHECK(all.at(all.rows[1][1]).column == 5);
+  CHECK_THROWS_WITH(gumshoe::join_csv({parse_csv("a,b\n", "1.csv"), parse_csv("a\n", "2.csv")}, "*.csv", {}),
+                    Catch::Contains("2.csv:1:1: error: there is no column 'b'"));
+  CHECK_THROWS_WITH(gumshoe::join_csv({parse_csv("a,b\n", "1.csv")}, "*.csv", {{"a", {"1"}}}),
+                    Catch::Contains("1.csv:1:1: error: the file has a column 'a' itself"));
+}

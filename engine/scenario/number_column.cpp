@@ -1,0 +1,219 @@
+#include "scenario/number_column.h"
+
+#include <algorithm>
+#include <ranges>
+#include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "base/clock.h"
+
+namespace gumshoe::scenario {
+namespace {
+
+constexpr double day = 86400;
+
+const Node* member(const Node& node, std::string_view key) {
+  const auto it = std::ranges::find(node.members, key, &Member::key);
+  return it == node.members.end() ? nullptr : &it->value;
+}
+
+/// { column = "x" } for the name of a column alone.
+Node as_table(const Node& node) {
+  if (node.kind != Node::Kind::text) return node;
+  Node out;
+  out.line = node.line;
+  out.column = node.column;
+  out.members = {{"column", node.line, node.column, node}};
+  return out;
+}
+
+} // namespace
+
+std::vector<Key> number_column_keys() {
+  return {{"column", shape::texts(),
+           "column name in the first row of the file; of a clock time also two, date and time", true},
+          {"unit", shape::text(), "unit of the numbers in the column; default: that of [data], or a plain number"},
+          {"map", shape::map(shape::reference("measure")), "word = number: what the words in the column stand for"},
+          {"clock", shape::text(),
+           "the column holds clock times, which become seconds since the first: \"iso\", or a pattern such as "
+           "\"%d.%m.%Y %H:%M:%S\""}};
+}
+
+Shape number_column_shape() { return shape::any_of({shape::text(), shape::table(number_column_keys())}); }
+
+std::map<std::string, std::string> stated_units(const Node* data) {
+  std::map<std::string, std::string> out;
+  if (const Node* units = data ? member(*data, "units") : nullptr)
+    for (const Member& m : units->members)
+      if (m.value.kind == Node::Kind::text) out[m.key] = m.value.text;
+  return out;
+}
+
+std::string unit_of_column(const Node& node, const std::map<std::string, std::string>& units) {
+  if (member(node, "clock")) return "s";
+  if (const Node* unit = member(node, "unit"); unit && unit->kind == Node::Kind::text) return unit->text;
+  if (const Node* map = member(node, "map"))
+    for (const Member& m : map->members)
+      if (m.value.kind == Node::Kind::text) try {
+          return units::parse(m.value.text).unit;
+        } catch (const InputError&) { // told where the map is read
+        }
+  const Node* const column = node.kind == Node::Kind::text ? &node : member(node, "column");
+  const auto known = column ? units.find(column->text) : units.end();
+  return known == units.end() ? "" : known->second;
+}
+
+std::optional<NumberColumn> NumberColumn::read(Table& parent, const std::string& key, const DataFile& file,
+                                               const Dimension& dimension) {
+  const Node* const node = parent.find(key);
+  if (!node) return std::nullopt;
+  const Node stated = as_table(*node);
+  auto table = scenario::as_table(stated, parent.path(key), parent.problems());
+  if (!table) return std::nullopt;
+  table->declare(number_column_keys());
+  const std::size_t problems = parent.problems().size();
+  NumberColumn out(file, dimension);
+  out.path_ = parent.path(key);
+  const bool found = out.read_columns(*table);
+  out.unit_ = unit_of_column(stated, file.units);
+  if (table->has("clock"))
+    out.read_clock(*table);
+  else if (out.read_unit(*table) && table->has("map"))
+    out.read_map(*table);
+  for (const char* other : {"unit", "map"}) table->find(other);
+  table->refuse_unknown();
+  if (!found || parent.problems().size() != problems) return std::nullopt;
+  return out;
+}
+
+bool NumberColumn::read_columns(Table& table) {
+  if (!table.require("column", "column = \"...\"")) return false;
+  const std::vector<std::string> names = table.texts("column");
+  if (names.empty() || (names.size() > 1 && !table.has("clock"))) {
+    table.refuse_key("column", "one column is expected", "only a clock time may stand in two", "column = \"...\"");
+    return false;
+  }
+  name_ = names.front();
+  for (const std::string& name : names) {
+    const int column = file_.csv->find(name);
+    if (column < 0)
+      table.refuse_key("column", fmt::format("'{}' has no column '{}'", file_.csv->file, name), "",
+                       did_you_mean(name, file_.csv->names()));
+    else
+      columns_.push_back(static_cast<std::size_t>(column));
+  }
+  return columns_.size() == names.size();
+}
+
+bool NumberColumn::read_unit(Table& table) {
+  const bool stated = !unit_.empty(), words = table.has("map");
+  if (!stated) unit_ = "1";
+  const Node* const own = table.find("unit");
+  const Node& at = own ? *own : table.node();
+  if (own && own->kind != Node::Kind::text) return table.text("unit").has_value();
+  if (unknown_unit(at, table.path("unit"), unit_, name_, table.problems())) return false;
+  std::string& si_unit = dimension_.si_unit;
+  if (si_unit.empty()) {
+    const auto found = read_si_unit(at, table.path("unit"), unit_, table.problems());
+    si_unit = found.value_or("1");
+    return found.has_value();
+  }
+  if (!stated && !words && si_unit != "1") {
+    table.add(fmt::format("{} is missing", table.path("unit")), "numbers in a column carry no unit", "unit = \"mm\"");
+    return false;
+  }
+  if (words || units::convertible(unit_, si_unit)) return true;
+  try {
+    units::to_si(0, unit_, si_unit);
+  } catch (const InputError& error) {
+    table.problems().add(at, table.path("unit"), error);
+  }
+  return false;
+}
+
+void NumberColumn::read_map(Table& table) {
+  auto map = table.table("map");
+  if (!map) return;
+  for (const Member& m : map->members())
+    if (const auto value = read_measure(m.value, map->path(m.key), dimension_, map->problems())) words_[m.key] = *value;
+  if (map->node().members.empty()) map->refuse("no word is named", "", "map = { fwd = 1, bwd = -1 }");
+}
+
+void NumberColumn::read_clock(Table& table) {
+  for (const char* other : {"unit", "map"})
+    if (table.has(other))
+      table.refuse_key(other, "given together with clock", "clock times become seconds", "leave it out");
+  unit_ = "s";
+  const auto pattern = table.text("clock");
+  if (!dimension_.si_unit.empty() && dimension_.si_unit != "s")
+    table.refuse_key("clock", fmt::format("a time is not {}", units::kind_name(dimension_.si_unit)),
+                     "clock times become seconds");
+  dimension_.si_unit = "s";
+  if (!pattern) return;
+  try {
+    const ClockFormat checked(*pattern);
+  } catch (const InputError& error) {
+    table.problems().add(*table.find("clock"), table.path("clock"), error);
+  }
+  clock_ = *pattern;
+}
+
+std::string NumberColumn::text_at(std::size_t row) const {
+  std::string text;
+  for (const std::size_t c : columns_) text += (text.empty() ? "" : " ") + file_.csv->rows[row][c].text;
+  return text;
+}
+
+std::vector<std::optional<double>> NumberColumn::values(const std::vector<std::size_t>& rows,
+                                                        Problems& problems) const {
+  if (!clock_.empty()) return clock_values(rows, problems);
+  std::vector<std::optional<double>> out;
+  std::set<std::string> told;
+  for (const std::size_t row : rows) {
+    const CsvCell& cell = file_.csv->rows[row][columns_.front()];
+    if (words_.empty()) {
+      out.push_back(read_cell(file_, cell, unit_, dimension_, problems));
+      continue;
+    }
+    const auto word = words_.find(cell.text);
+    out.push_back(word == words_.end() ? std::nullopt : std::optional(word->second));
+    if (word != words_.end() || !told.insert(cell.text).second) continue;
+    std::vector<std::string> known;
+    for (const auto& [text, value] : words_) known.push_back(text);
+    problems.add({file_.csv->at(cell), fmt::format("'{}' has no number in {}.map", cell.text, path_),
+                  fmt::format("it has {}", fmt::join(known, ", ")), "add the word to the map"});
+  }
+  return out;
+}
+
+std::vector<std::optional<double>> NumberColumn::clock_values(const std::vector<std::size_t>& rows,
+                                                              Problems& problems) const {
+  const ClockFormat format(clock_);
+  std::vector<std::optional<Moment>> moments;
+  std::optional<Moment> first, last;
+  std::int64_t days = 0;
+  for (const std::size_t row : rows) {
+    const CsvCell& cell = file_.csv->rows[row][columns_.front()];
+    auto moment = format.parse(text_at(row));
+    if (!moment)
+      problems.add({file_.csv->at(cell), fmt::format("'{}' is not a clock time of {}", text_at(row), path_),
+                    fmt::format("it is read as \"{}\", such as {}", clock_, format.example()),
+                    "correct the cell or the form"});
+    if (moment && last && moment->zoned != last->zoned)
+      problems.add({file_.csv->at(cell), "clock times with and without a zone stand in one column",
+                    "the time between them is unknown", "state the zone everywhere or nowhere"});
+    moments.push_back(moment);
+    if (!moment) continue;
+    if (!format.has_date() && last && moment->since(*last) < -day / 2) days += static_cast<std::int64_t>(day);
+    last = moment;
+    moments.back()->seconds += days;
+    if (!first || moments.back()->since(*first) < 0) first = moments.back();
+  }
+  std::vector<std::optional<double>> out;
+  for (const auto& moment : moments) out.push_back(moment ? std::optional(moment->since(*first)) : std::nullopt);
+  return out;
+}
+
+} // namespace gumshoe::scenario
