@@ -132,7 +132,9 @@ struct Criteria {
   double mostly_absorbed = 0.1; ///< identifiable share below which the ranking names what absorbs the signature
 
   // ---- Findings ----
-  double veto_growth = 1.05;     ///< growth of the hold-out's root mean square that vetoes a finding
+    /// Growth of the hold-out's root mean square that vetoes a finding, and the standard deviations by which its
+  /// predicted change must be larger than the readings show: a right finding is overstated so in one of twenty.
+  double veto_growth = 1.05, overstated = 1.645;
   double insensitive = 1e-9;     ///< share of a signature in the hold-out blocks below which they cannot judge it
   std::size_t noise_draws = 199; ///< data sets of pure noise that "noise alone" is computed from
   /// A shape parameter is a size where its u is below this share of it, and has a distribution in the traced scenario

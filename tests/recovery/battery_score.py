@@ -85,6 +85,7 @@ def errors(verdict, truth):
     """Held-out errors at the end of the loop, over the noise the program states, and over what an oracle leaves."""
     rms, last = verdict["rms"], verdict["rounds"][-1]
     after, before = number(last["holdout_after"]), number(rms.get("holdout_before"))
+    cut = number(last["holdout_after_winsorised"])  # the floor has no bad readings either
     over = lambda x, floor: x / floor if floor and floor > 0 else math.nan
     floor, oracle = number(rms.get("holdout_noise")), number(truth.get("held_out_um")) * 1e-6
-    return dict(after_over_floor=over(after, number(rms.get("replicate_floor"))), after_over_noise=over(after, floor), after_over_oracle=over(after, oracle), before_over_oracle=over(before, oracle))
+    return dict(after_over_floor=over(cut, number(rms.get("replicate_floor"))), after_over_noise=over(after, floor), after_over_oracle=over(after, oracle), before_over_oracle=over(before, oracle))

@@ -130,10 +130,11 @@ TEST_CASE("effects that explain as much as scatter are tried in its place", "[tr
 }
 
 TEST_CASE("hold-out blocks veto what does not predict them better", "[tracing]") {
-  CHECK_FALSE(vetoed({30, 2e-6}, {29, 2e-6}));
-  CHECK(vetoed({30, 2e-6}, {30, 1e-6}));    // no better in units of all that is declared
-  CHECK(vetoed({30, 2e-6}, {29, 2.11e-6})); // the root mean square grows by more than 5 %
-  CHECK_FALSE(vetoed({30, 2e-6}, {29, 2.09e-6}));
+    CHECK(judge_holdout({30, 2e-6}, {29, 2e-6}, 3) == Holdout::confirms);
+  CHECK(judge_holdout({30, 2e-6}, {30, 1e-6}, 2) == Holdout::vetoes);    // no better in units of all that is declared
+  CHECK(judge_holdout({30, 2e-6}, {29, 2.11e-6}, 2) == Holdout::vetoes); // the root mean square grows by more than 5 %
+  CHECK(judge_holdout({30, 2e-6}, {29, 2.09e-6}, 3) == Holdout::confirms);
+  CHECK(judge_holdout({30, 2e-6}, {31, 2.2e-6}, 1) == Holdout::unsure); // as chance gives were the finding true
 }
 
 TEST_CASE("after a veto scatter remains, effects do not", "[tracing]") {

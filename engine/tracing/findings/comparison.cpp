@@ -179,7 +179,13 @@ private:
     if (!sensitive)
       out_.statements.push_back(
           "the hold-out blocks are insensitive to the finding and can neither confirm nor reject it");
-    return sensitive && vetoed({before.whitened, before.rms[0]}, {after.whitened, after.rms[0]});
+        if (!sensitive) return false;
+    const Holdout says = judge_holdout({before.whitened, before.rms[0]}, {after.whitened, after.rms[0]},
+                                       overstated(before, after, after_.design));
+    if (says == Holdout::unsure)
+      out_.statements.push_back("the hold-out blocks are predicted no better with what was found, but no worse than "
+                                "chance gives: they can neither confirm nor reject it");
+    return says == Holdout::vetoes;
   }
 
   /// Names of what was found to depend on, of which the hold-out readings lie outside the training range.

@@ -8,6 +8,15 @@
 
 namespace gumshoe::tracing {
 
+namespace {
+
+double noise_of_row(const Design& design, Index row) {
+  const auto k = index(design.indications);
+  return design.local[index(row / k)].row(row % k).norm();
+}
+
+} // namespace
+
 Blocks predicted_blocks(const Observations& o) {
   const bool any = std::ranges::find(o.held_out, true) != o.held_out.end();
   Blocks out;
@@ -58,8 +67,7 @@ Scores score(const JointFit& fit, const Matrix& residual, const std::vector<Inde
 }
 
 Vector excess(const Scores& before, const Scores& after, const Design& design) {
-  const auto k = index(design.indications);
-  const auto noise = [&](Index row) { return design.local[index(row / k)].row(row % k).norm(); };
+  const auto noise = [&](Index row) { return noise_of_row(design, row); };
   std::vector<double> sizes;
   for (Index i = 0; i < after.residual.size(); ++i)
     if (std::isfinite(after.residual[i])) sizes.push_back(std::fabs(after.residual[i]) / noise(i));
@@ -72,6 +80,18 @@ Vector excess(const Scores& before, const Scores& after, const Design& design) {
     out[i] = std::copysign(std::max(0.0, std::min(std::fabs(a), std::fabs(b)) - bound * noise(i)), b);
   }
   return out;
+}
+
+double overstated(const Scores& before, const Scores& after, const Design& design) {
+  double sum = 0, squares = 0;
+  for (Index i = 0; i < after.residual.size(); ++i) {
+    const double noise = noise_of_row(design, i), r = after.residual[i] / noise,
+                 gained = (before.residual[i] - after.residual[i]) / noise;
+    if (!std::isfinite(r) || !std::isfinite(gained)) continue;
+    sum += gained * r;
+    squares += gained * gained * r * r;
+  }
+  return squares > 0 ? -sum / std::sqrt(squares) : 0;
 }
 
 InSample in_sample(const JointFit& fit, const std::vector<Index>& rows, const Matrix& residual) {

@@ -39,6 +39,11 @@ Scores score(const JointFit& fit, const Matrix& residual, const std::vector<Inde
 /// two predictions, the lesser of the two; all rows, zero elsewhere.
 Vector excess(const Scores& before, const Scores& after, const Design& design);
 
+/// By how many standard deviations the change c that a prediction gains on another is larger than the readings show:
+/// -sum(c r) / sqrt(sum(c^2 r^2)) of its residuals r, in units of the noise. Were it true, this would be a standard
+/// normal number, however unequal the noise. 0 where nothing changes.
+double overstated(const Scores& before, const Scores& after, const Design& design);
+
 /// The fit's own readings about the fitted unknowns and declared draws.
 struct InSample {
   Matrix left; ///< residuals, training rows x sets

@@ -76,8 +76,9 @@ bool larger_noise_found(const Assessment& a, double alpha, std::size_t findings)
          std::ranges::none_of(a.p_component, [&](double p) { return p <= alpha; });
 }
 
-bool vetoed(const HoldoutError& before, const HoldoutError& after) {
-  return after.whitened >= before.whitened || after.rms > criteria.veto_growth * before.rms;
+Holdout judge_holdout(const HoldoutError& before, const HoldoutError& after, double overstated) {
+  if (after.whitened < before.whitened && after.rms <= criteria.veto_growth * before.rms) return Holdout::confirms;
+  return overstated > criteria.overstated ? Holdout::vetoes : Holdout::unsure;
 }
 
 std::optional<Kind> left_by_veto(Kind kind, bool scatter_in_class, bool scatter_found_alone) {

@@ -70,8 +70,16 @@ bool larger_noise_found(const Assessment& assessment, double alpha, std::size_t 
 struct HoldoutError {
   double whitened = 0, rms = 0;
 };
-/// True if the hold-out blocks are sensitive to the findings and reject them.
-bool vetoed(const HoldoutError& before, const HoldoutError& after);
+/// What the hold-out blocks say of findings to which they are sensitive.
+enum class Holdout {
+  confirms,
+  /// They are predicted no better, but by no more than chance were the findings true: they can neither confirm nor
+  /// reject them.
+  unsure,
+  vetoes
+};
+/// @param overstated  by how many standard deviations the predicted change is larger than the readings show
+Holdout judge_holdout(const HoldoutError& before, const HoldoutError& after, double overstated);
 /// Kind of a finding after a veto: scatter if it was a member of the class and is not another finding; none for an
 /// effect. A shape is reported, though not added: what it describes is there, in some blocks.
 std::optional<Kind> left_by_veto(Kind kind, bool scatter_in_class, bool scatter_found_alone);
