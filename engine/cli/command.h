@@ -15,6 +15,7 @@ namespace gumshoe::cli {
 /// What the chosen subcommand will do; main runs it and maps errors to exit codes.
 using Action = std::function<ExitCode()>;
 
+void add_new(CLI::App& app, Action& action);
 void add_check(CLI::App& app, Action& action);
 void add_run(CLI::App& app, Action& action);
 void add_analyse(CLI::App& app, Action& action);

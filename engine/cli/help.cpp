@@ -17,6 +17,7 @@ struct CommandHelp {
 };
 constexpr const char* again = "Interrupted, it writes nothing; the same command starts from the beginning.";
 constexpr CommandHelp helps[] = {
+    {"new", "gumshoe new rod_gauging", "writes rod_gauging.toml, a scenario to go on from", again},
     {"check", "gumshoe check scenarios/rod_gauging.toml --explain", "prints the scenario as understood, in SI", again},
     {"run", "gumshoe run scenarios/rod_gauging.toml --samples 1e5 --budget", "prints the result with its budget",
      "Interrupted, it keeps its samples; the same command resumes. Studies after sampling are made again."},

@@ -24,6 +24,7 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", std::string("gumshoe ") + version + " (" + git_hash + ")");
   app.require_subcommand(1);
   cli::Action action;
+  cli::add_new(app, action);
   cli::add_check(app, action);
   cli::add_run(app, action);
   cli::add_analyse(app, action);

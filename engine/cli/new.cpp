@@ -1,0 +1,198 @@
+/// `gumshoe new`: a first scenario of a model or of a data file.
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <memory>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include "base/text_file.h"
+#include "base/units.h"
+#include "cli/command.h"
+#include "cli/installed.h"
+#include "scenario/starter.h"
+#include "store/draft.h"
+
+namespace gumshoe::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+using scenario::ColumnRole;
+using scenario::RecognisedData;
+
+constexpr std::size_t largest_file = std::size_t{256} << 20;
+
+struct Options {
+  std::string model, from, out;
+  std::vector<std::string> units, roles;
+  bool force = false;
+};
+
+std::vector<std::string> names() {
+  std::vector<std::string> out{"budget"};
+  for (const models::Model* m : models::catalogue()) out.emplace_back(m->card->name);
+  return out;
+}
+
+bool on_terminal() { return isatty(STDIN_FILENO) != 0 && isatty(STDOUT_FILENO) != 0; }
+
+std::string asked(const std::string& question) {
+  std::cout << question << ' ' << std::flush;
+  std::string answer;
+  std::getline(std::cin, answer);
+  return answer;
+}
+
+/// "COLUMN=VALUE"
+std::pair<std::string, std::string> assignment(const std::string& text, const std::string& option) {
+  const std::size_t at = text.rfind('=');
+  if (at == std::string::npos || at == 0 || at + 1 == text.size())
+    throw InputError(fmt::format("{}: '{}' is not COLUMN=VALUE", option, text), "",
+                     fmt::format("write it as {} x=mm", option));
+  return {text.substr(0, at), text.substr(at + 1)};
+}
+
+scenario::RecognisedColumn& column_of(RecognisedData& data, const std::string& name, const std::string& option) {
+  for (auto& c : data.columns)
+    if (c.name == name) return c;
+  const std::string meant = nearest(name, data.csv.names());
+  throw InputError(fmt::format("{}: '{}' has no column '{}'", option, data.csv.file, name), "",
+                   meant.empty() ? fmt::format("use one of {}", fmt::join(data.csv.names(), ", "))
+                                 : fmt::format("did you mean '{}'?", meant));
+}
+
+ColumnRole role_of(const std::string& word) {
+  std::vector<std::string> all;
+  for (int r = 0; r <= static_cast<int>(ColumnRole::uncertainty); ++r) {
+    if (word == name(static_cast<ColumnRole>(r))) return static_cast<ColumnRole>(r);
+    all.emplace_back(name(static_cast<ColumnRole>(r)));
+  }
+  throw InputError(fmt::format("--role: '{}' is no role of a column", word), "",
+                   fmt::format("use one of {}", fmt::join(all, ", ")));
+}
+
+/// What the options say of columns, then what a user at the terminal answers.
+void tell(RecognisedData& data, const Options& o) {
+  for (const std::string& text : o.roles) {
+    const auto [column, word] = assignment(text, "--role");
+    const ColumnRole role = role_of(word);
+    for (auto& c : data.columns) // one column has it
+      if (c.role == role && role != ColumnRole::other) c.role = ColumnRole::other;
+    auto& c = column_of(data, column, "--role");
+    c.role = role;
+    c.why = "by --role";
+  }
+  for (const std::string& text : o.units) {
+    const auto [column, unit] = assignment(text, "--unit");
+    units::si_unit_of(unit);
+    column_of(data, column, "--unit").unit = unit;
+  }
+  if (!on_terminal()) return;
+  for (auto& c : data.columns) {
+    if (c.unit != "?" || c.role == ColumnRole::other) continue;
+    const std::string unit =
+        asked(fmt::format("unit of the column '{}' ({}), such as mm; empty: decide later:", c.name, name(c.role)));
+    if (!unit.empty()) c.unit = units::convertible(unit, units::si_unit_of(unit)) ? unit : "?";
+  }
+}
+
+std::string example_of(const std::string& model) {
+  const fs::path folder = data_folder("examples", GUMSHOE_EXAMPLES_DIR);
+  return read_text_file((folder / model / "example.toml").string(), largest_file);
+}
+
+std::string text_of(const Options& o, const RecognisedData* found, const std::string& out) {
+  std::unique_ptr<scenario::StarterData> data;
+  if (found)
+    data = std::make_unique<scenario::StarterData>(scenario::StarterData{
+        *found, fs::relative(fs::absolute(o.from), fs::absolute(out).parent_path()).generic_string()});
+  if (o.model.empty()) return scenario::starter_axis(*data, out);
+  if (o.model == "budget") return scenario::starter_budget();
+  if (const models::Model* model = models::find(o.model))
+    return scenario::starter_model(*model->card, example_of(o.model), data.get());
+  const std::string meant = nearest(o.model, names());
+  throw InputError(fmt::format("unknown model '{}'", o.model), "",
+                   meant.empty() ? fmt::format("use one of {}", fmt::join(names(), ", "))
+                                 : fmt::format("did you mean '{}'?", meant));
+}
+
+void write_file(const std::string& path, const std::string& text, bool force) {
+  const store::Claim claim(path);
+  std::ifstream in(claim.target(), std::ios::binary);
+  const std::string there{std::istreambuf_iterator<char>(in), {}};
+  if (!there.empty() && there != text && !force)
+    throw OutputError("'" + path + "': not overwritten", "a file stands there",
+                      "choose another name by --out, or use --force to replace it");
+  store::Draft draft;
+  draft.add(claim, text);
+  draft.publish();
+}
+
+void print_columns(const RecognisedData& found) {
+  for (const auto& c : found.columns)
+    std::cout << fmt::format("  {}: {}{}{}\n", c.name,
+                             c.role == ColumnRole::other ? "not used, unless by its name" : name(c.role),
+                             c.unit == "1"   ? ""
+                             : c.unit == "?" ? ", unit unknown"
+                                             : ", " + c.unit,
+                             c.why.empty() ? "" : fmt::format(" ({})", c.why));
+}
+
+/// Reads what was written: what is missing, or which command comes next.
+void print_next(const Options& o, const std::string& out) {
+  try {
+    const auto s = scenario::read(out, catalogue());
+    std::cout << fmt::format("{}: ready. Next: gumshoe {} {}\n", out, o.model.empty() ? "trace" : "run", out);
+  } catch (const InputError& error) {
+    std::cout << fmt::format("{}: to fill in, then gumshoe check {}:\n{}\n", out, out, error.what());
+  }
+}
+
+ExitCode run(Options o) {
+  if (o.model.empty() && o.from.empty() && on_terminal()) {
+    o.model = asked(fmt::format("model ({}), empty for a data file:", fmt::join(names(), ", ")));
+    o.from = asked("data file, empty for none:");
+  }
+  if (o.model.empty() && o.from.empty())
+    throw InputError("neither a model nor a data file is named", "",
+                     fmt::format("name one of {}, or a file by --from", fmt::join(names(), ", ")));
+  if (o.model == "budget" && !o.from.empty())
+    throw InputError("--from: a budget has no data file", "its readings stand in the scenario",
+                     "leave --from out, or name no model");
+  std::unique_ptr<RecognisedData> found;
+  if (!o.from.empty()) {
+    found = std::make_unique<RecognisedData>(scenario::recognise(read_text_file(o.from, largest_file), o.from));
+    tell(*found, o);
+  }
+  const std::string out =
+      !o.out.empty() ? o.out : (o.model.empty() ? fs::path(o.from).stem().string() : o.model) + ".toml";
+  if (found) require_different(out, o.from);
+  write_file(out, text_of(o, found.get(), out), o.force);
+  if (found) {
+    std::cout << fmt::format("{}: {} rows\n", o.from, found->csv.rows.size());
+    print_columns(*found);
+  }
+  print_next(o, out);
+  return ExitCode::done;
+}
+
+} // namespace
+
+void add_new(CLI::App& app, Action& action) {
+  auto* command = app.add_subcommand("new", "writes a first scenario: of a model, of a data file, or a budget");
+  const auto o = std::make_shared<Options>();
+  command->add_option("model", o->model,
+                      "a model (gumshoe models), or budget; without one, --from asks what a data file shows");
+  command->add_option("--from", o->from, "data file whose columns are recognised");
+  command->add_option("--out", o->out, "scenario to write (default: MODEL.toml, or the name of the data file)");
+  command->add_option("--unit", o->units, "COLUMN=UNIT, where the header does not say it");
+  command->add_option("--role", o->roles,
+                      "COLUMN=ROLE: position, reading, direction, time, temperature, cycle, uncertainty, other");
+  add_force(*command, o->force);
+  command->callback([=, &action] { action = [=] { return run(*o); }; });
+}
+
+} // namespace gumshoe::cli

@@ -1,0 +1,231 @@
+#include "scenario/recognise.h"
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <ranges>
+#include <set>
+#include <span>
+
+#include <fmt/format.h>
+
+#include "base/clock.h"
+#include "base/units.h"
+
+namespace gumshoe::scenario {
+namespace {
+
+struct RoleWords {
+  ColumnRole role;
+  std::vector<std::string_view> words;
+};
+/// In the order in which they count: "position error" is a reading.
+const std::vector<RoleWords>& role_words() {
+  static const std::vector<RoleWords> all{
+      {ColumnRole::uncertainty, {"sd", "std", "sigma", "u", "uncertainty", "unsicherheit"}},
+      {ColumnRole::temperature, {"temp", "temperature", "temperatur"}},
+      {ColumnRole::direction, {"dir", "direction", "richtung", "approach", "sense"}},
+      {ColumnRole::cycle, {"cycle", "run", "repeat", "repetition", "pass", "lauf", "zyklus", "setup", "series"}},
+      {ColumnRole::time, {"time", "zeit", "timestamp", "datetime", "date", "datum", "clock", "uhrzeit", "t"}},
+      {ColumnRole::reading,
+       {"dev", "deviation", "error", "err", "abweichung", "reading", "laser", "measured", "meas", "actual", "act",
+        "ist", "diff", "difference", "result"}},
+      {ColumnRole::position,
+       {"pos", "position", "target", "tgt", "nominal", "nom", "soll", "set", "setpoint", "command", "commanded"}},
+  };
+  return all;
+}
+
+/// Spellings of units in headers.
+const std::map<std::string, std::string>& unit_words() {
+  static const std::map<std::string, std::string> all{
+      {"um", "um"},     {"µm", "um"},         {"μm", "um"},         {"micron", "um"}, {"nm", "nm"},   {"mm", "mm"},
+      {"m", "m"},       {"inch", "inch"},     {"deg", "deg"},       {"°", "deg"},     {"rad", "rad"}, {"mrad", "mrad"},
+      {"urad", "urad"}, {"µrad", "urad"},     {"arcsec", "arcsec"}, {"s", "s"},       {"sec", "s"},   {"ms", "ms"},
+      {"min", "min"},   {"h", "h"},           {"K", "K"},           {"degC", "degC"}, {"°C", "degC"}, {"C", "degC"},
+      {"N", "N"},       {"mm/min", "mm/min"}, {"mm/s", "mm/s"},     {"um/m", "um/m"}, {"%", "%"},     {"Hz", "Hz"}};
+  return all;
+}
+
+std::string lower(std::string text) {
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+/// "pos (mm)", "pos [mm]", "pos_mm", "pos/mm", "pos mm": the unit, or empty; `rest` is the name without it.
+std::string unit_in(const std::string& name, std::string& rest) {
+  rest = name;
+  const std::size_t open = name.find_last_of("([<"), close = name.find_last_of(")]>");
+  if (open != std::string::npos && close != std::string::npos && close > open) {
+    rest = name.substr(0, open);
+    const std::string inside = name.substr(open + 1, close - open - 1);
+    if (const auto known = unit_words().find(inside); known != unit_words().end()) return known->second;
+    try {
+      units::si_unit_of(inside);
+      return inside == "1" || inside == "-" ? "1" : inside;
+    } catch (const InputError&) {
+      return inside == "-" ? "1" : "";
+    }
+  }
+  for (std::size_t at = name.find_last_of("_ /"); at != std::string::npos && at > 0;
+       at = name.find_last_of("_ /", at - 1)) {
+    std::string tail = name.substr(at + 1);
+    std::ranges::replace(tail, '_', '/'); // feed_mm_min
+    const auto known = unit_words().find(tail);
+    if (known == unit_words().end()) continue;
+    rest = name.substr(0, at);
+    if (const std::size_t more = rest.find_last_of("_ /"); more != std::string::npos)
+      if (const auto both = unit_words().find(rest.substr(more + 1) + "/" + tail); both != unit_words().end()) {
+        rest = rest.substr(0, more);
+        return both->second;
+      }
+    return known->second;
+  }
+  return "";
+}
+
+const std::vector<std::pair<std::vector<std::string_view>, double>>& direction_words() {
+  static const std::vector<std::pair<std::vector<std::string_view>, double>> all{
+      {{"fwd", "forward", "forwards", "up", "+", "pos", "positive", "vor", "vorwärts", "hin", "auf", "1", "+1", "p",
+        "plus"},
+       1},
+      {{"bwd", "backward", "backwards", "bck", "rev", "reverse", "down", "-", "neg", "negative", "zurück", "rück",
+        "rueck", "ab", "-1", "n", "minus"},
+       -1}};
+  return all;
+}
+
+/// Signs of the words of a direction; empty if they are not such words.
+std::vector<std::pair<std::string, double>> signs(const std::set<std::string>& texts) {
+  std::vector<std::pair<std::string, double>> out;
+  for (const std::string& text : texts)
+    for (const auto& [words, sign] : direction_words())
+      if (std::ranges::find(words, lower(text)) != words.end()) out.emplace_back(text, sign);
+  return texts.size() <= 4 && out.size() == texts.size() ? out : std::vector<std::pair<std::string, double>>{};
+}
+
+/// The form in which all texts are clock times; empty if there is none.
+std::string clock_form(const std::vector<std::string>& texts) {
+  for (const char* form : {"iso", "%d.%m.%Y %H:%M:%S", "%d.%m.%Y %H:%M", "%d-%m-%Y %H:%M:%S", "%d/%m/%Y %H:%M:%S",
+                           "%Y/%m/%d %H:%M:%S", "%m/%d/%Y %I:%M:%S %p", "%d-%b-%Y %H:%M:%S", "%H:%M:%S", "%H:%M"}) {
+    const ClockFormat format(form);
+    if (std::ranges::all_of(texts, [&](const std::string& t) { return format.parse(t).has_value(); })) return form;
+  }
+  return "";
+}
+
+bool is_number(const Csv& csv, const CsvCell& cell, char decimal) {
+  try {
+    csv.number(cell, decimal);
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+bool numbers(const Csv& csv, std::size_t column, char decimal) {
+  return std::ranges::all_of(csv.rows, [&](const auto& row) { return is_number(csv, row[column], decimal); });
+}
+
+std::size_t number_columns(const Csv& csv, char decimal) {
+  std::size_t n = 0;
+  for (std::size_t c = 0; c < csv.header.size(); ++c) n += numbers(csv, c, decimal);
+  return n;
+}
+
+RecognisedColumn column_of(const RecognisedData& data, std::size_t c) {
+  RecognisedColumn out{data.csv.header[c].text, "1", ColumnRole::other, numbers(data.csv, c, data.decimal), ""};
+  std::string rest;
+  const std::string unit = unit_in(out.name, rest);
+  const auto words = words_of(rest);
+  for (const RoleWords& known : role_words()) {
+    if (out.role != ColumnRole::other) break;
+    for (const std::string_view word : known.words)
+      if (std::ranges::find(words, word) != words.end()) out.role = known.role;
+  }
+  if (out.role != ColumnRole::other) out.why = "by its name";
+  std::vector<std::string> texts;
+  for (const auto& row : data.csv.rows) texts.push_back(row[c].text);
+  const std::set<std::string> different(texts.begin(), texts.end());
+  if (out.number && unit == "degC" && out.role == ColumnRole::other) {
+    out.role = ColumnRole::temperature;
+    out.why = "by its unit";
+  }
+  if (out.role == ColumnRole::direction || (!out.number && out.role == ColumnRole::other)) {
+    out.words = signs(different);
+    if (out.words.empty() && out.role == ColumnRole::direction && !out.number) out.role = ColumnRole::other;
+    if (!out.words.empty() && out.role == ColumnRole::other) {
+      out.role = ColumnRole::direction;
+      out.why = "by its words";
+    }
+  }
+  if (!out.number && (out.role == ColumnRole::other || out.role == ColumnRole::time)) {
+    out.clock = clock_form(texts);
+    if (out.clock.empty()) out.role = ColumnRole::other;
+    if (!out.clock.empty() && out.role == ColumnRole::other) {
+      out.role = ColumnRole::time;
+      out.why = "by its clock times";
+    }
+  }
+  const bool plain = out.role == ColumnRole::cycle || out.role == ColumnRole::direction;
+  if (out.number && !plain) out.unit = unit.empty() ? "?" : unit;
+  return out;
+}
+
+/// Position and reading, where no name tells them: the first and the last column of numbers that is left.
+void fill_up(std::vector<RecognisedColumn>& columns) {
+  const auto has = [&](ColumnRole role) {
+    return std::ranges::find(columns, role, &RecognisedColumn::role) != columns.end();
+  };
+  const auto take = [&](auto&& range, ColumnRole role, const char* why) {
+    for (RecognisedColumn& c : range)
+      if (c.number && c.role == ColumnRole::other) {
+        c.role = role;
+        c.why = why;
+        return;
+      }
+  };
+  if (!has(ColumnRole::reading))
+    take(std::span(columns).last(columns.size()) | std::views::reverse, ColumnRole::reading,
+         "the last column of numbers");
+  if (!has(ColumnRole::position)) take(std::span(columns), ColumnRole::position, "the first column of numbers");
+}
+
+} // namespace
+
+std::vector<std::string> words_of(const std::string& name) {
+  std::vector<std::string> out(1);
+  for (const char c : lower(name))
+    if (std::isalnum(static_cast<unsigned char>(c)) != 0 || (c & 0x80) != 0)
+      out.back() += c;
+    else if (!out.back().empty())
+      out.emplace_back();
+  if (out.back().empty()) out.pop_back();
+  return out;
+}
+
+const RecognisedColumn* RecognisedData::find(ColumnRole role) const {
+  const auto it = std::ranges::find(columns, role, &RecognisedColumn::role);
+  return it == columns.end() ? nullptr : &*it;
+}
+
+RecognisedData recognise(const std::string& text, const std::string& file) {
+  RecognisedData out;
+  out.csv = parse_csv(text, file);
+  if (out.csv.header.size() == 1 && words_of(out.csv.header[0].text).size() > 1) try { // blanks, if they make a table
+      Csv blanks = parse_csv(text, file, ' ');
+      if (blanks.header.size() > 1) out.csv = std::move(blanks), out.delimiter = "blanks";
+    } catch (const InputError&) {
+    }
+  if (out.csv.rows.empty()) throw InputError(file + ": the file has no rows", "", "write rows under the header");
+  if (std::ranges::all_of(out.csv.header,
+                          [&](const CsvCell& c) { return is_number(out.csv, c, '.') || is_number(out.csv, c, ','); }))
+    throw InputError({{out.csv.at(out.csv.header.front()), "the first row holds numbers, not names of columns", "",
+                       "write a line with a name for each column above it"}});
+  if (number_columns(out.csv, ',') > number_columns(out.csv, '.')) out.decimal = ',';
+  for (std::size_t c = 0; c < out.csv.header.size(); ++c) out.columns.push_back(column_of(out, c));
+  fill_up(out.columns);
+  return out;
+}
+
+} // namespace gumshoe::scenario

@@ -1,0 +1,42 @@
+#pragma once
+/// What the columns of a data file may be: guesses from their names and cells, for a first scenario (starter.h).
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/csv.h"
+
+namespace gumshoe::scenario {
+
+enum class ColumnRole { other, position, reading, direction, time, temperature, cycle, uncertainty };
+constexpr const char* name(ColumnRole r) {
+  constexpr const char* names[] = {"other", "position",    "reading", "direction",
+                                   "time",  "temperature", "cycle",   "uncertainty"};
+  return names[static_cast<int>(r)];
+}
+
+struct RecognisedColumn {
+  std::string name;
+  std::string unit; ///< "1" of words, clock times and plain numbers; "?" where the header does not say it
+  ColumnRole role = ColumnRole::other;
+  bool number = false;
+  std::string why;                                        ///< "by its name", "the first column of numbers"
+  std::string clock = {};                                 ///< form of its clock times (base/clock.h); empty: none
+  std::vector<std::pair<std::string, double>> words = {}; ///< a direction's words and their signs
+};
+
+struct RecognisedData {
+  Csv csv;
+  std::string delimiter; ///< as [data] states it; empty: as the header shows
+  char decimal = '.';
+  std::vector<RecognisedColumn> columns;
+  const RecognisedColumn* find(ColumnRole role) const; ///< the first one, or null
+};
+
+/// Reads the text of a data file. Throws InputError: no table, no rows, or a first row of numbers instead of names.
+RecognisedData recognise(const std::string& text, const std::string& file);
+
+/// The words of a column's or quantity's name in lower case: "Spindle-Z [mm]" -> spindle, z.
+std::vector<std::string> words_of(const std::string& name);
+
+} // namespace gumshoe::scenario

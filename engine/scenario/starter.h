@@ -1,0 +1,26 @@
+#pragma once
+/// Texts of first scenarios, commented, for a user to go on from: `gumshoe new`.
+#include <string>
+
+#include "base/card.h"
+#include "scenario/recognise.h"
+
+namespace gumshoe::scenario {
+
+/// The data that a first scenario is about.
+struct StarterData {
+  const RecognisedData& found;
+  std::string file; ///< relative to the scenario
+};
+
+/// A budget: a formula, its input quantities, and repeated readings.
+std::string starter_budget();
+
+/// What an axis, or anything else with readings at positions, does that a straight line and a reversal do not explain.
+std::string starter_axis(const StarterData& data, const std::string& scenario);
+
+/// A scenario of the model: its example, with what the card says of every quantity. With data, its columns take the
+/// place of the example's readings and conditions; an indication without a column gets "?".
+std::string starter_model(const ModelCard& card, const std::string& example, const StarterData* data);
+
+} // namespace gumshoe::scenario

@@ -1,0 +1,140 @@
+"""`gumshoe new`: first scenarios from models and from data files, and what is left to fill in.
+
+usage: new_test.py path/to/gumshoe [unittest options]
+"""
+import json
+import math
+import unittest
+
+from program import InFolder, complaint, gumshoe
+
+# One axis, up and down, five cycles: a straight line, a reversal, and a ripple of 40 mm pitch that a line does not know.
+HEADER = {"axis.csv": ("Cycle;Target [mm];Dir;Deviation [µm];Date/Time;Temp Scale (°C)", ";", ","),
+          "plain.csv": ("run,position,direction,error,time,temp", ",", "."),
+          "blanks.txt": ("cycle pos_mm dir dev_um time_s temp_degC", " ", ".")}
+
+
+def deviation(x, sign, cycle, k):
+    noise = 0.05 * math.sin(12.9898 * (k + 78.233 * cycle))
+    return 1.5 + 0.01 * x + 0.8 * sign + 2 * math.sin(2 * math.pi * x / 40) + noise
+
+
+def log(name):
+    header, separator, decimal = HEADER[name]
+    rows, k = [header], 0
+    for cycle in range(1, 6):
+        for sign, word in ((1, "fwd"), (-1, "bwd")):
+            for x in range(0, 110, 10) if sign > 0 else range(100, -10, -10):
+                k += 1
+                clock = f"2026-02-03T10:{k // 60:02}:{k % 60:02}" if name != "blanks.txt" else str(k)
+                numbers = [f"{v:.3f}".replace(".", decimal) for v in (x, deviation(x, sign, cycle, k), 20 + 0.001 * k)]
+                rows.append(separator.join((str(cycle), numbers[0], word, numbers[1], clock, numbers[2])))
+    return "\n".join(rows) + "\n"
+
+
+class New(InFolder):
+    def new(self, *words, code=0):
+        run = gumshoe("new", *words, cwd=self.folder)
+        self.assertEqual(run.returncode, code, run.stderr)
+        return run.stdout if code == 0 else run.stderr
+
+    def write(self, name):
+        (self.folder / name).write_text(log(name))
+
+    def test_every_model_has_a_scenario_that_runs(self):
+        models = [m["name"] for m in json.loads(gumshoe("models", "--format", "json").stdout)]
+        self.assertGreater(len(models), 5)
+        for model in [*models, "budget"]:
+            with self.subTest(model):
+                self.assertIn(f"{model}.toml: ready. Next: gumshoe run {model}.toml", self.new(model))
+                run = gumshoe("run", f"{model}.toml", "--samples", "2000", "--out", f"{model}.h5", cwd=self.folder, seconds=300)
+                self.assertEqual(run.returncode, 0, run.stderr)
+
+    def test_the_card_tells_every_quantity(self):
+        self.new("rod_gauging")
+        text = (self.folder / "rod_gauging.toml").read_text()
+        for q in json.loads(gumshoe("models", "rod_gauging", "--format", "json").stdout)["quantities"]:
+            self.assertIn(q["meaning"], text)
+            self.assertIn(f"# {q['name']}: " if f"\n[quantities.{q['name']}]" in text else f"# [quantities.{q['name']}]", text)
+        # What is commented out may be stated.
+        stated = text.replace("# [quantities.", "[quantities.").replace("\n# value = ", "\nvalue = ")
+        (self.folder / "all.toml").write_text(stated)
+        self.assertEqual(gumshoe("check", "all.toml", cwd=self.folder).returncode, 0)
+
+    def test_a_log_of_an_axis_is_traced_as_it_stands(self):
+        for name in ("axis.csv", "blanks.txt"):
+            self.write(name)
+            said = self.new("--from", name)
+            scenario = name.split(".")[0] + ".toml"
+            self.assertIn(f"{scenario}: ready. Next: gumshoe trace {scenario}", said)
+            run = gumshoe("trace", scenario, "--draws", "199", "--format", "json", cwd=self.folder, seconds=300)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            verdict = json.loads(run.stdout)
+            self.assertIn("position", verdict["findings"][0]["depends_on"])
+            # The ripple is gone; what is left is the noise, whose root mean square is 0.05 um / sqrt(2).
+            self.assertLess(verdict["rms"]["after"], 0.06e-6)
+            self.assertGreater(verdict["rms"]["before"], 1e-6)
+        text = (self.folder / "axis.toml").read_text()
+        for part in ('decimal = ","', 'position = "Target [mm]"', '{ column = "Dir", map = { "bwd" = -1, "fwd" = 1 } }',
+                     'labels = { cycle = "Cycle" }', '"Target [mm]" = "mm"', 'time = { column = "Date/Time", clock = "iso" }',
+                     'temp_scale_c = "Temp Scale (°C)"', '"Deviation [µm]" = "um"', 'order = "time"', 'blocks = "cycle"'):
+            self.assertIn(part, text)
+
+    def test_what_the_file_does_not_say_is_to_be_filled_in(self):
+        self.write("plain.csv")
+        said = self.new("--from", "plain.csv")
+        self.assertIn("plain.toml: to fill in, then gumshoe check plain.toml:", said)
+        for column in ("position", "error", "temp"):
+            self.assertIn(f"data.units.{column}: the unit of the column '{column}' is still to be told", said)
+        check = gumshoe("check", "plain.toml", cwd=self.folder)
+        self.assertEqual(check.returncode, 2)
+        self.assertEqual(check.stderr.count(": error: data.units."), 3, check.stderr)
+        text = (self.folder / "plain.toml").read_text()
+        for unit in ('"position" = "mm"', '"error" = "um"', '"temp" = "degC"'):
+            text = text.replace(unit.split(" = ")[0] + ' = "?"', unit)
+        (self.folder / "plain.toml").write_text(text)
+        self.assertEqual(gumshoe("check", "plain.toml", cwd=self.folder).returncode, 0)
+        # The same by options.
+        units = [w for c, u in (("position", "mm"), ("error", "um"), ("temp", "degC")) for w in ("--unit", f"{c}={u}")]
+        self.assertIn("ready", self.new("--from", "plain.csv", "--out", "told.toml", *units))
+
+    def test_measured_positions_are_told_from_errors(self):
+        rows = ["soll_mm,ist_mm"] + [f"{x},{x + 0.001 * x % 7}" for x in range(0, 200, 10)]
+        (self.folder / "p.csv").write_text("\n".join(rows) + "\n")
+        self.assertIn("ready", self.new("--from", "p.csv"))
+        self.assertIn('measured = "position + offset + gain * position"', (self.folder / "p.toml").read_text())
+
+    def test_columns_of_a_model(self):
+        (self.folder / "rods.csv").write_text("rod,spindle_z_mm,feed (mm/min)\na,-330.1,4\na,-330.2,4\nb,-331.0,8\nb,-331.1,8\n")
+        self.assertIn("ready", self.new("rod_gauging", "--from", "rods.csv"))
+        text = (self.folder / "rod_gauging.toml").read_text()
+        for part in ('readings = "spindle_z_mm"', 'feed = "feed (mm/min)"', 'labels = { rod = "rod" }'):
+            self.assertIn(part, text)
+        (self.folder / "rods.csv").write_text("rod,a_mm,b_mm\na,-330.1,4\nb,-331.0,8\n")
+        said = self.new("laser_ball_bar", "--from", "rods.csv")
+        self.assertIn("indications.length_1.readings.column: 'rods.csv' has no column '?'. Use one of rod, a_mm, b_mm.", said)
+
+    def test_mistakes(self):
+        self.write("axis.csv")
+        for words, said in ((("rod_gaugin",), "unknown model 'rod_gaugin'. Did you mean 'rod_gauging'?"),
+                            ((), "neither a model nor a data file is named"),
+                            (("budget", "--from", "axis.csv"), "--from: a budget has no data file"),
+                            (("--from", "axis.csv", "--unit", "Dir"), "--unit: 'Dir' is not COLUMN=VALUE"),
+                            (("--from", "axis.csv", "--unit", "Dirr=mm"), "--unit: 'axis.csv' has no column 'Dirr'. Did you mean 'Dir'?"),
+                            (("--from", "axis.csv", "--role", "Dir=place"), "--role: 'place' is no role of a column. Use one of"),
+                            (("--from", "none.csv"), "none.csv")):
+            err = self.new(*words, code=2)
+            self.assertIn(said, err)
+        for text, said in (("1,2\n3,4\n", "the first row holds numbers, not names of columns"), ("a,b\n", "the file has no rows"),
+                           ("a,b\nx,y\nz,w\n", "there are no two columns of numbers")):
+            (self.folder / "bad.csv").write_text(text)
+            self.assertIn(said, self.new("--from", "bad.csv", code=2))
+        self.new("budget")
+        (self.folder / "budget.toml").write_text("mine")
+        self.assertIn("'budget.toml': not overwritten (a file stands there)", self.new("budget", code=2))
+        self.new("budget", "--force")
+        self.assertIsNone(complaint(gumshoe("new", "x", cwd=self.folder)))
+
+
+if __name__ == "__main__":
+    unittest.main()
