@@ -72,7 +72,7 @@ void replace_readings(Node& document, const std::string& file) {
 /// Data files are named relative to the scenario's folder.
 void move_paths(Node& node, const std::filesystem::path& from, const std::filesystem::path& to) {
   for (Member& m : node.members) {
-    if (m.key == "file" && m.value.kind == Node::Kind::text) {
+    if ((m.key == "file" || m.key == "form") && m.value.kind == Node::Kind::text) {
       const std::filesystem::path path = m.value.text;
       if (path.is_relative()) m.value.text = std::filesystem::relative(from / path, to).generic_string();
     }

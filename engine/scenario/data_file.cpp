@@ -1,21 +1,48 @@
 #include "scenario/data_file.h"
 
 #include <array>
+#include <filesystem>
 
 #include <fmt/format.h>
+
+#include "base/text_file.h"
+#include "scenario/log_form.h"
 
 namespace gumshoe::scenario {
 namespace {
 
+constexpr std::size_t largest_form = std::size_t{1} << 20;
 constexpr std::array separators{',', ';', '\t', ' '};
 const std::vector<std::string> separator_words{",", ";", "tab", "blanks"};
 
-TextTable text_table(Table& table) {
+/// The description of a log; nothing and problems if it is wrong.
+std::optional<TextTable> log_table(Table& table, DataFiles& files) {
+  const auto name = table.text("form");
+  if (table.has("delimiter"))
+    table.refuse_key("delimiter", "given together with form", "the description says what separates the cells",
+                     "leave it out");
+  if (!name) return std::nullopt;
+  const std::string path = (std::filesystem::path(table.problems().file()).parent_path() / *name).string();
+  try {
+    const LogForm form(read_text_file(path, largest_form), path);
+    files.include(*name);
+    return TextTable{*name, [form](std::string_view text, const std::string& file) { return form.read(text, file); }};
+  } catch (const InputError& error) {
+    for (const Problem& p : error.problems())
+      p.where.line > 0 ? table.problems().add(p)
+                       : table.refuse_key("form", fmt::format("'{}': {}", path, p.what), p.why, p.remedy);
+  }
+  return std::nullopt;
+}
+
+std::optional<TextTable> text_table(Table& table, DataFiles& files) {
+  if (table.has("form")) return log_table(table, files);
   const auto index = table.choice("delimiter", separator_words);
-  if (!index) return {};
+  if (!index) return TextTable{};
   const char separator = separators[*index];
-  return {separator_words[*index],
-          [separator](std::string_view text, const std::string& file) { return parse_csv(text, file, separator); }};
+  return TextTable{separator_words[*index], [separator](std::string_view text, const std::string& file) {
+                     return parse_csv(text, file, separator);
+                   }};
 }
 
 } // namespace
@@ -25,18 +52,20 @@ std::vector<Key> data_file_keys() {
       {"file", shape::text(),
        "data file, relative to the scenario. Several files as one: * in the name stands for any text, and {run} for "
        "any text that becomes the column `run`"},
+      {"form", shape::text(),
+       "description of a log that is no table, relative to the scenario: a TOML file of the patterns of its lines"},
       {"delimiter", shape::words(separator_words), "what separates the cells; default: as the header shows"},
       {"decimal", shape::words({".", ","}), "decimal sign of the numbers in the file", false, "\".\""}};
 }
 
 std::optional<DataFile> read_data_file(Table& table, DataFiles& files, bool of_readings) {
   const Node* const name = table.require("file");
-  const TextTable form = text_table(table);
+  const auto form = text_table(table, files);
   DataFile out;
   out.decimal = table.choice("decimal", {".", ","}).value_or(0) == 1 ? ',' : '.';
-  if (name)
-    out.csv = of_readings ? files.open_readings(*name, table.path("file"), form, table.problems())
-                          : files.open(*name, table.path("file"), form, table.problems());
+  if (name && form)
+    out.csv = of_readings ? files.open_readings(*name, table.path("file"), *form, table.problems())
+                          : files.open(*name, table.path("file"), *form, table.problems());
   if (!out.csv) return std::nullopt;
   return out;
 }

@@ -225,6 +225,25 @@ readings = { file = "values.csv", delimiter = ",", column = "r", unit = "mm", la
 blocks = { every = "1 min", of = "t" }
 columns = { q = { column = "v", unit = "mm" }, f = { column = "w", map = { a = 1, b = -1 } }, m = { column = "c", clock = "%H:%M" } }
 ''',
+    "logs": '''
+schema = 1
+[model]
+name = "expression"
+[model.indications]
+x = "g * p"
+y = "g * p"
+[data]
+file = "log.txt"
+form = "form.toml"
+conditions = { p = "p" }
+[quantities]
+g = { value = 1, estimated = true }
+h = { distribution = "empirical", values = { file = "log.txt", form = "form.toml", column = "v" } }
+[indications.x]
+readings = "v"
+[indications.y]
+readings = { file = "log.txt", form = "form.toml", column = "v", conditions = { p = "p" } }
+''',
     "counted": '''
 schema = 1
 [model]
@@ -362,6 +381,8 @@ class Schema(unittest.TestCase):
         for file in shipped():
             seen.update(used_keys(self.schema, self.schema, load(file)))
         with tempfile.TemporaryDirectory() as folder:
+            (pathlib.Path(folder) / "log.txt").write_text("P 1 V 2\nP 2 V 4\n")
+            (pathlib.Path(folder) / "form.toml").write_text('[[lines]]\npattern = "P {p} V {v}"\nrow = true\n')
             (pathlib.Path(folder) / "values.csv").write_text("r,w,c,v\n5,a,10:00,1\n6,b,10:01,2\n9,a,10:02,3\n")
             (pathlib.Path(folder) / "model.py").write_text(
                 "import sys\nprint('y')\nfor row in sys.stdin.read().splitlines()[1:]: print(row)\n")
