@@ -117,7 +117,7 @@ ExitCode trace(const Options& o) {
   store::TracedBudgets budgets;
   store::Draft draft;
   close_loop(s, rounds.text, outputs, draft, budgets);
-  store::write_trace(draft, outputs.result, s, card, rounds.first, budgets);
+  store::write_trace(draft, outputs.result, s, card, rounds.first, budgets, rounds.table);
   std::vector<std::string> written{out};
   if (history) history.append(rounds.first, draft);
   const std::string verdict = signed_verdict(rounds, history, outputs.origin);

@@ -15,7 +15,7 @@ namespace gumshoe::cli {
 namespace {
 
 Round round_of(const tracing::Trace& t) {
-  Round out{{}, t.rms, t.vetoed};
+  Round out{{}, t.rms, t.vetoed, t.candidates};
   for (const tracing::Finding& f : t.findings) out.added.push_back(f.name);
   return out;
 }

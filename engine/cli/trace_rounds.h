@@ -8,11 +8,7 @@
 
 namespace gumshoe::cli {
 
-struct Round {
-  std::vector<std::string> added; ///< findings; empty: nothing
-  tracing::Rms rms;
-  bool vetoed = false;
-};
+using tracing::Round;
 
 struct Rounds {
   tracing::Trace first;     ///< of the scenario itself

@@ -46,6 +46,42 @@ void write_curve(hid_t group, const Curve& c) {
   table.numbers("u", c.u, c.indication_si_unit, "its standard uncertainty");
 }
 
+/// A name for a dataset: "/" would make a group of it, and the dimension has a name, too.
+std::string free_name(hid_t group, std::string name) {
+  std::ranges::replace(name, '/', '_');
+  while (hdf5::has(group, name)) name += '_';
+  return name;
+}
+
+void write_column(hid_t group, Table& table, std::string name, const std::vector<double>& values,
+                  const std::string& unit, const std::string& si_unit, const std::string& what) {
+  name = free_name(group, name);
+  table.numbers(name, values, si_unit, what);
+  if (!values.empty())
+    write_display(hdf5::own(H5Dopen2(group, name.c_str(), H5P_DEFAULT), H5Dclose, "describe a column"), unit, si_unit);
+}
+
+void write_cells(hid_t group, const CellTable& c) {
+  hdf5::write_attribute(group, "indication", c.indication);
+  hdf5::write_attribute(group, "size_units", c.indication_si_unit);
+  const Display shown = display(c.indication_unit, c.indication_si_unit);
+  hdf5::write_attribute(group, "size_display_units", shown.units);
+  hdf5::write_attribute(group, "size_display_factor", shown.factor);
+  {
+    const hdf5::Handle keys = hdf5::create_group(group, "keys");
+    Table table(keys, "cell", c.y.size());
+    for (const CellTable::Key& key : c.keys)
+      if (key.levels.empty())
+        write_column(keys, table, key.name, key.x, key.unit, key.si_unit, "measured level");
+      else
+        table.texts(free_name(keys, key.name), key.levels, "value of the label " + key.name);
+  }
+  Table table(group, "cell", c.y.size());
+  table.numbers("y", c.y, c.indication_si_unit, "size of what is not in the catalogue, in " + c.indication);
+  table.numbers("u", c.u, c.indication_si_unit, "its standard uncertainty");
+  table.numbers("readings", c.readings, "1", "training readings there");
+}
+
 void write_finding(hid_t group, const Finding& f) {
   write_attributes(group, finding_fields, f);
   write_list(group, "members", f.members, "effects that these data cannot distinguish, the best first");
@@ -53,6 +89,7 @@ void write_finding(hid_t group, const Finding& f) {
   write_list(group, "remarks", f.remarks, "what a reader must know of it");
   write_quantities(group, f);
   write_numbered(group, "curves", f.curves, write_curve);
+  write_numbered(group, "tables", f.tables, write_cells);
 }
 
 void write_sizes_of_noise(hid_t parent, const Noise& n, const Rms& r) {
@@ -75,21 +112,6 @@ void write_repeats(hid_t file, hid_t parent, const Trace& t) {
   for (const AnomalousBlock& b : t.anomalous_blocks) blocks.push_back({b, t.rms.unit, t.rms.si_unit});
   if (!blocks.empty()) write_table(file, anomalous_block_fields, blocks);
   if (!t.outliers.empty()) write_table(file, outlier_fields, t.outliers);
-}
-
-/// A name for a dataset: "/" would make a group of it, and the dimension has a name, too.
-std::string free_name(hid_t group, std::string name) {
-  std::ranges::replace(name, '/', '_');
-  while (hdf5::has(group, name)) name += '_';
-  return name;
-}
-
-void write_column(hid_t group, Table& table, std::string name, const std::vector<double>& values,
-                  const std::string& unit, const std::string& si_unit, const std::string& what) {
-  name = free_name(group, name);
-  table.numbers(name, values, si_unit, what);
-  if (!values.empty())
-    write_display(hdf5::own(H5Dopen2(group, name.c_str(), H5P_DEFAULT), H5Dclose, "describe a column"), unit, si_unit);
 }
 
 std::string label_of(const quantities::Reading& reading, const std::string& name) {
@@ -172,10 +194,22 @@ void write_trace_group(hid_t file, const Trace& t) {
   write_list(group, "statements", t.statements, "what these data cannot tell, and decisions a reader must see");
 }
 
+void write_round(hid_t group, const Round& round) {
+  write_list(group, "added", round.added, "findings of this round");
+  hdf5::write_attribute(group, "vetoed", round.vetoed ? 1 : 0);
+  hdf5::write_attribute(group, "units", round.rms.si_unit);
+  write_attributes(group, rms_fields, round.rms);
+  write_display(group, round.rms.unit, round.rms.si_unit);
+  if (round.candidates.empty()) return;
+  const hdf5::Handle candidates = hdf5::create_group(group, "candidates");
+  Table table(candidates, "candidate", round.candidates.size());
+  write_fields(table, candidate_fields, round.candidates);
+}
+
 } // namespace
 
 void write_trace(Draft& draft, const Claim& claim, const scenario::Scenario& s, const ModelCard& card, const Trace& trace,
-                 const TracedBudgets& budgets) {
+                 const TracedBudgets& budgets, const std::vector<Round>& rounds) {
   Identity identity = identity_of(s);
   identity.command = "trace";
   identity.seed = s.trace.seed;
@@ -184,6 +218,7 @@ void write_trace(Draft& draft, const Claim& claim, const scenario::Scenario& s, 
     write_data(file, s, card);
     write_residuals(file, s, card, trace);
     write_trace_group(file, trace);
+    if (rounds.size() > 1) write_numbered(file, "rounds", rounds, write_round);
     write_budgets(file, "budget_before", budgets.before);
     write_budgets(file, "budget_after", budgets.after);
     write_list(file, "notes", s.notes, "decisions and warnings a reader must see");

@@ -15,8 +15,10 @@ struct TracedBudgets {
   std::vector<analysis::Budget> before, after;
 };
 
-/// Adds the whole file to the draft. `card`: of the scenario's model. Throws OutputError naming path and reason.
+/// Adds the whole file to the draft. `card`: of the scenario's model; `rounds`: the first is of `trace`, and one alone is
+/// not written. Throws OutputError naming path and reason.
 void write_trace(Draft& draft, const Claim& claim, const scenario::Scenario& scenario, const ModelCard& card,
-                 const tracing::Trace& trace, const TracedBudgets& budgets);
+                 const tracing::Trace& trace, const TracedBudgets& budgets,
+                 const std::vector<tracing::Round>& rounds = {});
 
 } // namespace gumshoe::store

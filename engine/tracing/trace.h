@@ -40,6 +40,18 @@ struct Curve {
   std::string indication, indication_unit, indication_si_unit;
 };
 
+/// An unknown effect at each combination of all that it depends on, as a table of compensation needs it.
+struct CellTable {
+  struct Key {
+    std::string name, unit, si_unit; ///< condition or column; or a label, then `levels`
+    std::vector<double> x;           ///< by row, SI
+    std::vector<std::string> levels; ///< by row
+  };
+  std::vector<Key> keys;
+  std::vector<double> y, u, readings; ///< by row; y and u in the indication's unit
+  std::string indication, indication_unit, indication_si_unit;
+};
+
 struct Finding {
   Kind kind = Kind::named;
   std::string name; ///< "trigger_latency", "declared:rod_length[rod 2]", "scatter:rod,setup", "not in the catalogue"
@@ -52,8 +64,11 @@ struct Finding {
   std::vector<std::vector<SizedQuantity>> alternatives;
   /// Root mean square by which the members' predictions differ over the training data, SI of the first indication.
   double spread = 0;
-  double removed_share = 0;         ///< share of the residuals' mean square in the training data that it explains
+  /// Share of the training residuals' mean square, as declared, that comes back if this finding alone is left out and
+  /// all others are fitted again: it depends on no order.
+  double removed_share = 0;
   std::vector<Curve> curves;        ///< curves of an unknown effect
+  std::vector<CellTable> tables;    ///< the same by all that it depends on, where this was set again and again
   std::string described_by;         ///< shape of an unknown effect: "table:position*direction"; else empty
   std::vector<std::string> remarks; ///< implausible size, kept shapes, also described by ...
 };
@@ -168,6 +183,16 @@ struct Correction {
   std::vector<double> loading; ///< by row
 };
 
+/// A declared component of a quantity of the model that readings share: what they say of it.
+struct KnownDraw {
+  std::string quantity, unit, si_unit;
+  quantities::Labels labels; ///< of the entry
+  std::size_t component = 0; ///< by position in the entry
+  std::string name;          ///< of the component; empty: the entry has one alone
+  double value = 0;          ///< of the entry with it, SI
+  double u = 0;              ///< SI
+};
+
 /// A variance component that the scenario lacks.
 struct Addition {
   std::string quantity; ///< "reclamp.shift", or an indication for its noise
@@ -188,7 +213,7 @@ struct Trace {
   LackOfFit lack_of_fit;
   std::vector<AnomalousBlock> anomalous_blocks;
   std::vector<Outlier> outliers; ///< the largest first
-  bool capped = false; ///< true if the search ended at its largest number of findings, with more to be found
+  bool capped = false;           ///< true if the search ended at its largest number of findings, with more to be found
   std::vector<DetectionLimit> detection_limits;
   std::vector<RankedCandidate> candidates; ///< candidates of the first round, best first
   std::vector<Row> rows;
@@ -202,9 +227,19 @@ struct Trace {
   scenario::Scenario extended;
   calibration::Estimate estimate;
   std::vector<Taken> taken;
+  std::vector<KnownDraw> known;    ///< declared draws of which the readings say something
+  std::vector<double> correlation; ///< of the estimate's parameters, then of `known`, row-major; empty without these
   std::vector<Addition> additions;
   std::vector<Correction> corrections;
   Campaign campaign; ///< where Settings::scores
+};
+
+/// What one of several rounds added; what it found is in the scenario that the next one traces.
+struct Round {
+  std::vector<std::string> added; ///< findings; empty: nothing
+  Rms rms;
+  bool vetoed = false;
+  std::vector<RankedCandidate> candidates; ///< best first
 };
 
 struct Settings {

@@ -4,7 +4,7 @@ import io
 import json
 import pathlib
 
-from . import workbook
+from . import compensation, workbook
 from .tables import over, point, spread
 
 # Columns of each group of the file: [header, dataset, kind of unit]. Written by `gumshoe fields --format json`.
@@ -124,6 +124,7 @@ def trace(t):
     return {"findings": [{"finding": f.name, "kind": f.kind, "p_value": f.p_value, "member": q.member, "quantity": q.name,
                           "labels": q.labels, "unit": q.display_units, **size(q), "suggestion": f.suggestion}
                          for f in t.findings for q in f.quantities],
+            "compensation": [{"finding": k + 1, **one} for k, f in enumerate(t.findings) for table in f.tables for one in compensation.lines(table)],
             "candidates": [line("trace/candidates", c) for c in t.candidates],
             "detection_limits": [line("trace/detection_limits", d) for d in t.limits],
             "anomalous_blocks": [line("trace/anomalous_blocks", b) for b in t.anomalous_blocks],

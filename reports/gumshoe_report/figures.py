@@ -8,6 +8,7 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
+import markupsafe
 import numpy as np
 from matplotlib.ticker import MaxNLocator
 
@@ -41,6 +42,11 @@ def fit_labels(figure):
                 text.set_text("\n".join(textwrap.wrap(text.get_text(), max(8, int(0.85 * len(text.get_text()) * room / long)),
                                                       break_on_hyphens=False)))
     figure.draw_without_rendering()
+
+
+def with_figure(row, drawing):
+    row.figure = markupsafe.Markup(drawing)
+    return row
 
 
 def svg(figure, name, title):

@@ -83,10 +83,24 @@ def columns(group):
             for n, d in (group or {}).items() if isinstance(d, h5py.Dataset) and not is_dimension(d)}
 
 
+def in_order(keys, names):
+    """Columns in the order of these names; a file has them by the alphabet."""
+    return {n: keys[n] for n in sorted(keys, key=lambda n: names.index(n) if n in names else len(names))}
+
+
 def finding(group):
+    depends_on = texts(group, "depends_on")
     return types.SimpleNamespace(
         **attributes(group), **{n: texts(group, n) for n in ("members", "depends_on", "remarks")},
-        quantities=rows(group.get("quantities")), curves=numbered(group.get("curves"), "point"))
+        quantities=rows(group.get("quantities")), curves=numbered(group.get("curves"), "point"),
+        tables=[types.SimpleNamespace(**attributes(g), keys=in_order(columns(g["keys"]), depends_on), rows=rows(g, "cell"))
+                for _, g in sorted(group.get("tables", {}).items())])
+
+
+def rounds(group):
+    """What each round of `gumshoe trace --loop` added, in its order."""
+    return [types.SimpleNamespace(**attributes(one), added=texts(one, "added"), candidates=rows(one.get("candidates")))
+            for _, one in sorted((group or {}).items())]
 
 
 def trace(file):
@@ -102,7 +116,7 @@ def trace(file):
         outliers=rows(group.get("outliers"), "outlier"),
         findings=[finding(group["findings"][k]) for k in sorted(group.get("findings", ()))],
         candidates=rows(group.get("candidates")), limits=rows(group.get("detection_limits"), "limit"),
-        plain=texts(group, "plain"), statements=texts(group, "statements"), residuals=rows(file["residuals"]),
+        rounds=rounds(file.get("rounds")), plain=texts(group, "plain"), statements=texts(group, "statements"), residuals=rows(file["residuals"]),
         **attributes(file["residuals"]), before=numbered(file.get("budget_before")),
         after=numbered(file.get("budget_after")),
         data=types.SimpleNamespace(**{n: columns(data[n]) for n in ("labels", "conditions", "indications", "columns")}))

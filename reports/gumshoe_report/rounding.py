@@ -79,3 +79,7 @@ def percent(share):
 
 def probability(p):
     return f"{100 * p:.10g}\u202f%"
+
+
+def thousands(n):
+    return f"{int(n):,}".replace(",", "\u202f")

@@ -1,12 +1,14 @@
 """What `gumshoe trace` found, as text for people: what it is, how sure, what is left, and what was refused."""
 import math
+import re
 import types
 
+from . import compensation, names
 from .choice import SPACE, joined, with_unit
 from .rounding import COMMON, decimals, finer, fixed, percent, significant, unit_text
 from .tables import budget_row, point, spread
 
-LISTED = 25  # candidates and detection limits on the page; the CSV tables have all
+LISTED = 12  # candidates and detection limits on the page; the CSV tables have all
 FAMILIES = {"effect": "effect", "declared": "declared quantity", "stated": "stated in the scenario",
             "shape": "generic shape", "omnibus": "omnibus test", "scatter": "scatter"}
 KINDS = {"named": "one effect", "class": "effects that these data cannot distinguish", "scatter": "scatter by label",
@@ -14,27 +16,34 @@ KINDS = {"named": "one effect", "class": "effects that these data cannot disting
 
 
 def in_words(name):
-    """A candidate's name as one says it."""
+    """What was found, as a headline says it."""
     family, _, rest = name.partition(":")
-    if not rest:
-        return name.replace("_", " ")
-    if family == "declared":
-        quantity, _, label = rest.partition("[")
-        of = f" of {label.rstrip(']')}" if label else ""
-        return f"{quantity.replace('_', ' ')}{of} is not what was declared"
-    if family == "scatter":
-        return "scatter by " + joined(rest.split(","))
-    return f"{family.replace('_', ' ')} in {rest}"
+    return f"{names.of_quantity(rest)} is not what was declared" if family == "declared" and rest else names.readable(name)
+
+
+def suited(unit, size):
+    """Unit and factor in which a size has one to three digits before the point; lengths from nm to mm."""
+    unit, factor = finer(unit, size)
+    if unit == "um" and 0 < size * factor < 0.1:
+        return "nm", 1e3 * factor
+    if unit == "um" and size * factor >= 1000:
+        return "mm", 1e-3 * factor
+    return unit, factor
 
 
 def shown_unit(row, size):
     """A unit in which a difference of this size (SI) has digits before the point, and its factor from SI."""
-    unit, factor = finer(row.display_units, abs(spread(row, size)))
+    unit, factor = suited(row.display_units, abs(spread(row, size)))
     return unit, factor * row.display_factor
 
 
 def capitalised(text):
     return text[:1].upper() + text[1:]
+
+
+def in_remark(text):
+    """Candidates by their readable names."""
+    return re.sub(r"\b(?:table|omnibus|product|harmonic|hysteresis|polynomial|drift):[\w*^/]+", lambda m: names.readable(m[0]), text)
 
 
 class Trace:
@@ -140,21 +149,43 @@ class Trace:
         return "all" if share > 1 else fixed(100 * share, 0) + f"{SPACE}%"
 
     def sizes(self, f):
-        """One line per size; of a class every member's."""
+        """One line per size; of a class every member's. Sizes of one unit are shown in one."""
+        largest = {}
+        for q in f.quantities:
+            size = max(abs(spread(q, x)) for x in (q.value, q.standard_uncertainty))
+            largest[q.display_units] = max(largest.get(q.display_units, 0), size)
         lines = []
         for q in f.quantities:
-            u = spread(q, q.standard_uncertainty)
+            scale = q.scenario_name and q.display_offset  # a point on a scale has its own unit
+            unit, factor = (q.display_units, 1) if scale else suited(q.display_units, largest[q.display_units])
+            u = factor * spread(q, q.standard_uncertainty)
             shift = point if q.scenario_name else spread  # what stands nowhere is a difference
             places = decimals(u)
-            show = lambda x: fixed(shift(q, x), places)
+            show = lambda x: fixed(factor * shift(q, x), places)
             lines.append(types.SimpleNamespace(
-                member=q.member, name=q.name, labels=q.labels, value=show(q.value), u=fixed(u, places),
-                low=show(q.low), high=show(q.high), unit=unit_text(q.display_units), where=q.scenario_name))
+                member=q.member, said=names.readable(q.member), name=names.plain(q.name), labels=q.labels, value=show(q.value),
+                u=fixed(u, places), low=show(q.low), high=show(q.high), unit=unit_text(unit), where=q.scenario_name))
         return lines
+
+    def to_do(self, f):
+        """What a machinist does about a finding, and by how much."""
+        if f.kind == "named" and f.quantities:
+            q = self.sizes(f)[0]
+            size = f"{q.name} {with_unit(q.value, q.unit)}, 95{SPACE}% interval [{q.low}, {q.high}]"
+            return f"Check what is declared. The readings say: {size}." if f.name.startswith("declared:") else f"Correct for it: {size}."
+        if f.kind == "class":
+            return f"Measure next: {f.suggestion}." if f.suggestion else "Other conditions must be varied to distinguish the causes."
+        if f.kind == "scatter":
+            return "It cannot be corrected for; include it in the uncertainty budget."
+        if f.tables:
+            return f"Correct by the table of {names.by('*'.join(f.depends_on))} below; its cause is unknown."
+        return "Its cause is unknown; the curve below describes it within the range of the data."
 
     def title(self, f):
         if f.kind == "class" and len(f.members) <= 3:
             return capitalised(" or ".join(map(in_words, f.members)))
+        if f.kind == "not_in_catalogue":
+            return "An unknown effect" + (f": {names.readable(f.described_by)}" if f.described_by else "")
         return f"One of {len(f.members)} effects" if f.kind == "class" else capitalised(in_words(f.name))
 
     def findings(self):
@@ -162,9 +193,11 @@ class Trace:
             # Sizes found together, and scatter, are not corrected for having been the largest.
             alone = len({q.member for q in f.quantities}) == len(f.quantities)
             yield types.SimpleNamespace(
-                corrected=f.kind in ("named", "class") and alone, kind=f.kind, title=self.title(f), what=KINDS[f.kind], members=f.members,
+                corrected=f.kind in ("named", "class") and alone, kind=f.kind, title=self.title(f), what=KINDS[f.kind],
+                members=[(names.readable(m), m) for m in f.members], to_do=self.to_do(f),
+                cells=f.tables, tables=[compensation.table(table) for table in f.tables],
                 p=self.p(f.p_value), depends_on=joined(f.depends_on) if f.depends_on else "",
-                suggestion=f.suggestion, remarks=f.remarks, sizes=self.sizes(f),
+                suggestion=f.suggestion, remarks=[in_remark(x) for x in f.remarks if x != f"described by {f.described_by}"], sizes=self.sizes(f),
                 removed=f"{fixed(100 * f.removed_share, 0)}{SPACE}%" if f.removed_share > 0 else "", curves=f.curves)
 
     def before_and_after(self):
@@ -188,20 +221,31 @@ class Trace:
             noise(r.noise, r.noise_low, r.noise_high))
         return rows
 
-    def candidates(self):
-        top = max((c.statistic for c in self.t.candidates if math.isfinite(c.statistic)), default=0)
-        for c in self.t.candidates[:LISTED]:
+    def candidates(self, ranked=None):
+        ranked = self.t.candidates if ranked is None else ranked
+        top = max((c.statistic for c in ranked if math.isfinite(c.statistic)), default=0)
+        for c in ranked[:LISTED]:
             yield types.SimpleNamespace(
-                name=c.name, shape=c.shape, family=FAMILIES.get(c.family, c.family), parameters=c.parameters,
+                said=names.readable(c.name, c.shape), name=c.name, shape=c.shape, family=FAMILIES.get(c.family, c.family), parameters=c.parameters,
                 statistic=significant(c.statistic, 3), width=100 * c.statistic / top if top > 0 and c.statistic > 0 else 0,
                 p=significant(c.p_single), left=percent(c.identifiable), absorbed=c.absorbed_by,
                 correlation=fixed(c.correlation, 2), outcome=c.outcome, kept=not c.outcome.startswith("refused"))
 
+    def rounds(self):
+        """Every round of `--loop` with what it added and its ranking; none if there was one round."""
+        for k, r in enumerate(self.t.rounds):
+            added = ("nothing: the hold-out blocks are not predicted better" if r.vetoed else
+                     "; ".join("an unknown effect" if a == "not in the catalogue" else " or ".join(map(in_words, a.split(" | ")))
+                               for a in r.added) or "nothing")
+            yield types.SimpleNamespace(
+                number=k + 1, added=added, candidates=list(self.candidates(r.candidates))[:LISTED // 2] if k else [],
+                errors=[self.number(getattr(r, key)) for key in ("before", "after", "holdout_before", "holdout_after", "noise")])
+
     def limits(self):
         for d in self.t.limits[:LISTED]:
-            unit, factor = finer(d.display_units, abs(spread(d, d.value)))
+            unit, factor = suited(d.display_units, abs(spread(d, d.value)))
             seen = math.isfinite(d.value)
-            yield types.SimpleNamespace(effect=d.effect, quantity=d.quantity, seen=seen, value=with_unit(
+            yield types.SimpleNamespace(effect=d.effect, said=names.readable(d.effect), quantity=names.plain(d.quantity), seen=seen, value=with_unit(
                 significant(factor * spread(d, d.value)), unit) if seen else "undetectable in these data")
 
     def noise(self):

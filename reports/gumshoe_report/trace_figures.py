@@ -6,6 +6,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator
 
+from . import compensation
 from .choice import axis_label
 from .figures import BAND, BLUE, GREY, GRID, INK, NOISE, ORANGE, PALE, RULE, svg
 from .rounding import finer
@@ -16,6 +17,7 @@ LEVELS = 60  # of a label, beyond them it is not drawn
 DISTINCT = 12  # values of a condition that are averaged one by one; beyond them in bins
 MANY = 400  # residuals; beyond them the points are an image in the figure, or the page were megabytes
 DOTS = 200  # per inch, of such an image
+LINES = 4  # in the figure of a table; beyond them the table says it better
 UNCHANGED = (("before", BLUE),)  # nothing was added: there is one residual only
 
 
@@ -247,6 +249,36 @@ def sizes(t, name):
     axes.set_xlabel(axis_label("root mean square of the residuals", t.unit))
     axes.legend(loc="lower left", bbox_to_anchor=(-0.02, 1), ncols=3, frameon=False, fontsize=8)
     return svg(figure, name, f"Root mean square of the residuals{' before and after' if t.added else ''}, compared with noise alone")
+
+
+def cells(t, name):
+    """An unknown effect by all that it depends on: a line along the key of most levels for each combination of the others."""
+    keys = {n: compensation.shown(key) for n, key in t.keys.items()}
+    numeric = [n for n, (values, _) in keys.items() if not isinstance(values[0], str)]
+    if not numeric:
+        return ""
+    along = max(numeric, key=lambda n: len(set(keys[n][0])))
+    others = [n for n in keys if n != along]
+    groups = {}
+    for k in range(len(t.rows)):
+        groups.setdefault(tuple(keys[n][0][k] for n in others), []).append(k)
+    if len(groups) > LINES:
+        return ""
+    unit, factor = compensation.unit_of(t)
+    figure, axes = plt.subplots(figsize=(7.2, 2.8), layout="constrained")
+    axes.axhline(0, color=GREY, linewidth=0.6)
+    for (level, members), colour in zip(groups.items(), (BLUE, ORANGE, INK, GREY)):
+        members.sort(key=lambda k: keys[along][0][k])
+        x, y, u = ([f(k) for k in members] for f in (lambda k: keys[along][0][k], lambda k: factor * t.rows[k].y,
+                                                       lambda k: 2 * factor * t.rows[k].u))
+        what = ", ".join(f"{axis_label(n, '')} {v if isinstance(v, str) else f'{v:.4g}'}".replace("-", "−") for n, v in zip(others, level))
+        axes.errorbar(x, y, u, color=colour, marker="o", markersize=3.5, linewidth=1.3, capsize=2.2, label=what or None)
+    if others:
+        axes.legend(loc="lower left", bbox_to_anchor=(-0.01, 1), ncols=2, frameon=False, fontsize=8)
+    axes.grid(**GRID)
+    axes.set_xlabel(axis_label(along, keys[along][1]))
+    axes.set_ylabel(axis_label(f"error in {t.indication}", unit))
+    return svg(figure, name, f"Error of the unknown effect against {along.replace('_', ' ')}")
 
 
 def curves(found, name):

@@ -20,7 +20,7 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "reports"))
 from browser import CLIPPED, measured
 from choose_report_test import Elements, labels, words_of
-from gumshoe_report import trace, trace_figures
+from gumshoe_report import names, trace, trace_figures
 
 KINDS = ("named", "class", "scatter", "not_in_catalogue", "two_findings", "vetoed", "nothing_found", "lack_of_fit",
          "insufficient_data")
@@ -189,7 +189,7 @@ class Page(Made):
 
     def test_a_class_comes_with_what_would_split_it(self):
         text = words_of(self.pages["class"])
-        self.assertIn("To find out which: let the spindle rest for an hour", text)
+        self.assertIn("Measure next: let the spindle rest for an hour", text)
         self.assertIn("these data cannot distinguish them", text)
 
     def test_what_was_refused_says_why(self):
@@ -197,7 +197,7 @@ class Page(Made):
         tried = text[text.index("What was tried"):text.index("Detection limits")]
         for reason in ("the same as trigger_latency, which is a cause", "within its uncertainty", "absorbed by laser_z"):
             self.assertIn(reason, tried)
-        self.assertEqual(self.pages["named"].count('<tr class="chosen"><th scope="row"><code>'), 1)
+        self.assertEqual(self.pages["named"].count('<tr class="chosen"><th scope="row">trigger latency<small><code>'), 1)
         self.assertRegex(text, r"z_scale ?scale ?undetectable in these data")
 
     def test_both_budgets_side_by_side(self):
@@ -216,9 +216,19 @@ class Page(Made):
             self.assertIn(f"Residuals {what}, before and after", both)
             self.assertIn(f"Residuals {what}", labels(self.pages["nothing_found"]))
             self.assertNotIn(f"Residuals {what}, before and after", labels(self.pages["nothing_found"]))
-        self.assertIn("not in the catalogue: against time, against setup", labels(self.pages["not_in_catalogue"]))
+        self.assertIn("Error of the unknown effect against feed", labels(self.pages["not_in_catalogue"]))
         self.assertEqual(labels(self.pages["insufficient_data"]), "What is measured")
         self.assertIn("rod, setup</text>", self.pages["scatter"])  # what scatters by both is drawn by both
+
+    def test_an_unknown_effect_has_a_table_of_compensation(self):
+        text = words_of(self.pages["not_in_catalogue"])
+        part = text[text.index("Table of compensation"):]
+        self.assertRegex(part, r"feed \(mm/min\) ?rod ?error of spindle z \(µm\) ?correction \(µm\) ?u \(µm\) ?readings")
+        self.assertRegex(part, r"120 ?rod 2 ?1\.20 ?−1\.20 ?0\.10 ?18")
+        rows = self.table("not_in_catalogue", "compensation")
+        self.assertEqual((len(rows), rows[-1]["rod"], rows[-1]["unit"]), (8, "rod 2", "um"))
+        self.assertAlmostEqual(float(rows[-1]["correction"]), -1.2)
+        self.assertAlmostEqual(float(rows[-1]["feed (mm/min)"]), 120)
 
     def test_csv(self):
         residuals = self.table("named", "residuals")
@@ -284,9 +294,17 @@ class Text(unittest.TestCase):
 class Words(unittest.TestCase):
     def test_names_as_one_says_them(self):
         for name, said in (("trigger_latency", "trigger latency"), ("scatter:rod,setup", "scatter by rod and setup"),
-                           ("declared:rod_length[rod 2]", "rod length of rod 2 is not what was declared"),
-                           ("polynomial:feed^2", "polynomial in feed^2")):
+                           ("declared:rod_length[rod 2]", "length of rod 2 is not what was declared"),
+                           ("polynomial:feed^2", "square of feed"), ("table:x*direction", "any value by x and direction"),
+                           ("harmonic:2xscrew", "2 waves per turn of screw"), ("omnibus:time", "any smooth dependence on time")):
             self.assertEqual(trace.in_words(name), said)
+        self.assertEqual(names.readable("declared:rod_length[rod 2]"), "length of rod 2 (declared)")
+
+    def test_units_suit_the_size(self):
+        for size, said in ((5e-5, ("nm", 1e6)), (2e-3, ("um", 1e3)), (3.0, ("mm", 1))):
+            unit, factor = trace.suited("mm", size)
+            self.assertEqual((unit, round(factor)), said)
+        self.assertEqual(trace.suited("um", 5390), ("mm", 1e-3))
 
     def test_averages_lie_on_a_line(self):
         x = np.repeat(np.arange(40.0), 6)

@@ -296,6 +296,16 @@ Finding unknown() {
     by.u.push_back(0.1 * um);
   }
   f.curves = {c, by};
+  CellTable table{{{"feed", "mm/min", "m/s", {}, {}}, {"rod", "1", "1", {}, {}}}, {}, {}, {}, "spindle_z", "um", "m"};
+  for (const double feed : feeds)
+    for (const char* rod : {"rod 1", "rod 2"}) {
+      table.keys[0].x.push_back(feed / 60 * mm);
+      table.keys[1].levels.push_back(rod);
+      table.y.push_back(0.01 * feed * um);
+      table.u.push_back(0.1 * um);
+      table.readings.push_back(18);
+    }
+  f.tables = {table};
   return f;
 }
 

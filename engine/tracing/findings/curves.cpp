@@ -1,6 +1,7 @@
 /// The size of what is not in the catalogue, as a curve.
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "tracing/criteria.h"
 #include "tracing/findings/sizes.h"
@@ -51,6 +52,42 @@ public:
     return out;
   }
 
+  /// By all of these together, if there are two readings of each combination or more; else without rows.
+  CellTable by(const std::vector<const Covariate*>& covariates, const std::vector<const Grouping*>& labels) const {
+    std::map<std::vector<double>, std::vector<std::size_t>> cells; // in the order of the keys: reproducible
+    std::size_t readings = 0;
+    for (std::size_t r = 0; r < o_.readings; ++r) {
+      if (o_.held_out[r]) continue;
+      std::vector<double> level;
+      for (const Covariate* c : covariates) level.push_back(c->value[r]);
+      for (const Grouping* g : labels) level.push_back(static_cast<double>(g->group[r]));
+      cells[std::move(level)].push_back(r);
+      ++readings;
+    }
+    CellTable out;
+    if (cells.size() > criteria.most_table_cells || cells.size() * criteria.least_repeats > readings) return out;
+    out.indication = empty_.indication;
+    out.indication_unit = empty_.indication_unit;
+    out.indication_si_unit = empty_.indication_si_unit;
+    for (const Covariate* c : covariates) out.keys.push_back({c->name, c->unit, c->si_unit, {}, {}});
+    for (const Grouping* g : labels) out.keys.push_back({g->name, "1", "1", {}, {}});
+    for (const auto& [level, members] : cells) {
+      std::vector<std::size_t> group(o_.readings, 0);
+      for (const std::size_t r : members) group[r] = 1;
+      Curve one = empty_;
+      if (!add(0, group, 1, one)) continue;
+      for (std::size_t k = 0; k < level.size(); ++k)
+        if (k < covariates.size())
+          out.keys[k].x.push_back(level[k]);
+        else
+          out.keys[k].levels.push_back(labels[k - covariates.size()]->groups[static_cast<std::size_t>(level[k])]);
+      out.y.push_back(one.y[0]);
+      out.u.push_back(one.u[0]);
+      out.readings.push_back(static_cast<double>(members.size()));
+    }
+    return out;
+  }
+
 private:
   /// The mean over the training readings of a group, if there are any.
   bool add(double x, const std::vector<std::size_t>& group, std::size_t which, Curve& out) const {
@@ -90,6 +127,16 @@ void add_curves(const TraceContext& c, const JointFit& fit, std::size_t term, Fi
     add(c.observations.covariates, name);
     add(c.observations.labels, name);
   }
+  std::vector<const Covariate*> covariates;
+  std::vector<const Grouping*> labels;
+  for (const std::string& name : finding.depends_on) {
+    for (const Covariate& one : c.observations.covariates)
+      if (one.name == name) covariates.push_back(&one);
+    for (const Grouping& one : c.observations.labels)
+      if (one.name == name) labels.push_back(&one);
+  }
+  if (covariates.empty() && labels.empty()) return;
+  if (CellTable table = make.by(covariates, labels); !table.y.empty()) finding.tables.push_back(std::move(table));
 }
 
 } // namespace gumshoe::tracing

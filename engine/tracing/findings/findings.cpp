@@ -57,6 +57,17 @@ std::string split_from_scatter(const Grouping& group, const std::vector<std::str
   return fmt::format("within one {}, vary {} as much as from one to the next", label, fmt::join(depends_on, " and "));
 }
 
+/// What comes back if a finding alone is left out and all others are fitted again, of what the declared model left.
+double share_of(const TraceContext& c, const Search& s, const SearchFinding& found) {
+  const auto mean_square = [](const JointFit& fit) { return fit.noise * fit.noise * fit.variance; };
+  std::vector<Term> others;
+  for (std::size_t t = 0; t < s.found.terms.size(); ++t)
+    if (std::ranges::find(found.terms, t) == found.terms.end()) others.push_back(s.found.terms[t]);
+  const double without =
+      others.empty() ? mean_square(s.base) : mean_square(c.fitter.fit(others, s.found.noise, &s.found));
+  return std::max(0.0, (without - mean_square(s.found)) / mean_square(s.base));
+}
+
 /// The same sizes for every member, how much their predictions differ, and how to distinguish them.
 void describe_class(const TraceContext& c, const Search& s, const SearchFinding& found, Finding& f) {
   const JointFit& fit = s.found;
@@ -111,6 +122,7 @@ void collect(const TraceContext& c, const Search& s, Trace& out) {
   for (SearchFinding found : s.findings) {
     if (out.vetoed && !survives_veto(c, s, found)) continue;
     Finding f = found.finding;
+    f.removed_share = found.terms.empty() ? 0 : share_of(c, s, found);
     f.name = f.kind == Kind::not_in_catalogue ? "not in the catalogue" : fmt::format("{}", fmt::join(f.members, " | "));
     for (const std::size_t t : found.terms) {
       if (f.kind == Kind::not_in_catalogue) {

@@ -11,7 +11,8 @@ std::string shown_rms(double si, const Rms& rms);
 /// Sizes of a term with u and the interval after selection. A shape has none.
 /// @param limit  likelihood ratio (2 ln) that the term had to pass
 std::vector<SizedQuantity> sizes(const TraceContext& context, const JointFit& fit, std::size_t term, double limit);
-/// Size of an unknown effect against each condition on which it depends, at the measured levels.
+/// Size of an unknown effect against each condition on which it depends, at the measured levels, and by all of them
+/// together where they were set again and again.
 void add_curves(const TraceContext& context, const JointFit& fit, std::size_t term, Finding& finding);
 /// Remarks on sizes that are implausible or at a limit.
 void remark_on_size(const Term& term, Finding& finding);

@@ -34,7 +34,7 @@ constexpr Field<F> finding[] = {
     {"described_by", of<&F::described_by>, one, "shape that describes an unknown effect, or empty", in_json},
     {"suggestion", of<&F::suggestion>, one, "measurement that would distinguish the members of the class", in_json},
     {"p_value", of<&F::p_value>, one, "p-value of the largest statistic over all candidates tried", in_json},
-    {"removed_share", of<&F::removed_share>, one, "share of the residuals' mean square that it removes", in_json}};
+    {"removed_share", of<&F::removed_share>, one, "share of the residuals' mean square that comes back if it alone is left out", in_json}};
 
 using Q = SizeRow;
 constexpr Field<Q> sizes[] = {

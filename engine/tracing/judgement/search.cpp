@@ -29,15 +29,9 @@ public:
   Search run() {
     report_progress("fitting the declared model");
     out_.base = out_.found = c_.fitter.fit({}, 0);
-    const auto mean_square = [](const JointFit& fit) { return fit.noise * fit.noise * fit.variance; };
     for (bool more = true; search_goes_on(more, out_.findings.size());) {
-      const double before = mean_square(out_.found);
       const std::size_t terms = out_.found.terms.size();
-      latest_.clear();
       more = round();
-      for (const std::size_t i : latest_)
-        out_.findings[i].finding.removed_share +=
-            (before - mean_square(out_.found)) / mean_square(out_.base) / static_cast<double>(latest_.size());
       const bool took_one = out_.found.terms.size() > terms;
       if (took_one) prune();
       if (took_one) out_.stages.push_back({out_.found, out_.findings, out_.dropped});
@@ -92,7 +86,6 @@ private:
       return f.finding.kind == Kind::named && found.finding.kind == Kind::named &&
              f.finding.members == found.finding.members;
     });
-    latest_.push_back(index(same - out_.findings.begin()));
     if (same == out_.findings.end())
       out_.findings.push_back(std::move(found));
     else
@@ -353,7 +346,6 @@ private:
   Search out_;
   const Evidence* evidence_ = nullptr; ///< of this round
   std::size_t rounds_ = 0;
-  std::vector<std::size_t> latest_; ///< findings of this round
   std::set<std::string> dropped_;   ///< names of candidates that another finding made superfluous
   std::map<std::size_t, std::string> outcomes_;
 };
