@@ -6,6 +6,7 @@
 
 #include "formula/formula.h"
 #include "scenario/number_column.h"
+#include "scenario/quantity.h"
 #include "scenario/stretches.h"
 
 namespace gumshoe::scenario {
@@ -26,6 +27,7 @@ public:
     blocks();
     order();
     redone();
+    priors();
     table_.refuse_unknown();
     return std::move(out_);
   }
@@ -186,6 +188,17 @@ private:
     }
   }
 
+  void priors() {
+    auto table = table_.table("priors");
+    if (!table) return;
+    for (const QuantityCard& card : scope_.model.quantities) {
+      const std::string name(card.name);
+      if (const Node* node = table->find(name))
+        out_.priors.push_back(read_quantity(*node, "trace.priors." + name, card, name, context_));
+    }
+    table->refuse_unknown();
+  }
+
   Table table_;
   const TraceScope& scope_;
   Context& context_;
@@ -214,6 +227,9 @@ Options<TraceOptions> trace_options() {
           "was redone. Left out: every set of one or two labels with at least six combinations"),
       option::texts("free", &TraceOptions::free, "",
                     "quantities whose stated values come from these data: fitted again, as if marked estimated"),
+      option::by_hand<TraceOptions>("priors", shape::map(shape::reference("quantity")),
+                                    "quantities of the model as known before these data, where [quantities] says what is "
+                                    "known with them; written by gumshoe trace"),
       option::share("alpha", &TraceOptions::alpha, true,
                     "false-alarm rate: probability of any finding if there is "
                     "nothing to find"),

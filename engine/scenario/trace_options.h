@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "quantities/input_quantity.h"
+
 namespace gumshoe::scenario {
 
 /// A quantity recorded with the readings, such as a temperature or an order. One value per reading, SI (the mean over
@@ -42,6 +44,9 @@ struct TraceOptions {
   std::optional<std::vector<std::vector<std::string>>> redone;
   /// Quantities whose stated values come from these data: fitted anew without a prior, as if marked estimated.
   std::vector<std::string> free;
+  /// Quantities as they were known before these data, of which the scenario states what is known with them: tracing
+  /// these data starts from here.
+  std::vector<quantities::InputQuantity> priors;
   double alpha = 0.05; ///< chance that anything is found where nothing is
   int draws = 999;     ///< of the parametric bootstrap
   std::uint64_t seed = 1;

@@ -140,6 +140,9 @@ struct Criteria {
   /// A shape parameter is a size where its u is below this share of it, and has a distribution in the traced scenario
   /// below the second: a normal one must not reach beyond zero.
   double known_shape = 1, normal_shape = 0.2;
+  /// Variance of a declared draw, or of a combination of them, of what was declared: below it readings say something of
+  /// them, and the traced scenario holds what.
+  double informed_variance = 0.9;
   double implausible_size = 5;       ///< times the typical size of an effect that cause a remark
   double implausible_shift = 10;     ///< times the declared standard uncertainty of a quantity that cause a remark
   double reported_correlation = 0.2; ///< serial correlation from which the trace mentions it

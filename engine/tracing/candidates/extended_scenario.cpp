@@ -10,16 +10,25 @@ namespace {
 using quantities::InputQuantity;
 using scenario::Scenario;
 
-/// Quantities whose values come from these data ([trace] free): no prior, and tied to nothing. Of other data than the
-/// scenario's own, sizes of effects are known beforehand.
+/// Quantities whose values come from these data ([trace] free): no prior, and tied to nothing. Those of [trace] priors
+/// are known as they were before these data. Of other data than the scenario's own, all but the offsets of blocks are
+/// known beforehand, as stated.
 void free_again(Scenario& s) {
   const bool own = s.data.empty();
+  const auto is_of = [](const std::string& name, const std::string& q) {
+    return name == q || name.starts_with(q + "[") || name.starts_with(q + ".") || name.starts_with(q + ":");
+  };
+  const auto earlier = [&](const std::string& name) {
+    return own && std::ranges::any_of(s.trace.priors, [&](const InputQuantity& q) { return is_of(name, q.name); });
+  };
   const auto freed = [&](const std::string& name) {
     return std::ranges::any_of(s.trace.free, [&](const std::string& q) {
-      return (own || q.find('.') == std::string::npos) &&
-             (name == q || name.starts_with(q + "[") || name.starts_with(q + "."));
+      return (own || q.find('.') == std::string::npos) && is_of(name, q);
     });
   };
+  if (own)
+    for (const InputQuantity& prior : s.trace.priors)
+      *std::ranges::find(s.quantities, prior.name, &InputQuantity::name) = prior;
   for (InputQuantity& q : s.quantities) {
     if (!freed(q.name)) continue;
     q.estimated = true;
@@ -31,14 +40,15 @@ void free_again(Scenario& s) {
     for (auto& entry : q.entries)
       entry.components = some && entry.components.empty() ? std::vector{held} : std::vector<quantities::Component>{};
   }
+  const auto fitted_anew = [&](const std::string& name) { return freed(name) || earlier(name); };
   for (auto& c : s.correlations) {
     const std::size_t n = c.quantities.size();
     quantities::Correlation kept{c.kind, {}, {}};
     for (std::size_t i = 0; i < n; ++i) {
-      if (freed(c.quantities[i])) continue;
+      if (fitted_anew(c.quantities[i])) continue;
       kept.quantities.push_back(c.quantities[i]);
       for (std::size_t j = 0; j < n; ++j)
-        if (!freed(c.quantities[j])) kept.matrix.push_back(c.matrix[i * n + j]);
+        if (!fitted_anew(c.quantities[j])) kept.matrix.push_back(c.matrix[i * n + j]);
     }
     c = std::move(kept);
   }

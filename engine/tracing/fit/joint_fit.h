@@ -49,6 +49,14 @@ struct FreeUnknown {
   std::vector<bool> holds; ///< by reading
 };
 
+/// What the readings say of declared draws, in standard uncertainties as declared.
+struct DrawsGivenReadings {
+  std::vector<std::size_t> draws; ///< by position in the plan's variates
+  Vector mean;
+  Matrix covariance; ///< of the fit's fixed columns (SI; zero where not fitted), then of the draws
+  bool informed = false; ///< true if the readings say anything of them
+};
+
 /// Fits the declared model and terms to some of the readings, with the whole non-linear model.
 class Fitter {
 public:
@@ -67,6 +75,8 @@ public:
   /// If readings jump with a term's size, its tangent does not give its uncertainty. Replaces it in the covariance by
   /// that of the likelihood along the size or of the straight line through the jumps, whichever is larger.
   void widen_jumping(JointFit& fit) const;
+  /// What the readings say of the declared draws that move the point of the fit, except those that are tied.
+  DrawsGivenReadings draws_given_readings(const JointFit& fit) const;
   /// The point of a fit with every declared draw at null, as a scenario states its values.
   Points without_draws(JointFit fit) const;
   const std::vector<FreeUnknown>& unknowns() const { return unknowns_; }

@@ -50,7 +50,9 @@ public:
         term(t);
     add_components(c_, s_, left_, out_);
     add_estimated_noise(c_, s_, out_);
+    known_draws();
     write();
+    correlate();
   }
 
 private:
@@ -293,6 +295,50 @@ private:
     }
   }
 
+  /// Declared draws that all readings of an entry share, as these readings know them.
+  void known_draws() {
+    const DrawsGivenReadings given = c_.fitter.draws_given_readings(fit_);
+    if (!given.informed) return;
+    const auto& plan = c_.experiment.plan();
+    for (std::size_t i = 0; i < given.draws.size(); ++i) {
+      const quantities::Variate& v = plan.variates[given.draws[i]];
+      const auto& q = c_.experiment.scenario().quantities[v.quantity];
+      const auto& entry = q.entries[v.entry];
+      const auto& component = entry.components[v.component];
+      const bool moved = out_.extended.quantities[v.quantity].entries.size() != q.entries.size() ||
+                         std::ranges::any_of(lines_, [&](const Line& l) {
+                           return l.unknown.quantity == v.quantity && l.unknown.entry == v.entry;
+                         });
+      if (!component.per.empty() || moved) continue;
+      const double u = v.distribution.standard_uncertainty(), x = given.mean[index(i)];
+      const Index at = fit_.design.fixed.cols() + index(i);
+      known_at_.push_back(at);
+      out_.known.push_back({q.name, q.unit, q.si_unit, entry.labels, v.component,
+                            entry.components.size() > 1 ? component.name : "",
+                            entry.value + v.distribution.mean() + u * x, u * std::sqrt(given.covariance(at, at))});
+    }
+    given_ = given.covariance;
+  }
+
+  /// Correlation of parameters and known draws; what was settled after the fit follows no draw.
+  void correlate() {
+    if (out_.known.empty()) return;
+    const std::size_t p = lines_.size(), n = p + known_at_.size();
+    const auto column = [&](std::size_t i) { return i < p ? lines_[i].column : known_at_[i - p]; };
+    out_.correlation.assign(n * n, 0);
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j) {
+        const Index a = column(i), b = column(j);
+        double& r = out_.correlation[i * n + j];
+        if (i < p && j < p)
+          r = out_.estimate.correlation[i * p + j];
+        else if (a >= 0 && b >= 0 && given_(a, a) > 0 && given_(b, b) > 0)
+          r = i == j
+                  ? 1
+                  : std::clamp((given_(a, b) + given_(b, a)) / 2 / std::sqrt(given_(a, a) * given_(b, b)), -1.0, 1.0);
+      }
+  }
+
   void write() {
     const std::size_t n = lines_.size();
     calibration::Estimate& e = out_.estimate;
@@ -327,6 +373,8 @@ private:
   Vector absorbed_;                                  ///< by unknown: what it takes of shapes
   std::vector<Vector> left_;                         ///< by term: what no unknown takes
   std::vector<Line> lines_;
+  Matrix given_;                ///< covariance of the fixed columns and the declared draws
+  std::vector<Index> known_at_; ///< by known draw: its row there
 };
 
 } // namespace

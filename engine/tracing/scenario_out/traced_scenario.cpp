@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "calibration/scenario_text.h"
+#include "quantities/cells.h"
 #include "tracing/matrix.h"
 
 namespace gumshoe::tracing {
@@ -83,9 +84,12 @@ public:
                             std::filesystem::path(s.file).filename().string(), training(), s.hash)) {}
 
   std::string write() {
+    start_earlier();
     for (const Correction& c : t_.corrections) correct(c);
     for (std::size_t i = 0; i < t_.estimate.parameters.size(); ++i) parameter(i);
     finish_free();
+    for (const KnownDraw& k : t_.known) keep_prior(k.quantity);
+    for (const KnownDraw& k : t_.known) known(k);
     tie();
     for (const Addition& a : t_.additions) add(a);
     return text_.text(origin_);
@@ -97,6 +101,62 @@ private:
     for (const Row& row : t_.rows)
       if (!row.held_out) readings.insert(row.reading);
     return readings.size();
+  }
+
+  /// What was known before these data stands where it did; of other data it is what they start from.
+  void start_earlier() {
+    Node* trace = find_member(text_.document(), "trace");
+    Node* priors = trace ? find_member(*trace, "priors") : nullptr;
+    if (!priors) return;
+    if (s_.data.empty()) {
+      for (const Member& prior : priors->members) text_.quantity(prior.key) = prior.value;
+      if (Node* ties = find_member(text_.document(), "correlations"))
+        std::erase_if(ties->items, [&](Node& tie) { return ties_one_of(tie, *priors); });
+    }
+    calibration::erase_member(*trace, "priors");
+  }
+
+  static bool ties_one_of(Node& tie, const Node& quantities) {
+    const Node* tied = find_member(tie, "quantities");
+    return tied && std::ranges::any_of(tied->items, [&](const Node& draw) {
+             const std::string quantity = draw.text.substr(0, draw.text.find_first_of("[.:"));
+             return std::ranges::find(quantities.members, quantity, &Member::key) != quantities.members.end();
+           });
+  }
+
+  void keep_prior(const std::string& quantity) {
+    Node& priors = member(member(text_.document(), "trace"), "priors");
+    if (!find_member(priors, quantity)) priors.members.push_back({quantity, 0, 0, text_.quantity(quantity)});
+  }
+
+  /// A declared component as these readings know it, in the place of what was declared.
+  void known(const KnownDraw& k) {
+    Node& place = text_.entry(k.quantity, k.labels);
+    Node own;
+    own.members = {
+        {"u", 0, 0, measure_node(k.u, k.unit, k.si_unit, true)},
+        {"evaluation", 0, 0, text_node("A")},
+        {"source", 0, 0, text_node(source("what these readings say of what was declared ([trace] priors)"))}};
+    std::string draw = k.quantity;
+    if (quantities::Labels labels = k.labels; !labels.empty()) {
+      std::ranges::sort(labels); // as draws are named
+      draw += "[" + quantities::text_of(labels) + "]";
+    }
+    Node known;
+    for (const char* key : {"estimated", "unit"})
+      if (const Node* told = find_member(place, key)) known.members.push_back({key, 0, 0, *told});
+    known.members.push_back({"value", 0, 0, measure_node(k.value, k.unit, k.si_unit, false)});
+    if (Node* components = find_member(place, "components"); components && !k.name.empty()) {
+      Node all = *components;
+      own.members.insert(own.members.begin(), {"name", 0, 0, text_node(k.name)});
+      all.items[k.component] = std::move(own);
+      known.members.push_back({"components", 0, 0, std::move(all)});
+      draw += (k.labels.empty() ? "." : ": ") + k.name;
+    } else {
+      known.members.insert(known.members.end(), own.members.begin(), own.members.end());
+    }
+    place = std::move(known);
+    draws_.push_back(draw);
   }
 
   std::string source(const std::string& what) const { return what + "; " + origin_; }
@@ -190,12 +250,16 @@ private:
   static bool sized(const std::string& name) { return name.find('.') != std::string::npos; }
 
   void tie() {
-    const std::size_t n = uncertain_.size(), all = t_.estimate.parameters.size();
+    std::vector<std::size_t> tied = uncertain_;
+    const std::size_t parameters = t_.estimate.parameters.size(), all = parameters + t_.known.size();
+    for (std::size_t k = parameters; k < all; ++k) tied.push_back(k);
+    const std::size_t n = tied.size();
     if (n < 2) return;
+    const auto& correlation = t_.known.empty() ? t_.estimate.correlation : t_.correlation;
     Matrix matrix(index(n), index(n));
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = 0; j < n; ++j)
-        matrix(index(i), index(j)) = i == j ? 1 : t_.estimate.correlation[uncertain_[i] * all + uncertain_[j]];
+        matrix(index(i), index(j)) = i == j ? 1 : correlation[tied[i] * all + tied[j]];
     make_definite(matrix);
     text_.tie(draws_, {matrix.data(), matrix.data() + matrix.size()}, "pearson", source("estimated together"));
   }
