@@ -1,5 +1,6 @@
 #include "store/hdf5.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -167,7 +168,13 @@ Handle create_dataset(hid_t parent, const std::string& name, hid_t type, const s
 void write_texts(hid_t dataset, const std::vector<std::string>& texts) {
   std::vector<const char*> data;
   for (const std::string& text : texts) data.push_back(text.c_str());
-  if (!data.empty()) require(H5Dwrite(dataset, text_type(), H5S_ALL, H5S_ALL, H5P_DEFAULT, data.data()), "write text");
+  if (data.empty()) return;
+  // HDF5 converts texts in a buffer of a megabyte, cleared for every dataset: files of many small tables spent their time
+  // there. No text takes more than this in it.
+  constexpr std::size_t of_a_text = 64, usual = std::size_t{1} << 20;
+  const Handle transfer = own(H5Pcreate(H5P_DATASET_XFER), H5Pclose, "write text");
+  require(H5Pset_buffer(transfer, std::min(usual, of_a_text * data.size()), nullptr, nullptr), "write text");
+  require(H5Dwrite(dataset, text_type(), H5S_ALL, H5S_ALL, transfer, data.data()), "write text");
 }
 
 Handle create_dimension(hid_t parent, const std::string& name, hsize_t length) {
