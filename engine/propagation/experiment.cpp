@@ -128,15 +128,26 @@ Experiment::Experiment(const scenario::Scenario& s)
   }
   for (std::size_t r = 0; r < (joint_ ? 1 : s.readings.size()); ++r) add_outputs(r);
   find_twins();
+  if (prediction_ && !s.trace.priors.empty()) linearise_prediction();
+}
+
+void Experiment::linearise_prediction() {
+  if (!forward_.has_derivatives()) return;
+  for (std::size_t q = 0; q < layout().size(); ++q)
+    if (!layout().indications.contains(q) &&
+        std::ranges::any_of(plan_.gather, [&](const auto& at) { return !plan_.columns[at[q]].variates.empty(); }))
+      partials_.push_back({q});
+  linear_ = forward_.linearise(estimates(), partials_);
+  if (linear_.status != Status::ok || linear_.kink) linear_ = {};
 }
 
 void Experiment::add_outputs(std::size_t r) {
   const auto labels = joint_ ? quantities::Labels{} : scenario_.readings[r].labels;
   const std::string at = joint_ ? "" : reading_names_[r];
   for (const VariableCard& m : measurands_)
-    outputs_.push_back({(virtual_ && !m.diagnostic ? "error of " : "") + std::string(m.name) +
-                            (at.empty() ? "" : "[" + at + "]"),
-                        std::string(m.name), r, std::string(m.unit), std::string(m.si_unit), labels, m.diagnostic});
+    outputs_.push_back(
+        {(virtual_ && !m.diagnostic ? "error of " : "") + std::string(m.name) + (at.empty() ? "" : "[" + at + "]"),
+         std::string(m.name), r, std::string(m.unit), std::string(m.si_unit), labels, m.diagnostic});
 }
 
 /// Readings that agree in everything the solve reads share one solve.

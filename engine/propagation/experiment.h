@@ -103,6 +103,8 @@ private:
   void run_drawn(std::size_t n, Workspace& w, double* outputs, std::uint8_t* status) const;
   void run_model(std::size_t n, Workspace& w, double* outputs, std::uint8_t* status) const;
   void predict(std::size_t n, Workspace& w, double* outputs, std::uint8_t* status) const;
+  void linearise_prediction();
+  void predict_linear(std::size_t n, Workspace& w) const;
   void simulate(std::size_t rows, std::size_t n, Workspace& w, std::uint8_t* status) const;
   void add_noise(std::size_t n, Workspace& w) const;
 
@@ -116,6 +118,10 @@ private:
   bool prediction_ = false; ///< its outputs are the indications
   bool joint_ = false;
   bool mean_ = false; ///< the outputs are the model's measurands averaged over the readings
+  /// Of a prediction from what these readings say of declared values ([trace] priors): its covariance holds for the
+  /// model linearised at the estimates. Empty: the prediction is of the whole model.
+  Linearisation linear_;
+  std::vector<Partial> partials_; ///< of the quantities that are drawn
   std::vector<std::size_t> solved_as_, every_column_;
   std::vector<double> column_estimates_;
   std::vector<std::string> remarks_, reading_names_;

@@ -187,12 +187,31 @@ void Experiment::add_noise(std::size_t n, Workspace& w) const {
     }
 }
 
+void Experiment::predict_linear(std::size_t n, Workspace& w) const {
+  const std::size_t indications = layout().indications.size();
+  for (std::size_t row = 0; row < linear_.rows; ++row) {
+    double* const x = &w.indications[row * n];
+    std::fill_n(x, n, linear_.values[row]);
+    for (std::size_t p = 0; p < partials_.size(); ++p) {
+      const double slope = linear_.derivatives[p * linear_.rows + row];
+      const std::size_t c = plan_.gather[row / indications][partials_[p].quantity];
+      const models::Column drawn = w.drawn[c];
+      if (slope == 0 || drawn.stride == 0) continue;
+      for (std::size_t i = 0; i < n; ++i) x[i] += slope * (drawn.data[i] - column_estimates_[c]);
+    }
+  }
+}
+
 /// What the machine would read, stated effects and noise included.
 void Experiment::predict(std::size_t n, Workspace& w, double* outputs, std::uint8_t* status) const {
-  wire(w, n, false);
-  const BlockValues found = forward_.simulate(w.block);
-  std::copy(found.status.begin(), found.status.end(), status);
-  std::ranges::copy(found.indications, w.indications.begin());
+  if (linear_.rows > 0) {
+    predict_linear(n, w);
+  } else {
+    wire(w, n, false);
+    const BlockValues found = forward_.simulate(w.block);
+    std::copy(found.status.begin(), found.status.end(), status);
+    std::ranges::copy(found.indications, w.indications.begin());
+  }
   const Range noise = layout().indications;
   for (std::size_t r = 0; r < scenario_.readings.size(); ++r)
     for (std::size_t k = 0; k < noise.size(); ++k) {
