@@ -29,7 +29,7 @@ const std::vector<RoleWords>& role_words() {
       {ColumnRole::time, {"time", "zeit", "timestamp", "datetime", "date", "datum", "clock", "uhrzeit", "t"}},
       {ColumnRole::reading,
        {"dev", "deviation", "error", "err", "abweichung", "reading", "laser", "measured", "meas", "actual", "act",
-        "ist", "diff", "difference", "result"}},
+        "ist", "diff", "difference", "result", "value", "messwert", "wert"}},
       {ColumnRole::position,
        {"pos", "position", "target", "tgt", "nominal", "nom", "soll", "set", "setpoint", "command", "commanded"}},
   };
@@ -123,8 +123,22 @@ bool is_number(const Csv& csv, const CsvCell& cell, char decimal) {
   }
 }
 
+/// Whether the cells that are not empty are numbers, more than half of all.
 bool numbers(const Csv& csv, std::size_t column, char decimal) {
-  return std::ranges::all_of(csv.rows, [&](const auto& row) { return is_number(csv, row[column], decimal); });
+  std::size_t n = 0;
+  for (const auto& row : csv.rows) {
+    if (row[column].text.empty()) continue;
+    if (!is_number(csv, row[column], decimal)) return false;
+    ++n;
+  }
+  return 2 * n > csv.rows.size();
+}
+
+/// Names of columns that count rows and measure nothing.
+bool counts_rows(const RecognisedColumn& c) {
+  static const std::set<std::string> names{"nr", "no", "n", "id", "index", "number", "point", "row", "line"};
+  const auto words = words_of(c.name);
+  return words.size() == 1 && names.contains(words.front());
 }
 
 std::size_t number_columns(const Csv& csv, char decimal) {
@@ -134,7 +148,7 @@ std::size_t number_columns(const Csv& csv, char decimal) {
 }
 
 RecognisedColumn column_of(const RecognisedData& data, std::size_t c) {
-  RecognisedColumn out{data.csv.header[c].text, "1", ColumnRole::other, numbers(data.csv, c, data.decimal), ""};
+  RecognisedColumn out{data.csv.header[c].text, "1", ColumnRole::other, numbers(data.csv, c, data.decimal), false, ""};
   std::string rest;
   const std::string unit = unit_in(out.name, rest);
   const auto words = words_of(rest);
@@ -167,6 +181,8 @@ RecognisedColumn column_of(const RecognisedData& data, std::size_t c) {
       out.why = "by its clock times";
     }
   }
+  out.gaps = out.number && different.contains("");
+  if (out.role == ColumnRole::other) out.why.clear();
   const bool plain = out.role == ColumnRole::cycle || out.role == ColumnRole::direction;
   if (out.number && !plain) out.unit = unit.empty() ? "?" : unit;
   return out;
@@ -179,7 +195,7 @@ void fill_up(std::vector<RecognisedColumn>& columns) {
   };
   const auto take = [&](auto&& range, ColumnRole role, const char* why) {
     for (RecognisedColumn& c : range)
-      if (c.number && c.role == ColumnRole::other) {
+      if (c.number && c.role == ColumnRole::other && !counts_rows(c)) {
         c.role = role;
         c.why = why;
         return;
@@ -187,8 +203,8 @@ void fill_up(std::vector<RecognisedColumn>& columns) {
   };
   if (!has(ColumnRole::reading))
     take(std::span(columns).last(columns.size()) | std::views::reverse, ColumnRole::reading,
-         "the last column of numbers");
-  if (!has(ColumnRole::position)) take(std::span(columns), ColumnRole::position, "the first column of numbers");
+         "as the last column of numbers");
+  if (!has(ColumnRole::position)) take(std::span(columns), ColumnRole::position, "as the first column of numbers");
 }
 
 } // namespace

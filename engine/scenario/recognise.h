@@ -19,8 +19,9 @@ struct RecognisedColumn {
   std::string name;
   std::string unit; ///< "1" of words, clock times and plain numbers; "?" where the header does not say it
   ColumnRole role = ColumnRole::other;
-  bool number = false;
-  std::string why;                                        ///< "by its name", "the first column of numbers"
+  bool number = false;                                    ///< all of its cells that are not empty
+  bool gaps = false;                                      ///< it has empty cells
+  std::string why;                                        ///< "by its name", "as the first column of numbers"
   std::string clock = {};                                 ///< form of its clock times (base/clock.h); empty: none
   std::vector<std::pair<std::string, double>> words = {}; ///< a direction's words and their signs
 };

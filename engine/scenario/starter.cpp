@@ -73,6 +73,11 @@ std::string data_section(const StarterData& data, const Named& labels, const Nam
   for (const auto& [name, c] : labels)
     names += fmt::format("{}{} = {}", names.empty() ? "" : ", ", name, quoted(c->name));
   if (!names.empty()) out += line("labels", "{ " + names + " }", "guessed: what tells repeated series apart");
+  std::string where;
+  for (const RecognisedColumn& c : data.found.columns)
+    if (c.gaps && used.contains(c.name))
+      where += fmt::format("{}{} = {{ not = \"\" }}", where.empty() ? "" : ", ", quoted(c.name));
+  if (!where.empty()) out += line("where", "{ " + where + " }", "rows without a number are left out");
   out += "\n[data.units]\n";
   for (const RecognisedColumn& c : data.found.columns)
     if (c.number && c.unit != "1" && used.contains(c.name))
@@ -90,6 +95,7 @@ bool measured_position(const RecognisedData& data, const RecognisedColumn& posit
     double low = HUGE_VAL, high = -HUGE_VAL;
     const auto column = static_cast<std::size_t>(data.csv.find(c.name));
     for (const auto& row : data.csv.rows) {
+      if (row[column].text.empty()) continue;
       const double x = data.csv.number(row[column], data.decimal);
       low = std::min(low, x), high = std::max(high, x);
     }
@@ -108,6 +114,9 @@ std::string unit_or(const RecognisedColumn& c, const char* otherwise) { return c
 std::string blocks_of(const RecognisedData& data, const Named& labels) {
   for (const auto& [name, c] : labels)
     if (different(data, *c) >= 4) return line("blocks", quoted(name), "an effect should recur in each of them");
+  if (data.csv.rows.size() < 12)
+    return "# blocks = { count = 6 }                # too few rows for blocks; an effect should recur in each of "
+           "them\n";
   return line("blocks", "{ count = 6 }", "guessed: no column tells four or more cycles apart");
 }
 

@@ -104,6 +104,19 @@ class New(InFolder):
         self.assertIn("ready", self.new("--from", "p.csv"))
         self.assertIn('measured = "position + offset + gain * position"', (self.folder / "p.toml").read_text())
 
+    def test_rows_without_a_number_and_counts_of_rows(self):
+        rows = "".join(f"{i};{10 * i};{'' if i == 3 else f'1,{i}'};{'+' if i % 2 else '-'}\r\n" for i in range(1, 8))
+        (self.folder / "g.csv").write_bytes(("\ufeffNr;Pos_X (mm);Messwert [um];Side\r\n" + rows).encode())
+        said = self.new("--from", "g.csv")
+        self.assertIn("g.toml: ready", said)
+        self.assertIn("Nr: not used", said)
+        text = (self.folder / "g.toml").read_text()
+        for part in ('where = { "Messwert [um]" = { not = "" } }', 'readings = "Messwert [um]"', '# blocks = { count = 6 }',
+                     'direction = { column = "Side", map = { "+" = 1, "-" = -1 } }'):
+            self.assertIn(part, text)
+        explained = gumshoe("check", "g.toml", "--explain", cwd=self.folder).stdout
+        self.assertEqual(explained.count("one indication"), 6)
+
     def test_columns_of_a_model(self):
         (self.folder / "rods.csv").write_text("rod,spindle_z_mm,feed (mm/min)\na,-330.1,4\na,-330.2,4\nb,-331.0,8\nb,-331.1,8\n")
         self.assertIn("ready", self.new("rod_gauging", "--from", "rods.csv"))
