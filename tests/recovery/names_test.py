@@ -109,6 +109,45 @@ class Names(unittest.TestCase):
         v = self.line(lambda x, t: 2.5 * a(x) + 2.5 * b(x), 1, stated=stated)
         self.assertEqual(sorted(f["name"] for f in v["findings"]), ["first", "second"], v["findings"])
 
+    # a shape of many sizes holds an effect and a simpler shape
+
+    def both_ways(self, shift, seed):
+        """A slide at ten places, up and down in six cycles, with shift(x in mm, direction) in um."""
+        chance, rows, t = random.Random(seed), ["cycle,x,way,t,d"], 0
+        for cycle in range(1, 7):
+            for way in (1, -1):
+                for x in range(0, 400, 40)[::way]:
+                    rows.append(f"{cycle},{x},{way},{t},{shift(x, way) + chance.gauss(0, 1):.6f}")
+                    t += 10
+        (self.path / "r.csv").write_text("\n".join(rows) + "\n")
+        text = LINE.replace("place = 0", "direction = 1").replace('place = { column = "x"', 'direction = { column = "way"')
+        effect = '[stated_effects.lost_motion]\nindication = "d"\nformula = "direction"\nunit = "um"\n'
+        (self.path / "s.toml").write_text(text.replace("STATED", effect).replace("FREEDOM", "").replace("MORE", ""))
+        return self.trace("s.toml")
+
+    def test_a_reversal_is_found_beside_any_error_of_position(self):
+        error = random.Random(7)
+        table = {x: error.gauss(0, 3) for x in range(0, 400, 40)}
+        for seed in (1, 2, 3):
+            v = self.both_ways(lambda x, way: table[x] + 1.2 * way, seed)
+            found = {f.get("name") or f["kind"]: f for f in v["findings"]}
+            self.assertIn("lost_motion", found, v["findings"])
+            size = found["lost_motion"]["quantities"][0]
+            self.assertLess(abs(size["value"] - 1.2), 4 * size["u"])
+
+    def test_no_reversal_is_found_in_an_error_of_position(self):
+        error = random.Random(7)
+        table = {x: error.gauss(0, 3) for x in range(0, 400, 40)}
+        for seed in (1, 2, 3):
+            v = self.both_ways(lambda x, way: table[x], seed)
+            self.assertNotIn("lost_motion", [f.get("name") for f in v["findings"]], seed)
+
+    def test_a_growing_reversal_is_no_constant_one(self):
+        for seed in (1, 2, 3):
+            v = self.both_ways(lambda x, way: 0.012 * x * way, seed)
+            self.assertNotIn("lost_motion", [f.get("name") for f in v["findings"]], seed)
+            self.assertEqual(v["findings"][0]["depends_on"], ["x", "direction"], v["findings"])
+
     # shape parameters are sizes
 
     def test_a_time_constant_is_a_size(self):

@@ -152,3 +152,11 @@ TEST_CASE("the ranking says why a candidate came no further", "[tracing]") {
   CHECK(refusal(0.5, "", 0.02, 0.01) == "refused: no more than chance");
   CHECK(refusal(0.5, "", 0.001, 0.01) == "refused: another candidate explains the residuals better");
 }
+
+TEST_CASE("an effect and a simpler shape are there rather than one shape of many sizes", "[tracing]") {
+  // Scores alone 5 and 150, of the one shape 180; the effect adds 40 to the simpler shape, each must exceed 12.
+  CHECK(counts_beside(186, {5, 150}, 40, {12, 12}, 180));
+  CHECK_FALSE(counts_beside(175, {5, 150}, 40, {12, 12}, 180));   // the one shape explains more
+  CHECK_FALSE(counts_beside(186, {5, 180}, 10, {12, 12}, 180));   // the effect adds too little
+  CHECK_FALSE(counts_beside(186, {180, 150}, 40, {12, 12}, 180)); // the simpler shape adds too little
+}

@@ -119,8 +119,7 @@ TEST_CASE("the omnibus bases hold any smooth dependence", "[tracing]") {
   const Matrix angle = with_constant(smooth_basis(o, o.covariates[1], 5));
   for (int h = 1; h <= 3; ++h) CHECK(outside(angle, o, 1, [&](double x) { return std::sin(h * x - 0.3); }) < 1e-12);
   // No column is a combination of the others and the constant.
-  for (const Matrix& basis : {load, feed, angle})
-    CHECK(tracing_dense::rank(basis) == basis.cols());
+  for (const Matrix& basis : {load, feed, angle}) CHECK(tracing_dense::rank(basis) == basis.cols());
   // A label's omnibus: any value per group.
   const auto all = shapes(o);
   const Matrix setups = with_constant(named(all, "omnibus:setup").columns);
@@ -158,4 +157,34 @@ TEST_CASE("a signature is told by the conditions on which it depends", "[tracing
   CHECK(depends([&](std::size_t) { return 4.0; }).empty());
   const Names both = depends([&](std::size_t r) { return c[0].value[r] + 3 * std::sin(c[1].value[r]); });
   CHECK(both == Names{"feed", "angle"});
+}
+
+TEST_CASE("a reversal that grows along a slide is a shape, and what follows from other conditions divides no table",
+          "[tracing]") {
+  Observations o;
+  o.readings = count;
+  o.indications = 1;
+  o.names = {"d"};
+  std::vector<double> place, screw, direction;
+  for (std::size_t r = 0; r < count; ++r) {
+    o.sequence.push_back(r);
+    const auto i = static_cast<double>(r % 8);
+    place.push_back(0.1 + 0.02 * i);
+    screw.push_back(0.5 * static_cast<double>((3 * (r % 8)) % 8));
+    direction.push_back(r / 8 % 2 == 0 ? 1 : -1);
+  }
+  o.covariates = {covariate("x", "m", place), covariate("screw", "1", screw), covariate("direction", "1", direction)};
+  const auto all = shapes(o);
+  for (const auto& [from, shape] : {std::pair{0.1, "growing from the lowest x"},
+                                    {0.24, "growing from the highest x"},
+                                    {0.0, "growing from x = 0"}}) {
+    Vector y(static_cast<Index>(count));
+    for (std::size_t r = 0; r < count; ++r) y[static_cast<Index>(r)] = direction[r] * (place[r] - from);
+    CHECK(tracing_dense::outside(named(all, "product:x*direction", shape).columns, y).norm() < 1e-12 * y.norm());
+  }
+  // The screw's angle follows from x.
+  std::set<std::string> tables;
+  for (const Candidate& a : all)
+    if (a.name.starts_with("table:")) tables.insert(a.name);
+  CHECK(tables == std::set<std::string>{"table:x", "table:x*direction"});
 }

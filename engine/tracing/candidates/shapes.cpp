@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -186,6 +187,8 @@ private:
       cell.push_back(cells.insert({std::move(level), index(cells.size())}).first->second);
     }
     if (cells.size() > criteria.most_table_cells || cells.size() * criteria.least_repeats > o_.readings) return;
+    // A condition that follows from the others divides no cell: the simpler name stays.
+    if (!tabulated_.insert(cell).second) return;
     Matrix m = Matrix::Zero(index(o_.readings), index(cells.size()) - 1);
     for (std::size_t i = 0; i < cell.size(); ++i)
       if (cell[i] > 0) m(index(i), cell[i] - 1) = 1;
@@ -197,6 +200,8 @@ private:
     const Vector cx = x.array() - x.mean(), cy = y.array() - y.mean();
     if (std::fabs(cx.dot(cy)) > criteria.confounded * cx.norm() * cy.norm()) return; // one and the same, confounded
     add(Family::shape, "product:" + a.name + "*" + b.name, cx.cwiseProduct(cy), {a.name, b.name});
+    reversals(a, b);
+    reversals(b, a);
     // A drift that grows along a slide starts at nothing and has a fixed end.
     for (const auto& [time, place] : {std::pair{&a, &b}, std::pair{&b, &a}}) {
       if (!elapses(*time) || place->angle || place->levels.size() * criteria.least_repeats > o_.readings) continue;
@@ -215,8 +220,24 @@ private:
     if (surface.cols() > 1) add(Family::omnibus, "omnibus:" + a.name + "*" + b.name, surface, {a.name, b.name});
   }
 
+  /// An error of the direction that grows along a slide: from an end of what was measured, or from the slide's zero.
+  void reversals(const Covariate& direction, const Covariate& place) {
+    if (direction.levels.size() != 2 || direction.levels[0] != -direction.levels[1]) return;
+    if (place.angle || place.levels.size() < 3 || elapses(place)) return;
+    const double low = place.levels.front(), high = place.levels.back();
+    const Vector sign = plain(o_, direction), along = plain(o_, place);
+    const auto grow = [&](double from, const std::string& name) {
+      add(Family::shape, "product:" + place.name + "*" + direction.name,
+          sign.array() * (along.array() - from) / (high - low), {place.name, direction.name}, "growing from " + name);
+    };
+    grow(low, "the lowest " + place.name);
+    grow(high, "the highest " + place.name);
+    if (low != 0 && high != 0) grow(0, place.name + " = 0");
+  }
+
   const Observations& o_;
   std::vector<Candidate> out_;
+  std::set<std::vector<Index>> tabulated_; ///< cells of the tables, by reading
 };
 
 } // namespace

@@ -64,6 +64,10 @@ bool pair_found(double pair, const double (&scores)[2], const double (&limits)[2
   return pair > best_shape + criteria.decisive && pair - scores[1] >= limits[0] && pair - scores[0] >= limits[1];
 }
 
+bool counts_beside(double both, const double (&scores)[2], double added, const double (&limits)[2], double whole) {
+  return both > whole && added > limits[0] && both - scores[0] > limits[1];
+}
+
 std::optional<std::size_t> scatter_found(const Assessment& a, double alpha) {
   for (std::size_t c = 0; c < a.p_component.size(); ++c)
     if (a.data.scatter(index(c), 0) == a.data.scatter.col(0).maxCoeff() && a.p_component[c] <= alpha) return c;

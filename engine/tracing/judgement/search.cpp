@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "tracing/criteria.h"
+#include "tracing/judgement/beside.h"
 #include "tracing/judgement/decisions.h"
 #include "tracing/judgement/evidence.h"
 #include "tracing/judgement/ranking.h"
@@ -18,6 +19,10 @@ namespace gumshoe::tracing {
 namespace {
 
 std::string with_shape(const Candidate& a) { return a.name + (a.shape.empty() ? "" : " (" + a.shape + ")"); }
+
+/// Sizes by which shapes and effects are compared. A harmonic is one wave: its phase costs it what chance gives, and no
+/// more, lest an effect of two waves to a turn take one of three to a turn of any phase.
+Index sizes(const Candidate& a) { return a.name.starts_with("harmonic:") ? 1 : a.columns.cols(); }
 
 constexpr const char* not_predicted = "refused: it does not improve the prediction of held-out blocks";
 
@@ -180,7 +185,7 @@ private:
   /// A plain shape of no more parameters that fits better than the effect could let it.
   std::optional<std::size_t> shape_instead(const Trial& best, const std::vector<std::size_t>& plain) const {
     for (const std::size_t g : plain) {
-      if (candidate(g).columns.cols() > candidate(best.candidate).columns.cols()) continue;
+      if (sizes(candidate(g)) > sizes(candidate(best.candidate))) continue;
       const double lead = evidence_->score(g) - best.score;
       if (!shape_excludes(lead, [&] { return evidence_->chance_of_lead(g, best.candidate, lead); })) continue;
       if (const JointFit fit = evidence_->with({evidence_->linear_term(g)}); fit.valid && !evidence_->of_few(fit))
@@ -251,8 +256,11 @@ private:
   bool take_shape() {
     const auto& assessment = evidence_->assessment();
     std::optional<std::pair<std::size_t, JointFit>> unconfirmed;
-    for (const std::size_t a : best_of([](const Candidate& x) { return !x.physical(); }, criteria.most_shapes)) {
-      if (assessment.p[a] > assessment.threshold) continue;
+    auto shapes = best_of([](const Candidate& x) { return !x.physical(); }, criteria.most_shapes);
+    std::erase_if(shapes, [&](std::size_t a) { return assessment.p[a] > assessment.threshold; });
+    if (shapes.empty()) return false;
+    if (const auto simpler = simpler_beside_effect(*evidence_, shapes[0])) shapes.insert(shapes.begin(), *simpler);
+    for (const std::size_t a : shapes) {
       JointFit fit = evidence_->with({evidence_->linear_term(a)});
       if (!fit.valid) continue;
       if (evidence_->of_few(fit)) {
