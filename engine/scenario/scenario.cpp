@@ -49,8 +49,9 @@ public:
     out_.title = top.text("title").value_or("");
     context_.data = top.find("data");
     context_.trace = top.find("trace");
+    const std::size_t before = problems_.size();
     check_data(top, context_);
-    if (!problems_.empty()) { // formulas have no dimension without the units of the data
+    if (problems_.size() > before) { // formulas have no dimension without the units of the data
       top.members();
       problems_.raise();
     }
