@@ -84,24 +84,28 @@ TEST_CASE("likelihood, sizes and information are those of dense generalised leas
         CHECK(scan.whitened(k).log_determinant() == Approx(determinant).margin(1e-9 * static_cast<double>(n)));
         const Whitened& w = scan.whitened(k);
         const Gls without = gls(v, f, y);
-        CHECK(w.left(w.whiten(y))[0] == Approx(without.squares).epsilon(rounding));
+        CHECK(w.squares(y)[0] == Approx(without.squares).epsilon(rounding));
         if (const double x = freedom * std::log(without.squares) + determinant; x < base) base = x, best = k;
         for (std::size_t a = 0; a < 2; ++a) {
           const Matrix g = chosen(candidates[a]->columns, rows);
           const Gls both = gls(v, joined(f, g), y);
           if (const double x = freedom * std::log(both.squares) + determinant; x < with[a])
             with[a] = x, best_with[a] = k;
-          // Whitened::solve, together with the declared and scattering parts.
+          // Coefficients, together with the declared and scattering parts.
+          Design extended = d;
+          extended.fixed = joined(d.fixed, candidates[a]->columns);
+          std::vector<Index> use;
+          for (Index j = 0; j < extended.fixed.cols(); ++j) use.push_back(j);
+          const Whitened wider(extended, rows, use, s);
           Matrix covariance_of_all;
-          const Vector x = w.solve(w.whiten(y), &covariance_of_all, w.whiten(g));
-          const Index m = g.cols(), p = f.cols();
-          for (Index j = 0; j < m; ++j) {
-            const double u = std::sqrt(both.covariance(p + j, p + j));
-            CHECK(x[x.size() - m + j] == Approx(both.size[p + j]).margin(1e-8 * u));
-            CHECK(std::sqrt(covariance_of_all(x.size() - m + j, x.size() - m + j)) == Approx(u).epsilon(1e-7));
+          const Vector x = wider.coefficients(y, &covariance_of_all);
+          const Index p = f.cols();
+          for (Index j = 0; j < p + g.cols(); ++j) {
+            const double u = std::sqrt(both.covariance(j, j));
+            CHECK(x[j] == Approx(both.size[j]).margin(1e-8 * u));
+            CHECK(std::sqrt(covariance_of_all(j, j)) == Approx(u).epsilon(1e-7));
           }
-          for (Index j = 0; j < p; ++j)
-            CHECK(x[j] == Approx(both.size[j]).margin(1e-8 * std::sqrt(both.covariance(j, j))));
+          CHECK(wider.squares(y)[0] == Approx(both.squares).epsilon(rounding));
           // g'WMg of one column: one over the variance of its size, given only the fixed columns.
           const Gls alone = gls(v, joined(f, g.col(0)), y);
           CHECK(scan.information(a, 0, k) == Approx(1 / alone.covariance(p, p)).epsilon(1e-8));
@@ -170,7 +174,7 @@ TEST_CASE("draws of the noise have the dense covariance", "[tracing]") {
     }
     // What is left of it is chi-squared: its mean is the degrees of freedom.
     const double freedom = static_cast<double>(e.rows() - d.fixed.cols());
-    CHECK(w.left(w.whiten(e)).mean() ==
+    CHECK(w.squares(e).mean() ==
           Approx(freedom).margin(5 * std::sqrt(2 * freedom / static_cast<double>(draws))));
   }
 }

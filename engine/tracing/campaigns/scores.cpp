@@ -10,11 +10,11 @@ Campaign scores_of(const TraceContext& c, const JointFit& fit) {
   const auto& rows = c.fitter.rows();
   const auto use = independent(fit.design, rows);
   const Whitened plain(fit.design, rows, use, {}), w(fit.design, rows, use, fit.covariance_model);
-  const Matrix residual = w.whiten(plain.winsorised(plain.take(fit.residual))), left = w.project(residual);
+  const Matrix left = w.reduce(plain.winsorised(plain.take(fit.residual)));
   Campaign out;
   out.title = c.experiment.scenario().title;
   out.readings = static_cast<int>(rows.size() / fit.design.indications);
-  out.squares = residual.col(0).dot(left.col(0));
+  out.squares = left.squaredNorm();
   out.freedom = static_cast<double>(w.degrees_of_freedom());
   const auto all =
       physical_candidates(c.experiment, c.simulator, fit.at, c.observations, 0, [](const auto&) { return false; });
@@ -22,9 +22,8 @@ Campaign scores_of(const TraceContext& c, const JointFit& fit) {
   for (const Candidate& a : all) {
     if (a.finite != 0) continue;
     const int variant = variants[a.name]++;
-    const Matrix g = w.whiten_rows(a.columns), g_left = w.project(g);
-    const Matrix information = g.transpose() * g_left;
-    if ((information.diagonal().array() <= criteria.absorbed_share * g.colwise().squaredNorm().transpose().array())
+    const Matrix columns = w.take(a.columns), g = w.reduce(columns), information = g.transpose() * g;
+    if ((information.diagonal().array() <= criteria.absorbed_share * w.whiten(columns).colwise().squaredNorm().transpose().array())
             .any())
       continue;
     Score one{a.name, variant, {}, g.transpose() * left.col(0), (information + information.transpose()) / 2};

@@ -98,7 +98,7 @@ InSample in_sample(const JointFit& fit, const std::vector<Index>& rows, const Ma
   const auto use = independent(fit.design, rows);
   const Whitened w(fit.design, rows, use, fit.covariance_model);
   Matrix covariance;
-  const Matrix x = w.solve(w.whiten_rows(residual), &covariance);
+  const Matrix x = w.coefficients(w.take(residual), &covariance);
   const auto p = index(use.size()), q = fit.design.random.cols();
   InSample out{w.take(residual), {}};
   out.left -= fit.design.fixed(rows, use) * x.topRows(p) + fit.design.random(rows, Eigen::all) * x.bottomRows(q);

@@ -41,8 +41,8 @@ void describe_scatter(const TraceContext& c, const JointFit& fit, int component,
   for (int i = 0; i <= criteria.scatter_steps; ++i) {
     const double ratio =
         criteria.scatter_low * std::pow(criteria.scatter_span, i / static_cast<double>(criteria.scatter_steps));
-    const Whitened w(fit.design, rows, use, {fit.covariance_model.correlation, component, ratio, indication});
-    const double left = w.left(w.whiten(data))[0];
+    const Whitened w(plain, {fit.covariance_model.correlation, component, ratio, indication});
+    const double left = w.squares(data)[0];
     profile.push_back({ratio, freedom * std::log(left) + w.log_determinant(), std::sqrt(left / freedom)});
   }
   const auto best = std::ranges::min_element(profile, [](const auto& a, const auto& b) { return a[1] < b[1]; });

@@ -114,8 +114,7 @@ double apart(const TraceContext& c, const Scenario& scenario, const Search& sear
   double least = 1e300;
   const Vector signal = pointers[0]->columns * members[0].size;
   const Whitened& w = scan.whitened(scan.plain());
-  const Vector white = w.whiten_rows(signal);
-  const double whole = w.left(white)[0];
+  const double whole = w.squares(w.take(signal))[0];
   for (std::size_t i = 1; i < pointers.size(); ++i) {
     const double cosine = scan.correlation(0, i, scan.plain());
     least = std::min(least, whole * (1 - cosine * cosine));

@@ -97,7 +97,7 @@ double Fitter::objective(const JointFit& fit, const CovarianceModel& model, cons
   }
   const Whitened here(others, rows_, {}, model);
   const Matrix chosen = scan.winsorised(here.take(fit.residual)) - here.take(drawn_part(fit));
-  return here.left(here.whiten(chosen))[0] + squares;
+  return here.squares(chosen)[0] + squares;
 }
 
 JointFit Fitter::linearised(double noise) const {
@@ -155,9 +155,8 @@ void Fitter::converge(JointFit& fit, double noise) const {
     fit.variance = now.variance_cautious[0];
     const Whitened& w = scan.whitened(now.cautious[0]);
     fit.criterion = static_cast<double>(scan.degrees_of_freedom()) * std::log(fit.variance) + w.log_determinant();
-    const Vector white = w.whiten(scan.winsorised(chosen));
     Matrix covariance;
-    const Vector x = w.solve(white, &covariance);
+    const Vector x = w.coefficients(scan.winsorised(chosen), &covariance);
     const auto p = index(scan.used().size());
     Vector change = Vector::Zero(fit.design.fixed.cols());
     fit.covariance = Matrix::Constant(change.size(), change.size(), nan);
@@ -229,9 +228,8 @@ void Fitter::settle(JointFit& fit) const {
     const auto m = index(use.size());
     const Whitened plain(own, rows, use, {});
     const Whitened w(own, rows, use, fit.covariance_model);
-    const Vector white = w.whiten(plain.winsorised(plain.take(fit.residual)));
     Matrix covariance;
-    const Vector x = w.solve(white, &covariance);
+    const Vector x = w.coefficients(plain.winsorised(plain.take(fit.residual)), &covariance);
     const Matrix own_covariance = fit.variance * covariance.topLeftCorner(m, m);
     Vector change = Vector::Zero(fit.design.fixed.cols());
     double largest = 0;
@@ -241,7 +239,7 @@ void Fitter::settle(JointFit& fit) const {
     }
     if (largest < criteria.converged) {
       // They follow what was fitted: x = ... - S (known - estimate).
-      const Matrix s = w.solve(w.whiten_rows(fit.design.fixed(Eigen::all, known))).topRows(m);
+      const Matrix s = w.coefficients(w.take(fit.design.fixed(Eigen::all, known))).topRows(m);
       const Matrix v = fit.covariance(known, known), cross = -s * v, total = own_covariance + s * v * s.transpose();
       for (Index i = 0; i < m; ++i) {
         const Index a = open[index(use[index(i)])];

@@ -87,13 +87,12 @@ std::optional<Fitter::Profile> Fitter::profile(const JointFit& fit, std::size_t 
   const auto use = independent(rest, rows_);
   const Whitened plain(rest, rows_, use, {}), prior(rest, rows_, use, fit.covariance_model);
   const Matrix residual = in_sequence(observations_, (-f).colwise() + f.col(out.here).eval()).colwise() + fit.residual;
-  const Matrix white = prior.whiten(plain.winsorised(plain.take(residual)));
-  out.left = prior.left(white);
-  const Matrix through = prior.whiten(prior.take(line_through()));
-  out.u = std::sqrt(fit.variance / through.cwiseProduct(prior.project(through)).sum());
+  const Matrix clean = plain.winsorised(plain.take(residual));
+  out.left = prior.squares(clean);
+  out.u = std::sqrt(fit.variance / prior.squares(prior.take(line_through()))[0]);
   out.freedom = static_cast<double>(prior.degrees_of_freedom());
   for (const Index j : use) out.columns.push_back(others[index(j)]);
-  out.others = prior.solve(white).topRows(index(out.columns.size()));
+  out.others = prior.coefficients(clean).topRows(index(out.columns.size()));
   return out;
 }
 

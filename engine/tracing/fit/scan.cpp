@@ -6,6 +6,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 #include <Eigen/SVD>
 
 #include "propagation/parallel.h"
@@ -16,26 +17,22 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// Orthonormal columns that span the projected signature; empty if next to nothing is left.
-Matrix orthonormal(const Matrix& whitened, const Matrix& projected) {
-  // In the metric with the random parts <g, g> = g~' P g~ of the projected columns.
-  const Matrix gram = whitened.transpose() * projected;
-  Vector length = whitened.colwise().norm();
-  Matrix scaled = gram;
-  for (Index i = 0; i < gram.rows(); ++i)
-    for (Index j = 0; j < gram.cols(); ++j)
-      scaled(i, j) = length[i] > 0 && length[j] > 0 ? gram(i, j) / (length[i] * length[j]) : 0;
+/// Factor that makes reduced columns orthonormal; without columns where next to nothing is left of them.
+Matrix orthonormal(const Matrix& reduced, const Vector& length) {
+  Matrix scaled = reduced.transpose() * reduced;
+  for (Index i = 0; i < scaled.rows(); ++i)
+    for (Index j = 0; j < scaled.cols(); ++j)
+      scaled(i, j) = length[i] > 0 && length[j] > 0 ? scaled(i, j) / (length[i] * length[j]) : 0;
   const Eigen::SelfAdjointEigenSolver<Matrix> eigen((scaled + scaled.transpose()) / 2);
-  std::vector<Index> kept;
-  for (Index j = 0; j < scaled.rows(); ++j)
-    if (eigen.eigenvalues()[j] > criteria.absorbed_share) kept.push_back(j);
-  Matrix out(projected.rows(), index(kept.size()));
-  for (std::size_t i = 0; i < kept.size(); ++i) {
-    Vector direction = eigen.eigenvectors().col(kept[i]);
-    for (Index j = 0; j < direction.size(); ++j) direction[j] = length[j] > 0 ? direction[j] / length[j] : 0;
-    out.col(index(i)) = projected * direction / std::sqrt(eigen.eigenvalues()[kept[i]]);
+  Matrix out(scaled.rows(), scaled.cols());
+  Index kept = 0;
+  for (Index j = 0; j < scaled.rows(); ++j) {
+    if (!(eigen.eigenvalues()[j] > criteria.absorbed_share)) continue;
+    for (Index i = 0; i < out.rows(); ++i)
+      out(i, kept) = length[i] > 0 ? eigen.eigenvectors()(i, j) / (length[i] * std::sqrt(eigen.eigenvalues()[j])) : 0;
+    ++kept;
   }
-  return out;
+  return out.leftCols(kept);
 }
 
 } // namespace
@@ -43,62 +40,93 @@ Matrix orthonormal(const Matrix& whitened, const Matrix& projected) {
 Scan::Scan(const Design& design, const std::vector<Index>& rows, const std::vector<const Candidate*>& candidates,
            int threads)
     : design_(design), rows_(rows), use_(independent(design, rows)), candidates_(candidates), threads_(threads),
-      models_(tracing::covariance_models(design, rows.size())), prepared_(models_.size()), share_(candidates.size(), 0),
+      models_(tracing::covariance_models(design, rows.size())), orthonormal_(models_.size()), share_(candidates.size(), 0),
       absorbed_(candidates.size(), -1), freedom_(rows.size() - use_.size()) {
   for (std::size_t k = 0; k < models_.size(); ++k)
     if (models_[k].correlation == 0 && models_[k].scatter < 0) plain_ = k;
-  Index total = 0;
-  for (const Candidate* a : candidates_) total += a->columns.cols();
-  Matrix chosen(index(rows.size()), total);
-  Index at = 0;
-  for (const Candidate* a : candidates_) {
-    chosen.middleCols(at, a->columns.cols()) = a->columns(rows_, Eigen::all);
-    at += a->columns.cols();
-  }
+  const Whitened first(design_, rows_, use_, models_[0]);
   std::vector<std::unique_ptr<Whitened>> made(models_.size());
-  propagation::parallel_for(models_.size(), threads_, [&](std::size_t k) {
-    made[k] = std::make_unique<Whitened>(design_, rows_, use_, models_[k]);
-  });
+  propagation::parallel_for(models_.size(), threads_,
+                            [&](std::size_t k) { made[k] = std::make_unique<Whitened>(first, models_[k]); });
   for (auto& m : made) whitened_.push_back(std::move(*m));
-  propagation::parallel_for(models_.size(), threads_, [&](std::size_t k) { prepare(k, chosen); });
+  propagation::parallel_for(models_.size(), threads_, [&](std::size_t k) { prepare(k); });
   for (std::size_t a = 0; a < candidates_.size(); ++a)
     if (share_[a] <= criteria.absorbed_share)
-      for (Prepared& p : prepared_) p.blocks[a].count = 0;
+      for (auto& p : orthonormal_) p[a].resize(p[a].rows(), 0);
 }
 
-void Scan::prepare(std::size_t k, const Matrix& chosen) {
-  const Matrix white = whitened_[k].whiten(chosen), left = whitened_[k].project(white);
-  Prepared& p = prepared_[k];
-  p.signatures.resize(white.rows(), white.cols());
-  Index used = 0, from = 0;
-  for (std::size_t a = 0; a < candidates_.size(); ++a) {
-    const Index cols = candidates_[a]->columns.cols();
-    const Matrix w = white.middleCols(from, cols), l = left.middleCols(from, cols);
-    const Matrix basis = orthonormal(w, l);
-    p.blocks.push_back({used, basis.cols()});
-    p.signatures.middleCols(used, basis.cols()) = basis;
-    used += basis.cols();
-    from += cols;
-    if (k == plain_) find_absorbed(a, w, l);
+/// Calls body(first, last) for candidates of not too many columns together.
+template <class Body> void Scan::by_blocks(const Body& body) const {
+  constexpr Index together = 128;
+  for (std::size_t first = 0, last = 0; first < candidates_.size(); first = last) {
+    Index columns = 0;
+    do columns += candidates_[last++]->columns.cols();
+    while (last < candidates_.size() && columns + candidates_[last]->columns.cols() <= together);
+    body(first, last);
   }
-  p.signatures.conservativeResize(Eigen::NoChange, used);
 }
 
-void Scan::find_absorbed(std::size_t a, const Matrix& white, const Matrix& left) {
+Matrix Scan::chosen(std::size_t first, std::size_t last) const {
+  Index total = 0;
+  for (std::size_t a = first; a < last; ++a) total += candidates_[a]->columns.cols();
+  Matrix out(index(rows_.size()), total);
+  Index at = 0;
+  for (std::size_t a = first; a < last; ++a) {
+    out.middleCols(at, candidates_[a]->columns.cols()) = candidates_[a]->columns(rows_, Eigen::all);
+    at += candidates_[a]->columns.cols();
+  }
+  return out;
+}
+
+void Scan::prepare(std::size_t k) {
+  by_blocks([&](std::size_t first, std::size_t last) {
+    const Matrix block = chosen(first, last), white = whitened_[k].whiten(block), left = whitened_[k].reduce(block);
+    Index from = 0;
+    for (std::size_t a = first; a < last; ++a) {
+      const Index cols = candidates_[a]->columns.cols();
+      const Matrix w = white.middleCols(from, cols), l = left.middleCols(from, cols);
+      orthonormal_[k].push_back(orthonormal(l, w.colwise().norm()));
+      if (k == plain_) find_absorbed(a, w, l.squaredNorm());
+      from += cols;
+    }
+  });
+}
+
+void Scan::find_absorbed(std::size_t a, const Matrix& white, double left) {
   const double whole = white.squaredNorm();
-  share_[a] = whole > 0 ? white.cwiseProduct(left).sum() / whole : 0;
+  share_[a] = whole > 0 ? left / whole : 0;
   if (share_[a] >= 0.5 || !(whole > 0)) return;
+  Vector squares;
+  const Matrix overlap = whitened_[plain_].overlap(white, squares);
   double best = 0;
-  const auto compare = [&](const Vector& column, Index place) {
-    const Vector one = whitened_[plain_].whiten_rows(column);
-    const double cosine = one.norm() > 0 ? (one.transpose() * white).norm() / (one.norm() * std::sqrt(whole)) : 0;
+  for (Index j = 0; j < overlap.rows(); ++j) {
+    const double cosine = squares[j] > 0 ? overlap.row(j).norm() / std::sqrt(squares[j] * whole) : 0;
+    const Index used = index(use_.size());
+    const Index place = j < used ? use_[index(j)] : design_.fixed.cols() + j - used;
     if (cosine > best) best = cosine, absorbed_[a] = static_cast<int>(place);
-  };
-  for (const Index c : use_) compare(design_.fixed.col(c), c);
-  for (Index c = 0; c < design_.random.cols(); ++c) compare(design_.random.col(c), design_.fixed.cols() + c);
+  }
 }
 
-Matrix Scan::signature(std::size_t a, std::size_t k) const { return whitened_[k].whiten_rows(candidates_[a]->columns); }
+Matrix Scan::reduced(std::size_t a, std::size_t k) const { return whitened_[k].reduce(chosen(a, a + 1)); }
+
+Matrix Scan::signatures(std::size_t first, std::size_t last, std::size_t k) const {
+  const Matrix block = whitened_[k].reduce(chosen(first, last));
+  Index from = 0, used = 0;
+  for (std::size_t a = first; a < last; ++a) used += orthonormal_[k][a].cols();
+  Matrix out(block.rows(), used);
+  used = 0;
+  for (std::size_t a = first; a < last; ++a) {
+    const Matrix& factor = orthonormal_[k][a];
+    out.middleCols(used, factor.cols()) = block.middleCols(from, factor.rows()) * factor;
+    from += factor.rows();
+    used += factor.cols();
+  }
+  return out;
+}
+
+double Scan::squares_of(double criterion, std::size_t k) const {
+  return std::exp((criterion - whitened_[k].log_determinant()) / static_cast<double>(freedom_));
+}
 
 double Scan::criterion(double left, std::size_t k) const {
   return static_cast<double>(freedom_) * std::log(std::max(left, 1e-300)) + whitened_[k].log_determinant();
@@ -126,23 +154,26 @@ Matrix Scan::with_signatures(const Matrix& data, const Matrix& without, double r
   propagation::parallel_for(parts, threads_, [&](std::size_t part) {
     best[part] = Matrix::Constant(candidates, sets, infinite);
     for (std::size_t k = part; k < count; k += parts) {
-      std::vector<Index> chosen;
+      std::vector<Index> near;
       for (Index j = 0; j < sets; ++j)
-        if (without(index(k), j) - least[j] <= reach) chosen.push_back(j);
-      if (chosen.empty()) continue;
-      const Matrix white = whitened_[k].whiten(data(Eigen::all, chosen));
-      const Matrix explained = (prepared_[k].signatures.transpose() * white).array().square();
-      for (std::size_t i = 0; i < chosen.size(); ++i) {
-        const Index j = chosen[i];
-        const double n = static_cast<double>(freedom_), shift = whitened_[k].log_determinant(),
-                     left = std::exp((without(index(k), j) - shift) / n);
-        for (Index a = 0; a < candidates; ++a) {
-          const Block& b = prepared_[k].blocks[index(a)];
-          if (b.count == 0) continue;
-          const double rest = left - explained.col(index(i)).segment(b.first, b.count).sum();
-          best[part](a, j) = std::min(best[part](a, j), n * std::log(std::max(rest, 1e-12 * left)) + shift);
+        if (without(index(k), j) - least[j] <= reach) near.push_back(j);
+      if (near.empty()) continue;
+      const Matrix left = whitened_[k].reduce(data(Eigen::all, near));
+      by_blocks([&](std::size_t first, std::size_t last) {
+        const Matrix explained = (signatures(first, last, k).transpose() * left).array().square();
+        for (std::size_t i = 0; i < near.size(); ++i) {
+          Index from = 0;
+          for (std::size_t a = first; a < last; ++a) {
+            const Index count = orthonormal_[k][a].cols();
+            if (count == 0) continue;
+            double& least_so_far = best[part](index(a), near[i]);
+            const double squares = squares_of(without(index(k), near[i]), k),
+                         rest = squares - explained.col(index(i)).segment(from, count).sum();
+            least_so_far = std::min(least_so_far, criterion(std::max(rest, 1e-12 * squares), k));
+            from += count;
+          }
         }
-      }
+      });
     }
   });
   Matrix out = Matrix::Constant(candidates, sets, infinite);
@@ -154,7 +185,7 @@ Vector Scan::criteria_of(const Vector& residuals) const {
   const Matrix data = winsorised(residuals);
   Vector out(index(models_.size()));
   for (std::size_t k = 0; k < models_.size(); ++k)
-    out[index(k)] = criterion(whitened_[k].left(whitened_[k].whiten(data))[0], k);
+    out[index(k)] = criterion(whitened_[k].squares(data)[0], k);
   return out;
 }
 
@@ -164,7 +195,7 @@ Statistics Scan::run(const Matrix& residuals, double reach) const {
   const Index sets = data.cols();
   Matrix without(index(models_.size()), sets);
   propagation::parallel_for(models_.size(), threads_, [&](std::size_t k) {
-    const Vector left = whitened_[k].left(whitened_[k].whiten(data));
+    const Vector left = whitened_[k].squares(data);
     for (Index j = 0; j < sets; ++j) without(index(k), j) = criterion(left[j], k);
   });
   const Matrix with = with_signatures(data, without, reach);
@@ -203,8 +234,7 @@ void Scan::choose_models(const Matrix& without, Index j, Statistics& out) const 
   for (Index c = 0; c < out.scatter.rows(); ++c)
     out.scatter(c, j) = std::max(0.0, without(index(single), j) - component[c]);
   const auto variance = [&](std::size_t i) {
-    const auto n = static_cast<double>(freedom_);
-    return std::exp((without(index(i), j) - whitened_[i].log_determinant()) / n) / n;
+    return squares_of(without(index(i), j), i) / static_cast<double>(freedom_);
   };
   out.covariance_model[index(j)] = k;
   out.without_scatter[index(j)] = single;
@@ -215,55 +245,51 @@ void Scan::choose_models(const Matrix& without, Index j, Statistics& out) const 
   out.variance_without_scatter[j] = variance(single);
 }
 
-double Scan::left_with(std::size_t a, std::size_t k, const Vector& white, double left) const {
-  const Block& b = prepared_[k].blocks[a];
-  return left - (prepared_[k].signatures.middleCols(b.first, b.count).transpose() * white).squaredNorm();
-}
-
 Fit Scan::fit(std::size_t a, const Vector& residuals) const {
   const Matrix data = winsorised(residuals);
   Fit out;
-  double best = infinite, base = best;
+  double best = infinite, base = best, rest = 0;
   for (std::size_t k = 0; k < models_.size(); ++k) {
-    const Vector white = whitened_[k].whiten(data);
-    const double left = whitened_[k].left(white)[0];
+    const Vector white = whitened_[k].reduce(data);
+    const double left = white.squaredNorm(), with = left - (signatures(a, a + 1, k).transpose() * white).squaredNorm();
     base = std::min(base, criterion(left, k));
-    const double c = criterion(std::max(left_with(a, k, white, left), 1e-12 * left), k);
-    if (c < best - criteria.as_good) best = c, out.covariance_model = k;
+    const double c = criterion(std::max(with, 1e-12 * left), k);
+    if (c < best - criteria.as_good) best = c, rest = with, out.covariance_model = k;
   }
   out.ratio = std::max(0.0, base - best);
   const Whitened& w = whitened_[out.covariance_model];
-  const Vector white = w.whiten(data);
-  Matrix covariance;
-  const Vector x = w.solve(white, &covariance, signature(a, out.covariance_model));
   const Index d = candidates_[a]->columns.cols();
-  out.size = x.tail(d);
-  const double rest = left_with(a, out.covariance_model, white, w.left(white)[0]);
+  // Columns of length one, of which what is absorbed is not fitted.
+  const Vector length = w.whiten(chosen(a, a + 1)).colwise().norm();
+  Vector scale = Vector::Zero(d);
+  for (Index j = 0; j < d; ++j)
+    if (length[j] > 0) scale[j] = 1 / length[j];
+  Eigen::CompleteOrthogonalDecomposition<Matrix> columns;
+  columns.setThreshold(1e-10);
+  columns.compute(reduced(a, out.covariance_model) * scale.asDiagonal());
+  out.size = scale.asDiagonal() * columns.solve(w.reduce(data));
+  const Matrix inverse = columns.pseudoInverse();
+  const Vector variance = scale.array().square() * inverse.rowwise().squaredNorm().array();
   const double s2 = rest / std::max(1.0, static_cast<double>(freedom_) - static_cast<double>(d));
-  out.u = (s2 * covariance.diagonal().tail(d)).cwiseMax(0).cwiseSqrt();
+  out.u = (s2 * variance).cwiseMax(0).cwiseSqrt();
   return out;
 }
 
 double Scan::pair_ratio(std::size_t a, std::size_t b, const Vector& residuals, std::size_t k) const {
-  const Whitened& w = whitened_[k];
-  const Vector white = w.whiten(winsorised(residuals));
-  Matrix both(white.size(), candidates_[a]->columns.cols() + candidates_[b]->columns.cols());
-  both << signature(a, k), signature(b, k);
-  for (Index j = 0; j < both.cols(); ++j) {
-    const double length = both.col(j).norm();
-    if (length > 0) both.col(j) /= length;
-  }
-  const Matrix basis = orthonormal(both, w.project(both));
-  const double left = w.left(white)[0], in = (basis.transpose() * white).squaredNorm();
+  const Vector data = whitened_[k].reduce(winsorised(residuals));
+  Matrix both(data.size(), candidates_[a]->columns.cols() + candidates_[b]->columns.cols());
+  both << chosen(a, a + 1), chosen(b, b + 1);
+  const Matrix left_of_both = whitened_[k].reduce(both);
+  const Matrix basis = left_of_both * orthonormal(left_of_both, whitened_[k].whiten(both).colwise().norm());
+  const double left = data.squaredNorm(), in = (basis.transpose() * data).squaredNorm();
   return static_cast<double>(freedom_) * std::log(left / std::max(left - in, 1e-12 * left));
 }
 
 double Scan::correlation(std::size_t a, std::size_t b, std::size_t k) const {
-  const Matrix x = signature(a, k), y = signature(b, k);
-  const Matrix xp = whitened_[k].project(x), yp = whitened_[k].project(y);
-  const Eigen::LLT<Matrix> xx(Matrix(x.transpose() * xp)), yy(Matrix(y.transpose() * yp));
+  const Matrix x = reduced(a, k), y = reduced(b, k);
+  const Eigen::LLT<Matrix> xx(Matrix(x.transpose() * x)), yy(Matrix(y.transpose() * y));
   if (xx.info() != Eigen::Success || yy.info() != Eigen::Success) return 0;
-  const Matrix cross = xx.matrixL().solve(Matrix(x.transpose() * yp));
+  const Matrix cross = xx.matrixL().solve(Matrix(x.transpose() * y));
   const Matrix canonical = yy.matrixL().solve(Matrix(cross.transpose()));
   const Eigen::JacobiSVD<Matrix> svd(canonical);
   // Between spaces of unequal size: how well the smaller lies in the larger.
@@ -271,8 +297,7 @@ double Scan::correlation(std::size_t a, std::size_t b, std::size_t k) const {
 }
 
 double Scan::information(std::size_t a, Index column, std::size_t k) const {
-  const Matrix w = whitened_[k].whiten_rows(candidates_[a]->columns.col(column));
-  return std::max(0.0, w.cwiseProduct(whitened_[k].project(w)).sum());
+  return whitened_[k].squares(whitened_[k].take(candidates_[a]->columns.col(column)))[0];
 }
 
 } // namespace gumshoe::tracing

@@ -69,21 +69,17 @@ public:
   const std::vector<Index>& used() const { return use_; } ///< independent fixed columns
 
 private:
-  struct Block {
-    Index first = 0, count = 0; ///< columns of `signatures`
-  };
-  struct Prepared {
-    Matrix signatures; ///< orthonormal within each candidate, projected
-    std::vector<Block> blocks;
-  };
-  Matrix signature(std::size_t candidate, std::size_t model) const; ///< whitened
-  void prepare(std::size_t model, const Matrix& chosen);
-  void find_absorbed(std::size_t candidate, const Matrix& white, const Matrix& left);
+  template <class Body> void by_blocks(const Body& body) const;
+  Matrix chosen(std::size_t first, std::size_t last) const;      ///< rows of these candidates' columns
+  Matrix reduced(std::size_t candidate, std::size_t model) const; ///< Whitened::reduce of a signature
+  /// Of these candidates, reduced and orthonormal within each.
+  Matrix signatures(std::size_t first, std::size_t last, std::size_t model) const;
+  void prepare(std::size_t model);
+  void find_absorbed(std::size_t candidate, const Matrix& white, double left);
   double criterion(double left, std::size_t model) const;
+  double squares_of(double criterion, std::size_t model) const; ///< its inverse
   /// Smallest criterion of each candidate in each set, over all models. @param without criteria [model][set]
   Matrix with_signatures(const Matrix& data, const Matrix& without, double reach) const;
-  /// Squares left by a candidate of whitened data that leave `left` without it.
-  double left_with(std::size_t candidate, std::size_t model, const Vector& white, double left) const;
   void choose_models(const Matrix& without, Index set, Statistics& out) const;
 
   const Design& design_;
@@ -92,7 +88,7 @@ private:
   int threads_;
   std::vector<CovarianceModel> models_;
   std::vector<Whitened> whitened_;
-  std::vector<Prepared> prepared_;
+  std::vector<std::vector<Matrix>> orthonormal_; ///< [model][candidate]: factor of its reduced columns
   std::vector<double> share_;
   std::vector<int> absorbed_;
   std::size_t freedom_ = 0, plain_ = 0;

@@ -190,7 +190,7 @@ bool Evidence::of_few(const JointFit& other) const {
   const auto squares = [&](const JointFit& fit) {
     const Scan scan(fit.design, c_.fitter.rows(), {}, c_.threads);
     const Whitened& w = scan.whitened(scan.plain());
-    return Vector(w.project(w.whiten(scan.winsorised(w.take(fit.residual)))).array().square());
+    return Vector(w.left_over(scan.winsorised(w.take(fit.residual))).array().square());
   };
   return share_of_few(squares(fit_) - squares(other), c_.observations.indications) > criteria.few_share;
 }

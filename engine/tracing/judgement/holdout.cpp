@@ -13,7 +13,7 @@ HeldOut hold_out(const Design& d, const Matrix& residual, const std::vector<Inde
   out.rows = test;
   const auto use = independent(d, train);
   const Whitened w(d, train, use, model);
-  const Matrix x = w.solve(w.whiten_rows(residual));
+  const Matrix x = w.coefficients(w.take(residual));
   const auto p = index(use.size()), q = d.random.cols();
   Matrix as_declared = residual(test, Eigen::all);
   as_declared -= d.fixed(test, use) * x.topRows(p);
@@ -36,15 +36,15 @@ HeldOut hold_out(const Design& d, const Matrix& residual, const std::vector<Inde
   const Whitened local(own, test, seen, {});
   for (Matrix* of : {&out.residual, &as_declared}) {
     if (seen.empty()) break;
-    const Matrix offset = local.solve(local.whiten(*of));
+    const Matrix offset = local.coefficients(*of);
     for (Index i = 0; i < of->rows(); ++i)
       for (std::size_t j = 0; j < seen.size(); ++j)
         of->row(i) -= own.fixed(test[index(i)], seen[j]) * offset.row(index(j));
   }
   if (out.count <= 0) return out;
   // Squares of what the offsets leave: those may be millions of times the noise, and differences would lose digits.
-  out.squares = local.left(local.whiten(out.residual));
-  out.whitened = declared.left(declared.whiten(as_declared));
+  out.squares = local.squares(out.residual);
+  out.whitened = declared.squares(as_declared);
   return out;
 }
 

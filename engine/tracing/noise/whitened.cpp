@@ -2,47 +2,68 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
+#include <ranges>
 
 namespace gumshoe::tracing {
+namespace {
 
-Whitened::Whitened(const Design& d, std::vector<Index> rows, std::vector<Index> use, const CovarianceModel& model)
-    : design_(d), rows_(std::move(rows)), use_(std::move(use)), model_(model) {
-  const auto n = index(rows_.size()), p = index(use_.size()), q = d.random.cols();
-  const auto k = static_cast<double>(rows_.size()) / static_cast<double>(d.indications);
-  log_determinant_ = static_cast<double>(d.indications) * (k - 1) * std::log(1 - model.correlation * model.correlation);
-  if (const auto group = scattered(); !group.empty()) filter_scatter(group);
-  Matrix top(n, p + q);
-  top.leftCols(p) = d.fixed(rows_, use_);
-  top.rightCols(q) = take(d.random);
-  stacked_ = Matrix::Zero(n + q, p + q);
-  stacked_.topRows(n) = whiten(std::move(top));
-  stacked_.bottomRightCorner(q, q).setIdentity();
-  factorise();
+/// a x + b y, without what is zero.
+SparseRow combined(double a, const SparseRow& x, double b, const SparseRow& y) {
+  SparseRow out;
+  for (const auto& [column, value] : x) out.push_back({column, a * value});
+  for (const auto& [column, value] : y) {
+    const auto same = std::ranges::find_if(out, [&](const auto& e) { return e.first == column; });
+    if (same == out.end())
+      out.push_back({column, b * value});
+    else
+      same->second += b * value;
+  }
+  std::erase_if(out, [](const auto& e) { return e.second == 0; });
+  std::ranges::sort(out);
+  return out;
 }
 
-void Whitened::factorise() {
-  const auto n = index(rows_.size()), p = index(use_.size()), q = design_.random.cols();
-  basis_ = Matrix::Zero(n, 0);
-  if (p + q == 0) return;
-  // Columns of length one, by the same scale under every covariance model: the determinant below is of the data, not of
-  // the unknowns' units.
-  Matrix scaled = stacked_;
-  for (Index j = 0; j < p; ++j) {
+} // namespace
+
+Whitened::Whitened(const Design& d, std::vector<Index> rows, std::vector<Index> use, const CovarianceModel& model)
+    : design_(d), rows_(std::move(rows)), use_(std::move(use)), model_(model),
+      columns_(std::make_shared<const Columns>(columns_in_units())) {
+  eliminate();
+}
+
+Whitened::Whitened(const Whitened& other, const CovarianceModel& model)
+    : design_(other.design_), rows_(other.rows_), use_(other.use_), model_(model), columns_(other.columns_) {
+  eliminate();
+}
+
+/// The local factor of each reading divided out of the columns that move it.
+Whitened::Columns Whitened::columns_in_units() const {
+  const Design& d = design_;
+  const auto k = index(d.indications), n = index(rows_.size());
+  Columns out{std::vector<SparseRow>(rows_.size()), 0};
+  const auto add = [&](const auto& column, std::size_t number) {
+    for (Index i = 0; i < n; i += k) {
+      const auto rows = rows_ | std::views::drop(i) | std::views::take(k);
+      if (std::ranges::all_of(rows, [&](Index row) { return column[row] == 0; })) continue;
+      Vector own(k);
+      for (Index a = 0; a < k; ++a) own[a] = column[rows[a]];
+      d.local[index(rows[0] / k)].triangularView<Eigen::Lower>().solveInPlace(own);
+      for (Index a = 0; a < k; ++a)
+        if (own[a] != 0) out.rows[index(i + a)].push_back({number, own[a]});
+    }
+  };
+  std::size_t number = 0;
+  for (const Index j : use_) add(d.fixed.col(j), number++);
+  for (Index j = 0; j < d.random.cols(); ++j) add(d.random.col(j), number++);
+  for (const Index j : use_) {
     double square = 0;
     for (const Index row : rows_) {
-      const double x = design_.fixed(row, use_[index(j)]) / design_.reference[index(row) % design_.indications];
+      const double x = d.fixed(row, j) / d.reference[index(row) % d.indications];
       square += x * x;
     }
-    if (square > 0) scaled.col(j) /= std::sqrt(square);
+    if (square > 0) out.log_squares += std::log(square);
   }
-  const Eigen::HouseholderQR<Matrix> qr(scaled);
-  for (Index j = 0; j < p + q; ++j) log_determinant_ += 2 * std::log(std::fabs(qr.matrixQR()(j, j)));
-  Matrix thin = Matrix::Identity(n + q, p + q);
-  thin.applyOnTheLeft(qr.householderQ());
-  basis_ = thin.topRows(n);
+  return out;
 }
 
 std::vector<int> Whitened::scattered() const {
@@ -64,45 +85,57 @@ double Whitened::scatter_unit(std::size_t row) const {
   return model_.ratio * design_.reference[index(rows_[row]) % design_.indications];
 }
 
-/// Z of the variance component, its rows whitened as all are.
-void Whitened::filter_scatter(const std::vector<int>& group) {
+/// Z of the variance component.
+std::vector<SparseRow> Whitened::scatter_in_units(const std::vector<int>& group) const {
   const std::size_t k = design_.indications;
-  const double rho = model_.correlation, factor = 1 / std::sqrt(1 - rho * rho);
-  Innovations::Rows z(rows_.size());
-  Matrix before;
+  std::vector<SparseRow> out(rows_.size());
   for (std::size_t i = 0; i < rows_.size(); i += k) {
-    const Matrix& local = design_.local[index(rows_[i]) / k];
     Matrix own = Matrix::Zero(index(k), index(k));
     for (std::size_t a = 0; a < k; ++a)
       if (group[i + a] >= 0) own(index(a), index(a)) = scatter_unit(i + a);
-    local.triangularView<Eigen::Lower>().solveInPlace(own);
-    const auto add = [&](std::size_t row, std::size_t from, const Matrix& w, double times) {
-      for (std::size_t b = 0; b < k; ++b) {
-        const double x = times * w(index(row - i), index(b));
-        if (x == 0) continue;
-        const auto effect = index(group[from + b]);
-        auto& here = z[row];
-        const auto same = std::ranges::find_if(here, [&](const auto& e) { return e.first == effect; });
-        if (same == here.end())
-          here.push_back({effect, x});
-        else
-          same->second += x;
-      }
-    };
-    for (std::size_t row = i; row < i + k; ++row) {
-      add(row, i, own, rho != 0 && i > 0 ? factor : 1);
-      if (rho != 0 && i > 0) add(row, i - k, before, -rho * factor);
-    }
-    before = std::move(own);
+    design_.local[index(rows_[i]) / k].triangularView<Eigen::Lower>().solveInPlace(own);
+    for (std::size_t a = 0; a < k; ++a)
+      for (std::size_t b = 0; b <= a; ++b)
+        if (const double x = own(index(a), index(b)); x != 0) out[i + a].push_back({index(group[i + b]), x});
   }
-  scatter_.emplace(z);
-  log_determinant_ += scatter_->log_determinant();
+  return out;
 }
 
-Matrix Whitened::whiten(Matrix x) const {
+std::vector<SparseRow> Whitened::decorrelated(const std::vector<SparseRow>& rows) const {
+  const double rho = model_.correlation, factor = 1 / std::sqrt(1 - rho * rho);
+  if (rho == 0) return rows;
+  std::vector<SparseRow> out;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    out.push_back(i < design_.indications ? rows[i]
+                                          : combined(factor, rows[i], -rho * factor, rows[i - design_.indications]));
+  return out;
+}
+
+void Whitened::eliminate() {
+  const Design& d = design_;
+  const std::size_t p = use_.size(), count = p + index(d.random.cols());
+  std::size_t groups = 0;
+  auto rows = decorrelated(columns_->rows);
+  if (const auto group = scattered(); !group.empty()) {
+    const auto z = decorrelated(scatter_in_units(group));
+    scatter_.emplace(z);
+    groups = index(*std::ranges::max_element(group) + 1);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      for (const auto& [effect, value] : z[i]) rows[i].push_back({count + effect, value});
+  }
+  elimination_ = std::make_shared<const Elimination>(rows, count + groups, p);
+  const auto k = static_cast<double>(rows_.size()) / static_cast<double>(d.indications);
+  log_determinant_ =
+      static_cast<double>(d.indications) * (k - 1) * std::log(1 - model_.correlation * model_.correlation);
+  for (std::size_t j = 0; j < count + groups; ++j) log_determinant_ += 2 * elimination_->log_pivot(j);
+  // Columns of length one, by the same scale under every covariance model: the determinant is of the data, not of the
+  // unknowns' units.
+  log_determinant_ -= columns_->log_squares;
+}
+
+Matrix Whitened::in_units(Matrix x) const {
   constexpr Index together = 32; // columns that stay in the cache, with the values of a row side by side
   const auto k = index(design_.indications), n = x.rows();
-  const double rho = model_.correlation, factor = 1 / std::sqrt(1 - rho * rho);
   Matrix t;
   for (Index from = 0; from < x.cols(); from += together) {
     const Index count = std::min(together, x.cols() - from);
@@ -114,43 +147,46 @@ Matrix Whitened::whiten(Matrix x) const {
         t.col(i + a) /= local(a, a);
       }
     }
-    if (rho != 0)
-      for (Index i = n - 1; i >= k; --i) t.col(i) = factor * (t.col(i) - rho * t.col(i - k));
-    if (scatter_) scatter_->whiten(t);
     x.middleCols(from, count) = t.transpose();
   }
   return x;
 }
 
-Vector Whitened::left(const Matrix& whitened) const {
-  return whitened.colwise().squaredNorm().transpose() -
-         (basis_.transpose() * whitened).colwise().squaredNorm().transpose();
+Matrix Whitened::decorrelated(Matrix x) const {
+  x = in_units(std::move(x));
+  const auto k = index(design_.indications);
+  const double rho = model_.correlation, factor = 1 / std::sqrt(1 - rho * rho);
+  if (rho != 0)
+    for (Index j = 0; j < x.cols(); ++j)
+      for (Index i = x.rows() - 1; i >= k; --i) x(i, j) = factor * (x(i, j) - rho * x(i - k, j));
+  return x;
 }
 
-Matrix Whitened::solve(const Matrix& y, Matrix* covariance, const Matrix& extra) const {
-  const Index top = stacked_.rows(), p = stacked_.cols(), m = extra.cols(), n = y.rows();
-  if (p + m == 0) { // nothing is free and nothing shared
-    if (covariance) covariance->resize(0, 0);
-    return Matrix(0, y.cols());
-  }
-  Matrix a = Matrix::Zero(top, p + m);
-  a.leftCols(p) = stacked_;
-  if (m > 0) a.topRightCorner(n, m) = extra;
-  Matrix b = Matrix::Zero(top, y.cols());
-  b.topRows(n) = y;
-  Vector scale(p + m);
-  for (Index j = 0; j < p + m; ++j) {
-    const double length = a.col(j).norm();
-    scale[j] = length > 0 ? 1 / length : 1;
-    a.col(j) *= scale[j];
-  }
-  const Matrix x = Eigen::ColPivHouseholderQR<Matrix>(a).solve(b);
-  if (covariance) {
-    const Eigen::CompleteOrthogonalDecomposition<Matrix> cod(a.transpose() * a);
-    const Matrix full = scale.asDiagonal() * Matrix(cod.pseudoInverse()) * scale.asDiagonal();
-    *covariance = (full + full.transpose()) / 2; // equal to the last bit
-  }
-  return scale.asDiagonal() * x;
+Matrix Whitened::whiten(Matrix x) const {
+  x = decorrelated(std::move(x));
+  if (!scatter_) return x;
+  Matrix t = x.transpose();
+  scatter_->whiten(t);
+  return t.transpose();
+}
+
+Vector Whitened::squares(const Matrix& chosen) const { return elimination_->squares(decorrelated(chosen)); }
+
+Matrix Whitened::coefficients(const Matrix& chosen, Matrix* covariance) const {
+  const Index count = index(use_.size()) + design_.random.cols();
+  if (covariance) *covariance = elimination_->covariance(count);
+  return elimination_->solved(decorrelated(chosen)).topRows(count);
+}
+
+Matrix Whitened::overlap(const Matrix& x, Vector& squares) const {
+  Matrix out = Matrix::Zero(index(use_.size()) + design_.random.cols(), x.cols());
+  squares = Vector::Zero(out.rows());
+  for (std::size_t i = 0; i < rows_.size(); ++i)
+    for (const auto& [column, value] : columns_->rows[i]) {
+      out.row(index(column)) += value * x.row(index(i));
+      squares[index(column)] += value * value;
+    }
+  return out;
 }
 
 } // namespace gumshoe::tracing

@@ -1,9 +1,11 @@
 #pragma once
-/// Some rows of a design under one covariance model: whitening, projection, solution, draws of the noise.
+/// Some rows of a design under one covariance model: whitening, elimination of its columns, draws of the noise.
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "tracing/noise/design.h"
+#include "tracing/noise/elimination.h"
 #include "tracing/noise/innovations.h"
 
 namespace gumshoe::tracing {
@@ -26,45 +28,59 @@ public:
   /// @param rows  chosen rows, ascending
   /// @param use   columns of Design::fixed that are used
   Whitened(const Design& design, std::vector<Index> rows, std::vector<Index> use, const CovarianceModel& model);
+  /// The same rows under another covariance model.
+  Whitened(const Whitened& other, const CovarianceModel& model);
 
   /// Chosen rows of a matrix over all rows.
   Matrix take(const Matrix& all) const { return all(rows_, Eigen::all); }
-  /// Chosen rows in units of the noise, without serial correlation.
+  /// Chosen rows in units of the noise, without serial correlation and component.
   Matrix whiten(Matrix chosen) const;
-  Matrix whiten_rows(const Matrix& all) const { return whiten(take(all)); }
-  /// Part of whitened columns that the fixed and random columns leave: x - Q Q'x.
-  Matrix project(const Matrix& whitened) const { return whitened - basis_ * (basis_.transpose() * whitened); }
+  /// What is left of products when the fixed and random columns are eliminated, too: reduce(a)' reduce(b) = a'WMb.
+  Matrix reduce(Matrix chosen) const { return elimination_->reduced(decorrelated(std::move(chosen))); }
+  /// a'WMa of each column of chosen rows: the squares left, with the cost of the random columns.
+  Vector squares(const Matrix& chosen) const;
   /// Residuals of the chosen rows (not whitened), winsorised at criteria.winsor_limit robust standard deviations.
   /// For a covariance model without correlation or component.
   /// @param scale   robust standard deviation by column, in units of the design's
   /// @param weight  1 where a residual was not changed, below 1 where it was winsorised
   Matrix winsorised(const Matrix& residuals, Vector* scale = nullptr, Matrix* weight = nullptr) const;
-  /// Sum of squares left of each whitened column, with the cost of the random columns.
-  Vector left(const Matrix& whitened) const;
+  /// Whitened part of chosen rows that the fixed and random columns leave. For a model without component.
+  Matrix left_over(Matrix chosen) const { return elimination_->projected(decorrelated(std::move(chosen))); }
   /// Minus twice the logarithm of the density's factor that does not depend on the data.
   double log_determinant() const { return log_determinant_; }
-  /// Best coefficients (fixed, random, extra) by column of whitened data. `covariance` of the coefficients, at scale 1.
-  Matrix solve(const Matrix& whitened, Matrix* covariance = nullptr, const Matrix& whitened_extra = {}) const;
+  /// Best coefficients (fixed, random) by column of chosen rows. `covariance` of the coefficients, at scale 1.
+  Matrix coefficients(const Matrix& chosen, Matrix* covariance = nullptr) const;
+  /// Squared length of each fixed and random column, and their products with others, by the noise of readings alone.
+  Matrix overlap(const Matrix& whitened, Vector& squares) const;
   /// n draws of the noise (columns), declared draws included, in SI. `seed` keys the stream.
   Matrix draw(std::size_t n, std::uint64_t seed, const NoiseShape& shape = {}) const;
   const std::vector<Index>& rows() const { return rows_; }
   std::size_t degrees_of_freedom() const { return rows_.size() - use_.size(); }
 
 private:
+  /// Fixed, then random columns, in units of the noise of readings.
+  struct Columns {
+    std::vector<SparseRow> rows;
+    double log_squares = 0; ///< sum over the fixed ones of ln of their squared length in units of the reference
+  };
   /// Group of the variance component that moves each chosen row, or -1; empty without a component.
   std::vector<int> scattered() const;
   double scatter_unit(std::size_t row) const; ///< standard deviation of the component in a chosen row
-  void filter_scatter(const std::vector<int>& group);
-  void factorise();
+  Matrix in_units(Matrix chosen) const;       ///< of the noise of readings, correlated
+  Matrix decorrelated(Matrix chosen) const;   ///< in units of the noise, without serial correlation
+  std::vector<SparseRow> decorrelated(const std::vector<SparseRow>& rows) const;
+  Columns columns_in_units() const;
+  std::vector<SparseRow> scatter_in_units(const std::vector<int>& group) const;
+  void eliminate();
   void add_declared(std::size_t n, std::uint64_t seed, Matrix& out) const;
   void add_scatter(std::size_t n, std::uint64_t seed, const NoiseShape& shape, Matrix& out) const;
 
   const Design& design_;
   std::vector<Index> rows_, use_;
   CovarianceModel model_;
+  std::shared_ptr<const Columns> columns_;
   std::optional<Innovations> scatter_;
-  Matrix stacked_; ///< whitened fixed and random columns, over the unit rows of the latter
-  Matrix basis_;   ///< Q, the data's part
+  std::shared_ptr<const Elimination> elimination_; ///< of the columns and the component
   double log_determinant_ = 0;
 };
 

@@ -19,8 +19,8 @@ double robust_scale(std::vector<double>& sizes) {
 }
 
 Matrix Whitened::winsorised(const Matrix& residuals, Vector* scale, Matrix* weight) const {
-  Matrix white = whiten(residuals);
-  const Matrix left = project(white);
+  Matrix white = decorrelated(residuals);
+  const Matrix left = elimination_->projected(white);
   const auto freedom = static_cast<double>(degrees_of_freedom());
   const double lost = freedom / static_cast<double>(residuals.rows());
   if (scale) scale->resize(residuals.cols());
