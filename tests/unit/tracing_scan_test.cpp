@@ -174,8 +174,7 @@ TEST_CASE("draws of the noise have the dense covariance", "[tracing]") {
     }
     // What is left of it is chi-squared: its mean is the degrees of freedom.
     const double freedom = static_cast<double>(e.rows() - d.fixed.cols());
-    CHECK(w.squares(e).mean() ==
-          Approx(freedom).margin(5 * std::sqrt(2 * freedom / static_cast<double>(draws))));
+    CHECK(w.squares(e).mean() == Approx(freedom).margin(5 * std::sqrt(2 * freedom / static_cast<double>(draws))));
   }
 }
 

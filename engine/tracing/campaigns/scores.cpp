@@ -23,7 +23,8 @@ Campaign scores_of(const TraceContext& c, const JointFit& fit) {
     if (a.finite != 0) continue;
     const int variant = variants[a.name]++;
     const Matrix columns = w.take(a.columns), g = w.reduce(columns), information = g.transpose() * g;
-    if ((information.diagonal().array() <= criteria.absorbed_share * w.whiten(columns).colwise().squaredNorm().transpose().array())
+    if ((information.diagonal().array() <=
+         criteria.absorbed_share * w.whiten(columns).colwise().squaredNorm().transpose().array())
             .any())
       continue;
     Score one{a.name, variant, {}, g.transpose() * left.col(0), (information + information.transpose()) / 2};

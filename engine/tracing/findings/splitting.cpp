@@ -41,9 +41,9 @@ std::vector<Proposal> proposals(const ModelCard& card, const Scenario& s) {
         out.push_back({c, 0, Proposal::reverse, fmt::format("also measure with the other {}{}", v.name, all)});
     } else if (v.si_unit == "rad") {
       for (const double turn : {0.5 * std::numbers::pi, std::numbers::pi})
-        out.push_back({c, turn, Proposal::add,
-                       fmt::format("also measure with {} turned by {:.0f} deg", v.name,
-                                   turn * 180 / std::numbers::pi)});
+        out.push_back(
+            {c, turn, Proposal::add,
+             fmt::format("also measure with {} turned by {:.0f} deg", v.name, turn * 180 / std::numbers::pi)});
     } else if (v.name == "time") {
       const double range = *levels.rbegin() - *levels.begin();
       if (range > 0)

@@ -40,8 +40,8 @@ Matrix orthonormal(const Matrix& reduced, const Vector& length) {
 Scan::Scan(const Design& design, const std::vector<Index>& rows, const std::vector<const Candidate*>& candidates,
            int threads)
     : design_(design), rows_(rows), use_(independent(design, rows)), candidates_(candidates), threads_(threads),
-      models_(tracing::covariance_models(design, rows.size())), orthonormal_(models_.size()), share_(candidates.size(), 0),
-      absorbed_(candidates.size(), -1), freedom_(rows.size() - use_.size()) {
+      models_(tracing::covariance_models(design, rows.size())), orthonormal_(models_.size()),
+      share_(candidates.size(), 0), absorbed_(candidates.size(), -1), freedom_(rows.size() - use_.size()) {
   for (std::size_t k = 0; k < models_.size(); ++k)
     if (models_[k].correlation == 0 && models_[k].scatter < 0) plain_ = k;
   const Whitened first(design_, rows_, use_, models_[0]);
@@ -184,8 +184,7 @@ Matrix Scan::with_signatures(const Matrix& data, const Matrix& without, double r
 Vector Scan::criteria_of(const Vector& residuals) const {
   const Matrix data = winsorised(residuals);
   Vector out(index(models_.size()));
-  for (std::size_t k = 0; k < models_.size(); ++k)
-    out[index(k)] = criterion(whitened_[k].squares(data)[0], k);
+  for (std::size_t k = 0; k < models_.size(); ++k) out[index(k)] = criterion(whitened_[k].squares(data)[0], k);
   return out;
 }
 

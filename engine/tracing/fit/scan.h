@@ -70,7 +70,7 @@ public:
 
 private:
   template <class Body> void by_blocks(const Body& body) const;
-  Matrix chosen(std::size_t first, std::size_t last) const;      ///< rows of these candidates' columns
+  Matrix chosen(std::size_t first, std::size_t last) const;       ///< rows of these candidates' columns
   Matrix reduced(std::size_t candidate, std::size_t model) const; ///< Whitened::reduce of a signature
   /// Of these candidates, reduced and orthonormal within each.
   Matrix signatures(std::size_t first, std::size_t last, std::size_t model) const;

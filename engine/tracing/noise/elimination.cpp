@@ -82,7 +82,8 @@ public:
       const Index slot = slot_of_[column];
       Pivot pivot{index(column), factor_(slot, slot), {}};
       for (std::size_t j = done + 1; j < columns_.size(); ++j)
-        if (const double x = factor_(slot, slot_of_[columns_[j]]); x != 0) pivot.right.push_back({index(columns_[j]), x});
+        if (const double x = factor_(slot, slot_of_[columns_[j]]); x != 0)
+          pivot.right.push_back({index(columns_[j]), x});
       to_.pivots_.push_back(std::move(pivot));
       to_.closed_.push_back(static_cast<std::uint32_t>(slot));
       free_.push_back(slot);
@@ -120,14 +121,15 @@ Elimination::Elimination(const std::vector<SparseRow>& rows, std::size_t columns
 }
 
 EliminationPlan Elimination::plan() const {
-  return {opened_end_.size(),   opened_.data(),     opened_end_.data(), slot_.data(), rotation_end_.data(),
-          closed_.data(), closed_end_.data(), cosine_.data(),     sine_.data()};
+  return {opened_end_.size(), opened_.data(),     opened_end_.data(), slot_.data(), rotation_end_.data(),
+          closed_.data(),     closed_end_.data(), cosine_.data(),     sine_.data()};
 }
 
 template <class Body> void Elimination::by_blocks(const Matrix& x, const Body& body) const {
   for (Index first = 0; first < x.cols();) {
     const bool few = x.cols() - first <= index(few_elimination_lanes);
-    const Index lanes = index(few ? few_elimination_lanes : elimination_lanes), count = std::min(lanes, x.cols() - first);
+    const Index lanes = index(few ? few_elimination_lanes : elimination_lanes),
+                count = std::min(lanes, x.cols() - first);
     Matrix block = Matrix::Zero(lanes, x.rows());
     block.topRows(count) = x.middleCols(first, count).transpose();
     body(first, count, block);

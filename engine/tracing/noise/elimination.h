@@ -13,7 +13,8 @@ namespace gumshoe::tracing {
 /// Columns that one row holds, with their values.
 using SparseRow = std::vector<std::pair<std::size_t, double>>;
 
-/// x is rows x any. P projects off the columns, of which all but the `free` first have a unit row, 0 = coefficient, too.
+/// x is rows x any. P projects off the columns, of which all but the `free` first have a unit row, 0 = coefficient,
+/// too.
 class Elimination {
 public:
   Elimination(const std::vector<SparseRow>& rows, std::size_t columns, std::size_t free);

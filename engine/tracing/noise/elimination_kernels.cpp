@@ -71,4 +71,4 @@ void restore(const EliminationPlan& plan, std::size_t lanes, double* t, double* 
 
 extern "C" const gumshoe::tracing::EliminationKernels GUMSHOE_KERNEL(gumshoe_elimination_);
 const gumshoe::tracing::EliminationKernels GUMSHOE_KERNEL(gumshoe_elimination_) = {gumshoe::tracing::reduce,
-                                                                                  gumshoe::tracing::restore};
+                                                                                   gumshoe::tracing::restore};

@@ -17,8 +17,8 @@ struct EliminationPlan {
 inline constexpr std::size_t elimination_lanes = 32, few_elimination_lanes = 8;
 
 struct EliminationKernels {
-  /// Rows are rotated into the open slots; what is left of them stays in t. `kept` [close][lane]: what a slot holds when
-  /// it closes; or null.
+  /// Rows are rotated into the open slots; what is left of them stays in t. `kept` [close][lane]: what a slot holds
+  /// when it closes; or null.
   void (*reduce)(const EliminationPlan& plan, std::size_t lanes, double* t, double* state, double* kept);
   /// Rotates back, with nothing in the slots.
   void (*restore)(const EliminationPlan& plan, std::size_t lanes, double* t, double* state);
