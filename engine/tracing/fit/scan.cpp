@@ -9,6 +9,7 @@
 #include <Eigen/QR>
 #include <Eigen/SVD>
 
+#include "math/products.h"
 #include "propagation/parallel.h"
 #include "tracing/criteria.h"
 
@@ -45,6 +46,12 @@ Scan::Scan(const Design& design, const std::vector<Index>& rows, const std::vect
   for (std::size_t k = 0; k < models_.size(); ++k)
     if (models_[k].correlation == 0 && models_[k].scatter < 0) plain_ = k;
   const Whitened first(design_, rows_, use_, models_[0]);
+  first_column_.push_back(0);
+  for (const Candidate* a : candidates_) first_column_.push_back(first_column_.back() + a->columns.cols());
+  units_.resize(index(rows_.size()), first_column_.back());
+  for (std::size_t a = 0; a < candidates_.size(); ++a)
+    units_.middleCols(first_column_[a], candidates_[a]->columns.cols()) =
+        first.in_units(first.take(candidates_[a]->columns));
   std::vector<std::unique_ptr<Whitened>> made(models_.size());
   propagation::parallel_for(models_.size(), threads_,
                             [&](std::size_t k) { made[k] = std::make_unique<Whitened>(first, models_[k]); });
@@ -66,21 +73,15 @@ template <class Body> void Scan::by_blocks(const Body& body) const {
   }
 }
 
-Matrix Scan::chosen(std::size_t first, std::size_t last) const {
-  Index total = 0;
-  for (std::size_t a = first; a < last; ++a) total += candidates_[a]->columns.cols();
-  Matrix out(index(rows_.size()), total);
-  Index at = 0;
-  for (std::size_t a = first; a < last; ++a) {
-    out.middleCols(at, candidates_[a]->columns.cols()) = candidates_[a]->columns(rows_, Eigen::all);
-    at += candidates_[a]->columns.cols();
-  }
-  return out;
+Matrix Scan::units(std::size_t first, std::size_t last) const {
+  const auto from = first_column_[first];
+  return units_.middleCols(from, first_column_[last] - from);
 }
 
 void Scan::prepare(std::size_t k) {
   by_blocks([&](std::size_t first, std::size_t last) {
-    const Matrix block = chosen(first, last), white = whitened_[k].whiten(block), left = whitened_[k].reduce(block);
+    const Matrix block = units(first, last), white = whitened_[k].whiten_units(block),
+                 left = whitened_[k].reduce_units(block);
     Index from = 0;
     for (std::size_t a = first; a < last; ++a) {
       const Index cols = candidates_[a]->columns.cols();
@@ -107,10 +108,10 @@ void Scan::find_absorbed(std::size_t a, const Matrix& white, double left) {
   }
 }
 
-Matrix Scan::reduced(std::size_t a, std::size_t k) const { return whitened_[k].reduce(chosen(a, a + 1)); }
+Matrix Scan::reduced(std::size_t a, std::size_t k) const { return whitened_[k].reduce_units(units(a, a + 1)); }
 
 Matrix Scan::signatures(std::size_t first, std::size_t last, std::size_t k) const {
-  const Matrix block = whitened_[k].reduce(chosen(first, last));
+  const Matrix block = whitened_[k].reduce_units(units(first, last));
   Index from = 0, used = 0;
   for (std::size_t a = first; a < last; ++a) used += orthonormal_[k][a].cols();
   Matrix out(block.rows(), used);
@@ -158,9 +159,9 @@ Matrix Scan::with_signatures(const Matrix& data, const Matrix& without, double r
       for (Index j = 0; j < sets; ++j)
         if (without(index(k), j) - least[j] <= reach) near.push_back(j);
       if (near.empty()) continue;
-      const Matrix left = whitened_[k].reduce(data(Eigen::all, near));
+      const Matrix left = whitened_[k].reduce_units(data(Eigen::all, near));
       by_blocks([&](std::size_t first, std::size_t last) {
-        const Matrix explained = (signatures(first, last, k).transpose() * left).array().square();
+        const Matrix explained = transposed_product(signatures(first, last, k), left).array().square();
         for (std::size_t i = 0; i < near.size(); ++i) {
           Index from = 0;
           for (std::size_t a = first; a < last; ++a) {
@@ -182,19 +183,19 @@ Matrix Scan::with_signatures(const Matrix& data, const Matrix& without, double r
 }
 
 Vector Scan::criteria_of(const Vector& residuals) const {
-  const Matrix data = winsorised(residuals);
+  const Matrix data = whitened_[plain_].in_units(winsorised(residuals));
   Vector out(index(models_.size()));
-  for (std::size_t k = 0; k < models_.size(); ++k) out[index(k)] = criterion(whitened_[k].squares(data)[0], k);
+  for (std::size_t k = 0; k < models_.size(); ++k) out[index(k)] = criterion(whitened_[k].squares_units(data)[0], k);
   return out;
 }
 
 Statistics Scan::run(const Matrix& residuals, double reach) const {
   Statistics out;
-  const Matrix data = winsorised(residuals, &out.scale);
+  const Matrix data = whitened_[plain_].in_units(winsorised(residuals, &out.scale));
   const Index sets = data.cols();
   Matrix without(index(models_.size()), sets);
   propagation::parallel_for(models_.size(), threads_, [&](std::size_t k) {
-    const Vector left = whitened_[k].squares(data);
+    const Vector left = whitened_[k].squares_units(data);
     for (Index j = 0; j < sets; ++j) without(index(k), j) = criterion(left[j], k);
   });
   const Matrix with = with_signatures(data, without, reach);
@@ -245,11 +246,11 @@ void Scan::choose_models(const Matrix& without, Index j, Statistics& out) const 
 }
 
 Fit Scan::fit(std::size_t a, const Vector& residuals) const {
-  const Matrix data = winsorised(residuals);
+  const Matrix data = whitened_[plain_].in_units(winsorised(residuals));
   Fit out;
   double best = infinite, base = best, rest = 0;
   for (std::size_t k = 0; k < models_.size(); ++k) {
-    const Vector white = whitened_[k].reduce(data);
+    const Vector white = whitened_[k].reduce_units(data);
     const double left = white.squaredNorm(), with = left - (signatures(a, a + 1, k).transpose() * white).squaredNorm();
     base = std::min(base, criterion(left, k));
     const double c = criterion(std::max(with, 1e-12 * left), k);
@@ -259,14 +260,14 @@ Fit Scan::fit(std::size_t a, const Vector& residuals) const {
   const Whitened& w = whitened_[out.covariance_model];
   const Index d = candidates_[a]->columns.cols();
   // Columns of length one, of which what is absorbed is not fitted.
-  const Vector length = w.whiten(chosen(a, a + 1)).colwise().norm();
+  const Vector length = w.whiten_units(units(a, a + 1)).colwise().norm();
   Vector scale = Vector::Zero(d);
   for (Index j = 0; j < d; ++j)
     if (length[j] > 0) scale[j] = 1 / length[j];
   Eigen::CompleteOrthogonalDecomposition<Matrix> columns;
   columns.setThreshold(1e-10);
   columns.compute(reduced(a, out.covariance_model) * scale.asDiagonal());
-  out.size = scale.asDiagonal() * columns.solve(w.reduce(data));
+  out.size = scale.asDiagonal() * columns.solve(w.reduce_units(data));
   const Matrix inverse = columns.pseudoInverse();
   const Vector variance = scale.array().square() * inverse.rowwise().squaredNorm().array();
   const double s2 = rest / std::max(1.0, static_cast<double>(freedom_) - static_cast<double>(d));
@@ -277,9 +278,9 @@ Fit Scan::fit(std::size_t a, const Vector& residuals) const {
 double Scan::pair_ratio(std::size_t a, std::size_t b, const Vector& residuals, std::size_t k) const {
   const Vector data = whitened_[k].reduce(winsorised(residuals));
   Matrix both(data.size(), candidates_[a]->columns.cols() + candidates_[b]->columns.cols());
-  both << chosen(a, a + 1), chosen(b, b + 1);
-  const Matrix left_of_both = whitened_[k].reduce(both);
-  const Matrix basis = left_of_both * orthonormal(left_of_both, whitened_[k].whiten(both).colwise().norm());
+  both << units(a, a + 1), units(b, b + 1);
+  const Matrix left_of_both = whitened_[k].reduce_units(both);
+  const Matrix basis = left_of_both * orthonormal(left_of_both, whitened_[k].whiten_units(both).colwise().norm());
   const double left = data.squaredNorm(), in = (basis.transpose() * data).squaredNorm();
   return static_cast<double>(freedom_) * std::log(left / std::max(left - in, 1e-12 * left));
 }
@@ -296,7 +297,7 @@ double Scan::correlation(std::size_t a, std::size_t b, std::size_t k) const {
 }
 
 double Scan::information(std::size_t a, Index column, std::size_t k) const {
-  return whitened_[k].squares(whitened_[k].take(candidates_[a]->columns.col(column)))[0];
+  return whitened_[k].squares_units(units_.col(first_column_[a] + column))[0];
 }
 
 } // namespace gumshoe::tracing

@@ -70,7 +70,7 @@ public:
 
 private:
   template <class Body> void by_blocks(const Body& body) const;
-  Matrix chosen(std::size_t first, std::size_t last) const;       ///< rows of these candidates' columns
+  Matrix units(std::size_t first, std::size_t last) const;        ///< columns of these candidates
   Matrix reduced(std::size_t candidate, std::size_t model) const; ///< Whitened::reduce of a signature
   /// Of these candidates, reduced and orthonormal within each.
   Matrix signatures(std::size_t first, std::size_t last, std::size_t model) const;
@@ -78,7 +78,9 @@ private:
   void find_absorbed(std::size_t candidate, const Matrix& white, double left);
   double criterion(double left, std::size_t model) const;
   double squares_of(double criterion, std::size_t model) const; ///< its inverse
-  /// Smallest criterion of each candidate in each set, over all models. @param without criteria [model][set]
+  /// Smallest criterion of each candidate in each set, over all models.
+  /// @param data     chosen rows in units of the noise of readings
+  /// @param without  criteria [model][set]
   Matrix with_signatures(const Matrix& data, const Matrix& without, double reach) const;
   void choose_models(const Matrix& without, Index set, Statistics& out) const;
 
@@ -88,6 +90,8 @@ private:
   int threads_;
   std::vector<CovarianceModel> models_;
   std::vector<Whitened> whitened_;
+  Matrix units_; ///< candidates' columns, chosen rows in units of the noise of readings
+  std::vector<Index> first_column_;
   std::vector<std::vector<Matrix>> orthonormal_; ///< [model][candidate]: factor of its reduced columns
   std::vector<double> share_;
   std::vector<int> absorbed_;

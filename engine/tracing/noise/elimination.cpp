@@ -26,6 +26,35 @@ const EliminationKernels& elimination_kernels() {
   return gumshoe_elimination_sse2;
 }
 
+namespace {
+
+/// a x + b y, without what is zero.
+SparseRow combined(double a, const SparseRow& x, double b, const SparseRow& y) {
+  SparseRow out;
+  for (const auto& [column, value] : x) out.push_back({column, a * value});
+  for (const auto& [column, value] : y) {
+    const auto same = std::ranges::find_if(out, [&](const auto& e) { return e.first == column; });
+    if (same == out.end())
+      out.push_back({column, b * value});
+    else
+      same->second += b * value;
+  }
+  std::erase_if(out, [](const auto& e) { return e.second == 0; });
+  std::ranges::sort(out);
+  return out;
+}
+
+} // namespace
+
+std::vector<SparseRow> decorrelated(const std::vector<SparseRow>& rows, const Serial& serial) {
+  const double rho = serial.correlation, factor = 1 / std::sqrt(1 - rho * rho);
+  if (rho == 0) return rows;
+  std::vector<SparseRow> out;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    out.push_back(i < serial.lag ? rows[i] : combined(factor, rows[i], -rho * factor, rows[i - serial.lag]));
+  return out;
+}
+
 /// The triangular factor of the columns that are open while the rows pass, each in a slot.
 class Elimination::Open {
 public:
@@ -103,8 +132,10 @@ private:
   Matrix factor_;           ///< [slot][slot]
 };
 
-Elimination::Elimination(const std::vector<SparseRow>& rows, std::size_t columns, std::size_t free)
-    : columns_(columns), log_pivot_(columns, 0) {
+Elimination::Elimination(const std::vector<SparseRow>& correlated, std::size_t columns, std::size_t free,
+                         const Serial& serial)
+    : serial_(serial), columns_(columns), log_pivot_(columns, 0) {
+  const auto rows = decorrelated(correlated, serial);
   std::vector<std::size_t> last(columns, 0);
   for (std::size_t i = 0; i < rows.size(); ++i)
     for (const auto& [column, value] : rows[i]) last[column] = i;
@@ -121,8 +152,13 @@ Elimination::Elimination(const std::vector<SparseRow>& rows, std::size_t columns
 }
 
 EliminationPlan Elimination::plan() const {
-  return {opened_end_.size(), opened_.data(),     opened_end_.data(), slot_.data(), rotation_end_.data(),
-          closed_.data(),     closed_end_.data(), cosine_.data(),     sine_.data()};
+  return {opened_end_.size(), slots_,       serial_.lag,          serial_.correlation, opened_.data(),
+          opened_end_.data(), slot_.data(), rotation_end_.data(), closed_.data(),      closed_end_.data(),
+          cosine_.data(),     sine_.data()};
+}
+
+std::vector<double> Elimination::state() const {
+  return std::vector<double>((slots_ + serial_.lag) * elimination_lanes);
 }
 
 template <class Body> void Elimination::by_blocks(const Matrix& x, const Body& body) const {
@@ -138,8 +174,7 @@ template <class Body> void Elimination::by_blocks(const Matrix& x, const Body& b
 }
 
 Matrix Elimination::reduced(Matrix x) const {
-  if (columns_ == 0) return x;
-  std::vector<double> state(slots_ * elimination_lanes);
+  std::vector<double> state = this->state();
   by_blocks(x, [&](Index first, Index count, Matrix& block) {
     elimination_kernels().reduce(plan(), index(block.rows()), block.data(), state.data(), nullptr);
     x.middleCols(first, count) = block.topRows(count).transpose();
@@ -149,7 +184,7 @@ Matrix Elimination::reduced(Matrix x) const {
 
 Vector Elimination::squares(const Matrix& x) const {
   Vector out(x.cols());
-  std::vector<double> state(slots_ * elimination_lanes);
+  std::vector<double> state = this->state();
   by_blocks(x, [&](Index first, Index count, Matrix& block) {
     elimination_kernels().reduce(plan(), index(block.rows()), block.data(), state.data(), nullptr);
     Vector sum = Vector::Zero(block.rows()); // row after row: the same in blocks of any width
@@ -160,8 +195,7 @@ Vector Elimination::squares(const Matrix& x) const {
 }
 
 Matrix Elimination::projected(Matrix x) const {
-  if (columns_ == 0) return x;
-  std::vector<double> state(slots_ * elimination_lanes);
+  std::vector<double> state = this->state();
   by_blocks(x, [&](Index first, Index count, Matrix& block) {
     elimination_kernels().reduce(plan(), index(block.rows()), block.data(), state.data(), nullptr);
     std::ranges::fill(state, 0);
@@ -173,7 +207,7 @@ Matrix Elimination::projected(Matrix x) const {
 
 Matrix Elimination::solved(const Matrix& x) const {
   ByRow out = ByRow::Zero(index(columns_), x.cols());
-  std::vector<double> state(slots_ * elimination_lanes), kept(closed_.size() * elimination_lanes);
+  std::vector<double> state = this->state(), kept(closed_.size() * elimination_lanes);
   by_blocks(x, [&](Index first, Index count, Matrix& block) {
     elimination_kernels().reduce(plan(), index(block.rows()), block.data(), state.data(), kept.data());
     for (std::size_t i = 0; i < pivots_.size(); ++i)

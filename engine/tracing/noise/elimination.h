@@ -13,17 +13,25 @@ namespace gumshoe::tracing {
 /// Columns that one row holds, with their values.
 using SparseRow = std::vector<std::pair<std::size_t, double>>;
 
-/// x is rows x any. P projects off the columns, of which all but the `free` first have a unit row, 0 = coefficient,
-/// too.
+/// Correlation of rows with those a lag before them: of readings with those just before.
+struct Serial {
+  double correlation = 0;
+  std::size_t lag = 1;
+};
+/// Rows without that correlation.
+std::vector<SparseRow> decorrelated(const std::vector<SparseRow>& rows, const Serial& serial);
+
+/// x is rows x any, correlated. With both made uncorrelated, P projects off the columns, of which all but the `free`
+/// first have a unit row, 0 = coefficient, too.
 class Elimination {
 public:
-  Elimination(const std::vector<SparseRow>& rows, std::size_t columns, std::size_t free);
+  Elimination(const std::vector<SparseRow>& rows, std::size_t columns, std::size_t free, const Serial& serial = {});
 
   /// What is left of products: reduced(a)' reduced(b) = a'Pb.
   Matrix reduced(Matrix x) const;
   /// Sum of squares of each column of reduced(x).
   Vector squares(const Matrix& x) const;
-  /// P x: what the columns leave of each row.
+  /// P x: what the columns leave of each row. Rows without correlation only.
   Matrix projected(Matrix x) const;
   /// Coefficients of the columns that fit x best, columns x any; 0 where the rows do not determine one.
   Matrix solved(const Matrix& x) const;
@@ -41,12 +49,14 @@ private:
   };
   class Open;
   EliminationPlan plan() const;
+  std::vector<double> state() const; ///< room for the kernels
   /// Calls body(first, count, block) for some columns at a time; `block` is lanes x rows, transposed.
   template <class Body> void by_blocks(const Matrix& x, const Body& body) const;
   using ByRow = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   void substitute(ByRow& x) const;            ///< R^-1 x in place
   void substitute_transposed(ByRow& x) const; ///< R'^-1 x in place
 
+  Serial serial_;
   std::size_t columns_ = 0, slots_ = 0;
   std::vector<double> log_pivot_;
   std::vector<Pivot> pivots_; ///< in the order of elimination

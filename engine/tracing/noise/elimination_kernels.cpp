@@ -1,6 +1,8 @@
 /// Compiled once per instruction set.
 #include "tracing/noise/elimination_kernels.h"
 
+#include <cmath>
+
 #include "math/lanes.h"
 
 namespace gumshoe::tracing {
@@ -29,6 +31,17 @@ template <std::size_t lanes> void rotate(double cosine, double sine, double* sta
   }
 }
 
+/// Row `y` given the row before it, which it then replaces.
+template <std::size_t lanes> void decorrelate(double correlation, bool first, double* before, Values<lanes>& y) {
+  const Values<lanes> own = y;
+  const Lanes rho(correlation), factor(1 / std::sqrt(1 - correlation * correlation));
+  if (!first) {
+    const Values<lanes> last(before);
+    for (std::size_t p = 0; p < Values<lanes>::parts; ++p) y.part[p] = factor * (y.part[p] - rho * last.part[p]);
+  }
+  own.store(before);
+}
+
 template <std::size_t lanes> void clear(double* state) {
   for (std::size_t i = 0; i < lanes; ++i) state[i] = 0;
 }
@@ -38,6 +51,8 @@ template <std::size_t lanes> void reduce_of(const EliminationPlan& plan, double*
   for (std::size_t row = 0; row < plan.rows; ++row, t += lanes) {
     for (; open < plan.opened_end[row]; ++open) clear<lanes>(state + lanes * plan.opened[open]);
     Values<lanes> y(t);
+    if (plan.correlation != 0)
+      decorrelate<lanes>(plan.correlation, row < plan.lag, state + lanes * (plan.slots + row % plan.lag), y);
     for (; turn < plan.rotation_end[row]; ++turn)
       rotate<lanes>(plan.cosine[turn], plan.sine[turn], state + lanes * plan.slot[turn], y);
     y.store(t);

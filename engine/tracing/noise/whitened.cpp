@@ -5,26 +5,6 @@
 #include <ranges>
 
 namespace gumshoe::tracing {
-namespace {
-
-/// a x + b y, without what is zero.
-SparseRow combined(double a, const SparseRow& x, double b, const SparseRow& y) {
-  SparseRow out;
-  for (const auto& [column, value] : x) out.push_back({column, a * value});
-  for (const auto& [column, value] : y) {
-    const auto same = std::ranges::find_if(out, [&](const auto& e) { return e.first == column; });
-    if (same == out.end())
-      out.push_back({column, b * value});
-    else
-      same->second += b * value;
-  }
-  std::erase_if(out, [](const auto& e) { return e.second == 0; });
-  std::ranges::sort(out);
-  return out;
-}
-
-} // namespace
-
 Whitened::Whitened(const Design& d, std::vector<Index> rows, std::vector<Index> use, const CovarianceModel& model)
     : design_(d), rows_(std::move(rows)), use_(std::move(use)), model_(model),
       columns_(std::make_shared<const Columns>(columns_in_units())) {
@@ -101,29 +81,21 @@ std::vector<SparseRow> Whitened::scatter_in_units(const std::vector<int>& group)
   return out;
 }
 
-std::vector<SparseRow> Whitened::decorrelated(const std::vector<SparseRow>& rows) const {
-  const double rho = model_.correlation, factor = 1 / std::sqrt(1 - rho * rho);
-  if (rho == 0) return rows;
-  std::vector<SparseRow> out;
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    out.push_back(i < design_.indications ? rows[i]
-                                          : combined(factor, rows[i], -rho * factor, rows[i - design_.indications]));
-  return out;
-}
+Serial Whitened::serial() const { return {model_.correlation, design_.indications}; }
 
 void Whitened::eliminate() {
   const Design& d = design_;
   const std::size_t p = use_.size(), count = p + index(d.random.cols());
   std::size_t groups = 0;
-  auto rows = decorrelated(columns_->rows);
+  auto rows = columns_->rows;
   if (const auto group = scattered(); !group.empty()) {
-    const auto z = decorrelated(scatter_in_units(group));
-    scatter_.emplace(z);
+    const auto z = scatter_in_units(group);
+    scatter_.emplace(decorrelated(z, serial()));
     groups = index(*std::ranges::max_element(group) + 1);
     for (std::size_t i = 0; i < rows.size(); ++i)
       for (const auto& [effect, value] : z[i]) rows[i].push_back({count + effect, value});
   }
-  elimination_ = std::make_shared<const Elimination>(rows, count + groups, p);
+  elimination_ = std::make_shared<const Elimination>(rows, count + groups, p, serial());
   const auto k = static_cast<double>(rows_.size()) / static_cast<double>(d.indications);
   log_determinant_ =
       static_cast<double>(d.indications) * (k - 1) * std::log(1 - model_.correlation * model_.correlation);
@@ -152,30 +124,22 @@ Matrix Whitened::in_units(Matrix x) const {
   return x;
 }
 
-Matrix Whitened::decorrelated(Matrix x) const {
-  x = in_units(std::move(x));
+Matrix Whitened::whiten_units(Matrix x) const {
   const auto k = index(design_.indications);
   const double rho = model_.correlation, factor = 1 / std::sqrt(1 - rho * rho);
   if (rho != 0)
     for (Index j = 0; j < x.cols(); ++j)
       for (Index i = x.rows() - 1; i >= k; --i) x(i, j) = factor * (x(i, j) - rho * x(i - k, j));
-  return x;
-}
-
-Matrix Whitened::whiten(Matrix x) const {
-  x = decorrelated(std::move(x));
   if (!scatter_) return x;
   Matrix t = x.transpose();
   scatter_->whiten(t);
   return t.transpose();
 }
 
-Vector Whitened::squares(const Matrix& chosen) const { return elimination_->squares(decorrelated(chosen)); }
-
 Matrix Whitened::coefficients(const Matrix& chosen, Matrix* covariance) const {
   const Index count = index(use_.size()) + design_.random.cols();
   if (covariance) *covariance = elimination_->covariance(count);
-  return elimination_->solved(decorrelated(chosen)).topRows(count);
+  return elimination_->solved(in_units(chosen)).topRows(count);
 }
 
 Matrix Whitened::overlap(const Matrix& x, Vector& squares) const {

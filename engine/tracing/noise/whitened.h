@@ -34,18 +34,23 @@ public:
   /// Chosen rows of a matrix over all rows.
   Matrix take(const Matrix& all) const { return all(rows_, Eigen::all); }
   /// Chosen rows in units of the noise, without serial correlation and component.
-  Matrix whiten(Matrix chosen) const;
+  Matrix whiten(Matrix chosen) const { return whiten_units(in_units(std::move(chosen))); }
   /// What is left of products when the fixed and random columns are eliminated, too: reduce(a)' reduce(b) = a'WMb.
-  Matrix reduce(Matrix chosen) const { return elimination_->reduced(decorrelated(std::move(chosen))); }
+  Matrix reduce(Matrix chosen) const { return reduce_units(in_units(std::move(chosen))); }
   /// a'WMa of each column of chosen rows: the squares left, with the cost of the random columns.
-  Vector squares(const Matrix& chosen) const;
+  Vector squares(const Matrix& chosen) const { return squares_units(in_units(chosen)); }
+  /// Chosen rows in units of the noise of readings, which is the same under every model; then as above.
+  Matrix in_units(Matrix chosen) const;
+  Matrix whiten_units(Matrix units) const;
+  Matrix reduce_units(Matrix units) const { return elimination_->reduced(std::move(units)); }
+  Vector squares_units(const Matrix& units) const { return elimination_->squares(units); }
   /// Residuals of the chosen rows (not whitened), winsorised at criteria.winsor_limit robust standard deviations.
   /// For a covariance model without correlation or component.
   /// @param scale   robust standard deviation by column, in units of the design's
   /// @param weight  1 where a residual was not changed, below 1 where it was winsorised
   Matrix winsorised(const Matrix& residuals, Vector* scale = nullptr, Matrix* weight = nullptr) const;
-  /// Whitened part of chosen rows that the fixed and random columns leave. For a model without component.
-  Matrix left_over(Matrix chosen) const { return elimination_->projected(decorrelated(std::move(chosen))); }
+  /// Whitened part of chosen rows that the fixed and random columns leave. For the plain model.
+  Matrix left_over(Matrix chosen) const { return elimination_->projected(in_units(std::move(chosen))); }
   /// Minus twice the logarithm of the density's factor that does not depend on the data.
   double log_determinant() const { return log_determinant_; }
   /// Best coefficients (fixed, random) by column of chosen rows. `covariance` of the coefficients, at scale 1.
@@ -66,9 +71,7 @@ private:
   /// Group of the variance component that moves each chosen row, or -1; empty without a component.
   std::vector<int> scattered() const;
   double scatter_unit(std::size_t row) const; ///< standard deviation of the component in a chosen row
-  Matrix in_units(Matrix chosen) const;       ///< of the noise of readings, correlated
-  Matrix decorrelated(Matrix chosen) const;   ///< in units of the noise, without serial correlation
-  std::vector<SparseRow> decorrelated(const std::vector<SparseRow>& rows) const;
+  Serial serial() const;
   Columns columns_in_units() const;
   std::vector<SparseRow> scatter_in_units(const std::vector<int>& group) const;
   void eliminate();

@@ -19,7 +19,7 @@ double robust_scale(std::vector<double>& sizes) {
 }
 
 Matrix Whitened::winsorised(const Matrix& residuals, Vector* scale, Matrix* weight) const {
-  Matrix white = decorrelated(residuals);
+  Matrix white = in_units(residuals);
   const Matrix left = elimination_->projected(white);
   const auto freedom = static_cast<double>(degrees_of_freedom());
   const double lost = freedom / static_cast<double>(residuals.rows());
