@@ -30,7 +30,7 @@ DrawsGivenReadings Fitter::draws_given_readings(const JointFit& fit) const {
   if (out.draws.empty()) return out;
   const Whitened plain(fit.design, rows_, use, {}), w(fit.design, rows_, use, fit.covariance_model);
   Matrix covariance;
-  const Vector x = w.solve(w.whiten(plain.winsorised(plain.take(fit.residual))), &covariance);
+  const Vector x = w.coefficients(plain.winsorised(plain.take(fit.residual)), &covariance);
   const auto m = index(out.draws.size());
   const Matrix own = covariance(std::vector<Index>(solved.begin() + p, solved.end()),
                                 std::vector<Index>(solved.begin() + p, solved.end()));
