@@ -76,6 +76,7 @@ struct Typical {
   double low = 0;
   double high = 0;
   std::string_view note = {}; ///< what it means in a case, or where it comes from
+  bool positive = false;      ///< a negative one is not physical, whatever `limits` let a fit try
 };
 
 struct QuantityCard {

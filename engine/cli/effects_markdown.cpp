@@ -45,9 +45,10 @@ std::string row(const EffectCard& card) {
 } // namespace
 
 std::string typical_text(const QuantityCard& q) {
-  const auto& [low, high, note] = q.typical;
+  const auto& [low, high, note, positive] = q.typical;
   if (high == 0) return {};
-  return (low == high ? "" : in_unit(q, low) + "-") + in_unit(q, high) + (q.unit == "1" ? "" : fmt::format(" {}", q.unit));
+  return (low == high ? "" : in_unit(q, low) + "-") + in_unit(q, high) + (q.unit == "1" ? "" : fmt::format(" {}", q.unit)) +
+         (positive ? ", positive" : "");
 }
 
 std::string effects_markdown(std::span<const ModelCard* const> models, std::span<const EffectCard* const> effects) {

@@ -143,7 +143,8 @@ struct Criteria {
   /// Variance of a declared draw, or of a combination of them, of what was declared: below it readings say something of
   /// them, and the traced scenario holds what.
   double informed_variance = 0.9;
-  double implausible_size = 5;       ///< times the typical size of an effect that cause a remark
+  /// Times the upper end of an effect's typical sizes, and the lower end, beyond which a size is likely an alias's.
+  double implausible_size = 5, negligible_size = 0.02;
   double implausible_shift = 10;     ///< times the declared standard uncertainty of a quantity that cause a remark
   double reported_correlation = 0.2; ///< serial correlation from which the trace mentions it
   /// A split must separate the members by this much (2 ln L: three standard deviations), and by this factor more than

@@ -172,6 +172,8 @@ class Trace:
         if f.kind == "named" and f.quantities:
             q = self.sizes(f)[0]
             size = f"{q.name} {with_unit(q.value, q.unit)}, 95{SPACE}% interval [{q.low}, {q.high}]"
+            if getattr(f, "implausible", ""):
+                return f"Find its cause before you correct for it: a size {f.implausible} is likely an alias of another effect's."
             return f"Check what is declared. The readings say: {size}." if f.name.startswith("declared:") else f"Correct for it: {size}."
         if f.kind == "class":
             return f"Measure next: {f.suggestion}." if f.suggestion else "Other conditions must be varied to distinguish the causes."

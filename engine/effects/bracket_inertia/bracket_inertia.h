@@ -8,7 +8,7 @@ struct BracketInertia {
   static constexpr QuantityCard quantities[] = {
       {.name = "compliance", .unit = "um/(m/s2)", .si_unit = "s2", .limits = {-1e-3, 1e-3},
        .meaning = "deflection by acceleration: moved mass over stiffness", .role = Role::amplitude,
-       .typical = {0.05e-6, 0.5e-6, "1 um at 4.91 m/s2 for 0.2 um/(m/s2)"}}};
+       .typical = {0.05e-6, 0.5e-6, "1 um at 4.91 m/s2 for 0.2 um/(m/s2)", true}}};
   static constexpr EffectCard card{
       .name = "bracket_inertia",
       .title = "Inertia that bends the bracket of the tool's ball",

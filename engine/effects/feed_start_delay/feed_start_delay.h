@@ -8,7 +8,7 @@ struct FeedStartDelay {
   static constexpr QuantityCard quantities[] = {
       {.name = "delay", .unit = "ms", .si_unit = "s", .limits = {-10.0, 10.0},
        .meaning = "delay from the start angle to the start of the feed", .role = Role::amplitude,
-       .typical = {1e-3, 20e-3, "6 deg per ms at 1000 rpm"}},
+       .typical = {1e-3, 20e-3, "6 deg per ms at 1000 rpm", true}},
   };
   static constexpr EffectCard card{
       .name = "feed_start_delay",

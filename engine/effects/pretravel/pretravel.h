@@ -8,7 +8,7 @@ struct Pretravel {
   static constexpr QuantityCard quantities[] = {
       {.name = "distance", .unit = "um", .si_unit = "m", .limits = {-1e-3, 1e-3},
        .meaning = "travel along the approach from contact to trigger", .role = Role::amplitude,
-       .typical = {2e-6, 20e-6}},
+       .typical = {2e-6, 20e-6, {}, true}},
   };
   static constexpr EffectCard card{
       .name = "pretravel",

@@ -8,7 +8,7 @@ struct TriggerLatency {
   static constexpr QuantityCard quantities[] = {
       {.name = "delay", .unit = "ms", .si_unit = "s", .limits = {-1e-2, 1e-1}, .symbol = "t_d",
        .meaning = "delay from the trigger to the latch", .role = Role::amplitude,
-       .typical = {0.1e-3, 5e-3, "0.07 um/ms at 4 mm/min"}},
+       .typical = {0.1e-3, 5e-3, "0.07 um/ms at 4 mm/min", true}},
   };
   static constexpr EffectCard card{
       .name = "trigger_latency",

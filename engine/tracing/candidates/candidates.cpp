@@ -63,8 +63,9 @@ void CandidateMaker::add_single(Candidate a, std::size_t quantity, const std::ve
 
 Amplitude CandidateMaker::amplitude(std::size_t quantity, const QuantityCard& card) const {
   const auto& q = experiment.scenario().quantities[quantity];
-  return {quantity, std::string(card.name), q.unit,           q.si_unit,        q.name,
-          {},       card.limits.low,        card.limits.high, card.typical.high};
+  const auto& [low, high, note, positive] = card.typical;
+  return {quantity,        std::string(card.name), q.unit, q.si_unit, q.name, {}, card.limits.low,
+          card.limits.high, high,                   low,    positive};
 }
 
 std::vector<Candidate> stated_candidates(const CandidateMaker& make) {

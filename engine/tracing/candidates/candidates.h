@@ -24,7 +24,9 @@ struct Amplitude {
   std::string name, unit, si_unit, scenario_name;
   std::vector<std::pair<std::string, std::string>> labels; ///< only where readings have these
   double low = -1e300, high = 1e300;                       ///< limits of its card, SI
-  double typical = 0;  ///< upper end of the card's typical magnitude, SI; 0: not stated
+  /// Ends of the card's typical magnitude, SI, 0: not stated; and whether a negative size is no such effect's.
+  double typical = 0, least_typical = 0;
+  bool positive = false;
   double declared = 0; ///< standard uncertainty declared for a quantity that may be shifted, SI
   /// A shape parameter that is fitted: its size is the shift from `held`, and zero is no null.
   bool is_shape = false;

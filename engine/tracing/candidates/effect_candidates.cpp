@@ -68,7 +68,7 @@ void with_default_shapes(const CandidateMaker& make, std::vector<Candidate>& fou
 /// upper one, or a share of 0, 1/2 and 1.
 std::vector<double> grid_of(const QuantityCard& card, const Observations& o) {
   std::vector<double> out{card.default_value};
-  const auto& [low, high, note] = card.typical;
+  const auto& [low, high, note, positive] = card.typical;
   const auto time = std::ranges::find(o.covariates, "time", &Covariate::name);
   if (card.si_unit == "s" && time != o.covariates.end()) {
     const double duration = time->levels.back() - time->levels.front(),

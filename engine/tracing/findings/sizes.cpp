@@ -61,12 +61,24 @@ std::vector<SizedQuantity> sizes(const TraceContext& c, const JointFit& fit, std
 
 void remark_on_size(const Term& term, Finding& finding) {
   constexpr const char* suspicion = "it may have another cause";
+  // One component of a vector may be small.
+  const bool single = std::ranges::count(term.candidate.amplitudes, false, &Amplitude::is_shape) == 1;
   for (Index j = 0; j < term.size.size(); ++j) {
     const Amplitude& a = term.candidate.amplitudes[index(j)];
+    const auto shown = [&](double size) { return shown_size(size, a.unit, a.si_unit); };
     if (a.typical > 0 && std::fabs(term.size[j]) > criteria.implausible_size * a.typical)
-      finding.remarks.push_back(fmt::format("{} is far above typical sizes (up to {}); {}",
-                                            shown_size(term.size[j], a.unit, a.si_unit),
-                                            shown_size(a.typical, a.unit, a.si_unit), suspicion));
+      finding.implausible = fmt::format("far above typical sizes (up to {})", shown(a.typical));
+    else if (a.positive && term.size[j] < 0)
+      finding.implausible = "negative, which no such effect is";
+    else if (single && !a.is_shape && std::fabs(term.size[j]) < criteria.negligible_size * a.least_typical)
+      finding.implausible = fmt::format("far below typical sizes (from {})", shown(a.least_typical));
+    else
+      continue;
+    finding.remarks.push_back(fmt::format("{} of {} is {}; likely an alias of another effect", a.name,
+                                          shown(term.size[j]), finding.implausible));
+  }
+  for (Index j = 0; j < term.size.size(); ++j) {
+    const Amplitude& a = term.candidate.amplitudes[index(j)];
     if (const double times = std::fabs(term.size[j]) / a.declared; a.declared > 0 && times > criteria.implausible_shift)
       finding.remarks.push_back(
           fmt::format("the value differs by {:.0f} times its declared standard uncertainty; {}", times, suspicion));

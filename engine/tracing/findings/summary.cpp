@@ -21,6 +21,9 @@ std::string what_was_found(const Finding& f) {
     if (const std::string declared = "declared:"; f.name.starts_with(declared))
       return fmt::format("The readings contradict a value that the scenario declares: {}{}.",
                          f.name.substr(declared.size()), size);
+    if (!f.implausible.empty())
+      return fmt::format("A part of the error looks like {}{}, but this size is {}: likely an alias of another effect.",
+                         f.name, size, f.implausible);
     return fmt::format("The model lacks an effect of the machine: {}{}.", f.name, size);
   case Kind::equivalence_class:
     return fmt::format("The model lacks an effect of the machine. It is one of: {}. These data cannot "

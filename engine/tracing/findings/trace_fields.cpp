@@ -31,6 +31,7 @@ constexpr Field<F> finding[] = {
     {"kind", [](const F& f) -> Value { return std::string(name(f.kind)); }, one,
      "named, class, scatter or not_in_catalogue", in_json},
     {"name", of<&F::name>, one, "effect, declared quantity or scatter", in_json},
+    {"implausible", of<&F::implausible>, one, "why no such effect has this size: it is likely an alias of another; or empty", in_json},
     {"described_by", of<&F::described_by>, one, "shape that describes an unknown effect, or empty", in_json},
     {"suggestion", of<&F::suggestion>, one, "measurement that would distinguish the members of the class", in_json},
     {"p_value", of<&F::p_value>, one, "p-value of the largest statistic over all candidates tried", in_json},

@@ -13,17 +13,19 @@ std::optional<std::size_t> simpler_beside_effect(const Evidence& e, std::size_t 
                        !c.physical() && c.columns.cols() < e.candidates()[shape].columns.cols() &&
                            e.assessment().p[a] <= e.assessment().threshold});
   }
-  double best = e.score(shape);
+  double best = 0;
   std::optional<std::size_t> out;
   for (const std::size_t s : best_of(simpler, criteria.most_shapes)) {
     // The noise as it is with the simpler shape: without any, a large one passes for correlation.
     const std::size_t model = e.scan().fit(s, e.residuals()).covariance_model;
     const double alone = e.scan().pair_ratio(s, s, e.residuals(), model);
     for (std::size_t a = 0; a < e.candidates().size(); ++a) {
-      if (!e.testable(a)) continue;
+      // One of the declared values would take the bend of any table.
+      if (!e.testable(a) || e.candidates()[a].family == Family::declared) continue;
       const double added = e.scan().pair_ratio(s, a, e.residuals(), model) - alone;
       const double both = simpler[s].score + added - 2 * e.assessment().null[a].mean;
-      if (counts_beside(both, {e.score(a), simpler[s].score}, added, {e.limit(a), e.limit(s)}, best)) {
+      if (counts_beside(both, {e.score(a), simpler[s].score}, added, {e.limit(a), e.limit(s)}, e.score(shape)) &&
+          both > best) {
         best = both;
         out = s;
       }

@@ -65,7 +65,7 @@ bool pair_found(double pair, const double (&scores)[2], const double (&limits)[2
 }
 
 bool counts_beside(double both, const double (&scores)[2], double added, const double (&limits)[2], double whole) {
-  return both > whole && added > limits[0] && both - scores[0] > limits[1];
+  return both > whole - criteria.equal_merit && added > limits[0] && both - scores[0] > limits[1];
 }
 
 std::optional<std::size_t> scatter_found(const Assessment& a, double alpha) {
