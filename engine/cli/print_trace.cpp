@@ -77,7 +77,8 @@ void print_finding(const Finding& f) {
     for (const SizedQuantity& q : f.alternatives[i]) std::cout << "    " << size_text(q) << '\n';
   }
   if (f.removed_share > 0)
-    std::cout << fmt::format("  explains {:.0f} % of the mean square of the residuals\n", 100 * f.removed_share);
+    std::cout << fmt::format("  left out alone, it brings back {} of the mean square of the residuals\n",
+                             f.removed_share < 0.995 ? fmt::format("{:.0f} %", 100 * f.removed_share) : "all");
   if (!f.suggestion.empty()) std::cout << "  to split them: " << f.suggestion << '\n';
   for (const std::string& remark : f.remarks) std::cout << "  remark: " << remark << '\n';
 }

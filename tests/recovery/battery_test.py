@@ -30,7 +30,7 @@ def chosen(*parts):
 
 def verdict(*findings, table=()):
     found = [dict(dict(members=[], depends_on=[], quantities=[]), **f) for f in findings]
-    one = dict(added=[], before=1.0, after=1.0, holdout_before=1.0, holdout_after=1.0, vetoed=False)
+    one = dict(added=[], before=1.0, after=1.0, holdout_before=1.0, holdout_after=1.0, holdout_after_winsorised=1.0, vetoed=False)
     return dict(findings=found, vetoed=False, rms=dict(holdout_before=1.0, holdout_noise=1.0), rounds=[one | r for r in table or ({},)])
 
 

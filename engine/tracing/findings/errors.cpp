@@ -96,7 +96,7 @@ double overstated(const Scores& before, const Scores& after, const Design& desig
 
 InSample in_sample(const JointFit& fit, const std::vector<Index>& rows, const Matrix& residual) {
   const auto use = independent(fit.design, rows);
-  const Whitened w(fit.design, rows, use, fit.covariance_model);
+  const Whitened w(fit.design, rows, use, {});
   Matrix covariance;
   const Matrix x = w.coefficients(w.take(residual), &covariance);
   const auto p = index(use.size()), q = fit.design.random.cols();

@@ -44,7 +44,8 @@ Vector excess(const Scores& before, const Scores& after, const Design& design);
 /// normal number, however unequal the noise. 0 where nothing changes.
 double overstated(const Scores& before, const Scores& after, const Design& design);
 
-/// The fit's own readings about the fitted unknowns and declared draws.
+/// The fit's own readings about the unknowns and declared draws, by least squares without correlation or component: more
+/// terms never leave more.
 struct InSample {
   Matrix left; ///< residuals, training rows x sets
   Vector rms;  ///< by set

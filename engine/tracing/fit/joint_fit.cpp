@@ -123,7 +123,9 @@ JointFit Fitter::fit(const std::vector<Term>& terms, double noise, const JointFi
   fit.drawn = start ? start->drawn : Vector::Zero(index(draws_.size()));
   fit.terms = terms;
   move_draws(fit, released_draws(fit));
-  fit.noise = noise > 0 ? noise : start ? start->noise : 1;
+  // The scale of a declared noise is sought from the declared one on, as when the traced scenario is traced: from a larger
+  // one, what an outlier is and what declared draws explain may settle elsewhere.
+  fit.noise = noise > 0 ? noise : start && !noise_declared_ ? start->noise : 1;
   for (Term& t : fit.terms) {
     for (const auto& [q, value] : t.candidate.held)
       for (auto& p : fit.at) p[q] = value;
