@@ -165,13 +165,13 @@ Matrix Scan::with_signatures(const Matrix& data, const Matrix& without, double r
         for (std::size_t i = 0; i < near.size(); ++i) {
           Index from = 0;
           for (std::size_t a = first; a < last; ++a) {
-            const Index count = orthonormal_[k][a].cols();
-            if (count == 0) continue;
+            const Index columns = orthonormal_[k][a].cols();
+            if (columns == 0) continue;
             double& least_so_far = best[part](index(a), near[i]);
             const double squares = squares_of(without(index(k), near[i]), k),
-                         rest = squares - explained.col(index(i)).segment(from, count).sum();
+                         rest = squares - explained.col(index(i)).segment(from, columns).sum();
             least_so_far = std::min(least_so_far, criterion(std::max(rest, 1e-12 * squares), k));
-            from += count;
+            from += columns;
           }
         }
       });
