@@ -180,10 +180,13 @@ double gain_of(const TraceContext& c, const JointFit& fit, const std::vector<std
 }
 
 bool Evidence::predicts_better(const JointFit& other, const CovarianceModel& model) const {
-  const auto error = [&](const JointFit& fit) {
-    return cross_validated(c_.observations, c_.fitter.rows(), fit, model);
+  const auto better = [&](Judged judged) {
+    const auto error = [&](const JointFit& fit) {
+      return cross_validated(c_.observations, c_.fitter.rows(), fit, model, judged);
+    };
+    return error(other) < error(fit_);
   };
-  return error(other) < error(fit_);
+  return better(Judged::as_declared) || better(Judged::given_the_others);
 }
 
 bool Evidence::of_few(const JointFit& other) const {

@@ -42,8 +42,8 @@ public:
   /// With its shape parameters fitted, where the data determine them.
   Trial trial(std::size_t candidate) const;
 
-  /// Whether parts of the training readings, left out in turn, are predicted better by `other`; both under one
-  /// covariance model.
+  /// Whether parts of the training readings, left out in turn, are predicted better by `other`, with the declared values
+  /// as declared or as the other parts tell them; both under one covariance model.
   bool predicts_better(const JointFit& other, const CovarianceModel& model) const;
   bool predicts_better(const JointFit& other) const { return predicts_better(other, other.covariance_model); }
   /// Whether what `other` removes is of a few successive readings (criteria.h): outliers, and no shape.

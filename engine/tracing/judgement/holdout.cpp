@@ -3,9 +3,32 @@
 #include <algorithm>
 #include <map>
 
+#include <Eigen/Cholesky>
+
 #include "tracing/criteria.h"
 
 namespace gumshoe::tracing {
+namespace {
+
+/// The block's offsets: columns to which no training row is sensitive.
+std::vector<Index> offsets_of(const Design& d, const std::vector<Index>& train, const std::vector<Index>& test) {
+  const auto sensitive = [&](const std::vector<Index>& rows, Index j) {
+    return std::ranges::any_of(rows, [&](Index row) { return d.fixed(row, j) != 0; });
+  };
+  std::vector<Index> out;
+  for (Index j = 0; j < d.fixed.cols(); ++j)
+    if (!sensitive(train, j) && sensitive(test, j)) out.push_back(j);
+  return out;
+}
+
+/// A factor of a covariance, which need not be definite.
+Matrix factor(const Matrix& covariance) {
+  const Eigen::LDLT<Matrix> ldlt(covariance);
+  const Matrix lower = ldlt.matrixL();
+  return ldlt.transpositionsP().transpose() * Matrix(lower * ldlt.vectorD().cwiseMax(0).cwiseSqrt().asDiagonal());
+}
+
+} // namespace
 
 HeldOut hold_out(const Design& d, const Matrix& residual, const std::vector<Index>& train,
                  const std::vector<Index>& test, const CovarianceModel& model, const CovarianceModel& units) {
@@ -18,15 +41,8 @@ HeldOut hold_out(const Design& d, const Matrix& residual, const std::vector<Inde
   Matrix as_declared = residual(test, Eigen::all);
   as_declared -= d.fixed(test, use) * x.topRows(p);
   out.residual = as_declared - d.random(test, Eigen::all) * x.bottomRows(q);
-  // The block's offsets: columns to which no training row is sensitive.
-  std::vector<Index> offsets;
-  const auto sensitive = [&](const std::vector<Index>& rows, Index j) {
-    return std::ranges::any_of(rows, [&](Index row) { return d.fixed(row, j) != 0; });
-  };
-  for (Index j = 0; j < d.fixed.cols(); ++j)
-    if (!sensitive(train, j) && sensitive(test, j)) offsets.push_back(j);
   Design own = d;
-  own.fixed = Matrix(d.fixed(Eigen::all, offsets));
+  own.fixed = Matrix(d.fixed(Eigen::all, offsets_of(d, train, test)));
   const auto seen = independent(own, test);
   out.count = static_cast<double>(test.size() - seen.size());
   out.squares = out.whitened = Vector::Zero(residual.cols());
@@ -46,6 +62,23 @@ HeldOut hold_out(const Design& d, const Matrix& residual, const std::vector<Inde
   out.squares = local.squares(out.residual);
   out.whitened = declared.squares(as_declared);
   return out;
+}
+
+double minus_log_density(const Design& d, const Matrix& residual, const std::vector<Index>& train,
+                         const std::vector<Index>& test, const CovarianceModel& model) {
+  const auto use = independent(d, train);
+  const Whitened w(d, train, use, model);
+  Matrix known;
+  const Matrix x = w.coefficients(w.take(residual), &known);
+  Matrix columns(d.fixed.rows(), x.rows());
+  columns << d.fixed(Eigen::all, use), d.random;
+  Design own = d;
+  own.fixed = Matrix(d.fixed(Eigen::all, offsets_of(d, train, test)));
+  own.random = columns * factor(known);
+  const auto seen = independent(own, test);
+  if (test.size() <= seen.size()) return 0;
+  const Whitened given(own, test, seen, {0, model.scatter, model.ratio, model.indication});
+  return given.squares(given.take(residual - columns * x))[0] + given.log_determinant();
 }
 
 std::vector<Index> rows_where(const Observations& o, const std::vector<bool>& chosen) {
@@ -73,8 +106,8 @@ std::vector<std::vector<Index>> folds(const Observations& o, const std::vector<I
 }
 
 double cross_validated(const Observations& o, const std::vector<Index>& rows, const JointFit& fit,
-                       const CovarianceModel& model) {
-  double squares = 0;
+                       const CovarianceModel& model, Judged judged) {
+  double sum = 0;
   const Whitened plain(fit.design, rows, independent(fit.design, rows), {});
   Matrix clean = fit.residual;
   const Vector chosen = plain.winsorised(plain.take(fit.residual));
@@ -83,10 +116,14 @@ double cross_validated(const Observations& o, const std::vector<Index>& rows, co
     std::vector<Index> train;
     std::set_difference(rows.begin(), rows.end(), fold.begin(), fold.end(), std::back_inserter(train));
     // Terms are fixed columns of the design: their sizes are fitted again without the fold.
+    if (judged == Judged::given_the_others) {
+      sum += minus_log_density(fit.design, clean, train, fold, model);
+      continue;
+    }
     const HeldOut held = hold_out(fit.design, clean, train, fold, model, model);
-    if (held.count > 0) squares += held.whitened[0];
+    if (held.count > 0) sum += held.whitened[0];
   }
-  return squares;
+  return sum;
 }
 
 } // namespace gumshoe::tracing

@@ -23,15 +23,23 @@ struct HeldOut {
 HeldOut hold_out(const Design& design, const Matrix& residual, const std::vector<Index>& train,
                  const std::vector<Index>& test, const CovarianceModel& model, const CovarianceModel& units);
 
+/// Minus twice the logarithm of the density of `test` rows given `train` rows (one residual, all rows, SI), constants
+/// left out. Unlike `whitened`, it holds what the training rows say of columns and draws, and how well: where declared
+/// values are wide, they could otherwise be anything that the test rows ask for. Offsets of the block are projected out.
+double minus_log_density(const Design& design, const Matrix& residual, const std::vector<Index>& train,
+                         const std::vector<Index>& test, const CovarianceModel& model);
+
 /// Rows of all readings for which `chosen` holds.
 std::vector<Index> rows_where(const Observations& observations, const std::vector<bool>& chosen);
 
 /// Parts of the training rows to be left out in turn: by block if there are enough, else stretches of the sequence.
 std::vector<std::vector<Index>> folds(const Observations& observations, const std::vector<Index>& rows);
 
-/// Cross-validation: sum of squares of each fold predicted from the others, whitened by the declared uncertainties and
-/// the given covariance model. Compare fits under one covariance model.
+/// How each fold is judged.
+enum class Judged { as_declared /** HeldOut::whitened */, given_the_others /** minus_log_density */ };
+/// Cross-validation: sum over the folds, each predicted from the others, under the given covariance model. Compare fits
+/// under one covariance model.
 double cross_validated(const Observations& observations, const std::vector<Index>& rows, const JointFit& fit,
-                       const CovarianceModel& model);
+                       const CovarianceModel& model, Judged judged);
 
 } // namespace gumshoe::tracing
