@@ -27,6 +27,10 @@ void state_veto(const Search& s, Trace& out) {
           fmt::format("rejected by the hold-out blocks: {} (p = {:.2g})", fmt::join(f.members, ", "), f.p_value));
 }
 
+bool scatter_in_class(const Finding& f) {
+  return f.kind == Kind::equivalence_class && f.members.back().starts_with("scatter:");
+}
+
 /// What a veto leaves of a finding; false if nothing.
 bool survives_veto(const TraceContext& c, const Search& s, SearchFinding& found) {
   Finding& f = found.finding;
@@ -38,7 +42,7 @@ bool survives_veto(const TraceContext& c, const Search& s, SearchFinding& found)
   const bool alone = std::ranges::any_of(s.findings, [&](const SearchFinding& other) {
     return other.finding.kind == Kind::scatter && other.component == found.component;
   });
-  const auto left = left_by_veto(f.kind, found.component >= 0, alone);
+  const auto left = left_by_veto(f.kind, scatter_in_class(f), alone);
   if (!left) return false;
   if (*left != f.kind) {
     f.kind = *left;
@@ -83,7 +87,7 @@ void describe_class(const TraceContext& c, const Search& s, const SearchFinding&
   }
   f.spread = std::sqrt(f.spread / static_cast<double>(f.members.size() * c.fitter.rows().size()));
   f.suggestion = splitting_measurement(c, s, found);
-  if (found.component >= 0) {
+  if (scatter_in_class(f)) {
     if (!f.suggestion.empty()) f.suggestion += "; and ";
     f.suggestion += split_from_scatter(replicates(c, found.component), f.depends_on);
   }

@@ -60,6 +60,10 @@ Standing standing(double lead, double correlation, const Chance& chance, const s
   return added() > limit ? Standing::separate : Standing::member;
 }
 
+bool excludes_scatter(double lead, const Chance& chance) {
+  return lead > criteria.decisive && chance() < criteria.rival_lead_p;
+}
+
 bool pair_found(double pair, const double (&scores)[2], const double (&limits)[2], double best_shape) {
   return pair > best_shape + criteria.decisive && pair - scores[1] >= limits[0] && pair - scores[0] >= limits[1];
 }

@@ -57,6 +57,9 @@ enum class Standing {
 Standing standing(double lead, double correlation, const Chance& chance, const std::function<double()>& added,
                   double limit);
 
+/// Whether an effect's lead over a variance component that it explains excludes the component.
+bool excludes_scatter(double lead, const Chance& chance);
+
 /// Whether two effects together are found where neither passes alone: they explain more than any shape, and each counts
 /// in addition to the other. `scores` and `limits` of the two alone.
 bool pair_found(double pair, const double (&scores)[2], const double (&limits)[2], double best_shape);

@@ -56,6 +56,8 @@ public:
   double pair_score(std::size_t a, std::size_t b) const;
   double gain_beside(std::size_t best, std::size_t other) const;
   const Vector& residuals() const { return data_; } ///< residuals of the training readings
+  /// Draws of the noise, its variance component included, as the best covariance model without a signature has it.
+  Matrix noise(std::size_t draws, std::uint64_t key) const;
 
 private:
   /// Shape of draws of the seat of a clamping: if readings jump with the seat, so do the draws.
@@ -85,8 +87,12 @@ public:
   double score(std::size_t candidate) const; ///< as Evidence::score
   Fit fit(std::size_t candidate) const { return scan_.fit(candidate, evidence_.residuals()); }
   const CovarianceModel& model(const Fit& fit) const { return scan_.covariance_models()[fit.covariance_model]; }
+  /// Probability that the best of some candidates would lead a variance component by so much if that were the cause; by
+  /// simulation. 1 if another component fits better.
+  double chance_of_lead(const std::vector<std::size_t>& of, std::size_t component, double lead) const;
 
 private:
+  const TraceContext& c_;
   const Evidence& evidence_;
   Design design_;
   Scan scan_;

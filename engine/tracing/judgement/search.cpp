@@ -294,7 +294,7 @@ private:
 
   /// A variance component, or an effect that these data cannot distinguish from it. True if an effect was taken in.
   bool take_component() {
-    const auto found = scatter_shown(c_, evidence_->assessment(), out_.findings.size());
+    auto found = scatter_shown(c_, evidence_->assessment(), out_.findings.size());
     if (!found) return false;
     if (found->component >= 0 && take_instead(*found)) return true;
     add(*found);
@@ -303,9 +303,10 @@ private:
 
   /// A slow drift looks like scatter from one clamping to the next: given the scatter it is not worth its name. Effects
   /// that explain as much without the component, and predict held-out readings better, form a class with it. Quantities
-  /// declared by label do not: of so many, some look like scatter by chance. One group that differs from all others,
-  /// which agree, explains more than scatter: it is what was found.
-  bool take_instead(const SearchFinding& scatter) {
+  /// declared by label do not: of so many, some look like scatter by chance. Where the best of them explains more than
+  /// scatter would let it, scatter is no member. One group that differs from all others, which agree, explains more than
+  /// scatter: it is what was found, where scatter would seldom let it.
+  bool take_instead(SearchFinding& scatter) {
     const WithoutScatter without(c_, *evidence_);
     const Grouping& group = c_.observations.replicate_groups[index(scatter.component)];
     const auto one_group = [&](const Candidate& a) {
@@ -316,15 +317,27 @@ private:
     for (std::size_t a = 0; a < evidence_->candidates().size(); ++a)
       all.push_back({candidate(a).name, without.score(a),
                      one_group(candidate(a)) || (evidence_->testable(a) && candidate(a).family != Family::declared)});
+    std::vector<std::size_t> eligible;
+    for (std::size_t a = 0; a < all.size(); ++a)
+      if (all[a].eligible) eligible.push_back(a);
+    const auto excluded_by = [&](double lead) {
+      return excludes_scatter(lead, [&] { return without.chance_of_lead(eligible, index(scatter.component), lead); });
+    };
     SearchFinding found = scatter;
     found.finding.kind = Kind::equivalence_class;
     found.finding.members.clear();
     JointFit best;
-    const auto rivals = explain_scatter(all, evidence_->assessment().data.scatter(scatter.component, 0));
+    double lead = 0;
+    const double gain = evidence_->assessment().data.scatter(scatter.component, 0);
+    const auto rivals = explain_scatter(all, gain);
     for (const std::size_t a : rivals) {
       const Fit linear = without.fit(a);
       if (one_group(candidate(a))) {
         if (a != rivals[0]) continue;
+        if (!excluded_by(all[a].score - gain)) {
+          scatter.finding.remarks.push_back("described as well by " + with_shape(candidate(a)));
+          continue;
+        }
         JointFit fit = evidence_->with({evidence_->linear_term(a)});
         if (!fit.valid || !evidence_->predicts_better(fit, without.model(linear))) continue;
         add_shape(a, fit, scatter.finding.p_value);
@@ -332,19 +345,23 @@ private:
       }
       JointFit fit = evidence_->with({{candidate(a), linear.size}});
       if (!fit.valid || !evidence_->predicts_better(fit, without.model(linear))) continue;
-      outcomes_[a] = "in the class";
+      outcomes_[a] = "explains the scatter";
       found.finding.members.push_back(candidate(a).name);
       if (found.terms.empty()) {
         found.terms = {out_.found.terms.size()};
         found.threshold = evidence_->limit(a);
         found.finding.depends_on = candidate(a).depends_on;
         best = std::move(fit);
+        lead = all[a].score - gain;
       } else {
         found.rivals.push_back(fit.terms.back());
       }
     }
     if (found.terms.empty()) return false;
-    found.finding.members.push_back(scatter.finding.members[0]);
+    if (!excluded_by(lead))
+      found.finding.members.push_back(scatter.finding.members[0]);
+    else if (found.finding.members.size() == 1)
+      found.finding.kind = Kind::named;
     add(std::move(found));
     adopt(best);
     return true;

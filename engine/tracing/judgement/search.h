@@ -13,7 +13,8 @@ struct SearchFinding {
   std::vector<std::size_t> terms; ///< into the last fit's terms; empty: a variance component
   std::vector<Term> rivals;       ///< members of the class other than the first, each fitted in its place
   double threshold = 0;           ///< likelihood ratio (2 ln) that the term had to exceed
-  int component = -1;             ///< index into Design::scatter, if found or a member of the class; -1: none
+  /// Index into Design::scatter of the component that was found, or that the finding may stand for; -1: none.
+  int component = -1;
 };
 
 /// What stood after a round that took in a term.
