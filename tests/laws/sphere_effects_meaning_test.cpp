@@ -97,6 +97,29 @@ TEST_CASE("an axis that lags is an axis at another angle", "[effects][sphere_cal
   const double e = 5 * um / (100e-3 / 2);
   REQUIRE(e / arcsec == Approx(412.0 * 5 / 100).epsilon(2e-3));
   REQUIRE(distance(g.with("c_encoder_eccentricity", {0, e}).commands(), turned(0, e * std::sin(50 * deg))) < 1e-15);
+  // A tenth of a thousandth of the angle, and a load whose lever is longest at 90 deg.
+  REQUIRE(distance(g.with("b_scale", {1e-4}).commands(), turned(20e-4 * deg, 0)) < 1e-15);
+  REQUIRE(distance(g.with("c_scale", {1e-4}).commands(), turned(0, 50e-4 * deg)) < 1e-15);
+  REQUIRE(distance(g.with("b_gravity_torque", {0, 9 * arcsec}).commands(), turned(9 * arcsec * std::sin(20 * deg), 0)) <
+          1e-15);
+}
+
+/// Middles of touches from opposite sides, each a pretravel too far along its approach.
+TEST_CASE("three lobes move a centre that four touches find", "[effects][sphere_calibration]") {
+  for (const double B : {-20.0, 0.0, 45.0})
+    for (const double C : {0.0, 50.0, 170.0}) {
+      const Grinder g = Grinder().under({{Commanded::B, B * deg}, {Commanded::C, C * deg}});
+      const auto turn = rotation(0.0, B * deg, 0.0) * rotation(0.0, 0.0, C * deg);
+      const auto pretravel = [&](const Vector3<double>& approach) {
+        const auto u = transposed(turn) * approach;
+        const double azimuth = std::atan2(u.y, u.x), off = std::hypot(u.x, u.y);
+        return off * off * off * (5 * um * std::cos(3 * azimuth) + 2 * um * std::sin(3 * azimuth));
+      };
+      const double x = (pretravel({1, 0, 0}) - pretravel({-1, 0, 0})) / 2,
+                   y = (pretravel({0, 1, 0}) - pretravel({0, -1, 0})) / 2;
+      const auto moved = g.with("centre_lobing", {5 * um, 2 * um}).commands() - g.commands();
+      REQUIRE(distance(moved, {x, y, 0}) < 1e-15);
+    }
 }
 
 TEST_CASE("the probe triggers late", "[effects][sphere_calibration]") {

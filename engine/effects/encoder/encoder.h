@@ -65,4 +65,19 @@ struct CEncoderOvality : On<EncoderOvality, axis_C> {
          EncoderOvality::common);
 };
 
+/// The form of an eccentric encoder by another cause: only the load tells them apart.
+struct BGravityTorque : On<EncoderEccentricity, axis_B> {
+  static constexpr EffectCard card{
+      .name = "b_gravity_torque",
+      .title = "Twist of the B axis under its load",
+      .stage = Stage::rotary,
+      .iso230 = "E_BB",
+      .meaning = "The centre of gravity of what B carries lies off its axis. The drive yields to the torque: an angular "
+                 "positioning error cosine cos B + sine sin B that grows with the load.",
+      .adds = "E_BB += cosine cos B + sine sin B",
+      .confused_with = "b_encoder_eccentricity, exactly, unless the load is changed; gravity_sag",
+      .source = "engineering knowledge; ISO 230-1",
+      .quantities = EncoderEccentricity::quantities};
+};
+
 } // namespace gumshoe::effects

@@ -50,4 +50,36 @@ struct ZScale : On<Scale, slide_Z> {
       .quantities = quantities};
 };
 
+struct RotaryScale {
+  static constexpr QuantityCard quantities[] = {
+      {.name = "scale", .unit = "um/m", .si_unit = "1", .limits = {-1e-2, 1e-2},
+       .meaning = "positioning error per angle of travel: 1 um/m is 1 urad/rad, 3.6e-3 arcsec per deg",
+       .role = Role::amplitude, .typical = {10e-6, 200e-6}},
+  };
+  static constexpr Common common{
+      .stage = Stage::rotary,
+      .meaning = "Actual minus commanded angle grows in proportion to the command: a gear ratio or a number of lines "
+                 "that the control does not quite know.",
+      .source = "engineering knowledge; ISO 230-1",
+      .quantities = quantities};
+  template <class T> static void add(const T* q, const Turn<T>& turn) {
+    turn.error = turn.error + q[0] * turn.axis.angle;
+  }
+};
+
+struct BScale : On<RotaryScale, axis_B> {
+  static constexpr EffectCard card =
+      on({.name = "b_scale", .title = "Linear positioning error of B", .iso230 = "E_BB",
+          .adds = "E_BB += scale B",
+          .confused_with = "the sine of b_encoder_eccentricity over a short range of B; E_A0B, E_C0B"},
+         RotaryScale::common);
+};
+struct CScale : On<RotaryScale, axis_C> {
+  static constexpr EffectCard card =
+      on({.name = "c_scale", .title = "Linear positioning error of C", .iso230 = "E_CC",
+          .adds = "E_CC += scale C",
+          .confused_with = "the sine of c_encoder_eccentricity over a short range of C; E_A0C, E_B0C"},
+         RotaryScale::common);
+};
+
 } // namespace gumshoe::effects
