@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,6 +11,7 @@
 #include "tracing/findings/sizes.h"
 #include "tracing/findings/splitting.h"
 #include "tracing/judgement/decisions.h"
+#include "tracing/judgement/evidence.h"
 
 namespace gumshoe::tracing {
 namespace {
@@ -94,6 +96,32 @@ void describe_class(const TraceContext& c, const Search& s, const SearchFinding&
   if (f.suggestion.empty()) f.remarks.push_back("no tried change of a condition would distinguish them");
 }
 
+/// The fit of what has a name alone, if there are shapes beside it.
+std::optional<JointFit> without_shapes(const TraceContext& c, const JointFit& fit) {
+  std::vector<std::size_t> shapes;
+  for (std::size_t t = 0; t < fit.terms.size(); ++t)
+    if (!fit.terms[t].candidate.physical()) shapes.push_back(t);
+  if (shapes.empty() || shapes.size() == fit.terms.size()) return std::nullopt;
+  JointFit out = without(c, fit, shapes);
+  return out.valid ? std::optional(std::move(out)) : std::nullopt;
+}
+
+/// Sizes that the shapes change by more than their standard uncertainty, as they are without them.
+void remark_on_shapes(const TraceContext& c, const JointFit& fit, const JointFit& plain, const SearchFinding& found,
+                      Finding& f) {
+  std::vector<SizedQuantity> other;
+  for (const std::size_t t : found.terms) {
+    const auto place = std::ranges::count_if(fit.terms.begin(), fit.terms.begin() + index(t),
+                                             [](const Term& one) { return one.candidate.physical(); });
+    std::ranges::copy(sizes(c, plain, static_cast<std::size_t>(place), found.threshold), std::back_inserter(other));
+  }
+  for (std::size_t i = 0; i < other.size(); ++i)
+    if (const auto& q = f.quantities[i]; std::fabs(other[i].value - q.value) > q.u)
+      f.remarks.push_back(fmt::format("{} is {}, u = {}, without the part that has no name", q.name,
+                                      shown_size(other[i].value, q.unit, q.si_unit),
+                                      shown_size(other[i].u, q.unit, q.si_unit)));
+}
+
 } // namespace
 
 void describe_noise(const TraceContext& c, const Search& s, Trace& out) {
@@ -123,6 +151,7 @@ void collect(const TraceContext& c, const Search& s, Trace& out) {
     state_veto(s, out);
   else
     out.statements.insert(out.statements.end(), s.dropped.begin(), s.dropped.end());
+  const auto plain = out.vetoed ? std::nullopt : without_shapes(c, fit);
   for (SearchFinding found : s.findings) {
     if (out.vetoed && !survives_veto(c, s, found)) continue;
     Finding f = found.finding;
@@ -137,6 +166,7 @@ void collect(const TraceContext& c, const Search& s, Trace& out) {
       f.quantities.insert(f.quantities.end(), more.begin(), more.end());
       remark_on_size(fit.terms[t], f);
     }
+    if (plain && !f.quantities.empty()) remark_on_shapes(c, fit, *plain, found, f);
     if (f.kind == Kind::equivalence_class) describe_class(c, s, found, f);
     if (f.kind == Kind::scatter) describe_scatter(c, out.vetoed ? s.base : fit, found.component, f);
     out.findings.push_back(std::move(f));
