@@ -60,6 +60,7 @@ struct Criteria {
   /// A signature that moves the readings by less than this share of `secant_step` per SI unit is rounding.
   double least_signature = 1e-7;
   std::size_t most_cells = 60;          ///< groups of readings for which a declared quantity is tried apart, by cost
+  std::size_t most_parts = 12;          ///< values of a label at which effects are tried apart, by cost
   double dependence_share = 0.1;        ///< share of a signature's variance that a condition must explain to be named
   std::size_t dependence_bins = 8;      ///< groups of neighbouring values of a condition there
   std::size_t most_label_groups = 30;   ///< groups of a label for which steps and dependence are tried
@@ -104,6 +105,8 @@ struct Criteria {
 
   // ---- Judgement ----
   std::size_t most_findings = 5; ///< terms or scatter found in one trace
+  /// An effect that one rod or one tool alone has is taken to be so many times rarer than one of them all.
+  double rarity_of_part = 10;
   double beyond_doubt = 25;      ///< 2 ln L beyond which no simulation is needed: five standard deviations
   /// 2 ln L up to which a shape that fits better than an effect is of equal merit: the effect has a cause.
   double equal_merit = 4;

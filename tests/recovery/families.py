@@ -109,6 +109,7 @@ rod_gauging         trigger_latency@8                                         wh
 rod_gauging         z_reversal@8                                              unequal
 rod_gauging         thermal_growth@15                                         one_bad
 rod_gauging         declared:rod_length[rod_3]@8                              white
+rod_gauging         z_reversal[rod_3]@8                                       white
 rod_gauging         trigger_latency@12+z_reversal@8                           white
 rod_gauging         cubic@12                                                  white
 tool_length         -                                                         white

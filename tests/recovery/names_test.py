@@ -15,6 +15,7 @@ import numpy as np
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent / "cli")]
 
+import rods
 import sets
 import spheres
 from program import GUMSHOE, gumshoe
@@ -229,6 +230,22 @@ class Names(unittest.TestCase):
         for seed in (1, 2, 3):
             v = self.line(lambda x, t: (20, 8, 5)[t // 10] if t < 30 else 0, seed)
             self.assertFalse([f for f in v["findings"] if f["kind"] == "not_in_catalogue" and f["depends_on"][0] in ("t", "order")], v["findings"])
+
+    def test_an_effect_of_one_rod_has_its_name_and_its_size(self):
+        """24 readings of rod 3, half of them from each side, each good to 0.5 um: u of their difference."""
+        u = 2 * 0.5 / math.sqrt(24)
+        for seed in (301, 302):
+            d, y, truth = sets.make(GUMSHOE, rods, "single", "z_reversal[rod 3]", 8, seed)
+            v = self.trace(sets.write(self.path, self.path / "truth", f"one_{seed}", d, y, truth, rods), "--draws", 199)
+            self.assertEqual([f["name"] for f in v["findings"]], ["z_reversal[rod 3]"], v["findings"])
+            self.assertIn("direction", v["findings"][0]["depends_on"])
+            size, = v["findings"][0]["quantities"]
+            self.assertEqual(size["labels"], {"rod": "3"})
+            self.assertAlmostEqual(size["u"], u, delta=0.3 * u)
+            self.assertAlmostEqual(size["value"], truth["effects"][0]["size"], delta=3.5 * u)
+            again = self.trace(self.path / "scenario.traced.toml", "--draws", 199)
+            self.assertEqual(again["findings"], [])
+            self.assertAlmostEqual(again["rms"]["before"], v["rms"]["after"], delta=1e-3 * v["rms"]["after"])
 
 
 if __name__ == "__main__":

@@ -67,7 +67,8 @@ class Generator(unittest.TestCase):
             self.assertAlmostEqual(squares, freedom, delta=5 * math.sqrt(2 * freedom), msg=system.MODEL)
 
     def test_strength_is_as_asked(self):
-        for system, what in ((rods, "trigger_latency"), (rods, "declared:rod_length[rod 3]"), (spheres, "c_encoder_ovality"),
+        for system, what in ((rods, "trigger_latency"), (rods, "declared:rod_length[rod 3]"), (rods, "z_reversal[rod 3]"),
+                             (spheres, "c_encoder_ovality"),
                              (mills, "trigger_latency"), (mills, "thermal_growth")):
             truth = sets.make(GUMSHOE, system, "single", what, 8, 1)[2]
             self.assertAlmostEqual(truth["effects"][0]["strength"], 8, delta=0.08)

@@ -60,6 +60,12 @@ def reversal(d, rng):
 
 
 @along(1.0)
+def reversal_of_one(d, rng):
+    """One rod sits loosely: it tips by the side from which the beam is approached."""
+    return 0.5 * shapes.hysteresis(d.value("direction"), rng.uniform(1, 5, d.readings), 1.0) * (d.labels["rod"] == "3")
+
+
+@along(1.0)
 def film(d, rng):
     """A film of coolant that the rod wipes off slowly: thicker at low feed."""
     return 1 / d.value("feed")
@@ -77,6 +83,7 @@ def scale(d, rng):
 ADDED = {
     "trigger_latency": (latency, "delay", "ms", ("feed", "direction"), "+"),
     "z_reversal": (reversal, "backlash", "um", ("direction",), "+"),
+    "z_reversal[rod 3]": (reversal_of_one, "backlash", "um", ("rod",), "+"),
     "thermal_growth": (along(1.0)(shapes.drift), "rate", "um/h", ("time",)),
     "thermal_growth:warming": (along(1.0)(shapes.warming), None, None, ("time",), "+"),
     "z_scale": (scale, "E_ZZ", "um/m", ("rod",)),

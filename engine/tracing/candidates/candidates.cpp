@@ -1,5 +1,6 @@
 #include "tracing/candidates/candidates.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -40,7 +41,9 @@ void CandidateMaker::add(Candidate a, std::vector<Candidate>& family) const {
         std::fabs(alike(other.columns.col(0), a.columns.col(0))) > criteria.same_signature)
       return;
   for (const auto& [label, value] : a.amplitudes[0].labels) a.depends_on.push_back(label);
-  if (a.depends_on.empty()) a.depends_on = dependence(observations, a.columns);
+  if (a.depends_on.empty() || a.in_part())
+    for (std::string& on : dependence(observations, a.columns))
+      if (std::ranges::find(a.depends_on, on) == a.depends_on.end()) a.depends_on.push_back(std::move(on));
   family.push_back(std::move(a));
 }
 

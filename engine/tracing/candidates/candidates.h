@@ -36,7 +36,7 @@ struct Amplitude {
 
 /// One signature that is tried.
 struct Candidate {
-  std::string name;  ///< "trigger_latency", "declared:rod_length[rod 2]", "polynomial:feed^2"
+  std::string name;  ///< "trigger_latency", "rod_runout[rod 2]", "declared:rod_length[rod 2]", "polynomial:feed^2"
   std::string shape; ///< shape parameters held fixed, in words; or "at +5 um" for a signature taken over a finite step
   Family family = Family::effect;
   Matrix columns; ///< rows in the order of measurement x amplitudes, per SI unit of each
@@ -44,6 +44,8 @@ struct Candidate {
   std::vector<std::pair<std::size_t, double>> held; ///< shape quantities, SI
   std::vector<std::string> depends_on;
   double finite = 0; ///< size over which the signature was taken; 0: the derivative
+  /// An effect at some of the readings only: of one rod, of one set-up.
+  bool in_part() const { return family == Family::effect && !amplitudes[0].labels.empty(); }
   bool physical() const { return family == Family::effect || family == Family::declared || family == Family::stated; }
 };
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "base/units.h"
+#include "quantities/cells.h"
 #include "tracing/candidates/candidate_families.h"
 #include "tracing/criteria.h"
 
@@ -49,18 +50,22 @@ void drop_still(Candidate& a) {
   }
 }
 
+/// With its shape quantities at their defaults. @param mask  readings at which it acts; null: all
+void add(const CandidateMaker& make, Candidate one, const Group& group, const std::vector<bool>* mask,
+         std::vector<Candidate>& found) {
+  if (group.count == 1) return make.add_single(std::move(one), group.first, mask, found);
+  Matrix both = make.moved.tangents.middleCols(index(group.first), 2);
+  for (Index row = 0; row < both.rows() && mask; ++row)
+    if (!(*mask)[index(row) / make.observations.indications]) both.row(row).setZero();
+  one.columns = in_sequence(make.observations, both);
+  drop_still(one);
+  make.add(std::move(one), found);
+}
+
 void with_default_shapes(const CandidateMaker& make, std::vector<Candidate>& found) {
   for (const effects::Active& active : make.experiment.forward().active())
-    for (const Group& group : groups_of(make.experiment, active)) {
-      Candidate one = candidate(make, group);
-      if (group.count == 1) {
-        make.add_single(std::move(one), group.first, nullptr, found);
-        continue;
-      }
-      one.columns = in_sequence(make.observations, make.moved.tangents.middleCols(index(group.first), 2));
-      drop_still(one);
-      make.add(std::move(one), found);
-    }
+    for (const Group& group : groups_of(make.experiment, active))
+      add(make, candidate(make, group), group, nullptr, found);
 }
 
 /// Values at which a shape quantity is tried, SI: its default, then a time constant by the duration of the data; others
@@ -145,11 +150,44 @@ void with_other_shapes(const CandidateMaker& make, std::vector<Candidate>& found
   }
 }
 
+/// Labels that name a part: a rod, a tool. Blocks and acts done anew are no parts, as what they leave behind scatters.
+std::vector<const Grouping*> parts_of(const Observations& o) {
+  const auto done_anew = [&](const Grouping& label) {
+    return label.group == o.blocks.group ||
+           std::ranges::any_of(o.replicate_groups, [&](const Grouping& g) { return g.group == label.group; });
+  };
+  std::vector<const Grouping*> out;
+  for (const Grouping& label : o.labels)
+    if (label.groups.size() <= criteria.most_parts && !done_anew(label)) out.push_back(&label);
+  return out;
+}
+
+/// An effect that only one rod, or one tool, has.
+void of_parts(const CandidateMaker& make, std::vector<Candidate>& found) {
+  const Observations& o = make.observations;
+  for (const Grouping* label : parts_of(o))
+    for (std::size_t g = 0; g < label->groups.size(); ++g) {
+      std::vector<bool> mask;
+      for (const std::size_t own : label->group) mask.push_back(own == g);
+      const auto& of = make.experiment.scenario().readings[index(std::ranges::find(mask, true) - mask.begin())].labels;
+      const quantities::Labels part{{label->name, *quantities::label_value(of, label->name)}};
+      for (const effects::Active& active : make.experiment.forward().active())
+        for (const Group& group : groups_of(make.experiment, active)) {
+          if (make.experiment.scenario().quantities[group.first].estimated) continue;
+          Candidate one = candidate(make, group);
+          one.name += "[" + quantities::text_of(part) + "]";
+          for (Amplitude& a : one.amplitudes) a.labels = part;
+          add(make, std::move(one), group, &mask, found);
+        }
+    }
+}
+
 } // namespace
 
 std::vector<Candidate> effect_candidates(const CandidateMaker& make) {
   std::vector<Candidate> found;
   with_default_shapes(make, found);
+  of_parts(make, found);
   with_other_shapes(make, found);
   return found;
 }

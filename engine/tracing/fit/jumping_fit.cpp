@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "quantities/cells.h"
 #include "tracing/criteria.h"
 #include "tracing/fit/joint_fit.h"
 
@@ -60,6 +61,10 @@ std::optional<Fitter::Profile> Fitter::profile(const JointFit& fit, std::size_t 
       }
     std::vector<bool> valid;
     simulator_.vary(fit.at, variations, f, valid);
+    // An effect of one part moves none of the other readings.
+    for (std::size_t r = 0; r < observations_.readings; ++r)
+      if (!quantities::holds_for(a.labels, experiment_.scenario().readings[r].labels))
+        f.middleRows(index(r * observations_.indications), index(observations_.indications)).setZero();
     return out.steps.size() > 3 && std::ranges::find(valid, false) == valid.end();
   };
   const auto line_through = [&] {

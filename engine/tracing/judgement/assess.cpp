@@ -31,9 +31,12 @@ double share_at_most(const std::vector<double>& draws, double value) {
 }
 
 /// Null distribution of each statistic (row), from the first half of the draws.
-std::vector<Null> nulls_of(const Matrix& draws) {
+std::vector<Null> nulls_of(const Matrix& draws, const std::vector<double>& rarity = {}) {
   std::vector<Null> out;
-  for (Index j = 0; j < draws.rows(); ++j) out.push_back(null_of(draws.row(j).head(draws.cols() / 2)));
+  for (Index j = 0; j < draws.rows(); ++j) {
+    out.push_back(null_of(draws.row(j).head(draws.cols() / 2)));
+    if (!rarity.empty()) out.back().rarity = rarity[index(j)];
+  }
   return out;
 }
 
@@ -117,17 +120,19 @@ private:
 double Null::p(double statistic) const {
   if (!(mean > 0) || !(variance > 0)) return 1;
   const Gamma gamma(mean * mean / variance, variance / mean);
-  return statistic > 0 ? std::max(1e-300, boost::math::cdf(boost::math::complement(gamma, statistic))) : 1;
+  if (!(statistic > 0)) return 1;
+  return std::clamp(rarity * boost::math::cdf(boost::math::complement(gamma, statistic)), 1e-300, 1.0);
 }
 
 double Null::quantile(double p) const {
   if (!(mean > 0) || !(variance > 0)) return std::numeric_limits<double>::infinity();
   const Gamma gamma(mean * mean / variance, variance / mean);
-  return boost::math::quantile(boost::math::complement(gamma, p));
+  return boost::math::quantile(boost::math::complement(gamma, p / rarity));
 }
 
 Assessment assess(const Scan& scan, const Vector& residuals, int draws, std::uint64_t seed, double alpha,
-                  double declared, const ScatterResponse& response, const Repeats* repeats, double freedom) {
+                  double declared, const ScatterResponse& response, const Repeats* repeats, double freedom,
+                  const std::vector<double>& rarity) {
   Assessment out;
   out.data = scan.run(residuals);
   out.noise_shape = scan.noise_shape(residuals);
@@ -143,7 +148,7 @@ Assessment assess(const Scan& scan, const Vector& residuals, int draws, std::uin
   };
   // Nothing at all: no variance component either.
   const Statistics nothing = null_draws(k0, out.data.variance_without_scatter[0], seed);
-  out.null = nulls_of(nothing.ratio);
+  out.null = nulls_of(nothing.ratio, rarity);
   const auto component = nulls_of(nothing.scatter);
   const NoiseSize size(scan, out.data, nothing, out.noise_shape.core(), declared, freedom);
   out.p_noise = size.p();
@@ -162,7 +167,7 @@ Assessment assess(const Scan& scan, const Vector& residuals, int draws, std::uin
   if (k1 != k0) {
     if (response) out.noise_shape.scatter = response(scan.covariance_models()[k1], out.data.variance[0]);
     const Statistics given_scatter = null_draws(k1, out.data.variance[0], seed ^ 0x5ca77e5ull);
-    out.null = nulls_of(given_scatter.ratio);
+    out.null = nulls_of(given_scatter.ratio, rarity);
     for (Index i = 0; i < sets; ++i)
       least[index(i)] = least_p(out.null, given_scatter.ratio, sets + i, repeated.least_drawn(sets + i));
   }
@@ -177,14 +182,16 @@ Assessment assess(const Scan& scan, const Vector& residuals, int draws, std::uin
 }
 
 Assessment assess_surely(const Scan& scan, const Vector& residuals, int draws, std::uint64_t seed, double alpha,
-                         double declared, const ScatterResponse& response, const Repeats* repeats, double freedom) {
+                         double declared, const ScatterResponse& response, const Repeats* repeats, double freedom,
+                         const std::vector<double>& rarity) {
   const auto unsure = [&](double p, double n) {
     return p > criteria.unsure_low * alpha && p < criteria.unsure_high * alpha &&
            std::fabs(p - alpha) < criteria.sure * std::sqrt(alpha * (1 - alpha) / n);
   };
   for (double times = 1;; times *= criteria.more_draws) {
     const double n = times * draws;
-    Assessment out = assess(scan, residuals, static_cast<int>(n), seed, alpha, declared, response, repeats, freedom);
+    Assessment out = assess(scan, residuals, static_cast<int>(n), seed, alpha, declared, response, repeats, freedom,
+                            rarity);
     if (times >= criteria.most_draws || !(unsure(out.p_anything, n) || unsure(out.p_signature, n))) return out;
   }
 }

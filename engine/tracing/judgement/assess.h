@@ -11,8 +11,11 @@ namespace gumshoe::tracing {
 /// Null distribution of one statistic, matched to the draws: a gamma distribution of their mean and variance.
 struct Null {
   double mean = 1, variance = 2;
-  double p(double statistic) const; ///< p-value of a statistic as large
-  double quantile(double p) const;  ///< statistic that is exceeded with this probability
+  /// A candidate that is so many times rarer than others: its p-values count so many times (weighted p-values, Genovese
+  /// et al. 2006, Biometrika). All together keep the false-alarm rate.
+  double rarity = 1;
+  double p(double statistic) const; ///< p-value of a statistic as large, times the rarity
+  double quantile(double p) const;  ///< statistic that is exceeded with this probability, over the rarity
 };
 
 struct Assessment {
@@ -47,11 +50,13 @@ struct Repeats {
 /// @param declared  ratio of the true standard deviation to the design's under the declared noise; 0: none is declared
 /// @param repeats   what comes back, of the same rows; null: it is not tested
 /// @param freedom   degrees of freedom of the declared noise
+/// @param rarity    by signature, Null::rarity; empty: 1
 Assessment assess(const Scan& scan, const Vector& residuals, int draws, std::uint64_t seed, double alpha,
                   double declared, const ScatterResponse& response = {}, const Repeats* repeats = nullptr,
-                  double freedom = std::numeric_limits<double>::infinity());
+                  double freedom = std::numeric_limits<double>::infinity(), const std::vector<double>& rarity = {});
 /// The same with more draws as long as a p-value that decides is near alpha (criteria.h).
 Assessment assess_surely(const Scan& scan, const Vector& residuals, int draws, std::uint64_t seed, double alpha,
-                         double declared, const ScatterResponse& response, const Repeats* repeats, double freedom);
+                         double declared, const ScatterResponse& response, const Repeats* repeats, double freedom,
+                         const std::vector<double>& rarity);
 
 } // namespace gumshoe::tracing

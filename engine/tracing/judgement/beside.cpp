@@ -21,7 +21,7 @@ std::optional<std::size_t> simpler_beside_effect(const Evidence& e, std::size_t 
     const double alone = e.scan().pair_ratio(s, s, e.residuals(), model);
     for (std::size_t a = 0; a < e.candidates().size(); ++a) {
       // One of the declared values would take the bend of any table.
-      if (!e.testable(a) || e.candidates()[a].family == Family::declared) continue;
+      if (!e.testable(a) || e.candidates()[a].family == Family::declared || e.candidates()[a].in_part()) continue;
       const double added = e.scan().pair_ratio(s, a, e.residuals(), model) - alone;
       const double both = simpler[s].score + added - 2 * e.assessment().null[a].mean;
       if (counts_beside(both, {e.score(a), simpler[s].score}, added, {e.limit(a), e.limit(s)}, e.score(shape)) &&

@@ -106,10 +106,12 @@ Evidence::Evidence(const TraceContext& c, const JointFit& fit, std::size_t round
   data_ = scan_->whitened(scan_->plain()).take(fit.residual);
   const double declared = c.fitter.noise_declared() ? 1 / fit.noise : 0;
   const Repeats repeats = repeats_of(c, fit);
+  std::vector<double> rarity;
+  for (const Candidate& a : candidates_) rarity.push_back(a.in_part() ? criteria.rarity_of_part : 1);
   assessment_ = assess_surely(
       *scan_, data_, c.draws, c.seed + round, c.alpha, declared,
       [&](const CovarianceModel& model, double variance) { return scatter_response(model, variance); }, &repeats,
-      noise_freedom(c.experiment));
+      noise_freedom(c.experiment), rarity);
 }
 
 Matrix Evidence::scatter_response(const CovarianceModel& model, double variance) const {

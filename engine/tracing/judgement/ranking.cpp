@@ -16,7 +16,9 @@ std::vector<RankedCandidate> ranking(const Scan& scan, const Assessment& assessm
                                      const std::map<std::size_t, std::string>& outcomes) {
   std::vector<std::size_t> order(candidates.size());
   for (std::size_t a = 0; a < order.size(); ++a) order[a] = a;
-  std::ranges::sort(order, [&](std::size_t a, std::size_t b) { return assessment.p[a] < assessment.p[b]; });
+  // Equal signatures differ by rounding: in digits that depend on no order of sums, then as they were made.
+  const auto place = [&](std::size_t a) { return std::round(std::log(assessment.p[a]) * 1e6); };
+  std::ranges::stable_sort(order, std::ranges::less{}, place);
   std::vector<RankedCandidate> out;
   for (const std::size_t a : order) {
     const Candidate& one = candidates[a];
@@ -26,7 +28,7 @@ std::vector<RankedCandidate> ranking(const Scan& scan, const Assessment& assessm
     line.family = name(one.family);
     line.parameters = static_cast<int>(one.columns.cols());
     line.statistic = assessment.data.ratio(index(a), 0);
-    line.p_single = assessment.p[a];
+    line.p_single = assessment.p[a] / assessment.null[a].rarity;
     line.identifiable = scan.identifiable(a);
     if (line.identifiable < criteria.mostly_absorbed && scan.absorbed_by(a) >= 0) {
       const auto by = index(scan.absorbed_by(a)), fixed = fit.fixed_names.size();
@@ -37,7 +39,7 @@ std::vector<RankedCandidate> ranking(const Scan& scan, const Assessment& assessm
     const auto known = outcomes.find(a);
     line.outcome = known != outcomes.end()
                        ? known->second
-                       : refusal(line.identifiable, line.absorbed_by, line.p_single, assessment.threshold);
+                       : refusal(line.identifiable, line.absorbed_by, assessment.p[a], assessment.threshold);
     out.push_back(std::move(line));
   }
   return out;
@@ -73,7 +75,7 @@ std::vector<DetectionLimit> detection_limits(const Scan& scan, const Assessment&
   std::vector<std::pair<std::string, Response>> responses; // by effect and quantity, in the order of the candidates
   for (std::size_t a = 0; a < candidates.size(); ++a) {
     const Candidate& one = candidates[a];
-    if (!one.physical()) continue;
+    if (!one.physical() || one.in_part()) continue;
     const bool told = scan.identifiable(a) > criteria.absorbed_share;
     for (std::size_t j = 0; j < one.amplitudes.size(); ++j) {
       const std::string key = one.name + "/" + one.amplitudes[j].name;

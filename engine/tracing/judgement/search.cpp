@@ -146,7 +146,12 @@ private:
 
   /// Candidates that could win, by the whole model, best first.
   std::vector<Trial> trials() const {
-    const auto physical = best_of([](const Candidate& a) { return a.physical(); }, criteria.most_refitted);
+    // What only one rod or one tool has asks for more: it must lead what all have.
+    auto physical = best_of([](const Candidate& a) { return a.physical() && !a.in_part(); }, criteria.most_refitted);
+    const auto parts = best_of([](const Candidate& a) { return a.in_part(); }, 1);
+    if (!parts.empty() &&
+        (physical.empty() || evidence_->score(parts[0]) > evidence_->score(physical[0]) + 2 * std::log(criteria.rarity_of_part)))
+      physical = best_of([](const Candidate& a) { return a.physical(); }, criteria.most_refitted);
     std::vector<Trial> out;
     for (const std::size_t a : physical) {
       if (!out.empty() && !could_still_win(evidence_->score(a), evidence_->score(physical[0]))) break;
@@ -198,9 +203,9 @@ private:
   bool take_pair(const std::vector<std::size_t>& plain) {
     double best = 0;
     std::size_t pair[2] = {0, 0};
-    for (const std::size_t a : best_of([](const Candidate& x) { return x.physical(); }, criteria.most_paired))
+    for (const std::size_t a : best_of([](const Candidate& x) { return x.physical() && !x.in_part(); }, criteria.most_paired))
       for (std::size_t b = 0; b < evidence_->candidates().size(); ++b) {
-        if (!evidence_->testable(b) || candidate(a).name == candidate(b).name) continue;
+        if (!evidence_->testable(b) || candidate(b).in_part() || candidate(a).name == candidate(b).name) continue;
         if (const double s = evidence_->pair_score(a, b); s > best) best = s, pair[0] = a, pair[1] = b;
       }
     if (!pair_found(best, {evidence_->score(pair[0]), evidence_->score(pair[1])},
@@ -303,7 +308,7 @@ private:
 
   /// A slow drift looks like scatter from one clamping to the next: given the scatter it is not worth its name. Effects
   /// that explain as much without the component, and predict held-out readings better, form a class with it. Quantities
-  /// declared by label do not: of so many, some look like scatter by chance. Where the best of them explains more than
+  /// declared, and effects, by label do not: of so many, some look like scatter by chance. Where the best of them explains more than
   /// scatter would let it, scatter is no member. One group that differs from all others, which agree, explains more than
   /// scatter: it is what was found, where scatter would seldom let it.
   bool take_instead(SearchFinding& scatter) {
@@ -316,7 +321,8 @@ private:
     std::vector<Scored> all;
     for (std::size_t a = 0; a < evidence_->candidates().size(); ++a)
       all.push_back({candidate(a).name, without.score(a),
-                     one_group(candidate(a)) || (evidence_->testable(a) && candidate(a).family != Family::declared)});
+                     one_group(candidate(a)) || (evidence_->testable(a) && candidate(a).family != Family::declared &&
+                                                 !candidate(a).in_part())});
     std::vector<std::size_t> eligible;
     for (std::size_t a = 0; a < all.size(); ++a)
       if (all[a].eligible) eligible.push_back(a);
