@@ -13,6 +13,7 @@
 #include "cli/command.h"
 #include "cli/print.h"
 #include "cli/progress_line.h"
+#include "cli/shards.h"
 #include "propagation/propagate.h"
 #include "store/origin.h"
 #include "store/result_file.h"
@@ -23,13 +24,14 @@ namespace gumshoe::cli {
 namespace {
 
 struct Options {
-  std::string file, scenario, out, format = "text";
+  std::string file, scenario, out;
+  PrintOptions print;
   int threads = 0;
   bool force = false;
-  bool budget = false, all = false;
 };
 
 void refuse_unusable(const store::Stored& stored, const std::string& file) {
+  refuse_shard(stored.identity, file);
   if (stored.command() == "choose" || stored.command() == "trace")
     throw InputError(file + ": the file holds no samples", "gumshoe " + stored.command() + " made it",
                      "use gumshoe run");
@@ -104,16 +106,7 @@ ExitCode analyse(const Options& o) {
   identity.scenario_place = store::place_of(s.file);
   identity.command = "analyse";
   store::ResultFile file(out, identity, experiment.outputs(), experiment.place_names(), o.force);
-  constexpr std::uint64_t part = std::uint64_t{1} << 20;
-  for (std::uint64_t first = file.samples_done(); first < samples; first += part) {
-    const std::uint64_t count = std::min(part, samples - first);
-    propagation::ResultBlock block{first, count, {}, source.read_status(first, count)};
-    for (std::size_t output = 0; output < experiment.outputs().size(); ++output) {
-      const auto values = source.read(output, first, count);
-      block.outputs.insert(block.outputs.end(), values.begin(), values.end());
-    }
-    file.write(block);
-  }
+  store::append_samples(file, source, experiment.outputs().size(), 0, samples);
   s.notes.push_back("analysed again from the samples of " + o.file);
   const analysis::Samples kept{[&](std::size_t output) { return file.read(output, 0, samples); },
                                [&] { return file.read_status(0, samples); }};
@@ -124,7 +117,9 @@ ExitCode analyse(const Options& o) {
   analysis::keep_measurands(results, s.analysis.measurands);
   file.finish(results);
   line.clear();
-  return print_results(results, out, {o.format, o.budget, o.all, s.run.max_failed_share});
+  PrintOptions print = o.print;
+  print.max_failed_share = s.run.max_failed_share;
+  return print_results(results, out, print);
 }
 
 } // namespace
@@ -138,9 +133,7 @@ void add_analyse(CLI::App& app, Action& action) {
   add_force(*command, o->force);
   add_external(*command);
   command->add_option("--threads", o->threads, "0: all processors")->check(CLI::Range(0, 1024));
-  command->add_option("--format", o->format, "text, csv or json")->check(CLI::IsMember({"text", "csv", "json"}));
-  command->add_flag("--budget", o->budget, "text: with the uncertainty budgets; csv: these instead of the summary");
-  command->add_flag("--all", o->all, "text: every output, where one line would stand for many readings");
+  add_print(*command, o->print);
   command->callback([=, &action] { action = [=] { return analyse(*o); }; });
 }
 

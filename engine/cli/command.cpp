@@ -9,6 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "cli/print.h"
 #include "effects/effect.h"
 
 namespace gumshoe::cli {
@@ -83,6 +84,12 @@ void add_external(CLI::App& command) {
 
 void add_force(CLI::App& command, bool& force) {
   command.add_flag("--force", force, "replace the output, even if another scenario or another program wrote it");
+}
+
+void add_print(CLI::App& command, PrintOptions& print) {
+  command.add_option("--format", print.format, "text, csv or json")->check(CLI::IsMember({"text", "csv", "json"}));
+  command.add_flag("--budget", print.budget, "text: with the uncertainty budgets; csv: these instead of the summary");
+  command.add_flag("--all", print.all, "text: every output, where one line would stand for many readings");
 }
 
 } // namespace gumshoe::cli

@@ -18,6 +18,7 @@ using Action = std::function<ExitCode()>;
 void add_new(CLI::App& app, Action& action);
 void add_check(CLI::App& app, Action& action);
 void add_run(CLI::App& app, Action& action);
+void add_merge(CLI::App& app, Action& action);
 void add_analyse(CLI::App& app, Action& action);
 void add_report(CLI::App& app, Action& action);
 void add_evaluate(CLI::App& app, Action& action);
@@ -58,5 +59,9 @@ void add_external(CLI::App& command);
 
 /// The option --force.
 void add_force(CLI::App& command, bool& force);
+
+/// The options --format, --budget and --all.
+struct PrintOptions;
+void add_print(CLI::App& command, PrintOptions& print);
 
 } // namespace gumshoe::cli

@@ -21,6 +21,8 @@ constexpr CommandHelp helps[] = {
     {"check", "gumshoe check scenarios/rod_gauging.toml --explain", "prints the scenario as understood, in SI", again},
     {"run", "gumshoe run scenarios/rod_gauging.toml --samples 1e5 --budget", "prints the result with its budget",
      "Interrupted, it keeps its samples; the same command resumes. Studies after sampling are made again."},
+    {"merge", "gumshoe merge shards/*.h5 --out results/x.h5", "joins the shards of a run",
+     "Interrupted, the same command goes on."},
     {"analyse", "gumshoe analyse results/x.h5 --scenario y.toml", "analyses stored samples with another [analysis]",
      "Interrupted, the same command makes the analysis again."},
     {"report", "gumshoe report results/x.h5", "writes results/x.html and CSV tables", again},

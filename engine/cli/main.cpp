@@ -27,6 +27,7 @@ int main(int argc, char** argv) {
   cli::add_new(app, action);
   cli::add_check(app, action);
   cli::add_run(app, action);
+  cli::add_merge(app, action);
   cli::add_analyse(app, action);
   cli::add_report(app, action);
   cli::add_evaluate(app, action);

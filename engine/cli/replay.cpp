@@ -6,6 +6,7 @@
 
 #include "base/units.h"
 #include "cli/command.h"
+#include "cli/shards.h"
 #include "propagation/propagate.h"
 #include "store/result_file.h"
 
@@ -73,6 +74,7 @@ void add_replay(CLI::App& app, Action& action) {
   command->callback([=, &action] {
     action = [=] {
       const store::Stored stored = store::read_identity(o->file);
+      refuse_shard(stored.identity, o->file);
       if (stored.command() == "choose" || stored.command() == "trace")
         throw InputError(o->file + ": the file holds no run", "gumshoe " + stored.command() + " made it",
                          "use gumshoe run");

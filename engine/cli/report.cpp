@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "cli/command.h"
+#include "cli/shards.h"
 #include "cli/generator.h"
 #include "store/result_file.h"
 
@@ -23,6 +24,7 @@ void add_report(CLI::App& app, Action& action) {
     action = [=] {
       require_different(o->out, o->file);
       const store::Stored stored = store::read_identity(o->file);
+      refuse_shard(stored.identity, o->file);
       if (!stored.complete)
         throw InputError(o->file + ": the run is not finished", "it was interrupted",
                          "run the same command again to resume it");

@@ -19,7 +19,7 @@ namespace {
 
 auto fields(const Identity& i) {
   return std::tie(i.adaptive, i.scenario_hash, i.scenario_text, i.model, i.method, i.evaluation, i.design, i.version,
-                  i.instruction_set, i.seed, i.store_samples, i.design_hash);
+                  i.instruction_set, i.seed, i.store_samples, i.design_hash, i.shard, i.options);
 }
 
 } // namespace
@@ -45,13 +45,17 @@ Identity identity_of(const scenario::Scenario& s) {
           .design_hash = "",
           .command = "run",
           .scenario_place = place_of(s.file),
-          .external = s.external};
+          .external = s.external,
+          .shard = "",
+          .options = ""};
 }
 
 Record write_identity(hid_t file, const Identity& i, bool complete) {
   hdf5::write_attribute(file, "program", std::string("gumshoe"));
   hdf5::write_attribute(file, "git_hash", std::string(git_hash));
   for (const auto& [name, member] : identity_texts) hdf5::write_attribute(file, name, i.*member);
+  for (const auto& [name, member] : shard_texts)
+    if (!(i.*member).empty()) hdf5::write_attribute(file, name, i.*member);
   hdf5::write_attribute(file, "format_version", format_version);
   hdf5::write_attribute(file, "seed", i.seed);
   hdf5::write_attribute(file, "samples", i.samples);

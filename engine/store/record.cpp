@@ -48,6 +48,8 @@ Json to_json(const Record& r) {
          {"seed", r.identity.seed},          {"samples", r.identity.samples},
          {"rows", r.rows},                   {"store_samples", r.identity.store_samples}};
   for (const auto& [name, member] : identity_texts) j[name] = r.identity.*member;
+  for (const auto& [name, member] : shard_texts)
+    if (!(r.identity.*member).empty()) j[name] = r.identity.*member;
   for (const auto& [name, span] : r.places) j["places"][name] = {span.offset, span.bytes};
   return j;
 }
@@ -60,6 +62,7 @@ Record from_json(const Json& j) {
   r.identity.store_samples = j.at("store_samples").get<bool>();
   j.at("rows").get_to(r.rows);
   for (const auto& [name, member] : identity_texts) j.at(name).get_to(r.identity.*member);
+  for (const auto& [name, member] : shard_texts) r.identity.*member = j.value(name, "");
   for (const auto& [name, span] : j.at("places").items())
     r.places[name] = {span.at(0).get<std::uint64_t>(), span.at(1).get<std::uint64_t>()};
   return r;

@@ -29,6 +29,10 @@ inline constexpr std::pair<const char*, std::string Identity::*> identity_texts[
     {"external", &Identity::external},
     {"scenario_text", &Identity::scenario_text}};
 
+/// The same of a shard; other files do not have them.
+inline constexpr std::pair<const char*, std::string Identity::*> shard_texts[] = {{"shard", &Identity::shard},
+                                                                                  {"options", &Identity::options}};
+
 /// Bytes of a file.
 struct Span {
   std::uint64_t offset = 0, bytes = 0;

@@ -220,6 +220,10 @@ std::vector<std::uint8_t> ResultFile::read_status(std::uint64_t first, std::uint
   return status;
 }
 
+void ResultFile::settle() {
+  naming(impl_->claim.path(), [&] { impl_->samples.settle(impl_->done); });
+}
+
 void ResultFile::finish(const analysis::Results& results) {
   Impl& f = *impl_;
   if (f.done != f.identity.samples) throw std::logic_error("finished before the last sample");

@@ -22,6 +22,8 @@ struct Identity {
   std::string command = "run"; ///< that made it
   std::string scenario_place;  ///< place_of(scenario_file)
   std::string external;        ///< Scenario::external
+  std::string shard;           ///< "3/16": the file holds this part of a run, `samples` of them; empty: a whole run
+  std::string options;         ///< of a shard: the options of `run` that determine the whole run's numbers
 };
 
 /// What a scenario says of it and this program adds: all but `adaptive`, `design_hash` and `command`.
@@ -46,6 +48,8 @@ public:
   void write(const propagation::ResultBlock& block) override;
   std::vector<double> read(std::size_t output, std::uint64_t first, std::uint64_t count) const override;
   std::vector<std::uint8_t> read_status(std::uint64_t first, std::uint64_t count) const override;
+  /// Returns once the samples so far are on the disk and counted. A shard ends so.
+  void settle();
   /// A new file with the samples and everything else, complete, takes the place of the old one.
   void finish(const analysis::Results& results);
 

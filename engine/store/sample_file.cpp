@@ -100,6 +100,11 @@ void SampleFile::mark(std::uint64_t done, bool durable) {
   marked_ = done;
 }
 
+void SampleFile::settle(std::uint64_t done) {
+  mark(done, true);
+  file_.sync();
+}
+
 std::uint64_t SampleFile::sound() {
   std::uint64_t sound = std::min(marked_, samples_);
   constexpr std::uint64_t part = 64 * digest_samples;

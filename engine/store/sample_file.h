@@ -36,6 +36,8 @@ public:
   std::uint64_t marked() const { return marked_; }
   /// Moves it, after the digests of what it counts; if `durable`, after the data are on the disk.
   void mark(std::uint64_t done, bool durable);
+  /// Moves it, and returns once everything is on the disk.
+  void settle(std::uint64_t done);
   /// How many of the samples counted by the marker stand before the first that is not as it was written. Samples from
   /// there on may be written again.
   std::uint64_t sound();

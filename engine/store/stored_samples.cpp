@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/interrupt.h"
 #include "store/identity.h"
 #include "store/sample_file.h"
 
@@ -45,6 +46,23 @@ std::vector<std::uint8_t> StoredSamples::read_status(std::uint64_t first, std::u
   std::vector<std::uint8_t> status(count);
   impl_->samples.read_status(first, count, status.data());
   return status;
+}
+
+void append_samples(ResultFile& to, const StoredSamples& from, std::size_t outputs, std::uint64_t first,
+                    std::uint64_t last) {
+  const std::uint64_t part =
+      std::max<std::uint64_t>(digest_samples, (std::uint64_t{1} << 22) / std::max<std::size_t>(1, outputs)); // 32 MiB
+  while (to.samples_done() < last) {
+    stop_if_interrupted();
+    const std::uint64_t at = to.samples_done(), count = std::min(part, last - at);
+    propagation::ResultBlock block{at, count, {}, from.read_status(at - first, count)};
+    block.outputs.reserve(outputs * count);
+    for (std::size_t output = 0; output < outputs; ++output) {
+      const auto values = from.read(output, at - first, count);
+      block.outputs.insert(block.outputs.end(), values.begin(), values.end());
+    }
+    to.write(block);
+  }
 }
 
 analysis::StoppingRecord StoredSamples::read_stopping() const {

@@ -7,6 +7,7 @@
 
 #include "analysis/results.h"
 #include "propagation/run.h"
+#include "store/result_file.h"
 
 namespace gumshoe::store {
 
@@ -25,5 +26,10 @@ private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// Appends the samples of `from`, which are [first, last) of the run, to the file of that run, from where that stands.
+/// Stops between parts where interrupted; Interrupted is thrown.
+void append_samples(ResultFile& to, const StoredSamples& from, std::size_t outputs, std::uint64_t first,
+                    std::uint64_t last);
 
 } // namespace gumshoe::store

@@ -143,6 +143,9 @@ def result(path):
         if getattr(r, "program", "") != "gumshoe":
             raise NotAResult(f"'{path}' is not a Gumshoe result (another program made it).")
         if not r.complete:
+            if hasattr(r, "shard"):
+                raise NotAResult(f"'{path}' holds a part of a run (shard {r.shard}). "
+                                 "Join all shards with gumshoe merge.")
             done = int(file["samples_done"][0])
             raise NotAResult(f"'{path}' is not finished ({done} of {r.samples} samples). "
                              "Repeat the same run command to resume it.")

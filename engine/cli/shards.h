@@ -1,0 +1,42 @@
+#pragma once
+/// Shards: parts of a run's samples, computed by processes that share nothing. `run --shard` makes them, `merge` joins
+/// them.
+#include <string>
+#include <vector>
+
+#include "cli/requested_run.h"
+#include "propagation/propagate.h"
+#include "propagation/shard.h"
+
+namespace gumshoe::cli {
+
+/// Turns the identity of a run into that of its shard "3/16". Returns the samples that the shard holds. Throws
+/// InputError: no shard, fewer samples than shards, an adaptive run.
+propagation::SampleRange make_shard(store::Identity& identity, const std::string& shard, const RunRequest& request);
+
+/// Ending of a result's name: ".h5", of a shard ".3-of-16.h5".
+std::string ending_of(const std::string& shard);
+
+/// Draws the samples of the shard that its file does not have yet. False: a signal came first.
+bool sample_shard(const propagation::Experiment& experiment, const propagation::SampleRange& part,
+                  store::ResultFile& file, propagation::RunSettings settings);
+
+/// Says what the file holds.
+void print_shard(const store::Identity& identity, const propagation::SampleRange& part, std::uint64_t samples,
+                 const store::ResultFile& file, const std::string& out);
+
+/// Throws InputError where a command needs a whole run.
+void refuse_shard(const store::Identity& identity, const std::string& file);
+
+/// All shards of one run, finished and sound.
+struct ShardSet {
+  store::Identity identity; ///< of any of them
+  std::uint64_t of = 0;
+  std::vector<std::string> files; ///< in the order of the run
+};
+
+/// Finds them among files in any order. Throws InputError with a problem for each file that is of no use and for the
+/// shards that are missing, after the commands that make these were printed on standard output.
+ShardSet gather_shards(const std::vector<std::string>& files);
+
+} // namespace gumshoe::cli
