@@ -192,6 +192,8 @@ private:
     for (const std::size_t g : plain) {
       if (sizes(candidate(g)) > sizes(candidate(best.candidate))) continue;
       const double lead = evidence_->score(g) - best.score;
+      // A step by a label is as likely as any effect that one part has.
+      if (candidate(best.candidate).in_part() && lead > -2 * std::log(criteria.rarity_of_part)) return g;
       if (!shape_excludes(lead, [&] { return evidence_->chance_of_lead(g, best.candidate, lead); })) continue;
       if (const JointFit fit = evidence_->with({evidence_->linear_term(g)}); fit.valid && !evidence_->of_few(fit))
         return g;

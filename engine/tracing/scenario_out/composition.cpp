@@ -281,22 +281,19 @@ private:
       }
     }
     entries = std::move(apart);
-    const bool effect = a.scenario_name.find('.') != std::string::npos;
     for (std::size_t e = 0; e < entries.size(); ++e) {
-      const double value = value_at(a.quantity, entries[e].labels);
-      if (!quantities::holds_for(a.labels, entries[e].labels)) {
-        // An effect of one part is exactly null at the others.
-        if (effect && entries[e].components.empty())
-          lines_.push_back({unknown(a.quantity, e), value, -1, {false, entries[e].labels, source}});
-        continue;
-      }
-      const Line line{unknown(a.quantity, e), value, column, {false, a.labels, source}};
+      const bool moved = quantities::holds_for(a.labels, entries[e].labels);
+      // An effect of one part is exactly null at the others.
+      const bool null = !moved && a.scenario_name.find('.') != std::string::npos && entries[e].components.empty();
+      if (!moved && !null) continue;
+      const Line line{unknown(a.quantity, e), value_at(a.quantity, entries[e].labels), null ? -1 : column,
+                      {false, moved ? a.labels : entries[e].labels, source}};
       // Found off twice, for all and for some: the later shift comes on top, and the value holds both.
       const auto known =
           std::ranges::find_if(lines_, [&](const Line& l) { return l.unknown.name == line.unknown.name; });
       if (known == lines_.end())
         lines_.push_back(line);
-      else
+      else if (moved)
         known->column = column, known->taken = line.taken;
     }
   }
