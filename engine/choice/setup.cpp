@@ -38,8 +38,10 @@ scenario::Scenario with(const scenario::Scenario& scenario, const std::vector<sc
   }
   for (scenario::StatedEffect& e : s.stated_effects) {
     if (!e.freed) continue;
-    e.loading.clear();
-    for (const auto& reading : s.readings) e.loading.push_back(e.loading_at(reading.conditions, {}));
+    for (scenario::StatedPart& part : e.parts) {
+      part.loading.clear();
+      for (const auto& reading : s.readings) part.loading.push_back(part.loading_at(reading.conditions, {}));
+    }
   }
   return s;
 }

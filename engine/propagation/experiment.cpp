@@ -73,12 +73,15 @@ quantities::SamplePlan located_plan(const scenario::Scenario& s) {
 ForwardModel forward_model_of(const scenario::Scenario& s, const models::Model& model) {
   const ModelCard& card = *model.card;
   std::vector<StatedSize> stated;
+  std::size_t sizes = 0;
   for (const auto& e : s.stated_effects) {
     const auto size = std::ranges::find(s.quantities, e.name + ".size", &quantities::InputQuantity::name);
-    if (size != s.quantities.end())
-      stated.push_back({static_cast<std::size_t>(size - s.quantities.begin()), e.indication, e.loading});
+    if (size == s.quantities.end()) continue;
+    ++sizes;
+    for (const auto& part : e.parts)
+      stated.push_back({static_cast<std::size_t>(size - s.quantities.begin()), part.indication, part.loading});
   }
-  const std::size_t end = s.quantities.size() - card.indications.size() - stated.size();
+  const std::size_t end = s.quantities.size() - card.indications.size() - sizes;
   std::vector<const EffectCard*> acting;
   std::size_t at = card.quantities.size();
   for (const EffectCard* e : effects::cards())

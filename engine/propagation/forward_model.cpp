@@ -22,7 +22,10 @@ ForwardModel::ForwardModel(const models::Model& model, std::span<const EffectCar
     effect_quantities += effect->quantities.size();
   }
   const ModelCard& card = *model.card;
-  layout_ = {card.quantities.size(), effect_quantities, card.indications.size(), stated_.size()};
+  layout_ = {card.quantities.size(), effect_quantities, card.indications.size(), 0};
+  const std::size_t first = layout_.size();
+  for (const StatedSize& s : stated_) layout_.sizes.end = std::max(layout_.sizes.end, s.quantity + 1);
+  layout_.sizes.begin = first;
 }
 
 ForwardModel ForwardModel::on_threads(int threads) const {
@@ -132,7 +135,7 @@ BlockValues ForwardModel::simulate(const Block& block) const {
   model_->kernels()->simulate(call(block, simulated.data(), truth.data(), out.status.data()));
   for (std::size_t s = 0; s < stated_.size(); ++s)
     for (std::size_t p = 0; p < places; ++p) {
-      const models::Column size = block.sizes[p * stated_.size() + s];
+      const models::Column size = block.sizes[p * layout_.sizes.size() + stated_[s].quantity - layout_.sizes.begin];
       double* x = simulated[p * layout_.indications.size() + stated_[s].indication];
       const double loading = stated_[s].loading[block.readings[p]];
       for (std::size_t i = 0; i < n; ++i) x[i] += size.data[i * size.stride] * loading;
@@ -157,7 +160,7 @@ BlockValues ForwardModel::evaluate(const Block& block) const {
     }
     for (std::size_t s = 0; s < stated_.size(); ++s)
       for (std::size_t p = 0; p < places; ++p) {
-        const models::Column size = block.sizes[p * stated_.size() + s];
+        const models::Column size = block.sizes[p * layout_.sizes.size() + stated_[s].quantity - layout_.sizes.begin];
         double* x = &without[(p * k + stated_[s].indication) * n];
         const double loading = stated_[s].loading[block.readings[p]];
         for (std::size_t i = 0; i < n; ++i) x[i] -= size.data[i * size.stride] * loading;

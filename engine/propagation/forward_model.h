@@ -15,7 +15,8 @@
 
 namespace gumshoe::propagation {
 
-/// A stated effect with a size: the quantity that is its size, and the indication to which it is added.
+/// A stated effect with a size: the quantity that is its size, and an indication to which it is added. Sizes are the
+/// last quantities of a row; an effect on several indications has one size.
 struct StatedSize {
   std::size_t quantity = 0, indication = 0;
   std::vector<double> loading; ///< [reading]: change of the indication by the size, SI

@@ -80,7 +80,10 @@ void explain(const Scenario& s, std::size_t number, const ModelCard& model, Line
   for (const TraceColumn& c : s.trace.columns)
     fmt::format_to(out, " {} {};", c.name, both(c.values[number - 1], c.unit, c.si_unit));
   for (const StatedEffect& e : s.stated_effects)
-    fmt::format_to(out, " loading of {} {:.12g} SI;", e.name, e.loading[number - 1]);
+    for (const StatedPart& part : e.parts)
+      fmt::format_to(out, " loading of {} {:.12g} SI;",
+                     e.parts.size() == 1 ? e.name : fmt::format("{} on {}", e.name, model.indications[part.indication].name),
+                     part.loading[number - 1]);
   fmt::format_to(out, " {}\n", r.repeats == 1 ? "one indication" : fmt::format("mean of {} indications", r.repeats));
 }
 
@@ -149,8 +152,10 @@ void explain(const Choose& c, const ModelCard& model, Lines out) {
 }
 
 void explain(const StatedEffect& e, const ModelCard& model, Lines out) {
-  fmt::format_to(out, "  {}: size ({}) * ({}) adds to {}{}{}{}\n", e.name, e.unit, e.formula,
-                 model.indications[e.indication].name, e.freed ? "" : ", at null",
+  for (const StatedPart& part : e.parts)
+    fmt::format_to(out, "  {}: size ({}) * ({}) adds to {}\n", e.name, e.unit, part.formula,
+                   model.indications[part.indication].name);
+  fmt::format_to(out, "    {}{}{}\n", e.freed ? "freed" : "at null",
                  e.meaning.empty() ? "" : ", meaning: " + e.meaning, e.source.empty() ? "" : ", source: " + e.source);
 }
 

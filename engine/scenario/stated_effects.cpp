@@ -21,10 +21,11 @@ Options<StatedEffect> stated_effect_options() {
     return option::by_hand<StatedEffect>(key, shape, meaning);
   };
   return {
-      by_hand("indication", shape::text(), "indication to which the effect is added; required if there are several"),
-      by_hand("formula", R"("type": ["string", "number"])",
-              "formula of conditions and columns of [trace.columns], in "
-              "SI units"),
+      by_hand("indication", shape::text(),
+              "indication to which the effect is added; required if there are several and one formula"),
+      by_hand("formula", R"("type": ["string", "number", "object"])",
+              "formula of conditions and columns of [trace.columns], in SI units; of an effect on several indications a "
+              "formula for each: { X = \"cos(C)\", Y = \"sin(C)\" }"),
       by_hand("table", loading_table_shape(),
               "instead of a formula: its values at levels of conditions and columns, linear "
               "between the levels of one; elsewhere there is no value"),
@@ -49,13 +50,8 @@ public:
     const std::size_t before = problems_.size();
     name_is_free();
     read_options(table_, stated_effect_options(), out_);
-    const std::vector<std::string> indications = names_of(scope_.model.indications);
-    const bool one = indications.size() == 1;
-    const Node* node = one ? table_.find("indication") : table_.require("indication", "indication = \"...\"");
-    const auto index = node ? table_.choice("indication", indications) : std::nullopt;
-    out_.indication = index.value_or(0);
     const bool has_unit = unit();
-    if (table_.has("formula")) formula();
+    parts();
     const auto table = read_loading_table(table_, scope_, context_);
     if (table_.has("formula") == table_.has("table"))
       table_.refuse(table_.has("table") ? "it has a formula and a table" : "it has neither a formula nor a table",
@@ -66,7 +62,8 @@ public:
       out_.freed = true;
     }
     table_.refuse_unknown();
-    if (problems_.size() == before) table ? tabulate(*table) : compute();
+    if (problems_.size() == before && table) tabulate(*table);
+    for (std::size_t i = 0; i < formulas_.size() && problems_.size() == before; ++i) compute(out_.parts[i], *formulas_[i]);
     return std::move(out_);
   }
 
@@ -85,12 +82,39 @@ private:
       table_.refuse("the name cannot be used for an effect", "use letters, digits and _, with no digit first");
   }
 
-  void formula() {
-    const Node& node = *table_.find("formula");
-    if (node.kind == Node::Kind::integer || node.kind == Node::Kind::real)
-      out_.formula = fmt::format("{}", node.number);
+  /// An indication and its formula; a table of formulas holds one for each indication that it names.
+  void parts() {
+    const std::vector<std::string> indications = names_of(scope_.model.indications);
+    const Node* formula = table_.find("formula");
+    if (formula && formula->kind == Node::Kind::table) {
+      if (table_.has("indication"))
+        table_.refuse_key("indication", "the formulas name their indications", "", "leave it out");
+      Table of = *table_.table("formula");
+      for (const Member& m : of.members()) {
+        const auto known = std::ranges::find(indications, m.key);
+        if (known == indications.end())
+          of.refuse_key(m.key, fmt::format("'{}' is not an indication", m.key), "", did_you_mean(m.key, indications));
+        else
+          add_part(static_cast<std::size_t>(known - indications.begin()), of, m.key);
+      }
+      if (of.members().empty()) table_.refuse_key("formula", "it is empty", "", "formula = \"1 / feed\"");
+      return;
+    }
+    const Node* node =
+        indications.size() == 1 ? table_.find("indication") : table_.require("indication", "indication = \"...\"");
+    const auto index = node ? table_.choice("indication", indications) : std::nullopt;
+    if (formula)
+      add_part(index.value_or(0), table_, "formula");
     else
-      out_.formula = table_.text("formula").value_or("");
+      out_.parts.push_back({index.value_or(0), {}, {}, {}});
+  }
+
+  void add_part(std::size_t indication, Table& table, const std::string& key) {
+    const Node& node = *table.find(key);
+    const bool number = node.kind == Node::Kind::integer || node.kind == Node::Kind::real;
+    out_.parts.push_back(
+        {indication, number ? fmt::format("{}", node.number) : table.text(key).value_or(""), {}, {}});
+    formulas_.push_back(&node);
   }
 
   bool unit() {
@@ -107,24 +131,25 @@ private:
 
   void tabulate(const LoadingTable& table) {
     const Node& node = *table_.find("table");
+    StatedPart& part = out_.parts.front();
     const std::size_t conditions = scope_.model.conditions.size();
     for (const std::size_t i : table.inputs()) {
       const bool column = i >= conditions;
       out_.of_columns |= column;
-      out_.formula += (out_.formula.empty() ? "table of " : ", ") +
+      part.formula += (part.formula.empty() ? "table of " : ", ") +
                       (column ? scope_.columns[i - conditions].name : std::string(scope_.model.conditions[i].name));
     }
-    const VariableCard& card = scope_.model.indications[out_.indication];
+    const VariableCard& card = scope_.model.indications[part.indication];
     if (!gumshoe::Dimension::of(out_.unit).like(gumshoe::Dimension::of(std::string(card.si_unit))))
       table_.refuse_key("unit", fmt::format("a size in {} does not change {}", out_.unit, card.name),
                         "the loadings of a table are plain numbers", fmt::format("use {}", card.unit));
-    out_.loading_at = [table](const std::vector<double>& at_conditions, const std::vector<double>& columns) {
+    part.loading_at = [table](const std::vector<double>& at_conditions, const std::vector<double>& columns) {
       std::vector<double> known = at_conditions;
       known.insert(known.end(), columns.begin(), columns.end());
       return table.at(known);
     };
     try {
-      load([&](std::size_t r) {
+      load(part, [&](std::size_t r) {
         return Problem{{problems_.file(), node.line, node.column},
                        fmt::format("{}: it has no value at reading {}", table_.path("table"), reading(r)),
                        "a table says nothing beyond its levels",
@@ -141,10 +166,9 @@ private:
     return fmt::format("{}{}", r + 1, of.empty() ? "" : " (" + of + ")");
   }
 
-  void compute() {
-    const Node& node = *table_.find("formula");
+  void compute(StatedPart& part, const Node& node) {
     formula::Stated stated;
-    stated.formula = {table_.path(), out_.formula, {problems_.file(), node.line, node.column + 1}, {}};
+    stated.formula = {table_.path(), part.formula, {problems_.file(), node.line, node.column + 1}, {}};
     try {
       formula::parse(stated.formula);
       names(stated.formula);
@@ -157,15 +181,15 @@ private:
       std::vector<std::string> ignored;
       const auto compiled = std::make_shared<const formula::Compiled>(formula::compile(std::move(statement), ignored));
       const formula::Compiled& e = *compiled;
-      fits(e);
-      out_.loading_at = [compiled](const std::vector<double>& conditions, const std::vector<double>& columns) {
+      fits(e, part.indication);
+      part.loading_at = [compiled](const std::vector<double>& conditions, const std::vector<double>& columns) {
         const formula::Program& program = compiled->evaluate;
         std::vector<double> known = conditions;
         known.insert(known.end(), columns.begin(), columns.end());
         const double none = 0; // the formula reads no quantity and no indication
         return formula::interpret<double>(program, {&none, known.data(), &none}).steps[program.outputs[0]];
       };
-      load([&](std::size_t r) {
+      load(part, [&](std::size_t r) {
         return e.formulas[0].problem(0, "the formula has no finite value at reading " + reading(r));
       });
     } catch (const InputError& error) {
@@ -201,8 +225,8 @@ private:
   }
 
   /// Size times formula is what the indication is.
-  void fits(const formula::Compiled& e) const {
-    const VariableCard& card = scope_.model.indications[out_.indication];
+  void fits(const formula::Compiled& e, std::size_t indication) const {
+    const VariableCard& card = scope_.model.indications[indication];
     const gumshoe::Dimension formula = gumshoe::Dimension::of(e.explained[0].unit),
                              size = gumshoe::Dimension::of(out_.unit),
                              wanted = gumshoe::Dimension::of(std::string(card.si_unit));
@@ -216,17 +240,17 @@ private:
   }
 
   /// @param without the problem of a reading at which there is no value
-  void load(const std::function<Problem(std::size_t)>& without) {
+  void load(StatedPart& part, const std::function<Problem(std::size_t)>& without) {
     const auto read = [&](const auto& c) { return c.values.size() == scope_.readings.size(); };
     if (!std::ranges::all_of(scope_.columns, read)) return;
     bool any = false;
     for (std::size_t r = 0; r < scope_.readings.size(); ++r) {
       std::vector<double> columns;
       for (const TraceColumn& c : scope_.columns) columns.push_back(c.values[r]);
-      const double x = out_.loading_at(scope_.readings[r].conditions, columns);
+      const double x = part.loading_at(scope_.readings[r].conditions, columns);
       if (!std::isfinite(x)) throw InputError({without(r)});
       any |= x != 0;
-      out_.loading.push_back(x);
+      part.loading.push_back(x);
     }
     if (!any) context_.notes.push_back(table_.path() + ": it is 0 at every reading and changes nothing");
   }
@@ -236,6 +260,7 @@ private:
   Context& context_;
   Problems& problems_;
   StatedEffect out_;
+  std::vector<const Node*> formulas_; ///< by part
 };
 
 } // namespace

@@ -17,19 +17,24 @@ struct TraceColumn {
   std::vector<double> values;
 };
 
-/// An effect that a scenario states: its size times a formula of conditions and columns adds to an indication. Without
-/// a size it stands at its null value, zero, and is a candidate of tracing; with one it is an input quantity
-/// "NAME.size" like any other, after the indications' noise among Scenario::quantities.
-struct StatedEffect {
-  std::string name, meaning, source;
+/// What a stated effect does to one indication.
+struct StatedPart {
   std::size_t indication = 0;  ///< by position in the model's card
   std::string formula;         ///< as written; "table of position" of a table
-  std::string unit, si_unit;   ///< of the size
   std::vector<double> loading; ///< the formula's value at each reading, SI
-  bool freed = false;
-  bool of_columns = false; ///< the formula reads columns
   /// The formula at other conditions (by position in the model's card) and columns (as TraceOptions::columns), SI.
   std::function<double(const std::vector<double>& conditions, const std::vector<double>& columns)> loading_at;
+};
+
+/// An effect that a scenario states: its size times a formula of conditions and columns adds to an indication, or to
+/// several by a formula each. Without a size it stands at its null value, zero, and is a candidate of tracing; with one
+/// it is an input quantity "NAME.size" like any other, after the indications' noise among Scenario::quantities.
+struct StatedEffect {
+  std::string name, meaning, source;
+  std::vector<StatedPart> parts;
+  std::string unit, si_unit; ///< of the size
+  bool freed = false;
+  bool of_columns = false; ///< a formula reads columns
 };
 
 struct TraceOptions {

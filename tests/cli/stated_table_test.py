@@ -1,9 +1,12 @@
-"""A stated effect given as a table: linear between the levels of one condition, exact combinations of several.
+"""Stated effects given as a table (linear between the levels of one condition, exact combinations of several), and on
+several indications.
 
 usage: stated_table_test.py path/to/gumshoe [unittest options]
 """
 import json
+import math
 import pathlib
+import random
 import tempfile
 import unittest
 
@@ -94,6 +97,75 @@ class Table(unittest.TestCase):
         run = gumshoe("check", self.folder / "s.toml")
         self.assertIsNone(complaint(run))
         self.assertIn("a size in ms does not change d (the loadings of a table are plain numbers)", run.stderr)
+
+
+TWO = """schema = 1
+[model]
+name = "expression"
+[model.indications]
+a = "offset_a"
+b = "offset_b"
+[conditions]
+t = 0
+[quantities]
+offset_a = { estimated = true, value = "0 um" }
+offset_b = { estimated = true, value = "0 um" }
+[indications.a]
+readings = { file = "r.csv", column = "a", unit = "um", labels = { block = "block" }, conditions = { t = { column = "t", unit = "1" } } }
+components = [ { distribution = "normal", u = "1 um", per = "reading" } ]
+[indications.b]
+readings = { file = "r.csv", column = "b", unit = "um", labels = { block = "block" }, conditions = { t = { column = "t", unit = "1" } } }
+components = [ { distribution = "normal", u = "1 um", per = "reading" } ]
+[trace]
+blocks = "block"
+order = "t"
+draws = 199
+"""
+BOTH = '[stated_effects.twist]\nformula = { a = "sin(t / 7)", b = "-2 * sin(t / 7)" }\nunit = "um"\n'
+
+
+class SeveralIndications(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = pathlib.Path(temporary.name)
+
+    def trace(self, effect, size=2.0):
+        chance, rows = random.Random(4), ["block,t,a,b"]
+        for i in range(96):
+            x = size * math.sin(i / 7)
+            rows.append(f"{i // 12},{i},{5 + x + chance.gauss(0, 1):.6f},{9 - 2 * x + chance.gauss(0, 1):.6f}")
+        (self.folder / "r.csv").write_text("\n".join(rows) + "\n")
+        (self.folder / "s.toml").write_text(TWO + effect)
+        return gumshoe("trace", "s.toml", "--format", "json", "--loop", "3", cwd=self.folder)
+
+    def test_one_size_moves_both(self):
+        """u of one size from n readings of a sine and of twice its opposite: 1 um / sqrt(5 n / 2), n = 72 trained on."""
+        run = self.trace(BOTH)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        v = json.loads(run.stdout)
+        finding, = v["rounds"][0]["added"] if "added" in v else v["findings"]
+        self.assertEqual(finding["name"], "twist")
+        size, = finding["quantities"]
+        u = 1 / math.sqrt(5 * 72 / 2)
+        self.assertAlmostEqual(size["u"], u, delta=0.2 * u)
+        self.assertAlmostEqual(size["value"], 2, delta=3.5 * u)
+        self.assertFalse(v["rounds"][1]["added"], v["rounds"])
+        self.assertAlmostEqual(v["rounds"][1]["before"], v["rounds"][0]["after"], delta=1e-3 * v["rounds"][0]["after"])
+
+    def test_a_freed_one_is_taken_from_both(self):
+        run = self.trace(BOTH + 'size = "2 um"\n')
+        self.assertEqual(json.loads(run.stdout)["findings"], [], run.stderr)
+
+    def test_what_is_wrong_is_said(self):
+        for effect, words in (
+                ('formula = { c = "t" }\nunit = "um/s"\n', "'c' is not an indication"),
+                ('formula = { a = "t" }\nindication = "a"\nunit = "um/s"\n', "the formulas name their indications"),
+                ('formula = { }\nunit = "um/s"\n', "it is empty"),
+                ('formula = { a = "t", b = "1" }\nunit = "deg"\n', "a is a length")):
+            run = self.trace("[stated_effects.twist]\n" + effect)
+            self.assertEqual(run.returncode, 2, run.stderr)
+            self.assertIn(words, run.stderr)
 
 
 if __name__ == "__main__":

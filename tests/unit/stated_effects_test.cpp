@@ -256,7 +256,7 @@ TEST_CASE("a choice computes the formula anew for its settings", "[stated][choos
   for (const auto& v : s.choose->variables) settings.push_back({v.knob, v.values.back()});
   const auto set = choice::with(s, settings);
   REQUIRE(set.readings.size() == 3);
-  REQUIRE(set.stated_effects[0].loading.size() == 3);
-  for (const double x : set.stated_effects[0].loading) CHECK(x == Approx(-0.4 / 60).epsilon(1e-14));
-  CHECK(s.stated_effects[0].loading.size() == 1);
+  REQUIRE(set.stated_effects[0].parts[0].loading.size() == 3);
+  for (const double x : set.stated_effects[0].parts[0].loading) CHECK(x == Approx(-0.4 / 60).epsilon(1e-14));
+  CHECK(s.stated_effects[0].parts[0].loading.size() == 1);
 }

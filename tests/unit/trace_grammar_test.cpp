@@ -145,12 +145,12 @@ TEST_CASE("a stated effect is loaded at each reading", "[scenario][trace]") {
   const auto& film = s.stated_effects[0];
   CHECK(film.name == "film");
   CHECK(film.meaning == "film");
-  CHECK(film.indication == 0);
+  CHECK(film.parts[0].indication == 0);
   CHECK_FALSE(film.freed);
-  REQUIRE(film.loading.size() == 4);
-  for (std::size_t r = 0; r < 4; ++r) CHECK(film.loading[r] == Approx(1 / s.readings[r].conditions[0]).epsilon(1e-15));
+  REQUIRE(film.parts[0].loading.size() == 4);
+  for (std::size_t r = 0; r < 4; ++r) CHECK(film.parts[0].loading[r] == Approx(1 / s.readings[r].conditions[0]).epsilon(1e-15));
   CHECK(units::to_si(1, "um*mm/min", film.si_unit) == Approx(1e-9 / 60).epsilon(1e-14));
-  CHECK(s.stated_effects[1].loading == s.trace.columns[0].values);
+  CHECK(s.stated_effects[1].parts[0].loading == s.trace.columns[0].values);
   // At null it is no quantity, and nothing else changes.
   CHECK(s.quantities.size() == read("").quantities.size());
 }

@@ -84,7 +84,8 @@ std::vector<Candidate> stated_candidates(const CandidateMaker& make) {
     size.scenario_name = effect.name + ".size";
     Matrix column = Matrix::Zero(index(make.simulator.rows()), 1);
     for (std::size_t r = 0; r < o.readings; ++r)
-      column(index(r * o.indications + effect.indication), 0) = effect.loading[r];
+      for (const auto& part : effect.parts)
+        column(index(r * o.indications + part.indication), 0) = part.loading[r];
     Candidate one;
     one.family = Family::stated;
     one.name = effect.name;

@@ -75,7 +75,8 @@ Scenario with(const Scenario& s, const Observations& o, const Proposal& p) {
     for (auto& effect : out.stated_effects) {
       std::vector<double> columns;
       for (const auto& column : s.trace.columns) columns.push_back(column.values[r]);
-      effect.loading.push_back(effect.loading_at ? effect.loading_at(reading.conditions, columns) : effect.loading[r]);
+      for (auto& part : effect.parts)
+        part.loading.push_back(part.loading_at ? part.loading_at(reading.conditions, columns) : part.loading[r]);
     }
   }
   return out;
