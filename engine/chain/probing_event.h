@@ -11,6 +11,7 @@ template <class T> struct RotaryProbing;
 template <class T> struct Scanning;
 template <class T> struct Contouring;
 template <class T> struct BallBar;
+template <class T> struct LinearAxis;
 
 /// A slide (linear axis) at the event: actual position = commanded (1 + scale) + error, ISO 230-1.
 template <class T> struct Slide {
@@ -48,6 +49,8 @@ template <class T> struct ProbingEvent {
   Contouring<T>* contouring = nullptr;
   /// Set only for a ball bar, likewise: the stage bar adds to it.
   BallBar<T>* bar = nullptr;
+  /// Set only for a linear axis against a reference, likewise: the stage axis adds to it.
+  LinearAxis<T>* axis = nullptr;
 };
 
 /// What the control reads of a slide that truly stands at `actual` (m) at the trigger, and the inverse.

@@ -13,6 +13,7 @@ template <class Effect, auto of> struct On {
 inline constexpr auto slide_X = [](auto& event) -> auto& { return event.x; };
 inline constexpr auto slide_Y = [](auto& event) -> auto& { return event.y; };
 inline constexpr auto slide_Z = [](auto& event) -> auto& { return event.z; };
+inline constexpr auto measured_axis = [](auto& event) -> auto& { return event.axis->slide; };
 
 /// A rotary axis and its angular positioning error, rad.
 template <class T> struct Turn {

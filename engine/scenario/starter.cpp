@@ -293,7 +293,7 @@ public:
       out += replaced ? kept(section) : commented(section);
     }
     if (!written) out += data_text();
-    return out + others();
+    return out + (example.find("estimated = true") == std::string::npos ? "" : trace_text()) + others();
   }
 
 private:
@@ -317,7 +317,7 @@ private:
     for (const VariableCard& v : card_.conditions)
       for (const RecognisedColumn& c : columns) {
         if (used_.contains(c.name)) continue;
-        const bool role = v.name == scenario::name(c.role) && (c.role == Role::time || c.role == Role::direction);
+        const bool role = v.name == scenario::name(c.role); // a condition "other" there is not
         if (!(is(c, v.name) && c.number) && !role) continue;
         conditions_.emplace_back(v.name, &c);
         used_.insert(c.name);
@@ -342,6 +342,14 @@ private:
              "}\n\n";
     }
     return out;
+  }
+
+  /// What tracing asks of the data, where the example has something to fit.
+  std::string trace_text() const {
+    if (!data_) return "";
+    const bool timed = std::ranges::any_of(conditions_, [](const auto& c) { return c.first == "time"; });
+    return "\n[trace]\n" + blocks_of(data_->found, labels_of(data_->found)) +
+           (timed ? line("order", "\"time\"", "") : "");
   }
 
   /// Single conditions that the data do not give.

@@ -3,6 +3,7 @@
 usage: trace_axis_test.py path/to/gumshoe [unittest options]
 """
 import json
+import math
 import unittest
 
 import plain_axis
@@ -26,15 +27,21 @@ class TraceAxis(InFolder):
         self.assertEqual((SCENARIOS / "data" / "linear_axis.csv").read_text(), plain_axis.table(plain_axis.readings()))
 
     def test_it_ends_at_the_scatter_of_a_reading(self):
-        """A table by target and direction holds the bow and the reversal; what is left grows with target and time. The
-        floor has about 40 degrees of freedom a seed, so that the mean of three is known within 6.5 %; 0.2 is three of
-        that."""
+        """Tables hold the bow, tables or effects the reversal, and the scale that drifts has its name. The floor has
+        about 40 degrees of freedom a seed, so that the mean of three is known within 6.5 %; 0.2 is three of that."""
         verdicts = [self.trace(seed) for seed in (1, 2, 3)]
+        rates = []
         for v in verdicts:
-            self.assertEqual([set(f["depends_on"]) for f in v["findings"]], [{"x", "direction"}, {"x", "time"}])
+            self.assertEqual(set().union(*(f["depends_on"] for f in v["findings"])), {"position", "direction", "time"})
+            drifts = [f for f in v["findings"] if "time" in f["depends_on"]]
+            self.assertEqual([f["members"] for f in drifts], [["axis_scale_drift"]])
+            rates.append(drifts[0]["quantities"][0])
             self.assertEqual(v["rounds"][-1]["added"], [])
             self.assertGreater(v["rms"]["before"], 2e-6)
             self.assertLess(v["rms"]["holdout_after"], v["rms"]["holdout_noise_interval95"][1])
+        # 0.09 um/m a minute; u of the mean of three by what each states.
+        u = math.hypot(*(r["u"] for r in rates)) / 3
+        self.assertAlmostEqual(sum(r["value"] for r in rates) / 3, 60 * 0.09, delta=3 * u)
         for k in ("after", "replicate_floor"):
             mean = sum(v["rms"][k] for v in verdicts) / len(verdicts)
             self.assertAlmostEqual(1e6 * mean / plain_axis.NOISE_UM, 1, delta=0.2, msg=k)

@@ -1,4 +1,5 @@
 #pragma once
+#include "chain/linear_axis.h"
 #include "effects/part.h"
 
 namespace gumshoe::effects {
@@ -38,6 +39,12 @@ struct ZReversal : On<SlideReversal, slide_Z> {
       on({.name = "z_reversal", .title = "Reversal error of Z", .adds = "z.error -= z.direction backlash / 2",
           .confused_with = "any constant if all approaches are from one side"},
          SlideReversal::common(Stage::motion));
+};
+struct LinearReversal : On<SlideReversal, measured_axis> {
+  static constexpr EffectCard card =
+      on({.name = "axis_reversal", .title = "Reversal error of the axis", .adds = "axis.error -= axis.direction backlash / 2",
+          .confused_with = "any constant if all targets are reached from one side; drift, if one side is measured first"},
+         SlideReversal::common(Stage::axis));
 };
 
 } // namespace gumshoe::effects
