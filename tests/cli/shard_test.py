@@ -9,8 +9,10 @@ import random
 import re
 import shlex
 import shutil
+import signal
 import struct
 import subprocess
+import time
 import unittest
 
 import h5py
@@ -31,7 +33,31 @@ b = { value = "2", u = "0.1" }
 samples = 20_001
 max_failed_share = 0.1
 """
+# Blocks of 2,048 samples, a tenth of a second each; fast for a few points.
+SLOW = """schema = 1
+[model]
+name = "command"
+command = ["python3", "slow.py"]
+batch = 2048
+[model.measurands]
+y = "mm"
+[quantities]
+a = { value = "1 mm", u = "1 um" }
+[run]
+samples = 40000
+"""
+SLOW_PROGRAM = """import sys, time
+rows = sys.stdin.read().split()[2:]
+time.sleep(0.1 if len(rows) > 100 else 0)
+print("y (mm)", *rows, sep="\\n")
+"""
 SAME_DATE = {**os.environ, "SOURCE_DATE_EPOCH": "0"}  # no host and no duration: equal runs give equal bytes
+
+
+def samples_done(path):
+    with open(path, "rb") as file:
+        file.seek(record(path)["places"]["samples_done"][0])
+        return struct.unpack("<Q", file.read(8))[0]
 
 
 class Shards(InFolder):
@@ -187,6 +213,22 @@ class Shards(InFolder):
         adaptive = self.scenario(SCENARIO + '[run]\nadaptive = { rule = "stein", digits = 1 }\n')
         self.refused("an adaptive run cannot be divided", "run", adaptive, "--shard", "1/4")
         self.refused("--shard excludes --format", "run", scenario, "--shard", "1/4", "--format", "json")
+
+    def test_a_shard_that_its_scheduler_stops_goes_on(self):
+        (self.folder / "slow.py").write_text(SLOW_PROGRAM)
+        scenario = self.scenario(SLOW)
+        files, _ = self.make(scenario, 2, numbers=[2])
+        command = [GUMSHOE, "run", scenario, "--shard", "1/2", "--out", files[1], "--threads", "1"]
+        stopped = subprocess.Popen(command, cwd=self.folder, env=SAME_DATE, stderr=subprocess.PIPE, text=True)
+        while (not files[1].exists() or not samples_done(files[1])) and stopped.poll() is None:
+            time.sleep(0.02)
+        stopped.send_signal(signal.SIGTERM)
+        said = stopped.communicate(timeout=30)[1]
+        self.assertEqual(stopped.returncode, 130, said)
+        self.assertLess(0, samples_done(files[1]))
+        self.assertLess(samples_done(files[1]), record(files[1])["samples"])
+        self.assertIn("resuming after", self.done(*command[1:]).stderr)
+        self.assertEqual(self.merged(files.values()), self.single(scenario))
 
     def test_shards_of_computers_with_other_instruction_sets(self):
         scenario = self.scenario(SCENARIO + "[run]\nsamples = 5000\n")
