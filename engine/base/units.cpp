@@ -12,6 +12,7 @@
 #include <udunits2.h>
 
 #include "base/error.h"
+#include "base/memory.h"
 
 namespace gumshoe::units {
 namespace {
@@ -94,6 +95,7 @@ private:
   };
 
   std::optional<Unit> look_up(const std::string& name) {
+    require_memory(std::size_t{1} << (system_ ? 20 : 23)); // its parser ends the process where it gets none
     if (!system_) {
       ut_set_error_message_handler(ut_ignore);
       system_ = ut_read_xml(nullptr);

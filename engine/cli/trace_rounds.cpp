@@ -24,8 +24,9 @@ Round round_of(const tracing::Trace& t) {
 std::optional<scenario::Scenario> readable(const std::string& text, const store::Claim& place,
                                            std::vector<std::string>& statements) {
   store::Draft trial;
+  const std::string written = trial.add(place, text);
   try {
-    scenario::Scenario s = scenario::read(trial.add(place, text), catalogue());
+    scenario::Scenario s = scenario::read(written, catalogue());
     s.file = place.path();
     return s;
   } catch (const InputError& error) {

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/instruction_set.h"
+#include "base/memory.h"
 #include "base/version.h"
 #include "store/origin.h"
 #include "store/sample_datasets.h"
@@ -70,6 +71,7 @@ Record write_identity(hid_t file, const Identity& i, bool complete) {
 }
 
 hdf5::Handle open_file(const std::string& path, unsigned flags) {
+  require_memory(std::size_t{4} << 20); // the cache of a file has 1 MB
   const hdf5::Handle access = hdf5::own(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "open");
   H5Pset_sieve_buf_size(access, 0);               // blocks are large: no second copy
   H5Pset_fclose_degree(access, H5F_CLOSE_STRONG); // after an error nothing stays open

@@ -1,0 +1,11 @@
+#pragma once
+/// Memory asked for before it is needed.
+#include <cstddef>
+
+namespace gumshoe {
+
+/// Throws std::bad_alloc unless so many bytes can be allocated now; keeps none. Called before libraries written in C that
+/// end the process where they get no memory (udunits2's parser, HDF5's cache of a file).
+void require_memory(std::size_t bytes);
+
+} // namespace gumshoe
