@@ -22,7 +22,7 @@ LIBRARY = pathlib.Path(GUMSHOE).parent / "tests/libgumshoe_faults.so"
 EVERY = "--every" in sys.argv
 if EVERY:
     sys.argv.remove("--every")
-MOST = 18
+MOST = 12
 WORKERS = 2
 
 RUN = """schema = 1
