@@ -27,12 +27,12 @@ constexpr std::size_t largest_file = std::size_t{256} << 20;
 
 struct Options {
   std::string model, from, out;
-  std::vector<std::string> units, roles;
+  std::vector<std::string> units, roles, terms;
   bool force = false;
 };
 
 std::vector<std::string> names() {
-  std::vector<std::string> out{"budget"};
+  std::vector<std::string> out{"budget", "linear"};
   for (const models::Model* m : models::catalogue()) out.emplace_back(m->card->name);
   return out;
 }
@@ -111,6 +111,7 @@ std::string text_of(const Options& o, const RecognisedData* found, const std::st
         *found, fs::relative(fs::absolute(o.from), fs::absolute(out).parent_path()).generic_string()});
   if (o.model.empty()) return scenario::starter_axis(*data, out);
   if (o.model == "budget") return scenario::starter_budget();
+  if (o.model == "linear") return scenario::starter_linear(*data, o.terms, out);
   if (const models::Model* model = models::find(o.model))
     return scenario::starter_model(*model->card, example_of(o.model), data.get());
   const std::string meant = nearest(o.model, names());
@@ -145,7 +146,7 @@ void print_columns(const RecognisedData& found) {
 void print_next(const Options& o, const std::string& out) {
   try {
     const auto s = scenario::read(out, catalogue());
-    std::cout << fmt::format("{}: ready. Next: gumshoe {} {}\n", out, o.model.empty() ? "trace" : "run", out);
+    std::cout << fmt::format("{}: ready. Next: gumshoe {} {}\n", out, o.model.empty() || o.model == "linear" ? "trace" : "run", out);
   } catch (const InputError& error) {
     std::cout << fmt::format("{}: to fill in, then gumshoe check {}:\n{}\n", out, out, error.what());
   }
@@ -162,6 +163,10 @@ ExitCode run(Options o) {
   if (o.model == "budget" && !o.from.empty())
     throw InputError("--from: a budget has no data file", "its readings stand in the scenario",
                      "leave --from out, or name no model");
+  if (o.model == "linear" && o.from.empty())
+    throw InputError("a linear model is made of the columns of a data file, but none is named", "", "name one by --from");
+  if (o.model != "linear" && !o.terms.empty())
+    throw InputError("--term: only a linear model has terms", "", "write gumshoe new linear --from FILE --term ...");
   std::unique_ptr<RecognisedData> found;
   if (!o.from.empty()) {
     found = std::make_unique<RecognisedData>(scenario::recognise(read_text_file(o.from, largest_file), o.from));
@@ -185,12 +190,17 @@ void add_new(CLI::App& app, Action& action) {
   auto* command = app.add_subcommand("new", "writes a first scenario: of a model, of a data file, or a budget");
   const auto o = std::make_shared<Options>();
   command->add_option("model", o->model,
-                      "a model (gumshoe models), or budget; without one, --from asks what a data file shows");
+                      "a model (gumshoe models), budget, or linear; without one, --from asks what a data file shows");
   command->add_option("--from", o->from, "data file whose columns are recognised");
   command->add_option("--out", o->out, "scenario to write (default: MODEL.toml, or the name of the data file)");
   command->add_option("--unit", o->units, "COLUMN=UNIT, where the header does not say it");
   command->add_option("--role", o->roles,
                       "COLUMN=ROLE: position, reading, direction, time, temperature, cycle, uncertainty, other");
+  command->add_option("--term", o->terms,
+                      "of linear: a column, or a product such as load*machine; a column of words is a factor (default: "
+                      "every column of numbers)")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   add_force(*command, o->force);
   command->callback([=, &action] { action = [=] { return run(*o); }; });
 }

@@ -1,6 +1,7 @@
 #pragma once
 /// Texts of first scenarios, commented, for a user to go on from: `gumshoe new`.
 #include <string>
+#include <vector>
 
 #include "base/card.h"
 #include "scenario/recognise.h"
@@ -18,6 +19,12 @@ std::string starter_budget();
 
 /// What an axis, or anything else with readings at positions, does that a straight line and a reversal do not explain.
 std::string starter_axis(const StarterData& data, const std::string& scenario);
+
+/// A linear model of a reading: a constant, and a coefficient for each term, fitted to the data.
+/// @param terms products of columns, "load" or "load*machine"; a column of words is a factor, whose first word is the
+/// reference. None: every column of numbers that is no time, and a direction
+/// Throws InputError if a term names no column, or a factor has too many words.
+std::string starter_linear(const StarterData& data, const std::vector<std::string>& terms, const std::string& scenario);
 
 /// A scenario of the model: its example, with what the card says of every quantity. With data, its columns take the
 /// place of the example's readings and conditions; an indication without a column gets "?".

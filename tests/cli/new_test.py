@@ -4,6 +4,7 @@ usage: new_test.py path/to/gumshoe [unittest options]
 """
 import json
 import math
+import random
 import unittest
 
 from program import InFolder, complaint, gumshoe
@@ -44,7 +45,7 @@ class New(InFolder):
     def test_every_model_has_a_scenario_that_runs(self):
         models = [m["name"] for m in json.loads(gumshoe("models", "--format", "json").stdout)]
         self.assertGreater(len(models), 5)
-        for model in [*models, "budget"]:
+        for model in [*models, "budget"]:  # and linear, below: it needs data
             with self.subTest(model):
                 self.assertIn(f"{model}.toml: ready. Next: gumshoe run {model}.toml", self.new(model))
                 run = gumshoe("run", f"{model}.toml", "--samples", "2000", "--out", f"{model}.h5", cwd=self.folder, seconds=300)
@@ -126,6 +127,39 @@ class New(InFolder):
         (self.folder / "rods.csv").write_text("rod,a_mm,b_mm\na,-330.1,4\nb,-331.0,8\n")
         said = self.new("laser_ball_bar", "--from", "rods.csv")
         self.assertIn("indications.length_1.readings.column: 'rods.csv' has no column '?'. Use one of rod, a_mm, b_mm.", said)
+
+    def test_a_linear_model_of_any_columns(self):
+        """Three machines, of which one has another slope; coefficients within three of their u, 0.01 to 0.02 N."""
+        draw = random.Random(3)
+        rows = ["machine;load (N);temp_C;force [N];time (min);mood"]
+        for i in range(48):
+            machine, load, t = "abc"[i % 3], 10 * (i // 3 % 4), round(20 + draw.uniform(-1, 1), 3)
+            force = 5 + 0.3 * load + {"a": 0, "b": 2 + 0.05 * load, "c": -1}[machine] + 0.7 * (t - 20) + draw.gauss(0, 0.02)
+            rows.append(f"{machine};{load};{t};{force:.4f};{i};{i}!")
+        (self.folder / "f.csv").write_text("\n".join(rows) + "\n")
+        terms = [w for t in ("load", "machine", "machine*load", "temp") for w in ("--term", t)]
+        self.assertIn("linear.toml: ready. Next: gumshoe trace linear.toml", self.new("linear", "--from", "f.csv", *terms))
+        text = (self.folder / "linear.toml").read_text()
+        for part in ('machine_b = { column = "machine", map = { "a" = 0, "b" = 1, "c" = 0 } }', 'by_load = { estimated = true, value = "0 (N)/(N)" }',
+                     'by_temp * (temp - reference_temperature)', 'order = "time"'):
+            self.assertIn(part, text)
+        run = gumshoe("estimate", "linear.toml", "--format", "json", cwd=self.folder)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        found = json.loads(run.stdout)["parameters"]
+        for name, true in {"constant": 5, "by_load": 0.3, "by_machine_b": 2, "by_machine_c": -1, "by_machine_b_load": 0.05,
+                           "by_machine_c_load": 0, "by_temp": 0.7}.items():
+            self.assertAlmostEqual(found[name]["value"], true, delta=3 * found[name]["standard_uncertainty"], msg=name)
+            self.assertLess(found[name]["standard_uncertainty"], 0.05, name)
+        self.new("linear", "--from", "f.csv", "--out", "plain.toml")  # every column of numbers
+        self.assertIn('force = "constant + by_load * load + by_temp * (temp - reference_temperature)"', (self.folder / "plain.toml").read_text())
+        for words, said in ((("linear",), "a linear model is made of the columns of a data file, but none is named"),
+                            (("--from", "f.csv", "--term", "load"), "--term: only a linear model has terms"),
+                            (("linear", "--from", "f.csv", "--term", "lod"), "--term: 'f.csv' has no column 'lod' other than its readings 'force [N]'"),
+                            (("linear", "--from", "f.csv", "--term", "mood"), "--term: the column 'mood' has 48 different words in 48 rows"),
+                            (("linear", "--from", "f.csv", "--role", "force [N]=other"), "f.csv: there is no column of readings")):
+            self.assertIn(said, self.new(*words, code=2))
+        (self.folder / "one.csv").write_text("force_N\n1\n2\n")
+        self.assertIn("there is no column but the readings", self.new("linear", "--from", "one.csv", code=2))
 
     def test_mistakes(self):
         self.write("axis.csv")

@@ -1,0 +1,112 @@
+#include "scenario/starter_parts.h"
+
+#include <cctype>
+
+#include <fmt/format.h>
+
+namespace gumshoe::scenario {
+
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' || c == '\\' ? std::string{'\\', c} : std::string(1, c);
+  return out + '"';
+}
+
+std::string plain_name(const std::string& text) {
+  std::string out;
+  for (const std::string& word : words_of(text)) out += (out.empty() ? "" : "_") + word;
+  std::erase_if(out, [](unsigned char c) { return c >= 0x80; });
+  return out.empty() || std::isdigit(static_cast<unsigned char>(out[0])) != 0 ? "column_" + out : out;
+}
+
+namespace {
+
+/// "pos_mm", or a table of its map or clock.
+std::string column_text(const RecognisedColumn& c) {
+  if (!c.clock.empty()) return fmt::format("{{ column = {}, clock = {} }}", quoted(c.name), quoted(c.clock));
+  if (c.words.empty() || c.number) return quoted(c.name);
+  std::string map;
+  for (const auto& [word, sign] : c.words) map += fmt::format("{}{} = {}", map.empty() ? "" : ", ", quoted(word), sign);
+  return fmt::format("{{ column = {}, map = {{ {} }} }}", quoted(c.name), map);
+}
+
+} // namespace
+
+std::string line(const std::string& key, const std::string& value, const std::string& comment) {
+  const std::string text = fmt::format("{} = {}", key, value);
+  return comment.empty() ? text + '\n' : fmt::format("{:<39} # {}\n", text, comment);
+}
+
+std::size_t different(const RecognisedData& data, const RecognisedColumn& c) {
+  std::set<std::string> texts;
+  const auto column = static_cast<std::size_t>(data.csv.find(c.name));
+  for (const auto& row : data.csv.rows) texts.insert(row[column].text);
+  return texts.size();
+}
+
+NamedColumns labels_of(const RecognisedData& data) {
+  NamedColumns out;
+  for (const RecognisedColumn& c : data.columns) {
+    const std::size_t n = different(data, c);
+    const bool recurs = !c.number && c.clock.empty() && c.words.empty() && n > 1 && 2 * n <= data.csv.rows.size();
+    if (c.role == ColumnRole::cycle || (c.role == ColumnRole::other && recurs))
+      out.emplace_back(plain_name(c.name), &c);
+  }
+  return out;
+}
+
+std::string data_section(const StarterData& data, const NamedColumns& labels, const NamedColumns& conditions,
+                         const std::set<std::string>& used) {
+  std::string out = "[data]\n" + line("file", quoted(data.file), "several files as one: \"run_{run}.csv\"");
+  if (!data.found.delimiter.empty()) out += line("delimiter", quoted(data.found.delimiter), "");
+  if (data.found.decimal == ',') out += line("decimal", "\",\"", "");
+  std::string names;
+  for (const auto& [name, c] : labels)
+    names += fmt::format("{}{} = {}", names.empty() ? "" : ", ", name, quoted(c->name));
+  if (!names.empty()) out += line("labels", "{ " + names + " }", "guessed: what tells repeated series apart");
+  std::string where;
+  for (const RecognisedColumn& c : data.found.columns)
+    if (c.gaps && used.contains(c.name))
+      where += fmt::format("{}{} = {{ not = \"\" }}", where.empty() ? "" : ", ", quoted(c.name));
+  if (!where.empty()) out += line("where", "{ " + where + " }", "rows without a number are left out");
+  out += "\n[data.units]\n";
+  for (const RecognisedColumn& c : data.found.columns)
+    if (c.number && c.unit != "1" && used.contains(c.name))
+      out += line(quoted(c.name), quoted(c.unit),
+                  c.unit == "?" ? "the file does not say it: write the unit, such as \"mm\"" : "from its header");
+  if (!conditions.empty()) out += "\n[data.conditions]\n";
+  for (const auto& [name, c] : conditions) out += line(name, column_text(*c), "recognised " + c->why);
+  return out;
+}
+
+std::string unit_or(const RecognisedColumn& c, const char* otherwise) { return c.unit == "?" ? otherwise : c.unit; }
+
+std::string blocks_of(const RecognisedData& data, const NamedColumns& labels) {
+  for (const auto& [name, c] : labels)
+    if (different(data, *c) >= 4) return line("blocks", quoted(name), "an effect should recur in each of them");
+  if (data.csv.rows.size() < 12)
+    return "# blocks = { count = 6 }                # too few rows for blocks; an effect should recur in each of "
+           "them\n";
+  return line("blocks", "{ count = 6 }", "guessed: no column tells four or more cycles apart");
+}
+
+std::string columns_of(const RecognisedData& data, std::set<std::string>& used) {
+  std::string out;
+  bool ordered = false;
+  for (const RecognisedColumn& c : data.columns) {
+    if (c.role != ColumnRole::time && c.role != ColumnRole::temperature) continue;
+    if (c.role == ColumnRole::time && !c.number && c.clock.empty()) continue;
+    if ((c.role == ColumnRole::time && ordered) || used.contains(c.name)) continue;
+    used.insert(c.name);
+    if (c.role == ColumnRole::time) {
+      ordered = true;
+      out = line("order", "\"time\"", "") + "\n[trace.columns]\n" +
+            line("time", column_text(c), "recognised " + c.why) + out;
+    } else {
+      out += line(plain_name(c.name), column_text(c), "recognised " + c.why);
+    }
+  }
+  return ordered || out.empty() ? out : "\n[trace.columns]\n" + out;
+}
+
+} // namespace gumshoe::scenario

@@ -1,0 +1,36 @@
+#pragma once
+/// Parts that first scenarios share: names, lines with comments, sections about a data file.
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scenario/starter.h"
+
+namespace gumshoe::scenario {
+
+/// Names in the scenario, and their columns.
+using NamedColumns = std::vector<std::pair<std::string, const RecognisedColumn*>>;
+
+/// The text between quotes, as TOML takes it.
+std::string quoted(const std::string& text);
+/// A name that formulas and TOML take without quotes.
+std::string plain_name(const std::string& text);
+/// "key = value", and a comment if it is not empty.
+std::string line(const std::string& key, const std::string& value, const std::string& comment);
+std::string unit_or(const RecognisedColumn& c, const char* otherwise);
+
+/// Number of different texts in a column.
+std::size_t different(const RecognisedData& data, const RecognisedColumn& c);
+/// Columns whose words tell readings apart: cycles, and texts that recur.
+NamedColumns labels_of(const RecognisedData& data);
+
+/// [data] with its units and conditions. @param used names of the columns that the scenario reads
+std::string data_section(const StarterData& data, const NamedColumns& labels, const NamedColumns& conditions,
+                         const std::set<std::string>& used);
+/// `blocks` of [trace]: a label with enough values, or stretches.
+std::string blocks_of(const RecognisedData& data, const NamedColumns& labels);
+/// `order` and [trace.columns]: times and temperatures that are not conditions; adds their names to `used`.
+std::string columns_of(const RecognisedData& data, std::set<std::string>& used);
+
+} // namespace gumshoe::scenario
