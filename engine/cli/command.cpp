@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <sstream>
 
 #include <fmt/chrono.h>
@@ -11,6 +12,7 @@
 
 #include "cli/print.h"
 #include "effects/effect.h"
+#include "store/draft.h"
 
 namespace gumshoe::cli {
 
@@ -63,6 +65,19 @@ void require_different(const std::string& out, const std::string& in) {
   if (std::filesystem::equivalent(out, in, ignored))
     throw OutputError(out + ": this is the file that is read", "it would be overwritten",
                       "choose another name for the output");
+}
+
+void write_table(const std::string& path, const std::string& text, bool force) {
+  const store::Claim claim(path);
+  std::ifstream in(claim.target(), std::ios::binary);
+  const std::string there{std::istreambuf_iterator<char>(in), {}};
+  if (there == text) return;
+  if (!there.empty() && !force)
+    throw OutputError("'" + path + "': not overwritten", "another table stands there",
+                      "choose another name, or use --force to replace it");
+  store::Draft draft;
+  draft.add(claim, text);
+  draft.publish();
 }
 
 std::string date_text(std::time_t moment) {

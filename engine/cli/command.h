@@ -25,6 +25,7 @@ void add_evaluate(CLI::App& app, Action& action);
 void add_estimate(CLI::App& app, Action& action);
 void add_choose(CLI::App& app, Action& action);
 void add_trace(CLI::App& app, Action& action);
+void add_compensate(CLI::App& app, Action& action);
 void add_replay(CLI::App& app, Action& action);
 void add_models(CLI::App& app, Action& action);
 void add_effects(CLI::App& app, Action& action);
@@ -45,6 +46,9 @@ std::uint64_t whole_number(const std::string& text, const std::string& option, s
 
 /// Refuses to write over what was read.
 void require_different(const std::string& out, const std::string& in);
+
+/// Writes a table as text. It carries no mark: only an equal one is known to be ours, and another is replaced by force.
+void write_table(const std::string& path, const std::string& text, bool force);
 
 /// A moment as files state it; SOURCE_DATE_EPOCH instead, where a file is to be reproduced byte by byte.
 std::string date_text(std::time_t moment);

@@ -1,6 +1,5 @@
 /// `gumshoe evaluate`: the forward model at the points of a table.
 #include <algorithm>
-#include <fstream>
 #include <iostream>
 #include <memory>
 
@@ -8,7 +7,6 @@
 
 #include "cli/command.h"
 #include "propagation/point_table.h"
-#include "store/draft.h"
 
 namespace gumshoe::cli {
 
@@ -40,20 +38,6 @@ std::string to_csv(const Csv& in, const propagation::PointTable& added) {
     text += added.status[r] + '\n';
   }
   return text;
-}
-
-/// A table carries no mark: only an equal one is known to be ours.
-void write_file(const std::string& path, const std::string& text, bool force) {
-  const store::Claim claim(path);
-  std::ifstream in(claim.target(), std::ios::binary);
-  const std::string there{std::istreambuf_iterator<char>(in), {}};
-  if (there == text) return;
-  if (!there.empty() && !force)
-    throw OutputError("'" + path + "': not overwritten", "another table stands there",
-                      "choose another name, or use --force to replace it");
-  store::Draft draft;
-  draft.add(claim, text);
-  draft.publish();
 }
 
 /// The model asked for: one of the catalogue, or that of a scenario, with its values.
@@ -107,7 +91,7 @@ void add_evaluate(CLI::App& app, Action& action) {
       if (o->out.empty())
         std::cout << text;
       else
-        write_file(o->out, text, o->force);
+        write_table(o->out, text, o->force);
       for (const std::string& note : points.notes) std::cerr << "note: " << note << '\n';
       for (const Problem& p : points.impossible) std::cerr << format(p) << '\n';
       return points.impossible.empty() ? ExitCode::done : ExitCode::bad_input;

@@ -30,6 +30,7 @@ constexpr CommandHelp helps[] = {
     {"estimate", "gumshoe estimate scenarios/gauge/gum_h3.toml", "fits the quantities marked as estimated", again},
     {"choose", "gumshoe choose scenarios/choose_rod_readouts.toml --samples 1e4", "finds the fastest settings", again},
     {"trace", "gumshoe trace scenarios/trace_sphere.toml --report page.html", "finds what the model lacks", again},
+    {"compensate", "gumshoe compensate x.traced.toml --format linuxcnc-trim", "writes a table that a control corrects by", ""},
     {"replay", "gumshoe replay results/x.h5 --sample 12345", "repeats one sample with every intermediate value", again},
     {"models", "gumshoe models rod_gauging", "quantities, units, defaults, limits, meaning", ""},
     {"effects", "gumshoe effects z_scale", "the same for an effect", ""},

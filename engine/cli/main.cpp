@@ -34,6 +34,7 @@ int main(int argc, char** argv) {
   cli::add_estimate(app, action);
   cli::add_choose(app, action);
   cli::add_trace(app, action);
+  cli::add_compensate(app, action);
   cli::add_replay(app, action);
   cli::add_models(app, action);
   cli::add_effects(app, action);

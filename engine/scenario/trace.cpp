@@ -230,6 +230,9 @@ Options<TraceOptions> trace_options() {
       option::by_hand<TraceOptions>("priors", shape::map(shape::reference("quantity")),
                                     "quantities of the model as known before these data, where [quantities] says what is "
                                     "known with them; written by gumshoe trace"),
+      option::texts("unconfirmed", &TraceOptions::unconfirmed, "",
+                    "effects that held-out readings could neither confirm nor reject; written by gumshoe trace, and left "
+                    "out by gumshoe compensate"),
       option::share("alpha", &TraceOptions::alpha, true,
                     "false-alarm rate: probability of any finding if there is "
                     "nothing to find"),

@@ -52,6 +52,8 @@ struct TraceOptions {
   /// Quantities as they were known before these data, of which the scenario states what is known with them: tracing
   /// these data starts from here.
   std::vector<quantities::InputQuantity> priors;
+  /// Effects that an earlier trace added and its hold-out blocks could neither confirm nor reject.
+  std::vector<std::string> unconfirmed;
   double alpha = 0.05; ///< chance that anything is found where nothing is
   int draws = 999;     ///< of the parametric bootstrap
   std::uint64_t seed = 1;

@@ -176,13 +176,16 @@ private:
         return columns(rows, Eigen::all).norm() > criteria.insensitive * columns.norm();
       });
     });
-    if (!sensitive)
+    out_.unconfirmed = !sensitive;
+    if (!sensitive) {
       out_.statements.push_back(
           "the hold-out blocks are insensitive to the finding and can neither confirm nor reject it");
-        if (!sensitive) return false;
+      return false;
+    }
     const Holdout says = judge_holdout({before.whitened, before.rms[0]}, {after.whitened, after.rms[0]},
                                        overstated(before, after, after_.design));
-    if (says == Holdout::unsure)
+    out_.unconfirmed = says == Holdout::unsure;
+    if (out_.unconfirmed)
       out_.statements.push_back("the hold-out blocks are predicted no better with what was found, but no worse than "
                                 "chance gives: they can neither confirm nor reject it");
     return says == Holdout::vetoes;

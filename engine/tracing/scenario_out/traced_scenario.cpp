@@ -88,6 +88,7 @@ public:
     for (const Correction& c : t_.corrections) correct(c);
     for (std::size_t i = 0; i < t_.estimate.parameters.size(); ++i) parameter(i);
     finish_free();
+    finish_unconfirmed();
     for (const KnownDraw& k : t_.known) keep_prior(k.quantity);
     for (const KnownDraw& k : t_.known) known(k);
     tie();
@@ -233,6 +234,21 @@ private:
         if (q.name == name && fitted(name) == q.entries.size())
           calibration::erase_member(text_.quantity(name), "estimated");
     }
+  }
+
+  /// What the hold-out blocks could not judge is nothing to correct a machine by.
+  void finish_unconfirmed() {
+    std::set<std::string> found;
+    for (const Finding& f : t_.findings)
+      for (const SizedQuantity& q : f.quantities) found.insert(q.scenario_name.substr(0, q.scenario_name.find('.')));
+    for (const Correction& c : t_.corrections) found.insert(c.name);
+    found.erase("");
+    if (!t_.unconfirmed || found.empty()) return;
+    Node& list = member(member(text_.document(), "trace"), "unconfirmed");
+    list.kind = Node::Kind::array;
+    for (const std::string& name : found)
+      if (std::ranges::none_of(list.items, [&](const Node& n) { return n.text == name; }))
+        list.items.push_back(text_node(name));
   }
 
   /// How many entries of a quantity are parameters of the estimate; none if all of them are held exactly.

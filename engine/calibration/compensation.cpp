@@ -1,0 +1,303 @@
+#include "calibration/compensation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include <Eigen/Dense>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "base/dimension.h"
+#include "base/symbol.h"
+#include "effects/effect.h"
+
+namespace gumshoe::calibration {
+namespace {
+
+using propagation::Experiment;
+using propagation::Points;
+using Key = std::pair<double, int>; ///< position, direction
+
+/// Sizes that stand or fall together: those of one effect, or a quantity of the model.
+struct Source {
+  std::string name;
+  std::vector<std::pair<std::size_t, double>> nulls; ///< quantity, and the value at which it changes nothing
+};
+
+bool is_size(const QuantityCard& card) { return card.role == Role::amplitude || card.role == Role::pair; }
+
+class Composer {
+public:
+  Composer(const Experiment& e, const CompensationRequest& r)
+      : e_(e), s_(e.scenario()), request_(r), card_(*e.model().card), at_(e.estimates()) {}
+
+  Compensation compose() {
+    find_conditions();
+    make_cells();
+    const std::vector<double> whole = indications(at_);
+    std::vector<Source> kept;
+    Points without = at_;
+    for (const Source& source : sources()) {
+      Points less = at_;
+      set_null(source, less);
+      const std::vector<double> change = minus(whole, indications(less));
+      if (std::ranges::all_of(change, [](double x) { return x == 0; })) continue;
+      if (const std::string why = why_not(source, change); !why.empty()) {
+        out_.left_out.push_back({source.name, why});
+        continue;
+      }
+      set_null(source, without);
+      kept.push_back(source);
+      out_.holds.push_back(source.name);
+    }
+    name_known();
+    if (kept.empty()) refuse_nothing();
+    add_rows(minus(whole, indications(without)), kept);
+    join_directions();
+    return std::move(out_);
+  }
+
+private:
+  [[noreturn]] void refuse(const std::string& what, const std::string& why, const std::string& remedy) const {
+    throw InputError(s_.file + ": " + what, why, remedy);
+  }
+
+  [[noreturn]] void refuse_nothing() const {
+    const auto& left = out_.left_out;
+    refuse("nothing to compensate",
+           left.empty()       ? "no effect has a size"
+           : left.size() == 1 ? fmt::format("{} {}", left[0].name, left[0].why)
+                              : fmt::format("{} {}, and {} more", left[0].name, left[0].why, left.size() - 1),
+           "use the scenario that gumshoe trace or gumshoe estimate wrote");
+  }
+
+  std::size_t condition(const std::string& name) const {
+    std::vector<std::string> names;
+    for (std::size_t c = 0; c < card_.conditions.size(); ++c) {
+      if (card_.conditions[c].name == name) return c;
+      names.emplace_back(card_.conditions[c].name);
+    }
+    refuse(fmt::format("'{}' is not a condition", name), "", fmt::format("use one of {}", fmt::join(names, ", ")));
+  }
+
+  std::set<double> values_of(std::size_t c) const {
+    std::set<double> out;
+    for (const auto& r : s_.readings) out.insert(r.conditions[c]);
+    return out;
+  }
+
+  void find_conditions() {
+    const auto& indications = card_.indications;
+    while (indication_ < indications.size() && indications[indication_].name != request_.indication &&
+           !(request_.indication.empty() && indications.size() == 1))
+      ++indication_;
+    if (indication_ == indications.size()) {
+      std::vector<std::string> names;
+      for (const auto& i : indications) names.emplace_back(i.name);
+      refuse(request_.indication.empty() ? "there are several indications"
+                                         : fmt::format("'{}' is not an indication", request_.indication),
+             "", fmt::format("use --indication with one of {}", fmt::join(names, ", ")));
+    }
+    std::vector<std::size_t> positions;
+    std::vector<std::string> names;
+    for (std::size_t c = 0; c < card_.conditions.size(); ++c) {
+      const std::string_view unit = card_.conditions[c].si_unit;
+      if (request_.direction.empty() && card_.conditions[c].name == "direction" && values_of(c).size() > 1) direction_ = c;
+      if ((unit != "m" && unit != "rad") || values_of(c).size() < 2) continue;
+      positions.push_back(c);
+      names.emplace_back(card_.conditions[c].name);
+    }
+    if (!request_.direction.empty()) direction_ = condition(request_.direction);
+    if (!request_.position.empty())
+      position_ = condition(request_.position);
+    else if (positions.size() == 1)
+      position_ = positions[0];
+    else
+      refuse(positions.empty() ? "no length or angle is set to several values" : "several conditions may be the position", "",
+             positions.empty() ? "" : fmt::format("use --position with one of {}", fmt::join(names, ", ")));
+    out_.position = card_.conditions[position_].name;
+    out_.position_si_unit = card_.conditions[position_].si_unit;
+    out_.indication = indications[indication_].name;
+    out_.indication_si_unit = indications[indication_].si_unit;
+    if (direction_ != none) out_.direction = card_.conditions[direction_].name;
+  }
+
+  Key key_of(std::size_t reading) const {
+    const auto& c = s_.readings[reading].conditions;
+    return {c[position_], direction_ == none ? 0 : (c[direction_] > 0) - (c[direction_] < 0)};
+  }
+  void make_cells() {
+    for (std::size_t r = 0; r < s_.readings.size(); ++r) cells_[key_of(r)].push_back(r);
+  }
+
+  /// Effects of the catalogue and stated ones by effect, then the quantities asked for.
+  std::vector<Source> sources() const {
+    std::vector<Source> out;
+    const auto left_out = [&](const std::string& name) {
+      return std::ranges::find(request_.without, name) != request_.without.end();
+    };
+    for (const effects::Active& active : e_.forward().active()) {
+      const EffectCard& effect = *effects::cards()[active.effect];
+      Source one{std::string(effect.name), {}};
+      for (std::size_t i = 0; i < effect.quantities.size(); ++i)
+        if (is_size(effect.quantities[i]))
+          one.nulls.emplace_back(e_.layout().effects[active.first + i], effect.quantities[i].default_value);
+      if (!left_out(one.name)) out.push_back(std::move(one));
+    }
+    const propagation::Range sizes = e_.layout().sizes;
+    for (std::size_t q = sizes.begin; q < sizes.end; ++q) {
+      const std::string name = s_.quantities[q].name.substr(0, s_.quantities[q].name.find('.'));
+      if (!left_out(name)) out.push_back({name, {{q, 0}}});
+    }
+    for (const std::string& name : request_.with) {
+      const auto known = std::ranges::find(card_.quantities, name, [](const auto& q) { return std::string(q.name); });
+      if (known == card_.quantities.end())
+        refuse(fmt::format("'{}' is not a quantity of the model", name), "", "gumshoe models lists them");
+      out.push_back({name, {{static_cast<std::size_t>(known - card_.quantities.begin()), 0}}});
+    }
+    return out;
+  }
+
+  /// Quantities of the model that these data gave, such as a gain, of which the caller did not speak.
+  void name_known() {
+    for (std::size_t q = 0; q < card_.quantities.size(); ++q) {
+      const std::string name(card_.quantities[q].name);
+      const bool known = s_.quantities[q].estimated || std::ranges::find(s_.trace.free, name) != s_.trace.free.end();
+      if (known && std::ranges::find(request_.with, name) == request_.with.end())
+        out_.left_out.push_back({name, "is a quantity of the model and may be the set-up's (--with " + name + " adds it)"});
+    }
+  }
+
+  static void set_null(const Source& source, Points& at) {
+    for (auto& point : at)
+      for (const auto& [q, value] : source.nulls) point[q] = value;
+  }
+
+  std::vector<double> indications(const Points& at) const {
+    const propagation::Responses f = e_.forward().indications(at);
+    if (!f.ok()) refuse("the model has no value at a reading", "", "gumshoe check");
+    std::vector<double> out;
+    for (std::size_t r = 0; r < s_.readings.size(); ++r)
+      out.push_back(f.at(0, r * card_.indications.size() + indication_));
+    return out;
+  }
+
+  static std::vector<double> minus(std::vector<double> a, const std::vector<double>& b) {
+    for (std::size_t i = 0; i < a.size(); ++i) a[i] -= b[i];
+    return a;
+  }
+
+  /// Why a change is no function of position and direction; empty if it is.
+  std::string why_not(const Source& source, const std::vector<double>& change) const {
+    double most = 0, low = change[0], high = change[0];
+    for (const double x : change) low = std::min(low, x), high = std::max(high, x);
+    for (const auto& [key, readings] : cells_)
+      for (const std::size_t r : readings) most = std::max(most, std::fabs(change[r] - change[readings[0]]));
+    if (most > same * std::max(std::fabs(low), std::fabs(high)))
+      return "also depends on something else than the position";
+    const auto unconfirmed = std::ranges::find(s_.trace.unconfirmed, source.name);
+    return unconfirmed == s_.trace.unconfirmed.end() ? "" : "could neither be confirmed nor rejected by held-out readings";
+  }
+
+  void add_rows(const std::vector<double>& change, const std::vector<Source>& kept) {
+    const Eigen::MatrixXd by_variate = derivatives(kept);
+    const Eigen::MatrixXd covariance = covariance_of_variates();
+    for (const auto& [key, readings] : cells_) {
+      Eigen::VectorXd slope = Eigen::VectorXd::Zero(by_variate.cols());
+      double error = 0;
+      for (const std::size_t r : readings) {
+        slope += by_variate.row(static_cast<Eigen::Index>(r)).transpose();
+        error += change[r];
+      }
+      const auto n = static_cast<double>(readings.size());
+      slope /= n;
+      out_.rows.push_back({key.first, key.second, error / n, std::sqrt(std::max(0.0, slope.dot(covariance * slope))),
+                           static_cast<int>(readings.size())});
+    }
+    std::ranges::stable_sort(out_.rows, [](const auto& a, const auto& b) {
+      return std::pair(a.position, -a.direction) < std::pair(b.position, -b.direction);
+    });
+  }
+
+  /// Derivatives of the indication at each reading by the variates of these sizes.
+  Eigen::MatrixXd derivatives(const std::vector<Source>& kept) const {
+    std::vector<propagation::Partial> partials;
+    for (const Source& source : kept)
+      for (const auto& [q, null] : source.nulls) {
+        double step = 0;
+        for (const auto& point : at_) step = std::max(step, 1e-3 * std::fabs(point[q] - null));
+        if (step > 0) partials.push_back({q, step, -step, false, {}});
+      }
+    const propagation::Linearisation f = e_.forward().linearise(at_, partials);
+    const std::size_t k = card_.indications.size();
+    Eigen::MatrixXd out = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(s_.readings.size()),
+                                                static_cast<Eigen::Index>(e_.plan().variates.size()));
+    for (std::size_t p = 0; p < partials.size(); ++p)
+      for (std::size_t r = 0; r < s_.readings.size(); ++r)
+        for (const std::size_t v : e_.plan().columns[e_.plan().gather[r][partials[p].quantity]].variates)
+          out(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(v)) += f.derivatives[p * f.rows + r * k + indication_];
+    return out;
+  }
+
+  Eigen::MatrixXd covariance_of_variates() const {
+    const auto n = static_cast<Eigen::Index>(e_.plan().variates.size());
+    Eigen::VectorXd u(n);
+    for (Eigen::Index v = 0; v < n; ++v)
+      u[v] = e_.plan().variates[static_cast<std::size_t>(v)].distribution.standard_uncertainty();
+    Eigen::MatrixXd out = u.array().square().matrix().asDiagonal();
+    for (const auto& group : e_.plan().copulas) {
+      const std::size_t m = group.variates.size();
+      for (std::size_t i = 0; i < m; ++i)
+        for (std::size_t j = 0; j < m; ++j)
+          if (i != j) {
+            const auto a = static_cast<Eigen::Index>(group.variates[i]), b = static_cast<Eigen::Index>(group.variates[j]);
+            out(a, b) = u[a] * u[b] * group.matrix[i * m + j];
+          }
+    }
+    return out;
+  }
+
+  /// One row for both directions, where they agree at every position; readings of each are counted.
+  void join_directions() {
+    if (direction_ == none) return;
+    std::map<double, std::vector<const CompensationRow*>> at;
+    double most = 0, difference = 0;
+    for (const auto& row : out_.rows) {
+      at[row.position].push_back(&row);
+      most = std::max(most, std::fabs(row.error));
+    }
+    for (const auto& [x, rows] : at)
+      for (const auto* row : rows) difference = std::max(difference, std::fabs(row->error - rows[0]->error));
+    if (difference > same * most) return;
+    std::vector<CompensationRow> joined;
+    for (const auto& [x, rows] : at) {
+      joined.push_back(*rows[0]);
+      joined.back().direction = 0;
+      joined.back().readings = 0;
+      for (const auto* row : rows) joined.back().readings += row->readings;
+    }
+    out_.rows = std::move(joined);
+    out_.direction.clear();
+  }
+
+  static constexpr std::size_t none = ~std::size_t{0};
+  static constexpr double same = 1e-6; ///< share of the largest error that is no difference
+  const Experiment& e_;
+  const scenario::Scenario& s_;
+  const CompensationRequest& request_;
+  const ModelCard& card_;
+  Points at_;
+  std::size_t indication_ = 0, position_ = none, direction_ = none;
+  std::map<Key, std::vector<std::size_t>> cells_;
+  Compensation out_;
+};
+
+} // namespace
+
+Compensation compensation(const Experiment& experiment, const CompensationRequest& request) {
+  return Composer(experiment, request).compose();
+}
+
+} // namespace gumshoe::calibration

@@ -1,0 +1,43 @@
+#pragma once
+/// What a control can take back: errors of a fitted scenario that come back with the position and the direction of one
+/// axis.
+#include <string>
+#include <vector>
+
+#include "propagation/experiment.h"
+
+namespace gumshoe::calibration {
+
+struct CompensationRequest {
+  std::string indication;            ///< the deviation, actual minus commanded; empty: the only one
+  std::string position, direction;   ///< conditions; empty: found, direction by its name
+  std::vector<std::string> with;     ///< quantities of the model whose estimates count, too, such as a gain
+  std::vector<std::string> without;  ///< effects to leave out
+};
+
+/// Error at a position, approached upwards (+1), downwards (-1) or from either side (0).
+struct CompensationRow {
+  double position = 0; ///< m or rad
+  int direction = 0;
+  double error = 0, u = 0; ///< actual minus commanded, of the indication; SI
+  int readings = 0;
+};
+
+struct Compensation {
+  std::string position, direction, indication; ///< names; direction is empty where it makes no difference
+  std::string position_si_unit, indication_si_unit;
+  std::vector<CompensationRow> rows; ///< by position; where there are directions, up before down
+  std::vector<std::string> holds;    ///< effects and quantities that are in it
+  struct LeftOut {
+    std::string name, why; ///< "also depends on ..."
+  };
+  std::vector<LeftOut> left_out;
+};
+
+/// Errors of the effects with a size, at the positions of the scenario's readings: what the simulated indication loses
+/// when the sizes are at null; u by the law of propagation from the sizes' uncertainties and correlations. An effect that
+/// also depends on anything else (time, a temperature, a label) is left out. Throws InputError if nothing remains, or
+/// the conditions are not clear.
+Compensation compensation(const propagation::Experiment& experiment, const CompensationRequest& request);
+
+} // namespace gumshoe::calibration

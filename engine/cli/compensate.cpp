@@ -1,0 +1,103 @@
+/// `gumshoe compensate`: what a control can take back, from a traced or estimated scenario.
+#include <algorithm>
+#include <iostream>
+#include <memory>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "base/units.h"
+#include "calibration/compensation.h"
+#include "cli/command.h"
+#include "cli/compensation_files.h"
+
+namespace gumshoe::cli {
+
+namespace {
+
+struct Options {
+  std::string scenario, out, resolution, step, reference;
+  calibration::CompensationRequest of;
+  CompensationChoice choice;
+  bool force = false, unconfirmed = false;
+};
+
+double measure(const std::string& text, const std::string& si_unit) {
+  if (text.empty()) return 0;
+  const auto given = units::parse(text);
+  return units::to_si(given.number, given.unit, si_unit, units::Kind::difference);
+}
+
+/// "shape_1 (18 sizes)" instead of shape_1_1, shape_1_2 and so on.
+std::vector<std::string> together(const std::vector<std::string>& names) {
+  std::vector<std::pair<std::string, int>> counted;
+  for (const std::string& name : names) {
+    const std::size_t end = name.find_last_not_of("0123456789");
+    const bool numbered = end != std::string::npos && end + 1 < name.size() && name[end] == '_';
+    const std::string stem = numbered ? name.substr(0, end) : name;
+    if (!counted.empty() && counted.back().first == stem && numbered)
+      ++counted.back().second;
+    else
+      counted.emplace_back(stem, 1);
+  }
+  std::vector<std::string> out;
+  for (const auto& [name, count] : counted) out.push_back(count > 1 ? fmt::format("{} ({} sizes)", name, count) : name);
+  return out;
+}
+
+ExitCode compensate(Options o) {
+  scenario::Scenario s = scenario::read(o.scenario, catalogue());
+  if (o.unconfirmed) s.trace.unconfirmed.clear();
+  require_different(o.out, o.scenario);
+  const propagation::Experiment experiment(s);
+  const calibration::Compensation table = calibration::compensation(experiment, o.of);
+  o.choice.resolution = measure(o.resolution, table.indication_si_unit);
+  o.choice.step = measure(o.step, table.position_si_unit);
+  o.choice.reference = measure(o.reference, table.position_si_unit);
+  o.choice.at_reference = !o.reference.empty();
+  const std::string text = compensation_text(table, o.choice);
+  if (o.out.empty())
+    std::cout << text;
+  else
+    write_table(o.out, text, o.force);
+  std::cerr << fmt::format("holds: {}\n", fmt::join(together(table.holds), ", "));
+  for (const auto& left : table.left_out) std::cerr << fmt::format("left out: {} {}\n", left.name, left.why);
+  const auto& formats = compensation_formats();
+  const auto format = std::ranges::find(formats, o.choice.format, &CompensationFormat::name);
+  if (!format->check.empty()) std::cerr << fmt::format("prove the sign on the machine: {}\n", format->check);
+  if (!o.out.empty()) std::cerr << "written: " << o.out << '\n';
+  return ExitCode::done;
+}
+
+} // namespace
+
+void add_compensate(CLI::App& app, Action& action) {
+  auto* command =
+      app.add_subcommand("compensate", "writes what a control can correct, of a scenario that trace or estimate wrote");
+  const auto o = std::make_shared<Options>();
+  std::vector<std::string> formats;
+  std::string meanings;
+  for (const auto& f : compensation_formats()) {
+    formats.push_back(f.name);
+    meanings += fmt::format("\n  {}: {}", f.name, f.meaning);
+  }
+  command->add_option("scenario", o->scenario, "scenario with its readings, as gumshoe trace or estimate wrote it")->required();
+  command->add_option("--format", o->choice.format, "format of the table:" + meanings)->check(CLI::IsMember(formats));
+  command->add_option("--out", o->out, "output file (default: standard output)");
+  command->add_option("--axis", o->choice.axis, "name of the axis in the control (default: X)");
+  command->add_option("--indication", o->of.indication, "the deviation, actual minus commanded (default: the only one)");
+  command->add_option("--position", o->of.position, "condition that is the position (default: the only length or angle)");
+  command->add_option("--direction", o->of.direction, "condition whose sign is the direction (default: direction)");
+  command->add_option("--with", o->of.with, "quantities of the model that count, too, such as a gain");
+  command->add_option("--without", o->of.without, "effects to leave out");
+  command->add_option("--step", o->step, "interval of the table, linear between the positions measured: \"50 mm\"");
+  command->add_option("--reference", o->reference, "position at which the control's table is zero (default: the first)");
+  command->add_option("--resolution", o->resolution, "to which values are rounded (default: 0.1 um)");
+  command->add_flag("--negate", o->choice.negate, "changes the sign, where it is a setting of the machine (isg, etalon)");
+  command->add_flag("--unconfirmed", o->unconfirmed, "also what held-out readings could neither confirm nor reject");
+  add_force(*command, o->force);
+  add_external(*command);
+  command->callback([=, &action] { action = [=] { return compensate(*o); }; });
+}
+
+} // namespace gumshoe::cli

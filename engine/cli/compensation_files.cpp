@@ -1,0 +1,244 @@
+#include "cli/compensation_files.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+
+namespace gumshoe::cli {
+namespace {
+
+using calibration::Compensation;
+
+/// One position with the errors in both directions, in the control's unit.
+struct Point {
+  double x = 0, up = 0, down = 0;
+  double mean() const { return (up + down) / 2; }
+};
+
+class Writer {
+public:
+  Writer(const Compensation& t, const CompensationChoice& c)
+      : t_(t), c_(c), angle_(t.position_si_unit == "rad"), radians_(c.format == "isg" || c.format == "etalon") {}
+
+  std::string write() {
+    if (c_.format == "csv") return csv();
+    make_points();
+    if (c_.format == "linuxcnc") return linuxcnc(false);
+    if (c_.format == "linuxcnc-trim") return linuxcnc(true);
+    if (c_.format == "sinumerik-eec") return eec();
+    if (c_.format == "sinumerik-cec") return cec();
+    return c_.format == "isg" ? isg() : etalon();
+  }
+
+private:
+  [[noreturn]] static void refuse(const std::string& what, const std::string& why, const std::string& remedy) {
+    throw InputError(what, why, remedy);
+  }
+
+  bool both() const { return !t_.direction.empty(); }
+  static constexpr double degree = 3.14159265358979323846 / 180;
+  double position(double si) const { return angle_ ? si / degree : si * 1e3; }
+  double error(double si) const {
+    const double in_unit = !angle_ ? si * 1e3 : radians_ ? si : si / degree;
+    return std::round(in_unit / resolution()) * resolution() + 0.0;
+  }
+  double resolution() const {
+    const double given = !angle_ ? c_.resolution * 1e3 : radians_ ? c_.resolution : c_.resolution / degree;
+    return given > 0 ? given : !angle_ ? 1e-4 : radians_ ? 1e-7 : 1e-5;
+  }
+  std::string number(double x) const {
+    const int digits = std::max(0, static_cast<int>(std::ceil(-std::log10(resolution()) - 1e-9)));
+    return fmt::format("{:.{}f}", x, digits);
+  }
+  const char* unit() const { return angle_ ? "deg" : "mm"; }
+
+  /// Both directions at every position; then the steps asked for, linear between the positions measured.
+  void make_points() {
+    std::map<double, std::map<int, double>> at;
+    for (const auto& row : t_.rows) at[row.position][row.direction] = row.error;
+    for (const auto& [x, errors] : at) {
+      for (const int d : {1, -1})
+        if (both() && !errors.contains(d))
+          refuse(fmt::format("at {:.6g} {} nothing was measured {}", position(x), unit(), d > 0 ? "upwards" : "downwards"),
+                 "the table needs both directions at every position", "use --format csv, or measure it");
+      points_.push_back({x, errors.begin()->second, errors.begin()->second});
+      if (both()) points_.back().up = errors.at(1), points_.back().down = errors.at(-1);
+    }
+    if (points_.size() < 2) refuse("a single position", "a table needs two", "");
+    if (c_.step > 0) resample();
+  }
+
+  Point between(double x) const {
+    if (x <= points_.front().x) return {x, points_.front().up, points_.front().down};
+    const auto next = std::ranges::find_if(points_, [&](const Point& p) { return p.x >= x; });
+    if (next == points_.end()) return {x, points_.back().up, points_.back().down};
+    const Point &a = *(next - 1), &b = *next;
+    const double share = (x - a.x) / (b.x - a.x);
+    return {x, a.up + share * (b.up - a.up), a.down + share * (b.down - a.down)};
+  }
+
+  void resample() {
+    std::vector<Point> out;
+    const double length = points_.back().x - points_.front().x;
+    const auto steps = static_cast<int>(std::floor(length / c_.step + 1e-9));
+    if (steps < 1) refuse("the step is longer than the travel measured", "", "use a shorter --step");
+    for (int i = 0; i <= steps; ++i) out.push_back(between(points_.front().x + i * c_.step));
+    points_ = std::move(out);
+  }
+
+  /// The distance between positions, all equal.
+  double interval() const {
+    const double step = (points_.back().x - points_.front().x) / static_cast<double>(points_.size() - 1);
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      if (std::fabs(points_[i].x - points_.front().x - static_cast<double>(i) * step) > 1e-6 * step)
+        refuse("the positions are not equidistant", "this control's table has one interval",
+               fmt::format("use --step \"{:.1g} {}\"", position(step), unit()));
+    return step;
+  }
+
+  /// What the control's table holds at its reference point is zero.
+  double at_reference(bool up) const {
+    const Point p = between(c_.at_reference ? c_.reference : points_.front().x);
+    return up ? p.up : p.down;
+  }
+  double mean_at_reference() const { return (at_reference(true) + at_reference(false)) / 2; }
+
+  double largest_reversal() const {
+    double most = 0;
+    for (const Point& p : points_) most = std::max(most, std::fabs(p.up - p.down));
+    return most;
+  }
+  double mean_reversal() const {
+    double sum = 0;
+    for (const Point& p : points_) sum += p.up - p.down;
+    return sum / static_cast<double>(points_.size());
+  }
+
+  std::string csv() const {
+    const std::string e = t_.indication_si_unit == "m" ? "um" : angle_ ? "arcsec" : t_.indication_si_unit;
+    const double factor = e == "um" ? 1e6 : e == "arcsec" ? 3600 / degree : 1;
+    std::string out = fmt::format("# error: actual minus commanded position; correction: commanded minus actual, what the "
+                                  "control adds to the command\n"
+                                  "# direction: from which the position was reached, 1 upwards, -1 downwards, 0 either; u: "
+                                  "standard uncertainty of the error\n"
+                                  "# between the positions linear; beyond them nothing is known\n"
+                                  "position_{},direction,error_{},correction_{},u_{},readings\n",
+                                  unit(), e, e, e);
+    for (const auto& row : t_.rows)
+      out += fmt::format("{:.10g},{},{:.4f},{:.4f},{:.4f},{}\n", position(row.position), row.direction, row.error * factor,
+                         -row.error * factor + 0.0, row.u * factor, row.readings);
+    return out;
+  }
+
+  /// Linear between rows, end values beyond. Type 0: actual positions; type 1: trims, added to the command.
+  std::string linuxcnc(bool trims) const {
+    if (points_.size() > 256) refuse(fmt::format("{} rows", points_.size()), "LinuxCNC reads 256", "use a longer --step");
+    std::string out; // no comments: reading ends at the first line that is not three numbers
+    for (const Point& p : points_) {
+      const double x = position(p.x), up = error(p.up), down = error(p.down);
+      out += fmt::format("{:.6f} {} {}\n", x, number(trims ? -up + 0.0 : x + up), number(trims ? -down + 0.0 : x + down));
+    }
+    return out;
+  }
+
+  /// A line of each point: `place` of its number, and its error.
+  template <class Place, class Error> std::string values(const Place& place, const Error& of) const {
+    std::string out;
+    for (std::size_t i = 0; i < points_.size(); ++i) out += place(i) + '=' + number(of(points_[i])) + '\n';
+    return out;
+  }
+
+  std::string eec() const {
+    const double step = interval(), zero = mean_at_reference();
+    std::string out = fmt::format("%_N_{}_EEC_INI\nCHANDATA(1)\n; error (actual minus commanded), {}, zero at the "
+                                  "reference; a positive value moves the axis in the negative direction\n",
+                                  c_.axis, unit());
+    if (both())
+      out += fmt::format("; mean of both directions; upwards minus downwards is {} {} on average and {} at most: the "
+                         "control's backlash compensation takes that\n",
+                         number(error(mean_reversal())), unit(), number(error(largest_reversal())));
+    out += "; load with MD32700 = 0, then set it to 1 and reference\n";
+    out += values([&](std::size_t i) { return fmt::format("$AA_ENC_COMP[0,{},{}]", i, c_.axis); },
+                  [&](const Point& p) { return error(p.mean() - zero); });
+    for (const auto& [name, x] : {std::pair("STEP", step), {"MIN", points_.front().x}, {"MAX", points_.back().x}})
+      out += fmt::format("$AA_ENC_COMP_{}[0,{}]={:.6f}\n", name, c_.axis, position(x));
+    return out + fmt::format("$AA_ENC_COMP_IS_MODULO[0,{}]=0\nM17\n", c_.axis);
+  }
+
+  std::string cec() const {
+    const double step = interval();
+    std::string out = fmt::format("%_N_NC_CEC_INI\nCHANDATA(1)\n; error (actual minus commanded), {}, zero at the "
+                                  "reference; the sign is that of the encoder table: prove it by one step\n",
+                                  unit());
+    for (int table = 0; table < (both() ? 2 : 1); ++table) {
+      const bool up = table == 0;
+      const double zero = mean_at_reference();
+      const std::string t = std::to_string(table);
+      out += values([&](std::size_t i) { return fmt::format("$AN_CEC[{},{}]", t, i); },
+                    [&](const Point& p) { return error((up ? p.up : p.down) - zero); });
+      out += fmt::format("$AN_CEC_INPUT_AXIS[{0}]=({1})\n$AN_CEC_OUTPUT_AXIS[{0}]=({1})\n", t, c_.axis);
+      for (const auto& [name, x] : {std::pair("STEP", step), {"MIN", points_.front().x}, {"MAX", points_.back().x}})
+        out += fmt::format("$AN_CEC_{}[{}]={:.6f}\n", name, t, position(x));
+      out += fmt::format("$AN_CEC_DIRECTION[{0}]={1}\n$AN_CEC_MULT_BY_TABLE[{0}]=0\n$AN_CEC_IS_MODULO[{0}]=0\n", t,
+                         !both() ? 0 : up ? 1 : -1);
+    }
+    return out + "M17\n";
+  }
+
+  std::string component() const { return fmt::format("E{0}{0}", c_.axis); }
+  double signed_mean(const Point& p) const { return (c_.negate ? -1 : 1) * error(p.mean()) + 0.0; }
+  std::string said() const {
+    return fmt::format("// {}, {} and {}{}{}\n", c_.negate ? "commanded minus actual (negated)" : "actual minus commanded",
+                       angle_ ? "deg" : "mm", angle_ ? "rad" : "mm",
+                       both() ? fmt::format("; mean of both directions, which differ by {} at most",
+                                            number(error(largest_reversal())))
+                              : "",
+                       "; the sign is a setting of the machine: prove it by one step");
+  }
+
+  std::string isg() const {
+    std::string out = said() + fmt::format("{}\t{}\n", c_.axis, component());
+    for (const Point& p : points_) out += fmt::format("{:.6f}\t{}\n", position(p.x), number(signed_mean(p)));
+    return out;
+  }
+  std::string etalon() const {
+    std::string out = said() + fmt::format("[{}]\nGridpoints = {{\n", component());
+    for (const Point& p : points_) out += fmt::format("{:.6f} {}\n", position(p.x), number(signed_mean(p)));
+    return out + "}\n";
+  }
+
+  const Compensation& t_;
+  const CompensationChoice& c_;
+  bool angle_, radians_;
+  std::vector<Point> points_;
+};
+
+} // namespace
+
+const std::vector<CompensationFormat>& compensation_formats() {
+  static const std::vector<CompensationFormat> all{
+      {"csv", "error, correction and u at every position and direction", ""},
+      {"linuxcnc", "COMP_FILE_TYPE = 0: the actual positions, upwards and downwards",
+       "with one row at 100 mm of 100.010 the joint must be commanded to 99.990"},
+      {"linuxcnc-trim", "COMP_FILE_TYPE = 1: corrections, added to the command, upwards and downwards",
+       "with one row at 100 mm of 0.010 the joint must be commanded to 100.010"},
+      {"sinumerik-eec", "encoder errors of one axis: error, one table for both directions, equidistant",
+       "with 0.010 at one point the axis must move 0.010 in the negative direction there"},
+      {"sinumerik-cec", "sag tables of one axis: error, a table for each direction, equidistant",
+       "with 0.010 at one point the axis must move 0.010 in the negative direction there; else change the sign"},
+      {"isg", "volumetric table of ISG and Beckhoff: error E_XX of ISO 230-1, mean of both directions",
+       "with 0.010 at one point the axis must move 0.010 in the negative direction there; else use --negate"},
+      {"etalon", "exchange text of Etalon: error E_XX of ISO 230-1, mean of both directions",
+       "with 0.010 at one point the axis must move 0.010 in the negative direction there; else use --negate"}};
+  return all;
+}
+
+std::string compensation_text(const Compensation& table, const CompensationChoice& choice) {
+  return Writer(table, choice).write();
+}
+
+} // namespace gumshoe::cli

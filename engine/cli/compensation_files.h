@@ -1,0 +1,33 @@
+#pragma once
+/// Tables of compensation as controls read them. Error: actual minus commanded; correction: commanded minus actual.
+#include <string>
+#include <vector>
+
+#include "calibration/compensation.h"
+
+namespace gumshoe::cli {
+
+struct CompensationFormat {
+  std::string name;    ///< of --format
+  std::string meaning; ///< the sign of what is written, and what directions become
+  std::string check;   ///< one step that shows on the machine that the sign is right
+};
+
+/// Every format there is.
+const std::vector<CompensationFormat>& compensation_formats();
+
+struct CompensationChoice {
+  std::string format = "csv";
+  std::string axis = "X";      ///< letter, or name of the machine axis
+  double resolution = 0;       ///< SI; 0: 0.1 um, 0.1 arcsec of an angle in its own unit
+  double step = 0;             ///< SI; above 0: linear between the positions measured, at such steps
+  double reference = 0;        ///< position at which the control's table is zero, SI
+  bool at_reference = false;   ///< `reference` was given; else the first position
+  bool negate = false;
+};
+
+/// The file's text. Throws InputError where the format cannot hold the table: positions that are not equidistant, too
+/// many rows, a direction that was not measured.
+std::string compensation_text(const calibration::Compensation& table, const CompensationChoice& choice);
+
+} // namespace gumshoe::cli
