@@ -1,11 +1,7 @@
 #include "scenario/starter.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include <fmt/format.h>
 
-#include "base/units.h"
 #include "scenario/starter_parts.h"
 
 namespace gumshoe::scenario {
@@ -56,30 +52,6 @@ samples = 1_000_000
 seed    = 1
 )";
 }
-
-namespace {
-
-/// Whether the readings are the positions themselves, measured, and not their errors: then they span what the positions
-/// span.
-bool measured_position(const RecognisedData& data, const RecognisedColumn& position, const RecognisedColumn& reading) {
-  const auto range = [&](const RecognisedColumn& c) {
-    double low = HUGE_VAL, high = -HUGE_VAL;
-    const auto column = static_cast<std::size_t>(data.csv.find(c.name));
-    for (const auto& row : data.csv.rows) {
-      if (row[column].text.empty()) continue;
-      const double x = data.csv.number(row[column], data.decimal);
-      low = std::min(low, x), high = std::max(high, x);
-    }
-    double scale = 1;
-    if (c.unit != "?" && c.unit != "1")
-      scale = units::to_si(1, c.unit, units::si_unit_of(c.unit), units::Kind::difference);
-    return scale * (high - low);
-  };
-  const double share = range(reading) / range(position);
-  return share > 0.5 && share < 2; // an axis errs by less than half of its travel
-}
-
-} // namespace
 
 std::string starter_axis(const StarterData& data, const std::string& scenario) {
   const RecognisedData& found = data.found;

@@ -133,6 +133,14 @@ private:
            (timed ? line("order", "\"time\"", "") : "");
   }
 
+  /// Whether the model takes positions for deviations on request, and the data's readings are positions.
+  bool reads_position() const {
+    const auto* position = data_->found.find(Role::position);
+    return std::ranges::find(card_.conditions, "reads_position", &VariableCard::name) != card_.conditions.end() &&
+           position && readings_.size() == 1 && readings_[0].second &&
+           measured_position(data_->found, *position, *readings_[0].second);
+  }
+
   /// Single conditions that the data do not give.
   std::string kept(const Section& section) const {
     if (section.name != "conditions") return "";
@@ -143,6 +151,7 @@ private:
       const bool listed = row.find("= [") != std::string::npos || row.find("= {") != std::string::npos;
       if (!key.empty() && !in_data && !listed) out += row + '\n';
     }
+    if (reads_position()) out += line("reads_position", "1", "guessed: the readings span what the positions span");
     return out.empty()
                ? out
                : "[conditions]                            # as in the model's example: replace them\n" + out + '\n';

@@ -1,8 +1,12 @@
 #include "scenario/starter_parts.h"
 
+#include <algorithm>
 #include <cctype>
+#include <cmath>
 
 #include <fmt/format.h>
+
+#include "base/units.h"
 
 namespace gumshoe::scenario {
 
@@ -77,6 +81,24 @@ std::string data_section(const StarterData& data, const NamedColumns& labels, co
   if (!conditions.empty()) out += "\n[data.conditions]\n";
   for (const auto& [name, c] : conditions) out += line(name, column_text(*c), "recognised " + c->why);
   return out;
+}
+
+bool measured_position(const RecognisedData& data, const RecognisedColumn& position, const RecognisedColumn& reading) {
+  const auto range = [&](const RecognisedColumn& c) {
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    const auto column = static_cast<std::size_t>(data.csv.find(c.name));
+    for (const auto& row : data.csv.rows) {
+      if (row[column].text.empty()) continue;
+      const double x = data.csv.number(row[column], data.decimal);
+      low = std::min(low, x), high = std::max(high, x);
+    }
+    double scale = 1;
+    if (c.unit != "?" && c.unit != "1")
+      scale = units::to_si(1, c.unit, units::si_unit_of(c.unit), units::Kind::difference);
+    return scale * (high - low);
+  };
+  const double share = range(reading) / range(position);
+  return share > 0.5 && share < 2; // an axis errs by less than half of its travel
 }
 
 std::string unit_or(const RecognisedColumn& c, const char* otherwise) { return c.unit == "?" ? otherwise : c.unit; }

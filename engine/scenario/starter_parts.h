@@ -25,6 +25,10 @@ std::size_t different(const RecognisedData& data, const RecognisedColumn& c);
 /// Columns whose words tell readings apart: cycles, and texts that recur.
 NamedColumns labels_of(const RecognisedData& data);
 
+/// Whether the readings are the positions themselves, measured, and not their errors: then they span what the positions
+/// span.
+bool measured_position(const RecognisedData& data, const RecognisedColumn& position, const RecognisedColumn& reading);
+
 /// [data] with its units and conditions. @param used names of the columns that the scenario reads
 std::string data_section(const StarterData& data, const NamedColumns& labels, const NamedColumns& conditions,
                          const std::set<std::string>& used);

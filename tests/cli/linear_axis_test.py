@@ -8,6 +8,7 @@ import io
 import json
 import math
 import random
+import re
 import statistics
 import unittest
 
@@ -97,6 +98,18 @@ offset = "0 um"
             self.assertAlmostEqual(swapped["mean_reversal"], -found["mean_reversal"], delta=1e-11)
             self.assertAlmostEqual(swapped["A_up"], found["A_down"], delta=1e-11)
 
+    def test_positions_in_place_of_deviations(self):
+        rows = [f"{run};{p};{'+-'[sign < 0]};{p + dev / 1000:.6f}" for sign, side in ((1, UP), (-1, DOWN)) for p, xs in side.items() for run, dev in enumerate(xs)]
+        (self.folder / "log.csv").write_text("\n".join(["run;target_mm;dir;laser_mm", *rows]) + "\n")
+        gumshoe("new", "linear_axis", "--from", "log.csv", cwd=self.folder)
+        path = self.folder / "linear_axis.toml"
+        self.assertIn("reads_position = 1", path.read_text())
+        path.write_text(re.sub(r"(?m)^\w+ = \{ value.*\n", "", path.read_text()))  # no uncertainty, no reduction
+        run = gumshoe("run", "linear_axis.toml", "--format", "json", "--samples", "1000", cwd=self.folder)
+        found = {r["measurand"]: r["estimate"] for r in json.loads(run.stdout)}
+        for name, value in WORKED.items():
+            self.assertAlmostEqual(found[name], value, delta=6e-7, msg=name)
+
     def test_what_a_common_scale_error_makes_uncertain(self):
         # 2 um/m over 0.5 m: 1 um in E and M, whose ends are those of the travel; nothing in reversal and repeatability.
         found = self.check(UP, DOWN, 'reference_scale = { value = "0 um/m", u = "2 um/m", source = "assumed" }')
@@ -124,7 +137,7 @@ offset = "0 um"
         self.assertIn("compares targets reached from both sides, but a direction is 0", run.stderr)
         (self.folder / "axis.csv").write_text(text.replace("500,0,", "500,2,"))
         self.assertIn("direction must be 1, -1 or 0", gumshoe("run", "s.toml", "--force", cwd=self.folder).stderr)
-        for line, said in (('pitch = "-5 mm"', "pitch is negative"), ('temperature = "-300 degC"', "temperature is below absolute zero")):
+        for line, said in (('pitch = "-5 mm"', "pitch is negative"), ("reads_position = 2", "reads_position must be 0 or 1"), ('temperature = "-300 degC"', "temperature is below absolute zero")):
             self.assertIn(said, self.check(UP, DOWN, conditions=line, code=2))
 
     # one reading

@@ -34,6 +34,7 @@ inline constexpr VariableCard condition_cards[] = {
     shown_in_s({.name = "time", .meaning = "since the start of the work"}),
     shown_in_mm({.name = "datum", .meaning = "position at which the reference was set to zero; travel is counted from it"}),
     shown_in_mm({.name = "pitch", .meaning = "of the screw or of the scale, for the effect axis_periodic_error; 0: not known"}),
+    shown_pure({.name = "reads_position", .meaning = "1: what is read is the actual position itself; 0: its deviation from the target"}),
     {.name = "temperature", .unit = "degC", .si_unit = "K", .default_value = chain::reference_temperature,
      .meaning = "of the axis' scale, recorded with the reading; only the effect axis_expansion reads it"},
     {.name = "pitch_angle", .unit = "urad", .si_unit = "rad", .default_value = 0,
@@ -42,7 +43,7 @@ inline constexpr VariableCard condition_cards[] = {
      .meaning = "expansion for which the reference has reduced its indication already: coefficient times temperature difference"},
 };
 inline constexpr VariableCard indication_cards[] = {
-    {.name = "deviation", .unit = "um", .si_unit = "m", .default_value = 0, .meaning = "actual position, by the reference, minus target"}};
+    {.name = "deviation", .unit = "um", .si_unit = "m", .default_value = 0, .meaning = "actual position, by the reference, minus target; with reads_position = 1 the actual position"}};
 
 constexpr VariableCard figure(std::string_view name, std::string_view meaning) { return {name, "um", "m", 0, meaning}; }
 inline constexpr VariableCard measurand_cards[] = {
@@ -62,7 +63,7 @@ inline constexpr VariableCard all_cards[] = {
 #undef GUMSHOE_SYSTEMATIC
 
 inline constexpr EquationCard deviation_equation{
-    "corrected_deviation = deviation - t * (reference_scale + cos(misalignment) - 1 + expansion * temperature_difference - "
+    "corrected_deviation = deviation - reads_position * position - t * (reference_scale + cos(misalignment) - 1 + expansion * temperature_difference - "
     "compensated) - reference_drift * time - dead_path * wavelength_change", "t = position - datum"};
 #define GUMSHOE_MEANS                                                                                                  \
   {"m_i = sum(x_ij) / n", "x_ij: corrected deviation at target i in run j, of each direction"},                        \

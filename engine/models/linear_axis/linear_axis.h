@@ -27,6 +27,8 @@ struct LinearAxis {
   template <class T> static void check_commanded(const At<T>& at, Outcome<T>& outcome) {
     const auto& d = at.c.direction;
     outcome.refuse(!(d == T(1.0)) && !(d == T(-1.0)) && !(d == T(0.0)), "direction must be 1, -1 or 0");
+    const auto& reads = at.c.reads_position;
+    outcome.refuse(!(reads == T(0.0)) && !(reads == T(1.0)), "reads_position must be 0 or 1");
     outcome.refuse(at.c.pitch < T(0.0), "pitch is negative");
     outcome.refuse(!(at.c.temperature > T(0.0)), "temperature is below absolute zero");
   }

@@ -6,9 +6,10 @@
 namespace gumshoe::models::linear_axis {
 
 struct Rows {
-  GUMSHOE_NAMED(Quantities, offset, gain, reference_scale, reference_drift, misalignment, dead_path,
-                wavelength_change, expansion, temperature_difference);
-  GUMSHOE_NAMED(Conditions, position, direction, time, datum, pitch, temperature, pitch_angle, compensated);
+  GUMSHOE_NAMED(Quantities, offset, gain, reference_scale, reference_drift, misalignment, dead_path, wavelength_change,
+                expansion, temperature_difference);
+  GUMSHOE_NAMED(Conditions, position, direction, time, datum, pitch, reads_position, temperature, pitch_angle,
+                compensated);
   GUMSHOE_NAMED(Indications, deviation);
   GUMSHOE_NAMED(Measurands, corrected_deviation);
 };
@@ -43,12 +44,15 @@ template <class T> T reference_error(const At<T>& at) {
   return travel(at) * share + q.reference_drift * at.c.time + q.dead_path * q.wavelength_change;
 }
 
+/// What is read of an axis without any error, m.
+template <class T> T nominal(const At<T>& at) { return at.c.reads_position * at.c.position; }
+
 template <class T> Simulated<Rows, T> simulate(const At<T>& at) {
   const T true_deviation = at.q.offset + at.q.gain * travel(at);
-  return {{true_deviation + (reference_error(at) + freed_error(at))}, {true_deviation}};
+  return {{nominal(at) + (true_deviation + (reference_error(at) + freed_error(at)))}, {true_deviation}};
 }
 template <class T> Rows::Measurands<T> evaluate(const At<T>& at, const Rows::Indications<T>& read) {
-  return {read.deviation - (reference_error(at) + freed_error(at))};
+  return {read.deviation - nominal(at) - (reference_error(at) + freed_error(at))};
 }
 
 } // namespace gumshoe::models::linear_axis

@@ -13,7 +13,10 @@ std::string problem_of(const Readings<double>& all, std::size_t fewest) {
     for (const auto& [name, readings] : {std::pair{"upwards", &target.up}, {"downwards", &target.down}}) {
       const std::string where = fmt::format("the target at {:g} mm", target.position / si::mm);
       if (readings->empty())
-        return fmt::format("{} was not reached {}, but ISO 230-2 compares both directions", where, name);
+        return fmt::format(
+            "{} was not reached {}, but ISO 230-2 compares both directions (readings are of one target if "
+            "their positions are equal)",
+            where, name);
       if (readings->size() < fewest)
         return fmt::format(
             "{} has one run {}, from which ISO 230-2 evaluates no accuracy A and no repeatability R (use "
