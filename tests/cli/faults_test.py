@@ -1,7 +1,7 @@
 """Whatever fails under a command (a write, a flush to the disk, a renaming, an allocation), it ends in its usual bytes or
 in one clear message, leaves nothing half done that looks whole, and the same command again gives the usual bytes.
 
-A preloaded library (tests/faults/faults.c) makes the n-th call fail, alone or with all that follow. Every n of each call is
+A preloaded library (tests/faults/faults.c) makes the n-th call fail, alone or with all that follow, or kills the process there. Every n of each call is
 taken up to MOST; of more calls the first, the last and evenly spaced ones between them. --every takes every n (minutes).
 Memory is limited as well (ulimit -v), from what the program needs to start to what the command needs.
 
@@ -121,8 +121,8 @@ class Worker:
         left = self.bytes()
         if run.returncode == 0:
             return None if left == self.whole else f"exit code 0, and {self.difference(left)}"
-        if (fault := complaint(run)) is not None:
-            return f"{fault}: {run.stderr[-300:]!r}"
+        if run.returncode != (-9 if fault.endswith("!") else 2) or (run.returncode == 2 and complaint(run)):
+            return f"exit code {run.returncode}, {complaint(run)}: {run.stderr[-300:]!r}"
         for output in self.outputs:
             if output in left and left[output] != self.whole[output] and self.looks_whole(self.folder / output):
                 return f"{output} is not as it should be and looks whole, after {run.stderr!r}"
@@ -162,6 +162,8 @@ class Faults(unittest.TestCase):
             # A disk that is full or broken stays so.
             faults += [f"{call}:{n}+" for call, count in counts.items() if call not in ("mmap", "malloc")
                        for n in list(chosen(count))[::3]]
+            faults += [f"{call}:{n}!" for call, count in counts.items() if call not in ("mmap", "malloc")
+                       for n in list(chosen(count))[::2]]
             start, needed = workers[0].enough(["--version"]), workers[0].enough(workers[0].words)
             faults += [f"memory:{start + k * (needed - start) // MOST} bytes" for k in range(MOST)]
             found = pool.map(lambda k: [(one, workers[k].wrong(one)) for one in faults[k::WORKERS]], range(WORKERS))

@@ -1,10 +1,11 @@
 /* Makes one call of the C library fail, for tests/cli/faults_test.py: preloaded, with GUMSHOE_FAULT=CALL:N in the
  * environment, the N-th CALL of the process fails as on a full or broken disk, or without memory. CALL:N+ lets all from
- * there on fail. With GUMSHOE_FAULT_COUNTS=FILE the numbers of calls are written there at the end. */
+ * there on fail, CALL:N! kills the process there. With GUMSHOE_FAULT_COUNTS=FILE the numbers of calls are written there at the end. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <signal.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -21,7 +22,7 @@ static const int errors[CALLS] = {ENOSPC, ENOSPC, ENOSPC, EIO, EIO, EIO, EIO, EN
 static const size_t large = 16384; /* smaller allocations do not count: there are too many, and they rarely fail alone */
 
 static atomic_ulong counts[CALLS];
-static int chosen = -1, onwards;
+static int chosen = -1, onwards, deadly;
 static unsigned long number;
 
 __attribute__((constructor)) static void choose(void) {
@@ -33,6 +34,7 @@ __attribute__((constructor)) static void choose(void) {
   char* end;
   number = strtoul(colon + 1, &end, 10);
   onwards = *end == '+';
+  deadly = *end == '!';
 }
 
 __attribute__((destructor)) static void report(void) {
@@ -50,6 +52,7 @@ __attribute__((destructor)) static void report(void) {
 static int fails(int call) {
   const unsigned long n = atomic_fetch_add(&counts[call], 1) + 1;
   if (call != chosen || !(n == number || (onwards && n > number))) return 0;
+  if (deadly && call != PWRITE) raise(SIGKILL);
   errno = errors[call];
   return 1;
 }
@@ -63,6 +66,7 @@ ssize_t write(int file, const void* data, size_t size) {
 static ssize_t written_at(int file, const void* data, size_t size, off_t at) {
   if (!fails(PWRITE)) return syscall(SYS_pwrite64, file, data, size, at);
   syscall(SYS_pwrite64, file, data, size / 2, at);
+  if (deadly) raise(SIGKILL);
   errno = errors[PWRITE];
   return -1;
 }
