@@ -1,7 +1,6 @@
 #include "analysis/analyse.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -10,6 +9,7 @@
 #include "analysis/circular.h"
 #include "analysis/comparison.h"
 #include "analysis/conformity.h"
+#include "analysis/failures.h"
 #include "analysis/given_data.h"
 #include "analysis/gum.h"
 #include "analysis/joint.h"
@@ -130,19 +130,6 @@ void describe(Results& r, const propagation::Experiment& e) {
   r.inputs = input_records(s);
 }
 
-void count_failures(Results& r, const std::vector<std::uint8_t>& status) {
-  std::array<std::uint64_t, 256> count{}, first{};
-  for (std::size_t i = 0; i < status.size(); ++i)
-    if (status[i] != 0 && count[status[i]]++ == 0) first[status[i]] = i;
-  for (std::size_t k = 1; k < count.size(); ++k)
-    if (count[k] > 0) {
-      r.failed += count[k];
-      r.failures.push_back(fmt::format("{}: {} samples, the first is sample {} (gumshoe replay FILE --sample {})",
-                                       status_name(static_cast<Status>(k)), count[k],
-                                       first[k], first[k]));
-    }
-}
-
 /// Latin hypercube and Sobol' points are not independent: the standard errors' formulas do not hold for
 /// one randomisation of them, so none are stated.
 void drop_standard_errors(Summary& s) {
@@ -181,7 +168,9 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, int th
   Results r;
   const auto& s = e.scenario();
   describe(r, e);
-  count_failures(r, samples.status());
+  Failures failures = failures_of(e, samples.status());
+  r.failed = failures.samples;
+  r.failures = std::move(failures.reasons);
   const bool virtual_experiment = s.method == scenario::Method::virtual_experiment;
   const std::size_t outputs = e.outputs().size();
   progress::stage("summary and uncertainty budget");
