@@ -1,9 +1,10 @@
-"""Whatever fails under a command (a write, a flush to the disk, a renaming, an allocation), it ends in its usual bytes or
-in one clear message, leaves nothing half done that looks whole, and the same command again gives the usual bytes.
+"""Whatever fails under a command (a read, a write, a flush to the disk, a renaming, an allocation), it ends in its usual
+bytes or in one clear message, leaves nothing half done that looks whole, and the same command again gives the usual bytes.
 
-A preloaded library (tests/faults/faults.c) makes the n-th call fail, alone or with all that follow, or kills the process there. Every n of each call is
-taken up to MOST; of more calls the first, the last and evenly spaced ones between them. --every takes every n (minutes).
-Memory is limited as well (ulimit -v), from what the program needs to start to what the command needs.
+A preloaded library (tests/faults/faults.c) makes the n-th call fail, alone or with all that follow, or kills the process
+there. Every n of each call is taken up to MOST; of more calls the first, the last and evenly spaced ones between them.
+--every takes every n (minutes). Memory is limited as well (ulimit -v), from what the program needs to start to what the
+command needs.
 
 usage: faults_test.py path/to/gumshoe [--every] [unittest options]
 """
@@ -22,7 +23,7 @@ LIBRARY = pathlib.Path(GUMSHOE).parent / "tests/libgumshoe_faults.so"
 EVERY = "--every" in sys.argv
 if EVERY:
     sys.argv.remove("--every")
-MOST = 12
+MOST = 9
 WORKERS = 2
 
 RUN = """schema = 1

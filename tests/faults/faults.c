@@ -6,6 +6,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
+#include <stdarg.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,10 +16,11 @@
 #include <sys/types.h>
 #include <unistd.h>
 
-enum { WRITE, PWRITE, FWRITE, FSYNC, FDATASYNC, RENAME, FTRUNCATE, FALLOCATE, MMAP, MALLOC, CALLS };
-static const char* const names[CALLS] = {"write",     "pwrite",    "fwrite", "fsync", "fdatasync", "rename",
-                                         "ftruncate", "fallocate", "mmap",   "malloc"};
-static const int errors[CALLS] = {ENOSPC, ENOSPC, ENOSPC, EIO, EIO, EIO, EIO, ENOSPC, ENOMEM, ENOMEM};
+enum { OPEN, READ, PREAD, WRITE, PWRITE, FWRITE, FSYNC, FDATASYNC, RENAME, FTRUNCATE, FALLOCATE, MMAP, MALLOC, CALLS };
+static const char* const names[CALLS] = {"open",  "read",      "pread",  "write",     "pwrite",    "fwrite", "fsync",
+                                         "fdatasync", "rename", "ftruncate", "fallocate", "mmap",   "malloc"};
+static const int errors[CALLS] = {EMFILE, EIO, EIO, ENOSPC, ENOSPC, ENOSPC, EIO,
+                                  EIO,    EIO, EIO, ENOSPC, ENOMEM, ENOMEM};
 static const size_t large = 16384; /* smaller allocations do not count: there are too many, and they rarely fail alone */
 
 static atomic_ulong counts[CALLS];
@@ -39,7 +41,7 @@ __attribute__((constructor)) static void choose(void) {
 
 __attribute__((destructor)) static void report(void) {
   const char* path = getenv("GUMSHOE_FAULT_COUNTS");
-  const int file = path ? open(path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666) : -1;
+  const int file = path ? (int)syscall(SYS_openat, AT_FDCWD, path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666) : -1;
   if (file < 0) return;
   char text[512];
   int length = 0;
@@ -55,6 +57,33 @@ static int fails(int call) {
   if (deadly && call != PWRITE) raise(SIGKILL);
   errno = errors[call];
   return 1;
+}
+
+static int opened(const char* path, int flags, mode_t mode) {
+  return fails(OPEN) ? -1 : (int)syscall(SYS_openat, AT_FDCWD, path, flags, mode);
+}
+int open(const char* path, int flags, ...) {
+  va_list rest;
+  va_start(rest, flags);
+  const mode_t mode = flags & O_CREAT ? va_arg(rest, mode_t) : 0;
+  va_end(rest);
+  return opened(path, flags, mode);
+}
+int open64(const char* path, int flags, ...) {
+  va_list rest;
+  va_start(rest, flags);
+  const mode_t mode = flags & O_CREAT ? va_arg(rest, mode_t) : 0;
+  va_end(rest);
+  return opened(path, flags, mode);
+}
+ssize_t read(int file, void* data, size_t size) {
+  return fails(READ) ? -1 : syscall(SYS_read, file, data, size);
+}
+ssize_t pread(int file, void* data, size_t size, off_t at) {
+  return fails(PREAD) ? -1 : syscall(SYS_pread64, file, data, size, at);
+}
+ssize_t pread64(int file, void* data, size_t size, off64_t at) {
+  return fails(PREAD) ? -1 : syscall(SYS_pread64, file, data, size, at);
 }
 
 /* What goes to standard error says what is wrong: it is left alone. */
