@@ -69,6 +69,8 @@ CASES = {
                  ["out.toml"]),
     "trace": (["trace", LOAD_CELL, "--draws", 19, "--out", "out.h5", "--json", "out.json", "--threads", 1], [],
               ["out.h5", "out.json"]),
+    "compensate": (["compensate", "trace_linear_axis.traced.toml", "--out", "out.csv"],
+                   [["trace", ROOT / "scenarios/trace_linear_axis.toml", "--draws", 19, "--out", "t.h5"]], ["out.csv"]),
     "choose": (["choose", "c.toml", "--samples", 200, "--out", "out.h5", "--threads", 1], [], ["out.h5"]),
 }
 
