@@ -235,6 +235,6 @@ Csv join_csv(std::vector<Csv> parts, const std::string& name,
   return out;
 }
 
-Csv read_csv(const std::string& path, std::size_t limit) { return parse_csv(read_text_file(path, limit), path); }
+Csv read_csv(const std::string& path, std::size_t limit) { return parse_csv(read_data_file(path, limit), path); }
 
 } // namespace gumshoe

@@ -7,11 +7,14 @@
 
 #include <fmt/format.h>
 
+#include "base/encoding.h"
 #include "base/error.h"
 
 namespace gumshoe {
 
-std::string read_text_file(const std::string& path, std::size_t limit) {
+namespace {
+
+template <class Convert> std::string read(const std::string& path, std::size_t limit, const Convert& convert) {
   const auto refuse = [&](std::string what, std::string why = {}, std::string remedy = {}) {
     throw InputError(std::vector<Problem>{{{path, 0, 0}, std::move(what), std::move(why), std::move(remedy)}});
   };
@@ -30,10 +33,19 @@ std::string read_text_file(const std::string& path, std::size_t limit) {
     }
   }
   if (!in.is_open() || in.bad()) refuse("the file cannot be read", std::strerror(errno));
+  text = convert(std::move(text));
   if (text.find('\0') != std::string::npos) {
     refuse("the file is not text", "it contains NUL bytes", "is it the right file?");
   }
   return text;
 }
+
+} // namespace
+
+std::string read_text_file(const std::string& path, std::size_t limit) {
+  return read(path, limit, [](std::string text) { return text; });
+}
+
+std::string read_data_file(const std::string& path, std::size_t limit) { return read(path, limit, as_utf8); }
 
 } // namespace gumshoe

@@ -8,5 +8,7 @@ namespace gumshoe {
 /// The file's bytes. Throws InputError: missing, a directory, unreadable, larger than `limit` bytes,
 /// or binary (it contains a NUL byte).
 std::string read_text_file(const std::string& path, std::size_t limit);
+/// The same of data that a control or a spreadsheet wrote, in UTF-8 (as_utf8).
+std::string read_data_file(const std::string& path, std::size_t limit);
 
 } // namespace gumshoe

@@ -169,7 +169,7 @@ ExitCode run(Options o) {
     throw InputError("--term: only a linear model has terms", "", "write gumshoe new linear --from FILE --term ...");
   std::unique_ptr<RecognisedData> found;
   if (!o.from.empty()) {
-    found = std::make_unique<RecognisedData>(scenario::recognise(read_text_file(o.from, largest_file), o.from));
+    found = std::make_unique<RecognisedData>(scenario::recognise(read_data_file(o.from, largest_file), o.from));
     tell(*found, o);
   }
   const std::string out =

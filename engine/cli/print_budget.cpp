@@ -101,7 +101,10 @@ std::vector<std::string> cells(const Contribution& c, const propagation::Output&
 std::string largest_contributions(const Budget& b, const std::vector<SobolIndex>& indices) {
   constexpr std::size_t most = 3;
   bool monte_carlo = !b.applicable;
-  const std::vector<Part> all = monte_carlo ? parts(b, indices) : parts(b);
+  std::vector<Part> all = monte_carlo ? parts(b, indices) : parts(b);
+  // What is shown as less than 0.01 % is none of the largest.
+  const bool some = std::ranges::any_of(all, [](const Part& p) { return p.share >= 1e-4; });
+  if (some) std::erase_if(all, [](const Part& p) { return p.share < 1e-4; });
   if (all.empty())
     return b.contributions.empty() || !monte_carlo
                ? "no input is uncertain"

@@ -60,7 +60,7 @@ const Csv* DataFiles::open_table(const std::string& name, const TextTable& form,
 
 std::unique_ptr<Csv> DataFiles::read_file(const std::string& file, const TextTable& form) {
   auto known = std::ranges::find(files_, file, &File::name);
-  if (known == files_.end()) known = files_.insert(files_.end(), {file, read_text_file(file, largest_data_file)});
+  if (known == files_.end()) known = files_.insert(files_.end(), {file, read_data_file(file, largest_data_file)});
   return std::make_unique<Csv>(form.parse(known->bytes, file));
 }
 

@@ -25,6 +25,8 @@ void state_what_design_rules_out(const TraceContext& c, const scenario::Scenario
   for (std::size_t i = 0; i < card.conditions.size() && s.readings.size() > 1; ++i) {
     const double first = s.readings.front().conditions[i];
     if (!std::ranges::all_of(s.readings, [&](const auto& r) { return r.conditions[i] == first; })) continue;
+    // One that nobody spoke of is not missed.
+    if (first == card.conditions[i].default_value && s.text.find(card.conditions[i].name) == std::string::npos) continue;
     const std::string unit(card.conditions[i].unit);
     out.statements.push_back(
         fmt::format("{} is {:.6g}{} in every reading; an effect that grows with it cannot be distinguished from a "

@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "base/csv.h"
+#include "base/encoding.h"
 
 using gumshoe::InputError;
 using gumshoe::parse_csv;
@@ -86,4 +87,16 @@ TEST_CASE("several tables are read as one", "[csv]") {
                     Catch::Contains("2.csv:1:1: error: there is no column 'b'"));
   CHECK_THROWS_WITH(gumshoe::join_csv({parse_csv("a,b\n", "1.csv")}, "*.csv", {{"a", {"1"}}}),
                     Catch::Contains("1.csv:1:1: error: the file has a column 'a' itself"));
+}
+
+TEST_CASE("texts of other encodings become UTF-8", "[csv]") {
+  using gumshoe::as_utf8;
+  CHECK(as_utf8("5 \xC2\xB5m, 20 \xC2\xB0" "C \xE2\x82\xAC") == "5 \xC2\xB5m, 20 \xC2\xB0" "C \xE2\x82\xAC");
+  // Windows-1252: micro, degree, euro, a dash; not the overlong or truncated forms of UTF-8.
+  CHECK(as_utf8("5 \xB5m 20 \xB0" "C \x80 \x96") == "5 \xC2\xB5m 20 \xC2\xB0" "C \xE2\x82\xAC \xE2\x80\x93");
+  CHECK(as_utf8("\xC0\x80") == "\xC3\x80\xE2\x82\xAC");
+  CHECK(as_utf8("\xC2") == "\xC3\x82");
+  // UTF-16 of both orders, with a character beyond the first plane.
+  CHECK(as_utf8(std::string("\xFF\xFE" "a\0\xB5\0\x3D\xD8\x00\xDE", 10)) == "a\xC2\xB5\xF0\x9F\x98\x80");
+  CHECK(as_utf8(std::string("\xFE\xFF\0a\0\xB5\xD8\x3D\xDE\x00", 10)) == "a\xC2\xB5\xF0\x9F\x98\x80");
 }

@@ -64,6 +64,24 @@ private:
                             ? std::numeric_limits<double>::infinity()
                             : gain_of(c_, out_.found, f.terms, f.component >= 0) - f.threshold);
     } while (drop_least(gains));
+    settle_classes();
+  }
+
+  /// A member of a class that was found by itself, too, is no longer a name for the class.
+  void settle_classes() {
+    for (SearchFinding& f : out_.findings) {
+      if (f.finding.kind != Kind::equivalence_class) continue;
+      auto& members = f.finding.members;
+      for (std::size_t i = members.size(); i-- > 1;) {
+        const bool known = std::ranges::any_of(out_.findings, [&](const SearchFinding& other) {
+          return other.finding.kind == Kind::named && other.finding.members[0] == members[i];
+        });
+        if (!known) continue;
+        if (i <= f.rivals.size()) f.rivals.erase(f.rivals.begin() + index(i) - 1);
+        members.erase(members.begin() + index(i));
+      }
+      if (members.size() == 1) f.finding.kind = Kind::named;
+    }
   }
 
   /// @param gains  by finding: the ratio that it adds less the one that it must exceed
