@@ -44,13 +44,15 @@ struct Line {
   std::size_t up, down, half_up, half_down; ///< points at +h, -h, +h/2, -h/2
 };
 
+/// What rounding makes of a value f0.
+double rounding(double f0) { return 64 * std::numeric_limits<double>::epsilon() * std::fabs(f0); }
+
 /// Whether the slopes on either side of the point differ by a kink: on a smooth branch their difference halves with
 /// the step, at a kink it stays.
 bool is_kink(double up, double down, double half_up, double half_down, double f0) {
   const double full = std::fabs(up - 2 * f0 + down), half = 2 * std::fabs(half_up - 2 * f0 + half_down);
   const double size = std::max(std::fabs(up - f0), std::fabs(down - f0));
-  const double noise = 64 * std::numeric_limits<double>::epsilon() * std::fabs(f0);
-  return half > 0.75 * full && half > 0.01 * size && half > noise;
+  return half > 0.75 * full && half > 0.01 * size && half > rounding(f0);
 }
 
 } // namespace
@@ -94,6 +96,11 @@ Derivatives differences(const propagation::Experiment& e, std::size_t reading, s
     if (h[q] == 0) continue;
     const double up = f(lines[q].up), down = f(lines[q].down), half_up = f(lines[q].half_up),
                  half_down = f(lines[q].half_down);
+    const auto rounds_away = [&](double x) { return std::fabs(x - d.value) <= rounding(d.value); };
+    if (rounds_away(up) && rounds_away(down) && rounds_away(half_up) && rounds_away(half_down)) { // what q does cancels
+      d.first[q] = curvature[q] = third[q] = 0;
+      continue;
+    }
     const double whole = (up - down) / (2 * h[q]), half = (half_up - half_down) / h[q];
     d.first[q] = (4 * half - whole) / 3;
     third[q] = 8 * (whole - half) / (h[q] * h[q]);
