@@ -330,18 +330,22 @@ private:
   /// that explain as much without the component, and predict held-out readings better, form a class with it. Quantities
   /// declared, and effects, by label do not: of so many, some look like scatter by chance. Where the best of them explains more than
   /// scatter would let it, scatter is no member. One group that differs from all others, which agree, explains more than
-  /// scatter: it is what was found, where scatter would seldom let it.
+  /// scatter, and so does a temperature that was recorded: it is what was found, where scatter would seldom let it.
   bool take_instead(SearchFinding& scatter) {
     const WithoutScatter without(c_, *evidence_);
     const Grouping& group = c_.observations.replicate_groups[index(scatter.component)];
-    const auto one_group = [&](const Candidate& a) {
-      return a.family == Family::shape &&
-             std::ranges::any_of(group.groups, [&](const std::string& g) { return a.name == "step:" + g; });
+    // One group that differs, or a straight line in what was recorded: shapes of one size that scatter may look like.
+    const auto plain = [&](const Candidate& a) {
+      return a.family == Family::shape && a.columns.cols() == 1 &&
+             (std::ranges::any_of(group.groups, [&](const std::string& g) { return a.name == "step:" + g; }) ||
+              std::ranges::any_of(c_.observations.covariates, [&](const Covariate& x) {
+                return !x.commanded && a.name == "polynomial:" + x.name && a.shape.empty();
+              }));
     };
     std::vector<Scored> all;
     for (std::size_t a = 0; a < evidence_->candidates().size(); ++a)
       all.push_back({candidate(a).name, without.score(a),
-                     one_group(candidate(a)) || (evidence_->testable(a) && candidate(a).family != Family::declared &&
+                     plain(candidate(a)) || (evidence_->testable(a) && candidate(a).family != Family::declared &&
                                                  !candidate(a).in_part())});
     std::vector<std::size_t> eligible;
     for (std::size_t a = 0; a < all.size(); ++a)
@@ -358,7 +362,7 @@ private:
     const auto rivals = explain_scatter(all, gain);
     for (const std::size_t a : rivals) {
       const Fit linear = without.fit(a);
-      if (one_group(candidate(a))) {
+      if (plain(candidate(a))) {
         if (a != rivals[0]) continue;
         if (!excluded_by(all[a].score - gain)) {
           scatter.finding.remarks.push_back("described as well by " + with_shape(candidate(a)));
