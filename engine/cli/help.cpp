@@ -28,6 +28,7 @@ constexpr CommandHelp helps[] = {
     {"report", "gumshoe report results/x.h5", "writes results/x.html and CSV tables", again},
     {"evaluate", "gumshoe evaluate rod_gauging --table points.csv", "evaluates the model at the rows of a table", again},
     {"estimate", "gumshoe estimate scenarios/gauge/gum_h3.toml", "fits the quantities marked as estimated", again},
+    {"compare", "gumshoe compare before.h5 after.h5", "says whether two results agree, and what changed", ""},
     {"choose", "gumshoe choose scenarios/choose_rod_readouts.toml --samples 1e4", "finds the fastest settings", again},
     {"trace", "gumshoe trace scenarios/trace_sphere.toml --report page.html", "finds what the model lacks", again},
     {"compensate", "gumshoe compensate x.traced.toml --format linuxcnc-trim", "writes a table that a control corrects by", ""},

@@ -143,6 +143,33 @@ std::uint64_t read_integer(hid_t object, const std::string& name) {
   return value;
 }
 
+double read_number(hid_t object, const std::string& name) {
+  const Handle attribute = open_attribute(object, name);
+  double value = 0;
+  require(H5Aread(attribute, H5T_NATIVE_DOUBLE, &value), "read an attribute");
+  return value;
+}
+
+std::vector<double> read_numbers(hid_t group, const std::string& name) {
+  const Handle data = own(H5Dopen2(group, name.c_str(), H5P_DEFAULT), H5Dclose, "open a dataset");
+  const Handle space = own(H5Dget_space(data), H5Sclose, "open a dataset");
+  std::vector<double> out(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+  require(H5Dread(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, out.data()), "read a dataset");
+  return out;
+}
+
+std::vector<std::string> read_texts(hid_t group, const std::string& name) {
+  const Handle data = own(H5Dopen2(group, name.c_str(), H5P_DEFAULT), H5Dclose, "open a dataset");
+  const Handle space = own(H5Dget_space(data), H5Sclose, "open a dataset");
+  const Handle type = text_type();
+  std::vector<char*> texts(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+  require(H5Dread(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, texts.data()), "read a dataset");
+  std::vector<std::string> out;
+  for (const char* text : texts) out.emplace_back(text ? text : "");
+  H5Dvlen_reclaim(type, space, H5P_DEFAULT, texts.data());
+  return out;
+}
+
 Handle create_dataset(hid_t parent, const std::string& name, hid_t type, const std::vector<hsize_t>& shape,
                       const Units& units, const std::string& long_name, bool fill_nan) {
   const Handle plist = own(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "describe a dataset");

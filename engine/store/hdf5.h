@@ -65,6 +65,10 @@ void write_attribute(hid_t object, const std::string& name, const std::vector<st
 /// Only for files whose record is sound: attributes are as we wrote them. Throw OutputError if one is missing.
 std::string read_text(hid_t object, const std::string& name);
 std::uint64_t read_integer(hid_t object, const std::string& name);
+double read_number(hid_t object, const std::string& name);
+/// A dataset's values, and those of one of texts.
+std::vector<double> read_numbers(hid_t group, const std::string& name);
+std::vector<std::string> read_texts(hid_t group, const std::string& name);
 
 /// The unit of a dataset's numbers, or, where they have none in common, a note that says which they have. Programs
 /// parse the attribute `units`, so a note stands in `units_note`.

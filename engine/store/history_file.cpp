@@ -18,33 +18,6 @@ namespace {
 
 constexpr const char* kind = "evidence over campaigns";
 
-std::vector<double> read_numbers(hid_t group, const char* name) {
-  const hdf5::Handle data = hdf5::own(H5Dopen2(group, name, H5P_DEFAULT), H5Dclose, "open a dataset");
-  const hdf5::Handle space = hdf5::own(H5Dget_space(data), H5Sclose, "open a dataset");
-  std::vector<double> out(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
-  hdf5::require(H5Dread(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, out.data()), "read a dataset");
-  return out;
-}
-
-std::vector<std::string> read_texts(hid_t group, const char* name) {
-  const hdf5::Handle data = hdf5::own(H5Dopen2(group, name, H5P_DEFAULT), H5Dclose, "open a dataset");
-  const hdf5::Handle space = hdf5::own(H5Dget_space(data), H5Sclose, "open a dataset");
-  const hdf5::Handle type = hdf5::text_type();
-  std::vector<char*> texts(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
-  hdf5::require(H5Dread(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, texts.data()), "read a dataset");
-  std::vector<std::string> out;
-  for (const char* text : texts) out.emplace_back(text ? text : "");
-  H5Dvlen_reclaim(type, space, H5P_DEFAULT, texts.data());
-  return out;
-}
-
-double read_number(hid_t object, const char* name) {
-  const hdf5::Handle attribute = hdf5::own(H5Aopen(object, name, H5P_DEFAULT), H5Aclose, "open an attribute");
-  double value = 0;
-  hdf5::require(H5Aread(attribute, H5T_NATIVE_DOUBLE, &value), "read an attribute");
-  return value;
-}
-
 /// One row per size of every score, and the entries of their information, row by row.
 void write_campaign(hid_t group, const Campaign& c) {
   hdf5::write_attribute(group, "id", c.id);
@@ -79,14 +52,14 @@ Campaign read_campaign(hid_t group) {
              hdf5::read_text(group, "title"),
              hdf5::read_text(group, "date"),
              static_cast<int>(hdf5::read_integer(group, "readings")),
-             read_number(group, "squares"),
-             read_number(group, "degrees_of_freedom"),
+             hdf5::read_number(group, "squares"),
+             hdf5::read_number(group, "degrees_of_freedom"),
              {}};
   if (!hdf5::has(group, "score")) return c; // nothing could be looked for
-  const auto candidate = read_texts(group, "candidate"), size = read_texts(group, "quantity"),
-             unit = read_texts(group, "unit"), si_unit = read_texts(group, "si_unit");
-  const auto variant = read_numbers(group, "variant"), score = read_numbers(group, "score"),
-             information = read_numbers(group, "information");
+  const auto candidate = hdf5::read_texts(group, "candidate"), size = hdf5::read_texts(group, "quantity"),
+             unit = hdf5::read_texts(group, "unit"), si_unit = hdf5::read_texts(group, "si_unit");
+  const auto variant = hdf5::read_numbers(group, "variant"), score = hdf5::read_numbers(group, "score"),
+             information = hdf5::read_numbers(group, "information");
   for (std::size_t first = 0, at = 0; first < score.size();) {
     std::size_t end = first;
     while (end < score.size() && candidate[end] == candidate[first] && variant[end] == variant[first]) ++end;

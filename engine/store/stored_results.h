@@ -1,0 +1,24 @@
+#pragma once
+/// What a finished result says, read back from its file.
+#include <string>
+#include <vector>
+
+#include "analysis/results.h"
+#include "tracing/trace.h"
+
+namespace gumshoe::store {
+
+/// The figures of a run: title, coverage probability and, for every measurand, estimate, u, U, k, certificate and
+/// budget; nothing else is filled in. Check the file by read_identity() first.
+analysis::Results read_results(const std::string& path);
+
+/// What a trace says in brief.
+struct StoredTrace {
+  std::string title, verdict;
+  bool vetoed = false; ///< the hold-out blocks rejected the findings
+  tracing::Rms rms;    ///< residuals before and after, with the holdout's; other members are not filled in
+  std::vector<std::string> findings; ///< by name
+};
+StoredTrace read_trace(const std::string& path);
+
+} // namespace gumshoe::store

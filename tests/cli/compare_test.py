@@ -1,0 +1,174 @@
+"""`gumshoe compare`: differences, E_n and changes against closed forms; inputs that both results share; two traces.
+
+usage: compare_test.py path/to/gumshoe [unittest options]
+"""
+import json
+import math
+import shutil
+import unittest
+
+import h5py
+
+from program import ROOT, InOneFolder, complaint, gumshoe
+
+SAMPLES = 200_000
+K = 1.959963984540054  # of 95 % and a normal distribution: the model is linear, its inputs are normal
+
+SCENARIO = """schema = 1
+[model]
+name = "expression"
+[model.measurands]
+y = "{formula}"
+[quantities.reading]
+value = "{reading} mm"
+u = "{u_reading} um"
+[quantities.reference]
+value = "100 mm"
+u = "4 um"
+source = "certificate 12"
+[run]
+samples = 200_000
+seed = {seed}
+[analysis]
+coverage_probability = {p}
+validation_digits = 1
+"""
+
+
+class Compare(InOneFolder):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.before = cls.result("before")
+        cls.after = cls.result("after", reading=10.012, u_reading=1, seed=2)
+
+    @classmethod
+    def result(cls, name, formula="reading - reference", reading=10.000, u_reading=3, seed=1, p=0.95, text=None):
+        scenario = cls.folder / f"{name}.toml"
+        scenario.write_text(text or SCENARIO.format(formula=formula, reading=reading, u_reading=u_reading, seed=seed, p=p))
+        out = cls.folder / f"{name}.h5"
+        run = gumshoe("run", scenario, "--out", out)
+        assert run.returncode == 0, run.stderr
+        return out
+
+    def compared(self, *words):
+        run = gumshoe("compare", *words, "--format", "json")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        return json.loads(run.stdout)
+
+    def refused(self, words, *given):
+        run = gumshoe("compare", *given)
+        self.assertIsNone(complaint(run))
+        self.assertIn(words, run.stderr)
+
+    def test_independent_results_differ_by_the_closed_form(self):
+        # The estimates are means of the samples: 5 standard errors of their difference, in mm and relative to U.
+        u = math.sqrt(5**2 + 1 + 4**2) / 1000
+        error = 5 * u / math.sqrt(SAMPLES)
+        row = self.compared(self.before, self.after)["comparisons"][0]
+        self.assertEqual((row["name"], row["unit"]), ("y", "mm"))
+        self.assertAlmostEqual(row["difference"], 0.012, delta=error)
+        # U and k are those of the framework, which is exact here; u is that of the samples: se u / sqrt(2 n).
+        self.assertAlmostEqual(row["expanded_uncertainty"], K * u, delta=1e-9)
+        self.assertAlmostEqual(row["standard_uncertainty"], u, delta=error)
+        self.assertAlmostEqual(row["normalised_error"], 0.012 / (K * u), delta=error / (K * u))
+        self.assertIn("agree within", row["verdict"])
+        self.assertEqual(row["alike"], ["reference"])
+        change = {c["quantity"]: (c["before"], c["after"]) for c in row["contributions"]}
+        self.assertEqual(list(change), ["reading"])  # that of the reference did not change
+        self.assertAlmostEqual(change["reading"][0], 0.003, delta=1e-9)
+        self.assertAlmostEqual(change["reading"][1], 0.001, delta=1e-9)
+
+    def test_a_shared_input_cancels(self):
+        # Same sign of its coefficient in both: only the readings' 3 um and 1 um remain, and 12 um is more than U = 6.2 um.
+        row = self.compared(self.before, self.after, "--same", "reference")["comparisons"][0]
+        self.assertAlmostEqual(row["expanded_uncertainty"], K * math.sqrt(3**2 + 1) / 1000, delta=self.error(math.sqrt(3**2 + 1)))
+        self.assertGreater(row["normalised_error"], 1)
+        self.assertIn("differ by more", row["verdict"])
+        self.assertEqual((row["same"], row["alike"]), (["reference"], []))
+        # The opposite sign adds up: u^2 = 3^2 + 1 + (4 + 4)^2.
+        other = self.result("opposite", formula="reading + reference", u_reading=1)
+        row = self.compared(self.before, other, "--same", "reference")["comparisons"][0]
+        self.assertAlmostEqual(row["expanded_uncertainty"], K * math.sqrt(3**2 + 1 + 8**2) / 1000,
+                               delta=self.error(math.sqrt(3**2 + 1 + 8**2)))
+
+    def error(self, u):
+        """Five standard errors of U, mm: k = U / u has the relative error 1 / sqrt(2 n) of each result's u, and stands
+        with the covariance 4 um * 4 um in U^2 = U_a^2 + U_b^2 - 2 k_a k_b cov."""
+        return 5 * K * 4**2 / math.sqrt(SAMPLES) / u / 1000
+
+    def test_order_turns_the_sign_and_nothing_else(self):
+        there = self.compared(self.before, self.after)["comparisons"][0]
+        back = self.compared(self.after, self.before)["comparisons"][0]
+        for key, sign in (("difference", -1), ("normalised_error", -1), ("expanded_uncertainty", 1)):
+            self.assertEqual(back[key], sign * there[key])
+
+    def test_text_says_the_verdict_and_what_changed(self):
+        said = gumshoe("compare", self.before, self.after).stdout
+        self.assertRegex(said, r"^y: after - before = 0\.0\d+ mm, U = 0\.0\d+ mm, E_n = 0\.\d\d: the results agree")
+        self.assertIn("reading from 3.0 um to 1.0 um (67 % smaller)", said)
+        self.assertIn("list alike: reference. Where one error is in both", said)
+        self.assertIn("only after: z", gumshoe("compare", self.before, self.two_measurands()).stdout)
+
+    def two_measurands(self):
+        text = SCENARIO.format(formula="reading", reading=10, u_reading=1, seed=1, p=0.95)
+        return self.result("two", text=text.replace('y = "reading"', 'y = "reading"\nz = "reference"'))
+
+    def test_traces_are_compared_by_their_residuals(self):
+        shutil.copytree(ROOT / "scenarios", self.folder / "scenarios")
+        data = self.folder / "scenarios/data/linear_axis.csv"
+        files = []
+        for name in ("before", "after"):
+            files.append(self.folder / f"trace_{name}.h5")
+            run = gumshoe("trace", "scenarios/trace_linear_axis.toml", "--draws", 19, "--out", files[-1], "--force",
+                          cwd=self.folder, seconds=300)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            self.correct(data)
+        both = self.compared(*files)
+        with h5py.File(files[0]) as file:
+            rms = file["trace/rms"].attrs
+            for key, attribute in (("rms", "before"), ("rms_with_findings", "after"), ("holdout", "holdout_before"),
+                                   ("holdout_with_findings", "holdout_after")):
+                self.assertAlmostEqual(both["before"][key], rms[attribute] * rms["display_factor"], delta=1e-9)
+            names = [file[f"trace/findings/{k}"].attrs["name"] for k in sorted(file["trace/findings"])]
+        self.assertEqual(both["before"]["findings"], names)
+        said = gumshoe("compare", *files).stdout
+        # The table was most of the error.
+        self.assertLess(both["after"]["holdout"], both["before"]["holdout"] / 2)
+        self.assertRegex(said, r"  held-out readings: from \S+ um to \S+ um \(\d+ % smaller\)\n")
+        self.assertIn("expected after correcting what was found: ", said)
+        self.refused("a trace and a result of measurands cannot be compared", files[0], self.before)
+        cell = self.folder / "cell.h5"
+        run = gumshoe("trace", "scenarios/trace_load_cell.toml", "--draws", 19, "--out", cell, cwd=self.folder, seconds=300)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.refused("the traces have residuals of different dimensions", files[0], cell)
+        self.refused("two traces have no budgets to compare", *files, "--same", "reference")
+
+    def correct(self, data):
+        """Takes the mean over the cycles, by position and direction, off the readings."""
+        head, *rows = [line.split(",") for line in data.read_text().splitlines()]
+        cells = {}
+        for row in rows:
+            cells.setdefault((row[1], row[2]), []).append(float(row[4]))
+        for row in rows:
+            cell = cells[row[1], row[2]]
+            row[4] = f"{float(row[4]) - sum(cell) / len(cell):.3f}"
+        data.write_text("".join(",".join(row) + "\n" for row in [head, *rows]))
+
+    def test_refusals(self):
+        self.refused("not a quantity in the budgets of both results", self.before, self.after, "--same", "refrence")
+        self.refused("Did you mean 'reference'?", self.before, self.after, "--same", "refrence")
+        self.refused("different coverage probabilities", self.before, self.result("p99", p=0.99))
+        text = SCENARIO.format(formula="reading", reading=10, u_reading=1, seed=1, p=0.95).replace("y = ", "other = ", 1)
+        self.refused("no measurand in common", self.before, self.result("other", text=text))
+        self.refused("y: the results have different dimensions", self.before, self.result("ratio", formula="reading / reference"))
+        self.refused("before.toml", self.folder / "before.toml", self.after)  # not a result
+        damaged = self.folder / "damaged.h5"
+        data = bytearray(self.before.read_bytes())
+        data[-60] ^= 1  # within the record
+        damaged.write_bytes(data)
+        self.refused("damaged.h5", damaged, self.after)
+
+
+if __name__ == "__main__":
+    unittest.main()
