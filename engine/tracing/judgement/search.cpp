@@ -319,7 +319,7 @@ private:
 
   /// A variance component, or an effect that these data cannot distinguish from it. True if an effect was taken in.
   bool take_component() {
-    auto found = scatter_shown(c_, evidence_->assessment(), out_.findings.size());
+    auto found = scatter_shown(c_, out_.found, evidence_->assessment(), out_.findings.size());
     if (!found) return false;
     if (found->component >= 0 && take_instead(*found)) return true;
     add(*found);
@@ -415,7 +415,8 @@ Search without_findings(Search search) {
   return search;
 }
 
-std::optional<SearchFinding> scatter_shown(const TraceContext& c, const Assessment& a, std::size_t findings) {
+std::optional<SearchFinding> scatter_shown(const TraceContext& c, const JointFit& fit, const Assessment& a,
+                                           std::size_t findings) {
   SearchFinding found;
   found.finding.kind = Kind::scatter;
   if (const auto component = scatter_found(a, c.alpha)) {
@@ -426,7 +427,10 @@ std::optional<SearchFinding> scatter_shown(const TraceContext& c, const Assessme
     found.finding.members = {"scatter:" + group.name};
     return found;
   }
-  if (!larger_noise_found(a, c.alpha, findings)) return std::nullopt;
+  // Noise of single readings, correlation and components apart: that is what would be declared.
+  const double freedom = static_cast<double>(c.fitter.rows().size()) - static_cast<double>(fit.design.fixed.cols());
+  const double scale = fit.noise * std::sqrt(a.data.variance[0]), surely = scale * (1 - 2 / std::sqrt(2 * freedom));
+  if (!(surely > 1) || !larger_noise_found(a, c.alpha, findings)) return std::nullopt;
   found.finding.p_value = a.p_noise_overall;
   found.finding.depends_on = {"reading"};
   found.finding.members = {"scatter:reading"};
@@ -451,7 +455,7 @@ std::vector<std::string> step_back(const TraceContext& c, Search& s) {
   s.capped = false;
   s.last = Evidence(c, s.found, s.findings.size(), {}).assessment();
   if (look_for_scatter(s.last, c.alpha))
-    if (const auto scatter = scatter_shown(c, s.last, s.findings.size())) s.findings.push_back(*scatter);
+    if (const auto scatter = scatter_shown(c, s.found, s.last, s.findings.size())) s.findings.push_back(*scatter);
   c.fitter.widen_jumping(s.found);
   return dropped;
 }
