@@ -188,7 +188,8 @@ void print_trace(const Trace& t, const std::string& title, const std::vector<std
   if (t.findings.empty()) print_limits(t.detection_limits);
   for (const std::string& text : t.statements) std::cout << "note: " << text << '\n';
   if (!traced.empty())
-    std::cout << fmt::format("scenario {}: {} (gumshoe run --predict says what it expects of readings)\n",
+    std::cout << fmt::format("scenario {}: {} (gumshoe run --predict says what it expects of readings, "
+                             "gumshoe compensate what of it a control can correct)\n",
                              t.findings.empty() || t.vetoed ? "as fitted" : "with the findings", traced);
   else
     std::cout << "no scenario is written, because nothing would be added to it\n";

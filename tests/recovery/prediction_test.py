@@ -51,6 +51,15 @@ class Prediction(unittest.TestCase):
         inside, readings = map(sum, zip(*found, strict=True))
         self.assertTrue(0.90 <= inside / readings <= 0.98, (inside, readings, found))
 
+    def test_the_offset_of_a_set_up_follows_its_own_declared_values(self):
+        """The beam's height in a held-out set-up is found from its readings, and takes back what its pitch, declared to 4.5 um of
+        height, would do: 90 to 99 % of 192 readings lie in their intervals, not all (one standard deviation is 1.6 %)."""
+        family, = (f for f in FAMILIES if f.name == "rod_gauging trigger_latency@8 white")
+        with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+            found = list(pool.map(lambda s: of_battery(family, s), range(1, 9)))
+        inside, readings = map(sum, zip(*found, strict=True))
+        self.assertTrue(0.90 <= inside / readings <= 0.99, (inside, readings, found))
+
     def test_held_out_readings_lie_in_their_intervals(self):
         """Nothing missing, or what repeats: 90 to 98 %, of 684 readings (one standard deviation is 0.8 %)."""
         kinds = ("nothing", "reversal", "alternating_reversal", "table", "table_and_reversal", "periodic")

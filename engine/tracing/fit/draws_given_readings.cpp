@@ -9,7 +9,7 @@
 
 namespace gumshoe::tracing {
 
-DrawsGivenReadings Fitter::draws_given_readings(const JointFit& fit) const {
+DrawsGivenReadings Fitter::draws_given_readings(JointFit& fit) const {
   const auto tied = [&](std::size_t v) {
     return std::ranges::any_of(experiment_.plan().copulas, [&](const auto& group) {
       return std::ranges::find(group.variates, v) != group.variates.end();
@@ -39,7 +39,44 @@ DrawsGivenReadings Fitter::draws_given_readings(const JointFit& fit) const {
   out.mean = x(std::vector<Index>(solved.begin() + p, solved.end()));
   out.covariance = Matrix::Zero(all + m, all + m);
   out.covariance(place, place) = fit.variance * covariance(solved, solved);
+  follow_draws(fit, place, out);
   return out;
+}
+
+void Fitter::follow_draws(JointFit& fit, const std::vector<Index>& place, DrawsGivenReadings& out) const {
+  const Settled settled = settled_columns(fit);
+  if (settled.rows.empty()) return;
+  Design own = fit.design;
+  own.fixed = Matrix(fit.design.fixed(Eigen::all, settled.columns));
+  const auto use = independent(own, settled.rows);
+  const Whitened w(own, settled.rows, use, fit.covariance_model);
+  // What each of the known would do to the offsets if it were one unit larger: they take it back.
+  Matrix known(fit.design.fixed.rows(), index(place.size()));
+  for (std::size_t i = 0; i < place.size(); ++i) {
+    const Index draw = place[i] - fit.design.fixed.cols();
+    if (draw < 0)
+      known.col(index(i)) = fit.design.fixed.col(place[i]);
+    else
+      known.col(index(i)) = fit.design.random.col(
+          std::ranges::find(fit.draw_of, out.draws[index(draw)]) - fit.draw_of.begin());
+  }
+  Matrix own_covariance;
+  w.coefficients(w.take(fit.residual), &own_covariance);
+  const auto m = index(use.size());
+  const Matrix s = w.coefficients(w.take(known)).topRows(m), s_draws = s.rightCols(index(out.draws.size()));
+  const Matrix v = out.covariance(place, place), cross = -s * v;
+  // The noise of their own readings, without the draws as declared; then all that is known, as it is known.
+  const Matrix total =
+      fit.variance * (own_covariance.topLeftCorner(m, m) - s_draws * s_draws.transpose()) + s * v * s.transpose();
+  const auto set = [&](Index a, Index b, double x) {
+    out.covariance(a, b) = out.covariance(b, a) = x;
+    if (std::max(a, b) < fit.covariance.cols()) fit.covariance(a, b) = fit.covariance(b, a) = x;
+  };
+  for (Index i = 0; i < m; ++i) {
+    const Index a = settled.columns[index(use[index(i)])];
+    for (Index j = 0; j <= i; ++j) set(a, settled.columns[index(use[index(j)])], total(i, j));
+    for (std::size_t j = 0; j < place.size(); ++j) set(a, place[j], cross(i, index(j)));
+  }
 }
 
 } // namespace gumshoe::tracing

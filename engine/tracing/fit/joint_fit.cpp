@@ -210,18 +210,21 @@ void Fitter::converge(JointFit& fit, double noise) const {
   }
 }
 
+Fitter::Settled Fitter::settled_columns(const JointFit& fit) const {
+  Settled out;
+  const Matrix& fixed = fit.design.fixed;
+  for (Index j = 0; j < std::min(fixed.cols(), index(unknowns_.size())); ++j)
+    if (std::ranges::none_of(rows_, [&](Index r) { return fixed(r, j) != 0; })) out.columns.push_back(j);
+  for (Index r = 0; r < fixed.rows(); ++r)
+    if (std::ranges::any_of(out.columns, [&](Index j) { return fixed(r, j) != 0; })) out.rows.push_back(r);
+  return out;
+}
+
 void Fitter::settle(JointFit& fit) const {
-  const Index n = fit.design.fixed.rows();
-  std::vector<Index> open, known, rows;
-  for (Index j = 0; j < fit.design.fixed.cols(); ++j) {
-    const bool sensitive = std::ranges::any_of(rows_, [&](Index r) { return fit.design.fixed(r, j) != 0; });
-    if (std::isfinite(fit.covariance(j, j)))
-      known.push_back(j);
-    else if (!sensitive && j < index(unknowns_.size()))
-      open.push_back(j);
-  }
-  for (Index r = 0; r < n; ++r)
-    if (std::ranges::any_of(open, [&](Index j) { return fit.design.fixed(r, j) != 0; })) rows.push_back(r);
+  const auto [open, rows] = settled_columns(fit);
+  std::vector<Index> known;
+  for (Index j = 0; j < fit.design.fixed.cols(); ++j)
+    if (std::isfinite(fit.covariance(j, j))) known.push_back(j);
   if (rows.empty()) return;
   for (int iteration = 0; iteration < criteria.most_offset_iterations; ++iteration) {
     Design own = fit.design;

@@ -75,8 +75,9 @@ public:
   /// If readings jump with a term's size, its tangent does not give its uncertainty. Replaces it in the covariance by
   /// that of the likelihood along the size or of the straight line through the jumps, whichever is larger.
   void widen_jumping(JointFit& fit) const;
-  /// What the readings say of the declared draws that move the point of the fit, except those that are tied.
-  DrawsGivenReadings draws_given_readings(const JointFit& fit) const;
+  /// What the readings say of the declared draws that move the point of the fit, except those that are tied. Settled
+  /// unknowns then follow these draws, in the fit's covariance as well.
+  DrawsGivenReadings draws_given_readings(JointFit& fit) const;
   /// The point of a fit with every declared draw at null, as a scenario states its values.
   Points without_draws(JointFit fit) const;
   const std::vector<FreeUnknown>& unknowns() const { return unknowns_; }
@@ -96,6 +97,15 @@ private:
   struct Profile;
   /// True if a profile is needed: readings jump with the size, or do not follow its tangent.
   enum class Worth { jumps, tangent_wrong };
+
+  /// Unknowns to which no fitted reading is sensitive, and the rows that are.
+  struct Settled {
+    std::vector<Index> columns, rows;
+  };
+  Settled settled_columns(const JointFit& fit) const;
+  /// How settled unknowns follow the draws, in both covariances. @param place  columns known: fixed, then
+  /// draws
+  void follow_draws(JointFit& fit, const std::vector<Index>& place, DrawsGivenReadings& out) const;
 
   void find_unknowns();
   void find_draws();

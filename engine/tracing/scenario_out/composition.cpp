@@ -323,7 +323,7 @@ private:
     given_ = given.covariance;
   }
 
-  /// Correlation of parameters and known draws; what was settled after the fit follows no draw.
+  /// Correlation of parameters and known draws.
   void correlate() {
     if (out_.known.empty()) return;
     const std::size_t p = lines_.size(), n = p + known_at_.size();
