@@ -104,7 +104,8 @@ private:
     std::vector<std::string> names;
     for (std::size_t c = 0; c < card_.conditions.size(); ++c) {
       const std::string_view unit = card_.conditions[c].si_unit;
-      if (request_.direction.empty() && card_.conditions[c].name == "direction" && values_of(c).size() > 1) direction_ = c;
+      if (request_.direction.empty() && card_.conditions[c].name == "direction" && values_of(c).size() > 1)
+        direction_ = c;
       if ((unit != "m" && unit != "rad") || values_of(c).size() < 2) continue;
       positions.push_back(c);
       names.emplace_back(card_.conditions[c].name);
@@ -115,8 +116,9 @@ private:
     else if (positions.size() == 1)
       position_ = positions[0];
     else
-      refuse(positions.empty() ? "no length or angle is set to several values" : "several conditions may be the position", "",
-             positions.empty() ? "" : fmt::format("use --position with one of {}", fmt::join(names, ", ")));
+      refuse(positions.empty() ? "no length or angle is set to several values"
+                               : "several conditions may be the position",
+             "", positions.empty() ? "" : fmt::format("use --position with one of {}", fmt::join(names, ", ")));
     out_.position = card_.conditions[position_].name;
     out_.position_si_unit = card_.conditions[position_].si_unit;
     out_.indication = indications[indication_].name;
@@ -166,7 +168,8 @@ private:
       const std::string name(card_.quantities[q].name);
       const bool known = s_.quantities[q].estimated || std::ranges::find(s_.trace.free, name) != s_.trace.free.end();
       if (known && std::ranges::find(request_.with, name) == request_.with.end())
-        out_.left_out.push_back({name, "is a quantity of the model and may be the set-up's (--with " + name + " adds it)"});
+        out_.left_out.push_back(
+            {name, "is a quantity of the model and may be the set-up's (--with " + name + " adds it)"});
     }
   }
 
@@ -198,7 +201,8 @@ private:
     if (most > same * std::max(std::fabs(low), std::fabs(high)))
       return "also depends on something else than the position";
     const auto unconfirmed = std::ranges::find(s_.trace.unconfirmed, source.name);
-    return unconfirmed == s_.trace.unconfirmed.end() ? "" : "could neither be confirmed nor rejected by held-out readings";
+    return unconfirmed == s_.trace.unconfirmed.end() ? ""
+                                                     : "could neither be confirmed nor rejected by held-out readings";
   }
 
   void add_rows(const std::vector<double>& change, const std::vector<Source>& kept) {
@@ -237,7 +241,8 @@ private:
     for (std::size_t p = 0; p < partials.size(); ++p)
       for (std::size_t r = 0; r < s_.readings.size(); ++r)
         for (const std::size_t v : e_.plan().columns[e_.plan().gather[r][partials[p].quantity]].variates)
-          out(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(v)) += f.derivatives[p * f.rows + r * k + indication_];
+          out(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(v)) +=
+              f.derivatives[p * f.rows + r * k + indication_];
     return out;
   }
 
@@ -252,7 +257,8 @@ private:
       for (std::size_t i = 0; i < m; ++i)
         for (std::size_t j = 0; j < m; ++j)
           if (i != j) {
-            const auto a = static_cast<Eigen::Index>(group.variates[i]), b = static_cast<Eigen::Index>(group.variates[j]);
+            const auto a = static_cast<Eigen::Index>(group.variates[i]),
+                       b = static_cast<Eigen::Index>(group.variates[j]);
             out(a, b) = u[a] * u[b] * group.matrix[i * m + j];
           }
     }

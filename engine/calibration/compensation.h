@@ -9,10 +9,10 @@
 namespace gumshoe::calibration {
 
 struct CompensationRequest {
-  std::string indication;            ///< the deviation, actual minus commanded; empty: the only one
-  std::string position, direction;   ///< conditions; empty: found, direction by its name
-  std::vector<std::string> with;     ///< quantities of the model whose estimates count, too, such as a gain
-  std::vector<std::string> without;  ///< effects to leave out
+  std::string indication;           ///< the deviation, actual minus commanded; empty: the only one
+  std::string position, direction;  ///< conditions; empty: found, direction by its name
+  std::vector<std::string> with;    ///< quantities of the model whose estimates count, too, such as a gain
+  std::vector<std::string> without; ///< effects to leave out
 };
 
 /// Error at a position, approached upwards (+1), downwards (-1) or from either side (0).
@@ -35,9 +35,9 @@ struct Compensation {
 };
 
 /// Errors of the effects with a size, at the positions of the scenario's readings: what the simulated indication loses
-/// when the sizes are at null; u by the law of propagation from the sizes' uncertainties and correlations. An effect that
-/// also depends on anything else (time, a temperature, a label) is left out. Throws InputError if nothing remains, or
-/// the conditions are not clear.
+/// when the sizes are at null; u by the law of propagation from the sizes' uncertainties and correlations. An effect
+/// that also depends on anything else (time, a temperature, a label) is left out. Throws InputError if nothing remains,
+/// or the conditions are not clear.
 Compensation compensation(const propagation::Experiment& experiment, const CompensationRequest& request);
 
 } // namespace gumshoe::calibration

@@ -81,19 +81,24 @@ void add_compensate(CLI::App& app, Action& action) {
     formats.push_back(f.name);
     meanings += fmt::format("\n  {}: {}", f.name, f.meaning);
   }
-  command->add_option("scenario", o->scenario, "scenario with its readings, as gumshoe trace or estimate wrote it")->required();
+  command->add_option("scenario", o->scenario, "scenario with its readings, as gumshoe trace or estimate wrote it")
+      ->required();
   command->add_option("--format", o->choice.format, "format of the table:" + meanings)->check(CLI::IsMember(formats));
   command->add_option("--out", o->out, "output file (default: standard output)");
   command->add_option("--axis", o->choice.axis, "name of the axis in the control (default: X)");
-  command->add_option("--indication", o->of.indication, "the deviation, actual minus commanded (default: the only one)");
-  command->add_option("--position", o->of.position, "condition that is the position (default: the only length or angle)");
+  command->add_option("--indication", o->of.indication,
+                      "the deviation, actual minus commanded (default: the only one)");
+  command->add_option("--position", o->of.position,
+                      "condition that is the position (default: the only length or angle)");
   command->add_option("--direction", o->of.direction, "condition whose sign is the direction (default: direction)");
   command->add_option("--with", o->of.with, "quantities of the model that count, too, such as a gain");
   command->add_option("--without", o->of.without, "effects to leave out");
   command->add_option("--step", o->step, "interval of the table, linear between the positions measured: \"50 mm\"");
-  command->add_option("--reference", o->reference, "position at which the control's table is zero (default: the first)");
+  command->add_option("--reference", o->reference,
+                      "position at which the control's table is zero (default: the first)");
   command->add_option("--resolution", o->resolution, "to which values are rounded (default: 0.1 um)");
-  command->add_flag("--negate", o->choice.negate, "changes the sign, where it is a setting of the machine (isg, etalon)");
+  command->add_flag("--negate", o->choice.negate,
+                    "changes the sign, where it is a setting of the machine (isg, etalon)");
   command->add_flag("--unconfirmed", o->unconfirmed, "also what held-out readings could neither confirm nor reject");
   add_force(*command, o->force);
   add_external(*command);

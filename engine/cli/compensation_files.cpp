@@ -63,8 +63,9 @@ private:
     for (const auto& [x, errors] : at) {
       for (const int d : {1, -1})
         if (both() && !errors.contains(d))
-          refuse(fmt::format("at {:.6g} {} nothing was measured {}", position(x), unit(), d > 0 ? "upwards" : "downwards"),
-                 "the table needs both directions at every position", "use --format csv, or measure it");
+          refuse(
+              fmt::format("at {:.6g} {} nothing was measured {}", position(x), unit(), d > 0 ? "upwards" : "downwards"),
+              "the table needs both directions at every position", "use --format csv, or measure it");
       points_.push_back({x, errors.begin()->second, errors.begin()->second});
       if (both()) points_.back().up = errors.at(1), points_.back().down = errors.at(-1);
     }
@@ -121,26 +122,29 @@ private:
   std::string csv() const {
     const std::string e = t_.indication_si_unit == "m" ? "um" : angle_ ? "arcsec" : t_.indication_si_unit;
     const double factor = e == "um" ? 1e6 : e == "arcsec" ? 3600 / degree : 1;
-    std::string out = fmt::format("# error: actual minus commanded position; correction: commanded minus actual, what the "
-                                  "control adds to the command\n"
-                                  "# direction: from which the position was reached, 1 upwards, -1 downwards, 0 either; u: "
-                                  "standard uncertainty of the error\n"
-                                  "# between the positions linear; beyond them nothing is known\n"
-                                  "position_{},direction,error_{},correction_{},u_{},readings\n",
-                                  unit(), e, e, e);
+    std::string out =
+        fmt::format("# error: actual minus commanded position; correction: commanded minus actual, what the "
+                    "control adds to the command\n"
+                    "# direction: from which the position was reached, 1 upwards, -1 downwards, 0 either; u: "
+                    "standard uncertainty of the error\n"
+                    "# between the positions linear; beyond them nothing is known\n"
+                    "position_{},direction,error_{},correction_{},u_{},readings\n",
+                    unit(), e, e, e);
     for (const auto& row : t_.rows)
-      out += fmt::format("{:.10g},{},{:.4f},{:.4f},{:.4f},{}\n", position(row.position), row.direction, row.error * factor,
-                         -row.error * factor + 0.0, row.u * factor, row.readings);
+      out += fmt::format("{:.10g},{},{:.4f},{:.4f},{:.4f},{}\n", position(row.position), row.direction,
+                         row.error * factor, -row.error * factor + 0.0, row.u * factor, row.readings);
     return out;
   }
 
   /// Linear between rows, end values beyond. Type 0: actual positions; type 1: trims, added to the command.
   std::string linuxcnc(bool trims) const {
-    if (points_.size() > 256) refuse(fmt::format("{} rows", points_.size()), "LinuxCNC reads 256", "use a longer --step");
+    if (points_.size() > 256)
+      refuse(fmt::format("{} rows", points_.size()), "LinuxCNC reads 256", "use a longer --step");
     std::string out; // no comments: reading ends at the first line that is not three numbers
     for (const Point& p : points_) {
       const double x = position(p.x), up = error(p.up), down = error(p.down);
-      out += fmt::format("{:.6f} {} {}\n", x, number(trims ? -up + 0.0 : x + up), number(trims ? -down + 0.0 : x + down));
+      out +=
+          fmt::format("{:.6f} {} {}\n", x, number(trims ? -up + 0.0 : x + up), number(trims ? -down + 0.0 : x + down));
     }
     return out;
   }
@@ -184,7 +188,9 @@ private:
       for (const auto& [name, x] : {std::pair("STEP", step), {"MIN", points_.front().x}, {"MAX", points_.back().x}})
         out += fmt::format("$AN_CEC_{}[{}]={:.6f}\n", name, t, position(x));
       out += fmt::format("$AN_CEC_DIRECTION[{0}]={1}\n$AN_CEC_MULT_BY_TABLE[{0}]=0\n$AN_CEC_IS_MODULO[{0}]=0\n", t,
-                         !both() ? 0 : up ? 1 : -1);
+                         !both() ? 0
+                         : up    ? 1
+                                 : -1);
     }
     return out + "M17\n";
   }
@@ -192,12 +198,12 @@ private:
   std::string component() const { return fmt::format("E{0}{0}", c_.axis); }
   double signed_mean(const Point& p) const { return (c_.negate ? -1 : 1) * error(p.mean()) + 0.0; }
   std::string said() const {
-    return fmt::format("// {}, {} and {}{}{}\n", c_.negate ? "commanded minus actual (negated)" : "actual minus commanded",
-                       angle_ ? "deg" : "mm", angle_ ? "rad" : "mm",
-                       both() ? fmt::format("; mean of both directions, which differ by {} at most",
-                                            number(error(largest_reversal())))
-                              : "",
-                       "; the sign is a setting of the machine: prove it by one step");
+    return fmt::format(
+        "// {}, {} and {}{}{}\n", c_.negate ? "commanded minus actual (negated)" : "actual minus commanded",
+        angle_ ? "deg" : "mm", angle_ ? "rad" : "mm",
+        both() ? fmt::format("; mean of both directions, which differ by {} at most", number(error(largest_reversal())))
+               : "",
+        "; the sign is a setting of the machine: prove it by one step");
   }
 
   std::string isg() const {

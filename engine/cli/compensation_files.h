@@ -18,11 +18,11 @@ const std::vector<CompensationFormat>& compensation_formats();
 
 struct CompensationChoice {
   std::string format = "csv";
-  std::string axis = "X";      ///< letter, or name of the machine axis
-  double resolution = 0;       ///< SI; 0: 0.1 um, 0.1 arcsec of an angle in its own unit
-  double step = 0;             ///< SI; above 0: linear between the positions measured, at such steps
-  double reference = 0;        ///< position at which the control's table is zero, SI
-  bool at_reference = false;   ///< `reference` was given; else the first position
+  std::string axis = "X";    ///< letter, or name of the machine axis
+  double resolution = 0;     ///< SI; 0: 0.1 um, 0.1 arcsec of an angle in its own unit
+  double step = 0;           ///< SI; above 0: linear between the positions measured, at such steps
+  double reference = 0;      ///< position at which the control's table is zero, SI
+  bool at_reference = false; ///< `reference` was given; else the first position
   bool negate = false;
 };
 

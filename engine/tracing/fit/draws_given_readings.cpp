@@ -57,8 +57,8 @@ void Fitter::follow_draws(JointFit& fit, const std::vector<Index>& place, DrawsG
     if (draw < 0)
       known.col(index(i)) = fit.design.fixed.col(place[i]);
     else
-      known.col(index(i)) = fit.design.random.col(
-          std::ranges::find(fit.draw_of, out.draws[index(draw)]) - fit.draw_of.begin());
+      known.col(index(i)) =
+          fit.design.random.col(std::ranges::find(fit.draw_of, out.draws[index(draw)]) - fit.draw_of.begin());
   }
   Matrix own_covariance;
   w.coefficients(w.take(fit.residual), &own_covariance);

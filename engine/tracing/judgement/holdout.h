@@ -25,7 +25,8 @@ HeldOut hold_out(const Design& design, const Matrix& residual, const std::vector
 
 /// Minus twice the logarithm of the density of `test` rows given `train` rows (one residual, all rows, SI), constants
 /// left out. Unlike `whitened`, it holds what the training rows say of columns and draws, and how well: where declared
-/// values are wide, they could otherwise be anything that the test rows ask for. Offsets of the block are projected out.
+/// values are wide, they could otherwise be anything that the test rows ask for. Offsets of the block are projected
+/// out.
 double minus_log_density(const Design& design, const Matrix& residual, const std::vector<Index>& train,
                          const std::vector<Index>& test, const CovarianceModel& model);
 

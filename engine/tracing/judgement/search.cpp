@@ -13,6 +13,7 @@
 #include "tracing/judgement/beside.h"
 #include "tracing/judgement/decisions.h"
 #include "tracing/judgement/evidence.h"
+#include "tracing/judgement/in_place_of_scatter.h"
 #include "tracing/judgement/ranking.h"
 
 namespace gumshoe::tracing {
@@ -321,80 +322,23 @@ private:
   bool take_component() {
     auto found = scatter_shown(c_, out_.found, evidence_->assessment(), out_.findings.size());
     if (!found) return false;
-    if (found->component >= 0 && take_instead(*found)) return true;
-    add(*found);
-    return false;
-  }
-
-  /// A slow drift looks like scatter from one clamping to the next: given the scatter it is not worth its name. Effects
-  /// that explain as much without the component, and predict held-out readings better, form a class with it. Quantities
-  /// declared, and effects, by label do not: of so many, some look like scatter by chance. Where the best of them explains more than
-  /// scatter would let it, scatter is no member. One group that differs from all others, which agree, explains more than
-  /// scatter, and so does a temperature that was recorded: it is what was found, where scatter would seldom let it.
-  bool take_instead(SearchFinding& scatter) {
-    const WithoutScatter without(c_, *evidence_);
-    const Grouping& group = c_.observations.replicate_groups[index(scatter.component)];
-    // One group that differs, or a straight line in what was recorded: shapes of one size that scatter may look like.
-    const auto plain = [&](const Candidate& a) {
-      return a.family == Family::shape && a.columns.cols() == 1 &&
-             (std::ranges::any_of(group.groups, [&](const std::string& g) { return a.name == "step:" + g; }) ||
-              std::ranges::any_of(c_.observations.covariates, [&](const Covariate& x) {
-                return !x.commanded && a.name == "polynomial:" + x.name && a.shape.empty();
-              }));
-    };
-    std::vector<Scored> all;
-    for (std::size_t a = 0; a < evidence_->candidates().size(); ++a)
-      all.push_back({candidate(a).name, without.score(a),
-                     plain(candidate(a)) || (evidence_->testable(a) && candidate(a).family != Family::declared &&
-                                                 !candidate(a).in_part())});
-    std::vector<std::size_t> eligible;
-    for (std::size_t a = 0; a < all.size(); ++a)
-      if (all[a].eligible) eligible.push_back(a);
-    const auto excluded_by = [&](double lead) {
-      return excludes_scatter(lead, [&] { return without.chance_of_lead(eligible, index(scatter.component), lead); });
-    };
-    SearchFinding found = scatter;
-    found.finding.kind = Kind::equivalence_class;
-    found.finding.members.clear();
-    JointFit best;
-    double lead = 0;
-    const double gain = evidence_->assessment().data.scatter(scatter.component, 0);
-    const auto rivals = explain_scatter(all, gain);
-    for (const std::size_t a : rivals) {
-      const Fit linear = without.fit(a);
-      if (plain(candidate(a))) {
-        if (a != rivals[0]) continue;
-        if (!excluded_by(all[a].score - gain)) {
-          scatter.finding.remarks.push_back("described as well by " + with_shape(candidate(a)));
-          continue;
-        }
-        JointFit fit = evidence_->with({evidence_->linear_term(a)});
-        if (!fit.valid || !evidence_->predicts_better(fit, without.model(linear))) continue;
-        add_shape(a, fit, scatter.finding.p_value);
+    if (found->component >= 0) {
+      const InPlaceOfScatter instead = in_place_of_scatter(c_, *evidence_, *found);
+      if (instead.shape) {
+        add_shape(*instead.shape, instead.fit, found->finding.p_value);
         return true;
       }
-      JointFit fit = evidence_->with({{candidate(a), linear.size}});
-      if (!fit.valid || !evidence_->predicts_better(fit, without.model(linear))) continue;
-      outcomes_[a] = "explains the scatter";
-      found.finding.members.push_back(candidate(a).name);
-      if (found.terms.empty()) {
-        found.terms = {out_.found.terms.size()};
-        found.threshold = evidence_->limit(a);
-        found.finding.depends_on = candidate(a).depends_on;
-        best = std::move(fit);
-        lead = all[a].score - gain;
-      } else {
-        found.rivals.push_back(fit.terms.back());
+      if (!instead.effects.terms.empty()) {
+        for (const std::size_t a : instead.members) outcomes_[a] = "explains the scatter";
+        add(instead.effects);
+        adopt(instead.fit);
+        return true;
       }
+      if (instead.as_well)
+        found->finding.remarks.push_back("described as well by " + with_shape(candidate(*instead.as_well)));
     }
-    if (found.terms.empty()) return false;
-    if (!excluded_by(lead))
-      found.finding.members.push_back(scatter.finding.members[0]);
-    else if (found.finding.members.size() == 1)
-      found.finding.kind = Kind::named;
-    add(std::move(found));
-    adopt(best);
-    return true;
+    add(*found);
+    return false;
   }
 
   const TraceContext& c_;

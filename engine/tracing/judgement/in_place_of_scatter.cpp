@@ -1,0 +1,80 @@
+#include "tracing/judgement/in_place_of_scatter.h"
+
+#include <algorithm>
+
+#include "tracing/judgement/decisions.h"
+
+namespace gumshoe::tracing {
+namespace {
+
+/// One group that differs, or a straight line in what was recorded: shapes of one size that scatter may look like.
+bool is_plain(const Candidate& a, const Grouping& group, const Observations& o) {
+  const bool step = std::ranges::any_of(group.groups, [&](const std::string& g) { return a.name == "step:" + g; });
+  const bool line = std::ranges::any_of(o.covariates, [&](const Covariate& x) {
+    return !x.commanded && a.name == "polynomial:" + x.name && a.shape.empty();
+  });
+  return a.family == Family::shape && a.columns.cols() == 1 && (step || line);
+}
+
+} // namespace
+
+InPlaceOfScatter in_place_of_scatter(const TraceContext& c, const Evidence& e, const SearchFinding& scatter) {
+  const WithoutScatter without(c, e);
+  const auto component = index(scatter.component);
+  const auto plain = [&](std::size_t a) {
+    return is_plain(e.candidates()[a], c.observations.replicate_groups[component], c.observations);
+  };
+  std::vector<Scored> all;
+  std::vector<std::size_t> eligible;
+  for (std::size_t a = 0; a < e.candidates().size(); ++a) {
+    const Candidate& one = e.candidates()[a];
+    const bool effect = e.testable(a) && one.family != Family::declared && !one.in_part();
+    all.push_back({one.name, without.score(a), effect || plain(a)});
+    if (all.back().eligible) eligible.push_back(a);
+  }
+  const auto excluded_by = [&](double lead) {
+    return excludes_scatter(lead, [&] { return without.chance_of_lead(eligible, component, lead); });
+  };
+  InPlaceOfScatter out;
+  out.effects = scatter;
+  out.effects.finding.kind = Kind::equivalence_class;
+  out.effects.finding.members.clear();
+  double lead = 0;
+  const double gain = e.assessment().data.scatter(scatter.component, 0);
+  const auto rivals = explain_scatter(all, gain);
+  for (const std::size_t a : rivals) {
+    const Fit linear = without.fit(a);
+    if (plain(a)) {
+      if (a != rivals[0]) continue;
+      if (!excluded_by(all[a].score - gain)) {
+        out.as_well = a;
+        continue;
+      }
+      out.fit = e.with({e.linear_term(a)});
+      if (!out.fit.valid || !e.predicts_better(out.fit, without.model(linear))) continue;
+      out.shape = a;
+      return out;
+    }
+    JointFit fit = e.with({{e.candidates()[a], linear.size}});
+    if (!fit.valid || !e.predicts_better(fit, without.model(linear))) continue;
+    out.members.push_back(a);
+    out.effects.finding.members.push_back(e.candidates()[a].name);
+    if (out.effects.terms.empty()) {
+      out.effects.terms = {e.fit().terms.size()};
+      out.effects.threshold = e.limit(a);
+      out.effects.finding.depends_on = e.candidates()[a].depends_on;
+      out.fit = std::move(fit);
+      lead = all[a].score - gain;
+    } else {
+      out.effects.rivals.push_back(fit.terms.back());
+    }
+  }
+  if (out.effects.terms.empty()) return out;
+  if (!excluded_by(lead))
+    out.effects.finding.members.push_back(scatter.finding.members[0]);
+  else if (out.effects.finding.members.size() == 1)
+    out.effects.finding.kind = Kind::named;
+  return out;
+}
+
+} // namespace gumshoe::tracing

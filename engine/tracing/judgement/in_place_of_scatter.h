@@ -1,0 +1,25 @@
+#pragma once
+/// What explains a variance component that was found.
+#include "tracing/judgement/evidence.h"
+#include "tracing/judgement/search.h"
+
+namespace gumshoe::tracing {
+
+struct InPlaceOfScatter {
+  std::optional<std::size_t> shape;   ///< candidate: a plain shape is there, and no scatter
+  std::optional<std::size_t> as_well; ///< candidate: a plain shape describes the scatter as well, and may be chance
+  SearchFinding effects;              ///< effects, with the component where it is a member; without terms: none
+  std::vector<std::size_t> members;   ///< candidates of `effects`
+  JointFit fit;                       ///< with the shape, or the first effect
+};
+
+/// A slow drift looks like scatter from one clamping to the next: given the scatter it is not worth its name. Effects
+/// that explain as much without the component, and predict held-out readings better, form a class with it. Quantities
+/// declared, and effects, by label do not: of so many, some look like scatter by chance. Where the best of them explains
+/// more than scatter would seldom let it, scatter is no member. One group that differs from all others, which agree,
+/// explains more than scatter, and so does a temperature that was recorded: plain shapes, found where scatter would
+/// seldom let them.
+InPlaceOfScatter in_place_of_scatter(const TraceContext& context, const Evidence& evidence,
+                                     const SearchFinding& scatter);
+
+} // namespace gumshoe::tracing
