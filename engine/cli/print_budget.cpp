@@ -102,6 +102,7 @@ std::string largest_contributions(const Budget& b, const std::vector<SobolIndex>
   constexpr std::size_t most = 3;
   bool monte_carlo = !b.applicable;
   std::vector<Part> all = monte_carlo ? parts(b, indices) : parts(b);
+  const std::size_t total = all.size();
   // What is shown as less than 0.01 % is none of the largest.
   const bool some = std::ranges::any_of(all, [](const Part& p) { return p.share >= 1e-4; });
   if (some) std::erase_if(all, [](const Part& p) { return p.share < 1e-4; });
@@ -119,7 +120,8 @@ std::string largest_contributions(const Budget& b, const std::vector<SobolIndex>
                                        percent(all[i].share)));
   if (!monte_carlo && std::fabs(b.correlation_share) >= 0.005)
     text += fmt::format(", correlations {}", percent(b.correlation_share));
-  return text + (all.size() > most ? fmt::format("; {} more", all.size() - most) : "");
+  const std::size_t shown = std::min(most, all.size());
+  return text + (total > shown ? fmt::format("; {} more", total - shown) : "");
 }
 
 void print_budget(const Budget& b, std::ostream& out) {
