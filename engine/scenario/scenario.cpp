@@ -72,6 +72,7 @@ public:
       out_.trace = read_trace(*trace, {own, out_.readings, readings.readouts}, context_);
     if (auto stated = top.table("stated_effects")) read_stated(*stated, own);
     if (!out_.trace.free.empty()) check_free(top, own);
+    if (!out_.trace.unconfirmed.empty()) check_unconfirmed(top);
     out_.correlations = read_correlations(top, out_.quantities);
     if (auto run = top.table("run")) out_.run = read_run(*run);
     if (auto analysis = top.table("analysis")) {
@@ -111,6 +112,17 @@ private:
       if (std::ranges::find(names, name) == names.end())
         trace.refuse_key("free", fmt::format("'{}' is not a quantity of the scenario", name), "",
                          did_you_mean(name, names));
+  }
+
+  void check_unconfirmed(Table& top) {
+    std::vector<std::string> effects;
+    for (const quantities::InputQuantity& q : out_.quantities)
+      if (const std::size_t dot = q.name.find('.'); dot != std::string::npos) effects.push_back(q.name.substr(0, dot));
+    Table trace(*top.find("trace"), "trace", problems_);
+    for (const std::string& name : out_.trace.unconfirmed)
+      if (std::ranges::find(effects, name) == effects.end())
+        trace.refuse_key("unconfirmed", fmt::format("'{}' is no effect with a size", name), "",
+                         did_you_mean(name, effects));
   }
 
   const ModelCard* read_model(Table& top) {

@@ -233,6 +233,8 @@ class BothDirections(Compensation):
         run = gumshoe("compensate", "u.toml", cwd=self.folder)
         self.assertEqual(run.returncode, 2)
         self.assertIn("could neither be confirmed nor rejected", run.stderr)
+        (self.folder / "x.toml").write_text(text.replace("[trace]\n", '[trace]\nunconfirmed = ["shape_9"]\n'))
+        self.assertIn("'shape_9' is no effect with a size", gumshoe("check", "x.toml", cwd=self.folder).stderr)
         run = gumshoe("compensate", "u.toml", "--unconfirmed", cwd=self.folder)
         self.assertEqual(run.stdout, self.compensate().stdout, run.stderr)
 

@@ -142,6 +142,7 @@ adaptive = { digits = 2, validation = true }
 alpha = 0.01
 draws = 99
 free = "laser_z"
+unconfirmed = ["film"]
 priors = { rod_length = { value = "330 mm", u = "1 um" } }
 [stated_effects.bend]
 table = { feed = ["1 mm/min", "9 mm/min"], loading = [0, 1] }
