@@ -47,6 +47,8 @@ Identity identity() {
           "fedcba9876543210",
           "run",
           "8899aabbccddeeff",
+          "",
+          "",
           ""};
 }
 
