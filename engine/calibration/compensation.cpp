@@ -9,8 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "base/dimension.h"
-#include "base/symbol.h"
+#include "calibration/priors.h"
 #include "effects/effect.h"
 
 namespace gumshoe::calibration {
@@ -207,7 +206,9 @@ private:
 
   void add_rows(const std::vector<double>& change, const std::vector<Source>& kept) {
     const Eigen::MatrixXd by_variate = derivatives(kept);
-    const Eigen::MatrixXd covariance = covariance_of_variates();
+    std::vector<std::size_t> variates;
+    for (Eigen::Index v = 0; v < by_variate.cols(); ++v)
+      if (by_variate.col(v).any()) variates.push_back(static_cast<std::size_t>(v));
     for (const auto& [key, readings] : cells_) {
       Eigen::VectorXd slope = Eigen::VectorXd::Zero(by_variate.cols());
       double error = 0;
@@ -217,8 +218,12 @@ private:
       }
       const auto n = static_cast<double>(readings.size());
       slope /= n;
-      out_.rows.push_back({key.first, key.second, error / n, std::sqrt(std::max(0.0, slope.dot(covariance * slope))),
-                           static_cast<int>(readings.size())});
+      double variance = 0;
+      for (const std::size_t a : variates)
+        for (const std::size_t b : variates)
+          variance += slope[static_cast<Eigen::Index>(a)] * slope[static_cast<Eigen::Index>(b)] *
+                      declared_covariance(e_.plan(), a, b);
+      out_.rows.push_back({key.first, key.second, error / n, std::sqrt(std::max(0.0, variance))});
     }
     std::ranges::stable_sort(out_.rows, [](const auto& a, const auto& b) {
       return std::pair(a.position, -a.direction) < std::pair(b.position, -b.direction);
@@ -246,26 +251,7 @@ private:
     return out;
   }
 
-  Eigen::MatrixXd covariance_of_variates() const {
-    const auto n = static_cast<Eigen::Index>(e_.plan().variates.size());
-    Eigen::VectorXd u(n);
-    for (Eigen::Index v = 0; v < n; ++v)
-      u[v] = e_.plan().variates[static_cast<std::size_t>(v)].distribution.standard_uncertainty();
-    Eigen::MatrixXd out = u.array().square().matrix().asDiagonal();
-    for (const auto& group : e_.plan().copulas) {
-      const std::size_t m = group.variates.size();
-      for (std::size_t i = 0; i < m; ++i)
-        for (std::size_t j = 0; j < m; ++j)
-          if (i != j) {
-            const auto a = static_cast<Eigen::Index>(group.variates[i]),
-                       b = static_cast<Eigen::Index>(group.variates[j]);
-            out(a, b) = u[a] * u[b] * group.matrix[i * m + j];
-          }
-    }
-    return out;
-  }
-
-  /// One row for both directions, where they agree at every position; readings of each are counted.
+  /// One row for both directions, where they agree at every position.
   void join_directions() {
     if (direction_ == none) return;
     std::map<double, std::vector<const CompensationRow*>> at;
@@ -281,8 +267,6 @@ private:
     for (const auto& [x, rows] : at) {
       joined.push_back(*rows[0]);
       joined.back().direction = 0;
-      joined.back().readings = 0;
-      for (const auto* row : rows) joined.back().readings += row->readings;
     }
     out_.rows = std::move(joined);
     out_.direction.clear();

@@ -20,7 +20,6 @@ struct CompensationRow {
   double position = 0; ///< m or rad
   int direction = 0;
   double error = 0, u = 0; ///< actual minus commanded, of the indication; SI
-  int readings = 0;
 };
 
 struct Compensation {

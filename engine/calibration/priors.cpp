@@ -10,6 +10,19 @@
 
 namespace gumshoe::calibration {
 
+double declared_covariance(const quantities::SamplePlan& plan, std::size_t a, std::size_t b) {
+  const auto u = [&](std::size_t v) { return plan.variates[v].distribution.standard_uncertainty(); };
+  if (a == b) return u(a) * u(a);
+  for (const auto& group : plan.copulas) {
+    const auto at = [&](std::size_t v) { return std::find(group.variates.begin(), group.variates.end(), v); };
+    if (at(a) == group.variates.end() || at(b) == group.variates.end()) continue;
+    const auto i = at(a) - group.variates.begin(), j = at(b) - group.variates.begin();
+    return group.matrix[static_cast<std::size_t>(i) * group.variates.size() + static_cast<std::size_t>(j)] * u(a) *
+           u(b);
+  }
+  return 0;
+}
+
 Priors priors_of(const propagation::Experiment& e, const std::vector<Unknown>& unknowns) {
   std::vector<std::size_t> known;
   for (std::size_t j = 0; j < unknowns.size(); ++j)
@@ -22,22 +35,10 @@ Priors priors_of(const propagation::Experiment& e, const std::vector<Unknown>& u
   const auto draws = [&](Eigen::Index i) {
     return plan.columns[unknowns[known[static_cast<std::size_t>(i)]].column].variates;
   };
-  const auto correlation = [&](std::size_t a, std::size_t b) {
-    if (a == b) return 1.0;
-    for (const auto& group : plan.copulas) {
-      const auto at = [&](std::size_t v) { return std::find(group.variates.begin(), group.variates.end(), v); };
-      if (at(a) == group.variates.end() || at(b) == group.variates.end()) continue;
-      const auto i = at(a) - group.variates.begin(), j = at(b) - group.variates.begin();
-      return group.matrix[static_cast<std::size_t>(i) * group.variates.size() + static_cast<std::size_t>(j)];
-    }
-    return 0.0;
-  };
   for (Eigen::Index i = 0; i < m; ++i)
     for (Eigen::Index j = 0; j < m; ++j)
       for (const std::size_t a : draws(i))
-        for (const std::size_t b : draws(j))
-          covariance(i, j) += correlation(a, b) * plan.variates[a].distribution.standard_uncertainty() *
-                              plan.variates[b].distribution.standard_uncertainty();
+        for (const std::size_t b : draws(j)) covariance(i, j) += declared_covariance(plan, a, b);
   const Eigen::MatrixXd factor = covariance.llt().matrixL();
   for (Eigen::Index i = 0; i < m; ++i)
     if (!(factor(i, i) * factor(i, i) > 1e-12 * covariance(i, i)))

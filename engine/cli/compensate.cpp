@@ -8,8 +8,8 @@
 
 #include "base/units.h"
 #include "calibration/compensation.h"
+#include "calibration/compensation_files.h"
 #include "cli/command.h"
-#include "cli/compensation_files.h"
 
 namespace gumshoe::cli {
 
@@ -18,7 +18,7 @@ namespace {
 struct Options {
   std::string scenario, out, resolution, step, reference;
   calibration::CompensationRequest of;
-  CompensationChoice choice;
+  calibration::CompensationChoice choice;
   bool force = false, unconfirmed = false;
 };
 
@@ -55,18 +55,31 @@ ExitCode compensate(Options o) {
   o.choice.step = measure(o.step, table.position_si_unit);
   o.choice.reference = measure(o.reference, table.position_si_unit);
   o.choice.at_reference = !o.reference.empty();
-  const std::string text = compensation_text(table, o.choice);
+  const std::string text = calibration::compensation_text(table, o.choice);
   if (o.out.empty())
     std::cout << text;
   else
     write_table(o.out, text, o.force);
   std::cerr << fmt::format("holds: {}\n", fmt::join(together(table.holds), ", "));
   for (const auto& left : table.left_out) std::cerr << fmt::format("left out: {} {}\n", left.name, left.why);
-  const auto& formats = compensation_formats();
-  const auto format = std::ranges::find(formats, o.choice.format, &CompensationFormat::name);
+  const auto& formats = calibration::compensation_formats();
+  const auto format = std::ranges::find(formats, o.choice.format, &calibration::CompensationFormat::name);
   if (!format->check.empty()) std::cerr << fmt::format("prove the sign on the machine: {}\n", format->check);
   if (!o.out.empty()) std::cerr << "written: " << o.out << '\n';
   return ExitCode::done;
+}
+
+/// An option that the format has no place for would be ignored.
+void require_place(const CLI::App& command, const std::string& format) {
+  const auto& known =
+      *std::ranges::find(calibration::compensation_formats(), format, &calibration::CompensationFormat::name);
+  for (const std::string_view option : {"axis", "step", "reference", "resolution", "negate"})
+    if (command.count(fmt::format("--{}", option)) > 0 &&
+        std::ranges::find(known.options, option) == known.options.end())
+      throw InputError(fmt::format("--{} says nothing to the format {}", option, format),
+                       known.options.empty() ? "its table is written as measured"
+                                             : fmt::format("it knows --{}", fmt::join(known.options, ", --")),
+                       "leave it out, or use another --format");
 }
 
 } // namespace
@@ -77,7 +90,7 @@ void add_compensate(CLI::App& app, Action& action) {
   const auto o = std::make_shared<Options>();
   std::vector<std::string> formats;
   std::string meanings;
-  for (const auto& f : compensation_formats()) {
+  for (const auto& f : calibration::compensation_formats()) {
     formats.push_back(f.name);
     meanings += fmt::format("\n  {}: {}", f.name, f.meaning);
   }
@@ -102,7 +115,8 @@ void add_compensate(CLI::App& app, Action& action) {
   command->add_flag("--unconfirmed", o->unconfirmed, "also what held-out readings could neither confirm nor reject");
   add_force(*command, o->force);
   add_external(*command);
-  command->callback([=, &action] { action = [=] { return compensate(*o); }; });
+  command->callback(
+      [=, &action] { action = [=] { return require_place(*command, o->choice.format), compensate(*o); }; });
 }
 
 } // namespace gumshoe::cli

@@ -1,4 +1,4 @@
-#include "cli/compensation_files.h"
+#include "calibration/compensation_files.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,10 +8,8 @@
 
 #include "base/error.h"
 
-namespace gumshoe::cli {
+namespace gumshoe::calibration {
 namespace {
-
-using calibration::Compensation;
 
 /// One position with the errors in both directions, in the control's unit.
 struct Point {
@@ -128,11 +126,11 @@ private:
                     "# direction: from which the position was reached, 1 upwards, -1 downwards, 0 either; u: "
                     "standard uncertainty of the error\n"
                     "# between the positions linear; beyond them nothing is known\n"
-                    "position_{},direction,error_{},correction_{},u_{},readings\n",
+                    "position_{},direction,error_{},correction_{},u_{}\n",
                     unit(), e, e, e);
     for (const auto& row : t_.rows)
-      out += fmt::format("{:.10g},{},{:.4f},{:.4f},{:.4f},{}\n", position(row.position), row.direction,
-                         row.error * factor, -row.error * factor + 0.0, row.u * factor, row.readings);
+      out += fmt::format("{:.10g},{},{:.4f},{:.4f},{:.4f}\n", position(row.position), row.direction, row.error * factor,
+                         -row.error * factor + 0.0, row.u * factor);
     return out;
   }
 
@@ -227,19 +225,31 @@ private:
 
 const std::vector<CompensationFormat>& compensation_formats() {
   static const std::vector<CompensationFormat> all{
-      {"csv", "error, correction and u at every position and direction", ""},
-      {"linuxcnc", "COMP_FILE_TYPE = 0: the actual positions, upwards and downwards",
-       "with one row at 100 mm of 100.010 the joint must be commanded to 99.990"},
-      {"linuxcnc-trim", "COMP_FILE_TYPE = 1: corrections, added to the command, upwards and downwards",
-       "with one row at 100 mm of 0.010 the joint must be commanded to 100.010"},
-      {"sinumerik-eec", "encoder errors of one axis: error, one table for both directions, equidistant",
-       "with 0.010 at one point the axis must move 0.010 in the negative direction there"},
-      {"sinumerik-cec", "sag tables of one axis: error, a table for each direction, equidistant",
-       "with 0.010 at one point the axis must move 0.010 in the negative direction there; else change the sign"},
-      {"isg", "volumetric table of ISG and Beckhoff: error E_XX of ISO 230-1, mean of both directions",
-       "with 0.010 at one point the axis must move 0.010 in the negative direction there; else use --negate"},
-      {"etalon", "exchange text of Etalon: error E_XX of ISO 230-1, mean of both directions",
-       "with 0.010 at one point the axis must move 0.010 in the negative direction there; else use --negate"}};
+      {"csv", "error, correction and u at every position and direction", "", {}},
+      {"linuxcnc",
+       "COMP_FILE_TYPE = 0: the actual positions, upwards and downwards",
+       "with one row at 100 mm of 100.010 the joint must be commanded to 99.990",
+       {"step", "resolution"}},
+      {"linuxcnc-trim",
+       "COMP_FILE_TYPE = 1: corrections, added to the command, upwards and downwards",
+       "with one row at 100 mm of 0.010 the joint must be commanded to 100.010",
+       {"step", "resolution"}},
+      {"sinumerik-eec",
+       "encoder errors of one axis: error, one table for both directions, equidistant",
+       "with 0.010 at one point the axis must move 0.010 in the negative direction there",
+       {"axis", "step", "reference", "resolution"}},
+      {"sinumerik-cec",
+       "sag tables of one axis: error, a table for each direction, equidistant",
+       "with 0.010 at one point the axis must move 0.010 in the negative direction there; else change the sign",
+       {"axis", "step", "reference", "resolution"}},
+      {"isg",
+       "volumetric table of ISG and Beckhoff: error E_XX of ISO 230-1, mean of both directions",
+       "with 0.010 at one point the axis must move 0.010 in the negative direction there; else use --negate",
+       {"axis", "step", "resolution", "negate"}},
+      {"etalon",
+       "exchange text of Etalon: error E_XX of ISO 230-1, mean of both directions",
+       "with 0.010 at one point the axis must move 0.010 in the negative direction there; else use --negate",
+       {"axis", "step", "resolution", "negate"}}};
   return all;
 }
 
@@ -247,4 +257,4 @@ std::string compensation_text(const Compensation& table, const CompensationChoic
   return Writer(table, choice).write();
 }
 
-} // namespace gumshoe::cli
+} // namespace gumshoe::calibration

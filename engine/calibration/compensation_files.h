@@ -1,16 +1,18 @@
 #pragma once
 /// Tables of compensation as controls read them. Error: actual minus commanded; correction: commanded minus actual.
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "calibration/compensation.h"
 
-namespace gumshoe::cli {
+namespace gumshoe::calibration {
 
 struct CompensationFormat {
-  std::string name;    ///< of --format
-  std::string meaning; ///< the sign of what is written, and what directions become
-  std::string check;   ///< one step that shows on the machine that the sign is right
+  std::string name;                      ///< of --format
+  std::string meaning;                   ///< the sign of what is written, and what directions become
+  std::string check;                     ///< one step that shows on the machine that the sign is right
+  std::vector<std::string_view> options; ///< members of CompensationChoice that count: axis, step, reference, ...
 };
 
 /// Every format there is.
@@ -28,6 +30,6 @@ struct CompensationChoice {
 
 /// The file's text. Throws InputError where the format cannot hold the table: positions that are not equidistant, too
 /// many rows, a direction that was not measured.
-std::string compensation_text(const calibration::Compensation& table, const CompensationChoice& choice);
+std::string compensation_text(const Compensation& table, const CompensationChoice& choice);
 
-} // namespace gumshoe::cli
+} // namespace gumshoe::calibration
