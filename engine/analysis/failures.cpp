@@ -60,7 +60,7 @@ private:
   std::function<void(std::uint64_t, std::size_t, double*)> draw_;
 };
 
-/// Of none among n drawn: an upper limit with a confidence of 95 % is 3 / n.
+/// Share of samples; where none of n lies there, the upper 95 % confidence limit 3 / n.
 std::string share_text(std::size_t inside, std::size_t drawn) {
   const double percent = 100.0 / static_cast<double>(drawn);
   return inside > 0 ? fmt::format("{:.2g} %", percent * static_cast<double>(inside))

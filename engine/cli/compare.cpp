@@ -68,6 +68,9 @@ std::string verdict(const Agreement& a) {
                            : "the results differ by more than their uncertainties explain (|E_n| > 1)";
 }
 
+/// To the two decimals that are printed; never -0.
+double rounded(double e_n) { return std::round(e_n * 100) / 100 + 0.0; }
+
 void print(const Agreement& a) {
   const auto& d = a.difference;
   const auto shown = [&](double x) { return units::from_si(x, d.unit, d.si_unit, units::Kind::difference); };
@@ -76,7 +79,7 @@ void print(const Agreement& a) {
   std::cout << fmt::format("{}: after - before = {}{}", d.name, fixed(shown(d.difference), digits), unit);
   if (d.expanded_uncertainty > 0)
     std::cout << fmt::format(", U = {}{}, E_n = {:.2f}", fixed(shown(d.expanded_uncertainty), digits), unit,
-                             d.normalised_error);
+                             rounded(d.normalised_error));
   std::cout << ": " << verdict(a) << '\n';
   for (const auto& [when, s] : {std::pair("before", &a.before), {"after", &a.after}})
     if (!s->certificate.empty()) std::cout << fmt::format("  {}: {}\n", when, s->certificate);

@@ -137,7 +137,7 @@ std::string Gathering::why_useless(const Found& found) const {
   }
 }
 
-/// Of several files with the same shard one that can be used is enough: they hold the same numbers.
+/// Several files may hold the same shard. One that can be used is enough, because their numbers are equal.
 void Gathering::place(const Found& found) {
   if (good_.contains(found.number)) return;
   const std::string why = why_useless(found);

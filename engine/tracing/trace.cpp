@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/units.h"
+#include "scenario/document.h"
 #include "tracing/campaigns/scores.h"
 #include "tracing/candidates/extended_scenario.h"
 #include "tracing/criteria.h"
@@ -18,15 +19,23 @@
 namespace gumshoe::tracing {
 namespace {
 
+/// Whether a key or a text of the document is this name; comments are not read.
+bool speaks_of(const scenario::Node& node, std::string_view name) {
+  return node.text == name ||
+         std::ranges::any_of(node.items, [&](const auto& item) { return speaks_of(item, name); }) ||
+         std::ranges::any_of(node.members, [&](const auto& m) { return m.key == name || speaks_of(m.value, name); });
+}
+
 /// Says what the design of the data rules out, whatever the readings are.
 void state_what_design_rules_out(const TraceContext& c, const scenario::Scenario& s, Trace& out) {
   const ModelCard& card = *c.experiment.model().card;
+  const scenario::Node document = scenario::parse_document(s.text, s.file);
   out.statements.insert(out.statements.end(), c.observations.statements.begin(), c.observations.statements.end());
   for (std::size_t i = 0; i < card.conditions.size() && s.readings.size() > 1; ++i) {
     const double first = s.readings.front().conditions[i];
     if (!std::ranges::all_of(s.readings, [&](const auto& r) { return r.conditions[i] == first; })) continue;
     // One that nobody spoke of is not missed.
-    if (first == card.conditions[i].default_value && s.text.find(card.conditions[i].name) == std::string::npos) continue;
+    if (first == card.conditions[i].default_value && !speaks_of(document, card.conditions[i].name)) continue;
     const std::string unit(card.conditions[i].unit);
     out.statements.push_back(
         fmt::format("{} is {:.6g}{} in every reading; an effect that grows with it cannot be distinguished from a "

@@ -16,26 +16,7 @@ import numpy as np
 
 from program import GUMSHOE, ROOT, SCENARIO, InFolder, complaint, gumshoe
 from sealed import record, reseal
-
-SAMPLES = 40_000
-# Blocks of 2,048 samples, a tenth of a second each; fast for a few points.
-SLOW = """schema = 1
-[model]
-name = "command"
-command = ["python3", "slow.py"]
-batch = 2048
-[model.measurands]
-y = "mm"
-[quantities]
-a = { value = "1 mm", u = "1 um" }
-[run]
-samples = 40000
-"""
-SLOW_PROGRAM = """import sys, time
-rows = sys.stdin.read().split()[2:]
-time.sleep(0.1 if len(rows) > 100 else 0)
-print("y (mm)", *rows, sep="\\n")
-"""
+from slow_model import SAMPLES, SLOW, SLOW_PROGRAM
 
 
 def put(path, at, data):

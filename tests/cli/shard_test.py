@@ -19,6 +19,7 @@ import h5py
 
 from program import GUMSHOE, ROOT, SCENARIO, InFolder, complaint, gumshoe
 from sealed import record, reseal
+from slow_model import SLOW, SLOW_PROGRAM
 
 FORMULA = """schema = 1
 [model]
@@ -32,24 +33,6 @@ b = { value = "2", u = "0.1" }
 [run]
 samples = 20_001
 max_failed_share = 0.1
-"""
-# Blocks of 2,048 samples, a tenth of a second each; fast for a few points.
-SLOW = """schema = 1
-[model]
-name = "command"
-command = ["python3", "slow.py"]
-batch = 2048
-[model.measurands]
-y = "mm"
-[quantities]
-a = { value = "1 mm", u = "1 um" }
-[run]
-samples = 40000
-"""
-SLOW_PROGRAM = """import sys, time
-rows = sys.stdin.read().split()[2:]
-time.sleep(0.1 if len(rows) > 100 else 0)
-print("y (mm)", *rows, sep="\\n")
 """
 SAME_DATE = {**os.environ, "SOURCE_DATE_EPOCH": "0"}  # no host and no duration: equal runs give equal bytes
 

@@ -1,6 +1,7 @@
 #pragma once
 /// Errors of a linear axis along its travel. The reversal error that is the same everywhere: slide_reversal.
 #include "chain/linear_axis.h"
+#include "chain/warming.h"
 #include "effects/effect.h"
 #include "math/dual_order.h"
 
@@ -83,7 +84,7 @@ struct LinearDrift {
       .quantities = quantities};
   template <class T> static void apply(const T* q, chain::ProbingEvent<T>& event) {
     auto& slide = event.axis->slide;
-    slide.error = slide.error + (q[0] * event.time + q[1] * (1.0 - num::exp(-(event.time / q[2]))));
+    slide.error = slide.error + chain::warming(q[0], q[1], q[2], event.time);
   }
 };
 

@@ -37,12 +37,6 @@ struct PretravelLobing {
 /// Centre of two touches from opposite sides along X: (x_1 + x_2) / 2, of which each is a pretravel f(u) too far along
 /// its approach u. Lobes are odd, f(-u) = -f(u), so the centre lies f(u) too far; what is even cancels.
 struct CentreLobing {
-  static constexpr QuantityCard quantities[] = {
-      {.name = "cosine", .unit = "um", .si_unit = "m", .limits = {-1e-3, 1e-3}, .symbol = "a_3",
-       .meaning = "lobe for an approach along the probe's X", .role = Role::pair, .typical = {1e-6, 10e-6}},
-      {.name = "sine", .unit = "um", .si_unit = "m", .limits = {-1e-3, 1e-3}, .symbol = "a_3",
-       .meaning = "lobe for an approach 30 deg from X towards Y", .role = Role::pair, .typical = {1e-6, 10e-6}},
-  };
   static constexpr EffectCard card{
       .name = "centre_lobing",
       .title = "Lobing of centres found from four touches",
@@ -53,7 +47,7 @@ struct CentreLobing {
       .adds = "x.error -= lobes of an approach along X; y.error -= lobes of one along Y",
       .confused_with = "third harmonics of C; c_radial_motion and squareness over few angles",
       .source = "Estler et al. 1996, Precision Engineering (three lobes of a kinematic seat); the middles: derived",
-      .quantities = quantities};
+      .quantities = PretravelLobing::quantities};
   template <class T> static void apply(const T* q, chain::ProbingEvent<T>& event) {
     const T B = event.rotary->B.angle, C = event.rotary->C.angle;
     const T cB = num::cos(B), sB = num::sin(B), cC = num::cos(C), sC = num::sin(C);

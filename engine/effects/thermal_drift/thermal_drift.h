@@ -1,5 +1,6 @@
 #pragma once
 #include "chain/probing_event.h"
+#include "chain/warming.h"
 #include "effects/effect.h"
 
 namespace gumshoe::effects {
@@ -35,7 +36,7 @@ struct ThermalDrift {
       .source = "engineering knowledge; ISO 230-3",
       .quantities = quantities};
   template <class T> static void apply(const T* q, chain::ProbingEvent<T>& event) {
-    const T rise = 1.0 - num::exp(-(event.time / q[4]));
+    const T rise = chain::first_order_rise(event.time, q[4]);
     event.x.error = event.x.error + (q[0] * event.time + q[2] * rise);
     event.y.error = event.y.error + (q[1] * event.time + q[3] * rise);
   }

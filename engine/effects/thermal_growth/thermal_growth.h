@@ -1,5 +1,6 @@
 #pragma once
 #include "chain/probing_event.h"
+#include "chain/warming.h"
 #include "effects/effect.h"
 
 namespace gumshoe::effects {
@@ -24,7 +25,7 @@ struct ThermalGrowth {
       .source = "engineering knowledge; Fang 2022, section 2.5 for the kinematic chain; ISO 230-3",
       .quantities = quantities};
   template <class T> static void apply(const T* q, chain::ProbingEvent<T>& event) {
-    event.z.error = event.z.error - (q[0] * event.time + q[1] * (1.0 - num::exp(-(event.time / q[2]))));
+    event.z.error = event.z.error - chain::warming(q[0], q[1], q[2], event.time);
   }
 };
 

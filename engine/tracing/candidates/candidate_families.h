@@ -5,6 +5,10 @@
 
 namespace gumshoe::tracing {
 
+/// Columns by reading in the order of measurement, zero where they do not act.
+/// @param mask  readings of the scenario at which they act; null: all
+Matrix masked(const Observations& observations, Matrix columns, const std::vector<bool>* mask);
+
 /// Makes candidates at a point; `step` and `skip` as in physical_candidates.
 class CandidateMaker {
 public:

@@ -17,15 +17,13 @@ double alike(const Vector& a, const Vector& b) {
   return lengths > 0 ? a.dot(b) / lengths : 0;
 }
 
-/// One column, in the order of measurement, zero at readings outside the mask.
-Matrix masked(const Observations& o, Matrix one, const std::vector<bool>* mask) {
-  if (mask)
-    for (Index i = 0; i < one.rows(); ++i)
-      if (!(*mask)[index(i) / o.indications]) one(i, 0) = 0;
-  return in_sequence(o, one);
-}
-
 } // namespace
+
+Matrix masked(const Observations& o, Matrix columns, const std::vector<bool>* mask) {
+  for (Index i = 0; i < columns.rows() && mask; ++i)
+    if (!(*mask)[index(i) / o.indications]) columns.row(i).setZero();
+  return in_sequence(o, columns);
+}
 
 CandidateMaker::CandidateMaker(const propagation::Experiment& e, const Simulator& s, const Points& p,
                                const Observations& o, double step, const std::function<bool(const Candidate&)>& skip)
@@ -67,8 +65,8 @@ void CandidateMaker::add_single(Candidate a, std::size_t quantity, const std::ve
 Amplitude CandidateMaker::amplitude(std::size_t quantity, const QuantityCard& card) const {
   const auto& q = experiment.scenario().quantities[quantity];
   const auto& [low, high, note, positive] = card.typical;
-  return {quantity,        std::string(card.name), q.unit, q.si_unit, q.name, {}, card.limits.low,
-          card.limits.high, high,                   low,    positive};
+  return {quantity,        std::string(card.name), q.unit, q.si_unit, q.name,  {},
+          card.limits.low, card.limits.high,       high,   low,       positive};
 }
 
 std::vector<Candidate> stated_candidates(const CandidateMaker& make) {
@@ -84,8 +82,7 @@ std::vector<Candidate> stated_candidates(const CandidateMaker& make) {
     size.scenario_name = effect.name + ".size";
     Matrix column = Matrix::Zero(index(make.simulator.rows()), 1);
     for (std::size_t r = 0; r < o.readings; ++r)
-      for (const auto& part : effect.parts)
-        column(index(r * o.indications + part.indication), 0) = part.loading[r];
+      for (const auto& part : effect.parts) column(index(r * o.indications + part.indication), 0) = part.loading[r];
     Candidate one;
     one.family = Family::stated;
     one.name = effect.name;

@@ -54,10 +54,7 @@ void drop_still(Candidate& a) {
 void add(const CandidateMaker& make, Candidate one, const Group& group, const std::vector<bool>* mask,
          std::vector<Candidate>& found) {
   if (group.count == 1) return make.add_single(std::move(one), group.first, mask, found);
-  Matrix both = make.moved.tangents.middleCols(index(group.first), 2);
-  for (Index row = 0; row < both.rows() && mask; ++row)
-    if (!(*mask)[index(row) / make.observations.indications]) both.row(row).setZero();
-  one.columns = in_sequence(make.observations, both);
+  one.columns = masked(make.observations, make.moved.tangents.middleCols(index(group.first), 2), mask);
   drop_still(one);
   make.add(std::move(one), found);
 }

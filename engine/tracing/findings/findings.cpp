@@ -12,6 +12,7 @@
 #include "tracing/findings/splitting.h"
 #include "tracing/judgement/decisions.h"
 #include "tracing/judgement/evidence.h"
+#include "tracing/judgement/in_place_of_scatter.h"
 
 namespace gumshoe::tracing {
 namespace {
@@ -96,7 +97,7 @@ void describe_class(const TraceContext& c, const Search& s, const SearchFinding&
   if (f.suggestion.empty()) f.remarks.push_back("no tried change of a condition would distinguish them");
 }
 
-/// The fit of what has a name alone, if there are shapes beside it.
+/// The fit with the named terms alone; none if there are no shapes.
 std::optional<JointFit> without_shapes(const TraceContext& c, const JointFit& fit) {
   std::vector<std::size_t> shapes;
   for (std::size_t t = 0; t < fit.terms.size(); ++t)

@@ -123,8 +123,8 @@ JointFit Fitter::fit(const std::vector<Term>& terms, double noise, const JointFi
   fit.drawn = start ? start->drawn : Vector::Zero(index(draws_.size()));
   fit.terms = terms;
   move_draws(fit, released_draws(fit));
-  // The scale of a declared noise is sought from the declared one on, as when the traced scenario is traced: from a larger
-  // one, what an outlier is and what declared draws explain may settle elsewhere.
+  // The scale of a declared noise is sought from the declared one on, as when the traced scenario is traced: from a
+  // larger one, what an outlier is and what declared draws explain may settle elsewhere.
   fit.noise = noise > 0 ? noise : start && !noise_declared_ ? start->noise : 1;
   for (Term& t : fit.terms) {
     for (const auto& [q, value] : t.candidate.held)
@@ -213,8 +213,8 @@ void Fitter::converge(JointFit& fit, double noise) const {
 Fitter::Settled Fitter::settled_columns(const JointFit& fit) const {
   Settled out;
   const Matrix& fixed = fit.design.fixed;
-  for (Index j = 0; j < std::min(fixed.cols(), index(unknowns_.size())); ++j)
-    if (std::ranges::none_of(rows_, [&](Index r) { return fixed(r, j) != 0; })) out.columns.push_back(j);
+  out.columns = insensitive(fit.design, rows_);
+  std::erase_if(out.columns, [&](Index j) { return j >= index(unknowns_.size()); });
   for (Index r = 0; r < fixed.rows(); ++r)
     if (std::ranges::any_of(out.columns, [&](Index j) { return fixed(r, j) != 0; })) out.rows.push_back(r);
   return out;

@@ -117,12 +117,14 @@ private:
 
 } // namespace
 
-double Null::p(double statistic) const {
+double Null::single(double statistic) const {
   if (!(mean > 0) || !(variance > 0)) return 1;
   const Gamma gamma(mean * mean / variance, variance / mean);
   if (!(statistic > 0)) return 1;
-  return std::clamp(rarity * boost::math::cdf(boost::math::complement(gamma, statistic)), 1e-300, 1.0);
+  return std::max(boost::math::cdf(boost::math::complement(gamma, statistic)), 1e-300);
 }
+
+double Null::p(double statistic) const { return std::min(1.0, rarity * single(statistic)); }
 
 double Null::quantile(double p) const {
   if (!(mean > 0) || !(variance > 0)) return std::numeric_limits<double>::infinity();
@@ -190,8 +192,8 @@ Assessment assess_surely(const Scan& scan, const Vector& residuals, int draws, s
   };
   for (double times = 1;; times *= criteria.more_draws) {
     const double n = times * draws;
-    Assessment out = assess(scan, residuals, static_cast<int>(n), seed, alpha, declared, response, repeats, freedom,
-                            rarity);
+    Assessment out =
+        assess(scan, residuals, static_cast<int>(n), seed, alpha, declared, response, repeats, freedom, rarity);
     if (times >= criteria.most_draws || !(unsure(out.p_anything, n) || unsure(out.p_signature, n))) return out;
   }
 }

@@ -14,8 +14,9 @@ struct Null {
   /// A candidate that is so many times rarer than others: its p-values count so many times (weighted p-values, Genovese
   /// et al. 2006, Biometrika). All together keep the false-alarm rate.
   double rarity = 1;
-  double p(double statistic) const; ///< p-value of a statistic as large, times the rarity
-  double quantile(double p) const;  ///< statistic that is exceeded with this probability, over the rarity
+  double single(double statistic) const; ///< p-value of a statistic as large
+  double p(double statistic) const;      ///< the same, times the rarity
+  double quantile(double p) const;       ///< statistic that is exceeded with this probability, over the rarity
 };
 
 struct Assessment {

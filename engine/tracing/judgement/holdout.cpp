@@ -12,12 +12,8 @@ namespace {
 
 /// The block's offsets: columns to which no training row is sensitive.
 std::vector<Index> offsets_of(const Design& d, const std::vector<Index>& train, const std::vector<Index>& test) {
-  const auto sensitive = [&](const std::vector<Index>& rows, Index j) {
-    return std::ranges::any_of(rows, [&](Index row) { return d.fixed(row, j) != 0; });
-  };
   std::vector<Index> out;
-  for (Index j = 0; j < d.fixed.cols(); ++j)
-    if (!sensitive(train, j) && sensitive(test, j)) out.push_back(j);
+  std::ranges::set_difference(insensitive(d, train), insensitive(d, test), std::back_inserter(out));
   return out;
 }
 

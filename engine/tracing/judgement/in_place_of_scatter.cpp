@@ -18,6 +18,28 @@ bool is_plain(const Candidate& a, const Grouping& group, const Observations& o) 
 
 } // namespace
 
+std::optional<SearchFinding> scatter_shown(const TraceContext& c, const JointFit& fit, const Assessment& a,
+                                           std::size_t findings) {
+  SearchFinding found;
+  found.finding.kind = Kind::scatter;
+  if (const auto component = scatter_found(a, c.alpha)) {
+    const Grouping& group = c.observations.replicate_groups[*component];
+    found.component = static_cast<int>(*component);
+    found.finding.p_value = a.p_component[*component];
+    found.finding.depends_on = group.labels;
+    found.finding.members = {"scatter:" + group.name};
+    return found;
+  }
+  // Noise of single readings, correlation and components apart: that is what would be declared.
+  const double freedom = static_cast<double>(c.fitter.rows().size()) - static_cast<double>(fit.design.fixed.cols());
+  const double scale = fit.noise * std::sqrt(a.data.variance[0]), surely = scale * (1 - 2 / std::sqrt(2 * freedom));
+  if (!(surely > 1) || !larger_noise_found(a, c.alpha, findings)) return std::nullopt;
+  found.finding.p_value = a.p_noise_overall;
+  found.finding.depends_on = {"reading"};
+  found.finding.members = {"scatter:reading"};
+  return found;
+}
+
 InPlaceOfScatter in_place_of_scatter(const TraceContext& c, const Evidence& e, const SearchFinding& scatter) {
   const WithoutScatter without(c, e);
   const auto component = index(scatter.component);

@@ -1,9 +1,14 @@
 #pragma once
-/// What explains a variance component that was found.
+/// A variance component, and what explains it.
 #include "tracing/judgement/evidence.h"
 #include "tracing/judgement/search.h"
 
 namespace gumshoe::tracing {
+
+/// The variance component or the larger noise that an assessment shows; none: neither.
+/// @param fit  the fit that was assessed
+std::optional<SearchFinding> scatter_shown(const TraceContext& context, const JointFit& fit,
+                                           const Assessment& assessment, std::size_t findings);
 
 struct InPlaceOfScatter {
   std::optional<std::size_t> shape;   ///< candidate: a plain shape is there, and no scatter
@@ -15,10 +20,10 @@ struct InPlaceOfScatter {
 
 /// A slow drift looks like scatter from one clamping to the next: given the scatter it is not worth its name. Effects
 /// that explain as much without the component, and predict held-out readings better, form a class with it. Quantities
-/// declared, and effects, by label do not: of so many, some look like scatter by chance. Where the best of them explains
-/// more than scatter would seldom let it, scatter is no member. One group that differs from all others, which agree,
-/// explains more than scatter, and so does a temperature that was recorded: plain shapes, found where scatter would
-/// seldom let them.
+/// declared, and effects, by label do not: of so many, some look like scatter by chance. Where the best of them
+/// explains more than scatter would seldom let it, scatter is no member. One group that differs from all others, which
+/// agree, explains more than scatter, and so does a temperature that was recorded: plain shapes, found where scatter
+/// would seldom let them.
 InPlaceOfScatter in_place_of_scatter(const TraceContext& context, const Evidence& evidence,
                                      const SearchFinding& scatter);
 

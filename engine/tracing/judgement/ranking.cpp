@@ -28,7 +28,7 @@ std::vector<RankedCandidate> ranking(const Scan& scan, const Assessment& assessm
     line.family = name(one.family);
     line.parameters = static_cast<int>(one.columns.cols());
     line.statistic = assessment.data.ratio(index(a), 0);
-    line.p_single = assessment.p[a] / assessment.null[a].rarity;
+    line.p_single = assessment.null[a].single(line.statistic);
     line.identifiable = scan.identifiable(a);
     if (line.identifiable < criteria.mostly_absorbed && scan.absorbed_by(a) >= 0) {
       const auto by = index(scan.absorbed_by(a)), fixed = fit.fixed_names.size();

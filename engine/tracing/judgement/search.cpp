@@ -4,10 +4,8 @@
 #include <cmath>
 #include <map>
 #include <set>
-#include <tuple>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "tracing/criteria.h"
 #include "tracing/judgement/beside.h"
@@ -168,8 +166,8 @@ private:
     // What only one rod or one tool has asks for more: it must lead what all have.
     auto physical = best_of([](const Candidate& a) { return a.physical() && !a.in_part(); }, criteria.most_refitted);
     const auto parts = best_of([](const Candidate& a) { return a.in_part(); }, 1);
-    if (!parts.empty() &&
-        (physical.empty() || evidence_->score(parts[0]) > evidence_->score(physical[0]) + 2 * std::log(criteria.rarity_of_part)))
+    if (!parts.empty() && (physical.empty() || evidence_->score(parts[0]) > evidence_->score(physical[0]) +
+                                                                                2 * std::log(criteria.rarity_of_part)))
       physical = best_of([](const Candidate& a) { return a.physical(); }, criteria.most_refitted);
     std::vector<Trial> out;
     for (const std::size_t a : physical) {
@@ -224,7 +222,8 @@ private:
   bool take_pair(const std::vector<std::size_t>& plain) {
     double best = 0;
     std::size_t pair[2] = {0, 0};
-    for (const std::size_t a : best_of([](const Candidate& x) { return x.physical() && !x.in_part(); }, criteria.most_paired))
+    for (const std::size_t a :
+         best_of([](const Candidate& x) { return x.physical() && !x.in_part(); }, criteria.most_paired))
       for (std::size_t b = 0; b < evidence_->candidates().size(); ++b) {
         if (!evidence_->testable(b) || candidate(b).in_part() || candidate(a).name == candidate(b).name) continue;
         if (const double s = evidence_->pair_score(a, b); s > best) best = s, pair[0] = a, pair[1] = b;
@@ -345,63 +344,12 @@ private:
   Search out_;
   const Evidence* evidence_ = nullptr; ///< of this round
   std::size_t rounds_ = 0;
-  std::set<std::string> dropped_;   ///< names of candidates that another finding made superfluous
+  std::set<std::string> dropped_; ///< names of candidates that another finding made superfluous
   std::map<std::size_t, std::string> outcomes_;
 };
 
 } // namespace
 
 Search search(const TraceContext& context) { return Searcher(context).run(); }
-
-Search without_findings(Search search) {
-  search.found = search.base;
-  search.findings.clear();
-  return search;
-}
-
-std::optional<SearchFinding> scatter_shown(const TraceContext& c, const JointFit& fit, const Assessment& a,
-                                           std::size_t findings) {
-  SearchFinding found;
-  found.finding.kind = Kind::scatter;
-  if (const auto component = scatter_found(a, c.alpha)) {
-    const Grouping& group = c.observations.replicate_groups[*component];
-    found.component = static_cast<int>(*component);
-    found.finding.p_value = a.p_component[*component];
-    found.finding.depends_on = group.labels;
-    found.finding.members = {"scatter:" + group.name};
-    return found;
-  }
-  // Noise of single readings, correlation and components apart: that is what would be declared.
-  const double freedom = static_cast<double>(c.fitter.rows().size()) - static_cast<double>(fit.design.fixed.cols());
-  const double scale = fit.noise * std::sqrt(a.data.variance[0]), surely = scale * (1 - 2 / std::sqrt(2 * freedom));
-  if (!(surely > 1) || !larger_noise_found(a, c.alpha, findings)) return std::nullopt;
-  found.finding.p_value = a.p_noise_overall;
-  found.finding.depends_on = {"reading"};
-  found.finding.members = {"scatter:reading"};
-  return found;
-}
-
-std::vector<std::string> step_back(const TraceContext& c, Search& s) {
-  s.stages.pop_back();
-  const Stage& left = s.stages.back();
-  std::vector<std::string> dropped;
-  for (const SearchFinding& f : s.findings) {
-    const auto& [kind, name, members] = std::tie(f.finding.kind, f.finding.described_by, f.finding.members);
-    const bool known = std::ranges::any_of(left.findings, [&](const SearchFinding& other) {
-      return std::tie(other.finding.kind, other.finding.described_by, other.finding.members) ==
-             std::tie(kind, name, members);
-    });
-    if (!known) dropped.push_back(kind == Kind::not_in_catalogue ? name : fmt::format("{}", fmt::join(members, " | ")));
-  }
-  s.findings = left.findings;
-  s.dropped = left.dropped;
-  s.found = s.stages.back().fit;
-  s.capped = false;
-  s.last = Evidence(c, s.found, s.findings.size(), {}).assessment();
-  if (look_for_scatter(s.last, c.alpha))
-    if (const auto scatter = scatter_shown(c, s.found, s.last, s.findings.size())) s.findings.push_back(*scatter);
-  c.fitter.widen_jumping(s.found);
-  return dropped;
-}
 
 } // namespace gumshoe::tracing

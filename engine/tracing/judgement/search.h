@@ -44,9 +44,5 @@ Search search(const TraceContext& context);
 /// Drops all that was found in the last round, and tests anew whether what is left scatters.
 /// Names of the dropped findings. At least two rounds must have taken in terms.
 std::vector<std::string> step_back(const TraceContext& context, Search& search);
-/// The variance component or the larger noise that an assessment shows; none: neither.
-/// @param fit  the fit that was assessed
-std::optional<SearchFinding> scatter_shown(const TraceContext& context, const JointFit& fit,
-                                           const Assessment& assessment, std::size_t findings);
 
 } // namespace gumshoe::tracing

@@ -1,5 +1,7 @@
 #include "tracing/noise/design.h"
 
+#include <algorithm>
+
 #include "tracing/criteria.h"
 
 namespace gumshoe::tracing {
@@ -18,6 +20,13 @@ std::vector<CovarianceModel> covariance_models(const Design& d, std::size_t rows
           continue;
         for (int i = 0; i < static_cast<int>(d.indications); ++i) out.push_back({r, c, ratio, i});
       }
+  return out;
+}
+
+std::vector<Index> insensitive(const Design& d, const std::vector<Index>& rows) {
+  std::vector<Index> out;
+  for (Index j = 0; j < d.fixed.cols(); ++j)
+    if (std::ranges::none_of(rows, [&](Index row) { return d.fixed(row, j) != 0; })) out.push_back(j);
   return out;
 }
 

@@ -38,6 +38,9 @@ struct Design {
 /// that earlier ones explain is left out.
 std::vector<Index> independent(const Design& design, const std::vector<Index>& rows);
 
+/// Columns of Design::fixed to which none of the chosen rows is sensitive.
+std::vector<Index> insensitive(const Design& design, const std::vector<Index>& rows);
+
 /// Turns the variance component of a model into declared draws, one of each group and indication that it moves.
 void declare_scatter(Design& design, CovarianceModel& model);
 
