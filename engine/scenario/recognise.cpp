@@ -165,12 +165,17 @@ RecognisedColumn column_of(const RecognisedData& data, std::size_t c) {
     out.role = ColumnRole::temperature;
     out.why = "by its unit";
   }
-  if (out.role == ColumnRole::direction || (!out.number && out.role == ColumnRole::other)) {
+  if (out.role == ColumnRole::direction || out.role == ColumnRole::other) {
     out.words = signs(different);
+    // Numbers are a direction only where both signs are there: a column of ones may be anything.
+    const auto has = [&](double sign) {
+      return std::ranges::count(out.words, sign, [](const auto& w) { return w.second; }) > 0;
+    };
+    if (out.number && out.role == ColumnRole::other && !(has(1) && has(-1))) out.words.clear();
     if (out.words.empty() && out.role == ColumnRole::direction && !out.number) out.role = ColumnRole::other;
     if (!out.words.empty() && out.role == ColumnRole::other) {
       out.role = ColumnRole::direction;
-      out.why = "by its words";
+      out.why = out.number ? "by its signs" : "by its words";
     }
   }
   if (!out.number && (out.role == ColumnRole::other || out.role == ColumnRole::time)) {

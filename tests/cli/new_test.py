@@ -118,6 +118,14 @@ class New(InFolder):
         explained = gumshoe("check", "g.toml", "--explain", cwd=self.folder).stdout
         self.assertEqual(explained.count("one indication"), 6)
 
+    def test_a_column_of_both_signs_is_a_direction(self):
+        """Whatever its name; a column of ones is not."""
+        for signs, known in (((1, -1), True), ((1, 1), False)):
+            rows = ["x_mm,leg,side,d_um"] + [f"{x},{w},1,{0.01 * x + w}" for w in signs for x in range(0, 60, 10)]
+            (self.folder / "s.csv").write_text("\n".join(rows) + "\n")
+            self.new("--from", "s.csv", "--out", "s.toml", "--force")
+            self.assertEqual('direction = "leg"' in (self.folder / "s.toml").read_text(), known)
+
     def test_columns_of_a_model(self):
         (self.folder / "rods.csv").write_text("rod,spindle_z_mm,feed (mm/min)\na,-330.1,4\na,-330.2,4\nb,-331.0,8\nb,-331.1,8\n")
         self.assertIn("ready", self.new("rod_gauging", "--from", "rods.csv"))
