@@ -15,11 +15,11 @@
 #include "analysis/joint.h"
 #include "analysis/record.h"
 #include "analysis/rounding.h"
+#include "analysis/scale_points.h"
 #include "analysis/screening.h"
 #include "analysis/shapley.h"
 #include "analysis/sobol.h"
 #include "analysis/summary.h"
-#include "analysis/scale_points.h"
 #include "analysis/tails.h"
 #include "analysis/target.h"
 #include "base/instruction_set.h"
@@ -39,10 +39,10 @@ std::string statement(const Summary& s, const Budget& b, const Validation& v, do
   const int d = decimals_for(width(
       std::isfinite(s.standard_uncertainty) ? s.standard_uncertainty : 0.25 * (s.symmetric.high - s.symmetric.low)));
   constexpr std::string_view said_before = "no standard uncertainty: ";
-  const std::string why = s.warning.substr(std::min(s.warning.size(), s.warning.find(said_before) == s.warning.npos
-                                                                          ? std::size_t{0}
-                                                                          : s.warning.find(said_before) +
-                                                                                said_before.size()));
+  const std::string why =
+      s.warning.substr(std::min(s.warning.size(), s.warning.find(said_before) == s.warning.npos
+                                                      ? std::size_t{0}
+                                                      : s.warning.find(said_before) + said_before.size()));
   // An error is a difference of two heights: it converts by scale.
   std::string text = fmt::format("{} = {}{}", s.output.name,
                                  fixed(virtual_experiment ? width(s.estimate) : shown(s.estimate), d), unit);
@@ -58,7 +58,7 @@ std::string statement(const Summary& s, const Budget& b, const Validation& v, do
             (std::isfinite(s.standard_uncertainty) ? " (" + s.warning + ")" : std::string());
   else
     text += fmt::format("; the shortest {:.4g} % coverage interval is [{}, {}]{}", 100 * p,
-                      fixed(shown(s.shortest.low), d), fixed(shown(s.shortest.high), d), unit);
+                        fixed(shown(s.shortest.low), d), fixed(shown(s.shortest.high), d), unit);
   if (b.applicable && b.expanded_uncertainty > 0) {
     text += fmt::format(". GUM framework: U = {}{} with k = {:.2f}{}", fixed(width(b.expanded_uncertainty), d), unit,
                         b.coverage_factor,
@@ -178,6 +178,11 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, int th
   r.summaries.resize(outputs);
   r.budgets.resize(outputs);
   r.validations.resize(outputs);
+  const std::size_t measurands = e.measurands().size();
+  propagation::parallel_for(outputs / measurands, threads, [&](std::size_t reading) {
+    std::ranges::move(budgets(e, reading * measurands, s.analysis.coverage_probability),
+                      r.budgets.begin() + static_cast<std::ptrdiff_t>(reading * measurands));
+  });
   propagation::parallel_for(outputs, threads, [&](std::size_t o) {
     std::span<const double> values;
     if (samples.in_memory) values = samples.in_memory(o);
@@ -186,7 +191,7 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, int th
     const auto& output = e.outputs()[o];
     const double p = s.analysis.coverage_probability;
     Summary& summary = r.summaries[o] = summarise(output, values, p, threads);
-    const Budget& b = r.budgets[o] = budget(e, o, p);
+    const Budget& b = r.budgets[o];
     withhold(summary, without_variance(e, b), values, threads);
     if (s.run.design != scenario::Design::monte_carlo) drop_standard_errors(summary);
     r.validations[o] = validate(b, summary, p, s.analysis.validation_digits);
@@ -209,9 +214,10 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, int th
   if (const double least = 1 / (1 - s.analysis.coverage_probability), enough = 1e4 * least,
       trials = static_cast<double>(samples.status().size());
       s.run.adaptive.rule == scenario::StoppingRule::fixed && trials >= least && trials < enough)
-    r.notes.push_back(fmt::format("{} trials are fewer than the 10^4 / (1 - p) = {:.0f} of JCGM 101, 7.2.2: the coverage "
-                                  "intervals are known to their Monte Carlo standard errors only",
-                                  samples.status().size(), enough));
+    r.notes.push_back(
+        fmt::format("{} trials are fewer than the 10^4 / (1 - p) = {:.0f} of JCGM 101, 7.2.2: the coverage "
+                    "intervals are known to their Monte Carlo standard errors only",
+                    samples.status().size(), enough));
   if (s.run.design != scenario::Design::monte_carlo)
     r.notes.push_back(fmt::format(
         "design {}: its points are not independent, so that no Monte Carlo standard errors are given", r.design));

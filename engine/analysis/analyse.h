@@ -20,8 +20,8 @@ struct Samples {
 /// comparisons, printed values, statements. The bits do not depend on the number of threads.
 Results analyse(const propagation::Experiment& experiment, const Samples& samples, int threads);
 
-/// The result as JCGM 100, 7.2 states one, in one or two sentences: rounded by 7.2.6, in the unit shown to people. It says
-/// where the Monte Carlo method does not validate the GUM interval.
+/// The result as JCGM 100, 7.2 states one, in one or two sentences: rounded by 7.2.6, in the unit shown to people. It
+/// says where the Monte Carlo method does not validate the GUM interval.
 std::string statement(const Summary& summary, const Budget& budget, const Validation& validation,
                       double coverage_probability, bool virtual_experiment);
 

@@ -18,7 +18,11 @@ struct Derivatives {
   std::vector<double> third;        ///< [i][j]: d^3 f / dx_i dx_j^2, computed with `second` if not exact
 };
 
-/// Derivatives at the given point (Experiment::point). `second` costs a pass per pair of chunks of 8 quantities.
+/// Derivatives of every measurand at the given point (Experiment::point), in one evaluation of the model for all of
+/// them. `second` costs a pass per pair of chunks of 8 quantities.
+std::vector<Derivatives> differentiate(const propagation::Experiment& experiment, std::size_t reading,
+                                       const std::vector<double>& point, bool second);
+/// The same of one measurand.
 Derivatives differentiate(const propagation::Experiment& experiment, std::size_t reading, std::size_t measurand,
                           const std::vector<double>& point, bool second);
 

@@ -30,9 +30,11 @@ void exact_slopes(const propagation::Experiment& e, const std::vector<double>& x
   std::vector<double> variates(d);
   for (std::size_t i = 0; i < rows; ++i) {
     for (std::size_t v = 0; v < d; ++v) variates[v] = x[v * block + i];
+    std::vector<Derivatives> all;
     for (std::size_t o = 0; o < slopes.by.size(); ++o) {
       const std::size_t reading = e.outputs()[o].reading;
-      const Derivatives at = differentiate(e, reading, o % measurands, e.point(reading, variates.data()), false);
+      if (o % measurands == 0) all = differentiate(e, reading, e.point(reading, variates.data()), false);
+      const Derivatives& at = all[o % measurands];
       if (at.status != Status::ok) continue;
       for (std::size_t k = 0; k < slopes.reach[o].size(); ++k)
         slopes.by[o][k][first + i] = at.first[slopes.reach[o][k].quantity];

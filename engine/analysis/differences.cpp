@@ -55,32 +55,41 @@ bool is_kink(double up, double down, double half_up, double half_down, double f0
   return half > 0.75 * full && half > 0.01 * size && half > rounding(f0);
 }
 
-} // namespace
-
-Derivatives differences(const propagation::Experiment& e, std::size_t reading, std::size_t m, const Point& point,
-                        bool second) {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  const std::size_t n = point.size();
-  const std::vector<double> h = steps(e, reading, point);
+/// Where the model is evaluated, and by which point each derivative is found.
+struct Places {
   Stencil stencil;
-  std::vector<Line> lines(n);
+  std::vector<Line> lines;          ///< by quantity
+  std::vector<std::size_t> corners; ///< [i][j], i < j: first of ++ +- -+ --
+};
+
+Places places(const std::vector<double>& h, bool second) {
+  const std::size_t n = h.size();
+  Places out;
+  Stencil& stencil = out.stencil;
+  out.lines.resize(n);
   for (std::size_t q = 0; q < n; ++q)
     if (h[q] > 0)
-      lines[q] = {stencil.add({{q, h[q]}}), stencil.add({{q, -h[q]}}), stencil.add({{q, 0.5 * h[q]}}),
-                  stencil.add({{q, -0.5 * h[q]}})};
-  std::vector<std::size_t> corners(n * n, 0); // [i][j], i < j: first of ++ +- -+ --
-  if (second)
-    for (std::size_t i = 0; i < n; ++i)
-      for (std::size_t j = i + 1; j < n; ++j) {
-        if (h[i] == 0 || h[j] == 0) continue;
-        corners[i * n + j] = stencil.add({{i, h[i]}, {j, h[j]}});
-        stencil.add({{i, h[i]}, {j, -h[j]}});
-        stencil.add({{i, -h[i]}, {j, h[j]}});
-        stencil.add({{i, -h[i]}, {j, -h[j]}});
-      }
-  const propagation::Responses all = e.outputs_at(reading, point, stencil.points);
-  const auto f = [&](std::size_t i) { return all.status[i] == Status::ok ? all.at(i, m) : nan; };
+      out.lines[q] = {stencil.add({{q, h[q]}}), stencil.add({{q, -h[q]}}), stencil.add({{q, 0.5 * h[q]}}),
+                      stencil.add({{q, -0.5 * h[q]}})};
+  if (!second) return out;
+  out.corners.assign(n * n, 0);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = i + 1; j < n; ++j) {
+      if (h[i] == 0 || h[j] == 0) continue;
+      out.corners[i * n + j] = stencil.add({{i, h[i]}, {j, h[j]}});
+      stencil.add({{i, h[i]}, {j, -h[j]}});
+      stencil.add({{i, -h[i]}, {j, h[j]}});
+      stencil.add({{i, -h[i]}, {j, -h[j]}});
+    }
+  return out;
+}
 
+/// Derivatives of one measurand from its values f(place) at the stencil.
+template <class Value>
+Derivatives of_values(const Value& f, const Places& at, const std::vector<double>& h, bool second) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::size_t n = h.size();
+  const auto& lines = at.lines;
   Derivatives d;
   d.exact = false;
   d.value = f(0);
@@ -121,8 +130,8 @@ Derivatives differences(const propagation::Experiment& e, std::size_t reading, s
     d.third[i * n + i] = third[i];
     for (std::size_t j = i + 1; j < n; ++j) {
       if (h[j] == 0) continue;
-      const std::size_t at = corners[i * n + j];
-      const double pp = f(at), pm = f(at + 1), mp = f(at + 2), mm = f(at + 3);
+      const std::size_t c = at.corners[i * n + j];
+      const double pp = f(c), pm = f(c + 1), mp = f(c + 2), mm = f(c + 3);
       d.second[i * n + j] = d.second[j * n + i] = (pp - pm - mp + mm) / (4 * h[i] * h[j]);
       // d^3 f / dx_i dx_j^2: the curvature by j, differenced by i; and the other way round.
       const auto of = [&](double above, double below, std::size_t a, std::size_t b) {
@@ -133,6 +142,23 @@ Derivatives differences(const propagation::Experiment& e, std::size_t reading, s
     }
   }
   return d;
+}
+
+} // namespace
+
+std::vector<Derivatives> differences(const propagation::Experiment& e, std::size_t reading, const Point& point,
+                                     bool second) {
+  const std::vector<double> h = steps(e, reading, point);
+  const Places at = places(h, second);
+  const propagation::Responses all = e.outputs_at(reading, point, at.stencil.points);
+  std::vector<Derivatives> out;
+  for (std::size_t m = 0; m < e.measurands().size(); ++m) {
+    const auto f = [&](std::size_t i) {
+      return all.status[i] == Status::ok ? all.at(i, m) : std::numeric_limits<double>::quiet_NaN();
+    };
+    out.push_back(of_values(f, at, h, second));
+  }
+  return out;
 }
 
 } // namespace gumshoe::analysis

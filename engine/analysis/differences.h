@@ -8,7 +8,8 @@ namespace gumshoe::analysis {
 /// every quantity that varies at this reading; NaN by the others. All points in one call. At a kink, where the slopes
 /// on either side do not come together, not differentiable. `second`: Hessian and the third derivatives of JCGM 100
 /// 5.1.2 note as well, exact for cubic models.
-Derivatives differences(const propagation::Experiment& experiment, std::size_t reading, std::size_t measurand,
-                        const std::vector<double>& point, bool second);
+/// @return by measurand
+std::vector<Derivatives> differences(const propagation::Experiment& experiment, std::size_t reading,
+                                     const std::vector<double>& point, bool second);
 
 } // namespace gumshoe::analysis

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -33,15 +34,45 @@ std::string family_name(quantities::Family family) {
 /// The second derivatives are as many as the square of that, each at the cost of the model.
 constexpr std::size_t most_second_order = 100;
 
+/// Derivatives of all measurands of one reading at the estimates; the higher ones are found when first asked for.
+class Slopes {
+public:
+  Slopes(const propagation::Experiment& e, std::size_t reading) : e_(e), reading_(reading), point_(e.point(reading)) {}
+
+  const std::vector<double>& point() const { return point_; }
+  std::size_t reading() const { return reading_; }
+  const Derivatives& first(std::size_t measurand) { return of(first_, point_, false)[measurand]; }
+  const Derivatives& second(std::size_t measurand) { return of(second_, point_, true)[measurand]; }
+  /// First derivatives where quantity q is shifted by that much, which is always the same.
+  const Derivatives& shifted(std::size_t measurand, std::size_t q, double by) {
+    std::vector<double> at = point_;
+    at[q] += by;
+    return of(shifted_[{q, by > 0}], at, false)[measurand];
+  }
+
+private:
+  using All = std::vector<Derivatives>;
+  const All& of(All& known, const std::vector<double>& at, bool second) {
+    if (known.empty()) known = differentiate(e_, reading_, at, second);
+    return known;
+  }
+
+  const propagation::Experiment& e_;
+  std::size_t reading_;
+  std::vector<double> point_;
+  All first_, second_;
+  std::map<std::pair<std::size_t, bool>, All> shifted_;
+};
+
 /// The terms of 5.1.2 note: sum over i, j of [H_ij^2 / 2 + c_i d^3f/dx_i dx_j^2] u_i^2 u_j^2 (inputs normal and
 /// independent), and the bias sum of H_ii u_i^2 / 2. Quantities, not variates: u by quantity. Third derivatives are
-/// differences of exact first ones over u / 64: the error is 2e-5 of the next term of the series, the noise 1e-12 of c_i.
-void second_order(Budget& b, const propagation::Experiment& e, std::size_t reading, std::size_t measurand,
-                  const std::vector<double>& point, const std::vector<double>& u) {
-  const std::size_t n = point.size();
+/// differences of exact first ones over u / 64: the error is 2e-5 of the next term of the series, the noise 1e-12 of
+/// c_i.
+void second_order(Budget& b, Slopes& slopes, std::size_t measurand, const std::vector<double>& u) {
+  const std::size_t n = u.size();
   const auto uncertain = static_cast<std::size_t>(std::ranges::count_if(u, [](double x) { return x > 0; }));
   Derivatives at;
-  if (uncertain <= most_second_order) at = differentiate(e, reading, measurand, point, true);
+  if (uncertain <= most_second_order) at = slopes.second(measurand);
   if (at.second.empty()) { // a kink by some quantity that is exact here: first order holds, second does not
     b.second_order_uncertainty = b.second_order_bias = nan;
     return;
@@ -53,18 +84,15 @@ void second_order(Budget& b, const propagation::Experiment& e, std::size_t readi
     b.second_order_bias += 0.5 * at.second[j * n + j] * u[j] * u[j];
     Derivatives above, below;
     if (at.exact) {
-      auto up = point, down = point;
-      up[j] += fraction * u[j];
-      down[j] -= fraction * u[j];
-      above = differentiate(e, reading, measurand, up, false);
-      below = differentiate(e, reading, measurand, down, false);
+      above = slopes.shifted(measurand, j, fraction * u[j]);
+      below = slopes.shifted(measurand, j, -fraction * u[j]);
     }
     for (std::size_t i = 0; i < n; ++i) {
       if (u[i] == 0) continue;
       const double h = at.second[i * n + j];
-      const double third = at.exact ? (above.first[i] - 2 * at.first[i] + below.first[i]) /
-                                          (fraction * u[j] * fraction * u[j])
-                                    : at.third[i * n + j];
+      const double third =
+          at.exact ? (above.first[i] - 2 * at.first[i] + below.first[i]) / (fraction * u[j] * fraction * u[j])
+                   : at.third[i * n + j];
       extra += (0.5 * h * h + (std::isfinite(third) ? at.first[i] * third : 0)) * u[i] * u[i] * u[j] * u[j];
     }
   }
@@ -73,18 +101,17 @@ void second_order(Budget& b, const propagation::Experiment& e, std::size_t readi
 }
 
 /// Derivatives at the estimates; says in the budget why there are none.
-Derivatives linearise(const propagation::Experiment& e, std::size_t reading, std::size_t measurand,
-                      const std::vector<double>& point, Budget& b) {
+Derivatives linearise(const propagation::Experiment& e, Slopes& slopes, std::size_t measurand, Budget& b) {
   if (e.scenario().method == scenario::Method::virtual_experiment) {
     b.applicable = false;
     b.reason =
         "a virtual experiment draws the truth and evaluates at the estimates: its inputs have no measurement model";
     Derivatives none;
-    none.first.assign(point.size(), nan);
-    none.differentiable.assign(point.size(), true);
+    none.first.assign(slopes.point().size(), nan);
+    none.differentiable.assign(slopes.point().size(), true);
     return none;
   }
-  Derivatives d = differentiate(e, reading, measurand, point, false);
+  Derivatives d = slopes.first(measurand);
   b.estimate = d.value;
   if (d.status != Status::ok) {
     b.applicable = false;
@@ -118,19 +145,17 @@ Contribution contribution_of(const propagation::Experiment& e, std::size_t v, st
   return c;
 }
 
-} // namespace
-
-Budget budget(const propagation::Experiment& e, std::size_t output, double coverage_probability) {
+Budget budget_of(const propagation::Experiment& e, std::size_t output, double coverage_probability, Slopes& slopes) {
   Budget b;
   b.output = e.outputs()[output];
   b.monte_carlo_interactions = nan;
-  const std::size_t reading = b.output.reading, measurand = output % e.measurands().size();
-  const auto point = e.point(reading);
-  const Derivatives d = linearise(e, reading, measurand, point, b);
+  const std::size_t measurand = output % e.measurands().size();
+  const std::vector<double>& point = slopes.point();
+  const Derivatives d = linearise(e, slopes, measurand, b);
 
   std::vector<double> u_of_quantity(point.size(), 0.0);
   std::vector<Term> terms;
-  for (const auto& [v, q] : variates_reaching(e, reading)) {
+  for (const auto& [v, q] : variates_reaching(e, slopes.reading())) {
     const Contribution c = contribution_of(e, v, q, point[q], d);
     if (!c.differentiable && c.standard_uncertainty > 0) {
       b.applicable = false;
@@ -157,14 +182,28 @@ Budget budget(const propagation::Experiment& e, std::size_t output, double cover
   b.coverage_factor = expansion.coverage_factor;
   b.expanded_uncertainty = expansion.expanded_uncertainty;
   if (combined.unequal)
-    b.remark =
-        "no effective degrees of freedom: correlated inputs have different degrees of freedom, and the "
-        "Welch-Satterthwaite formula (G.4.1) holds for independent ones; k is the normal quantile";
+    b.remark = "no effective degrees of freedom: correlated inputs have different degrees of freedom, and the "
+               "Welch-Satterthwaite formula (G.4.1) holds for independent ones; k is the normal quantile";
   if (combined.correlation != 0)
     b.second_order_uncertainty = b.second_order_bias = nan;
   else
-    second_order(b, e, reading, measurand, point, u_of_quantity);
+    second_order(b, slopes, measurand, u_of_quantity);
   return b;
+}
+
+} // namespace
+
+Budget budget(const propagation::Experiment& e, std::size_t output, double coverage_probability) {
+  Slopes slopes(e, e.outputs()[output].reading);
+  return budget_of(e, output, coverage_probability, slopes);
+}
+
+std::vector<Budget> budgets(const propagation::Experiment& e, std::size_t first, double coverage_probability) {
+  Slopes slopes(e, e.outputs()[first].reading);
+  std::vector<Budget> out;
+  for (std::size_t m = 0; m < e.measurands().size(); ++m)
+    out.push_back(budget_of(e, first + m, coverage_probability, slopes));
+  return out;
 }
 
 Validation validate(const Budget& b, const Summary& s, double coverage_probability, int digits) {

@@ -11,6 +11,9 @@ namespace gumshoe::analysis {
 /// Where the model has no derivative at the estimate, the row says so and the framework does not apply. A virtual
 /// experiment has no measurement model of its inputs; its budget is "not applicable".
 Budget budget(const propagation::Experiment& experiment, std::size_t output, double coverage_probability);
+/// The budgets of all measurands of one reading, whose derivatives are found together.
+/// @param first  the first of its outputs: a multiple of the number of measurands
+std::vector<Budget> budgets(const propagation::Experiment& experiment, std::size_t first, double coverage_probability);
 
 /// JCGM 101 clause 8: compares d_low and d_high with the numerical tolerance delta of u at `digits`. The Monte Carlo
 /// tolerance is two standard errors of an end. The result is undecided below 100 / (1 - p) trials, if that tolerance

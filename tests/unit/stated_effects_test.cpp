@@ -94,7 +94,7 @@ TEST_CASE("derivatives by a size, exact and by differences", "[stated]") {
   const Case c(propagation_head + readings + beam + stated(drawn));
   const auto point = c.experiment.point(1);
   const auto exact = analysis::differentiate(c.experiment, 1, 1, point, true);
-  const auto differences = analysis::differences(c.experiment, 1, 1, point, true);
+  const auto differences = analysis::differences(c.experiment, 1, point, true)[1];
   const std::size_t size = point.size() - 1, noise = size - 1;
   CHECK(exact.value == differences.value);
   // What the size moves is the readout: c = -loading times that of the readout.
