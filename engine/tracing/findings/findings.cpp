@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "tracing/criteria.h"
+#include "tracing/findings/errors.h"
 #include "tracing/findings/sizes.h"
 #include "tracing/findings/splitting.h"
 #include "tracing/judgement/decisions.h"
@@ -64,9 +65,15 @@ std::string split_from_scatter(const Grouping& group, const std::vector<std::str
   return fmt::format("within one {}, vary {} as much as from one to the next", label, fmt::join(depends_on, " and "));
 }
 
-/// What comes back if a finding alone is left out and all others are fitted again, of what the declared model left.
+/// What comes back if a finding alone is left out and all others are fitted again, of what the declared model left:
+/// mean squares of the residuals themselves, because noise that is taken to correlate could hide what came back.
 double share_of(const TraceContext& c, const Search& s, const SearchFinding& found) {
-  const auto mean_square = [](const JointFit& fit) { return fit.noise * fit.noise * fit.variance; };
+  const auto mean_square = [&](JointFit fit) {
+    fit.design.local = s.found.design.local;
+    fit.design.reference = s.found.design.reference;
+    const double rms = in_sample(fit, c.fitter.rows(), fit.residual).rms[0];
+    return rms * rms;
+  };
   std::vector<Term> others;
   for (std::size_t t = 0; t < s.found.terms.size(); ++t)
     if (std::ranges::find(found.terms, t) == found.terms.end()) others.push_back(s.found.terms[t]);
