@@ -10,11 +10,15 @@
 namespace gumshoe::tracing {
 namespace {
 
+/// " (amplitude 1.5 um)"; empty without a size
+std::string size_of(const Finding& f) {
+  if (f.quantities.empty()) return "";
+  const SizedQuantity& q = f.quantities[0];
+  return fmt::format(" ({} {})", q.name, shown_size(q.value, q.unit, q.si_unit));
+}
+
 std::string what_was_found(const Finding& f) {
-  std::string size;
-  if (!f.quantities.empty())
-    size = fmt::format(" ({} {})", f.quantities[0].name,
-                       shown_size(f.quantities[0].value, f.quantities[0].unit, f.quantities[0].si_unit));
+  const std::string size = size_of(f);
   const auto depends_on = fmt::format("{}", fmt::join(f.depends_on, " and "));
   switch (f.kind) {
   case Kind::named:
@@ -43,6 +47,28 @@ std::string what_was_found(const Finding& f) {
   return {};
 }
 
+/// "axis_drift (amplitude 1.5 um)"
+std::string briefly(const Finding& f) {
+  const auto depends_on = fmt::format("{}", fmt::join(f.depends_on, " and "));
+  switch (f.kind) {
+  case Kind::named:
+    return f.name + size_of(f);
+  case Kind::equivalence_class:
+    return fmt::format("one of {}", fmt::join(f.members, ", "));
+  case Kind::scatter:
+    return fmt::format("scatter from one {} to the next{}", depends_on, size_of(f));
+  case Kind::not_in_catalogue:
+    return "an unknown effect of " + depends_on;
+  }
+  return {};
+}
+
+std::string what_else_was_found(const std::vector<Finding>& all) {
+  std::string out;
+  for (std::size_t i = 1; i < all.size(); ++i) out += (i == 1 ? "Also found: " : "; ") + briefly(all[i]);
+  return out + ".";
+}
+
 /// "falls from 4.4 um to 1.2 um", as the figures that are shown say.
 std::string change(double before, double after, const Rms& r) {
   const std::string from = shown_rms(before, r), to = shown_rms(after, r);
@@ -50,20 +76,22 @@ std::string change(double before, double after, const Rms& r) {
   return fmt::format("{} from {} to {}", after < before ? "falls" : "rises", from, to);
 }
 
-std::string what_to_do(const Finding& f, const Rms& r) {
+std::string what_to_do(const std::vector<Finding>& found, const Rms& r) {
+  const Finding& f = found.front();
+  const char* with = found.size() > 1 ? "with them" : "with it";
   if (f.kind == Kind::scatter) return "It cannot be corrected for; include it in the uncertainty budget.";
   if (f.kind == Kind::equivalence_class && !f.suggestion.empty()) return "To distinguish them, " + f.suggestion + ".";
   if (std::isfinite(r.holdout_after)) {
     const bool bad = r.holdout_after_winsorised < r.holdout_after;
-    return fmt::format("On held-out readings the error {} with it{}; noise alone gives {}.",
-                       change(r.holdout_before_winsorised, r.holdout_after_winsorised, r),
+    return fmt::format("On held-out readings the error {} {}{}; noise alone gives {}.",
+                       change(r.holdout_before_winsorised, r.holdout_after_winsorised, r), with,
                        bad ? fmt::format(" (bad readings cut; the worst, {}, is off by {})", r.worst_point,
                                          shown_rms(r.worst_point_after, r))
                            : "",
                        shown_rms(r.holdout_noise, r));
   }
-  return fmt::format("In the training data the error {} with it; no readings were held out to check.",
-                     change(r.before, r.after, r));
+  return fmt::format("In the training data the error {} {}; no readings were held out to check.",
+                     change(r.before, r.after, r), with);
 }
 
 std::string in_95(double low, double high, const Rms& r) {
@@ -128,9 +156,11 @@ std::string which_block_differs(const Trace& t) {
 std::vector<std::string> verdict_in_words(const Trace& t) {
   const Rms& r = t.rms;
   std::vector<std::string> out;
-  if (!t.findings.empty())
-    out = {what_was_found(t.findings.front()), what_to_do(t.findings.front(), r)};
-  else if (t.vetoed)
+  if (!t.findings.empty()) {
+    out = {what_was_found(t.findings.front())};
+    if (t.findings.size() > 1) out.push_back(what_else_was_found(t.findings));
+    out.push_back(what_to_do(t.findings, r));
+  } else if (t.vetoed)
     out = {"An effect was found in the training data, but it does not improve the prediction of held-out readings.",
            "Nothing is added to the model. Measure more blocks to decide."};
   if (t.lack_of_fit.found) {
