@@ -26,6 +26,16 @@ bool comes_back(const std::vector<std::size_t>& level, const std::vector<std::si
   return 2 * met.size() >= count(level) * count(block);
 }
 
+/// Whether readings of other values are none of equal conditions, however close: a position counts, the time and the
+/// temperature that were recorded with it do not.
+bool is_set(const Covariate& c) { return c.commanded && c.si_unit != "s" && c.si_unit != "K"; }
+
+bool is_one_in_each(const std::vector<std::size_t>& level, const std::vector<std::size_t>& block) {
+  std::set<std::pair<std::size_t, std::size_t>> met;
+  for (std::size_t i = 0; i < level.size(); ++i) met.insert({level[i], block[i]});
+  return met.size() == count(block);
+}
+
 } // namespace
 
 std::vector<std::size_t> Replicates::cells(std::size_t without) const {
@@ -47,10 +57,11 @@ Replicates find_replicates(const Observations& o) {
     return numbered(values);
   };
   for (const Covariate& c : o.covariates) {
-    // What is hardly ever equal, such as time, was not set.
-    if (c.levels.size() * criteria.least_repeats > n) continue;
+    if (!is_set(c) && c.levels.size() * criteria.least_repeats > n) continue;
     auto level = in_order(c.value);
-    if (c.commanded || !out.passes_are_blocks || comes_back(level, out.pass)) out.factors.push_back({c.name, level});
+    if (is_set(c) || !out.passes_are_blocks || comes_back(level, out.pass) ||
+        (c.commanded && is_one_in_each(level, out.pass)))
+      out.factors.push_back({c.name, level});
   }
   for (const Grouping& g : o.labels) {
     const bool repeated_step =
