@@ -208,12 +208,17 @@ private:
   std::optional<std::size_t> shape_instead(const Trial& best, const std::vector<std::size_t>& plain) const {
     for (const std::size_t g : plain) {
       if (sizes(candidate(g)) > sizes(candidate(best.candidate))) continue;
-      const double lead = evidence_->score(g) - best.score;
+      double lead = evidence_->score(g) - best.score;
       // A step by a label is as likely as any effect that one part has.
       if (candidate(best.candidate).in_part() && lead > -2 * std::log(criteria.rarity_of_part)) return g;
-      if (!shape_excludes(lead, [&] { return evidence_->chance_of_lead(g, best.candidate, lead); })) continue;
-      if (const JointFit fit = evidence_->with({evidence_->linear_term(g)}); fit.valid && !evidence_->of_few(fit))
-        return g;
+      const auto excludes = [&] {
+        return shape_excludes(lead, [&] { return evidence_->chance_of_lead(g, best.candidate, lead); });
+      };
+      if (!excludes()) continue;
+      // By the whole model, as the effect was judged: its noise may differ from that of the search.
+      const Trial whole = evidence_->trial(g);
+      lead = whole.score - best.score;
+      if (whole.fit.valid && excludes() && !evidence_->of_few(whole.fit)) return g;
     }
     return std::nullopt;
   }
