@@ -4,6 +4,7 @@ usage: trace_axis_test.py path/to/gumshoe [unittest options]
 """
 import json
 import math
+import random
 import unittest
 
 import plain_axis
@@ -45,6 +46,33 @@ class TraceAxis(InFolder):
         for k in ("after", "replicate_floor"):
             mean = sum(v["rms"][k] for v in verdicts) / len(verdicts)
             self.assertAlmostEqual(1e6 * mean / plain_axis.NOISE_UM, 1, delta=0.2, msg=k)
+
+    def test_a_recorded_temperature_hides_neither_drift_nor_floor(self):
+        """Readings warm up by 2 um with 2 h, a temperature near the machine rises with the time, and no two readings
+        have the same: their conditions are equal all the same, and the drift is one of time."""
+        chance, rows, t = random.Random(7), ["cycle,x_mm,direction,t_s,temperature_degC,d_um"], 0
+        for cycle in range(1, 61):
+            for way in (1, -1):
+                for x in [50 * i for i in range(9)][::way]:
+                    d = 1.2 * way + 2 * (1 - math.exp(-t / 7200)) + chance.gauss(0, 0.4)
+                    rows.append(f"{cycle},{x},{way},{t},{20 + t / 36000 + chance.gauss(0, 0.01):.2f},{d:.3f}")
+                    t += 60
+        (self.folder / "warm.csv").write_text("\n".join(rows) + "\n")
+        run = gumshoe("new", "linear_axis", "--from", "warm.csv", "--out", "s.toml", cwd=self.folder)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        run = gumshoe("trace", "s.toml", "--draws", "199", "--format", "json", cwd=self.folder, seconds=300)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        v = json.loads(run.stdout)
+        found = {f["name"]: f for f in v["findings"]}
+        self.assertEqual(set(found), {"axis_reversal", "axis_drift"})
+        self.assertEqual(found["axis_drift"]["depends_on"], ["time"])
+        for size, true in zip(found["axis_drift"]["quantities"], (2, 120), strict=True):
+            self.assertAlmostEqual(size["value"], true, delta=3.5 * size["u"], msg=size)
+        # A reversal of 1.2 um beside 0.4 um of noise is most of what was there: 1.44 of 1.44, 0.16 and the drift's 0.1.
+        self.assertGreater(found["axis_reversal"]["removed_share"], 0.7)
+        self.assertIn("axis_drift", v["plain"][1])
+        # 0.4 um; some 700 degrees of freedom: 2.7 %, of which 0.1 is three and a half.
+        self.assertAlmostEqual(v["rms"]["replicate_floor"] * 1e6 / 0.4, 1, delta=0.1)
 
 
 if __name__ == "__main__":

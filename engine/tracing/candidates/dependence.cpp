@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <set>
@@ -26,12 +27,30 @@ Vector within(const Vector& x, const Groups& group, const Vector* value = nullpt
   return out;
 }
 
-/// Share of x's variance between groups of equal values, less what chance gives.
-double explained(const Vector& x, const Groups& group) {
-  const double total = (x.array() - x.mean()).square().sum(), left = within(x, group).squaredNorm();
-  const double n = static_cast<double>(group.size()),
-               k = static_cast<double>(std::set<std::size_t>(group.begin(), group.end()).size());
+/// Groups in which a covariate has several values.
+std::size_t varied(const Groups& group, const Vector& value) {
+  std::map<std::size_t, double> first;
+  std::set<std::size_t> out;
+  for (std::size_t i = 0; i < group.size(); ++i)
+    if (value[index(i)] != first.insert({group[i], value[index(i)]}).first->second) out.insert(group[i]);
+  return out.size();
+}
+
+/// Share of x's variance between groups of equal values, and by a straight line in each if readings suffice for that;
+/// less what chance gives.
+double explained(const Vector& x, const Groups& group, const Vector* value = nullptr) {
+  const std::size_t groups = std::set(group.begin(), group.end()).size(), lines = value ? varied(group, *value) : 0;
+  const bool enough = group.size() > groups + lines;
+  const double total = (x.array() - x.mean()).square().sum(),
+               left = within(x, group, enough ? value : nullptr).squaredNorm();
+  const auto n = static_cast<double>(group.size()), k = static_cast<double>(groups + (enough ? lines : 0));
   return total > 0 && n > k ? 1 - left / total * (n - 1) / (n - k) : 0;
+}
+
+double correlation(const Vector& a, const Vector& b) {
+  const Vector x = a.array() - a.mean(), y = b.array() - b.mean();
+  const double lengths = x.norm() * y.norm();
+  return lengths > 0 ? x.dot(y) / lengths : 0;
 }
 
 /// Numbers of the combinations of two groupings.
@@ -47,7 +66,9 @@ struct Part {
   Vector left;
   double whole;
 
-  double share(const Groups& group) const { return explained(left, group) * variance(left) / whole; }
+  double share(const Groups& group, const Vector* value = nullptr) const {
+    return explained(left, group, value) * variance(left) / whole;
+  }
   static double variance(const Vector& x) { return (x.array() - x.mean()).square().sum(); }
 };
 
@@ -64,9 +85,9 @@ std::vector<Part> parts_of(const Observations& o, const Matrix& columns) {
   return out;
 }
 
-double largest_share(const std::vector<Part>& parts, const Groups& group) {
+double largest_share(const std::vector<Part>& parts, const Groups& group, const Vector* value = nullptr) {
   double out = 0;
-  for (const Part& part : parts) out = std::max(out, part.share(group));
+  for (const Part& part : parts) out = std::max(out, part.share(group, value));
   return out;
 }
 
@@ -80,23 +101,31 @@ std::vector<std::string> dependence(const Observations& o, const Matrix& columns
     return out;
   };
   std::vector<Groups> groups;
-  for (const Covariate& c : o.covariates) groups.push_back(in_order(neighbours(c, criteria.dependence_bins)));
+  std::vector<Vector> values;
+  for (const Covariate& c : o.covariates) {
+    groups.push_back(in_order(neighbours(c, criteria.dependence_bins)));
+    values.emplace_back(index(o.readings));
+    for (std::size_t i = 0; i < o.readings; ++i) values.back()[index(i)] = c.value[o.sequence[i]];
+  }
   std::vector<bool> named(groups.size(), false);
   std::optional<Groups> cells;
   for (;;) {
-    std::size_t best = groups.size();
-    double most = criteria.dependence_share;
+    std::vector<double> share;
+    for (std::size_t c = 0; c < groups.size(); ++c) share.push_back(named[c] ? 0 : largest_share(parts, groups[c]));
+    const auto first = index(std::ranges::max_element(share) - share.begin());
+    if (share.empty() || share[first] <= criteria.dependence_share) break;
+    // Of covariates that are nearly proportional, the one that leaves least: a temperature that rises with time.
+    std::size_t best = first;
     for (std::size_t c = 0; c < groups.size(); ++c)
-      if (const double share = named[c] ? 0 : largest_share(parts, groups[c]); share > most) most = share, best = c;
-    if (best == groups.size()) break;
+      if (!named[c] && std::fabs(correlation(values[first], values[c])) > criteria.alike &&
+          largest_share(parts, groups[c], &values[c]) > largest_share(parts, groups[best], &values[best]))
+        best = c;
     named[best] = true;
     const Groups both = cells ? crossed(*cells, groups[best]) : groups[best];
     // Combinations that hardly repeat would explain anything: then one after the other.
     const bool repeats = (*std::ranges::max_element(both) + 1) * criteria.least_repeats <= both.size();
     if (repeats) cells = both;
-    Vector value(index(o.readings));
-    for (std::size_t i = 0; i < o.readings; ++i) value[index(i)] = o.covariates[best].value[o.sequence[i]];
-    for (Part& part : parts) part.left = within(part.left, repeats ? both : groups[best], &value);
+    for (Part& part : parts) part.left = within(part.left, repeats ? both : groups[best], &values[best]);
   }
   std::vector<std::string> out;
   for (std::size_t c = 0; c < groups.size(); ++c)
