@@ -62,15 +62,15 @@ Rounds trace_rounds(const scenario::Scenario& s, const tracing::Settings& settin
 }
 
 std::string table(const std::vector<Round>& rounds) {
-  std::string out = fmt::format("{:<7}{:>12}{:>12}{:>12}{:>12}{:>12}{:>12}   added\n", "round", "before", "after",
-                                "held out", "after", "noise", "floor");
+  std::string out = fmt::format("{:<5}  {:>11}  {:>11}  {:>11}  {:>11}  {:>11}  {:>11}   added\n", "round", "before",
+                                "after", "held out", "after", "noise", "floor");
   for (std::size_t k = 0; k < rounds.size(); ++k) {
     const tracing::Rms& r = rounds[k].rms;
     const auto show = [&](double si) { return std::isfinite(si) ? tracing::shown_rms(si, r) : "-"; };
     const std::string added = rounds[k].vetoed          ? "nothing: the held-out readings are not predicted better"
                               : rounds[k].added.empty() ? "nothing"
                                                         : fmt::format("{}", fmt::join(rounds[k].added, "; "));
-    out += fmt::format("{:<7}{:>12}{:>12}{:>12}{:>12}{:>12}{:>12}   {}\n", k + 1, show(r.before),
+    out += fmt::format("{:<5}  {:>11}  {:>11}  {:>11}  {:>11}  {:>11}  {:>11}   {}\n", k + 1, show(r.before),
                        show(r.after), show(r.holdout_before), show(r.holdout_after), show(r.noise),
                        show(r.replicate_floor), added);
   }

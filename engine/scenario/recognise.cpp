@@ -147,6 +147,16 @@ std::size_t number_columns(const Csv& csv, char decimal) {
   return n;
 }
 
+/// Whether a column in this unit can be what its name says: T in degC is no time.
+bool fits(ColumnRole role, const std::string& unit) {
+  if (unit.empty() || unit == "1") return true;
+  const std::string si_unit = units::si_unit_of(unit);
+  if (role == ColumnRole::time) return si_unit == "s";
+  if (role == ColumnRole::temperature) return si_unit == "K";
+  return si_unit != "s" && (si_unit != "K" || role == ColumnRole::reading || role == ColumnRole::position ||
+                            role == ColumnRole::uncertainty);
+}
+
 RecognisedColumn column_of(const RecognisedData& data, std::size_t c) {
   RecognisedColumn out{data.csv.header[c].text, "1", ColumnRole::other, numbers(data.csv, c, data.decimal), false, ""};
   std::string rest;
@@ -155,7 +165,7 @@ RecognisedColumn column_of(const RecognisedData& data, std::size_t c) {
   for (const RoleWords& known : role_words()) {
     if (out.role != ColumnRole::other) break;
     for (const std::string_view word : known.words)
-      if (std::ranges::find(words, word) != words.end()) out.role = known.role;
+      if (std::ranges::find(words, word) != words.end() && fits(known.role, unit)) out.role = known.role;
   }
   if (out.role != ColumnRole::other) out.why = "by its name";
   std::vector<std::string> texts;

@@ -126,6 +126,14 @@ class New(InFolder):
             self.new("--from", "s.csv", "--out", "s.toml", "--force")
             self.assertEqual('direction = "leg"' in (self.folder / "s.toml").read_text(), known)
 
+    def test_a_unit_says_more_than_a_name(self):
+        """T may be a time or a temperature."""
+        rows = ["x_mm;T_Lager [°C];T [s];d_um"] + [f"{x},0;{22 + x / 100};{x};{0.01 * x}".replace(".", ",") for x in range(0, 60, 10)]
+        (self.folder / "t.csv").write_text("\n".join(rows) + "\n")
+        said = self.new("--from", "t.csv", "--out", "t.toml")
+        self.assertIn("T_Lager [°C]: temperature, degC (by its unit)", said)
+        self.assertIn("T [s]: time, s (by its name)", said)
+
     def test_columns_of_a_model(self):
         (self.folder / "rods.csv").write_text("rod,spindle_z_mm,feed (mm/min)\na,-330.1,4\na,-330.2,4\nb,-331.0,8\nb,-331.1,8\n")
         self.assertIn("ready", self.new("rod_gauging", "--from", "rods.csv"))

@@ -6,6 +6,7 @@
 #include <set>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "tracing/criteria.h"
 #include "tracing/judgement/beside.h"
@@ -155,6 +156,12 @@ private:
     if (kind != Kind::not_in_catalogue) out.finding.members = {candidate(a).name};
     out.threshold = evidence_->limit(a);
     out.terms = {out_.found.terms.size() + behind};
+    if (const double own = evidence_->scan().identifiable(a);
+        candidate(a).physical() && own < criteria.mostly_absorbed && !out.finding.depends_on.empty())
+      out.finding.remarks.push_back(
+          fmt::format("the declared model explains {:.0f} % of its signature as well; by the rest, another smooth "
+                      "dependence on {} may look like it",
+                      100 * (1 - own), fmt::join(out.finding.depends_on, " and ")));
     return out;
   }
 
