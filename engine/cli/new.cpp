@@ -109,7 +109,9 @@ std::string text_of(const Options& o, const RecognisedData* found, const std::st
   if (found)
     data = std::make_unique<scenario::StarterData>(scenario::StarterData{
         *found, fs::relative(fs::absolute(o.from), fs::absolute(out).parent_path()).generic_string()});
-  if (o.model.empty()) return scenario::starter_axis(*data, out);
+  if (o.model.empty())
+    return found->find(scenario::ColumnRole::position) ? scenario::starter_axis(*data, out)
+                                                       : scenario::starter_series(*data, out);
   if (o.model == "budget") return scenario::starter_budget();
   if (o.model == "linear") return scenario::starter_linear(*data, o.terms, out);
   if (const models::Model* model = models::find(o.model))
@@ -146,7 +148,8 @@ void print_columns(const RecognisedData& found) {
 void print_next(const Options& o, const std::string& out) {
   try {
     const auto s = scenario::read(out, catalogue());
-    std::cout << fmt::format("{}: ready. Next: gumshoe {} {}\n", out, o.model.empty() || o.model == "linear" ? "trace" : "run", out);
+    std::cout << fmt::format("{}: ready. Next: gumshoe {} {}\n", out,
+                             o.model.empty() || o.model == "linear" ? "trace" : "run", out);
   } catch (const InputError& error) {
     std::cout << fmt::format("{}: to fill in, then gumshoe check {}:\n{}\n", out, out, error.what());
   }
@@ -164,7 +167,8 @@ ExitCode run(Options o) {
     throw InputError("--from: a budget has no data file", "its readings stand in the scenario",
                      "leave --from out, or name no model");
   if (o.model == "linear" && o.from.empty())
-    throw InputError("a linear model is made of the columns of a data file, but none is named", "", "name one by --from");
+    throw InputError("a linear model is made of the columns of a data file, but none is named", "",
+                     "name one by --from");
   if (o.model != "linear" && !o.terms.empty())
     throw InputError("--term: only a linear model has terms", "", "write gumshoe new linear --from FILE --term ...");
   std::unique_ptr<RecognisedData> found;
@@ -196,9 +200,10 @@ void add_new(CLI::App& app, Action& action) {
   command->add_option("--unit", o->units, "COLUMN=UNIT, where the header does not say it");
   command->add_option("--role", o->roles,
                       "COLUMN=ROLE: position, reading, direction, time, temperature, cycle, uncertainty, other");
-  command->add_option("--term", o->terms,
-                      "of linear: a column, or a product such as load*machine; a column of words is a factor (default: "
-                      "every column of numbers)")
+  command
+      ->add_option("--term", o->terms,
+                   "of linear: a column, or a product such as load*machine; a column of words is a factor (default: "
+                   "every column of numbers)")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   add_force(*command, o->force);

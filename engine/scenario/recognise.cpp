@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <functional>
 #include <map>
 #include <ranges>
 #include <set>
@@ -134,13 +135,6 @@ bool numbers(const Csv& csv, std::size_t column, char decimal) {
   return 2 * n > csv.rows.size();
 }
 
-/// Names of columns that count rows and measure nothing.
-bool counts_rows(const RecognisedColumn& c) {
-  static const std::set<std::string> names{"nr", "no", "n", "id", "index", "number", "point", "row", "line"};
-  const auto words = words_of(c.name);
-  return words.size() == 1 && names.contains(words.front());
-}
-
 std::size_t number_columns(const Csv& csv, char decimal) {
   std::size_t n = 0;
   for (std::size_t c = 0; c < csv.header.size(); ++c) n += numbers(csv, c, decimal);
@@ -203,14 +197,24 @@ RecognisedColumn column_of(const RecognisedData& data, std::size_t c) {
   return out;
 }
 
-/// Position and reading, where no name tells them: the first and the last column of numbers that is left.
-void fill_up(std::vector<RecognisedColumn>& columns) {
+/// A length, an angle, or a number without a unit.
+bool is_place(const RecognisedColumn& c) {
+  if (c.unit == "?" || c.unit == "1") return true;
+  const std::string si_unit = units::si_unit_of(c.unit);
+  return si_unit == "m" || si_unit == "rad";
+}
+
+/// Position and reading, where no name tells them: the first column of numbers that is left, if it was set, and the
+/// last.
+void fill_up(RecognisedData& data) {
+  std::vector<RecognisedColumn>& columns = data.columns;
   const auto has = [&](ColumnRole role) {
     return std::ranges::find(columns, role, &RecognisedColumn::role) != columns.end();
   };
   const auto take = [&](auto&& range, ColumnRole role, const char* why) {
     for (RecognisedColumn& c : range)
-      if (c.number && c.role == ColumnRole::other && !counts_rows(c)) {
+      if (c.number && c.role == ColumnRole::other && !counts_rows(c) &&
+          (role != ColumnRole::position || (is_place(c) && was_set(data, c)))) {
         c.role = role;
         c.why = why;
         return;
@@ -223,6 +227,27 @@ void fill_up(std::vector<RecognisedColumn>& columns) {
 }
 
 } // namespace
+
+bool counts_rows(const RecognisedColumn& c) {
+  static const std::set<std::string> names{"nr", "no", "n", "id", "index", "number", "point", "row", "line"};
+  const auto words = words_of(c.name);
+  return words.size() == 1 && names.contains(words.front());
+}
+
+bool was_set(const RecognisedData& data, const RecognisedColumn& c) {
+  const auto column = static_cast<std::size_t>(data.csv.find(c.name));
+  std::set<std::string> texts;
+  std::vector<double> values;
+  for (const auto& row : data.csv.rows) {
+    if (row[column].text.empty()) continue;
+    texts.insert(row[column].text);
+    values.push_back(data.csv.number(row[column], data.decimal));
+  }
+  const auto in_order = [&](auto before) {
+    return std::ranges::adjacent_find(values, std::not_fn(before)) == values.end();
+  };
+  return 2 * texts.size() <= values.size() || in_order(std::less{}) || in_order(std::greater{});
+}
 
 std::vector<std::string> words_of(const std::string& name) {
   std::vector<std::string> out(1);
@@ -255,7 +280,7 @@ RecognisedData recognise(const std::string& text, const std::string& file) {
                        "write a line with a name for each column above it"}});
   if (number_columns(out.csv, ',') > number_columns(out.csv, '.')) out.decimal = ',';
   for (std::size_t c = 0; c < out.csv.header.size(); ++c) out.columns.push_back(column_of(out, c));
-  fill_up(out.columns);
+  fill_up(out);
   return out;
 }
 

@@ -37,6 +37,12 @@ struct RecognisedData {
 /// Reads the text of a data file. Throws InputError: no table, no rows, or a first row of numbers instead of names.
 RecognisedData recognise(const std::string& text, const std::string& file);
 
+/// Whether the numbers of a column look set, not measured: they recur, or only rise, or only fall.
+bool was_set(const RecognisedData& data, const RecognisedColumn& column);
+
+/// Whether a column counts rows and measures nothing, by its name.
+bool counts_rows(const RecognisedColumn& column);
+
 /// The words of a column's or quantity's name in lower case: "Spindle-Z [mm]" -> spindle, z.
 std::vector<std::string> words_of(const std::string& name);
 

@@ -58,8 +58,8 @@ std::string starter_axis(const StarterData& data, const std::string& scenario) {
   const RecognisedColumn* const position = found.find(Role::position);
   const RecognisedColumn* const reading = found.find(Role::reading);
   if (!position || !reading)
-    throw InputError(found.csv.file + ": there are no two columns of numbers", "a position and a reading are needed",
-                     "tell which they are: --role COLUMN=position --role COLUMN=reading");
+    throw InputError(found.csv.file + ": there is no column of readings", "numbers that were measured are needed",
+                     "tell which it is: --role COLUMN=reading");
   const RecognisedColumn* const direction = found.find(Role::direction);
   const RecognisedColumn* const sd = found.find(Role::uncertainty);
   const bool measured = measured_position(found, *position, *reading);

@@ -20,6 +20,9 @@ std::string starter_budget();
 /// What an axis, or anything else with readings at positions, does that a straight line and a reversal do not explain.
 std::string starter_axis(const StarterData& data, const std::string& scenario);
 
+/// What readings without a position depend on: time, temperatures, and whatever else was recorded with them.
+std::string starter_series(const StarterData& data, const std::string& scenario);
+
 /// A linear model of a reading: a constant, and a coefficient for each term, fitted to the data.
 /// @param terms products of columns, "load" or "load*machine"; a column of words is a factor, whose first word is the
 /// reference. None: every column of numbers that is no time, and a direction

@@ -189,7 +189,7 @@ class New(InFolder):
             err = self.new(*words, code=2)
             self.assertIn(said, err)
         for text, said in (("1,2\n3,4\n", "the first row holds numbers, not names of columns"), ("a,b\n", "the file has no rows"),
-                           ("a,b\nx,y\nz,w\n", "there are no two columns of numbers")):
+                           ("a,b\nx,y\nz,w\n", "there is no column of readings")):
             (self.folder / "bad.csv").write_text(text)
             self.assertIn(said, self.new("--from", "bad.csv", code=2))
         self.new("budget")

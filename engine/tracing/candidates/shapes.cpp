@@ -108,9 +108,11 @@ private:
     if (c.levels.size() < 3) return;
     const double size = std::max(std::fabs(c.levels.front()), std::fabs(c.levels.back()));
     const Vector y = raw / size;
-    add(Family::shape, "polynomial:" + c.name + "^2", y.array().square(), {c.name});
-    add(Family::shape, "polynomial:" + c.name + "^3", y.array().cube(), {c.name});
-    if (c.levels.front() > 0 && !elapses(c)) // the zero of time is an accident
+    if (c.si_unit != "K") { // a power of an absolute temperature is a straight line once more
+      add(Family::shape, "polynomial:" + c.name + "^2", y.array().square(), {c.name});
+      add(Family::shape, "polynomial:" + c.name + "^3", y.array().cube(), {c.name});
+    }
+    if (c.levels.front() > 0 && c.si_unit != "K" && !elapses(c)) // the zero of time is an accident
       add(Family::shape, "polynomial:1/" + c.name, y.array().inverse() * (c.levels.front() / size), {c.name});
     if (c.levels.size() < 4) return;
     // About the middle: what is left of a curve when a line is absorbed.

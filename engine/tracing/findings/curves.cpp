@@ -3,6 +3,9 @@
 #include <cmath>
 #include <map>
 
+#include <fmt/format.h>
+
+#include "base/units.h"
 #include "tracing/criteria.h"
 #include "tracing/findings/sizes.h"
 
@@ -52,6 +55,41 @@ public:
     return out;
   }
 
+  /// "0.49 um/K, u = 0.02 um/K" of a straight line against the covariate; empty of anything else.
+  std::string slope(const Covariate& covariate) const {
+    const Matrix& columns = term_.candidate.columns;
+    if (columns.cols() != 1) return "";
+    const auto k = index(o_.indications);
+    const Vector y = columns(Eigen::seq(index(indication_), Eigen::last, k), 0);
+    Vector x(y.size());
+    for (Index i = 0; i < x.size(); ++i) x[i] = covariate.value[o_.sequence[index(i)]];
+    const Vector dx = x.array() - x.mean(), dy = y.array() - y.mean();
+    const double per_size = dx.dot(dy) / dx.squaredNorm();
+    constexpr double rounding = 1e-9;
+    if (!((dy - per_size * dx).norm() <= rounding * dy.norm())) return "";
+    const auto ratio = [](const std::string& above, const std::string& below) {
+      return fmt::format("{}/{}", above, below.find('/') == std::string::npos ? below : "(" + below + ")");
+    };
+    // A difference of temperatures has the unit K.
+    const bool own_zero = units::to_si(0, covariate.unit, covariate.si_unit) != 0;
+    const std::string unit = ratio(small_unit(), own_zero ? covariate.si_unit : covariate.unit),
+                      si_unit = ratio(empty_.indication_si_unit, covariate.si_unit);
+    return fmt::format("{}, u = {}", shown_size(term_.size[0] * per_size, unit, si_unit),
+                       shown_size(std::sqrt(covariance_(0, 0)) * std::fabs(per_size), unit, si_unit));
+  }
+
+  /// "1.5 um, u = 0.2 um" by which one group differs from the others; empty of anything else.
+  std::string step() const {
+    const Matrix& columns = term_.candidate.columns;
+    if (columns.cols() != 1) return "";
+    const Vector y = columns(Eigen::seq(index(indication_), Eigen::last, index(o_.indications)), 0);
+    const double low = y.minCoeff(), high = y.maxCoeff();
+    if (((y.array() - low) * (y.array() - high)).abs().maxCoeff() > 0) return "";
+    return fmt::format(
+        "{}, u = {}", shown_size(term_.size[0] * (high - low), small_unit(), empty_.indication_si_unit),
+        shown_size(std::sqrt(covariance_(0, 0)) * (high - low), small_unit(), empty_.indication_si_unit));
+  }
+
   /// By all of these together, if there are two readings of each combination or more; else without rows.
   CellTable by(const std::vector<const Covariate*>& covariates, const std::vector<const Grouping*>& labels) const {
     std::map<std::vector<double>, std::vector<std::size_t>> cells; // in the order of the keys: reproducible
@@ -89,6 +127,9 @@ public:
   }
 
 private:
+  /// Errors of a length are shown in um.
+  std::string small_unit() const { return empty_.indication_si_unit == "m" ? "um" : empty_.indication_unit; }
+
   /// The mean over the training readings of a group, if there are any.
   bool add(double x, const std::vector<std::size_t>& group, std::size_t which, Curve& out) const {
     const Matrix& columns = term_.candidate.columns;
@@ -136,6 +177,11 @@ void add_curves(const TraceContext& c, const JointFit& fit, std::size_t term, Fi
       if (one.name == name) labels.push_back(&one);
   }
   if (covariates.empty() && labels.empty()) return;
+  if (covariates.size() == 1 && labels.empty())
+    if (const std::string slope = make.slope(*covariates[0]); !slope.empty())
+      finding.remarks.push_back(fmt::format("a straight line against {}: {}", covariates[0]->name, slope));
+  if (const std::string step = make.step(); covariates.empty() && labels.size() == 1 && !step.empty())
+    finding.remarks.push_back("it differs by " + step);
   if (CellTable table = make.by(covariates, labels); !table.y.empty()) finding.tables.push_back(std::move(table));
 }
 

@@ -1,11 +1,29 @@
 #include "tracing/judgement/beside.h"
 
+#include <algorithm>
+#include <limits>
+
 #include "tracing/criteria.h"
 #include "tracing/judgement/decisions.h"
 
 namespace gumshoe::tracing {
 
-std::optional<std::size_t> simpler_beside_effect(const Evidence& e, std::size_t shape) {
+namespace {
+
+/// Whether a candidate may be the other of two. A declared value would take the bend of any table, as would a second
+/// shape of the same condition.
+bool is_another(const Evidence& e, std::size_t a, const Candidate& simpler) {
+  const Candidate& c = e.candidates()[a];
+  if (c.physical()) return e.testable(a) && c.family != Family::declared && !c.in_part();
+  return c.family == Family::shape && c.columns.cols() == 1 &&
+         std::ranges::none_of(c.depends_on, [&](const auto& name) {
+           return std::ranges::find(simpler.depends_on, name) != simpler.depends_on.end();
+         });
+}
+
+} // namespace
+
+std::optional<std::size_t> simpler_beside_another(const Evidence& e, std::size_t shape) {
   std::vector<Scored> simpler;
   for (std::size_t a = 0; a < e.candidates().size(); ++a) {
     const Candidate& c = e.candidates()[a];
@@ -13,20 +31,21 @@ std::optional<std::size_t> simpler_beside_effect(const Evidence& e, std::size_t 
                        !c.physical() && c.columns.cols() < e.candidates()[shape].columns.cols() &&
                            e.assessment().p[a] <= e.assessment().threshold});
   }
-  double best = 0;
+  // The simplest, then the best.
+  std::pair<Index, double> best{std::numeric_limits<Index>::max(), 0};
   std::optional<std::size_t> out;
   for (const std::size_t s : best_of(simpler, criteria.most_shapes)) {
     // The noise as it is with the simpler shape: without any, a large one passes for correlation.
     const std::size_t model = e.scan().fit(s, e.residuals()).covariance_model;
     const double alone = e.scan().pair_ratio(s, s, e.residuals(), model);
     for (std::size_t a = 0; a < e.candidates().size(); ++a) {
-      // One of the declared values would take the bend of any table.
-      if (!e.testable(a) || e.candidates()[a].family == Family::declared || e.candidates()[a].in_part()) continue;
+      if (!is_another(e, a, e.candidates()[s])) continue;
       const double added = e.scan().pair_ratio(s, a, e.residuals(), model) - alone;
       const double both = simpler[s].score + added - 2 * e.assessment().null[a].mean;
+      const std::pair order{e.candidates()[s].columns.cols(), -both};
       if (counts_beside(both, {e.score(a), simpler[s].score}, added, {e.limit(a), e.limit(s)}, e.score(shape)) &&
-          both > best) {
-        best = both;
+          order < best) {
+        best = order;
         out = s;
       }
     }

@@ -181,14 +181,11 @@ double gain_of(const TraceContext& c, const JointFit& fit, const std::vector<std
   return criterion_at(c, less, {}, in_place_of_scatter) - criterion_at(c, fit, terms, in_place_of_scatter);
 }
 
-bool Evidence::predicts_better(const JointFit& other, const CovarianceModel& model) const {
-  const auto better = [&](Judged judged) {
-    const auto error = [&](const JointFit& fit) {
-      return cross_validated(c_.observations, c_.fitter.rows(), fit, model, judged);
-    };
-    return error(other) < error(fit_);
+bool Evidence::predicts_better(const JointFit& other, const CovarianceModel& model, Judged judged) const {
+  const auto error = [&](const JointFit& fit) {
+    return cross_validated(c_.observations, c_.fitter.rows(), fit, model, judged);
   };
-  return better(Judged::as_declared) || better(Judged::given_the_others);
+  return error(other) < error(fit_);
 }
 
 bool Evidence::of_few(const JointFit& other) const {

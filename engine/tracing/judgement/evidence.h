@@ -5,6 +5,7 @@
 
 #include "tracing/fit/trace_context.h"
 #include "tracing/judgement/assess.h"
+#include "tracing/judgement/holdout.h"
 
 namespace gumshoe::tracing {
 
@@ -42,9 +43,16 @@ public:
   /// With its shape parameters fitted, where the data determine them.
   Trial trial(std::size_t candidate) const;
 
-  /// Whether parts of the training readings, left out in turn, are predicted better by `other`, with the declared values
-  /// as declared or as the other parts tell them; both under one covariance model.
-  bool predicts_better(const JointFit& other, const CovarianceModel& model) const;
+  /// Whether parts of the training readings, left out in turn, are predicted better by `other`, both under one
+  /// covariance model: judged in that way, or in either.
+  bool predicts_better(const JointFit& other, const CovarianceModel& model, Judged judged) const;
+  bool predicts_better(const JointFit& other, const CovarianceModel& model) const {
+    return predicts_better(other, model, Judged::as_declared) ||
+           predicts_better(other, model, Judged::given_the_others);
+  }
+  bool predicts_better(const JointFit& other, Judged judged) const {
+    return predicts_better(other, other.covariance_model, judged);
+  }
   bool predicts_better(const JointFit& other) const { return predicts_better(other, other.covariance_model); }
   /// Whether what `other` removes is of a few successive readings (criteria.h): outliers, and no shape.
   bool of_few(const JointFit& other) const;

@@ -296,7 +296,8 @@ private:
     auto shapes = best_of([](const Candidate& x) { return !x.physical(); }, criteria.most_shapes);
     std::erase_if(shapes, [&](std::size_t a) { return assessment.p[a] > assessment.threshold; });
     if (shapes.empty()) return false;
-    if (const auto simpler = simpler_beside_effect(*evidence_, shapes[0])) shapes.insert(shapes.begin(), *simpler);
+    if (const auto simpler = simpler_beside_another(*evidence_, shapes[0])) shapes.insert(shapes.begin(), *simpler);
+    std::vector<std::pair<std::size_t, JointFit>> described;
     for (const std::size_t a : shapes) {
       JointFit fit = evidence_->with({evidence_->linear_term(a)});
       if (!fit.valid) continue;
@@ -304,7 +305,15 @@ private:
         outcomes_[a] = "refused: it is of a few successive readings only";
         continue;
       }
-      if (evidence_->predicts_better(fit)) {
+      if (evidence_->predicts_better(fit, Judged::as_declared)) {
+        add_shape(a, fit, assessment.p_signature);
+        return true;
+      }
+      described.emplace_back(a, std::move(fit));
+    }
+    // What predicts other blocks goes before what describes them, such as any curve in time.
+    for (auto& [a, fit] : described) {
+      if (evidence_->predicts_better(fit, Judged::given_the_others)) {
         add_shape(a, fit, assessment.p_signature);
         return true;
       }

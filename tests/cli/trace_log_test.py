@@ -1,0 +1,86 @@
+"""Logs without positions, from the file to the causes: what readings depend on, and by how much.
+
+usage: trace_log_test.py path/to/gumshoe [unittest options]
+"""
+import datetime
+import json
+import math
+import random
+import re
+import unittest
+
+from program import InFolder, gumshoe
+
+
+def drifts():
+    """A spindle that runs and rests, a column that follows slowly, the air of the hall: um, every two minutes."""
+    draw, spindle, column = random.Random(5), 20.0, 20.0
+    start = datetime.datetime(2026, 3, 4, 8)
+    yield "timestamp,T_spindle_C,T_column_C,T_air_C,z_um,y_um"
+    for i in range(360):
+        spindle += ((38 if i // 90 % 2 == 0 else 20.5) - spindle) * 2 / 25
+        column += (20 + 0.15 * (spindle - 20) - column) * 2 / 120
+        air = 20 + 0.4 * math.sin(i / 60)
+        z = -1.1 * (spindle - 20) + 2.3 * (column - 20) + draw.gauss(0, 0.25)
+        y = 0.5 * (column - 20) + 0.8 * (air - 20) + draw.gauss(0, 0.2)
+        seen = [f"{t + draw.gauss(0, 0.03):.2f}" for t in (spindle, column, air)]
+        yield f"{(start + datetime.timedelta(minutes=2 * i)).isoformat(sep=' ')},{','.join(seen)},{z:.2f},{y:.2f}"
+
+
+def probed_ring():
+    """The centre of a ring, probed at four speeds, with coolant and without: mm, as a German control writes it."""
+    draw, spindle = random.Random(8), 22.0
+    start = datetime.datetime(2026, 5, 4, 6)
+    yield "Nr;Datum;Drehzahl [1/min];Kuehlung;T Spindel [°C];X Mitte [mm];Y Mitte [mm]"
+    for i in range(1, 145):
+        speed, coolant = 4000 * (i // 18 % 4), i // 36 % 2
+        spindle += (22 + 0.0012 * speed - 3 * coolant - spindle) * 0.25
+        x = 100 + 0.004 * (spindle - 22) + 0.0015 * coolant + draw.gauss(0, 0.0006)
+        y = 50 - 0.0011 * (spindle - 22) + draw.gauss(0, 0.0006)
+        when = (start + datetime.timedelta(minutes=10 * i)).strftime("%d.%m.%Y %H:%M")
+        seen = ";".join(t.replace(".", ",") for t in (f"{spindle + draw.gauss(0, 0.05):.1f}", f"{x:.4f}", f"{y:.4f}"))
+        yield f"{i};{when};{speed};{('aus', 'ein')[coolant]};{seen}"
+
+
+class TraceLog(InFolder):
+    def trace(self, rows):
+        (self.folder / "log.csv").write_text("\n".join(rows) + "\n")
+        for words in (("new", "--from", "log.csv"), ("check", "log.toml")):
+            run = gumshoe(*words, cwd=self.folder)
+            self.assertEqual(run.returncode, 0, run.stderr)
+        run = gumshoe("trace", "log.toml", "--draws", "199", "--format", "json", cwd=self.folder, seconds=300)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        v = json.loads(run.stdout)
+        self.assertLess(v["rms"]["holdout_after"], v["rms"]["holdout_noise_interval95"][1])
+        return v
+
+    def sizes(self, v):
+        """Slopes and steps in um, with u: {described by: (size, u)}."""
+        out = {}
+        for f in v["findings"]:
+            for remark in f["remarks"]:
+                if said := re.search(r"(?:: |by )(\S+) um\S*, u = (\S+) um", remark):
+                    out[f["described_by"]] = float(said[1]), float(said[2])
+        return out
+
+    def agree(self, found, true):
+        """Within 3.5 u, and what the scatter of the recorded temperatures takes from a slope."""
+        for name, size in true.items():
+            self.assertIn(name, found)
+            self.assertAlmostEqual(found[name][0], size, delta=3.5 * found[name][1] + 0.02 * abs(size), msg=name)
+
+    def test_drifts_follow_the_temperatures_that_cause_them(self):
+        """Not any curve in time, which describes as much and predicts nothing."""
+        v = self.trace(drifts())
+        self.agree(self.sizes(v), {"polynomial:t_spindle_c of z_um": -1.1, "polynomial:t_column_c of z_um": 2.3,
+                                   "polynomial:t_column_c of y_um": 0.5, "polynomial:t_air_c of y_um": 0.8})
+        self.assertFalse([f["described_by"] for f in v["findings"] if "time" in f["depends_on"]])
+
+    def test_what_a_control_wrote_tells_growth_and_coolant(self):
+        v = self.trace(probed_ring())
+        self.agree(self.sizes(v), {"polynomial:t_spindel_c of x_mitte_mm": 4, "polynomial:t_spindel_c of y_mitte_mm": -1.1,
+                                   "step:kuehlung ein of x_mitte_mm": 1.5})
+
+
+if __name__ == "__main__":
+    unittest.main()
