@@ -12,6 +12,7 @@
 #include "tracing/criteria.h"
 #include "tracing/findings/comparison.h"
 #include "tracing/findings/findings.h"
+#include "tracing/fit/starting_values.h"
 #include "tracing/judgement/holdout.h"
 #include "tracing/judgement/search.h"
 #include "tracing/scenario_out/composition.h"
@@ -106,7 +107,10 @@ const char* name(Kind kind) {
   return "";
 }
 
-Trace trace(const scenario::Scenario& scenario, const Settings& settings) {
+namespace {
+
+/// @param converged whether the fit of the declared model did
+Trace traced(const scenario::Scenario& scenario, const Settings& settings, bool& converged) {
   Trace out;
   out.extended = extended(scenario);
   const propagation::Experiment experiment(out.extended);
@@ -134,6 +138,7 @@ Trace trace(const scenario::Scenario& scenario, const Settings& settings) {
     return out;
   }
   Search found = search(c);
+  converged = found.base.converged;
   if (settings.scores) out.campaign = scores_of(c, found.base);
   out.tried = found.tried;
   out.p_anything = found.first.p_anything;
@@ -159,6 +164,17 @@ Trace trace(const scenario::Scenario& scenario, const Settings& settings) {
   compose(c, out.vetoed ? without_findings(found) : found, out);
   summarise(out);
   return out;
+}
+
+} // namespace
+
+Trace trace(const scenario::Scenario& scenario, const Settings& settings) {
+  bool converged = true;
+  Trace out = traced(scenario, settings, converged);
+  if (converged) return out;
+  // The stated values may be too far away for the search's steps: a tracker whose place nobody knows.
+  const auto nearer = at_estimates(scenario, settings.threads);
+  return nearer ? traced(*nearer, settings, converged) : out;
 }
 
 } // namespace gumshoe::tracing
