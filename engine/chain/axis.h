@@ -3,27 +3,33 @@
 ///
 /// Errors are actual minus commanded, of the moving component, in the right-handed machine frame. E_X0C: location (of
 /// the axis' average line) and zero position; E_XC: error motion, at the commanded position.
+#include <optional>
 #include <string>
 
-#include "math/pose.h"
+#include "chain/link.h"
 
 namespace gumshoe::chain {
 
-/// The errors of an axis: error motions along X, Y, Z (m) and about X, Y, Z (rad), then location errors in the same order.
+/// The errors of an axis: error motions along X, Y, Z (m) and about X, Y, Z (rad), then location errors in the same
+/// order.
 enum ErrorKind { E_X, E_Y, E_Z, E_A, E_B, E_C, E_X0, E_Y0, E_Z0, E_A0, E_B0, E_C0, error_kinds };
 
 /// One axis, as it is designed.
 struct Axis {
-  std::string name;  ///< "X", "C", "C2"
-  int direction = 0; ///< 0, 1, 2: moves along, or turns about, X, Y, Z
+  std::string name;  ///< "X", "C", "C2", of a link "J1"
+  int direction = 0; ///< 0, 1, 2: moves along, or turns about, X, Y, Z; of a link its own Z
   bool rotary = false;
   double sense = 1;        ///< of the component's motion at a positive command: -1 if it carries the workpiece
   Vector3<double> point{}; ///< a design point on a rotary axis; of a linear one, where its angular errors act; m
+  /// Rotation of an inclined axis about its point, from the direction of its letter; its errors are turned with it.
+  std::optional<Matrix3<double>> inclination = {};
+  std::optional<Link> link = {}; ///< stated by Denavit-Hartenberg parameters; its errors are LinkError
 };
 
-/// True if ISO 230-1 defines this error for such an axis. A rotary axis has no location error along its own line, a slide
-/// none across its direction and no angular one about it.
+/// True if ISO 230-1 defines this error for such an axis. A rotary axis has no location error along its own line, a
+/// slide none across its direction and no angular one about it. A link has the errors of its parameters.
 constexpr bool has_error(const Axis& axis, int kind) {
+  if (axis.link) return kind >= 0 && kind < link_errors;
   if (kind < E_X0) return kind >= 0;
   if (kind < E_A0) return axis.rotary != (kind - E_X0 == axis.direction);
   return kind < error_kinds && (axis.rotary || kind - E_A0 != axis.direction);
@@ -46,14 +52,30 @@ template <class T> Vector3<T> actual_direction(int direction, const T* orientati
   }
 }
 
-/// Pose of a component against the one that carries it, in coordinates of the machine frame at zero position.
-///
-/// First the exact motion along or about the actual line, then the error motions: a rotation Rx Ry Rz by the three
-/// angular ones about the axis' point, as moved, and a shift by the three linear ones, all along the machine's axes.
-/// @param command m or rad
-/// @param e       error_kinds values, m or rad
-template <class T> Pose<T> motion(const Axis& axis, const T& command, const T* e) {
-  Vector3<T> point{T(axis.point.x), T(axis.point.y), T(axis.point.z)}, travel{e[E_X], e[E_Y], e[E_Z]};
+/// The line along or about which an axis moves its component, in coordinates of the component that carries it.
+template <class T> struct Line {
+  Vector3<T> point;     ///< on it, m
+  Vector3<T> direction; ///< unit vector
+};
+/// Actual line of an axis.
+/// @param e error_kinds values, m or rad
+template <class T> Line<T> actual_line(const Axis& axis, const T* e) {
+  if (axis.link) return {joint_point(*axis.link, e), joint_direction(*axis.link, e)};
+  Line<T> line{{T(0.0), T(0.0), T(0.0)}, actual_direction(axis.direction, e + E_A0)};
+  if (axis.rotary) line.point = Vector3<T>{e[E_X0], e[E_Y0], e[E_Z0]};
+  if (axis.inclination) {
+    const Matrix3<T> turned = constant<T>(*axis.inclination);
+    line = {turned * line.point, turned * line.direction};
+  }
+  line.point = constant<T>(axis.point) + line.point;
+  return line;
+}
+
+namespace detail {
+
+/// An axis along or about X, Y or Z, whose design point is `design`.
+template <class T> Pose<T> motion_by_letter(const Axis& axis, const Vector3<T>& design, const T& command, const T* e) {
+  Vector3<T> point = design, travel{e[E_X], e[E_Y], e[E_Z]};
   const Vector3<T> line = actual_direction(axis.direction, e + E_A0);
   const int d = axis.direction;
   if (!axis.rotary)
@@ -63,6 +85,25 @@ template <class T> Pose<T> motion(const Axis& axis, const T& command, const T* e
   const T zero(0.0);
   const Matrix3<T> tilt = rotation(d == 0 ? zero : e[E_A], d == 1 ? zero : e[E_B], d == 2 ? zero : e[E_C]);
   return about(point, tilt * rotation(line, own), travel);
+}
+
+} // namespace detail
+
+/// Pose of a component against the one that carries it, in coordinates of the machine frame at zero position; of a
+/// link, its frame against the frame before it.
+///
+/// First the exact motion along or about the actual line, then the error motions: a rotation Rx Ry Rz by the three
+/// angular ones about the axis' point, as moved, and a shift by the three linear ones, all along the machine's axes; of
+/// an inclined axis, along these turned with it.
+/// @param command m or rad
+/// @param e       error_kinds values, m or rad; of a link, its first link_errors
+template <class T> Pose<T> motion(const Axis& axis, const T& command, const T* e) {
+  if (axis.link) return motion(*axis.link, axis.rotary, T(axis.sense * command), e);
+  const Vector3<T> point = constant<T>(axis.point);
+  if (!axis.inclination) return detail::motion_by_letter(axis, point, command, e);
+  const Matrix3<T> turned = constant<T>(*axis.inclination);
+  const Pose<T> upright = detail::motion_by_letter(axis, {T(0.0), T(0.0), T(0.0)}, command, e);
+  return about(point, turned * upright.turn * transposed(turned), turned * upright.shift);
 }
 
 } // namespace gumshoe::chain

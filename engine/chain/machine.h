@@ -1,6 +1,7 @@
 #pragma once
 /// Serial machine tools: any order of linear and rotary axes between bed and workpiece and between bed and tool, with
-/// the ISO 230-1 and ISO 230-7 errors of every axis.
+/// the ISO 230-1 and ISO 230-7 errors of every axis. An axis may be inclined, or a link by Denavit-Hartenberg
+/// parameters.
 #include <array>
 #include <optional>
 #include <span>
@@ -15,10 +16,13 @@ namespace gumshoe::chain {
 
 /// An axis as a person states it.
 struct AxisDescription {
-  std::string name;              ///< X Y Z U V W linear, A B C rotary, a number may follow: "C2"
+  std::string name;              ///< X Y Z U V W linear, A B C rotary, J a link; a number may follow: "C2"
   std::string kind = {};         ///< "linear" or "rotary"; empty: as the letter says
   std::array<double, 3> point{}; ///< Axis::point, m
   int sense = 0;                 ///< Axis::sense; 0: by ISO 841, +1 on the tool side and -1 on the workpiece side
+  /// Of an inclined axis, of any length; within 90 deg of its letter's. The smallest rotation leads from there to it.
+  std::optional<std::array<double, 3>> direction = {};
+  std::optional<Link> link = {};
 };
 
 /// A machine as a person states it, right or wrong; `problems` tells.
@@ -26,7 +30,7 @@ struct MachineDescription {
   std::string name;
   /// From the bed outwards; {} where nothing moves, nullopt where not stated.
   std::optional<std::vector<AxisDescription>> workpiece_side, tool_side;
-  std::vector<std::pair<std::string, double>> errors = {}; ///< by ISO name, "E_A0C"; m or rad
+  std::vector<std::pair<std::string, double>> errors = {}; ///< by error_name, "E_A0C"; m or rad
 };
 
 /// Something wrong in a description. `place` names it as in a scenario: "tool_side[2].kind", "errors.E_A0D".
@@ -39,14 +43,22 @@ std::vector<DescriptionProblem> problems(const MachineDescription& description);
 /// A machine by name; null if there is none.
 ///
 /// - "grinder": the six-axis belt grinder of Fang 2022, chapter 4; its link lengths are inferred, not printed.
-/// - "RRTTT", "TTTRR", "RTTTR": five-axis machines with two rotary axes in the head (A, B), two in the table (A, C) or one
+/// - "RRTTT", "TTTRR", "RTTTR": five-axis machines with two rotary axes in the head (A, B), two in the table (A, C) or
+/// one
 ///   in each (B, A), all through the origin. Source: Wang et al. 2013.
 const MachineDescription* find_machine(std::string_view name);
 /// All machines that find_machine knows.
 std::span<const MachineDescription> machines();
 
-/// Name of an error of an axis by ISO 230-1 and ISO 230-7: "E_A0C". @param kind ErrorKind
+/// Name of an error of an axis by ISO 230-1 and ISO 230-7: "E_A0C"; of a link "delta_alpha_J1".
+/// @param kind ErrorKind, of a link LinkError
 std::string error_name(const Axis& axis, int kind);
+/// True if an error is an angle, in rad; otherwise it is in m.
+bool is_angle(const Axis& axis, int kind);
+
+/// The first axis of a machine that is inclined or a link, in words: "the axis B is inclined"; empty if every axis is
+/// along or about X, Y or Z.
+std::string oblique(const class Machine& machine);
 
 /// One error of one axis, and its place in the row of all errors of a machine.
 struct ErrorPlace {
@@ -57,10 +69,10 @@ struct ErrorPlace {
 
 /// A machine that can be computed.
 ///
-/// Axes are numbered from the first of the workpiece side to the last of the tool side, each side from the bed outwards.
-/// `commands` (one per axis, m or rad) and `errors` (error_kinds per axis, in the order of ErrorKind, m or rad) stand in
-/// that order. Poses convert coordinates of the moving component's frame; with all axes at zero every frame is the machine
-/// frame. The mathematics is in chain/README.md.
+/// Axes are numbered from the first of the workpiece side to the last of the tool side, each side from the bed
+/// outwards. `commands` (one per axis, m or rad) and `errors` (error_kinds per axis, in the order of ErrorKind, m or
+/// rad) stand in that order. Poses convert coordinates of the moving component's frame; with all axes at zero every
+/// frame is the machine frame. The mathematics is in chain/README.md.
 class Machine {
 public:
   /// Throws InputError with every problem of the description.
@@ -71,7 +83,7 @@ public:
   std::span<const double> errors() const { return errors_; }           ///< as described
   /// Number of the axis of this name; SIZE_MAX if there is none.
   std::size_t axis(std::string_view name) const;
-  /// Place of the error of this ISO name, "E_A0C"; empty if the machine has no such error.
+  /// Place of the error of this name, "E_A0C"; empty if the machine has no such error.
   std::optional<ErrorPlace> error(std::string_view name) const;
 
   /// Pose of the workpiece against the bed.

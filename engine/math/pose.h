@@ -44,6 +44,12 @@ template <class T> Matrix3<T> transposed(const Matrix3<T>& m) {
   return {{m.x.x, m.y.x, m.z.x}, {m.x.y, m.y.y, m.z.y}, {m.x.z, m.y.z, m.z.z}};
 }
 
+/// A vector or a matrix of numbers, in the scalar T.
+template <class T> Vector3<T> constant(const Vector3<double>& v) { return {T(v.x), T(v.y), T(v.z)}; }
+template <class T> Matrix3<T> constant(const Matrix3<double>& m) {
+  return {constant<T>(m.x), constant<T>(m.y), constant<T>(m.z)};
+}
+
 /// Right-handed rotation by `angle` about the unit vector k through the origin: c I + s [k]x + (1 - c) k k' with c, s the
 /// cosine and sine (Rodrigues' formula). Orthogonal up to rounding if |k| = 1.
 template <class T> Matrix3<T> rotation(const Vector3<T>& k, const T& angle) {

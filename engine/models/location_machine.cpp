@@ -25,6 +25,8 @@ chain::RotaryPlace place_of(const chain::Axis& axis, bool carries_workpiece) {
 std::string fit(const chain::Machine& machine, std::string_view model, std::vector<std::size_t>& rotary) {
   std::array<int, 3> slides{};
   const auto axes = machine.axes();
+  if (const std::string why = chain::oblique(machine); !why.empty())
+    return fmt::format("{}, and those of {} are along and about X, Y and Z", why, model);
   for (std::size_t i = 0; i < axes.size(); ++i) {
     if (axes[i].rotary) {
       rotary.push_back(i);

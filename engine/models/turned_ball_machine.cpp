@@ -27,6 +27,10 @@ MadeModel on_machine(const Model& model, const chain::MachineDescription& descri
                      std::string& why) {
   const chain::Machine machine(description);
   const auto axes = machine.axes();
+  if (const std::string oblique = chain::oblique(machine); !oblique.empty()) {
+    why = fmt::format("{}, and those of {} are about X, Y or Z", oblique, model.card->name);
+    return nullptr;
+  }
   std::vector<chain::RotaryPlace> rotary;
   std::vector<std::string> names;
   for (std::size_t i = 0; i < axes.size(); ++i)

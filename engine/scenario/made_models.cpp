@@ -2,12 +2,12 @@
 
 namespace gumshoe::scenario {
 
-#define GUMSHOE_MADE_MODEL(name, what) models::MadeModel make_##name(const MadeModelSource& source);
+#define GUMSHOE_MADE_MODEL(name, what, starts) models::MadeModel make_##name(const MadeModelSource& source);
 #include "scenario/made_models.def"
 #undef GUMSHOE_MADE_MODEL
 
 std::span<const MadeModelRow> made_models() {
-#define GUMSHOE_MADE_MODEL(name, what) {#name, what, &make_##name},
+#define GUMSHOE_MADE_MODEL(name, what, starts) {#name, what, &make_##name, starts},
   static constexpr MadeModelRow rows[] = {
 #include "scenario/made_models.def"
   };

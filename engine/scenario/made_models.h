@@ -22,6 +22,7 @@ struct MadeModelRow {
   const char* what; ///< describes the model, for people: "formulas"
   /// Returns the model; null, and problems in the context, if something is wrong.
   models::MadeModel (*make)(const MadeModelSource& source);
+  bool starts; ///< its example is a first scenario to go on from
 };
 
 /// Every row of made_models.def.

@@ -135,6 +135,9 @@ std::vector<Key> model_keys() {
       {"measurands", map(any_of({formula, measurand})),
        "expression: name = formula, or { formula, unit }; command: name = unit, or { unit, meaning }"},
       {"indications", map(formula), "expression: the simulated readings, for virtual experiments and fits"},
+      {"measured", words({"position", "distance"}),
+       "serial_chain: what the instrument measures of the target: x, y and z, or its distance", false,
+       quoted("position")},
       {"library", text(), "plugin: the shared library, relative to the scenario's folder"},
       {"command", list(text(), R"("minItems": 1)"),
        "command: the program and its arguments; run in the scenario's folder, points as CSV on standard input, results "

@@ -206,4 +206,32 @@ workpiece_side = ["X", { axis = "B", kind = "rotary", point = ["0 mm", "0 mm", "
 tool_side = ["Z", { axis = "Y", kind = "linear", point = ["0 mm", "0 mm", "0 mm"], sense = 1 }]
 errors = { E_A0B = "0.01 deg" }
 ''',
+    "robot": '''
+schema = 1
+[model]
+name = "serial_chain"
+method = "virtual_experiment"
+measured = "distance"
+[machine]
+workpiece_side = [
+  { axis = "A", direction = [1, 1, 0] },
+  { axis = "J3", dh = { a = "1 mm", alpha = "90 deg", d = "2 mm", theta = "3 deg" } },
+  { axis = "J4", modified_dh = { a = "1 mm", alpha = "90 deg", d = "2 mm", theta = "3 deg" } },
+]
+tool_side = [
+  { axis = "C", direction = [0, 1, 1] },
+  { axis = "J1", dh = { a = "1 mm", alpha = "90 deg", d = "2 mm", theta = "3 deg" } },
+  { axis = "J2", modified_dh = { a = "1 mm", alpha = "90 deg", d = "2 mm", theta = "3 deg" } },
+]
+errors = { delta_a_J1 = "0.1 mm" }
+''',
+    "predefined machine": '''
+schema = 1
+[model]
+name = "serial_chain"
+method = "virtual_experiment"
+[machine]
+name = "TTTRR"
+points = { C = ["0 mm", "0 mm", "-50 mm"] }
+''',
 }

@@ -19,7 +19,7 @@ template <class T> struct Moved {
 /// @param e chain::error_kinds values
 template <class T> Moved<T> moved(const chain::Axis& axis, bool slide, const T& command, const T* e) {
   Moved<T> m{chain::motion(axis, command, e), {}};
-  if (slide) m.along = T(axis.sense) * chain::actual_direction(axis.direction, e + chain::E_A0);
+  if (slide) m.along = T(axis.sense) * chain::actual_line(axis, e).direction;
   return m;
 }
 

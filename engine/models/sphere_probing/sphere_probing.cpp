@@ -9,6 +9,7 @@
 #include "models/cards.h"
 #include "models/intermediates.h"
 #include "models/kernel_choice.h"
+#include "models/machine_rows.h"
 
 GUMSHOE_DECLARE_KERNELS(sphere_probing)
 
@@ -27,7 +28,8 @@ std::array<std::size_t, 3> slides_of(std::span<const chain::Axis> axes) {
   std::array<std::size_t, 3> out{SIZE_MAX, SIZE_MAX, SIZE_MAX};
   for (std::size_t i = 0; i < axes.size(); ++i) {
     const auto d = static_cast<std::size_t>(axes[i].direction);
-    if (!axes[i].rotary && (out[d] == SIZE_MAX || axes[i].name == std::string(1, letters[d]))) out[d] = i;
+    if (!axes[i].rotary && !axes[i].link && (out[d] == SIZE_MAX || axes[i].name == std::string(1, letters[d])))
+      out[d] = i;
   }
   return out;
 }
@@ -57,10 +59,9 @@ std::vector<Intermediate> explain(const PointCall<double>& call) {
   for (std::size_t i = 0; i < e.size() / chain::error_kinds; ++i) {
     const chain::Axis& axis = p.machine.axes()[i];
     const double* own = e.data() + i * chain::error_kinds;
-    add(out, "direction of " + axis.name, chain::actual_direction(axis.direction, own + chain::E_A0), "1", 1);
-    if (axis.rotary)
-      add(out, "a point on the axis " + axis.name,
-          axis.point + Vector3<double>{own[chain::E_X0], own[chain::E_Y0], own[chain::E_Z0]});
+    const auto line = chain::actual_line(axis, own);
+    add(out, "direction of " + axis.name, line.direction, "1", 1);
+    if (axis.rotary) add(out, "a point on the axis " + axis.name, line.point);
   }
   const auto c = contact<double>(p, q, call.conditions, {read[0], read[1], read[2]});
   add(out, "tip from the bed", c.tip);
@@ -97,24 +98,6 @@ bool solve_reads(std::size_t) { return true; }
 
 const Kernels* kernels() { return GUMSHOE_BEST_KERNELS(sphere_probing); }
 
-std::string meaning(const chain::Axis& axis, int kind) {
-  const int along = kind % 3;
-  const bool own = along == axis.direction, linear = kind % chain::E_X0 < chain::E_A, location = kind >= chain::E_X0;
-  const char letter = letters[along];
-  if (location && own) return fmt::format("zero position of {}", axis.name);
-  if (location && linear) return fmt::format("location of {}: offset along {}", axis.name, letter);
-  if (location) return fmt::format("orientation of {} about {}", axis.name, letter);
-  if (own && linear != axis.rotary) return fmt::format("positioning of {}", axis.name);
-  if (axis.rotary)
-    return fmt::format("error motion of {}: {} {} {}", axis.name, linear ? (own ? "axial," : "radial,") : "tilt",
-                       linear ? "along" : "about", letter);
-  return fmt::format("error motion of {}: {} {} {}", axis.name,
-                     linear ? "straightness"
-                     : own  ? "roll"
-                            : "tilt",
-                     linear ? "along" : "about", letter);
-}
-
 CardTexts texts_of(const SphereProbing& p, const chain::MachineDescription& d) {
   CardTexts t;
   t.name = "sphere_probing";
@@ -133,16 +116,11 @@ CardTexts texts_of(const SphereProbing& p, const chain::MachineDescription& d) {
          "position of the tip's centre from the sphere's centre at the reading, in the frame of the bed");
   for (const std::size_t at : p.error_of) {
     const chain::Axis& axis = p.machine.axes()[at / chain::error_kinds];
-    const int kind = static_cast<int>(at % chain::error_kinds);
-    const bool linear = kind % chain::E_X0 < chain::E_A;
-    const bool tilt = kind >= chain::E_A0 && kind - chain::E_A0 != axis.direction;
-    t.quantities.push_back({chain::error_name(axis, kind), linear ? "mm" : "deg", linear ? "m" : "rad",
-                            meaning(axis, kind), p.machine.errors()[at], tilt ? below_90 : any});
+    t.quantities.push_back(error_row(axis, static_cast<int>(at % chain::error_kinds), p.machine.errors()[at]));
   }
   for (std::size_t i = 0; i < p.slide_of.size(); ++i) {
     const chain::Axis& axis = p.machine.axes()[i];
-    if (p.slide_of[i] < 0)
-      t.conditions.push_back({axis.name, axis.rotary ? "deg" : "mm", axis.rotary ? "rad" : "m", "commanded", 0});
+    if (p.slide_of[i] < 0) t.conditions.push_back(command_row(axis));
   }
   for (const std::size_t s : p.slides)
     t.indications.push_back({p.machine.axes()[s].name, "mm", "m", "command at which the tip is at the sphere", 0});
