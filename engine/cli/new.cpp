@@ -12,6 +12,7 @@
 #include "base/units.h"
 #include "cli/command.h"
 #include "cli/installed.h"
+#include "scenario/made_models.h"
 #include "scenario/starter.h"
 #include "store/draft.h"
 
@@ -34,6 +35,8 @@ struct Options {
 std::vector<std::string> names() {
   std::vector<std::string> out{"budget", "linear"};
   for (const models::Model* m : models::catalogue()) out.emplace_back(m->card->name);
+  for (const auto& row : scenario::made_models())
+    if (row.starts) out.emplace_back(row.name);
   return out;
 }
 
@@ -101,7 +104,20 @@ void tell(RecognisedData& data, const Options& o) {
 
 std::string example_of(const std::string& model) {
   const fs::path folder = data_folder("examples", GUMSHOE_EXAMPLES_DIR);
-  return read_text_file((folder / model / "example.toml").string(), largest_file);
+  return (folder / model / "example.toml").string();
+}
+
+/// The example of a model, as a first scenario; empty if there is no such model. The card of a model that a scenario
+/// describes is that of its example.
+std::string text_of_model(const std::string& name, const scenario::StarterData* data) {
+  const auto rows = scenario::made_models();
+  const bool made = std::ranges::any_of(rows, [&](const auto& row) { return row.starts && row.name == name; });
+  const models::Model* model = models::find(name);
+  if (!model && !made) return {};
+  const std::string example = example_of(name), text = read_text_file(example, largest_file);
+  if (model) return scenario::starter_model(*model->card, text, data);
+  const auto read = scenario::read(example, catalogue());
+  return scenario::starter_model(*read.made->card, text, data);
 }
 
 std::string text_of(const Options& o, const RecognisedData* found, const std::string& out) {
@@ -114,8 +130,7 @@ std::string text_of(const Options& o, const RecognisedData* found, const std::st
                                                        : scenario::starter_series(*data, out);
   if (o.model == "budget") return scenario::starter_budget();
   if (o.model == "linear") return scenario::starter_linear(*data, o.terms, out);
-  if (const models::Model* model = models::find(o.model))
-    return scenario::starter_model(*model->card, example_of(o.model), data.get());
+  if (std::string text = text_of_model(o.model, data.get()); !text.empty()) return text;
   const std::string meant = nearest(o.model, names());
   throw InputError(fmt::format("unknown model '{}'", o.model), "",
                    meant.empty() ? fmt::format("use one of {}", fmt::join(names(), ", "))
