@@ -26,13 +26,17 @@ const std::vector<RoleWords>& role_words() {
       {ColumnRole::uncertainty, {"sd", "std", "sigma", "u", "uncertainty", "unsicherheit"}},
       {ColumnRole::temperature, {"temp", "temperature", "temperatur"}},
       {ColumnRole::direction, {"dir", "direction", "richtung", "approach", "sense"}},
-      {ColumnRole::cycle, {"cycle", "run", "repeat", "repetition", "pass", "lauf", "zyklus", "setup", "series"}},
+      {ColumnRole::cycle,
+       {"cycle", "run", "repeat", "repetition", "pass", "lauf", "zyklus", "setup", "series", "reihe", "messreihe",
+        "serie", "durchgang", "trial"}},
       {ColumnRole::time, {"time", "zeit", "timestamp", "datetime", "date", "datum", "clock", "uhrzeit", "t"}},
       {ColumnRole::reading,
-       {"dev", "deviation", "error", "err", "abweichung", "reading", "laser", "measured", "meas", "actual", "act",
-        "ist", "diff", "difference", "result", "value", "messwert", "wert"}},
+       {"dev",      "deviation", "error",      "err",     "abweichung", "reading",    "laser",  "measured",
+        "meas",     "actual",    "act",        "ist",     "diff",       "difference", "result", "value",
+        "messwert", "wert",      "indication", "anzeige", "signal",     "output"}},
       {ColumnRole::position,
-       {"pos", "position", "target", "tgt", "nominal", "nom", "soll", "set", "setpoint", "command", "commanded"}},
+       {"pos", "position", "target", "tgt", "nominal", "nom", "soll", "set", "setpoint", "command", "commanded", "load",
+        "last", "force", "kraft", "pressure", "druck", "angle", "winkel"}},
   };
   return all;
 }
@@ -40,11 +44,16 @@ const std::vector<RoleWords>& role_words() {
 /// Spellings of units in headers.
 const std::map<std::string, std::string>& unit_words() {
   static const std::map<std::string, std::string> all{
-      {"um", "um"},     {"µm", "um"},         {"μm", "um"},         {"micron", "um"}, {"nm", "nm"},   {"mm", "mm"},
-      {"m", "m"},       {"inch", "inch"},     {"deg", "deg"},       {"°", "deg"},     {"rad", "rad"}, {"mrad", "mrad"},
-      {"urad", "urad"}, {"µrad", "urad"},     {"arcsec", "arcsec"}, {"s", "s"},       {"sec", "s"},   {"ms", "ms"},
-      {"min", "min"},   {"h", "h"},           {"K", "K"},           {"degC", "degC"}, {"°C", "degC"}, {"C", "degC"},
-      {"N", "N"},       {"mm/min", "mm/min"}, {"mm/s", "mm/s"},     {"um/m", "um/m"}, {"%", "%"},     {"Hz", "Hz"}};
+      {"um", "um"},         {"µm", "um"},      {"μm", "um"},     {"micron", "um"}, {"nm", "nm"},
+      {"mm", "mm"},         {"m", "m"},        {"inch", "inch"}, {"deg", "deg"},   {"°", "deg"},
+      {"rad", "rad"},       {"mrad", "mrad"},  {"urad", "urad"}, {"µrad", "urad"}, {"arcsec", "arcsec"},
+      {"s", "s"},           {"sec", "s"},      {"ms", "ms"},     {"min", "min"},   {"h", "h"},
+      {"K", "K"},           {"degC", "degC"},  {"°C", "degC"},   {"C", "degC"},    {"N", "N"},
+      {"mm/min", "mm/min"}, {"mm/s", "mm/s"},  {"um/m", "um/m"}, {"%", "%"},       {"Hz", "Hz"},
+      {"kN", "kN"},         {"MN", "MN"},      {"Nm", "N m"},    {"V", "V"},       {"mV", "mV"},
+      {"mV/V", "mV/V"},     {"bar", "bar"},    {"mbar", "mbar"}, {"Pa", "Pa"},     {"hPa", "hPa"},
+      {"kPa", "kPa"},       {"MPa", "MPa"},    {"kg", "kg"},     {"rpm", "1/min"}, {"1/min", "1/min"},
+      {"U/min", "1/min"},   {"m/min", "m/min"}};
   return all;
 }
 
@@ -223,6 +232,12 @@ void fill_up(RecognisedData& data) {
   if (!has(ColumnRole::reading))
     take(std::span(columns).last(columns.size()) | std::views::reverse, ColumnRole::reading,
          "as the last column of numbers");
+  if (!has(ColumnRole::reading) && has(ColumnRole::position)) {
+    // A force may be what was set or what was read.
+    const auto last = std::ranges::find(columns | std::views::reverse, ColumnRole::position, &RecognisedColumn::role);
+    last->role = ColumnRole::reading;
+    last->why = "as the last column of numbers";
+  }
   if (!has(ColumnRole::position)) take(std::span(columns), ColumnRole::position, "as the first column of numbers");
 }
 

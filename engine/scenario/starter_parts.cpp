@@ -97,6 +97,8 @@ bool measured_position(const RecognisedData& data, const RecognisedColumn& posit
       scale = units::to_si(1, c.unit, units::si_unit_of(c.unit), units::Kind::difference);
     return scale * (high - low);
   };
+  const auto kind = [](const RecognisedColumn& c) { return c.unit == "?" ? "m" : units::si_unit_of(c.unit); };
+  if (kind(position) != kind(reading)) return false;
   const double share = range(reading) / range(position);
   return share > 0.5 && share < 2; // an axis errs by less than half of its travel
 }
@@ -104,8 +106,10 @@ bool measured_position(const RecognisedData& data, const RecognisedColumn& posit
 std::string unit_or(const RecognisedColumn& c, const char* otherwise) { return c.unit == "?" ? otherwise : c.unit; }
 
 std::string blocks_of(const RecognisedData& data, const NamedColumns& labels) {
-  for (const auto& [name, c] : labels)
-    if (different(data, *c) >= 4) return line("blocks", quoted(name), "an effect should recur in each of them");
+  for (const bool cycle : {true, false}) // what counts cycles, before other words that recur
+    for (const auto& [name, c] : labels)
+      if ((c->role == ColumnRole::cycle) == cycle && different(data, *c) >= 4)
+        return line("blocks", quoted(name), "an effect should recur in each of them");
   if (data.csv.rows.size() < 12)
     return "# blocks = { count = 6 }                # too few rows for blocks; an effect should recur in each of "
            "them\n";

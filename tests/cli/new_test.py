@@ -134,6 +134,17 @@ class New(InFolder):
         self.assertIn("T_Lager [°C]: temperature, degC (by its unit)", said)
         self.assertIn("T [s]: time, s (by its name)", said)
 
+    def test_a_calibration_log(self):
+        """Units after a blank, a series that is no position, a force, an indication of another kind."""
+        rows = ["Reihe\tLage\tStufe\tLast kN\tAnzeige mV/V\tTemp °C"]
+        rows += [f"{k}\t{k * 90} Grad\tauf{s}\t{5 * s},0\t{0.2 * s:.3f}\t21,4".replace(".", ",") for k in range(1, 5) for s in range(11)]
+        (self.folder / "dms.txt").write_text("\r\n".join(["# Pruefer: M. Muster"] + rows) + "\r\n", encoding="latin-1")
+        self.assertIn("ready", self.new("--from", "dms.txt"))
+        text = (self.folder / "dms.toml").read_text()
+        for part in ('position = "Last kN"', '"Last kN" = "kN"', '"Anzeige mV/V" = "mV/V"', 'readings = "Anzeige mV/V"', 'blocks = "reihe"',
+                     'deviation = "offset + gain * position"'):
+            self.assertIn(part, text)
+
     def test_columns_of_a_model(self):
         (self.folder / "rods.csv").write_text("rod,spindle_z_mm,feed (mm/min)\na,-330.1,4\na,-330.2,4\nb,-331.0,8\nb,-331.1,8\n")
         self.assertIn("ready", self.new("rod_gauging", "--from", "rods.csv"))

@@ -109,6 +109,7 @@ class Selection(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         jobs = [(GUMSHOE, f, 1) for f in chosen(*SURE, "positioning - white") if "thousand" not in f.name]
+        jobs += [(GUMSHOE, f, 602) for f in chosen("single_socket bar_drift")]  # a declared value that no block confirms
         cls.rows = [battery.one(job) for job in jobs]
 
     def test_every_set_has_a_verdict_and_its_rounds_keep_the_laws(self):

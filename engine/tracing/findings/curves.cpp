@@ -68,6 +68,7 @@ public:
     constexpr double rounding = 1e-9;
     if (!((dy - per_size * dx).norm() <= rounding * dy.norm())) return "";
     const auto ratio = [](const std::string& above, const std::string& below) {
+      if (below == "1") return above;
       return fmt::format("{}/{}", above, below.find('/') == std::string::npos ? below : "(" + below + ")");
     };
     // A difference of temperatures has the unit K.
@@ -177,11 +178,12 @@ void add_curves(const TraceContext& c, const JointFit& fit, std::size_t term, Fi
       if (one.name == name) labels.push_back(&one);
   }
   if (covariates.empty() && labels.empty()) return;
-  if (covariates.size() == 1 && labels.empty())
-    if (const std::string slope = make.slope(*covariates[0]); !slope.empty())
+  if (covariates.size() + labels.size() == 1) {
+    if (const std::string step = make.step(); !step.empty())
+      finding.remarks.push_back("it differs by " + step);
+    else if (const std::string slope = labels.empty() ? make.slope(*covariates[0]) : ""; !slope.empty())
       finding.remarks.push_back(fmt::format("a straight line against {}: {}", covariates[0]->name, slope));
-  if (const std::string step = make.step(); covariates.empty() && labels.size() == 1 && !step.empty())
-    finding.remarks.push_back("it differs by " + step);
+  }
   if (CellTable table = make.by(covariates, labels); !table.y.empty()) finding.tables.push_back(std::move(table));
 }
 

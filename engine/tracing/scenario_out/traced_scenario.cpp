@@ -240,9 +240,9 @@ private:
   void finish_unconfirmed() {
     std::set<std::string> found;
     for (const Finding& f : t_.findings)
-      for (const SizedQuantity& q : f.quantities) found.insert(q.scenario_name.substr(0, q.scenario_name.find('.')));
+      for (const SizedQuantity& q : f.quantities)
+        if (sized(q.scenario_name)) found.insert(q.scenario_name.substr(0, q.scenario_name.find('.')));
     for (const Correction& c : t_.corrections) found.insert(c.name);
-    found.erase("");
     if (!t_.unconfirmed || found.empty()) return;
     Node& list = member(member(text_.document(), "trace"), "unconfirmed");
     list.kind = Node::Kind::array;
