@@ -163,8 +163,13 @@ void print_columns(const RecognisedData& found) {
 void print_next(const Options& o, const std::string& out) {
   try {
     const auto s = scenario::read(out, catalogue());
-    std::cout << fmt::format("{}: ready. Next: gumshoe {} {}\n", out,
-                             o.model.empty() || o.model == "linear" ? "trace" : "run", out);
+    if (s.made)
+      std::cout << fmt::format(
+          "{}: the machine is that of the example. Replace [machine] by yours, then: gumshoe {} {}\n", out,
+          o.from.empty() ? "run" : "estimate", out);
+    else
+      std::cout << fmt::format("{}: ready. Next: gumshoe {} {}\n", out,
+                               o.model.empty() || o.model == "linear" ? "trace" : "run", out);
   } catch (const InputError& error) {
     std::cout << fmt::format("{}: to fill in, then gumshoe check {}:\n{}\n", out, out, error.what());
   }

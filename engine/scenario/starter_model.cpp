@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "base/units.h"
+#include "models/cards.h"
 #include "scenario/starter_parts.h"
 
 namespace gumshoe::scenario {
@@ -37,7 +38,7 @@ std::vector<Section> sections_of(const std::string& text) {
 
 std::string limits_text(const QuantityCard& q) {
   const auto shown = [&](double x) { return units::from_si(x, std::string(q.unit), std::string(q.si_unit)); };
-  const bool low = std::isfinite(q.limits.low), high = std::isfinite(q.limits.high);
+  const bool low = q.limits.low > models::any.low, high = q.limits.high < models::any.high;
   if (!low && !high) return "";
   if (!high) return fmt::format("; {} {:g} {}", q.limits.low_open ? "above" : "at least", shown(q.limits.low), q.unit);
   if (!low) return fmt::format("; {} {:g} {}", q.limits.high_open ? "below" : "at most", shown(q.limits.high), q.unit);
@@ -116,7 +117,7 @@ private:
                          std::string(std::max<std::size_t>(1, 25 - std::min<std::size_t>(24, card.name.size())), ' '),
                          card.meaning, card.unit);
       out += line("readings", c ? quoted(c->name) : "\"?\"",
-                  c ? "recognised " + (c->why.empty() ? std::string("by its name") : c->why)
+                  c ? "recognised " + (c->why.empty() || is(*c, card.name) ? std::string("by its name") : c->why)
                     : "which column? Write its name; the file has " +
                           fmt::format("{}", fmt::join(data_->found.csv.names(), ", ")));
       out += "# u = \"...\"                              # standard uncertainty of one reading, or { column = \"...\" "

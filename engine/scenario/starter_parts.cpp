@@ -79,7 +79,7 @@ std::string data_section(const StarterData& data, const NamedColumns& labels, co
       out += line(quoted(c.name), quoted(c.unit),
                   c.unit == "?" ? "the file does not say it: write the unit, such as \"mm\"" : "from its header");
   if (!conditions.empty()) out += "\n[data.conditions]\n";
-  for (const auto& [name, c] : conditions) out += line(name, column_text(*c), "recognised " + c->why);
+  for (const auto& [name, c] : conditions) out += line(name, column_text(*c), "recognised " + (c->why.empty() ? "by its name" : c->why));
   return out;
 }
 

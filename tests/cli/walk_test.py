@@ -1,4 +1,5 @@
-"""From a machine's log to an answer with the commands of the README and no file edited by hand: an axis with a laser.
+"""From a machine's log to an answer with the commands of the README: an axis with a laser, no file edited by hand; a robot
+with a tracker, whose links only its user knows.
 
 usage: walk_test.py path/to/gumshoe [unittest options]
 """
@@ -8,9 +9,11 @@ import json
 import math
 import pathlib
 import random
+import re
 import tempfile
 import unittest
 
+from plain_robot import DEG, Robot, instrument, table
 from program import gumshoe
 
 
@@ -19,14 +22,25 @@ def bend(x):
     return 4 * math.sin(x / 70) + 0.008 * x
 
 
-class Axis(unittest.TestCase):
-    """A German log in Latin-1: decimal commas, words, a clock; five runs up and down, noise of 0.3 um."""
-
+class Walk(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         temporary = tempfile.TemporaryDirectory()
         cls.addClassCleanup(temporary.cleanup)
         cls.folder = pathlib.Path(temporary.name)
+
+    def run_it(self, *words):
+        run = gumshoe(*words, cwd=self.folder, seconds=300)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        return run.stdout
+
+
+class Axis(Walk):
+    """A German log in Latin-1: decimal commas, words, a clock; five runs up and down, noise of 0.3 um."""
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
         chance, rows, second = random.Random(5), ["Nr;Lauf;Soll [mm];Richtung;Uhrzeit;Abweichung [µm];Temp [°C]"], 8 * 3600
         cls.readings = []
         for run in range(1, 6):
@@ -39,11 +53,6 @@ class Axis(unittest.TestCase):
                     rows.append(";".join(row))
                     second += 25
         (cls.folder / "messung.csv").write_text("\n".join(rows) + "\n", encoding="latin-1")
-
-    def run_it(self, *words):
-        run = gumshoe(*words, cwd=self.folder)
-        self.assertEqual(run.returncode, 0, run.stderr)
-        return run.stdout
 
     def test_from_the_log_to_budget_verdict_and_table(self):
         self.run_it("new", "linear_axis", "--from", "messung.csv")
@@ -78,6 +87,57 @@ class Axis(unittest.TestCase):
         for form in ("linuxcnc-trim", "sinumerik-eec", "isg"):
             self.run_it("compensate", "again.traced.toml", "--format", form, "--out", f"table.{form}")
             self.assertGreater(len((self.folder / f"table.{form}").read_text().splitlines()), 10)
+
+
+class RobotWithTracker(Walk):
+    """72 points of a robot with an eccentric encoder in its first joint, by a tracker of 20 um whose place is not known."""
+
+    # Lengths in m, angles in rad: a, alpha, d, theta.
+    links = ((0, -90 * DEG, 0.290, 0), (0.270, 0, 0, -90 * DEG), (0.070, -90 * DEG, 0, 0), (0, 90 * DEG, 0.302, 0), (0, -90 * DEG, 0, 0), (0, 0, 0.072, 0))
+    errors = {"delta_a_J2": 0.22e-3, "delta_alpha_J2": 0.03 * DEG, "delta_theta_J2": -0.17 * DEG, "delta_beta_J2": 0.03 * DEG,
+              "delta_a_J3": -0.15e-3, "delta_theta_J3": 0.2 * DEG, "delta_alpha_J4": -0.04 * DEG, "delta_theta_J5": 0.15 * DEG, "sine_J1": 0.03 * DEG}
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.robot = Robot(cls.links, (), cls.errors, target=(0.03, 0, 0.05))
+        cls.points = table(cls.robot, instrument(-1.2, 2.2, 0.6, 0.01, 0.02, -2.2), 7, 72)
+        (cls.folder / "points.csv").write_text(cls.points)
+
+    def test_from_points_to_finding_and_budget(self):
+        out = self.run_it("new", "serial_chain", "--from", "points.csv")
+        self.assertIn("the machine is that of the example. Replace [machine] by yours, then: gumshoe estimate serial_chain.toml", out)
+        # What only the user knows: the design of the links, one line each, and the tracker; no masses of this robot.
+        file = self.folder / "serial_chain.toml"
+        text = file.read_text()
+        for j, (a, alpha, d, theta) in enumerate(self.links, 1):
+            link = f'a = "{1e3 * a!r} mm", alpha = "{alpha / DEG!r} deg", d = "{1e3 * d!r} mm", theta = "{theta / DEG!r} deg"'
+            text = re.sub(rf'{{ axis = "J{j}".*}},', f'{{ axis = "J{j}", dh = {{ {link} }} }},', text)
+        text = re.sub(r"^(mass|centre)_.*\n", "", text, flags=re.M).replace('# u = "..."', 'u = "20 um"')
+        file.write_text(text)
+        # The links alone do not explain the points, and estimate says so.
+        fit = json.loads(self.run_it("estimate", "serial_chain.toml", "--format", "json"))
+        self.assertTrue(fit["converged"])
+        self.assertGreater(fit["s"], 2)
+        # The verdict: the encoder, after which held-out points are as good as the tracker.
+        rounds = json.loads(self.run_it("trace", "serial_chain.toml", "--loop", "3", "--format", "json", "--out", "t.h5"))["rounds"]
+        self.assertEqual(rounds[0]["added"], ["declared:sine_J1"])
+        self.assertGreater(rounds[0]["holdout_before"] * 1e6, 60)
+        # 36 coordinates, predicted from 180 and 28 parameters: three standard deviations of their root mean square.
+        self.assertLess(rounds[-1]["holdout_after"] * 1e6, 20 * math.sqrt(1 + 28 / 180) * (1 + 3 / math.sqrt(2 * 36)))
+        # The budget: where the target is at each of the commands, by the robot as it is.
+        outputs = json.loads(self.run_it("run", "serial_chain.traced.toml", "--samples", "1e4", "--format", "json", "--out", "b.h5"))
+        commands = [[float(row[f"j{j}_deg"]) * DEG for j in range(1, 7)] for row in csv.DictReader(io.StringIO(self.points))]
+        within = 0
+        for k, name in enumerate(("position_x", "position_y", "position_z")):
+            own = [o for o in outputs if o["measurand"].split("[")[0] == name]
+            self.assertEqual(len(own), len(commands))
+            for o, command in zip(own, commands):
+                off = abs(o["estimate"] - 1e3 * self.robot.place(command)[k])
+                self.assertLess(o["standard_uncertainty"], 0.02)  # the tracker's, and less than a twentieth of the robot's errors
+                within += off < 2 * o["standard_uncertainty"]
+        # All of them follow from the same 28 parameters: as if 28 independent coordinates were counted.
+        self.assertGreater(within / (3 * len(commands)), 0.954 - 3 * math.sqrt(0.954 * 0.046 / 28))
 
 
 if __name__ == "__main__":
