@@ -163,7 +163,7 @@ void print_columns(const RecognisedData& found) {
 void print_next(const Options& o, const std::string& out) {
   try {
     const auto s = scenario::read(out, catalogue());
-    if (s.made)
+    if (s.made && !s.made->card->axes.empty())
       std::cout << fmt::format(
           "{}: the machine is that of the example. Replace [machine] by yours, then: gumshoe {} {}\n", out,
           o.from.empty() ? "run" : "estimate", out);

@@ -51,6 +51,13 @@ class New(InFolder):
                 run = gumshoe("run", f"{model}.toml", "--samples", "2000", "--out", f"{model}.h5", cwd=self.folder, seconds=300)
                 self.assertEqual(run.returncode, 0, run.stderr)
 
+    def test_a_model_on_a_described_machine_asks_for_the_machine(self):
+        for model in ("sphere_probing", "serial_chain"):
+            with self.subTest(model):
+                self.assertIn(f"{model}.toml: the machine is that of the example. Replace [machine] by yours, then: gumshoe run {model}.toml", self.new(model))
+                run = gumshoe("run", f"{model}.toml", "--samples", "2000", "--out", f"{model}.h5", cwd=self.folder)
+                self.assertEqual(run.returncode, 0, run.stderr)
+
     def test_the_card_tells_every_quantity(self):
         self.new("rod_gauging")
         text = (self.folder / "rod_gauging.toml").read_text()
