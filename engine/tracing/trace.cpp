@@ -50,6 +50,11 @@ void state_what_design_rules_out(const TraceContext& c, const scenario::Scenario
 bool enough(const TraceContext& c, Trace& out) {
   const auto& rows = c.fitter.rows();
   const JointFit fit = c.fitter.fit({}, 1);
+  if (!fit.valid) {
+    out.statements.push_back("the declared model has no value at some of these readings; nothing can be judged");
+    out.outcome = Outcome::insufficient_data;
+    return false;
+  }
   const std::size_t unknowns = independent(fit.design, rows).size();
   if (rows.size() < unknowns + criteria.readings_above_unknowns) {
     const auto& readings = c.experiment.scenario().readings;

@@ -173,6 +173,25 @@ class BadData(InFolder):
         self.stated(said, "too few to hold some out")
         self.assertIn("left out in turn", said["rms"]["holdout"])
 
+    def test_readings_at_which_the_model_has_no_value(self):
+        # An offset of 30 mm: the tool of set-up 1 never meets the beam.
+        (self.folder / "s.toml").write_text("""schema = 1
+[model]
+name = "tool_length"
+[quantities]
+wear_1 = { estimated = true, value = "0 mm" }
+offset.by.setup = { 1 = "30 mm", 2 = "4 mm" }
+[indications.spindle_z]
+readings = { file = "r.csv", column = "z", unit = "mm", labels = { setup = "setup" } }
+components = [{ distribution = "normal", u = "1 um", per = "reading" }]
+""")
+        (self.folder / "r.csv").write_text("setup,z\n1,100.0\n2,100.1\n")
+        run = gumshoe("trace", "s.toml", "--format", "json", cwd=self.folder)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        said = json.loads(run.stdout)
+        self.assertEqual(said["verdict"], "insufficient_data")
+        self.stated(said, "has no value at some of these readings")
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -155,8 +155,9 @@ void Fitter::find_responses() {
 /// and of more correlation than the scatter about a straight line for every pass admits.
 void Fitter::find_covariance_models() {
   const JointFit fit = linearised(1);
+  if (!fit.valid) return;
   const PureError pure(fit.design, rows_, replicates_);
-  if (!fit.valid || !pure.known() || pure.cells() * observations_.indications > criteria.most_cells_of_noise) return;
+  if (!pure.known() || pure.cells() * observations_.indications > criteria.most_cells_of_noise) return;
   Design d = fit.design;
   const auto fix = [&](const Matrix& columns) {
     d.fixed.conservativeResize(Eigen::NoChange, d.fixed.cols() + columns.cols());
