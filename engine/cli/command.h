@@ -26,6 +26,7 @@ void add_estimate(CLI::App& app, Action& action);
 void add_compare(CLI::App& app, Action& action);
 void add_choose(CLI::App& app, Action& action);
 void add_trace(CLI::App& app, Action& action);
+void add_plan(CLI::App& app, Action& action);
 void add_compensate(CLI::App& app, Action& action);
 void add_replay(CLI::App& app, Action& action);
 void add_models(CLI::App& app, Action& action);

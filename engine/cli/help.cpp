@@ -31,6 +31,7 @@ constexpr CommandHelp helps[] = {
     {"compare", "gumshoe compare before.h5 after.h5", "says whether two results agree, and what changed", ""},
     {"choose", "gumshoe choose scenarios/choose_rod_readouts.toml --samples 1e4", "finds the fastest settings", again},
     {"trace", "gumshoe trace scenarios/trace_sphere.toml --report page.html", "finds what the model lacks", again},
+    {"plan", "gumshoe plan scenarios/plan_axis.toml", "says what to measure next", again},
     {"compensate", "gumshoe compensate x.traced.toml --format linuxcnc-trim", "writes a table that a control corrects by", ""},
     {"replay", "gumshoe replay results/x.h5 --sample 12345", "repeats one sample with every intermediate value", again},
     {"models", "gumshoe models rod_gauging", "quantities, units, defaults, limits, meaning", ""},

@@ -35,6 +35,7 @@ int main(int argc, char** argv) {
   cli::add_compare(app, action);
   cli::add_choose(app, action);
   cli::add_trace(app, action);
+  cli::add_plan(app, action);
   cli::add_compensate(app, action);
   cli::add_replay(app, action);
   cli::add_models(app, action);

@@ -11,12 +11,6 @@ namespace {
 
 constexpr std::int64_t most_readings = 100'000;
 
-std::string shown(double value, const VariableCard& card) {
-  const std::string unit(card.unit);
-  const double number = units::from_si(value, unit, std::string(card.si_unit));
-  return unit == "1" ? fmt::format("{:.9g}", number) : fmt::format("{:.9g} {}", number, unit);
-}
-
 double spread_value(const Spread& s, std::size_t i, std::size_t n) {
   return s.first + (s.last - s.first) * static_cast<double>(i) / static_cast<double>(n);
 }
@@ -44,7 +38,7 @@ public:
       for (const List& list : lists_) {
         reading.values[list.condition] = list.values[r];
         reading.labels.emplace_back(model_.conditions[list.condition].name,
-                                    shown(list.values[r], model_.conditions[list.condition]));
+                                    condition_text(list.values[r], model_.conditions[list.condition]));
       }
       out_.readings.push_back(std::move(reading));
     }
@@ -130,6 +124,12 @@ Shape condition_shape() {
   return shape::any_of({measure, shape::list(measure, R"("minItems": 1)"), shape::table(spread_keys())});
 }
 
+std::string condition_text(double value, const VariableCard& card) {
+  const std::string unit(card.unit);
+  const double number = units::from_si(value, unit, std::string(card.si_unit));
+  return unit == "1" ? fmt::format("{:.9g}", number) : fmt::format("{:.9g} {}", number, unit);
+}
+
 Conditions read_conditions(std::optional<Table> table, const ModelCard& model) {
   return Reader(std::move(table), model).read();
 }
@@ -148,7 +148,7 @@ void take_readings(Scenario& scenario, const ModelCard& model, std::size_t n) {
     for (const Spread& s : scenario.spreads) {
       reading.conditions[s.condition] = spread_value(s, i, n);
       reading.labels.emplace_back(model.conditions[s.condition].name,
-                                  shown(reading.conditions[s.condition], model.conditions[s.condition]));
+                                  condition_text(reading.conditions[s.condition], model.conditions[s.condition]));
     }
     if (scenario.spreads.empty() && n > 1) reading.labels.emplace_back("repeat", fmt::format("{}", i + 1));
     scenario.readings.push_back(std::move(reading));

@@ -17,6 +17,9 @@ struct Conditions {
   bool listed = false; ///< one value a reading
 };
 
+/// "30 mm/min": what a label says that names a condition.
+std::string condition_text(double value, const VariableCard& card);
+
 /// Shape of one condition.
 Shape condition_shape();
 

@@ -7,6 +7,7 @@
 #include "base/units.h"
 #include "scenario/analysis.h"
 #include "scenario/options.h"
+#include "scenario/plan_options.h"
 #include "scenario/trace.h"
 
 namespace gumshoe::scenario {
@@ -151,6 +152,17 @@ void explain(const Choose& c, const ModelCard& model, Lines out) {
   for (const ChooseCompare& one : c.compare) fmt::format_to(out, "  compare {}:", one.name), settings(one.settings);
 }
 
+void explain(const Plan& p, Lines out) {
+  fmt::format_to(out, "plan\n  {} readings are allowed, at most {} are taken{}; power {}, alpha {}\n", p.readings.size(), p.most,
+                 p.budget ? fmt::format(", for at most {}", *p.budget) : "", p.power, p.alpha);
+  if (!p.split.empty()) fmt::format_to(out, "  split {}\n", fmt::join(p.split, " from "));
+  if (!p.detect.empty()) fmt::format_to(out, "  detect {}\n", fmt::join(p.detect, ", "));
+  for (const auto& [name, size] : p.sizes) fmt::format_to(out, "  size of {}: {:.12g} SI\n", name, size);
+  for (const auto& [name, u] : p.uncertainties) fmt::format_to(out, "  u of {} at most {:.12g} SI\n", name, u);
+  if (p.d_optimal()) fmt::format_to(out, "  no goal: D-optimal for the free unknowns\n");
+  for (const auto& [label, cost] : p.setup_costs) fmt::format_to(out, "  a new {} costs {}\n", label, cost);
+}
+
 void explain(const StatedEffect& e, const ModelCard& model, Lines out) {
   for (const StatedPart& part : e.parts)
     fmt::format_to(out, "  {}: size ({}) * ({}) adds to {}\n", e.name, e.unit, part.formula,
@@ -216,6 +228,7 @@ std::string explain(const Scenario& s, const Catalogue& catalogue) {
   for (const StatedEffect& e : s.stated_effects) explain(e, *model, out);
   explain_options(s, evaluated_card(*model, s.evaluation), out);
   if (s.choose) explain(*s.choose, *model, out);
+  if (s.plan) explain(*s.plan, out);
   if (s.trace.stated) explain(s.trace, out);
   const std::vector<std::string> notes = notes_of_a_run(s);
   if (!notes.empty()) fmt::format_to(out, "notes\n");

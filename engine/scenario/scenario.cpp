@@ -14,6 +14,7 @@
 #include "scenario/machine.h"
 #include "scenario/made_models.h"
 #include "scenario/options.h"
+#include "scenario/plan.h"
 #include "scenario/quantity.h"
 #include "scenario/readings.h"
 #include "scenario/readouts_file.h"
@@ -88,6 +89,9 @@ public:
           choose->refuse(fmt::format("stated_effects.{} reads columns", e.name),
                          "their values at other settings are unknown", "use conditions only");
     }
+    if (auto plan = top.table("plan"))
+      out_.plan = std::make_shared<const Plan>(
+          read_plan(*plan, {own, out_, catalogue_, readings.readouts, top.find("indications")}, context_));
     top.refuse_unknown();
     problems_.raise();
     out_.hash = fmt::format("{:016x}", files_.hash(hash64(out_.text)));

@@ -1,6 +1,7 @@
 #pragma once
 /// A scenario: what is measured and what is known of each input quantity. A plain value, validated.
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +15,8 @@
 #include "scenario/trace_options.h"
 
 namespace gumshoe::scenario {
+
+struct Plan;
 
 enum class Method {
   propagation,        ///< propagation of distributions, JCGM 101
@@ -188,6 +191,7 @@ struct Scenario {
   std::vector<Expected> expected;
   EstimateOptions estimate;
   std::optional<Choose> choose;
+  std::shared_ptr<const Plan> plan; ///< [plan] (plan_options.h); null: none
   std::vector<StatedEffect> stated_effects;
   TraceOptions trace;
   /// True if the evaluation acts on single readings and its result is the mean over all of them (`gumshoe choose`).

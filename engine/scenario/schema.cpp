@@ -6,6 +6,7 @@
 
 #include "scenario/analysis.h"
 #include "scenario/choose.h"
+#include "scenario/plan.h"
 #include "scenario/conditions.h"
 #include "scenario/correlations.h"
 #include "scenario/series.h"
@@ -172,6 +173,8 @@ const std::vector<Key>& sections() {
       {"choose", choose_shape(),
        "options of gumshoe choose: the fastest settings within a target expanded "
        "uncertainty"},
+      {"plan", plan_shape(),
+       "options of gumshoe plan: the further readings that are allowed, their costs, and what they must reach"},
       {"trace", trace_shape(),
        "options of gumshoe trace: blocks, order, re-done set-up steps, and what was recorded with the readings"},
       {"stated_effects", stated_effects_shape(),

@@ -121,6 +121,58 @@ start = "1 s"
 name = "slow"
 values = { delay = "9 ms" }
 ''',
+    "plan": '''
+schema = 1
+[model]
+name = "expression"
+[model.indications]
+y = "a + b * x"
+[conditions]
+x = [0, 1, 2]
+warmth = 1
+[quantities]
+a = { estimated = true, value = 0 }
+b = { value = 1, u = 0.1 }
+[indications.y]
+readings = [1, 2, 3]
+components = [{ distribution = "normal", u = 1, per = "reading" }]
+[stated_effects.scale]
+formula = "x"
+unit = "1"
+[stated_effects.expansion]
+formula = "x * warmth"
+unit = "1"
+[plan]
+split = ["scale", "expansion"]
+detect = "scale"
+sizes = { scale = 1, expansion = 2 }
+uncertainties = { a = 0.1 }
+most = 30
+budget = 25
+cost = 2
+setup_costs = { x = 1 }
+power = 0.8
+alpha = 0.05
+[plan.readings]
+x = { from = 0, to = 3, step = 1 }
+warmth = [1, 2]
+''',
+    "plan by points": '''
+schema = 1
+[model]
+name = "expression"
+[model.indications]
+y = "a + x"
+[conditions]
+x = 0
+[quantities]
+a = { estimated = true, value = 0 }
+[indications.y]
+readings = [1]
+[plan]
+points = "points.csv"
+most = 3
+''',
     "command": '''
 schema = 1
 [model]

@@ -176,6 +176,7 @@ class Schema(unittest.TestCase):
             (pathlib.Path(folder) / "log.txt").write_text("P 1 V 2\nP 2 V 4\n")
             (pathlib.Path(folder) / "form.toml").write_text('[[lines]]\npattern = "P {p} V {v}"\nrow = true\n')
             (pathlib.Path(folder) / "values.csv").write_text("r,w,c,v\n5,a,10:00,1\n6,b,10:01,2\n9,a,10:02,3\n")
+            (pathlib.Path(folder) / "points.csv").write_text("x,cost\n0,1\n1,2\n")
             (pathlib.Path(folder) / "model.py").write_text(
                 "import sys\nprint('y')\nfor row in sys.stdin.read().splitlines()[1:]: print(row)\n")
             for name, text in EVERY_KEY.items():

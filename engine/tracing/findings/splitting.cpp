@@ -9,11 +9,14 @@
 #include "base/units.h"
 #include "tracing/criteria.h"
 #include "tracing/judgement/holdout.h"
+#include "tracing/planning/planning.h"
 
 namespace gumshoe::tracing {
 namespace {
 
 using scenario::Scenario;
+
+constexpr std::size_t planned_settings = 4; ///< settings of a plan that a sentence names
 
 /// Readings like those of one block, with one condition changed.
 struct Proposal {
@@ -123,11 +126,46 @@ double apart(const TraceContext& c, const Scenario& scenario, const Search& sear
   return least / search.found.variance;
 }
 
+/// "take 3 further readings (cost 16): 2 at feed 8 mm/min; 1 at feed 2 mm/min": the cheapest of those that [plan]
+/// allows that distinguishes members of these sizes. Empty: none does.
+std::string planned_measurement(const TraceContext& c, const Search& search, const SearchFinding& finding) {
+  Scenario s = c.experiment.scenario();
+  scenario::Plan asked = *s.plan;
+  asked.split.clear();
+  asked.detect.clear();
+  asked.sizes.clear();
+  asked.uncertainties.clear();
+  std::vector<Term> members{search.found.terms[finding.terms[0]]};
+  members.insert(members.end(), finding.rivals.begin(), finding.rivals.end());
+  for (const Term& t : members) {
+    const bool whole = t.candidate.family == Family::effect && !t.candidate.in_part();
+    const std::string name = whole ? t.candidate.amplitudes[0].scenario_name : t.candidate.name;
+    if (std::ranges::find(asked.split, name) != asked.split.end()) return {}; // two shapes of one effect
+    asked.split.push_back(name);
+    asked.sizes.emplace_back(name, t.size.norm());
+  }
+  s.plan = std::make_shared<const scenario::Plan>(asked);
+  Planned found;
+  try {
+    found = plan(s, {c.threads});
+  } catch (const InputError&) { // a member that the allowed readings do not show
+    return {};
+  }
+  if (!found.met || found.readings.empty()) return {};
+  std::string out =
+      fmt::format("take {} further reading{} (cost {:.4g})", found.count, found.count == 1 ? "" : "s", found.cost);
+  for (std::size_t i = 0; i < found.readings.size() && i < planned_settings; ++i)
+    out += fmt::format("{} {} at {}", i == 0 ? ":" : ";", found.readings[i].count, found.readings[i].setting);
+  return out + (found.readings.size() > planned_settings ? "; and others, which gumshoe plan lists" : "");
+}
+
 } // namespace
 
 std::string splitting_measurement(const TraceContext& c, const Search& search, const SearchFinding& finding) {
   if (finding.terms.empty() || finding.rivals.empty()) return {};
   const Scenario& s = c.experiment.scenario();
+  if (s.plan)
+    if (const std::string planned = planned_measurement(c, search, finding); !planned.empty()) return planned;
   const double now = apart(c, s, search, finding);
   double best = 0;
   std::string words;

@@ -1,0 +1,11 @@
+#pragma once
+/// Power of a test of amplitudes whose true non-centrality is known.
+namespace gumshoe::tracing {
+
+/// Probability that the statistic exceeds its 1 - alpha quantile: chi-squared with k degrees of freedom, or F with k
+/// and `freedom` where the noise is estimated. @param freedom  infinity: the noise is known
+double power(double noncentrality, int k, double freedom, double alpha);
+/// The non-centrality that gives this power.
+double noncentrality_for(double power, int k, double freedom, double alpha);
+
+} // namespace gumshoe::tracing
