@@ -311,6 +311,13 @@ setup = "2"
         self.refused("the model has no value for any of the allowed readings",
                      text=text.replace('setup = "2"', 'setup = "1"'), data="setup,z\n1,100.0\n2,100.1\n")
 
+    def test_a_model_without_simulation(self):
+        (self.folder / "s.toml").write_text((ROOT / "scenarios/expression.toml").read_text() +
+                                            "\n[plan]\nmost = 3\n[plan.readings]\n")
+        run = gumshoe("plan", self.folder / "s.toml", "--out", self.folder / "plan.csv")
+        self.assertEqual(run.returncode, 2)
+        self.assertIn("[plan]: the model expression cannot simulate its indications", run.stderr)
+
     def test_no_plan(self):
         run = gumshoe("plan", ROOT / "scenarios/trace_load_cell.toml", "--out", self.folder / "plan.csv")
         self.assertIn("[plan] is missing", run.stderr)

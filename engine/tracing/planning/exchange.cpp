@@ -10,10 +10,11 @@
 namespace gumshoe::tracing {
 namespace {
 
-constexpr double rounding = 1e-9;       ///< differences of scores and costs below this are none
-constexpr int starts = 6;               ///< plans from which exchanges start in addition to the greedy one
-constexpr std::size_t all_subsets = 4;  ///< set-ups up to which every choice of them is tried
-constexpr std::size_t most_paired = 60; ///< readings of a new set-up of which the best two are sought
+constexpr double rounding = 1e-9;            ///< differences of scores and costs below this are none
+constexpr int starts = 6;                    ///< plans from which exchanges start in addition to the greedy one
+constexpr std::size_t most_exchanges = 2000; ///< of a plan, up to which more starts are tried, by cost
+constexpr std::size_t all_subsets = 4;       ///< set-ups up to which every choice of them is tried
+constexpr std::size_t most_paired = 60;      ///< readings of a new set-up of which the best two are sought
 
 /// What the columns `of` are known by if `others` are unknown, too.
 Matrix eliminated(const Matrix& m, const std::vector<Index>& of, const std::vector<Index>& others) {
@@ -45,7 +46,8 @@ public:
     bool seeded = seed(out);
     fill(out, task_.budget);
     improve(out);
-    if (allowed_.size() < 2 || !seeded) return out;
+    if (allowed_.size() < 2 || !seeded || allowed_.size() * static_cast<std::size_t>(out.readings) > most_exchanges)
+      return out;
     for (int start = 0; start < starts; ++start) {
       State other = empty();
       const std::size_t n = static_cast<std::size_t>(std::max(1, out.readings));
@@ -163,22 +165,25 @@ private:
     }
   }
 
-  /// The best exchange of one reading for another, as long as there is one.
+  /// Each reading in turn for the one that serves better than any other (Cook and Nachtsheim 1980), as long as one
+  /// does.
   void exchange(State& s, double budget) const {
     for (bool moved = true; moved;) {
       moved = false;
-      State best = s;
       for (const std::size_t out : allowed_) {
         if (s.count[out] == 0) continue;
         const State less = with(s, out, -1);
-        if (better(less, best)) best = less, moved = true;
+        State best = s;
+        if (better(less, best)) best = less;
         for (const std::size_t in : allowed_) {
           if (in == out || !fits(less, in, budget)) continue;
           State next = with(less, in, 1);
-          if (better(next, best)) best = std::move(next), moved = true;
+          if (better(next, best)) best = std::move(next);
         }
+        if (!better(best, s)) continue;
+        s = std::move(best);
+        moved = true;
       }
-      if (moved) s = std::move(best);
     }
   }
 

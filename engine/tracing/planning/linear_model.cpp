@@ -46,7 +46,7 @@ std::string impossible(Scenario& alone) {
     for (const Status status : found.status)
       if (status != Status::ok) return status_name(status);
   } catch (const InputError& error) {
-    return error.what();
+    return error.problems().front().what;
   }
   return {};
 }
@@ -56,6 +56,11 @@ public:
   Builder(const Scenario& s, int threads) : s_(s), plan_(*s.plan), extended_(prepared(s)), threads_(threads) {}
 
   LinearModel build() {
+    const models::Model& model = s_.made ? *s_.made : *models::find(s_.model);
+    if (!model.simulate_gradient && !(model.kernels && model.kernels() && model.kernels()->simulate))
+      calibration::refuse(s_.file, fmt::format("[plan]: the model {} cannot simulate its indications", s_.model),
+                          "what a reading tells is the derivative of what it would be",
+                          s_.made ? "add [model.indications] with a formula for each" : "");
     find_usable();
     name_settings();
     find_setups();
