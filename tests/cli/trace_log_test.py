@@ -42,13 +42,23 @@ def probed_ring():
         yield f"{i};{when};{speed};{('aus', 'ein')[coolant]};{seen}"
 
 
+def three_machines():
+    """A load cell read on three machines in six runs; one machine shows 0.02 um/N more."""
+    draw = random.Random(1)
+    yield "run,machine,load_N,d_um"
+    for run in range(1, 7):
+        for machine in "ABC":
+            for load in range(0, 120, 20):
+                yield f"{run},{machine},{load},{5 + 0.3 * load + (0.02 * load if machine == 'C' else 0) + draw.gauss(0, 0.4):.3f}"
+
+
 class TraceLog(InFolder):
     def trace(self, rows):
         (self.folder / "log.csv").write_text("\n".join(rows) + "\n")
         for words in (("new", "--from", "log.csv"), ("check", "log.toml")):
             run = gumshoe(*words, cwd=self.folder)
             self.assertEqual(run.returncode, 0, run.stderr)
-        run = gumshoe("trace", "log.toml", "--draws", "199", "--format", "json", cwd=self.folder, seconds=300)
+        run = gumshoe("trace", "log.toml", "--draws", "199", "--format", "json", "--out", "t.h5", cwd=self.folder, seconds=300)
         self.assertEqual(run.returncode, 0, run.stderr)
         v = json.loads(run.stdout)
         self.assertLess(v["rms"]["holdout_after"], v["rms"]["holdout_noise_interval95"][1])
@@ -80,6 +90,19 @@ class TraceLog(InFolder):
         v = self.trace(probed_ring())
         self.agree(self.sizes(v), {"polynomial:t_spindel_c of x_mitte_mm": 4, "polynomial:t_spindel_c of y_mitte_mm": -1.1,
                                    "step:kuehlung ein of x_mitte_mm": 1.5})
+
+    def test_one_machine_has_another_slope(self):
+        v = self.trace(three_machines())
+        self.assertEqual([f["described_by"] for f in v["findings"]], ["product:position*machine C"])
+        said = re.search(r"machine C alone has a straight line against position: (\S+) um/N, u = (\S+) um/N", " ".join(v["findings"][0]["remarks"]))
+        self.assertAlmostEqual(float(said[1]), 0.02, delta=3.5 * float(said[2]))
+        # As it was written, it predicts what it was found in, and nothing is found again.
+        run = gumshoe("trace", "log.traced.toml", "--draws", "199", "--format", "json", cwd=self.folder, seconds=300)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        again = json.loads(run.stdout)
+        self.assertEqual(again["findings"], [])
+        self.assertAlmostEqual(again["rms"]["before"] / v["rms"]["after"], 1, delta=0.02)
+        self.assertAlmostEqual(again["rms"]["holdout_before"] / v["rms"]["holdout_after"], 1, delta=0.02)
 
 
 if __name__ == "__main__":

@@ -33,7 +33,7 @@ public:
       if (j < first_of_axes) continue;
       const auto& [axis, kind] = p.place_of[j - first_of_axes];
       if (column.stride != 0) varies[axis] = true;
-      if (kind == chain::error_kinds + chain::drive_compliance)
+      if (kind - chain::error_kinds == static_cast<int>(chain::drive_compliance))
         loaded_ = loaded_ || column.stride != 0 || column.data[0] != 0;
     }
     for (std::size_t a = 0; a < axes; ++a) {

@@ -19,6 +19,17 @@ double alike(const Vector& a, const Vector& b) {
 
 } // namespace
 
+std::vector<const Grouping*> part_labels(const Observations& o) {
+  const auto done_anew = [&](const Grouping& label) {
+    return label.group == o.blocks.group ||
+           std::ranges::any_of(o.replicate_groups, [&](const Grouping& g) { return g.group == label.group; });
+  };
+  std::vector<const Grouping*> out;
+  for (const Grouping& label : o.labels)
+    if (label.groups.size() <= criteria.most_parts && !done_anew(label)) out.push_back(&label);
+  return out;
+}
+
 Matrix masked(const Observations& o, Matrix columns, const std::vector<bool>* mask) {
   for (Index i = 0; i < columns.rows() && mask; ++i)
     if (!(*mask)[index(i) / o.indications]) columns.row(i).setZero();

@@ -45,7 +45,9 @@ struct Candidate {
   std::vector<std::string> depends_on;
   double finite = 0; ///< size over which the signature was taken; 0: the derivative
   /// An effect at some of the readings only: of one rod, of one set-up.
-  bool in_part() const { return family == Family::effect && !amplitudes[0].labels.empty(); }
+  bool in_part() const { return family == Family::effect && rare(); }
+  /// At some of the readings only, and therefore one of many.
+  bool rare() const { return !amplitudes[0].labels.empty(); }
   bool physical() const { return family == Family::effect || family == Family::declared || family == Family::stated; }
 };
 
@@ -59,6 +61,9 @@ std::vector<Candidate> physical_candidates(const propagation::Experiment& experi
 
 /// A candidate whose shape parameters are sizes, too, from the values at which they were held.
 Candidate with_free_shape(const Candidate& candidate, const propagation::Experiment& experiment);
+
+/// Labels that name a part: a rod, a tool. Blocks and acts done anew are no parts, as what they leave behind scatters.
+std::vector<const Grouping*> part_labels(const Observations& observations);
 
 /// Names of the covariates, else of the labels, on which a signature depends. What those named explain is no dependence
 /// on another that happens to go along with them.

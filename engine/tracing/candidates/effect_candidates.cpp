@@ -147,22 +147,10 @@ void with_other_shapes(const CandidateMaker& make, std::vector<Candidate>& found
   }
 }
 
-/// Labels that name a part: a rod, a tool. Blocks and acts done anew are no parts, as what they leave behind scatters.
-std::vector<const Grouping*> parts_of(const Observations& o) {
-  const auto done_anew = [&](const Grouping& label) {
-    return label.group == o.blocks.group ||
-           std::ranges::any_of(o.replicate_groups, [&](const Grouping& g) { return g.group == label.group; });
-  };
-  std::vector<const Grouping*> out;
-  for (const Grouping& label : o.labels)
-    if (label.groups.size() <= criteria.most_parts && !done_anew(label)) out.push_back(&label);
-  return out;
-}
-
 /// An effect that only one rod, or one tool, has.
 void of_parts(const CandidateMaker& make, std::vector<Candidate>& found) {
   const Observations& o = make.observations;
-  for (const Grouping* label : parts_of(o))
+  for (const Grouping* label : part_labels(o))
     for (std::size_t g = 0; g < label->groups.size(); ++g) {
       std::vector<bool> mask;
       for (const std::size_t own : label->group) mask.push_back(own == g);

@@ -47,6 +47,9 @@ public:
       if (c.levels.size() > 2 && c.name != "time" && c.name != "order") hysteresis(c);
     }
     for (const Grouping& g : o_.labels) steps(g);
+    for (const Grouping* g : part_labels(o_))
+      for (const Covariate& c : o_.covariates)
+        if (c.commanded && c.name != "time" && c.name != "order") in_groups(c, *g);
     for (std::size_t i = 0; i < o_.covariates.size(); ++i)
       for (std::size_t j = i + 1; j < o_.covariates.size(); ++j) product(o_.covariates[i], o_.covariates[j]);
     for (const Covariate& c : o_.covariates)
@@ -162,6 +165,21 @@ private:
       Vector one(index(o_.readings));
       for (std::size_t r = 0; r < o_.readings; ++r) one[index(r)] = g.group[o_.sequence[r]] == i ? 1 : 0;
       add(Family::shape, "step:" + g.groups[i], one, {g.name});
+    }
+  }
+
+  /// A condition that counts in one group alone: one machine has another slope.
+  void in_groups(const Covariate& c, const Grouping& g) {
+    const Vector x = plain(o_, c) / std::max(std::fabs(c.levels.front()), std::fabs(c.levels.back()));
+    for (std::size_t i = g.groups.size() == 2 ? 1 : 0; i < g.groups.size(); ++i) {
+      Vector one = Vector::Zero(x.size());
+      std::set<double> levels;
+      for (Index r = 0; r < x.size(); ++r)
+        if (g.group[o_.sequence[index(r)]] == i) one[r] = x[r], levels.insert(x[r]);
+      if (levels.size() < 2) continue;
+      add(Family::shape, "product:" + c.name + "*" + g.groups[i], one, {c.name, g.name});
+      for (auto a = out_.end() - index(o_.indications); a != out_.end(); ++a)
+        a->amplitudes[0].labels = {{g.name, g.values[i][0]}};
     }
   }
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/units.h"
+#include "quantities/cells.h"
 #include "tracing/criteria.h"
 #include "tracing/findings/sizes.h"
 
@@ -22,7 +23,7 @@ std::size_t moved_indication(const Matrix& columns, std::size_t indications) {
 class CurveMaker {
 public:
   CurveMaker(const TraceContext& c, const JointFit& fit, std::size_t term)
-      : o_(c.observations), term_(fit.terms[term]),
+      : o_(c.observations), readings_(c.experiment.scenario().readings), term_(fit.terms[term]),
         indication_(moved_indication(term_.candidate.columns, o_.indications)) {
     const Index first = first_column(fit, term), d = term_.size.size();
     covariance_ = fit.covariance.block(first, first, d, d);
@@ -55,14 +56,18 @@ public:
     return out;
   }
 
-  /// "0.49 um/K, u = 0.02 um/K" of a straight line against the covariate; empty of anything else.
+  /// "0.49 um/K, u = 0.02 um/K" of a straight line against the covariate, where the term acts; empty of anything else.
   std::string slope(const Covariate& covariate) const {
     const Matrix& columns = term_.candidate.columns;
     if (columns.cols() != 1) return "";
-    const auto k = index(o_.indications);
-    const Vector y = columns(Eigen::seq(index(indication_), Eigen::last, k), 0);
-    Vector x(y.size());
-    for (Index i = 0; i < x.size(); ++i) x[i] = covariate.value[o_.sequence[index(i)]];
+    std::vector<double> xs, ys;
+    for (std::size_t i = 0; i < o_.readings; ++i) {
+      if (!quantities::holds_for(term_.candidate.amplitudes[0].labels, readings_[o_.sequence[i]].labels)) continue;
+      xs.push_back(covariate.value[o_.sequence[i]]);
+      ys.push_back(columns(index(i * o_.indications + indication_), 0));
+    }
+    const Vector x = Eigen::Map<const Vector>(xs.data(), index(xs.size())),
+                 y = Eigen::Map<const Vector>(ys.data(), index(ys.size()));
     const Vector dx = x.array() - x.mean(), dy = y.array() - y.mean();
     const double per_size = dx.dot(dy) / dx.squaredNorm();
     constexpr double rounding = 1e-9;
@@ -150,6 +155,7 @@ private:
   }
 
   const Observations& o_;
+  const std::vector<quantities::Reading>& readings_;
   const Term& term_;
   std::size_t indication_;
   Matrix covariance_;
@@ -184,6 +190,10 @@ void add_curves(const TraceContext& c, const JointFit& fit, std::size_t term, Fi
     else if (const std::string slope = labels.empty() ? make.slope(*covariates[0]) : ""; !slope.empty())
       finding.remarks.push_back(fmt::format("a straight line against {}: {}", covariates[0]->name, slope));
   }
+  if (const Candidate& shape = fit.terms[term].candidate; shape.rare() && covariates.size() == 1)
+    finding.remarks.push_back(fmt::format("{} alone has a straight line against {}: {}",
+                                          quantities::text_of(shape.amplitudes[0].labels), covariates[0]->name,
+                                          make.slope(*covariates[0])));
   if (CellTable table = make.by(covariates, labels); !table.y.empty()) finding.tables.push_back(std::move(table));
 }
 

@@ -107,7 +107,8 @@ Evidence::Evidence(const TraceContext& c, const JointFit& fit, std::size_t round
   const double declared = c.fitter.noise_declared() ? 1 / fit.noise : 0;
   const Repeats repeats = repeats_of(c, fit);
   std::vector<double> rarity;
-  for (const Candidate& a : candidates_) rarity.push_back(a.in_part() ? criteria.rarity_of_part : 1);
+  for (const Candidate& a : candidates_)
+    rarity.push_back(a.in_part() || (a.family == Family::shape && a.rare()) ? criteria.rarity_of_part : 1);
   assessment_ = assess_surely(
       *scan_, data_, c.draws, c.seed + round, c.alpha, declared,
       [&](const CovarianceModel& model, double variance) { return scatter_response(model, variance); }, &repeats,
@@ -134,7 +135,9 @@ bool Evidence::testable(std::size_t a) const {
 
 Term Evidence::linear_term(std::size_t a) const {
   if (candidates_[a].physical()) return {candidates_[a], scan_->fit(a, data_).size};
-  Term shape{apart(candidates_[a], fit_, c_.observations, c_.fitter.rows()), {}};
+  // What one group alone does stays so: apart from a slope of all, it would be of all groups.
+  const Candidate& own = candidates_[a];
+  Term shape{own.rare() ? own : apart(own, fit_, c_.observations, c_.fitter.rows()), {}};
   shape.size = Vector::Zero(shape.candidate.columns.cols()); // linear: found in one step from anywhere
   return shape;
 }

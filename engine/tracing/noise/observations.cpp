@@ -33,7 +33,10 @@ Grouping grouping(const Scenario& s, const std::vector<std::size_t>& sequence, c
           (name.empty() ? "" : ", ") + (values.back().starts_with(label) ? values.back() : label + " " + values.back());
     }
     const auto [it, fresh] = known.insert({values, out.groups.size()});
-    if (fresh) out.groups.push_back(name);
+    if (fresh) {
+      out.groups.push_back(name);
+      out.values.push_back(values);
+    }
     out.group[r] = it->second;
   }
   return out;

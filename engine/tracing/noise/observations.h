@@ -23,8 +23,9 @@ std::vector<std::size_t> neighbours(const Covariate& covariate, std::size_t most
 struct Grouping {
   std::string name; ///< "setup", "rod,setup"
   std::vector<std::string> labels;
-  std::vector<std::size_t> group;  ///< by reading
-  std::vector<std::string> groups; ///< names: "setup 3"
+  std::vector<std::size_t> group;                    ///< by reading
+  std::vector<std::string> groups;                   ///< names: "setup 3"
+  std::vector<std::vector<std::string>> values = {}; ///< by group: of each label, as the readings have them
 };
 
 struct Observations {

@@ -84,7 +84,7 @@ private:
       c.source = source + "; known at the levels measured, and linear between those of one condition";
       out_.extended.quantities.push_back({c.name + ".size", c.unit, c.si_unit, {}, true});
       if (written_[t]->label)
-        sizes_by_label(t, *written_[t]->label, source);
+        sizes_by_label(t, *written_[t]->label, !c.keys.empty(), source);
       else
         size_of_column(t, index(&c - written_[t]->effects.data()), source);
       out_.corrections.push_back(c);
@@ -97,9 +97,13 @@ private:
     lines_.push_back({unknown(q, 0), fit_.terms[t].size[j], first_column(fit_, t) + j, {false, {}, source}});
   }
 
-  void sizes_by_label(std::size_t t, const Grouping& label, const std::string& source) {
+  /// @param of_condition the one group that counts does so by a condition: the loading holds what the column holds
+  void sizes_by_label(std::size_t t, const Grouping& label, bool of_condition, const std::string& source) {
     const Observations& o = c_.observations;
     const Matrix& columns = fit_.terms[t].candidate.columns;
+    std::vector<bool> counts(label.groups.size(), false);
+    for (Index i = 0; i < columns.rows(); ++i)
+      if (!columns.row(i).isZero(0)) counts[label.group[o.sequence[index(i) / o.indications]]] = true;
     const std::size_t q = out_.extended.quantities.size() - 1;
     std::vector<bool> done(label.groups.size(), false);
     for (std::size_t i = 0; i < o.readings; ++i) {
@@ -110,11 +114,11 @@ private:
       const auto& labels = c_.experiment.scenario().readings[reading].labels;
       entries.push_back({{{label.name, *quantities::label_value(labels, label.name)}}, 0, {}, ""});
       const auto rows = columns.middleRows(index(i * o.indications), index(o.indications)).colwise().sum();
-      Index column = -1;
-      for (Index j = 0; j < rows.size(); ++j)
+      Index column = of_condition && counts[group] ? 0 : -1;
+      for (Index j = 0; j < rows.size() && !of_condition; ++j)
         if (rows[j] != 0) column = j;
       lines_.push_back({unknown(q, entries.size() - 1),
-                        column < 0 ? 0 : rows[column] * fit_.terms[t].size[column],
+                        column < 0 ? 0 : (of_condition ? 1 : rows[column]) * fit_.terms[t].size[column],
                         column < 0 ? -1 : first_column(fit_, t) + column,
                         {false, entries.back().labels, source}});
     }
@@ -286,7 +290,9 @@ private:
       // An effect of one part is exactly null at the others.
       const bool null = !moved && a.scenario_name.find('.') != std::string::npos && entries[e].components.empty();
       if (!moved && !null) continue;
-      const Line line{unknown(a.quantity, e), value_at(a.quantity, entries[e].labels), null ? -1 : column,
+      const Line line{unknown(a.quantity, e),
+                      value_at(a.quantity, entries[e].labels),
+                      null ? -1 : column,
                       {false, moved ? a.labels : entries[e].labels, source}};
       // Found off twice, for all and for some: the later shift comes on top, and the value holds both.
       const auto known =

@@ -61,6 +61,28 @@ Correction common(const TraceContext& c, const std::string& name, std::size_t in
   return out;
 }
 
+/// What one group alone does with a condition, by the levels that it met; empty if others went beyond them.
+std::optional<Correction> in_a_group(const TraceContext& c, const Matrix& loading, const Grouping& g,
+                                     const std::string& condition, Correction out) {
+  const Observations& o = c.observations;
+  const auto keys = keys_of(c, {condition});
+  if (keys.empty()) return std::nullopt;
+  std::size_t active = 0;
+  for (std::size_t i = 0; i < o.readings; ++i)
+    if (loading(index(i), 0) != 0) active = g.group[o.sequence[i]];
+  std::map<double, double> rows;
+  for (std::size_t i = 0; i < o.readings; ++i)
+    if (g.group[o.sequence[i]] == active) rows[keys[0]->value[o.sequence[i]]] = loading(index(i), 0);
+  const auto& levels = keys[0]->levels;
+  if (levels.front() < rows.begin()->first || levels.back() > rows.rbegin()->first) return std::nullopt;
+  out.keys = {{keys[0]->name, keys[0]->unit, keys[0]->si_unit, {}}};
+  for (const auto& [level, here] : rows) {
+    out.keys[0].levels.push_back(level);
+    out.loading.push_back(here);
+  }
+  return out;
+}
+
 } // namespace
 
 std::optional<WrittenShape> written_shape(const TraceContext& c, const Term& term, const std::string& name) {
@@ -76,6 +98,15 @@ std::optional<WrittenShape> written_shape(const TraceContext& c, const Term& ter
     if (depends_on == g.labels) {
       out.effects = {common(c, name, indication)};
       out.effects[0].meaning = meaning;
+      out.label = &g;
+      return out;
+    }
+  for (const Grouping& g : o.labels)
+    if (depends_on.size() == 2 && g.labels == std::vector{depends_on[1]}) {
+      std::optional<Correction> one = in_a_group(c, loading, g, depends_on[0], common(c, name, indication));
+      if (!one) return std::nullopt;
+      one->meaning = meaning;
+      out.effects = {std::move(*one)};
       out.label = &g;
       return out;
     }
