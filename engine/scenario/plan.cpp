@@ -56,7 +56,7 @@ public:
     if (out_.d_optimal() && !table_.has("most") && !table_.has("budget"))
       table_.refuse("needs a goal or a limit", "every further reading reduces the uncertainties",
                     "give split, detect or uncertainties; or most or budget, for a D-optimal plan");
-    out_.columns = plan_columns(scope_, context_);
+    out_.columns = plan_columns(scope_, out_.readings, context_);
     table_.refuse_unknown();
     return std::move(out_);
   }

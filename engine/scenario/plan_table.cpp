@@ -1,6 +1,7 @@
 #include "scenario/plan_table.h"
 
 #include <algorithm>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -58,28 +59,50 @@ void fill(std::vector<PlanColumn>& columns, const Node& of, const ModelCard& mod
       }
 }
 
+std::string header(std::string_view name, std::string_view unit) {
+  return unit == "1" ? std::string(name) : fmt::format("{} ({})", name, unit);
+}
+
+PlanColumn of_condition(const ModelCard& model, std::size_t c) {
+  const VariableCard& card = model.conditions[c];
+  return {header(card.name, card.unit), PlanColumn::Holds::condition, {}, c,
+          std::string(card.unit),       std::string(card.si_unit)};
+}
+
+/// Conditions that the allowed readings vary, alone or beside those that were taken, and labels, without a column.
+void add_missing(std::vector<PlanColumn>& columns, const PlanScope& scope, const std::vector<AllowedReading>& allowed) {
+  using enum PlanColumn::Holds;
+  const auto has = [&](const auto& is_it) { return std::ranges::any_of(columns, is_it); };
+  for (const AllowedReading& reading : allowed)
+    for (const auto& [label, value] : reading.labels)
+      if (!has([&](const PlanColumn& p) { return p.holds == PlanColumn::Holds::label && p.label == label; }))
+        columns.push_back({label, PlanColumn::Holds::label, label});
+  for (std::size_t c = 0; c < scope.model.conditions.size(); ++c) {
+    if (has([&](const PlanColumn& p) { return p.holds == condition && p.condition == c; })) continue;
+    std::set<double> values;
+    for (const AllowedReading& reading : allowed) values.insert(reading.conditions[c]);
+    for (const auto& reading : scope.scenario.readings) values.insert(reading.conditions[c]);
+    if (values.size() > 1) columns.push_back(of_condition(scope.model, c));
+  }
+}
+
 std::vector<PlanColumn> own_columns(const PlanScope& scope, const Context& context) {
   std::vector<PlanColumn> out;
   using enum PlanColumn::Holds;
-  const auto header = [](std::string_view name, std::string_view unit) {
-    return unit == "1" ? std::string(name) : fmt::format("{} ({})", name, unit);
-  };
   const auto is_condition = [&](const std::string& name) {
     return std::ranges::find(scope.model.conditions, name, &VariableCard::name) != scope.model.conditions.end();
   };
   for (const std::string& label : context.label_names())
     if (!is_condition(label)) out.push_back({label, PlanColumn::Holds::label, label});
-  for (std::size_t c = 0; c < scope.model.conditions.size(); ++c) {
-    const VariableCard& card = scope.model.conditions[c];
-    out.push_back({header(card.name, card.unit), condition, {}, c, std::string(card.unit), std::string(card.si_unit)});
-  }
+  for (std::size_t c = 0; c < scope.model.conditions.size(); ++c) out.push_back(of_condition(scope.model, c));
   for (const VariableCard& card : scope.model.indications) out.push_back({header(card.name, card.unit)});
   return out;
 }
 
 } // namespace
 
-std::vector<PlanColumn> plan_columns(const PlanScope& scope, Context& context) {
+std::vector<PlanColumn> plan_columns(const PlanScope& scope, const std::vector<AllowedReading>& allowed,
+                                     Context& context) {
   const auto& readouts = scope.readouts;
   if (readouts.empty() || !readouts.front().file || !readouts.front().file->csv) return own_columns(scope, context);
   std::vector<PlanColumn> out;
@@ -88,6 +111,7 @@ std::vector<PlanColumn> plan_columns(const PlanScope& scope, Context& context) {
   if (scope.indications)
     for (const Member& m : scope.indications->members)
       if (const Node* readings = member(&m.value, "readings")) fill(out, *readings, scope.model, context.data);
+  add_missing(out, scope, allowed);
   return out;
 }
 

@@ -322,6 +322,13 @@ setup = "2"
         run = gumshoe("plan", ROOT / "scenarios/trace_load_cell.toml", "--out", self.folder / "plan.csv")
         self.assertIn("[plan] is missing", run.stderr)
 
+    def test_the_table_says_what_the_data_file_has_no_column_for(self):
+        run = gumshoe("plan", ROOT / "scenarios/plan_axis.toml", "--out", self.folder / "plan.csv")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        with open(self.folder / "plan.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual({r["temperature (degC)"] for r in rows}, {"20", "22"})
+
 
 if __name__ == "__main__":
     unittest.main()
