@@ -59,6 +59,14 @@ struct Criteria {
   double same_signature = 0.9995;
   /// A signature that moves the readings by less than this share of `secant_step` per SI unit is rounding.
   double least_signature = 1e-7;
+  /// Readings jump with a size if they move twice as far as by their derivative, and if half a step moves them by more
+  /// than `curved` of that, in a pattern whose cosine with that of the step is above this: else no size shows.
+  double follows = 0.3;
+  int most_halvings = 12; ///< of the size that moves readings by what is left of them, from the one by the derivative
+  /// Sizes tried where readings jump: up to so many times that size, because what explains the residuals is of their
+  /// size; in so many steps of each sign, or steps and directions of a pair. A step is a fraction of a jump.
+  double most_start = 4;
+  int steps_of_size = 32, steps_of_pair = 12, start_directions = 32;
   std::size_t most_cells = 60;          ///< groups of readings for which a declared quantity is tried apart, by cost
   std::size_t most_parts = 12;          ///< values of a label at which effects are tried apart, by cost
   double dependence_share = 0.1;        ///< share of a signature's variance that a condition must explain to be named
@@ -101,13 +109,24 @@ struct Criteria {
   /// Readings jump if they bend by more than this many standard deviations of the noise, and by less than this share of
   /// their movement; beyond it some size would fit anything. Tuned.
   double least_jump = 0.1, most_jump = 0.25;
+  /// Sizes with which readings jump are tried at random about the best so far, so many at once, from this share of
+  /// their own size down to the second, each `jump_closer` times as far as before where none was better. Where another
+  /// term came or went, from the third.
+  Index jump_tries = 48;
+  double jump_reach = 0.5, least_jump_reach = 0.005, jump_reach_again = 0.1, jump_closer = 0.7;
+  int most_jump_batches = 40;
+  /// Batches that tell how far the readings know these sizes; tries by size from which the next batch takes its spread,
+  /// at least; and the finest spread, as a share of half their own size.
+  int jump_samples = 12;
+  std::size_t tries_that_tell = 5;
+  double finest_jump_reach = 1e-3;
   double tangent_serves = 0.1; ///< largest difference of the tangent from the line through the steps, as its share
 
   // ---- Judgement ----
   std::size_t most_findings = 5; ///< terms or scatter found in one trace
   /// An effect that one rod or one tool alone has is taken to be so many times rarer than one of them all.
   double rarity_of_part = 10;
-  double beyond_doubt = 25;      ///< 2 ln L beyond which no simulation is needed: five standard deviations
+  double beyond_doubt = 25; ///< 2 ln L beyond which no simulation is needed: five standard deviations
   /// 2 ln L up to which a shape that fits better than an effect is of equal merit: the effect has a cause.
   double equal_merit = 4;
   /// A p-value between these multiples of alpha asks for more draws, each time this many times as many, up to the
@@ -135,7 +154,7 @@ struct Criteria {
   double mostly_absorbed = 0.1; ///< identifiable share below which the ranking names what absorbs the signature
 
   // ---- Findings ----
-    /// Growth of the hold-out's root mean square that vetoes a finding, and the standard deviations by which its
+  /// Growth of the hold-out's root mean square that vetoes a finding, and the standard deviations by which its
   /// predicted change must be larger than the readings show: a right finding is overstated so in one of twenty.
   double veto_growth = 1.05, overstated = 1.645;
   double insensitive = 1e-9;     ///< share of a signature in the hold-out blocks below which they cannot judge it
@@ -154,6 +173,7 @@ struct Criteria {
   /// the present data do.
   double split = 9, split_gain = 1.5;
   std::size_t split_readings = 24; ///< readings of the proposed measurement
+  std::size_t most_jumping = 5;    ///< effects named where jumps may not have been crossed
   std::size_t most_curve_points = 24;
   /// Ratios of scatter to noise in the profile likelihood: from the lowest, over this factor, in equal steps of ln.
   double scatter_low = 0.05, scatter_span = 4000;

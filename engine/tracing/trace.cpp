@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/units.h"
 #include "scenario/document.h"
@@ -96,6 +97,14 @@ void judge_by_holdout(const TraceContext& c, Search& found, Trace& out) {
     out.statements.push_back(fmt::format("found after the others and rejected by the hold-out blocks: {}", name));
 }
 
+/// Whether more than noise is left where readings jump with a size. Scatter of single readings is what is left, too.
+bool jumps_not_crossed(const TraceContext& c, const Search& found, bool vetoed) {
+  if (found.jumping.empty() || vetoed || found.last.p_anything > c.alpha) return false;
+  return std::ranges::none_of(found.findings, [](const SearchFinding& f) {
+    return f.finding.kind == Kind::scatter && f.finding.depends_on != std::vector<std::string>{"reading"};
+  });
+}
+
 } // namespace
 
 const char* name(Kind kind) {
@@ -159,6 +168,11 @@ Trace traced(const scenario::Scenario& scenario, const Settings& settings, bool&
     out.statements.push_back(
         fmt::format("the search ended at its limit of {} findings; more would be found", criteria.most_findings));
   out.capped = found.capped;
+  out.jumps_not_crossed = jumps_not_crossed(c, found, out.vetoed);
+  if (out.jumps_not_crossed)
+    out.statements.push_back(fmt::format(
+        "readings jump with some sizes, of which the search may not have found the best; nearest to the readings: {}",
+        fmt::join(found.jumping, ", ")));
   describe_repeats(c, found, out);
   describe_noise(c, found, out);
   collect(c, found, out);

@@ -215,6 +215,9 @@ struct Trace {
   std::vector<AnomalousBlock> anomalous_blocks;
   std::vector<Outlier> outliers; ///< the largest first
   bool capped = false;           ///< true if the search ended at its largest number of findings, with more to be found
+  /// True if readings jump with sizes that were tried, and more is left than noise: better sizes may not have been
+  /// found.
+  bool jumps_not_crossed = false;
   std::vector<DetectionLimit> detection_limits;
   std::vector<RankedCandidate> candidates; ///< candidates of the first round, best first
   std::vector<Row> rows;

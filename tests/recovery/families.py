@@ -11,6 +11,9 @@ TRAITS = {
     "thousands": dict(blocks=56, positions=45),
     "offsets": dict(offsets=True),          # each block has an offset of its own
     "fading": dict(first=6.0),              # um: the first minutes differ, and the scenario says so
+    "24": dict(setups=8, clampings=1),      # readings of a mill
+    "60": dict(setups=10, clampings=2),
+    "quiet": dict(noise=0.1),               # um: a tooth's step is five times as much
     "wide": dict(wide=True),                # 5 mm and 0.5 deg on the machine's parameters
 }
 
@@ -115,6 +118,17 @@ rod_gauging         cubic@12                                                  wh
 tool_length         -                                                         white
 tool_length         trigger_latency@8                                         white
 tool_length         revolution_confirm@8                                      white
+tool_length         spindle_axial_shift@8                                     white
+tool_length         thermal_growth@15                                         white      undeclared
+tool_length         tool_runout@8                                             white      60
+tool_length         tool_runout@15                                            white      quiet 24
+tool_length         tool_runout@15                                            white      quiet 60 undeclared
+tool_length         tool_runout@30                                            white      quiet
+tool_length         declared:wear_2@8                                         white      60
+tool_length         declared:wear_3@15                                        white      quiet 24
+tool_length         declared:wear_2@15                                        white      quiet 60 undeclared
+tool_length         declared:wear_3@30                                        white      quiet
+tool_length         tool_runout@15+declared:wear_2@15                         white      quiet
 sphere_calibration  -                                                         white
 sphere_calibration  -                                                         white      wide
 sphere_calibration  c_axis_reversal@8                                         white

@@ -17,10 +17,10 @@ FEEDS = (4.0, 10.0, 20.0, 40.0)
 SPEEDS = (4500.0, 6000.0, 8000.0, 10000.0)
 
 
-def design(rng, setups=8, feeds=FEEDS, speeds=SPEEDS, **more):
+def design(rng, setups=8, clampings=4, feeds=FEEDS, speeds=SPEEDS, **more):
     rows, t = [], 200.0
     for setup in range(1, setups + 1):
-        for clamp in "abcd":
+        for clamp in "abcd"[:clampings]:
             for feed, speed in zip(rng.choice(feeds, 3, replace=len(feeds) < 3), rng.choice(speeds, 3, replace=len(speeds) < 3)):
                 rows.append((str(setup), clamp, feed, speed, float(rng.integers(0, 360)), t))
                 t += rng.uniform(60, 150)
@@ -82,7 +82,20 @@ def nose(d, rng):
     return (d.value("spindle_speed") / 1e4) ** 1.95
 
 
+def run_out(d, rng):
+    """The engine's own tilt of the tool (its geometry has tests of its own), a size in mrad towards any side: which flute comes
+    lowest, and by how much, decides what triggers."""
+    towards = rng.uniform(0, 2 * np.pi)
+
+    def read(program, size, q):
+        tilt = {"tool_runout.tilt_x (mrad)": size * np.cos(towards), "tool_runout.tilt_y (mrad)": size * np.sin(towards)}
+        return simulate(program, d, [q], [tilt])[0]
+    read.parts = {"tilt_x": np.cos(towards), "tilt_y": np.sin(towards)}
+    return read
+
+
 ADDED = {
+    "tool_runout": (run_out, "tilt_x", "mrad", ("feed", "spindle_speed", "start_angle"), "+"),
     "trigger_latency": (latency, "delay", "ms", ("feed",), "+"),
     "revolution_confirm": (confirmation, "revolutions", "1", ("feed", "spindle_speed"), "+"),
     "spindle_axial_shift": (nose, "at_once", "um", ("spindle_speed",), "+"),
@@ -95,6 +108,8 @@ ADDED = {
     "cubic": (along(1.0)(shapes.cubic("spindle_speed")), None, None, ("spindle_speed",)),
     "product": (along(1.0)(shapes.room_by_feed), None, None, ("feed", "temperature")),
 }
+# An insert that is lower moves readings without limit; one that is higher, by a tooth's feed at most.
+TOWARDS = {f"wear_{k}": -1 for k in (2, 3, 4)}
 SINGLES = ("trigger_latency", "revolution_confirm", "spindle_axial_shift", "thermal_growth", "thermal_growth:warming")
 PAIRS = (("trigger_latency", "thermal_growth"), ("spindle_axial_shift", "trigger_latency"))
 OUTSIDE = ("bump", "jump", "wave", "cubic", "product")

@@ -119,14 +119,18 @@ def covered(finding, effect):
         return []
     if plain((finding.get("members") or [finding["name"]])[0]) != plain(effect["name"]):
         return []
+    # An effect of one size may have been given another, nearer to the catalogue's.
+    several = effect.get("sizes", {}) if len(effect.get("sizes", {})) > 1 else {effect["quantity"]: effect.get("size")}
+    out = []
     for q in finding.get("quantities", []):
-        if q["name"].split("[")[0].split(".")[-1] != effect["quantity"]:
+        name = q["name"].split("[")[0].split(".")[-1]
+        if name not in several:
             continue
         per = factor(effect["unit"], q["unit"])
         low, high = q["interval95"]
-        true = [effect[k] * per for k in (("off", "absolute") if "off" in effect else ("size",))]
-        return [low <= min(true, key=lambda t: abs(t - q["value"])) <= high]
-    return []
+        true = [x * per for x in ([effect["off"], effect["absolute"]] if "off" in effect else [several[name]])]
+        out.append(low <= min(true, key=lambda t: abs(t - q["value"])) <= high)
+    return out
 
 
 def upper_limit(alarms, n, level=0.95):

@@ -78,6 +78,7 @@ def make(program, system, kind, what, strength, seed, noise_kind="white", floor=
             size, shift = -size, one(-size, q, base)
         total = total + shift
         shift = size * one.smooth if hasattr(one, "smooth") else shift
+        truth.update(sizes={n: size * part for n, part in getattr(one, "parts", {}).items()} or {truth["quantity"]: size})
         truth.update(size=size, strength=d0.strength(shift), depends_on=list(truth["depends_on"]))
         effects.append((truth, shift))
     e = noise(noise_kind, rng, d.time, base.shape[1], deviations(noise_kind, d))
@@ -114,13 +115,14 @@ def effect(program, system, d, oracle, name, rng):
             title = str(rng.choice([t for t, s in seen.items() if s > 0.3 * max(seen.values())]))
         at = [i for i, c in enumerate(d.cells) if c.title == title or (c.name == title and c.label)]
         cell = d.cells[at[0]]
+        towards = getattr(system, "TOWARDS", {}).get(cell.name)
 
         def one(size, q, base):
             moved = q.copy()
-            moved[at] += size
+            moved[at] += (towards or 1) * size
             truth.update(absolute=float(moved[at[0]]), off=float(moved[at[0]] - cell.value))
             return system.simulate(program, d, [moved])[0] - base
-        truth = dict(name="declared:" + title, quantity=cell.name, unit=cell.unit, sign="either",
+        truth = dict(name="declared:" + title, quantity=cell.name, unit=cell.unit, sign="+" if towards else "either",
                      depends_on=[cell.label] if cell.label else [])
         return one, truth
     make_shape, quantity, unit, depends = system.ADDED[name][:4]
@@ -129,6 +131,7 @@ def effect(program, system, d, oracle, name, rng):
         one = lambda size, q, base: shape(program, size, q) - base
         if hasattr(shape, "smooth"):
             one.smooth = shape.smooth
+        one.parts = getattr(shape, "parts", {})
     else:
         one = lambda size, q, base: size * shape
     return one, dict(name=name.split(":")[0] if not name.startswith("stated:") else name.removeprefix("stated:"), quantity=quantity, unit=unit,

@@ -13,7 +13,8 @@ Matrix masked(const Observations& observations, Matrix columns, const std::vecto
 class CandidateMaker {
 public:
   CandidateMaker(const propagation::Experiment& experiment, const Simulator& simulator, const Points& at,
-                 const Observations& observations, double step, const std::function<bool(const Candidate&)>& skip);
+                 const Observations& observations, double step, const std::function<bool(const Candidate&)>& skip,
+                 const BestStart& choose);
 
   /// Adds a candidate to its family unless it is skipped, has no effect, or equals one with its name.
   void add(Candidate a, std::vector<Candidate>& family) const;
@@ -28,9 +29,10 @@ public:
   const Points& at;
   const Observations& observations;
   const Signatures moved;
+  const double step;      ///< change of the indications by a finite step, SI
+  const BestStart choose; ///< empty: jumps are not crossed
 
 private:
-  double step_;
   const std::function<bool(const Candidate&)>& skip_;
 };
 
@@ -40,5 +42,7 @@ std::vector<Candidate> effect_candidates(const CandidateMaker& make);
 std::vector<Candidate> declared_candidates(const CandidateMaker& make);
 /// Effects stated as formulas.
 std::vector<Candidate> stated_candidates(const CandidateMaker& make);
+/// Of candidates, those with whose sizes readings jump, over sizes of both signs, or in all directions of a pair.
+std::vector<Candidate> jumping_candidates(const CandidateMaker& make, const std::vector<Candidate>& candidates);
 
 } // namespace gumshoe::tracing

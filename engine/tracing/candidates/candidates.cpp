@@ -37,12 +37,14 @@ Matrix masked(const Observations& o, Matrix columns, const std::vector<bool>* ma
 }
 
 CandidateMaker::CandidateMaker(const propagation::Experiment& e, const Simulator& s, const Points& p,
-                               const Observations& o, double step, const std::function<bool(const Candidate&)>& skip)
-    : experiment(e), simulator(s), at(p), observations(o), moved(signatures(e, s, p, step)), step_(step), skip_(skip) {}
+                               const Observations& o, double change, const std::function<bool(const Candidate&)>& skip,
+                               const BestStart& best)
+    : experiment(e), simulator(s), at(p), observations(o), moved(signatures(e, s, p, change)), step(change),
+      choose(best), skip_(skip) {}
 
 void CandidateMaker::add(Candidate a, std::vector<Candidate>& family) const {
   // What a whole SI unit would move by less than a ten-millionth of the noise is rounding, no signature.
-  const double least = criteria.least_signature * step_ * std::sqrt(static_cast<double>(a.columns.rows()));
+  const double least = criteria.least_signature * step * std::sqrt(static_cast<double>(a.columns.rows()));
   if (skip_(a) || !(a.columns.norm() > least)) return;
   for (const Candidate& other : family)
     if (other.name == a.name && other.columns.cols() == 1 && a.columns.cols() == 1 &&
@@ -139,13 +141,15 @@ const char* name(Family family) {
 
 std::vector<Candidate> physical_candidates(const propagation::Experiment& experiment, const Simulator& simulator,
                                            const Points& at, const Observations& observations, double step,
-                                           const std::function<bool(const Candidate&)>& skip) {
-  const CandidateMaker make(experiment, simulator, at, observations, step, skip);
+                                           const std::function<bool(const Candidate&)>& skip, const BestStart& choose) {
+  const CandidateMaker make(experiment, simulator, at, observations, step, skip, choose);
   std::vector<Candidate> out = effect_candidates(make);
   for (const auto family : {declared_candidates, stated_candidates}) {
     const std::vector<Candidate> more = family(make);
     out.insert(out.end(), more.begin(), more.end());
   }
+  const std::vector<Candidate> jumping = jumping_candidates(make, out);
+  out.insert(out.end(), jumping.begin(), jumping.end());
   return out;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 /// Candidates for what the model lacks: effects at null, shifted declared quantities, effects stated as formulas.
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -44,6 +45,11 @@ struct Candidate {
   std::vector<std::pair<std::size_t, double>> held; ///< shape quantities, SI
   std::vector<std::string> depends_on;
   double finite = 0; ///< size over which the signature was taken; 0: the derivative
+  /// Where readings jump: the sizes of all amplitudes, SI, over which its one column was taken, and from which the
+  /// whole model is fitted. Empty: readings do not jump, or it is the derivative.
+  std::vector<double> start;
+  Matrix tried; ///< amplitudes x sizes of which that is the best; the p-value counts as often
+  double tries() const { return tried.cols() > 0 ? static_cast<double>(tried.cols()) : 1; }
   /// An effect at some of the readings only: of one rod, of one set-up.
   bool in_part() const { return family == Family::effect && rare(); }
   /// At some of the readings only, and therefore one of many.
@@ -51,13 +57,19 @@ struct Candidate {
   bool physical() const { return family == Family::effect || family == Family::declared || family == Family::stated; }
 };
 
+/// Of sizes of a candidate's amplitudes (columns) the one from which the readings are explained best by the exact
+/// model.
+using BestStart = std::function<std::optional<Index>(const Candidate&, const Matrix& sizes)>;
+
 /// Signatures of all physical candidates at a point, from exact derivatives and, where the model is not linear, also
 /// over finite steps.
 /// @param step  change of the indications by a finite step, SI
 /// @param skip  true for candidates that are terms already
+/// @param choose  where readings jump with a size; empty: no sizes are tried there
 std::vector<Candidate> physical_candidates(const propagation::Experiment& experiment, const Simulator& simulator,
                                            const Points& at, const Observations& observations, double step,
-                                           const std::function<bool(const Candidate&)>& skip);
+                                           const std::function<bool(const Candidate&)>& skip,
+                                           const BestStart& choose = {});
 
 /// A candidate whose shape parameters are sizes, too, from the values at which they were held.
 Candidate with_free_shape(const Candidate& candidate, const propagation::Experiment& experiment);

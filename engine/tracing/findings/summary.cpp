@@ -155,8 +155,15 @@ std::string which_block_differs(const Trace& t) {
 /// First what was found and what to do; then what is left all the same.
 std::vector<std::string> verdict_in_words(const Trace& t) {
   const Rms& r = t.rms;
+  const bool cause =
+      !t.findings.empty() && (t.findings[0].kind == Kind::named || t.findings[0].kind == Kind::equivalence_class);
   std::vector<std::string> out;
-  if (!t.findings.empty()) {
+  if (t.jumps_not_crossed && !cause) {
+    out = {"More than noise is left, and the readings jump with sizes that were tried: the search may not have found "
+           "the right size.",
+           "Declare these sizes as other measurements give them, and trace again."};
+    if (!t.findings.empty()) out.push_back(what_was_found(t.findings.front()));
+  } else if (!t.findings.empty()) {
     out = {what_was_found(t.findings.front())};
     if (t.findings.size() > 1) out.push_back(what_else_was_found(t.findings));
     out.push_back(what_to_do(t.findings, r));

@@ -142,6 +142,7 @@ JointFit Fitter::fit(const std::vector<Term>& terms, double noise, const JointFi
   }
   converge(fit, noise);
   for (int lesser = 0; lesser < criteria.most_optima && explore(fit); ++lesser) converge(fit, noise);
+  cross_jumps(fit, noise, jump_reach(terms, start));
   return fit;
 }
 

@@ -42,6 +42,9 @@ Index first_column(const JointFit& fit, std::size_t term);
 /// Standard uncertainty of each size of a term, SI.
 Vector uncertainties(const JointFit& fit, std::size_t term);
 
+/// Share of the sizes of terms with which readings jump over which better ones are sought, given the fit before.
+double jump_reach(const std::vector<Term>& terms, const JointFit* before);
+
 /// A free unknown: a quantity marked estimated that has no prior, or one of its entries.
 struct FreeUnknown {
   std::string name;
@@ -75,6 +78,9 @@ public:
   /// If readings jump with a term's size, its tangent does not give its uncertainty. Replaces it in the covariance by
   /// that of the likelihood along the size or of the straight line through the jumps, whichever is larger.
   void widen_jumping(JointFit& fit) const;
+  /// Where readings jump with a candidate's size: the best of these sizes (columns) in addition to a fit, by the exact
+  /// model, all else fitted. None if the model has no value there.
+  std::optional<Index> best_start(const JointFit& fit, const Candidate& candidate, const Matrix& sizes) const;
   /// What the readings say of the declared draws that move the point of the fit, except those that are tied. Settled
   /// unknowns then follow these draws, in the fit's covariance as well.
   DrawsGivenReadings draws_given_readings(JointFit& fit) const;
@@ -95,6 +101,7 @@ private:
     bool fitted = false; ///< moves the point of linearisation, as priors of the model's quantities do
   };
   struct Profile;
+  class JumpingSizes;
   /// True if a profile is needed: readings jump with the size, or do not follow its tangent.
   enum class Worth { jumps, tangent_wrong };
 
@@ -140,6 +147,9 @@ private:
   /// If readings jump, Gauss-Newton may end in a poor optimum: sets the last term to a nearby size that fits better,
   /// with all others fitted. Returns false if there is none or nothing jumps.
   bool explore(JointFit& fit) const;
+  /// The same for all terms that start where readings jump, together. @param reach  share of their sizes tried, 0: none
+  bool cross_jumps(JointFit& fit, double noise, double reach) const;
+  void widen_across_jumps(JointFit& fit) const;
   /// @param unit  scale of the uncertainty of the size
   std::optional<Profile> profile(const JointFit& fit, std::size_t term, Index amplitude, double unit,
                                  Worth worth) const;

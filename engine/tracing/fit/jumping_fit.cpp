@@ -105,6 +105,7 @@ bool Fitter::explore(JointFit& fit) const {
   if (fit.terms.empty()) return false;
   // The others were tried when they came.
   const std::size_t term = fit.terms.size() - 1;
+  if (!fit.terms[term].candidate.start.empty()) return false;
   for (Index i = 0; i < fit.terms[term].size.size(); ++i) {
     const Index own = first_column(fit, term) + i;
     std::optional<Profile> p;
@@ -138,8 +139,9 @@ bool Fitter::explore(JointFit& fit) const {
 }
 
 void Fitter::widen_jumping(JointFit& fit) const {
+  widen_across_jumps(fit);
   for (std::size_t term = 0; term < fit.terms.size(); ++term)
-    for (Index i = 0; i < fit.terms[term].size.size(); ++i) {
+    for (Index i = 0; fit.terms[term].candidate.start.empty() && i < fit.terms[term].size.size(); ++i) {
       const Index own = first_column(fit, term) + i;
       const double u = std::sqrt(fit.covariance(own, own));
       // A pattern of jumps that fits pins the size, were all else of the model exact: the line does not rely on that.

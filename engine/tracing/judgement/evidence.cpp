@@ -7,6 +7,7 @@
 #include "tracing/candidates/shapes.h"
 #include "tracing/criteria.h"
 #include "tracing/judgement/apart.h"
+#include "tracing/judgement/decisions.h"
 #include "tracing/judgement/holdout.h"
 
 namespace gumshoe::tracing {
@@ -98,7 +99,8 @@ Evidence::Evidence(const TraceContext& c, const JointFit& fit, std::size_t round
   const double size = std::sqrt(std::max(1e-300, fit.variance)) * fit.design.reference[0];
   const auto known = [&](const Candidate& a) { return dropped.contains(a.name) || is_term(fit, a); };
   candidates_ =
-      physical_candidates(c.experiment, c.simulator, fit.at, c.observations, criteria.secant_step * size, known);
+      physical_candidates(c.experiment, c.simulator, fit.at, c.observations, criteria.secant_step * size, known,
+                          [&](const Candidate& a, const Matrix& sizes) { return c.fitter.best_start(fit, a, sizes); });
   for (Candidate& a : shapes(c.observations))
     if (!known(a)) candidates_.push_back(std::move(a));
   for (const Candidate& a : candidates_) pointers_.push_back(&a);
@@ -108,7 +110,7 @@ Evidence::Evidence(const TraceContext& c, const JointFit& fit, std::size_t round
   const Repeats repeats = repeats_of(c, fit);
   std::vector<double> rarity;
   for (const Candidate& a : candidates_)
-    rarity.push_back(a.in_part() || (a.family == Family::shape && a.rare()) ? criteria.rarity_of_part : 1);
+    rarity.push_back(a.in_part() || (a.family == Family::shape && a.rare()) ? criteria.rarity_of_part : a.tries());
   assessment_ = assess_surely(
       *scan_, data_, c.draws, c.seed + round, c.alpha, declared,
       [&](const CovarianceModel& model, double variance) { return scatter_response(model, variance); }, &repeats,
@@ -123,23 +125,41 @@ Matrix Evidence::scatter_response(const CovarianceModel& model, double variance)
   return bent.size() > 0 ? Matrix(in_sequence(c_.observations, bent) / s) : bent;
 }
 
-double Evidence::score(std::size_t a) const {
-  return assessment_.data.ratio(index(a), 0) - 2 * assessment_.null[a].mean;
+double Evidence::score(std::size_t a) const { return assessment_.data.ratio(index(a), 0) - chance(a); }
+
+double Evidence::chance(std::size_t a) const {
+  return 2 * assessment_.null[a].mean + 2 * std::log(candidates_[a].tries());
 }
 
 double Evidence::limit(std::size_t a) const { return assessment_.null[a].quantile(assessment_.threshold); }
+
+std::vector<std::string> Evidence::jumping() const {
+  std::vector<Scored> all;
+  for (std::size_t a = 0; a < candidates_.size(); ++a)
+    all.push_back({candidates_[a].name, score(a), !candidates_[a].start.empty()});
+  std::vector<std::string> out;
+  for (const std::size_t a : best_of(all, criteria.most_jumping)) out.push_back(candidates_[a].name);
+  return out;
+}
 
 bool Evidence::testable(std::size_t a) const {
   return candidates_[a].physical() && scan_->identifiable(a) > criteria.absorbed_share;
 }
 
 Term Evidence::linear_term(std::size_t a) const {
+  if (!candidates_[a].start.empty()) return at_start(candidates_[a]);
   if (candidates_[a].physical()) return {candidates_[a], scan_->fit(a, data_).size};
   // What one group alone does stays so: apart from a slope of all, it would be of all groups.
   const Candidate& own = candidates_[a];
   Term shape{own.rare() ? own : apart(own, fit_, c_.observations, c_.fitter.rows()), {}};
   shape.size = Vector::Zero(shape.candidate.columns.cols()); // linear: found in one step from anywhere
   return shape;
+}
+
+Term at_start(const Candidate& a) {
+  Term out{a, Eigen::Map<const Vector>(a.start.data(), index(a.start.size()))};
+  out.candidate.columns = Matrix::Zero(a.columns.rows(), out.size.size());
+  return out;
 }
 
 JointFit Evidence::with(const std::vector<Term>& more) const {
@@ -166,7 +186,10 @@ Trial Evidence::trial(std::size_t a, const Term& term) const {
   if (!out.fit.valid) return out;
   out.ratio = assessment_.data.criterion[0] - criterion_at(c_, out.fit, {out.fit.terms.size() - 1});
   if (!std::isfinite(out.ratio)) out.ratio = 0;
-  out.score = out.ratio - 2 * assessment_.null[a].mean;
+  // Sizes that the signature over a finite step does not have cost what chance gives them.
+  const Index more = term.candidate.columns.cols() - candidates_[a].columns.cols();
+  const double sizes = term.candidate.start.empty() ? 0 : static_cast<double>(more);
+  out.score = out.ratio - chance(a) - 2 * sizes;
   return out;
 }
 

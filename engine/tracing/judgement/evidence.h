@@ -17,6 +17,9 @@ struct Trial {
   double score = 0; ///< the ratio minus twice its expectation by chance
 };
 
+/// A candidate over a finite step as a term, from the sizes over which it was taken.
+Term at_start(const Candidate& candidate);
+
 /// Readings of equal conditions and of blocks among the training readings. Keeps a reference to the fit's design.
 Repeats repeats_of(const TraceContext& context, const JointFit& fit);
 
@@ -33,7 +36,9 @@ public:
   const JointFit& fit() const { return fit_; }
 
   double score(std::size_t candidate) const; ///< its linear fit's ratio minus twice that by chance
+  double chance(std::size_t candidate) const; ///< twice the ratio by chance, and what the sizes tried cost
   double limit(std::size_t candidate) const; ///< likelihood ratio that it must exceed
+  std::vector<std::string> jumping() const; ///< candidates with whose sizes readings jump, best first
   /// Physical candidates that the declared model does not absorb almost completely.
   bool testable(std::size_t candidate) const;
   /// The linear fit of one candidate; its sizes are the start values for the whole model.

@@ -77,7 +77,8 @@ InPlaceOfScatter in_place_of_scatter(const TraceContext& c, const Evidence& e, c
       out.shape = a;
       return out;
     }
-    JointFit fit = e.with({{e.candidates()[a], linear.size}});
+    const Candidate& effect = e.candidates()[a];
+    JointFit fit = e.with({effect.start.empty() ? Term{effect, linear.size} : at_start(effect)});
     if (!fit.valid || !e.predicts_better(fit, without.model(linear))) continue;
     out.members.push_back(a);
     out.effects.finding.members.push_back(e.candidates()[a].name);

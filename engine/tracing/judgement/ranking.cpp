@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -20,8 +21,11 @@ std::vector<RankedCandidate> ranking(const Scan& scan, const Assessment& assessm
   const auto place = [&](std::size_t a) { return std::round(std::log(assessment.p[a]) * 1e6); };
   std::ranges::stable_sort(order, std::ranges::less{}, place);
   std::vector<RankedCandidate> out;
+  std::set<std::string> starts;
   for (const std::size_t a : order) {
     const Candidate& one = candidates[a];
+    // Of one effect the best of its starts.
+    if (!one.start.empty() && !starts.insert(one.name + one.amplitudes[0].scenario_name).second) continue;
     RankedCandidate line;
     line.name = one.name;
     line.shape = one.shape;
@@ -75,7 +79,7 @@ std::vector<DetectionLimit> detection_limits(const Scan& scan, const Assessment&
   std::vector<std::pair<std::string, Response>> responses; // by effect and quantity, in the order of the candidates
   for (std::size_t a = 0; a < candidates.size(); ++a) {
     const Candidate& one = candidates[a];
-    if (!one.physical() || one.in_part()) continue;
+    if (!one.physical() || one.in_part() || !one.start.empty()) continue;
     const bool told = scan.identifiable(a) > criteria.absorbed_share;
     for (std::size_t j = 0; j < one.amplitudes.size(); ++j) {
       const std::string key = one.name + "/" + one.amplitudes[j].name;

@@ -42,7 +42,9 @@ public:
       if (took_one) out_.stages.push_back({out_.found, out_.findings, out_.dropped});
     }
     if (out_.findings.size() >= criteria.most_findings) {
-      out_.last = Evidence(c_, out_.found, rounds_, dropped_).assessment();
+      const Evidence evidence(c_, out_.found, rounds_, dropped_);
+      out_.last = evidence.assessment();
+      out_.jumping = evidence.jumping();
       out_.capped = out_.last.p_anything <= c_.alpha;
     }
     c_.fitter.widen_jumping(out_.found);
@@ -124,6 +126,7 @@ private:
     const Evidence evidence(c_, out_.found, rounds_++, dropped_);
     evidence_ = &evidence;
     out_.last = evidence.assessment();
+    out_.jumping = evidence.jumping();
     if (first) {
       out_.first = evidence.assessment();
       out_.tried = static_cast<int>(evidence.candidates().size() + c_.observations.replicate_groups.size());
@@ -245,7 +248,9 @@ private:
                     plain.empty() ? 0 : evidence_->score(plain[0])))
       return false;
     std::vector<Term> both;
-    for (const std::size_t a : pair) both.push_back({candidate(a), Vector::Zero(candidate(a).columns.cols())});
+    for (const std::size_t a : pair)
+      both.push_back(candidate(a).start.empty() ? Term{candidate(a), Vector::Zero(candidate(a).columns.cols())}
+                                                : at_start(candidate(a)));
     const JointFit fit = evidence_->with(both);
     if (!fit.valid || !evidence_->predicts_better(fit)) return false;
     for (const std::size_t i : {0, 1}) {

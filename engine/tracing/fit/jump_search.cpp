@@ -1,0 +1,240 @@
+/// Sizes with which readings jump: the best of all together by the exact model, and how far the readings know them.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include <Eigen/Cholesky>
+
+#include "tracing/criteria.h"
+#include "tracing/fit/joint_fit.h"
+
+namespace gumshoe::tracing {
+
+/// Sizes of a fit's jumping terms, and the likelihood over them by the exact model, all else fitted.
+class Fitter::JumpingSizes {
+public:
+  JumpingSizes(const Fitter& fitter, const JointFit& fit) : fitter_(fitter), fit_(fit), rest_(fit.design) {
+    std::vector<Index> others;
+    for (std::size_t t = 0; t < fit.terms.size(); ++t) {
+      const Term& term = fit.terms[t];
+      if (term.candidate.start.empty()) continue;
+      const Vector start = Eigen::Map<const Vector>(term.candidate.start.data(), index(term.candidate.start.size()));
+      jumping_.push_back({&term, index(own_.size())});
+      for (Index j = 0; j < term.size.size(); ++j) {
+        own_.push_back(first_column(fit, t) + j);
+        amplitudes_.push_back(&term.candidate.amplitudes[index(j)]);
+        at_.push_back(term.size[j]);
+        scale_.push_back(0.5 * std::max(start.norm(), term.size.norm()));
+      }
+    }
+    for (Index j = 0; j < fit.design.fixed.cols(); ++j)
+      if (std::ranges::find(own_, j) == own_.end()) others.push_back(j);
+    rest_.fixed = Matrix(fit.design.fixed(Eigen::all, others));
+    const auto use = independent(rest_, fitter.rows_);
+    plain_.emplace(rest_, fitter.rows_, use, CovarianceModel{});
+    model_.emplace(rest_, fitter.rows_, use, fit.covariance_model);
+    for (const Index j : use) columns_.push_back(others[index(j)]);
+  }
+
+  Index count() const { return index(own_.size()); }
+  const std::vector<Index>& own() const { return own_; }
+  std::size_t terms() const { return jumping_.size(); }
+  /// Changes that give one term each of the sizes from which it was started, and leave the others changed by `change`.
+  Matrix restarts(std::size_t term, const Vector& change) const {
+    const auto& [of, first] = jumping_[term];
+    const Matrix& tried = of->candidate.tried;
+    Matrix out = change.replicate(1, tried.cols());
+    if (tried.cols() > 0) out.middleRows(first, of->size.size()) = tried.colwise() - of->size;
+    return out;
+  }
+  /// Half of the sizes from which they are sought.
+  Vector scale() const { return Eigen::Map<const Vector>(scale_.data(), count()); }
+  double freedom() const { return static_cast<double>(model_->degrees_of_freedom()); }
+
+  /// Squares that are left under changes of the sizes (columns); infinite where there is no value.
+  Vector left(const Matrix& changes) const {
+    std::vector<bool> valid;
+    const Matrix clean = residuals(changes, valid);
+    Vector out = model_->squares(clean);
+    for (Index k = 0; k < out.size(); ++k)
+      if (!valid[index(k)]) out[k] = std::numeric_limits<double>::infinity();
+    return out;
+  }
+
+  /// Change of all fixed columns that goes with a change of the sizes.
+  Vector with_others(const Vector& change) const {
+    std::vector<bool> valid;
+    const Vector x = model_->coefficients(residuals(change, valid));
+    Vector out = Vector::Zero(fit_.design.fixed.cols());
+    for (std::size_t j = 0; j < columns_.size(); ++j) out[columns_[j]] = x[index(j)];
+    for (std::size_t i = 0; i < own_.size(); ++i) out[own_[i]] = change[index(i)];
+    return out;
+  }
+
+private:
+  Matrix residuals(const Matrix& changes, std::vector<bool>& valid) const {
+    std::vector<Variation> variations;
+    std::vector<bool> within;
+    for (Index k = 0; k < changes.cols(); ++k) {
+      Variation v;
+      within.push_back(true);
+      for (std::size_t i = 0; i < own_.size(); ++i) {
+        const double by = changes(index(i), k), to = at_[i] + by;
+        within.back() = within.back() && to >= amplitudes_[i]->low && to <= amplitudes_[i]->high;
+        v.changes.push_back({amplitudes_[i]->quantity, by, false});
+      }
+      if (!within.back()) v.changes.clear();
+      variations.push_back(std::move(v));
+    }
+    variations.push_back({});
+    Matrix f;
+    fitter_.simulator_.vary(fit_.at, variations, f, valid);
+    for (std::size_t k = 0; k < within.size(); ++k) valid[k] = valid[k] && within[k];
+    const Matrix moved = f.leftCols(changes.cols()).colwise() - f.col(changes.cols()).eval();
+    Matrix all = (-in_sequence(fitter_.observations_, moved)).colwise() + fit_.residual;
+    for (Index k = 0; k < all.cols(); ++k)
+      if (!valid[index(k)]) all.col(k) = fit_.residual;
+    return plain_->winsorised(plain_->take(all));
+  }
+
+  const Fitter& fitter_;
+  const JointFit& fit_;
+  Design rest_; ///< without the columns of these sizes
+  std::optional<Whitened> plain_, model_;
+  std::vector<Index> own_, columns_;
+  std::vector<const Amplitude*> amplitudes_;
+  std::vector<double> at_, scale_;
+  std::vector<std::pair<const Term*, Index>> jumping_; ///< terms, and the place of their first size
+};
+
+namespace {
+
+bool starts(const Term& t) { return !t.candidate.start.empty() && std::ranges::equal(t.candidate.start, t.size); }
+
+bool any_jumps(const JointFit& fit) {
+  return std::ranges::any_of(fit.terms, [](const Term& t) { return !t.candidate.start.empty(); });
+}
+
+/// Normal numbers about zero, every other column three times as far.
+Matrix around(Index rows, int batch) {
+  Matrix out = normals(index(rows), index(criteria.jump_tries), static_cast<std::uint64_t>(batch), 11);
+  for (Index k = 1; k < out.cols(); k += 2) out.col(k) *= 3;
+  return out;
+}
+
+} // namespace
+
+double jump_reach(const std::vector<Term>& terms, const JointFit* before) {
+  if (std::ranges::any_of(terms, starts)) return criteria.jump_reach;
+  return before && before->terms.size() == terms.size() ? 0 : criteria.jump_reach_again;
+}
+
+std::optional<Index> Fitter::best_start(const JointFit& fit, const Candidate& candidate, const Matrix& sizes) const {
+  JointFit with = fit;
+  for (Term& t : with.terms) t.candidate.start.clear(); // as they are
+  Term own{candidate, Vector::Zero(sizes.rows())};
+  own.candidate.start.assign(index(sizes.rows()), 0);
+  with.terms.push_back(std::move(own));
+  if (!linearise(with)) return std::nullopt;
+  Index at = 0;
+  const double least = JumpingSizes(*this, with).left(sizes).minCoeff(&at);
+  return std::isfinite(least) ? std::optional(at) : std::nullopt;
+}
+
+/// Tries sizes at random about the best so far, from far to near.
+bool Fitter::cross_jumps(JointFit& fit, double noise, double reach) const {
+  if (!fit.valid || !any_jumps(fit)) return false;
+  const JumpingSizes sizes(*this, fit);
+  Vector best = Vector::Zero(sizes.count());
+  const double here = sizes.left(best)[0];
+  double least = here;
+  const auto improve = [&](const Matrix& tried) {
+    if (tried.cols() == 0) return false;
+    Index at = 0;
+    const Vector left = sizes.left(tried);
+    if (!(left.minCoeff(&at) < least * (1 - 1e-6))) return false;
+    least = left[at];
+    best = tried.col(at);
+    return true;
+  };
+  // What one term is depends on the others: with a new one, each is sought anew.
+  if (reach >= criteria.jump_reach && sizes.terms() > 1)
+    for (std::size_t t = 0; t < sizes.terms(); ++t) improve(sizes.restarts(t, best));
+  for (int batch = 0; reach > criteria.least_jump_reach && batch < criteria.most_jump_batches; ++batch) {
+    const Matrix tried = (reach * sizes.scale().asDiagonal() * around(sizes.count(), batch)).colwise() + best;
+    if (!improve(tried)) reach *= criteria.jump_closer;
+  }
+  if (!(least < here * (1 - 1e-6))) return false;
+  JointFit next = fit;
+  apply(next, sizes.with_others(best), 1);
+  if (!linearise(next)) return false;
+  converge(next, noise);
+  fit = std::move(next);
+  return true;
+}
+
+namespace {
+
+/// Changes of the sizes found that were tried, and how much worse than the best they explain the readings.
+class Tried {
+public:
+  Tried(double freedom, Index sizes, double left_here) : freedom_(freedom), at_(Matrix::Zero(sizes, 1)), left_(1) {
+    left_[0] = left_here;
+  }
+
+  void add(const Matrix& at, const Vector& left) {
+    const Index old = at_.cols();
+    at_.conservativeResize(Eigen::NoChange, old + at.cols());
+    at_.rightCols(at.cols()) = at;
+    left_.conservativeResize(old + at.cols());
+    left_.tail(at.cols()) = left;
+  }
+  /// Those whose likelihood ratio (2 ln) to the best is not above a limit, or the best, so many at least; by column.
+  Matrix within(double limit, std::size_t least) const {
+    std::vector<Index> order(index(left_.size()));
+    std::iota(order.begin(), order.end(), Index{0});
+    std::ranges::stable_sort(order, std::ranges::less{}, [&](Index k) { return left_[k]; });
+    const double bound = left_[order[0]] * std::exp(limit / freedom_);
+    const auto end = std::ranges::find_if(order, [&](Index k) { return !(left_[k] <= bound); });
+    order.resize(std::min(order.size(), std::max(least, static_cast<std::size_t>(end - order.begin()))));
+    return at_(Eigen::all, order);
+  }
+
+private:
+  double freedom_;
+  Matrix at_;
+  Vector left_;
+};
+
+} // namespace
+
+/// The likelihood is a step function of these sizes: their interval is the hull of the region where it is within the
+/// 95 % limit, every basin included. Tries spread as those did that were near enough.
+void Fitter::widen_across_jumps(JointFit& fit) const {
+  if (!fit.valid || !any_jumps(fit)) return;
+  const JumpingSizes sizes(*this, fit);
+  const Index d = sizes.count();
+  const Vector scale = sizes.scale();
+  const double limit = criteria.decisive * static_cast<double>(d); // of all sizes together, a little more than 95 %
+  Tried tried(sizes.freedom(), d, sizes.left(Vector::Zero(d))[0]);
+  Matrix covariance = (criteria.jump_reach_again * scale).array().square().matrix().asDiagonal();
+  for (int batch = 0; batch < criteria.jump_samples; ++batch) {
+    const Matrix at = Matrix(covariance.llt().matrixL()) * around(d, 1000 + batch);
+    tried.add(at, sizes.left(at));
+    const Matrix near = tried.within(limit, criteria.tries_that_tell * index(d));
+    covariance = near * near.transpose() / static_cast<double>(near.cols());
+    covariance.diagonal() += (criteria.finest_jump_reach * scale).array().square().matrix();
+  }
+  const Vector furthest = tried.within(limit, 1).cwiseAbs().rowwise().maxCoeff();
+  for (Index i = 0; i < d; ++i) {
+    const Index own = sizes.own()[index(i)];
+    const double u = std::sqrt(fit.covariance(own, own)),
+                 times =
+                     std::max(furthest[i], criteria.finest_jump_reach * scale[i]) / std::sqrt(criteria.decisive) / u;
+    fit.covariance.row(own) *= times;
+    fit.covariance.col(own) *= times;
+  }
+}
+
+} // namespace gumshoe::tracing

@@ -1,0 +1,63 @@
+#!/usr/bin/python3
+"""Mills whose readings jump with what is missing: run-out, or an insert that is lower by more than a tooth's feed.
+
+usage: mills_test.py path/to/gumshoe [unittest options]
+"""
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+GUMSHOE = str(pathlib.Path(sys.argv.pop(1)).resolve()) if len(sys.argv) > 1 and not sys.argv[1].startswith("-") else ""
+
+import mills
+import sets
+from score import covered
+
+
+def traced(folder, what, seed, **plan):
+    """(verdict, truth) of a set of this noise, um, and plan."""
+    d, y, truth = sets.make(GUMSHOE, mills, "several", what, 0, seed, **plan)
+    scenario = sets.write(folder, folder / "truth", "set", d, y, truth, mills)
+    subprocess.run([GUMSHOE, "trace", scenario, "--draws", "199", "--out", folder / "found.h5", "--json", folder / "verdict.json"],
+                   check=True, capture_output=True)
+    return json.loads((folder / "verdict.json").read_text()), truth
+
+
+class Jumps(unittest.TestCase):
+    def setUp(self):
+        place = tempfile.TemporaryDirectory()
+        self.addCleanup(place.cleanup)
+        self.folder = pathlib.Path(place.name)
+
+    def found(self, what, seed, **plan):
+        verdict, truth = traced(self.folder, what, seed, **plan)
+        self.assertEqual([f["name"] for f in verdict["findings"]], [name for name, _ in what], verdict["plain"])
+        self.assertFalse(verdict["jumps_not_crossed"])
+        return verdict["findings"][0], truth["effects"][0], verdict
+
+    def test_an_insert_lower_by_more_than_a_step(self):
+        """0.72 um, where a tooth's feed is 0.5 um in the median. No noise is declared."""
+        finding, effect, _ = self.found((("declared:wear_2", 15.0),), 7001, setups=10, clampings=2, noise=0.1, declared=False)
+        self.assertGreater(effect["size"], 0.7e-3)
+        self.assertEqual(covered(finding, effect), [True], finding)
+
+    def test_run_out_of_several_steps(self):
+        """0.09 mrad of a tool of 20 mm: 1.7 um from one side to the other. What is left is the noise."""
+        finding, effect, verdict = self.found((("tool_runout", 30.0),), 7002, noise=0.1)
+        self.assertGreater(effect["size"], 0.08)
+        self.assertEqual(covered(finding, effect), [True, True], finding)
+        self.assertLess(verdict["noise"]["scale"], 1.3)
+
+    def test_jumps_that_were_not_crossed_are_no_missing_effect(self):
+        """As long as this insert is not found. The verdict must not say that no known effect explains the readings."""
+        verdict, _ = traced(self.folder, (("declared:wear_2", 8.0),), 7001, setups=10, clampings=2)
+        self.assertTrue(verdict["jumps_not_crossed"])
+        self.assertIn("the readings jump with sizes that were tried", verdict["plain"][0])
+        self.assertFalse(any("No candidate explains" in s for s in verdict["plain"]))
+
+
+if __name__ == "__main__":
+    unittest.main()
