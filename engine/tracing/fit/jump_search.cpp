@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 
 #include "tracing/criteria.h"
 #include "tracing/fit/joint_fit.h"
@@ -60,6 +61,15 @@ public:
     for (Index k = 0; k < out.size(); ++k)
       if (!valid[index(k)]) out[k] = std::numeric_limits<double>::infinity();
     return out;
+  }
+
+  /// Standard uncertainties by the straight line through the readings over these changes.
+  Vector by_line(const Matrix& changes) const {
+    std::vector<bool> valid;
+    const Matrix moved = (-residuals(changes, valid)).colwise() + residuals(Matrix::Zero(count(), 1), valid).col(0);
+    const Matrix products = changes * changes.transpose();
+    const Matrix line = model_->reduce(moved * changes.transpose() * products.inverse());
+    return (fit_.variance * Matrix(line.transpose() * line).inverse().diagonal()).cwiseSqrt();
   }
 
   /// Change of all fixed columns that goes with a change of the sizes.
@@ -226,12 +236,14 @@ void Fitter::widen_across_jumps(JointFit& fit) const {
     covariance = near * near.transpose() / static_cast<double>(near.cols());
     covariance.diagonal() += (criteria.finest_jump_reach * scale).array().square().matrix();
   }
-  const Vector furthest = tried.within(limit, 1).cwiseAbs().rowwise().maxCoeff();
+  const Vector furthest = tried.within(limit, 1).cwiseAbs().rowwise().maxCoeff(),
+               line = sizes.by_line(criteria.jump_reach_again * scale.asDiagonal() * around(d, 0));
   for (Index i = 0; i < d; ++i) {
     const Index own = sizes.own()[index(i)];
-    const double u = std::sqrt(fit.covariance(own, own)),
-                 times =
-                     std::max(furthest[i], criteria.finest_jump_reach * scale[i]) / std::sqrt(criteria.decisive) / u;
+    const double hull = std::max(furthest[i], criteria.finest_jump_reach * scale[i]) / std::sqrt(criteria.decisive);
+    // A pattern of jumps pins a size only as far as all else in the model is exact: the line does not rely on that.
+    const double u = std::isfinite(line[i]) ? std::max(hull, line[i]) : hull,
+                 times = u / std::sqrt(fit.covariance(own, own));
     fit.covariance.row(own) *= times;
     fit.covariance.col(own) *= times;
   }
