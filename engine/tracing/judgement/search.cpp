@@ -220,7 +220,8 @@ private:
       if (sizes(candidate(g)) > sizes(candidate(best.candidate))) continue;
       double lead = evidence_->score(g) - best.score;
       // A step by a label is as likely as any effect that one part has.
-      if (candidate(best.candidate).in_part() && lead > -2 * std::log(criteria.rarity_of_part)) return g;
+      if (candidate(best.candidate).in_part() && !candidate(g).rare() && lead > -2 * std::log(criteria.rarity_of_part))
+        return g;
       const auto excludes = [&] {
         return shape_excludes(lead, [&] { return evidence_->chance_of_lead(g, best.candidate, lead); });
       };
