@@ -28,7 +28,7 @@ const std::vector<RoleWords>& role_words() {
       {ColumnRole::direction, {"dir", "direction", "richtung", "approach", "sense"}},
       {ColumnRole::cycle,
        {"cycle", "run", "repeat", "repetition", "pass", "lauf", "zyklus", "setup", "series", "reihe", "messreihe",
-        "serie", "durchgang", "trial"}},
+        "serie", "durchgang", "trial", "round", "runde"}},
       {ColumnRole::time, {"time", "zeit", "timestamp", "datetime", "date", "datum", "clock", "uhrzeit", "t"}},
       {ColumnRole::reading,
        {"dev",      "deviation", "error",      "err",     "abweichung", "reading",    "laser",  "measured",
