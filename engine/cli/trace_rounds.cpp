@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -18,6 +19,15 @@ Round round_of(const tracing::Trace& t) {
   Round out{{}, t.rms, t.vetoed, t.candidates};
   for (const tracing::Finding& f : t.findings) out.added.push_back(f.name);
   return out;
+}
+
+/// Whether a round found nothing but shapes that the one before had found: they follow the order of the rows, which no
+/// scenario holds, and would be found for ever.
+bool only_again(const tracing::Trace& found, const std::set<std::string>& before) {
+  return !found.findings.empty() && found.corrections.empty() &&
+         std::ranges::all_of(found.findings, [&](const tracing::Finding& f) {
+           return f.kind == tracing::Kind::not_in_catalogue && before.contains(f.described_by);
+         });
 }
 
 /// The scenario read from its text; what is wrong with it goes to `statements`.
@@ -44,10 +54,24 @@ Rounds trace_rounds(const scenario::Scenario& s, const tracing::Settings& settin
   const std::string folder = std::filesystem::path(place.path()).parent_path().string();
   Rounds out;
   std::optional<scenario::Scenario> at;
+  std::set<std::string> shapes; ///< of the round before
   while (static_cast<int>(out.table.size()) < most) {
     const tracing::Trace found = tracing::trace(at ? *at : s, settings);
     if (out.table.empty()) out.first = found;
     out.table.push_back(round_of(found));
+    if (only_again(found, shapes)) {
+      Round& last = out.table.back();
+      last.added.clear();
+      last.rms.after = last.rms.before;
+      last.rms.holdout_after = last.rms.holdout_before;
+      out.first.statements.push_back(fmt::format("{} follows the order of the rows, which the traced scenario does not "
+                                                 "hold: it is part of its noise; record what "
+                                                 "it depends on, such as the direction of motion, as a condition",
+                                                 found.findings.front().described_by));
+      break;
+    }
+    shapes.clear();
+    for (const tracing::Finding& f : found.findings) shapes.insert(f.described_by);
     const std::string text = tracing::traced_scenario(at ? *at : s, found, folder);
     if (text.empty()) break;
     auto next = readable(text, place, out.first.statements);

@@ -104,6 +104,25 @@ class TraceLog(InFolder):
         self.assertAlmostEqual(again["rms"]["before"] / v["rms"]["after"], 1, delta=0.02)
         self.assertAlmostEqual(again["rms"]["holdout_before"] / v["rms"]["holdout_after"], 1, delta=0.02)
 
+    def test_what_only_the_order_of_rows_tells_is_not_found_for_ever(self):
+        """A load cell that bends and lags on the way down, and no column that says which way it was."""
+        draw, rows = random.Random(31), ["Reihe;Lage;Stufe;Last kN;Anzeige mV/V"]
+        for k, place in enumerate(("0 Grad", "0 Grad", "120 Grad", "240 Grad")):
+            for level, word in [(s, "auf") for s in range(11)] + [(s, "ab") for s in range(9, -1, -1)]:
+                load = 5 * level
+                lag = 1.5e-4 * math.sin(math.pi * load / 50) if word == "ab" else 0
+                d = 0.04 * load + 2.2e-6 * load**2 + lag + (0, 0, 3e-4, -2e-4)[k] * load / 50 + draw.gauss(0, 2e-5)
+                rows.append(f"{k + 1};{place};{word}{level};{load:.1f};{d:.5f}".replace(".", ","))
+        (self.folder / "log.csv").write_text("\n".join(rows) + "\n")
+        self.assertEqual(gumshoe("new", "--from", "log.csv", cwd=self.folder).returncode, 0)
+        run = gumshoe("trace", "log.toml", "--loop", "5", "--draws", "199", "--format", "json", "--out", "t.h5", cwd=self.folder, seconds=300)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        v = json.loads(run.stdout)
+        self.assertIn("hysteresis:position", [f["described_by"] for f in v["findings"]])
+        self.assertEqual(v["rounds"][-1]["added"], [])
+        self.assertLess(len(v["rounds"]), 5)
+        self.assertIn("follows the order of the rows", " ".join(v["statements"]))
+
 
 if __name__ == "__main__":
     unittest.main()
