@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/hash.h"
+#include "base/memory.h"
 #include "store/raw_file.h"
 
 namespace gumshoe::store {
@@ -44,9 +45,8 @@ std::uint64_t digest_around(const RawFile& file, std::uint64_t bytes, const std:
 }
 
 Json to_json(const Record& r) {
-  Json j{{"format_version", format_version}, {"complete", r.complete},
-         {"seed", r.identity.seed},          {"samples", r.identity.samples},
-         {"rows", r.rows},                   {"store_samples", r.identity.store_samples}};
+  Json j{{"format_version", format_version}, {"complete", r.complete}, {"seed", r.identity.seed},
+         {"samples", r.identity.samples},    {"rows", r.rows},         {"store_samples", r.identity.store_samples}};
   for (const auto& [name, member] : identity_texts) j[name] = r.identity.*member;
   for (const auto& [name, member] : shard_texts)
     if (!(r.identity.*member).empty()) j[name] = r.identity.*member;
@@ -111,12 +111,15 @@ Record read_record(const std::string& path) {
   if (start != signature) throw NoResult("it is not an HDF5 file");
   std::uint64_t begin = 0;
   const std::string text = text_of(file, begin);
+  require_memory((std::size_t{1} << 20) +
+                 16 * text.size()); // the parser's values end the process as they are destroyed
   try {
     const Json j = Json::parse(text);
     if (j.at("format_version") != format_version) throw NoResult("it has another format version");
     Record record = from_json(j);
     for (const auto& [name, span] : record.places)
-      if (span.offset > begin || span.bytes > begin - span.offset) throw OutputError("the record at its end is damaged");
+      if (span.offset > begin || span.bytes > begin - span.offset)
+        throw OutputError("the record at its end is damaged");
     if (digest_around(file, begin, record.places) != j.at("digest").get<std::uint64_t>())
       throw OutputError("it is damaged: its contents are not those that were written");
     return record;
