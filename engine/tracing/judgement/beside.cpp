@@ -12,18 +12,21 @@ namespace {
 
 /// Whether a candidate may be the other of two. A declared value would take the bend of any table, as would a second
 /// shape of the same condition.
-bool is_another(const Evidence& e, std::size_t a, const Candidate& simpler) {
+bool is_another(const Evidence& e, const Observations& o, std::size_t a, const Candidate& simpler) {
   const Candidate& c = e.candidates()[a];
   if (c.physical()) return e.testable(a) && c.family != Family::declared && !c.in_part();
-  return c.family == Family::shape && c.columns.cols() == 1 &&
-         std::ranges::none_of(c.depends_on, [&](const auto& name) {
-           return std::ranges::find(simpler.depends_on, name) != simpler.depends_on.end();
-         });
+  // What was commanded is one plan: a table by positions is no sum of curves by chance.
+  const auto recorded = [&](const std::string& name) {
+    const auto known = std::ranges::find(o.covariates, name, &Covariate::name);
+    return known != o.covariates.end() && !known->commanded &&
+           std::ranges::find(simpler.depends_on, name) == simpler.depends_on.end();
+  };
+  return c.family == Family::shape && c.columns.cols() == 1 && std::ranges::all_of(c.depends_on, recorded);
 }
 
 } // namespace
 
-std::optional<std::size_t> simpler_beside_another(const Evidence& e, std::size_t shape) {
+std::optional<std::size_t> simpler_beside_another(const Evidence& e, const Observations& o, std::size_t shape) {
   std::vector<Scored> simpler;
   for (std::size_t a = 0; a < e.candidates().size(); ++a) {
     const Candidate& c = e.candidates()[a];
@@ -39,7 +42,7 @@ std::optional<std::size_t> simpler_beside_another(const Evidence& e, std::size_t
     const std::size_t model = e.scan().fit(s, e.residuals()).covariance_model;
     const double alone = e.scan().pair_ratio(s, s, e.residuals(), model);
     for (std::size_t a = 0; a < e.candidates().size(); ++a) {
-      if (!is_another(e, a, e.candidates()[s])) continue;
+      if (!is_another(e, o, a, e.candidates()[s])) continue;
       const double added = e.scan().pair_ratio(s, a, e.residuals(), model) - alone;
       const double both = simpler[s].score + added - 2 * e.assessment().null[a].mean;
       const std::pair order{e.candidates()[s].columns.cols(), -both};

@@ -302,7 +302,8 @@ private:
     auto shapes = best_of([](const Candidate& x) { return !x.physical(); }, criteria.most_shapes);
     std::erase_if(shapes, [&](std::size_t a) { return assessment.p[a] > assessment.threshold; });
     if (shapes.empty()) return false;
-    if (const auto simpler = simpler_beside_another(*evidence_, shapes[0])) shapes.insert(shapes.begin(), *simpler);
+    if (const auto simpler = simpler_beside_another(*evidence_, c_.observations, shapes[0]))
+      shapes.insert(shapes.begin(), *simpler);
     std::vector<std::pair<std::size_t, JointFit>> described;
     for (const std::size_t a : shapes) {
       JointFit fit = evidence_->with({evidence_->linear_term(a)});
