@@ -46,6 +46,18 @@ def in_remark(text):
     return re.sub(r"\b(?:table|omnibus|product|harmonic|hysteresis|polynomial|drift):[\w*^/]+", lambda m: names.readable(m[0]), text)
 
 
+UNKNOWN = "an unknown effect"
+
+
+def counted(names):
+    """Unknown effects together: "3 unknown effects"."""
+    n = names.count(UNKNOWN)
+    if n < 2:
+        return names
+    first = names.index(UNKNOWN)
+    return [*names[:first], f"{n} unknown effects", *(x for x in names[first:] if x != UNKNOWN)]
+
+
 class Trace:
     """The group `trace` with its units."""
 
@@ -91,9 +103,9 @@ class Trace:
         t = self.t
         if t.findings:
             names = [f"one of {len(f.members)} effects" if f.kind == "class" else
-                     "an unknown effect" if f.kind == "not_in_catalogue" else in_words(f.name)
+                     UNKNOWN if f.kind == "not_in_catalogue" else in_words(f.name)
                      for f in t.findings]
-            return f"Found: {joined(names)}"
+            return f"Found: {joined(counted(names))}"
         if t.verdict == "insufficient_data":
             return "These data cannot decide"
         if t.vetoed:
@@ -237,8 +249,8 @@ class Trace:
         """Every round of `--loop` with what it added and its ranking; none if there was one round."""
         for k, r in enumerate(self.t.rounds):
             added = ("nothing: the hold-out blocks are not predicted better" if r.vetoed else
-                     "; ".join("an unknown effect" if a == "not in the catalogue" else " or ".join(map(in_words, a.split(" | ")))
-                               for a in r.added) or "nothing")
+                     "; ".join(counted([UNKNOWN if a == "not in the catalogue" else " or ".join(map(in_words, a.split(" | ")))
+                                        for a in r.added])) or "nothing")
             yield types.SimpleNamespace(
                 number=k + 1, added=added, candidates=list(self.candidates(r.candidates))[:LISTED // 2] if k else [],
                 errors=[self.number(getattr(r, key)) for key in ("before", "after", "holdout_before", "holdout_after", "noise")])
