@@ -6,7 +6,7 @@
 
 namespace gumshoe::chain {
 
-/// What belongs to the drive of an axis and to the component that it moves. All are 0 of a perfect axis.
+/// Errors of an axis' drive and of the component that it moves; all 0 for a perfect axis.
 enum DriveValue {
   drive_scale,      ///< relative: the axis moves by (1 + scale) times its command
   drive_cosine,     ///< of a rotary axis: error of the angle times cos(command), rad; an eccentric encoder's

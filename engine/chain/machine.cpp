@@ -61,7 +61,7 @@ Axis axis_of(const AxisDescription& d, bool on_tool_side) {
   return axis;
 }
 
-/// What only an inclined axis, a link or a plain axis may state.
+/// Keys that only an inclined axis, a link or a plain axis may state.
 void check_form(const AxisDescription& a, const std::string& place, std::vector<DescriptionProblem>& out) {
   const auto finite = [](const auto& values) {
     return std::ranges::all_of(values, [](double x) { return std::isfinite(x); });

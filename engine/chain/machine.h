@@ -20,7 +20,7 @@ struct AxisDescription {
   std::string kind = {};         ///< "linear" or "rotary"; empty: as the letter says
   std::array<double, 3> point{}; ///< Axis::point, m
   int sense = 0;                 ///< Axis::sense; 0: by ISO 841, +1 on the tool side and -1 on the workpiece side
-  /// Of an inclined axis, of any length; within 90 deg of its letter's. The smallest rotation leads from there to it.
+  /// Direction of an inclined axis (any length), within 90 deg of the axis its letter names; reached by the smallest rotation.
   std::optional<std::array<double, 3>> direction = {};
   std::optional<Link> link = {};
 };

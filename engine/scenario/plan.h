@@ -6,7 +6,7 @@
 
 namespace gumshoe::scenario {
 
-/// What [plan] may name.
+/// Names that [plan] may use.
 struct PlanScope {
   const ModelCard& model;
   const Scenario& scenario; ///< all but [plan]

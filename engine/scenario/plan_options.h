@@ -1,5 +1,5 @@
 #pragma once
-/// What [plan] asks: which further readings, of those allowed, reach its goals at least cost?
+/// The section [plan]: which of the allowed further readings reach its goals at least cost?
 #include <cstddef>
 #include <optional>
 #include <string>

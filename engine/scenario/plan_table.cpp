@@ -69,7 +69,7 @@ PlanColumn of_condition(const ModelCard& model, std::size_t c) {
           std::string(card.unit),       std::string(card.si_unit)};
 }
 
-/// Conditions that the allowed readings vary, alone or beside those that were taken, and labels, without a column.
+/// Conditions and labels without a column that vary over the allowed readings, or between these and the readings taken.
 void add_missing(std::vector<PlanColumn>& columns, const PlanScope& scope, const std::vector<AllowedReading>& allowed) {
   using enum PlanColumn::Holds;
   const auto has = [&](const auto& is_it) { return std::ranges::any_of(columns, is_it); };

@@ -68,7 +68,7 @@ class TraceAxis(InFolder):
         self.assertEqual(found["axis_drift"]["depends_on"], ["time"])
         for size, true in zip(found["axis_drift"]["quantities"], (2, 120), strict=True):
             self.assertAlmostEqual(size["value"], true, delta=3.5 * size["u"], msg=size)
-        # A reversal of 1.2 um beside 0.4 um of noise is most of what was there: 1.44 of 1.44, 0.16 and the drift's 0.1.
+        # A reversal of 1.2 um with noise of 0.4 um is most of the mean square: 1.44 of 1.44 + 0.16 + the drift's 0.1.
         self.assertGreater(found["axis_reversal"]["removed_share"], 0.7)
         self.assertIn("axis_drift", v["plain"][1])
         # 0.4 um; some 700 degrees of freedom: 2.7 %, of which 0.1 is three and a half.

@@ -64,8 +64,7 @@ double cheapest(const PlanTask& task) {
   return best;
 }
 
-/// Eight readings, some in a new set-up with an offset of its own, one effect beside another, and a sum to be
-/// determined.
+/// Eight readings, some in a new set-up with its own offset. Goals: tell one effect from another, and determine a sum.
 PlanTask made_up(std::uint64_t seed) {
   const Matrix x = normals(8, 3, seed, 90);
   PlanTask task;

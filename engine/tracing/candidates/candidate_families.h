@@ -42,7 +42,7 @@ std::vector<Candidate> effect_candidates(const CandidateMaker& make);
 std::vector<Candidate> declared_candidates(const CandidateMaker& make);
 /// Effects stated as formulas.
 std::vector<Candidate> stated_candidates(const CandidateMaker& make);
-/// Of candidates, those with whose sizes readings jump, over sizes of both signs, or in all directions of a pair.
+/// The candidates with whose sizes the readings jump, over sizes of both signs or in all directions of a pair.
 std::vector<Candidate> jumping_candidates(const CandidateMaker& make, const std::vector<Candidate>& candidates);
 
 } // namespace gumshoe::tracing

@@ -52,13 +52,12 @@ struct Candidate {
   double tries() const { return tried.cols() > 0 ? static_cast<double>(tried.cols()) : 1; }
   /// An effect at some of the readings only: of one rod, of one set-up.
   bool in_part() const { return family == Family::effect && rare(); }
-  /// At some of the readings only, and therefore one of many.
+  /// Whether it acts on some of the readings only, and is therefore one of many.
   bool rare() const { return !amplitudes[0].labels.empty(); }
   bool physical() const { return family == Family::effect || family == Family::declared || family == Family::stated; }
 };
 
-/// Of sizes of a candidate's amplitudes (columns) the one from which the readings are explained best by the exact
-/// model.
+/// Column of `sizes`, each a set of the candidate's amplitudes, from which the exact model fits the readings best.
 using BestStart = std::function<std::optional<Index>(const Candidate&, const Matrix& sizes)>;
 
 /// Signatures of all physical candidates at a point, from exact derivatives and, where the model is not linear, also

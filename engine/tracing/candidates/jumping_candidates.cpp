@@ -164,7 +164,7 @@ std::size_t add_tests(const Candidate& a, double size, std::span<const double> p
   return added;
 }
 
-/// By the derivative nothing may move within a tooth: the unit is halved until the readings move by what is left.
+/// A derivative may vanish within a tooth: the unit is halved until the readings move by as much as is left of them.
 std::vector<Jumping> further_than_derivative(const CandidateMaker& make, const std::vector<Candidate>& candidates) {
   static constexpr std::array<double, 1> whole{1.0};
   std::vector<Jumping> out;

@@ -65,7 +65,7 @@ std::string split_from_scatter(const Grouping& group, const std::vector<std::str
   return fmt::format("within one {}, vary {} as much as from one to the next", label, fmt::join(depends_on, " and "));
 }
 
-/// What comes back if a finding alone is left out and all others are fitted again, of what the declared model left:
+/// Share of the declared model's residual that returns when one finding is left out and all others are fitted again:
 /// mean squares of the residuals themselves, because noise that is taken to correlate could hide what came back.
 double share_of(const TraceContext& c, const Search& s, const SearchFinding& found) {
   const auto mean_square = [&](JointFit fit) {

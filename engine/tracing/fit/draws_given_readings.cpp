@@ -50,7 +50,7 @@ void Fitter::follow_draws(JointFit& fit, const std::vector<Index>& place, DrawsG
   own.fixed = Matrix(fit.design.fixed(Eigen::all, settled.columns));
   const auto use = independent(own, settled.rows);
   const Whitened w(own, settled.rows, use, fit.covariance_model);
-  // What each of the known would do to the offsets if it were one unit larger: they take it back.
+  // Change of the offsets per unit of each known draw: they compensate it.
   Matrix known(fit.design.fixed.rows(), index(place.size()));
   for (std::size_t i = 0; i < place.size(); ++i) {
     const Index draw = place[i] - fit.design.fixed.cols();

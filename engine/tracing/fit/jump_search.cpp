@@ -168,7 +168,7 @@ bool Fitter::cross_jumps(JointFit& fit, double noise, double reach) const {
     best = tried.col(at);
     return true;
   };
-  // What one term is depends on the others: with a new one, each is sought anew.
+  // The terms depend on each other: with a new one, each is searched again.
   if (reach >= criteria.jump_reach && sizes.terms() > 1)
     for (std::size_t t = 0; t < sizes.terms(); ++t) improve(sizes.restarts(t, best));
   for (int batch = 0; reach > criteria.least_jump_reach && batch < criteria.most_jump_batches; ++batch) {

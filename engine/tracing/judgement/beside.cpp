@@ -15,7 +15,7 @@ namespace {
 bool is_another(const Evidence& e, const Observations& o, std::size_t a, const Candidate& simpler) {
   const Candidate& c = e.candidates()[a];
   if (c.physical()) return e.testable(a) && c.family != Family::declared && !c.in_part();
-  // What was commanded is one plan: a table by positions is no sum of curves by chance.
+  // Commanded conditions form one plan: a table by positions is not a chance sum of curves.
   const auto recorded = [&](const std::string& name) {
     const auto known = std::ranges::find(o.covariates, name, &Covariate::name);
     return known != o.covariates.end() && !known->commanded &&

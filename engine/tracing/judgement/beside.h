@@ -1,5 +1,5 @@
 #pragma once
-/// A shape of many sizes that holds two simpler causes.
+/// Replaces a shape of many sizes by the two simpler causes that it contains.
 #include <optional>
 
 #include "tracing/judgement/evidence.h"

@@ -149,7 +149,7 @@ bool Evidence::testable(std::size_t a) const {
 Term Evidence::linear_term(std::size_t a) const {
   if (!candidates_[a].start.empty()) return at_start(candidates_[a]);
   if (candidates_[a].physical()) return {candidates_[a], scan_->fit(a, data_).size};
-  // What one group alone does stays so: apart from a slope of all, it would be of all groups.
+  // A shape of one group stays whole: without the slope of all groups it would no longer be this group's.
   const Candidate& own = candidates_[a];
   Term shape{own.rare() ? own : apart(own, fit_, c_.observations, c_.fitter.rows()), {}};
   shape.size = Vector::Zero(shape.candidate.columns.cols()); // linear: found in one step from anywhere

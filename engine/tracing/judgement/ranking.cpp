@@ -24,7 +24,7 @@ std::vector<RankedCandidate> ranking(const Scan& scan, const Assessment& assessm
   std::set<std::string> starts;
   for (const std::size_t a : order) {
     const Candidate& one = candidates[a];
-    // Of one effect the best of its starts.
+    // Only the best start of each effect is ranked.
     if (!one.start.empty() && !starts.insert(one.name + one.amplitudes[0].scenario_name).second) continue;
     RankedCandidate line;
     line.name = one.name;

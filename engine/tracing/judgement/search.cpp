@@ -226,7 +226,7 @@ private:
         return shape_excludes(lead, [&] { return evidence_->chance_of_lead(g, best.candidate, lead); });
       };
       if (!excludes()) continue;
-      // By the whole model, as the effect was judged: its noise may differ from that of the search.
+      // The whole model judges, as it judged the effect: its noise may differ from that of the search.
       const Trial whole = evidence_->trial(g);
       lead = whole.score - best.score;
       if (whole.fit.valid && excludes() && !evidence_->of_few(whole.fit)) return g;
@@ -318,7 +318,7 @@ private:
       }
       described.emplace_back(a, std::move(fit));
     }
-    // What predicts other blocks goes before what describes them, such as any curve in time.
+    // A term that predicts other blocks goes before one that describes them, such as a curve in time.
     for (auto& [a, fit] : described) {
       if (evidence_->predicts_better(fit, Judged::given_the_others)) {
         add_shape(a, fit, assessment.p_signature);

@@ -16,7 +16,7 @@ constexpr std::size_t most_exchanges = 2000; ///< of a plan, up to which more st
 constexpr std::size_t all_subsets = 4;       ///< set-ups up to which every choice of them is tried
 constexpr std::size_t most_paired = 60;      ///< readings of a new set-up of which the best two are sought
 
-/// What the columns `of` are known by if `others` are unknown, too.
+/// Information on the columns `of` when `others` are unknown, too.
 Matrix eliminated(const Matrix& m, const std::vector<Index>& of, const std::vector<Index>& others) {
   const Matrix own = m(of, of);
   if (others.empty()) return own;

@@ -16,7 +16,7 @@ using scenario::Scenario;
 
 const ModelCard& card_of(const Scenario& s) { return s.made ? *s.made->card : *models::find(s.model)->card; }
 
-/// What is declared of a new value of a label is what is declared of the first reading's value.
+/// A new value of a label is declared as the first reading's value is.
 void declare(InputQuantity& q, const Labels& labels, const Labels& known) {
   const auto holds = [&](const Labels& of) {
     return [&](const Entry& entry) { return quantities::holds_for(entry.labels, of); };

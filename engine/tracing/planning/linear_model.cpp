@@ -237,7 +237,7 @@ private:
       out_.unknowns.push_back(
           {u.name, quantities[u.quantity].unit, quantities[u.quantity].si_unit, {j}, Vector::Ones(1)});
     }
-    // By place: the variates of a group that is tied act through the factor of its matrix.
+    // Indexed by place: tied variates of a group act through the factor of their matrix.
     std::vector<Index> column(plan.variates.size(), -1);
     for (Index j = 0; j < random; ++j) {
       column[out_.fit.draw_of[index(j)]] = fixed + j;

@@ -260,7 +260,7 @@ private:
     });
   }
 
-  /// Of the shapes that the other effect may have, the one that is hardest to exclude after the plan.
+  /// The shape of the other effect that is hardest to exclude after the plan.
   void keep_worst_shapes() {
     std::vector<Asked> kept;
     for (Asked& a : goals_) {

@@ -5,8 +5,8 @@
 
 namespace gumshoe::tracing {
 
-/// Of `settings.verify` data sets that each hold an effect of the goals in its assumed size, the share in which a trace
-/// names it, and of a split not the other one. No block is held out, so that all readings are searched.
+/// Share of `settings.verify` simulated data sets in which a trace names the effect that they hold in its assumed size,
+/// and, for a split, does not name the other one. No block is held out, so that all readings are searched.
 /// @param count  by usable allowed reading
 std::vector<Verified> verify(const scenario::Scenario& scenario, const LinearModel& model,
                              const std::vector<int>& count, const std::vector<GoalReached>& goals,

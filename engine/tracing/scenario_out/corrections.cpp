@@ -61,7 +61,7 @@ Correction common(const TraceContext& c, const std::string& name, std::size_t in
   return out;
 }
 
-/// What one group alone does with a condition, by the levels that it met; empty if others went beyond them.
+/// A group's own dependence on a condition over the levels it met; empty if other groups went beyond them.
 std::optional<Correction> in_a_group(const TraceContext& c, const Matrix& loading, const Grouping& g,
                                      const std::string& condition, Correction out) {
   const Observations& o = c.observations;
