@@ -21,8 +21,8 @@ Round round_of(const tracing::Trace& t) {
   return out;
 }
 
-/// Whether a round found nothing but shapes that the one before had found: they follow the order of the rows, which no
-/// scenario holds, and would be found for ever.
+/// Whether a round found nothing but shapes that the one before had found and could not write: they follow the order of
+/// the rows, which no scenario holds, and would be found for ever.
 bool only_again(const tracing::Trace& found, const std::set<std::string>& before) {
   return !found.findings.empty() && found.corrections.empty() &&
          std::ranges::all_of(found.findings, [&](const tracing::Finding& f) {
@@ -54,7 +54,7 @@ Rounds trace_rounds(const scenario::Scenario& s, const tracing::Settings& settin
   const std::string folder = std::filesystem::path(place.path()).parent_path().string();
   Rounds out;
   std::optional<scenario::Scenario> at;
-  std::set<std::string> shapes; ///< of the round before
+  std::set<std::string> shapes; ///< found in the round before, and not written
   while (static_cast<int>(out.table.size()) < most) {
     const tracing::Trace found = tracing::trace(at ? *at : s, settings);
     if (out.table.empty()) out.first = found;
@@ -71,7 +71,9 @@ Rounds trace_rounds(const scenario::Scenario& s, const tracing::Settings& settin
       break;
     }
     shapes.clear();
-    for (const tracing::Finding& f : found.findings) shapes.insert(f.described_by);
+    for (const tracing::Finding& f : found.findings)
+      if (std::ranges::find(found.corrections, f.described_by, &tracing::Correction::shape) == found.corrections.end())
+        shapes.insert(f.described_by);
     const std::string text = tracing::traced_scenario(at ? *at : s, found, folder);
     if (text.empty()) break;
     auto next = readable(text, place, out.first.statements);

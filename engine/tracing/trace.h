@@ -179,7 +179,7 @@ struct Correction {
     std::string name, unit, si_unit; ///< condition or column
     std::vector<double> levels;      ///< by row, SI
   };
-  std::string name, indication, unit, si_unit, meaning, source;
+  std::string name, shape, indication, unit, si_unit, meaning, source; ///< shape: "table:position*direction"
   std::vector<Key> keys;       ///< empty: the size differs by label, and the loading is 1
   std::vector<double> loading; ///< by row
 };

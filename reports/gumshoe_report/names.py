@@ -44,6 +44,7 @@ FORMS = {"declared": lambda rest: f"{of_quantity(rest)} (declared)",
          "product": lambda rest: f"product of {by(rest)}",
          "harmonic": harmonic, "polynomial": polynomial,
          "hysteresis": lambda rest: f"direction of motion of {plain(rest)}",
+         "wave": lambda rest: f"a wave along {plain(rest)}",
          "drift": lambda rest: f"drift that levels off in {plain(rest)}",
          "step": lambda rest: f"offset of {plain(rest)}"}
 

@@ -43,7 +43,7 @@ def capitalised(text):
 
 def in_remark(text):
     """Candidates by their readable names."""
-    return re.sub(r"\b(?:table|omnibus|product|harmonic|hysteresis|polynomial|drift):[\w*^/]+", lambda m: names.readable(m[0]), text)
+    return re.sub(r"\b(?:table|omnibus|product|harmonic|hysteresis|polynomial|drift|wave):[\w*^/]+", lambda m: names.readable(m[0]), text)
 
 
 UNKNOWN = "an unknown effect"

@@ -52,6 +52,26 @@ def three_machines():
                 yield f"{run},{machine},{load},{5 + 0.3 * load + (0.02 * load if machine == 'C' else 0) + draw.gauss(0, 0.4):.3f}"
 
 
+def cooled_hall():
+    """A spindle that warms up in a hall whose air conditioning cycles every 17.3 min: um, each minute."""
+    draw = random.Random(5)
+    yield "time_min,dev_um"
+    for t in range(360):
+        y = 4 * (1 - math.exp(-t / 90)) + 0.8 * math.sin(2 * math.pi * t / 17.3 + 0.4) + draw.gauss(0, 0.3)
+        yield f"{t},{y:.2f}"
+
+
+def ball_screw():
+    """An axis measured every 3 mm in both directions; the ball screw, of 20 mm lead, wobbles by 0.7 um."""
+    draw = random.Random(6)
+    yield "run,pos_mm,dir,dev_um"
+    for run in range(1, 4):
+        for sign in (1, -1):
+            for i in range(201)[::sign]:
+                y = 0.012 * i + 0.7 * math.cos(2 * math.pi * 3 * i / 20 + 1) + 0.75 * sign + draw.gauss(0, 0.3)
+                yield f"{run},{3 * i},{'+' if sign > 0 else '-'},{y:.2f}"
+
+
 class TraceLog(InFolder):
     def trace(self, rows):
         (self.folder / "log.csv").write_text("\n".join(rows) + "\n")
@@ -103,6 +123,16 @@ class TraceLog(InFolder):
         self.assertEqual(again["findings"], [])
         self.assertAlmostEqual(again["rms"]["before"] / v["rms"]["after"], 1, delta=0.02)
         self.assertAlmostEqual(again["rms"]["holdout_before"] / v["rms"]["holdout_after"], 1, delta=0.02)
+
+    def test_a_wave_of_unknown_period_is_told_with_its_period(self):
+        for rows, along, period, amplitude in ((cooled_hall(), "time", 17.3, 0.8), (ball_screw(), "position", 20, 0.7)):
+            v = self.trace(rows)
+            wave = [f for f in v["findings"] if f["described_by"] == f"wave:{along}"]
+            self.assertEqual(len(wave), 1, [f["described_by"] for f in v["findings"]])
+            said = re.search(r"period (\S+) \S+, u = (\S+) \S+; amplitude (\S+) um, u = (\S+) um", " ".join(wave[0]["remarks"]))
+            for true, value, u in ((period, said[1], said[2]), (amplitude, said[3], said[4])):
+                self.assertAlmostEqual(float(value), true, delta=3.5 * float(u))
+            (self.folder / "log.toml").unlink()
 
     def test_what_only_the_order_of_rows_tells_is_not_found_for_ever(self):
         """A load cell that bends and lags on the way down, and no column that says which way it was."""

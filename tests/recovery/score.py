@@ -129,7 +129,7 @@ def covered(finding, effect):
         per = factor(effect["unit"], q["unit"])
         low, high = q["interval95"]
         true = [x * per for x in ([effect["off"], effect["absolute"]] if "off" in effect else [several[name]])]
-        out.append(low <= min(true, key=lambda t: abs(t - q["value"])) <= high)
+        out.append(bool(low <= min(true, key=lambda t: abs(t - q["value"])) <= high))
     return out
 
 

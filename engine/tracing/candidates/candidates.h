@@ -48,8 +48,10 @@ struct Candidate {
   /// Where readings jump: the sizes of all amplitudes, SI, over which its one column was taken, and from which the
   /// whole model is fitted. Empty: readings do not jump, or it is the derivative.
   std::vector<double> start;
-  Matrix tried; ///< amplitudes x sizes of which that is the best; the p-value counts as often
-  double tries() const { return tried.cols() > 0 ? static_cast<double>(tried.cols()) : 1; }
+  Matrix tried;                    ///< amplitudes x sizes of which that is the best; the p-value counts as often
+  double cycles = 0, cycles_u = 0; ///< of a wave, over the range of what it runs along, and their standard uncertainty
+  double searched = 1;             ///< independent forms of which this is the best; the p-value counts as often
+  double tries() const { return tried.cols() > 0 ? static_cast<double>(tried.cols()) : searched; }
   /// An effect at some of the readings only: of one rod, of one set-up.
   bool in_part() const { return family == Family::effect && rare(); }
   /// Whether it acts on some of the readings only, and is therefore one of many.

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/rounding.h"
 #include "base/units.h"
 #include "quantities/cells.h"
 #include "tracing/criteria.h"
@@ -82,6 +83,26 @@ public:
                       si_unit = ratio(empty_.indication_si_unit, covariate.si_unit);
     return fmt::format("{}, u = {}", shown_size(term_.size[0] * per_size, unit, si_unit),
                        shown_size(std::sqrt(covariance_(0, 0)) * std::fabs(per_size), unit, si_unit));
+  }
+
+  /// "period 3.31 s, u = 0.01 s; amplitude 1.5 um, u = 0.2 um" of a wave; empty of anything else.
+  std::string wave(const Covariate& covariate) const {
+    const double cycles = term_.candidate.cycles;
+    if (!(cycles > 0) || term_.size.size() != 2) return "";
+    const double amplitude = term_.size.norm();
+    const Vector direction = term_.size / amplitude;
+    const double u = std::sqrt(direction.dot(covariance_ * direction));
+    const double range = covariate.levels.back() - covariate.levels.front();
+    const auto shown = [](double x, double ux, const std::string& unit, const std::string& si_unit) {
+      const auto number = [&](double si) { return units::from_si(si, unit, si_unit, units::Kind::difference); };
+      const int decimals = analysis::decimals_for(number(ux));
+      return fmt::format("{} {}, u = {} {}", analysis::fixed(number(x), decimals), unit,
+                         analysis::fixed(number(ux), decimals), unit);
+    };
+    return fmt::format(
+        "period {}; amplitude {}",
+        shown(range / cycles, range / cycles / cycles * term_.candidate.cycles_u, covariate.unit, covariate.si_unit),
+        shown(amplitude, u, small_unit(), empty_.indication_si_unit));
   }
 
   /// "1.5 um, u = 0.2 um" by which one group differs from the others; empty of anything else.
@@ -185,7 +206,9 @@ void add_curves(const TraceContext& c, const JointFit& fit, std::size_t term, Fi
   }
   if (covariates.empty() && labels.empty()) return;
   if (covariates.size() + labels.size() == 1) {
-    if (const std::string step = make.step(); !step.empty())
+    if (const std::string wave = labels.empty() ? make.wave(*covariates[0]) : ""; !wave.empty())
+      finding.remarks.push_back(fmt::format("a wave along {}: {}", covariates[0]->name, wave));
+    else if (const std::string step = make.step(); !step.empty())
       finding.remarks.push_back("it differs by " + step);
     else if (const std::string slope = labels.empty() ? make.slope(*covariates[0]) : ""; !slope.empty())
       finding.remarks.push_back(fmt::format("a straight line against {}: {}", covariates[0]->name, slope));

@@ -42,7 +42,8 @@ std::string what_was_found(const Finding& f) {
     if (const std::string step = "step:";
         f.described_by.starts_with(step) && f.described_by.find(depends_on + " ") != std::string::npos)
       return fmt::format("{} differs from the others by a constant.", f.described_by.substr(step.size()));
-    return fmt::format("An unknown effect changes the readings with {}.", depends_on);
+    return fmt::format("An unknown effect changes the readings {}with {}.",
+                       f.described_by.starts_with("wave:") ? "periodically " : "", depends_on);
   }
   return {};
 }

@@ -4,7 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/LU>
+
 #include "tracing/candidates/shapes.h"
+#include "tracing/candidates/waves.h"
 #include "tracing/criteria.h"
 #include "tracing/judgement/apart.h"
 #include "tracing/judgement/decisions.h"
@@ -103,6 +106,7 @@ Evidence::Evidence(const TraceContext& c, const JointFit& fit, std::size_t round
                           [&](const Candidate& a, const Matrix& sizes) { return c.fitter.best_start(fit, a, sizes); });
   for (Candidate& a : shapes(c.observations))
     if (!known(a)) candidates_.push_back(std::move(a));
+  add_waves(dropped);
   for (const Candidate& a : candidates_) pointers_.push_back(&a);
   scan_ = std::make_unique<Scan>(fit.design, c.fitter.rows(), pointers_, c.threads);
   data_ = scan_->whitened(scan_->plain()).take(fit.residual);
@@ -115,6 +119,29 @@ Evidence::Evidence(const TraceContext& c, const JointFit& fit, std::size_t round
       *scan_, data_, c.draws, c.seed + round, c.alpha, declared,
       [&](const CovarianceModel& model, double variance) { return scatter_response(model, variance); }, &repeats,
       noise_freedom(c.experiment), rarity);
+}
+
+void Evidence::add_waves(const std::set<std::string>& dropped) {
+  std::vector<const Candidate*> known;
+  for (const Term& t : fit_.terms)
+    if (t.candidate.cycles > 0) known.push_back(&t.candidate);
+  const auto use = independent(fit_.design, c_.fitter.rows());
+  const Whitened plain(fit_.design, c_.fitter.rows(), use, {}), white(plain, fit_.covariance_model);
+  const Vector left = white.reduce(plain.winsorised(plain.take(fit_.residual)));
+  const auto gain = [&](const Matrix& pairs) {
+    const Matrix columns = white.reduce(plain.take(pairs));
+    Vector out = Vector::Zero(pairs.cols() / 2);
+    for (Index k = 0; k < out.size(); ++k) {
+      const auto pair = columns.middleCols(2 * k, 2);
+      const Eigen::Matrix2d squares = pair.transpose() * pair;
+      const Eigen::Vector2d product = pair.transpose() * left;
+      if (squares.determinant() > criteria.absorbed_share * squares(0, 0) * squares(1, 1))
+        out[k] = product.dot(squares.inverse() * product);
+    }
+    return out;
+  };
+  for (Candidate& a : waves(c_.observations, known, gain))
+    if (!dropped.contains(a.name)) candidates_.push_back(std::move(a));
 }
 
 Matrix Evidence::scatter_response(const CovarianceModel& model, double variance) const {

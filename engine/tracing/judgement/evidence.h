@@ -35,10 +35,10 @@ public:
   const std::vector<const Candidate*>& pointers() const { return pointers_; }
   const JointFit& fit() const { return fit_; }
 
-  double score(std::size_t candidate) const; ///< its linear fit's ratio minus twice that by chance
+  double score(std::size_t candidate) const;  ///< its linear fit's ratio minus twice that by chance
   double chance(std::size_t candidate) const; ///< twice the ratio by chance, and what the sizes tried cost
-  double limit(std::size_t candidate) const; ///< likelihood ratio that it must exceed
-  std::vector<std::string> jumping() const; ///< candidates with whose sizes readings jump, best first
+  double limit(std::size_t candidate) const;  ///< likelihood ratio that it must exceed
+  std::vector<std::string> jumping() const;   ///< candidates with whose sizes readings jump, best first
   /// Physical candidates that the declared model does not absorb almost completely.
   bool testable(std::size_t candidate) const;
   /// The linear fit of one candidate; its sizes are the start values for the whole model.
@@ -73,6 +73,8 @@ public:
   Matrix noise(std::size_t draws, std::uint64_t key) const;
 
 private:
+  /// Waves whose periods explain most of what the fit leaves, under its covariance model.
+  void add_waves(const std::set<std::string>& dropped);
   /// Shape of draws of the seat of a clamping: if readings jump with the seat, so do the draws.
   Matrix scatter_response(const CovarianceModel& model, double variance) const;
   Trial trial(std::size_t candidate, const Term& term) const;

@@ -14,6 +14,7 @@
 #include "tracing/judgement/evidence.h"
 #include "tracing/judgement/in_place_of_scatter.h"
 #include "tracing/judgement/ranking.h"
+#include "tracing/judgement/wave_tuning.h"
 
 namespace gumshoe::tracing {
 namespace {
@@ -169,7 +170,7 @@ private:
   }
 
   /// The fit with the terms of another, its noise found anew.
-  void adopt(const JointFit& fit) { out_.found = c_.fitter.fit(fit.terms, 0, &fit); }
+  void adopt(const JointFit& fit) { out_.found = with_tuned_waves(c_, c_.fitter.fit(fit.terms, 0, &fit)); }
 
   /// Candidates that could win, by the whole model, best first.
   std::vector<Trial> trials() const {

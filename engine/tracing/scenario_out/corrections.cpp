@@ -50,10 +50,12 @@ std::optional<Rows> rows_by(const Observations& o, const Matrix& loading, std::s
   return rows;
 }
 
-Correction common(const TraceContext& c, const std::string& name, std::size_t indication) {
+Correction common(const TraceContext& c, const Candidate& shape, const std::string& name, std::size_t indication) {
   const VariableCard& card = c.experiment.model().card->indications[indication];
   Correction out;
   out.name = name;
+  out.shape = shape.name;
+  out.meaning = fmt::format("unknown: {}{}", shape.name, shape.shape.empty() ? "" : ", " + shape.shape);
   out.indication = card.name;
   out.si_unit = card.si_unit;
   const std::string unit = card.si_unit == "m" ? "um" : std::string(card.unit);
@@ -91,21 +93,18 @@ std::optional<WrittenShape> written_shape(const TraceContext& c, const Term& ter
   const Matrix loading =
       term.candidate.columns(Eigen::seq(index(indication), Eigen::last, index(o.indications)), Eigen::all);
   const auto& depends_on = term.candidate.depends_on;
-  const std::string meaning = fmt::format("unknown: {}{}", term.candidate.name,
-                                          term.candidate.shape.empty() ? "" : ", " + term.candidate.shape);
+  const auto named = [&](const std::string& n) { return common(c, term.candidate, n, indication); };
   WrittenShape out;
   for (const Grouping& g : o.labels)
     if (depends_on == g.labels) {
-      out.effects = {common(c, name, indication)};
-      out.effects[0].meaning = meaning;
+      out.effects = {named(name)};
       out.label = &g;
       return out;
     }
   for (const Grouping& g : o.labels)
     if (depends_on.size() == 2 && g.labels == std::vector{depends_on[1]}) {
-      std::optional<Correction> one = in_a_group(c, loading, g, depends_on[0], common(c, name, indication));
+      std::optional<Correction> one = in_a_group(c, loading, g, depends_on[0], named(name));
       if (!one) return std::nullopt;
-      one->meaning = meaning;
       out.effects = {std::move(*one)};
       out.label = &g;
       return out;
@@ -117,8 +116,7 @@ std::optional<WrittenShape> written_shape(const TraceContext& c, const Term& ter
     if ((rows = rows_by(o, loading, std::span(keys).first(used)))) break;
   if (!rows) return std::nullopt;
   for (Index j = 0; j < loading.cols(); ++j) {
-    Correction one = common(c, loading.cols() > 1 ? fmt::format("{}_{}", name, j + 1) : name, indication);
-    one.meaning = meaning;
+    Correction one = named(loading.cols() > 1 ? fmt::format("{}_{}", name, j + 1) : name);
     for (std::size_t k = 0; k < used; ++k) {
       one.keys.push_back({keys[k]->name, keys[k]->unit, keys[k]->si_unit, {}});
       for (const auto& [level, here] : *rows) one.keys[k].levels.push_back(level[k]);

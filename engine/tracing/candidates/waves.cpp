@@ -1,0 +1,115 @@
+#include "tracing/candidates/waves.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <boost/math/tools/minima.hpp>
+#include <fmt/format.h>
+
+#include "base/units.h"
+#include "tracing/criteria.h"
+
+namespace gumshoe::tracing {
+namespace {
+
+class Waves {
+public:
+  /// @param indication  the one that waves
+  Waves(const Observations& o, const Covariate& c, std::size_t indication)
+      : range_(c.levels.back() - c.levels.front()), rows_(index(o.readings * o.indications)),
+        every_(index(o.indications)), first_(index(indication)), x_(index(o.readings)) {
+    for (std::size_t i = 0; i < o.readings; ++i) x_[index(i)] = (c.value[o.sequence[i]] - c.levels.front()) / range_;
+  }
+
+  /// Cosine and sine of so many cycles over the range.
+  Matrix columns(double cycles) const {
+    Matrix out = Matrix::Zero(rows_, 2);
+    const Vector turn = 2 * std::numbers::pi * cycles * x_;
+    out(Eigen::seq(first_, Eigen::last, every_), 0) = turn.array().cos();
+    out(Eigen::seq(first_, Eigen::last, every_), 1) = turn.array().sin();
+    return out;
+  }
+
+  /// Cycles over the range that explain most: the best of a grid, then by Brent's method about it.
+  double best(double most, const PairGain& gain) const {
+    const double step = 1.0 / criteria.wave_grid;
+    const auto count = static_cast<Index>(std::floor((most - least_cycles) / step)) + 1;
+    double found = least_cycles, height = -1;
+    for (Index from = 0; from < count; from += at_once) {
+      const Index n = std::min(at_once, count - from);
+      Matrix pairs(rows_, 2 * n);
+      for (Index k = 0; k < n; ++k)
+        pairs.middleCols(2 * k, 2) = columns(least_cycles + step * static_cast<double>(from + k));
+      Index highest = 0;
+      const double here = gain(pairs).maxCoeff(&highest);
+      if (here > height) height = here, found = least_cycles + step * static_cast<double>(from + highest);
+    }
+    const auto loss = [&](double cycles) { return -gain(columns(cycles))[0]; };
+    constexpr int bits = 20; // of the cycles: far finer than the data resolve
+    return boost::math::tools::brent_find_minima(loss, std::max(least_cycles, found - step),
+                                                 std::min(most, found + step), bits)
+        .first;
+  }
+
+  static constexpr double least_cycles = 2; ///< fewer are a drift or a bend
+
+private:
+  static constexpr Index at_once = 64;
+  double range_;
+  Index rows_, every_, first_;
+  Vector x_; ///< in the order of measurement, 0 to 1 over the range
+};
+
+Candidate candidate(const Observations& o, const Covariate& c, std::size_t indication, double cycles) {
+  Candidate a;
+  a.family = Family::shape;
+  a.name = "wave:" + c.name + (o.indications > 1 ? " of " + o.names[indication] : "");
+  const double range = c.levels.back() - c.levels.front();
+  a.shape = fmt::format("period {:.4g} {}", units::from_si(range / cycles, c.unit, c.si_unit, units::Kind::difference),
+                        c.unit);
+  a.columns = Waves(o, c, indication).columns(cycles);
+  a.cycles = cycles;
+  a.depends_on = {c.name};
+  Amplitude size;
+  size.quantity = Amplitude::npos;
+  size.name = "size";
+  a.amplitudes.assign(2, size);
+  return a;
+}
+
+} // namespace
+
+std::vector<Candidate> waves(const Observations& o, const std::vector<const Candidate*>& known, const PairGain& gain) {
+  std::vector<Candidate> out;
+  const auto is_time = [](const Covariate& c) { return c.name == "time" || c.name == "order"; };
+  // A programme that recurs is itself a wave in time.
+  const bool programme =
+      std::ranges::any_of(o.covariates, [&](const Covariate& c) { return c.commanded && !is_time(c); });
+  for (const Covariate& c : o.covariates) {
+    if (c.angle || (is_time(c) ? programme : !c.commanded) || c.levels.size() <= criteria.levels_for_fine_omnibus)
+      continue;
+    const double most = std::min(static_cast<double>(c.levels.size() - 1) / 2, criteria.most_cycles);
+    for (std::size_t i = 0; i < o.indications; ++i) {
+      Candidate a = candidate(o, c, i, Waves(o, c, i).best(most, gain));
+      a.searched = 4 * most;
+      const bool resolved = std::ranges::none_of(known, [&](const Candidate* other) {
+        return other->name == a.name && std::fabs(other->cycles - a.cycles) < 1;
+      });
+      if (resolved) out.push_back(std::move(a));
+    }
+  }
+  return out;
+}
+
+Candidate at_cycles(const Observations& o, const Candidate& wave, double cycles) {
+  const auto along = std::ranges::find(o.covariates, wave.depends_on[0], &Covariate::name);
+  Index moved = 0;
+  wave.columns.col(0).cwiseAbs().maxCoeff(&moved);
+  Candidate out = candidate(o, *along, index(moved % index(o.indications)), cycles);
+  out.searched = wave.searched;
+  out.cycles_u = wave.cycles_u;
+  return out;
+}
+
+} // namespace gumshoe::tracing
