@@ -88,6 +88,8 @@ void tell(RecognisedData& data, const Options& o) {
     c.role = role;
     c.why = "by --role";
   }
+  // A reading that is named a position leaves its role to another column; position and reading alone are guessed.
+  if (!data.find(ColumnRole::reading)) scenario::guess_roles(data);
   for (const std::string& text : o.units) {
     const auto [column, unit] = assignment(text, "--unit");
     units::si_unit_of(unit);
@@ -160,7 +162,8 @@ void print_columns(const RecognisedData& found) {
 }
 
 /// Reads what was written: what is missing, or which command comes next.
-void print_next(const Options& o, const std::string& out) {
+/// @param found  null: no data file
+void print_next(const Options& o, const std::string& out, const RecognisedData* found) {
   try {
     const auto s = scenario::read(out, catalogue());
     if (s.made && !s.made->card->axes.empty())
@@ -172,6 +175,10 @@ void print_next(const Options& o, const std::string& out) {
                                o.model.empty() || o.model == "linear" ? "trace" : "run", out);
   } catch (const InputError& error) {
     std::cout << fmt::format("{}: to fill in, then gumshoe check {}:\n{}\n", out, out, error.what());
+    std::string units;
+    for (const auto& c : found ? found->columns : std::vector<scenario::RecognisedColumn>{})
+      if (c.unit == "?" && c.role != ColumnRole::other) units += fmt::format(" --unit {}=UNIT", c.name);
+    if (!units.empty()) std::cout << fmt::format("or write it anew: gumshoe new ... --force{}\n", units);
   }
 }
 
@@ -204,7 +211,7 @@ ExitCode run(Options o) {
     std::cout << fmt::format("{}: {} rows\n", o.from, found->csv.rows.size());
     print_columns(*found);
   }
-  print_next(o, out);
+  print_next(o, out, found.get());
   return ExitCode::done;
 }
 

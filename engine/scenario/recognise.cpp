@@ -26,9 +26,9 @@ const std::vector<RoleWords>& role_words() {
       {ColumnRole::uncertainty, {"sd", "std", "sigma", "u", "uncertainty", "unsicherheit"}},
       {ColumnRole::temperature, {"temp", "temperature", "temperatur"}},
       {ColumnRole::direction, {"dir", "direction", "richtung", "approach", "sense"}},
-      {ColumnRole::cycle,
-       {"cycle", "run", "repeat", "repetition", "pass", "lauf", "zyklus", "setup", "series", "reihe", "messreihe",
-        "serie", "durchgang", "trial", "round", "runde"}},
+      {ColumnRole::cycle, {"cycle", "run",    "repeat", "repetition", "pass",    "lauf",      "zyklus",
+                           "setup", "series", "reihe",  "messreihe",  "serie",   "durchgang", "trial",
+                           "round", "runde",  "expt",   "experiment", "versuch", "replicate", "rep"}},
       {ColumnRole::time, {"time", "zeit", "timestamp", "datetime", "date", "datum", "clock", "uhrzeit", "t"}},
       {ColumnRole::reading,
        {"dev",      "deviation", "error",      "err",     "abweichung", "reading",    "laser",  "measured",
@@ -44,22 +44,32 @@ const std::vector<RoleWords>& role_words() {
 /// Spellings of units in headers.
 const std::map<std::string, std::string>& unit_words() {
   static const std::map<std::string, std::string> all{
-      {"um", "um"},         {"µm", "um"},      {"μm", "um"},     {"micron", "um"}, {"nm", "nm"},
-      {"mm", "mm"},         {"m", "m"},        {"inch", "inch"}, {"deg", "deg"},   {"°", "deg"},
-      {"rad", "rad"},       {"mrad", "mrad"},  {"urad", "urad"}, {"µrad", "urad"}, {"arcsec", "arcsec"},
-      {"s", "s"},           {"sec", "s"},      {"ms", "ms"},     {"min", "min"},   {"h", "h"},
-      {"K", "K"},           {"degC", "degC"},  {"°C", "degC"},   {"C", "degC"},    {"N", "N"},
-      {"mm/min", "mm/min"}, {"mm/s", "mm/s"},  {"um/m", "um/m"}, {"%", "%"},       {"Hz", "Hz"},
-      {"kN", "kN"},         {"MN", "MN"},      {"Nm", "N m"},    {"V", "V"},       {"mV", "mV"},
-      {"mV/V", "mV/V"},     {"bar", "bar"},    {"mbar", "mbar"}, {"Pa", "Pa"},     {"hPa", "hPa"},
-      {"kPa", "kPa"},       {"MPa", "MPa"},    {"kg", "kg"},     {"rpm", "1/min"}, {"1/min", "1/min"},
-      {"U/min", "1/min"},   {"m/min", "m/min"}};
+      {"um", "um"},         {"µm", "um"},         {"μm", "um"},       {"micron", "um"},   {"nm", "nm"},
+      {"mm", "mm"},         {"m", "m"},           {"km", "km"},       {"inch", "inch"},   {"deg", "deg"},
+      {"°", "deg"},         {"rad", "rad"},       {"mrad", "mrad"},   {"urad", "urad"},   {"µrad", "urad"},
+      {"arcsec", "arcsec"}, {"s", "s"},           {"sec", "s"},       {"ms", "ms"},       {"min", "min"},
+      {"h", "h"},           {"K", "K"},           {"degC", "degC"},   {"°C", "degC"},     {"C", "degC"},
+      {"N", "N"},           {"mm/min", "mm/min"}, {"mm/s", "mm/s"},   {"um/m", "um/m"},   {"%", "%"},
+      {"ppm", "ppm"},       {"ppb", "ppb"},       {"Hz", "Hz"},       {"kN", "kN"},       {"MN", "MN"},
+      {"Nm", "N m"},        {"V", "V"},           {"mV", "mV"},       {"mV/V", "mV/V"},   {"bar", "bar"},
+      {"mbar", "mbar"},     {"Pa", "Pa"},         {"hPa", "hPa"},     {"kPa", "kPa"},     {"MPa", "MPa"},
+      {"kg", "kg"},         {"rpm", "1/min"},     {"1/min", "1/min"}, {"U/min", "1/min"}, {"m/min", "m/min"}};
   return all;
 }
 
 std::string lower(std::string text) {
   std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
+}
+
+/// "mm" and "min": mm/min, a speed or any other ratio that has a name; empty if they are no such pair.
+std::string ratio(const std::string& above, const std::string& below) {
+  if (const auto both = unit_words().find(above + "/" + below); both != unit_words().end()) return both->second;
+  const auto upper = unit_words().find(above), lower = unit_words().find(below);
+  if (upper == unit_words().end() || lower == unit_words().end()) return "";
+  const std::string si_unit = units::si_unit_of(upper->second);
+  const bool speed = (si_unit == "m" || si_unit == "rad") && units::si_unit_of(lower->second) == "s";
+  return speed ? upper->second + "/" + lower->second : "";
 }
 
 /// "pos (mm)", "pos [mm]", "pos_mm", "pos/mm", "pos mm": the unit, or empty; `rest` is the name without it.
@@ -85,9 +95,9 @@ std::string unit_in(const std::string& name, std::string& rest) {
     if (known == unit_words().end()) continue;
     rest = name.substr(0, at);
     if (const std::size_t more = rest.find_last_of("_ /"); more != std::string::npos)
-      if (const auto both = unit_words().find(rest.substr(more + 1) + "/" + tail); both != unit_words().end()) {
+      if (const std::string both = ratio(rest.substr(more + 1), tail); !both.empty()) {
         rest = rest.substr(0, more);
-        return both->second;
+        return both;
       }
     return known->second;
   }
@@ -213,16 +223,16 @@ bool is_place(const RecognisedColumn& c) {
   return si_unit == "m" || si_unit == "rad";
 }
 
-/// Position and reading, where no name tells them: the first column of numbers that is left, if it was set, and the
-/// last.
-void fill_up(RecognisedData& data) {
+} // namespace
+
+void guess_roles(RecognisedData& data) {
   std::vector<RecognisedColumn>& columns = data.columns;
   const auto has = [&](ColumnRole role) {
     return std::ranges::find(columns, role, &RecognisedColumn::role) != columns.end();
   };
   const auto take = [&](auto&& range, ColumnRole role, const char* why) {
     for (RecognisedColumn& c : range)
-      if (c.number && c.role == ColumnRole::other && !counts_rows(c) &&
+      if (c.number && c.role == ColumnRole::other && !counts_rows(c) && !names_parts(c) &&
           (role != ColumnRole::position || (is_place(c) && was_set(data, c)))) {
         c.role = role;
         c.why = why;
@@ -241,12 +251,19 @@ void fill_up(RecognisedData& data) {
   if (!has(ColumnRole::position)) take(std::span(columns), ColumnRole::position, "as the first column of numbers");
 }
 
-} // namespace
-
 bool counts_rows(const RecognisedColumn& c) {
   static const std::set<std::string> names{"nr", "no", "n", "id", "index", "number", "point", "row", "line"};
   const auto words = words_of(c.name);
   return words.size() == 1 && names.contains(words.front());
+}
+
+bool names_parts(const RecognisedColumn& c) {
+  static const std::set<std::string> names{"operator", "bediener", "observer", "lab",    "laboratory", "batch",
+                                           "lot",      "machine",  "maschine", "sample", "part",       "specimen",
+                                           "tool",     "artefact", "probe",    "sensor", "day",        "tag",
+                                           "shift",    "wafer",    "rod"};
+  const auto words = words_of(c.name);
+  return c.unit == "?" && std::ranges::any_of(words, [&](const std::string& w) { return names.contains(w); });
 }
 
 bool was_set(const RecognisedData& data, const RecognisedColumn& c) {
@@ -295,7 +312,7 @@ RecognisedData recognise(const std::string& text, const std::string& file) {
                        "write a line with a name for each column above it"}});
   if (number_columns(out.csv, ',') > number_columns(out.csv, '.')) out.decimal = ',';
   for (std::size_t c = 0; c < out.csv.header.size(); ++c) out.columns.push_back(column_of(out, c));
-  fill_up(out);
+  guess_roles(out);
   return out;
 }
 

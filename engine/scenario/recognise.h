@@ -37,11 +37,17 @@ struct RecognisedData {
 /// Reads the text of a data file. Throws InputError: no table, no rows, or a first row of numbers instead of names.
 RecognisedData recognise(const std::string& text, const std::string& file);
 
+/// Position and reading, where there is none yet: the first column of numbers that is left, if it was set, and the last.
+void guess_roles(RecognisedData& data);
+
 /// Whether the numbers of a column look set, not measured: they recur, or only rise, or only fall.
 bool was_set(const RecognisedData& data, const RecognisedColumn& column);
 
 /// Whether a column counts rows and measures nothing, by its name.
 bool counts_rows(const RecognisedColumn& column);
+
+/// Whether the numbers of a column name parts, people or places, by its name: "operator 2".
+bool names_parts(const RecognisedColumn& column);
 
 /// The words of a column's or quantity's name in lower case: "Spindle-Z [mm]" -> spindle, z.
 std::vector<std::string> words_of(const std::string& name);

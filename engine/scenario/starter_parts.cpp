@@ -52,7 +52,8 @@ NamedColumns labels_of(const RecognisedData& data) {
   NamedColumns out;
   for (const RecognisedColumn& c : data.columns) {
     const std::size_t n = different(data, c);
-    const bool recurs = !c.number && c.clock.empty() && c.words.empty() && n > 1 && 2 * n <= data.csv.rows.size();
+    const bool recurs =
+        (!c.number || names_parts(c)) && c.clock.empty() && c.words.empty() && n > 1 && 2 * n <= data.csv.rows.size();
     if (c.role == ColumnRole::cycle || (c.role == ColumnRole::other && recurs))
       out.emplace_back(plain_name(c.name), &c);
   }
@@ -79,7 +80,8 @@ std::string data_section(const StarterData& data, const NamedColumns& labels, co
       out += line(quoted(c.name), quoted(c.unit),
                   c.unit == "?" ? "the file does not say it: write the unit, such as \"mm\"" : "from its header");
   if (!conditions.empty()) out += "\n[data.conditions]\n";
-  for (const auto& [name, c] : conditions) out += line(name, column_text(*c), "recognised " + (c->why.empty() ? "by its name" : c->why));
+  for (const auto& [name, c] : conditions)
+    out += line(name, column_text(*c), "recognised " + (c->why.empty() ? "by its name" : c->why));
   return out;
 }
 

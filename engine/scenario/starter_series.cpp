@@ -9,7 +9,7 @@ namespace {
 NamedColumns readings_of(const RecognisedData& data) {
   NamedColumns out;
   for (const RecognisedColumn& c : data.columns)
-    if (c.number && !counts_rows(c) &&
+    if (c.number && !counts_rows(c) && !names_parts(c) &&
         (c.role == ColumnRole::reading || (c.role == ColumnRole::other && !was_set(data, c))))
       out.emplace_back(plain_name(c.name), &c);
   return out;
@@ -35,7 +35,7 @@ std::string starter_series(const StarterData& data, const std::string& scenario)
   std::string recorded = columns_of(found, used);
   if (recorded.find("[trace.columns]") == std::string::npos) recorded += "\n[trace.columns]\n";
   for (const RecognisedColumn& c : found.columns)
-    if (c.number && c.role == ColumnRole::other && !counts_rows(c) && !used.contains(c.name) &&
+    if (c.number && c.role == ColumnRole::other && !counts_rows(c) && !names_parts(c) && !used.contains(c.name) &&
         different(found, c) > 1) {
       recorded += line(plain_name(c.name), quoted(c.name), "recorded with the readings");
       used.insert(c.name);

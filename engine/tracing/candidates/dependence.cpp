@@ -114,7 +114,8 @@ std::vector<std::string> dependence(const Observations& o, const Matrix& columns
     for (std::size_t c = 0; c < groups.size(); ++c) share.push_back(named[c] ? 0 : largest_share(parts, groups[c]));
     const auto first = index(std::ranges::max_element(share) - share.begin());
     if (share.empty() || share[first] <= criteria.dependence_share) break;
-    // Nearly proportional covariates, such as a temperature that rises with time: the one with the smallest residual wins.
+    // Nearly proportional covariates, such as a temperature that rises with time: the one with the smallest residual
+    // wins.
     std::size_t best = first;
     for (std::size_t c = 0; c < groups.size(); ++c)
       if (!named[c] && std::fabs(correlation(values[first], values[c])) > criteria.alike &&

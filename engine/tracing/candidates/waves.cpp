@@ -80,6 +80,19 @@ Candidate candidate(const Observations& o, const Covariate& c, std::size_t indic
 
 } // namespace
 
+namespace {
+
+/// Levels that a wave can tell apart: those within a tenth of their mean distance count as one, such as a target that
+/// was met again but for its jitter.
+std::size_t places(const Covariate& c) {
+  const double near = 0.1 * (c.levels.back() - c.levels.front()) / static_cast<double>(c.levels.size() - 1);
+  std::size_t out = 1;
+  for (std::size_t i = 1; i < c.levels.size(); ++i) out += c.levels[i] - c.levels[i - 1] > near;
+  return out;
+}
+
+} // namespace
+
 std::vector<Candidate> waves(const Observations& o, const std::vector<const Candidate*>& known, const PairGain& gain) {
   std::vector<Candidate> out;
   const auto is_time = [](const Covariate& c) { return c.name == "time" || c.name == "order"; };
@@ -87,9 +100,10 @@ std::vector<Candidate> waves(const Observations& o, const std::vector<const Cand
   const bool programme =
       std::ranges::any_of(o.covariates, [&](const Covariate& c) { return c.commanded && !is_time(c); });
   for (const Covariate& c : o.covariates) {
-    if (c.angle || (is_time(c) ? programme : !c.commanded) || c.levels.size() <= criteria.levels_for_fine_omnibus)
-      continue;
-    const double most = std::min(static_cast<double>(c.levels.size() - 1) / 2, criteria.most_cycles);
+    if (c.angle || (is_time(c) ? programme : !c.commanded) || c.levels.size() < 2) continue;
+    const std::size_t levels = places(c);
+    if (levels <= criteria.levels_for_fine_omnibus) continue;
+    const double most = std::min(static_cast<double>(levels - 1) / 2, criteria.most_cycles);
     for (std::size_t i = 0; i < o.indications; ++i) {
       Candidate a = candidate(o, c, i, Waves(o, c, i).best(most, gain));
       a.searched = 4 * most;

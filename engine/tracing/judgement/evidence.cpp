@@ -129,13 +129,15 @@ void Evidence::add_waves(const std::set<std::string>& dropped) {
   const Whitened plain(fit_.design, c_.fitter.rows(), use, {}), white(plain, fit_.covariance_model);
   const Vector left = white.reduce(plain.winsorised(plain.take(fit_.residual)));
   const auto gain = [&](const Matrix& pairs) {
-    const Matrix columns = white.reduce(plain.take(pairs));
+    const Matrix whole = white.whiten(plain.take(pairs)), columns = white.reduce(plain.take(pairs));
     Vector out = Vector::Zero(pairs.cols() / 2);
     for (Index k = 0; k < out.size(); ++k) {
       const auto pair = columns.middleCols(2 * k, 2);
       const Eigen::Matrix2d squares = pair.transpose() * pair;
       const Eigen::Vector2d product = pair.transpose() * left;
-      if (squares.determinant() > criteria.absorbed_share * squares(0, 0) * squares(1, 1))
+      // A wave that unknowns follow has an alias that is none.
+      const bool own = pair.squaredNorm() > criteria.own_wave * whole.middleCols(2 * k, 2).squaredNorm();
+      if (own && squares.determinant() > criteria.absorbed_share * squares(0, 0) * squares(1, 1))
         out[k] = product.dot(squares.inverse() * product);
     }
     return out;
