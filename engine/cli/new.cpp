@@ -1,4 +1,5 @@
 /// `gumshoe new`: a first scenario of a model or of a data file.
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -88,8 +89,9 @@ void tell(RecognisedData& data, const Options& o) {
     c.role = role;
     c.why = "by --role";
   }
-  // A reading that is named a position leaves its role to another column; position and reading alone are guessed.
-  if (!data.find(ColumnRole::reading)) scenario::guess_roles(data);
+  // A guessed reading that is named a position leaves its role to another column.
+  const auto named_position = [](const std::string& text) { return assignment(text, "--role").second == "position"; };
+  if (!data.find(ColumnRole::reading) && std::ranges::any_of(o.roles, named_position)) scenario::guess_roles(data);
   for (const std::string& text : o.units) {
     const auto [column, unit] = assignment(text, "--unit");
     units::si_unit_of(unit);

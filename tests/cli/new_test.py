@@ -192,6 +192,14 @@ class New(InFolder):
                             (("linear", "--from", "f.csv", "--term", "mood"), "--term: the column 'mood' has 48 different words in 48 rows"),
                             (("linear", "--from", "f.csv", "--role", "force [N]=other"), "f.csv: there is no column of readings")):
             self.assertIn(said, self.new(*words, code=2))
+        # A column of readings that is told to be a position is replaced by the one that is left; people are labels.
+        (self.folder / "pair.csv").write_text("ours_ppb,theirs_ppb,operator\n" + "".join(f"{x * 1.1:.2f},{x}.0{x % 2},{x % 2}\n" for x in range(12)))
+        self.new("--from", "pair.csv", "--role", "theirs_ppb=position")
+        text = (self.folder / "pair.toml").read_text()
+        for line in ('readings = "ours_ppb"', 'position = "theirs_ppb"', 'labels = { operator = "operator" }', '"ours_ppb" = "ppb"'):
+            self.assertIn(line, text)
+        (self.folder / "fast.csv").write_text("Expt,speed_km_s\n" + "".join(f"{x % 3},{x}.5\n" for x in range(12)))
+        self.assertIn("Expt: cycle (by its name)\n  speed_km_s: reading, km/s", self.new("--from", "fast.csv"))
         (self.folder / "one.csv").write_text("force_N\n1\n2\n")
         self.assertIn("there is no column but the readings", self.new("linear", "--from", "one.csv", code=2))
 
