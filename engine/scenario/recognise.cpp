@@ -29,7 +29,9 @@ const std::vector<RoleWords>& role_words() {
       {ColumnRole::cycle, {"cycle", "run",    "repeat", "repetition", "pass",    "lauf",      "zyklus",
                            "setup", "series", "reihe",  "messreihe",  "serie",   "durchgang", "trial",
                            "round", "runde",  "expt",   "experiment", "versuch", "replicate", "rep"}},
-      {ColumnRole::time, {"time", "zeit", "timestamp", "datetime", "date", "datum", "clock", "uhrzeit", "t"}},
+      {ColumnRole::time,
+       {"time", "zeit", "timestamp", "datetime", "date", "datum", "clock", "uhrzeit", "t", "elapsed", "seconds",
+        "sekunden", "minutes", "minuten", "hours", "stunden"}},
       {ColumnRole::reading,
        {"dev",      "deviation", "error",      "err",     "abweichung", "reading",    "laser",  "measured",
         "meas",     "actual",    "act",        "ist",     "diff",       "difference", "result", "value",
@@ -60,6 +62,15 @@ const std::map<std::string, std::string>& unit_words() {
 std::string lower(std::string text) {
   std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
+}
+
+/// The unit of a time that is named after it: "minutes"; empty of any other name.
+std::string unit_of_time(const std::vector<std::string>& words) {
+  static const std::map<std::string, std::string> all{{"seconds", "s"},   {"sekunden", "s"}, {"minutes", "min"},
+                                                      {"minuten", "min"}, {"hours", "h"},    {"stunden", "h"}};
+  for (const std::string& word : words)
+    if (const auto known = all.find(word); known != all.end()) return known->second;
+  return "";
 }
 
 /// "mm" and "min": mm/min, a speed or any other ratio that has a name; empty if they are no such pair.
@@ -106,11 +117,12 @@ std::string unit_in(const std::string& name, std::string& rest) {
 
 const std::vector<std::pair<std::vector<std::string_view>, double>>& direction_words() {
   static const std::vector<std::pair<std::vector<std::string_view>, double>> all{
-      {{"fwd", "forward", "forwards", "up", "+", "pos", "positive", "vor", "vorwärts", "hin", "auf", "1", "+1", "p",
-        "plus"},
+      {{"fwd", "forward", "forwards", "up", "+", "cw", "increasing", "out", "outbound", "pos", "positive", "vor",
+        "vorwärts", "hin", "auf", "1", "+1", "p", "plus"},
        1},
-      {{"bwd", "backward", "backwards", "bck", "rev", "reverse", "down", "-", "neg", "negative", "zurück", "rück",
-        "rueck", "ab", "-1", "n", "minus"},
+      {{"bwd",     "backward", "backwards", "bck",  "ccw", "decreasing", "back",     "return",
+        "inbound", "rev",      "reverse",   "down", "-",   "neg",        "negative", "zurück",
+        "rück",    "rueck",    "ab",        "-1",   "n",   "minus"},
        -1}};
   return all;
 }
@@ -173,8 +185,9 @@ bool fits(ColumnRole role, const std::string& unit) {
 RecognisedColumn column_of(const RecognisedData& data, std::size_t c) {
   RecognisedColumn out{data.csv.header[c].text, "1", ColumnRole::other, numbers(data.csv, c, data.decimal), false, ""};
   std::string rest;
-  const std::string unit = unit_in(out.name, rest);
+  std::string unit = unit_in(out.name, rest);
   const auto words = words_of(rest);
+  if (unit.empty()) unit = unit_of_time(words);
   for (const RoleWords& known : role_words()) {
     if (out.role != ColumnRole::other) break;
     for (const std::string_view word : known.words)

@@ -63,6 +63,7 @@ std::string starter_axis(const StarterData& data, const std::string& scenario) {
   const RecognisedColumn* const direction = found.find(Role::direction);
   const RecognisedColumn* const sd = found.find(Role::uncertainty);
   const bool measured = measured_position(found, *position, *reading);
+  const bool turns = full_turn(found, *position); // its error comes back: no gain
   const std::string name = measured ? "measured" : "deviation";
   const std::string pos = unit_or(*position, "mm"), read = unit_or(*reading, "um");
   const NamedColumns labels = labels_of(found);
@@ -73,20 +74,22 @@ std::string starter_axis(const StarterData& data, const std::string& scenario) {
   const std::string recorded = columns_of(found, used);
 
   std::string out =
-      fmt::format("# Question: which errors do the readings in {} show that a straight line{} do{} not explain?\n"
+      fmt::format("# Question: which errors do the readings in {} show that {}{} do{} not explain?\n"
                   "#     gumshoe trace {}\n"
                   "# Written by gumshoe new. What was guessed is said in comments: correct it where it is wrong.\n\n",
-                  data.file, direction ? " and a reversal" : "", direction ? "" : "es", scenario);
+                  data.file, turns ? "an offset" : "a straight line", direction ? " and a reversal" : "",
+                  direction ? "" : "es", scenario);
   out += fmt::format("schema = 1\ntitle  = {}\n\n[model]\nname = \"expression\"\n\n[model.indications]\n",
                      quoted(data.file));
   out += line(name,
-              fmt::format("\"{}offset + gain * position{}\"", measured ? "position + " : "",
+              fmt::format("\"{}offset{}{}\"", measured ? "position + " : "", turns ? "" : " + gain * position",
                           direction ? " + reversal * direction" : ""),
               measured ? "guessed: the readings span what the positions span" : "guessed: the readings are errors");
   out += '\n' + data_section(data, labels, conditions, used);
   out += "\n[quantities]                            # fitted to the readings\n";
   out += line("offset", fmt::format("{{ estimated = true, value = \"0 {}\" }}", read), "");
-  out += line("gain", fmt::format("{{ estimated = true, value = \"0 ({})/({})\" }}", measured ? pos : read, pos), "");
+  if (!turns)
+    out += line("gain", fmt::format("{{ estimated = true, value = \"0 ({})/({})\" }}", measured ? pos : read, pos), "");
   if (direction)
     out +=
         line("reversal", fmt::format("{{ estimated = true, value = \"0 {}\" }}", read), "half of the reversal error");

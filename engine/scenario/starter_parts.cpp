@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -85,23 +86,34 @@ std::string data_section(const StarterData& data, const NamedColumns& labels, co
   return out;
 }
 
+namespace {
+
+/// Of the numbers of a column, SI; in its own unit where that is not told.
+double range(const RecognisedData& data, const RecognisedColumn& c) {
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  const auto column = static_cast<std::size_t>(data.csv.find(c.name));
+  for (const auto& row : data.csv.rows) {
+    if (row[column].text.empty()) continue;
+    const double x = data.csv.number(row[column], data.decimal);
+    low = std::min(low, x), high = std::max(high, x);
+  }
+  double scale = 1;
+  if (c.unit != "?" && c.unit != "1")
+    scale = units::to_si(1, c.unit, units::si_unit_of(c.unit), units::Kind::difference);
+  return scale * (high - low);
+}
+
+} // namespace
+
+bool full_turn(const RecognisedData& data, const RecognisedColumn& position) {
+  return position.unit != "?" && units::si_unit_of(position.unit) == "rad" &&
+         range(data, position) > 1.8 * std::numbers::pi;
+}
+
 bool measured_position(const RecognisedData& data, const RecognisedColumn& position, const RecognisedColumn& reading) {
-  const auto range = [&](const RecognisedColumn& c) {
-    double low = HUGE_VAL, high = -HUGE_VAL;
-    const auto column = static_cast<std::size_t>(data.csv.find(c.name));
-    for (const auto& row : data.csv.rows) {
-      if (row[column].text.empty()) continue;
-      const double x = data.csv.number(row[column], data.decimal);
-      low = std::min(low, x), high = std::max(high, x);
-    }
-    double scale = 1;
-    if (c.unit != "?" && c.unit != "1")
-      scale = units::to_si(1, c.unit, units::si_unit_of(c.unit), units::Kind::difference);
-    return scale * (high - low);
-  };
   const auto kind = [](const RecognisedColumn& c) { return c.unit == "?" ? "m" : units::si_unit_of(c.unit); };
   if (kind(position) != kind(reading)) return false;
-  const double share = range(reading) / range(position);
+  const double share = range(data, reading) / range(data, position);
   return share > 0.5 && share < 2; // an axis errs by less than half of its travel
 }
 

@@ -27,6 +27,8 @@ NamedColumns labels_of(const RecognisedData& data);
 
 /// Whether the readings are the positions themselves, measured, and not their errors: then they span what the positions
 /// span.
+/// Whether positions are angles that go round, but for a tenth.
+bool full_turn(const RecognisedData& data, const RecognisedColumn& position);
 bool measured_position(const RecognisedData& data, const RecognisedColumn& position, const RecognisedColumn& reading);
 
 /// [data] with its units and conditions. @param used names of the columns that the scenario reads

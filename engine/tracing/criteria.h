@@ -74,11 +74,14 @@ struct Criteria {
   std::size_t most_label_groups = 30;   ///< groups of a label for which steps and dependence are tried
   std::size_t most_omnibus_groups = 12; ///< groups of a label for which "any value per group" is tried
   std::size_t most_table_cells = 60;    ///< levels, or combinations of levels, at which "any value" is tried, by cost
-  std::size_t least_repeats = 2;        ///< readings at each of them, on average
+  /// The same where nothing else explains what repeats; and readings times cells up to which it is, by cost.
+  std::size_t most_wide_cells = 400, most_wide_entries = 600000;
+  std::size_t least_repeats = 2; ///< readings at each of them, on average
   std::size_t most_harmonics = 6;
   /// Periods tried: so many to the resolution of the range (a peak's loss on the grid is about 5 % at most), and cycles
   /// over the range up to which they are, by cost.
   double wave_grid = 4, most_cycles = 500;
+  double shown_wave = 3; ///< amplitude in u from which a wave per turn is told
   double own_wave = 0.5; ///< share of a wave that the declared model must leave
   /// A shape of which so many successive readings hold this share is one of outliers.
   Index few_readings = 3;

@@ -72,6 +72,29 @@ def ball_screw():
                 yield f"{run},{3 * i},{'+' if sign > 0 else '-'},{y:.2f}"
 
 
+def warm_screw():
+    """A screw that warms by 15 K and grows away from its bearing at 0: 3.45 um/(m K), in both directions, with a play."""
+    draw, screw = random.Random(8), 20.0
+    yield "minutes;X soll mm;richtung;T_screw degC;abw um"
+    for k in range(60):
+        screw += (35 - screw) * 5 / 60
+        for place in (0, 150, 300, 450):
+            for sign in (1, -1):
+                y = 3.45e-3 * (screw - 20) * place + 0.8 * sign + draw.gauss(0, 0.3)
+                yield f"{5 * k + place / 600:.1f};{place};{sign};{screw + draw.gauss(0, 0.1):.1f};{y:.2f}".replace(".", ",")
+
+
+def rotary_table():
+    """A table turned by 30 deg in both directions, with one wave and two waves per turn: arcsec."""
+    draw = random.Random(9)
+    yield "cycle,C_deg,dir,err_arcsec"
+    for cycle in range(1, 6):
+        for sense, sign in (("cw", 1), ("ccw", -1)):
+            for i in range(13)[::sign]:
+                t = math.radians(30 * i)
+                yield f"{cycle},{30 * i},{sense},{4 * math.sin(t + 0.3) + 1.2 * math.sin(2 * t) + 1.5 * sign + draw.gauss(0, 0.3):.2f}"
+
+
 class TraceLog(InFolder):
     def trace(self, rows):
         (self.folder / "log.csv").write_text("\n".join(rows) + "\n")
@@ -133,6 +156,21 @@ class TraceLog(InFolder):
             for true, value, u in ((period, said[1], said[2]), (amplitude, said[3], said[4])):
                 self.assertAlmostEqual(float(value), true, delta=3.5 * float(u))
             (self.folder / "log.toml").unlink()
+
+    def test_growth_with_a_temperature_is_one_shape(self):
+        """Not a smooth surface of many sizes: readings that are far off without it are not outlying with it."""
+        v = self.trace(warm_screw())
+        self.assertEqual([f["described_by"] for f in v["findings"]], ["product:position*t_screw_degc"])
+        self.assertIn("growing from the lowest position", " ".join(v["findings"][0]["remarks"]))
+
+    def test_a_turn_shows_its_waves_and_has_no_gain(self):
+        v = self.trace(rotary_table())
+        self.assertNotIn("gain", (self.folder / "log.toml").read_text())
+        self.assertEqual([f["depends_on"] for f in v["findings"]], [["position"]])
+        said = dict((int(n), (float(a), float(u))) for n, a, u in
+                    re.findall(r"(\d) waves? (\S+) arcsec, u = (\S+) arcsec", " ".join(v["findings"][0]["remarks"])))
+        for waves, true in ((1, 4), (2, 1.2)):
+            self.assertAlmostEqual(said[waves][0], true, delta=3.5 * said[waves][1])
 
     def test_what_only_the_order_of_rows_tells_is_not_found_for_ever(self):
         """A load cell that bends and lags on the way down, and no column that says which way it was."""

@@ -225,7 +225,7 @@ TEST_CASE("the order of rows in the file does not change a bit of the fit", "[tr
   REQUIRE(o.labels.size() == p.labels.size());
   for (std::size_t l = 0; l < o.labels.size(); ++l) CHECK(o.labels[l].groups == p.labels[l].groups);
   CHECK(o.blocks.groups == p.blocks.groups);
-  const auto sa = shapes(o), sb = shapes(p);
+  const auto sa = shapes(o, 60), sb = shapes(p, 60);
   REQUIRE(sa.size() == sb.size());
   for (std::size_t i = 0; i < sa.size(); ++i) {
     CHECK(sa[i].name == sb[i].name);
@@ -263,7 +263,7 @@ TEST_CASE("no signature comes from the measured response", "[tracing]") {
   Case b(a.scenario);
   b.measure(at, noise);
   const auto ca = a.candidates(fit), cb = b.candidates(fit);
-  const auto sa = shapes(a.observations), sb = shapes(b.observations);
+  const auto sa = shapes(a.observations, 60), sb = shapes(b.observations, 60);
   REQUIRE(ca.size() > 20);
   REQUIRE(ca.size() == cb.size());
   for (std::size_t i = 0; i < ca.size(); ++i) CHECK(ca[i].columns == cb[i].columns);

@@ -64,7 +64,7 @@ Matrix with_constant(const Matrix& basis) { return tracing_dense::joined(Matrix:
 
 TEST_CASE("shapes span what they say", "[tracing]") {
   const Observations o = made();
-  const auto all = shapes(o);
+  const auto all = shapes(o, 60);
   for (const Candidate& a : all) {
     CHECK(a.columns.rows() == static_cast<Index>(count));
     CHECK(a.columns.allFinite());
@@ -121,7 +121,7 @@ TEST_CASE("the omnibus bases hold any smooth dependence", "[tracing]") {
   // No column is a combination of the others and the constant.
   for (const Matrix& basis : {load, feed, angle}) CHECK(tracing_dense::rank(basis) == basis.cols());
   // A label's omnibus: any value per group.
-  const auto all = shapes(o);
+  const auto all = shapes(o, 60);
   const Matrix setups = with_constant(named(all, "omnibus:setup").columns);
   Vector y(static_cast<Index>(count));
   for (std::size_t i = 0; i < count; ++i)
@@ -133,7 +133,7 @@ TEST_CASE("a shape is that of one indication", "[tracing]") {
   Observations o = made();
   o.indications = 2;
   o.names = {"X", "Y"};
-  for (const Candidate& a : shapes(o)) {
+  for (const Candidate& a : shapes(o, 60)) {
     REQUIRE(a.columns.rows() == static_cast<Index>(2 * count));
     const bool x = a.name.ends_with(" of X");
     CHECK((x || a.name.ends_with(" of Y")));
@@ -174,7 +174,7 @@ TEST_CASE("a reversal that grows along a slide is a shape, and what follows from
     direction.push_back(r / 8 % 2 == 0 ? 1 : -1);
   }
   o.covariates = {covariate("x", "m", place), covariate("screw", "1", screw), covariate("direction", "1", direction)};
-  const auto all = shapes(o);
+  const auto all = shapes(o, 60);
   for (const auto& [from, shape] : {std::pair{0.1, "growing from the lowest x"},
                                     {0.24, "growing from the highest x"},
                                     {0.0, "growing from x = 0"}}) {

@@ -38,7 +38,7 @@ bool of_the_start(const Vector& curve) {
 
 class Shapes {
 public:
-  explicit Shapes(const Observations& o) : o_(o) {}
+  Shapes(const Observations& o, std::size_t most_cells) : o_(o), most_cells_(most_cells) {}
 
   std::vector<Candidate> all() {
     for (const Covariate& c : o_.covariates) {
@@ -206,7 +206,7 @@ private:
       for (const Covariate* c : by) level.push_back(c->value[r]);
       cell.push_back(cells.insert({std::move(level), index(cells.size())}).first->second);
     }
-    if (cells.size() > criteria.most_table_cells || cells.size() * criteria.least_repeats > o_.readings) return;
+    if (cells.size() > most_cells_ || cells.size() * criteria.least_repeats > o_.readings) return;
     // A condition that follows from the others divides no cell: the simpler name stays.
     if (!tabulated_.insert(cell).second) return;
     Matrix m = Matrix::Zero(index(o_.readings), index(cells.size()) - 1);
@@ -222,16 +222,26 @@ private:
     add(Family::shape, "product:" + a.name + "*" + b.name, cx.cwiseProduct(cy), {a.name, b.name});
     reversals(a, b);
     reversals(b, a);
-    // A drift that grows along a slide starts at nothing and has a fixed end.
+    // A drift that grows along a slide starts at nothing and has a fixed end; so has what grows with a temperature.
     for (const auto& [time, place] : {std::pair{&a, &b}, std::pair{&b, &a}}) {
-      if (!elapses(*time) || place->angle || place->levels.size() * criteria.least_repeats > o_.readings) continue;
-      const Vector t = 0.5 * (scaled(o_, *time).array() + 1), along = scaled(o_, *place);
-      for (const int end : {-1, 1})
-        add(Family::shape, "product:" + a.name + "*" + b.name, t.array() * (along.array() - end), {a.name, b.name},
-            fmt::format("a drift from the {} {}", end < 0 ? "lowest" : "highest", place->name));
+      const bool warms = time->si_unit == "K" && !time->commanded;
+      if (!(elapses(*time) || warms) || place->angle || place->si_unit == "K" ||
+          place->levels.size() * criteria.least_repeats > o_.readings)
+        continue;
+      const Vector t = 0.5 * (scaled(o_, *time).array() + 1), along = plain(o_, *place);
+      const auto grow = [&](double from, const std::string& name) {
+        add(Family::shape, "product:" + a.name + "*" + b.name,
+            t.array() * (along.array() - from) / (place->levels.back() - place->levels.front()), {a.name, b.name},
+            (warms ? "growing from " : "a drift from ") + name);
+      };
+      grow(place->levels.front(), "the lowest " + place->name);
+      grow(place->levels.back(), "the highest " + place->name);
+      if (place->levels.front() != 0 && place->levels.back() != 0 && warms) grow(0, place->name + " = 0");
     }
     Matrix surface(x.size(), 0);
-    const Matrix first = smooth_basis(o_, a, 2), second = smooth_basis(o_, b, 2);
+    // Two states, such as a direction, have one column: the other condition may then bend more.
+    const auto most = [](const Covariate& other) { return other.levels.size() == 2 ? criteria.omnibus_columns : 2; };
+    const Matrix first = smooth_basis(o_, a, most(b)), second = smooth_basis(o_, b, most(a));
     for (Index i = 0; i < first.cols(); ++i)
       for (Index j = 0; j < second.cols(); ++j) {
         surface.conservativeResize(Eigen::NoChange, surface.cols() + 1);
@@ -256,6 +266,7 @@ private:
   }
 
   const Observations& o_;
+  std::size_t most_cells_;
   std::vector<Candidate> out_;
   std::set<std::vector<Index>> tabulated_; ///< cells of the tables, by reading
 };
@@ -294,6 +305,8 @@ Matrix smooth_basis(const Observations& o, const Covariate& c, int most) {
   return out;
 }
 
-std::vector<Candidate> shapes(const Observations& observations) { return Shapes(observations).all(); }
+std::vector<Candidate> shapes(const Observations& observations, std::size_t most_cells) {
+  return Shapes(observations, most_cells).all();
+}
 
 } // namespace gumshoe::tracing

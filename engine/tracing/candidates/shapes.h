@@ -6,7 +6,8 @@ namespace gumshoe::tracing {
 
 /// Polynomials, harmonics of angles, steps by label and in the order, hysteresis by direction of motion, saturating
 /// drift, products of two covariates; and the omnibus families: any smooth dependence on one covariate, or on two.
-std::vector<Candidate> shapes(const Observations& observations);
+/// @param most_cells  levels, or combinations of levels, up to which "any value" is a candidate
+std::vector<Candidate> shapes(const Observations& observations, std::size_t most_cells);
 
 /// Smooth basis of one covariate by reading of the sequence, constant left out: indicator of each level if there are at
 /// most `most` + 1, harmonics of an angle that goes round, else a cubic spline with `most` columns.

@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 
+#include <Eigen/QR>
 #include <fmt/format.h>
 
 #include "analysis/rounding.h"
@@ -103,6 +105,40 @@ public:
         "period {}; amplitude {}",
         shown(range / cycles, range / cycles / cycles * term_.candidate.cycles_u, covariate.unit, covariate.si_unit),
         shown(amplitude, u, small_unit(), empty_.indication_si_unit));
+  }
+
+  /// "1 wave per turn 3.6 um, u = 0.1 um; 2 waves ..." of a dependence on an angle that goes round: those that exceed
+  /// three u. Empty of any other.
+  std::string waves_per_turn(const Covariate& angle) const {
+    if (!angle.angle || angle.levels.back() - angle.levels.front() <= 1.5 * std::numbers::pi) return "";
+    const auto n = index(o_.readings);
+    const auto most = index(std::min(criteria.most_harmonics, (angle.levels.size() - 1) / 2));
+    Matrix basis(n, 1 + 2 * most);
+    basis.col(0).setOnes();
+    for (Index i = 0; i < n; ++i)
+      for (Index h = 1; h <= most; ++h) {
+        const double turn = static_cast<double>(h) * angle.value[o_.sequence[index(i)]];
+        basis(i, 2 * h - 1) = std::cos(turn);
+        basis(i, 2 * h) = std::sin(turn);
+      }
+    const Matrix own =
+        term_.candidate.columns(Eigen::seq(index(indication_), Eigen::last, index(o_.indications)), Eigen::all);
+    const Matrix by_size = basis.completeOrthogonalDecomposition().solve(own);
+    const Vector size = by_size * term_.size;
+    const Matrix covariance = by_size * covariance_ * by_size.transpose();
+    std::string out;
+    for (Index h = 1; h <= most; ++h) {
+      const Vector wave = size.segment(2 * h - 1, 2);
+      const double amplitude = wave.norm();
+      constexpr double rounding = 1e-9;
+      if (!(amplitude > rounding * size.norm())) continue;
+      const double u = std::sqrt(wave.dot(covariance.block(2 * h - 1, 2 * h - 1, 2, 2) * wave)) / amplitude;
+      if (amplitude > criteria.shown_wave * u)
+        out += fmt::format("{}{} wave{} {}, u = {}", out.empty() ? "" : "; ", h, h > 1 ? "s" : "",
+                           shown_size(amplitude, small_unit(), empty_.indication_si_unit),
+                           shown_size(u, small_unit(), empty_.indication_si_unit));
+    }
+    return out;
   }
 
   /// "1.5 um, u = 0.2 um" by which one group differs from the others; empty of anything else.
@@ -208,6 +244,8 @@ void add_curves(const TraceContext& c, const JointFit& fit, std::size_t term, Fi
   if (covariates.size() + labels.size() == 1) {
     if (const std::string wave = labels.empty() ? make.wave(*covariates[0]) : ""; !wave.empty())
       finding.remarks.push_back(fmt::format("a wave along {}: {}", covariates[0]->name, wave));
+    else if (const std::string waves = labels.empty() ? make.waves_per_turn(*covariates[0]) : ""; !waves.empty())
+      finding.remarks.push_back(fmt::format("per turn of {}: {}", covariates[0]->name, waves));
     else if (const std::string step = make.step(); !step.empty())
       finding.remarks.push_back("it differs by " + step);
     else if (const std::string slope = labels.empty() ? make.slope(*covariates[0]) : ""; !slope.empty())

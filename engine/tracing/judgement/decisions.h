@@ -64,8 +64,9 @@ bool excludes_scatter(double lead, const Chance& chance);
 /// in addition to the other. `scores` and `limits` of the two alone.
 bool pair_found(double pair, const double (&scores)[2], const double (&limits)[2], double best_shape);
 
-/// Whether an effect and a simpler shape are there rather than one shape of many sizes: the two are of equal merit or better, the
-/// effect adds to the simpler shape what it must exceed, and the simpler shape adds to the effect what it must.
+/// Whether an effect and a simpler shape are there rather than one shape of many sizes: the two are of equal merit or
+/// better, the effect adds to the simpler shape what it must exceed, and the simpler shape adds to the effect what it
+/// must.
 /// @param both    score of the two together   @param scores, limits  of the effect and the simpler shape alone
 /// @param added   likelihood ratio that the effect adds to the simpler shape
 /// @param whole   score of the one shape

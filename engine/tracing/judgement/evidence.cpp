@@ -87,6 +87,10 @@ double noise_freedom(const propagation::Experiment& experiment) {
   return fewest;
 }
 
+std::size_t wide_cells(std::size_t readings) {
+  return std::max(criteria.most_table_cells, std::min(criteria.most_wide_cells, criteria.most_wide_entries / readings));
+}
+
 } // namespace
 
 Repeats repeats_of(const TraceContext& c, const JointFit& fit) {
@@ -97,14 +101,15 @@ Repeats repeats_of(const TraceContext& c, const JointFit& fit) {
   return out;
 }
 
-Evidence::Evidence(const TraceContext& c, const JointFit& fit, std::size_t round, const std::set<std::string>& dropped)
+Evidence::Evidence(const TraceContext& c, const JointFit& fit, std::size_t round, const std::set<std::string>& dropped,
+                   bool wide)
     : c_(c), fit_(fit) {
   const double size = std::sqrt(std::max(1e-300, fit.variance)) * fit.design.reference[0];
   const auto known = [&](const Candidate& a) { return dropped.contains(a.name) || is_term(fit, a); };
   candidates_ =
       physical_candidates(c.experiment, c.simulator, fit.at, c.observations, criteria.secant_step * size, known,
                           [&](const Candidate& a, const Matrix& sizes) { return c.fitter.best_start(fit, a, sizes); });
-  for (Candidate& a : shapes(c.observations))
+  for (Candidate& a : shapes(c.observations, wide ? wide_cells(c.observations.readings) : criteria.most_table_cells))
     if (!known(a)) candidates_.push_back(std::move(a));
   add_waves(dropped);
   for (const Candidate& a : candidates_) pointers_.push_back(&a);

@@ -27,7 +27,9 @@ class Evidence {
 public:
   /// Finds the candidates at the point of `fit` (kept by reference) and assesses them. @param round keys the draws
   /// @param dropped  names of candidates that are not tried again
-  Evidence(const TraceContext& context, const JointFit& fit, std::size_t round, const std::set<std::string>& dropped);
+  /// @param wide     true: tables of many cells are candidates, too
+  Evidence(const TraceContext& context, const JointFit& fit, std::size_t round, const std::set<std::string>& dropped,
+           bool wide = false);
 
   const std::vector<Candidate>& candidates() const { return candidates_; }
   const Assessment& assessment() const { return assessment_; }

@@ -38,6 +38,10 @@ public:
     for (bool more = true; search_goes_on(more, out_.findings.size());) {
       const std::size_t terms = out_.found.terms.size();
       more = round();
+      if (!more && !wide_ && out_.last.p_lack_of_fit <= c_.alpha) {
+        wide_ = true; // what repeats is a correction, however many values it has
+        more = round();
+      }
       const bool took_one = out_.found.terms.size() > terms;
       if (took_one) prune();
       if (took_one) out_.stages.push_back({out_.found, out_.findings, out_.dropped});
@@ -124,7 +128,7 @@ private:
                                           : "searching for "
                                             "more");
     const bool first = out_.findings.empty() && out_.first.p.empty();
-    const Evidence evidence(c_, out_.found, rounds_++, dropped_);
+    const Evidence evidence(c_, out_.found, rounds_++, dropped_, wide_);
     evidence_ = &evidence;
     out_.last = evidence.assessment();
     out_.jumping = evidence.jumping();
@@ -303,12 +307,16 @@ private:
     auto shapes = best_of([](const Candidate& x) { return !x.physical(); }, criteria.most_shapes);
     std::erase_if(shapes, [&](std::size_t a) { return assessment.p[a] > assessment.threshold; });
     if (shapes.empty()) return false;
-    if (const auto simpler = simpler_beside_another(*evidence_, c_.observations, shapes[0]))
-      shapes.insert(shapes.begin(), *simpler);
+    // By the whole model: readings that are outlying without a shape need not be so with it.
+    std::vector<Trial> tried;
+    for (const std::size_t a : shapes)
+      if (Trial one = evidence_->trial(a); one.fit.valid) tried.push_back(std::move(one));
+    std::ranges::stable_sort(tried, std::ranges::greater{}, &Trial::score);
+    if (tried.empty()) return false;
+    if (const auto simpler = simpler_beside_another(*evidence_, c_.observations, tried[0].candidate))
+      if (Trial one = evidence_->trial(*simpler); one.fit.valid) tried.insert(tried.begin(), std::move(one));
     std::vector<std::pair<std::size_t, JointFit>> described;
-    for (const std::size_t a : shapes) {
-      JointFit fit = evidence_->with({evidence_->linear_term(a)});
-      if (!fit.valid) continue;
+    for (auto& [a, fit, ratio, score] : tried) {
       if (evidence_->of_few(fit)) {
         outcomes_[a] = "refused: it is of a few successive readings only";
         continue;
@@ -373,6 +381,7 @@ private:
   Search out_;
   const Evidence* evidence_ = nullptr; ///< of this round
   std::size_t rounds_ = 0;
+  bool wide_ = false;             ///< tables of many cells are tried
   std::set<std::string> dropped_; ///< names of candidates that another finding made superfluous
   std::map<std::size_t, std::string> outcomes_;
 };
