@@ -311,7 +311,9 @@ private:
     std::vector<Trial> tried;
     for (const std::size_t a : shapes)
       if (Trial one = evidence_->trial(a); one.fit.valid) tried.push_back(std::move(one));
-    std::ranges::stable_sort(tried, std::ranges::greater{}, &Trial::score);
+    // Equal shapes differ by rounding: then as they were made.
+    const auto place = [](const Trial& t) { return std::pair{-std::round(t.score * 1e3), t.candidate}; };
+    std::ranges::sort(tried, std::ranges::less{}, place);
     if (tried.empty()) return false;
     if (const auto simpler = simpler_beside_another(*evidence_, c_.observations, tried[0].candidate))
       if (Trial one = evidence_->trial(*simpler); one.fit.valid) tried.insert(tried.begin(), std::move(one));
