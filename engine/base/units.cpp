@@ -7,24 +7,17 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <stdexcept>
 
 #include <fmt/format.h>
 #include <udunits2.h>
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "base/unit_definition.h"
 
 namespace gumshoe::units {
 namespace {
-
-/// value in base units = factor * number + offset; base as udunits writes it, without factor and offset.
-struct Unit {
-  double factor = 1;
-  double offset = 0;
-  std::string base;
-  int radians = 0;    ///< exponent of the radian, which udunits takes for a plain number
-  bool ratio = false; ///< a plain number written as a ratio: "um/m", "%"
-};
 
 bool starts_number(char c) { return c >= '0' && c <= '9'; }
 bool letter(char c) {
@@ -79,82 +72,55 @@ int radian_exponent(const std::string& base) {
   return 0;
 }
 
-/// The library is not thread-safe; its objects live until the program ends.
-class Library {
-public:
-  const Unit* find(const std::string& name) {
-    const std::lock_guard lock(mutex_);
-    auto [it, fresh] = known_.try_emplace(name);
-    if (fresh) it->second = look_up(name);
-    return it->second ? &*it->second : nullptr;
-  }
-
-private:
-  struct Free {
-    void operator()(ut_unit* u) const { ut_free(u); }
-  };
-
-  std::optional<Unit> look_up(const std::string& name) {
-    require_memory(std::size_t{1} << (system_ ? 20 : 23)); // its parser ends the process where it gets none
-    if (!system_) {
-      ut_set_error_message_handler(ut_ignore);
-      system_ = ut_read_xml(nullptr);
-      if (!system_) throw InputError("the unit database of udunits2 cannot be read", "it belongs to the package libudunits2-data");
-    }
-    if (name.empty() || !plain_grammar(name)) return std::nullopt;
-    const std::unique_ptr<ut_unit, Free> unit(ut_parse(system_, with_known_names(name).c_str(), UT_UTF8));
-    if (!unit) return std::nullopt;
-    char text[256];
-    const int length = ut_format(unit.get(), text, sizeof text, UT_ASCII | UT_DEFINITION);
-    if (length < 0 || length >= static_cast<int>(sizeof text)) return std::nullopt;
-    return read_definition(std::string(text, static_cast<std::size_t>(length)), name);
-  }
-
-  /// "0.555555555555556 K @ 459.67" has a factor, a base and an offset in its own unit.
-  static std::optional<Unit> read_definition(std::string text, const std::string& name) {
-    if (text.find('(') != std::string::npos) return std::nullopt; // logarithmic
-    Unit unit;
-    if (const std::size_t at = text.find(" @ "); at != std::string::npos) {
-      unit.offset = std::atof(text.c_str() + at + 3);
-      text.resize(at);
-    }
-    char* end = nullptr;
-    if (const double factor = std::strtod(text.c_str(), &end); end != text.c_str() && *end == ' ') {
-      unit.factor = factor;
-      text.erase(0, static_cast<std::size_t>(end - text.c_str()) + 1);
-    }
-    // Fifteen printed digits of degrees and minutes are not enough: take the factor from its inverse where
-    // that is a whole number, and from pi for angles.
-    unit.base = text;
-    unit.radians = radian_exponent(text);
-    sharpen(unit);
-    unit.offset *= unit.factor;
-    unit.ratio = unit.base == "1" && name != "1";
-    return unit;
-  }
-
-  static void sharpen(Unit& unit) {
-    const double pi = std::acos(-1.0);
-    for (const double constant : {1.0, pi}) {
-      for (const bool inverse : {false, true}) {
-        const double whole = inverse ? constant / unit.factor : unit.factor / constant;
-        const double rounded = std::round(whole);
-        if (rounded >= 1 && rounded < 9e15 && std::abs(whole / rounded - 1) < 2e-14) {
-          unit.factor = inverse ? constant / rounded : rounded * constant;
-          return;
-        }
+void sharpen(Unit& unit) {
+  const double pi = std::acos(-1.0);
+  for (const double constant : {1.0, pi}) {
+    for (const bool inverse : {false, true}) {
+      const double whole = inverse ? constant / unit.factor : unit.factor / constant;
+      const double rounded = std::round(whole);
+      if (rounded >= 1 && rounded < 9e15 && std::abs(whole / rounded - 1) < 2e-14) {
+        unit.factor = inverse ? constant / rounded : rounded * constant;
+        return;
       }
     }
   }
+}
 
-  std::mutex mutex_;
-  ut_system* system_ = nullptr;
-  std::map<std::string, std::optional<Unit>> known_;
-};
+/// "0.555555555555556 K @ 459.67" has a factor, a base and an offset in its own unit.
+std::optional<Unit> read_definition(std::string text, const std::string& name) {
+  if (text.find('(') != std::string::npos) return std::nullopt; // logarithmic
+  Unit unit;
+  if (const std::size_t at = text.find(" @ "); at != std::string::npos) {
+    unit.offset = std::atof(text.c_str() + at + 3);
+    text.resize(at);
+  }
+  char* end = nullptr;
+  if (const double factor = std::strtod(text.c_str(), &end); end != text.c_str() && *end == ' ') {
+    unit.factor = factor;
+    text.erase(0, static_cast<std::size_t>(end - text.c_str()) + 1);
+  }
+  // Fifteen printed digits of degrees and minutes are not enough: take the factor from its inverse where
+  // that is a whole number, and from pi for angles.
+  unit.base = text;
+  unit.radians = radian_exponent(text);
+  sharpen(unit);
+  unit.offset *= unit.factor;
+  unit.ratio = unit.base == "1" && name != "1";
+  return unit;
+}
 
+/// Units that were asked for, kept until the program ends: they may be read while it does. For any number of threads.
 const Unit* find(const std::string& name) {
-  static Library* const library = new Library; // never destroyed: units may be read while the program ends
-  return library->find(name);
+  static std::mutex mutex;
+  static auto* const known = new std::map<std::string, std::optional<Unit>>;
+  const std::lock_guard lock(mutex);
+  auto at = known->find(name);
+  if (at == known->end()) {
+    std::optional<Unit> unit = common_unit(name);
+    if (!unit) unit = unit_of_database(name);
+    at = known->emplace(name, std::move(unit)).first;
+  }
+  return at->second ? &*at->second : nullptr;
 }
 
 std::string without(std::string base, std::string_view word) {
@@ -241,6 +207,27 @@ double over(double x, double factor) {
 
 } // namespace
 
+std::optional<Unit> unit_of_database(const std::string& name) {
+  static ut_system* system = nullptr;
+  require_memory(std::size_t{1} << (system ? 20 : 23)); // its parser ends the process where it gets none
+  if (!system) {
+    ut_set_error_message_handler(ut_ignore);
+    system = ut_read_xml(nullptr);
+    if (!system) // no error of the input: whoever tries another unit is not to go on without this one
+      throw std::runtime_error("the unit database of udunits2 cannot be read (it belongs to the package libudunits2-data)");
+  }
+  if (name.empty() || !plain_grammar(name)) return std::nullopt;
+  struct Free {
+    void operator()(ut_unit* u) const { ut_free(u); }
+  };
+  const std::unique_ptr<ut_unit, Free> unit(ut_parse(system, with_known_names(name).c_str(), UT_UTF8));
+  if (!unit) return std::nullopt;
+  char text[256];
+  const int length = ut_format(unit.get(), text, sizeof text, UT_ASCII | UT_DEFINITION);
+  if (length < 0 || length >= static_cast<int>(sizeof text)) return std::nullopt;
+  return read_definition(std::string(text, static_cast<std::size_t>(length)), name);
+}
+
 Measure parse(std::string_view text) {
   const auto trim = [](std::string_view s) {
     const auto first = s.find_first_not_of(" \t\r\n");
@@ -309,7 +296,8 @@ std::string si_unit_of(const std::string& unit) {
   const Unit* const known = find(unit);
   if (!known) throw InputError(fmt::format("'{}' is not a unit", unit));
   for (const Row& r : kinds)
-    if (const Unit* const si = find(std::string(r.si_unit)); si && si->base == known->base && si->radians == known->radians)
+    if (const Unit* const si = find(std::string(r.si_unit));
+        si && si->base == known->base && si->radians == known->radians)
       return std::string(r.si_unit);
   return known->base;
 }

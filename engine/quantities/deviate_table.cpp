@@ -96,19 +96,25 @@ std::shared_ptr<const DeviateTable> cached(char family, double shape, const std:
 
 } // namespace
 
+// Without promotion to long double, which takes thirteen times as long: relative errors stay below 3e-15.
+using InDouble = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
+
 std::shared_ptr<const DeviateTable> t_table(double degrees_of_freedom) {
   return cached('t', degrees_of_freedom, [&](DeviateTable& table) {
-    const boost::math::students_t_distribution<double> t(degrees_of_freedom);
-    const Function ratio = [&](double p) { return boost::math::quantile(t, p) / (p - 0.5); };
-    tabulate(table, ratio, {});
+    const boost::math::students_t_distribution<double> wide(degrees_of_freedom);
+    const boost::math::students_t_distribution<double, InDouble> narrow(degrees_of_freedom);
+    const auto deviate = [&](double p) {
+      return p > 0.25 ? quantile(wide, p) : quantile(narrow, p); // towards its zero at 1/2, double loses digits
+    };
+    tabulate(table, [&](double p) { return deviate(p) / (p - 0.5); }, {});
   });
 }
 
 std::shared_ptr<const DeviateTable> gamma_table(double shape) {
   return cached('g', shape, [&](DeviateTable& table) {
     tabulate(
-        table, [&](double p) { return boost::math::gamma_p_inv(shape, p); },
-        [&](double q) { return boost::math::gamma_q_inv(shape, q); });
+        table, [&](double p) { return boost::math::gamma_p_inv(shape, p, InDouble()); },
+        [&](double q) { return boost::math::gamma_q_inv(shape, q, InDouble()); });
   });
 }
 

@@ -293,7 +293,7 @@ class Messages(InFolder):
                      "5001 readings share draws of their noise")
 
     def test_what_the_program_needs_and_does_not_find(self):
-        self.file.write_text(SCENARIO)
+        self.file.write_text(SCENARIO.replace('"5 mm"', '"0.2 inch"'))  # common units need no database
         result, reports = self.file.parent / "r.h5", self.file.parent / "reports"
         self.assertEqual(gumshoe("run", self.file, "--samples", 1000, "--out", result).returncode, 0)
         reports.mkdir()

@@ -1,6 +1,9 @@
+#include <cstring>
+
 #include <catch2/catch.hpp>
 
 #include "base/error.h"
+#include "base/unit_definition.h"
 #include "base/units.h"
 
 using namespace gumshoe;
@@ -23,6 +26,21 @@ TEST_CASE("decimal units are the nearest double, not a rounded factor", "[units]
   CHECK(si("50 %", "1") == 0.5);
   CHECK(si("0.5", "1") == 0.5);
   CHECK(si("1.5 ms", "s") == 1.5 / 1000);
+}
+
+TEST_CASE("the table of common units is the database's, to the bit", "[units]") {
+  for (const std::string& name : units::common_unit_names()) {
+    INFO(name);
+    const auto ours = units::common_unit(name), database = units::unit_of_database(name);
+    REQUIRE(ours.has_value());
+    REQUIRE(database.has_value());
+    CHECK(ours->base == database->base);
+    CHECK(std::memcmp(&ours->factor, &database->factor, sizeof(double)) == 0);
+    CHECK(std::memcmp(&ours->offset, &database->offset, sizeof(double)) == 0);
+    CHECK(ours->radians == database->radians);
+    CHECK(ours->ratio == database->ratio);
+  }
+  CHECK_FALSE(units::common_unit("inch"));
 }
 
 TEST_CASE("angles", "[units]") {
