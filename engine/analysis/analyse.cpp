@@ -184,10 +184,8 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, int th
                       r.budgets.begin() + static_cast<std::ptrdiff_t>(reading * measurands));
   });
   propagation::parallel_for(outputs, threads, [&](std::size_t o) {
-    std::span<const double> values;
-    if (samples.in_memory) values = samples.in_memory(o);
-    std::vector<double> copy;
-    if (values.empty()) values = copy = samples.values(o);
+    std::vector<double> room;
+    const std::span<const double> values = samples.view(o, room);
     const auto& output = e.outputs()[o];
     const double p = s.analysis.coverage_probability;
     Summary& summary = r.summaries[o] = summarise(output, values, p, threads);
@@ -236,7 +234,7 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, int th
         [&] { return derivative_measures(e, wanted.dgsm, r.summaries, threads); });
   study(true, "one at a time", r.one_at_a_time, [&] { return one_at_a_time(e); });
   study(true, "joint regions", r.joint,
-        [&] { return joint_regions(e, samples.values, r.summaries, r.budgets, threads); });
+        [&] { return joint_regions(e, samples, r.summaries, r.budgets, threads); });
   study(true, "circular statistics", r.circular, [&] { return circular_summaries(e, samples.values, threads); });
   study(true, "conformity", r.conformity, [&] { return conformity(e, samples.values, r.summaries); });
   study(true, "target uncertainties", r.targets, [&] { return target_uncertainties(e, r.budgets, threads); });

@@ -1,20 +1,10 @@
 #pragma once
 /// From the samples of a run to its results.
-#include <functional>
-#include <span>
-
 #include "analysis/results.h"
+#include "analysis/samples.h"
 #include "propagation/experiment.h"
 
 namespace gumshoe::analysis {
-
-/// Access to the samples of a run, wherever they are kept. Values are SI, in sample order, NaN where a sample failed.
-struct Samples {
-  std::function<std::vector<double>(std::size_t output)> values;
-  std::function<std::vector<std::uint8_t>()> status;
-  /// The values of an output without a copy, if they are in memory; unset or empty otherwise.
-  std::function<std::span<const double>(std::size_t output)> in_memory = {};
-};
 
 /// Everything that [analysis] asks for: summaries, budgets, validation of the GUM framework, sensitivity, conformity,
 /// comparisons, printed values, statements. The bits do not depend on the number of threads.

@@ -2,7 +2,9 @@
 /// Statistics of angles on the circle (Mardia and Jupp 2000): JCGM 102 asks for care where a measurand is an angle.
 #include <span>
 
-#include "analysis/joint.h"
+#include "analysis/results.h"
+#include "analysis/samples.h"
+#include "propagation/experiment.h"
 
 namespace gumshoe::analysis {
 

@@ -3,7 +3,9 @@
 #include <optional>
 #include <span>
 
-#include "analysis/joint.h"
+#include "analysis/results.h"
+#include "analysis/samples.h"
+#include "propagation/experiment.h"
 
 namespace gumshoe::analysis {
 

@@ -1,6 +1,8 @@
 #pragma once
 /// Sensitivity from samples that exist: no new model runs.
-#include "analysis/joint.h"
+#include "analysis/results.h"
+#include "analysis/samples.h"
+#include "propagation/experiment.h"
 
 namespace gumshoe::analysis {
 

@@ -1,6 +1,7 @@
 #include "analysis/joint.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -8,7 +9,8 @@
 #include <fmt/format.h>
 
 #include "analysis/combine.h"
-#include "analysis/ordered_sum.h"
+#include "analysis/leaves.h"
+#include "analysis/ranked.h"
 #include "analysis/reach.h"
 #include "analysis/summary.h"
 #include "propagation/propagate.h"
@@ -24,45 +26,125 @@ struct Factor {
   double k, se;
 };
 
-/// The p-quantile of distances, ranked as in JCGM 101 7.7.2, and half the distance between the ranks one binomial
-/// standard deviation to either side.
-Factor factor(std::vector<double> distance, double p) {
-  const std::size_t m = distance.size(), q = std::max<std::size_t>(1, covered_ranks(m, p));
-  const double step = std::max(1.0, std::sqrt(static_cast<double>(m) * p * (1 - p)));
-  const auto at = [&](double rank) {
-    const auto r = static_cast<long>(std::clamp(rank, 0.0, static_cast<double>(m - 1)));
-    std::nth_element(distance.begin(), distance.begin() + r, distance.end());
-    return distance[static_cast<std::size_t>(r)];
-  };
-  const double rank = static_cast<double>(q - 1);
-  return {at(rank), 0.5 * (at(rank + step) - at(rank - step))};
+/// The p-quantile of n distances, whose squares `fill` computes, ranked as in JCGM 101 7.7.2, and half the distance
+/// between the ranks one binomial standard deviation to either side.
+Factor factor(std::size_t n, const Fill& fill, double p, int threads) {
+  const double m = static_cast<double>(n), step = std::max(1.0, std::sqrt(m * p * (1 - p)));
+  const double rank = static_cast<double>(std::max<std::size_t>(1, covered_ranks(n, p)) - 1);
+  std::size_t ranks[3];
+  for (int i = 0; i < 3; ++i) ranks[i] = static_cast<std::size_t>(std::clamp(rank + (i - 1) * step, 0.0, m - 1));
+  const auto square = ranked(n, fill, ranks, threads);
+  return {std::sqrt(square[1]), 0.5 * (std::sqrt(square[2]) - std::sqrt(square[0]))};
 }
 
-/// Deviations from the means, scaled by u; a measurand that does not vary beyond its rounding is zero.
-struct Scaled {
-  std::vector<std::vector<double>> z;
-  std::vector<double> mean, u, rounding; ///< rounding: of a value, over u
+using Values = std::vector<std::span<const double>>; ///< [measurand][sample]
+
+/// The samples of which every measurand has a value, if some have none: then `mean` is NaN.
+class Valid {
+public:
+  Valid(const Values& all, int threads) : values_(all) {
+    find_means(threads);
+    if (std::ranges::none_of(means_, [](double m) { return std::isnan(m); })) return;
+    copies_.resize(all.size());
+    for (std::size_t i = 0; i < all[0].size(); ++i)
+      if (std::ranges::none_of(all, [&](const auto& y) { return std::isnan(y[i]); }))
+        for (std::size_t a = 0; a < all.size(); ++a) copies_[a].push_back(all[a][i]);
+    for (std::size_t a = 0; a < all.size(); ++a) values_[a] = copies_[a];
+    find_means(threads);
+  }
+  const Values& values() const { return values_; }
+  const std::vector<double>& means() const { return means_; }
+
+private:
+  void find_means(int threads) {
+    means_.clear();
+    for (const auto& y : values_) {
+      const auto leaf = [&](std::span<const double> some) {
+        double sum = 0;
+        for (const double v : some) sum += v - y[0];
+        return sum;
+      };
+      means_.push_back(y.empty() ? nan : y[0] + leaf_sum<double>(y, threads, leaf) / static_cast<double>(y.size()));
+    }
+  }
+  Values values_;
+  std::vector<std::vector<double>> copies_;
+  std::vector<double> means_;
 };
 
-Scaled scale(const std::vector<std::vector<double>>& values) {
-  Scaled s;
-  for (const auto& y : values) {
-    const double n = static_cast<double>(y.size());
-    const double mean = y[0] + ordered_sum(y.size(), [&](std::size_t i) { return y[i] - y[0]; }) / n;
-    const double square = ordered_sum(y.size(), [&](std::size_t i) { return (y[i] - mean) * (y[i] - mean); });
-    double u = std::sqrt(square / (n - 1));
-    const double rounding = 4 * std::numeric_limits<double>::epsilon() * std::fabs(mean);
-    if (u <= rounding) u = 0;
-    std::vector<double> z(y.size(), 0.0);
-    if (u > 0)
-      for (std::size_t i = 0; i < y.size(); ++i) z[i] = (y[i] - mean) / u;
-    s.z.push_back(std::move(z));
-    s.mean.push_back(mean);
-    s.u.push_back(u);
-    s.rounding.push_back(u > 0 ? rounding / u : 0);
+/// Deviations from the means, scaled by u; a measurand that does not vary beyond its rounding is zero. Computed when
+/// they are wanted: one value takes as long to read as to compute.
+struct Scaled {
+  const Values& values;
+  const std::vector<double>& mean;
+  std::vector<double> u, rounding; ///< rounding: of a value, over u
+
+  Scaled(const Valid& valid, int threads) : values(valid.values()), mean(valid.means()) {
+    for (std::size_t a = 0; a < values.size(); ++a) {
+      const auto leaf = [&](std::span<const double> some) {
+        double sum = 0;
+        for (const double v : some) sum += (v - mean[a]) * (v - mean[a]);
+        return sum;
+      };
+      const double square = leaf_sum<double>(values[a], threads, leaf);
+      double standard = std::sqrt(square / (static_cast<double>(size()) - 1));
+      const double value_rounding = 4 * std::numeric_limits<double>::epsilon() * std::fabs(mean[a]);
+      if (standard <= value_rounding) standard = 0;
+      u.push_back(standard);
+      rounding.push_back(standard > 0 ? value_rounding / standard : 0);
+    }
   }
-  return s;
-}
+  std::size_t size() const { return values[0].size(); }
+
+  /// Values [first, first + out.size()) of measurand a.
+  void operator()(std::size_t a, std::size_t first, std::span<double> out) const {
+    const double* y = values[a].data() + first;
+    if (u[a] > 0)
+      for (std::size_t i = 0; i < out.size(); ++i) out[i] = (y[i] - mean[a]) / u[a];
+    else
+      std::ranges::fill(out, 0.0);
+  }
+
+  double correlation(std::size_t a, std::size_t b, int threads) const {
+    const double sum = leaf_sum<double>(size(), threads, [&](std::size_t first, std::size_t count) {
+      std::array<double, leaf_values> x, y;
+      (*this)(a, first, std::span(x).first(count));
+      (*this)(b, first, std::span(y).first(count));
+      double products = 0;
+      for (std::size_t k = 0; k < count; ++k) products += x[k] * y[k];
+      return products;
+    });
+    return sum / (static_cast<double>(size()) - 1);
+  }
+
+  /// The square of the largest deviation, either way.
+  void largest(std::size_t first, std::span<double> out) const {
+    std::array<double, leaf_values> z;
+    std::ranges::fill(out, 0.0);
+    for (std::size_t a = 0; a < values.size(); ++a) {
+      (*this)(a, first, std::span(z).first(out.size()));
+      for (std::size_t k = 0; k < out.size(); ++k) out[k] = std::max(out[k], z[k] * z[k]);
+    }
+  }
+
+  /// The square of the Mahalanobis distance: of L^-1 z, row by row of the correlation matrix' Cholesky factor L.
+  void mahalanobis(const Matrix& lower, std::size_t first, std::span<double> out) const {
+    const std::size_t d = values.size(), n = out.size();
+    std::vector<double> z(d * n);
+    std::ranges::fill(out, 0.0);
+    for (std::size_t a = 0; a < d; ++a) {
+      const auto row = std::span(z).subspan(a * n, n);
+      (*this)(a, first, row);
+      const auto i = static_cast<Eigen::Index>(a);
+      for (std::size_t b = 0; b < a; ++b) {
+        const double factor = lower(i, static_cast<Eigen::Index>(b)), *other = &z[b * n];
+        for (std::size_t k = 0; k < n; ++k) row[k] -= other[k] * factor;
+      }
+      for (std::size_t k = 0; k < n; ++k) row[k] /= lower(i, i);
+      for (std::size_t k = 0; k < n; ++k) out[k] += row[k] * row[k];
+    }
+  }
+};
 
 std::vector<double> row_major(const Matrix& m) { return {m.data(), m.data() + m.size()}; }
 
@@ -125,15 +207,12 @@ std::vector<Group> groups(const propagation::Experiment& e) {
 
 } // namespace
 
-JointRegion joint_region(const std::vector<std::vector<double>>& all, double p) {
+JointRegion joint_region(const Values& all, double p, int threads) {
   JointRegion region;
   region.coverage_probability = p;
   const std::size_t d = all.size();
-  std::vector<std::vector<double>> values(d);
-  for (std::size_t i = 0; i < all[0].size(); ++i)
-    if (std::ranges::none_of(all, [&](const auto& y) { return std::isnan(y[i]); }))
-      for (std::size_t a = 0; a < d; ++a) values[a].push_back(all[a][i]);
-  const std::size_t n = values[0].size();
+  const Valid valid(all, threads);
+  const std::size_t n = valid.values()[0].size();
   region.k_p = region.k_p_se = region.k_q = region.k_q_se = nan;
   if (n < 2 * d + 2) {
     region.estimate.assign(d, nan);
@@ -142,25 +221,19 @@ JointRegion joint_region(const std::vector<std::vector<double>>& all, double p) 
     region.remark = "too few valid samples";
     return region;
   }
-  const Scaled s = scale(values);
+  const Scaled s(valid, threads);
   region.estimate = s.mean;
   const auto size = static_cast<Eigen::Index>(d);
   Matrix r(size, size), covariance(size, size);
   for (std::size_t a = 0; a < d; ++a)
     for (std::size_t b = 0; b < d; ++b) {
       const auto i = static_cast<Eigen::Index>(a), j = static_cast<Eigen::Index>(b);
-      const auto& x = s.z[a];
-      const auto& y = s.z[b];
-      r(i, j) = a == b  ? 1
-                : a > b ? r(j, i)
-                        : ordered_sum(n, [&](std::size_t k) { return x[k] * y[k]; }) / (static_cast<double>(n) - 1);
+      r(i, j) = a == b ? 1 : a > b ? r(j, i) : s.correlation(a, b, threads);
       covariance(i, j) = r(i, j) * s.u[a] * s.u[b];
     }
 
-  std::vector<double> distance(n, 0.0);
-  for (const auto& z : s.z)
-    for (std::size_t k = 0; k < n; ++k) distance[k] = std::max(distance[k], std::fabs(z[k]));
-  const auto [k_q, k_q_se] = factor(distance, p);
+  const auto largest = [&](std::size_t first, std::span<double> out) { s.largest(first, out); };
+  const auto [k_q, k_q_se] = factor(n, largest, p, threads);
   region.k_q = k_q;
   region.k_q_se = k_q_se;
 
@@ -185,34 +258,30 @@ JointRegion joint_region(const std::vector<std::vector<double>>& all, double p) 
                                 "correlation matrix is {:.1g}",
                                 std::max(0.0, eigen.eigenvalues()[0]));
   } else {
-    const Eigen::MatrixXd lower = Eigen::MatrixXd(r).llt().matrixL();
-    Eigen::VectorXd z(size);
-    for (std::size_t k = 0; k < n; ++k) {
-      for (std::size_t a = 0; a < d; ++a) z[static_cast<Eigen::Index>(a)] = s.z[a][k];
-      lower.triangularView<Eigen::Lower>().solveInPlace(z);
-      distance[k] = z.norm();
-    }
-    const auto [k_p, k_p_se] = factor(std::move(distance), p);
+    const Matrix lower = Eigen::MatrixXd(r).llt().matrixL();
+    const auto mahalanobis = [&](std::size_t first, std::span<double> out) { s.mahalanobis(lower, first, out); };
+    const auto [k_p, k_p_se] = factor(n, mahalanobis, p, threads);
     region.k_p = k_p;
     region.k_p_se = k_p_se;
   }
   return region;
 }
 
-std::vector<JointRegion> joint_regions(const propagation::Experiment& e, const ValuesOf& values,
+std::vector<JointRegion> joint_regions(const propagation::Experiment& e, const Samples& samples,
                                        const std::vector<Summary>& summaries, const std::vector<Budget>& budgets,
                                        int threads) {
   const auto wanted = groups(e);
   std::vector<JointRegion> regions(wanted.size());
   propagation::parallel_for(wanted.size(), threads, [&](std::size_t g) {
     const Group& group = wanted[g];
-    std::vector<std::vector<double>> samples;
+    std::vector<std::vector<double>> room(group.outputs.size());
+    Values values;
     std::vector<const Budget*> laws;
     for (const std::size_t o : group.outputs) {
-      samples.push_back(values(o));
+      values.push_back(samples.view(o, room[values.size()]));
       laws.push_back(&budgets[o]);
     }
-    JointRegion& region = regions[g] = joint_region(samples, e.scenario().analysis.coverage_probability);
+    JointRegion& region = regions[g] = joint_region(values, e.scenario().analysis.coverage_probability, threads);
     for (const std::size_t o : group.outputs) {
       region.outputs.push_back(e.outputs()[o]);
       const Summary& s = summaries[o];

@@ -38,8 +38,7 @@ std::vector<double> joined(const std::vector<std::vector<double>>& pieces) {
 
 } // namespace
 
-std::vector<double> pilot_sample(std::span<const double> x) {
-  constexpr std::size_t most = 16384;
+std::vector<double> pilot_sample(std::span<const double> x, std::size_t most) {
   const std::size_t step = (x.size() + most - 1) / most;
   std::vector<double> some;
   some.reserve(most);
@@ -53,13 +52,16 @@ OrderedTails ordered_tails(std::span<const double> x, std::size_t valid, std::si
   OrderedTails t;
   t.size = valid;
   double low = inf, high = inf; // everything is low
-  if (const auto pilot = pilot_sample(x); 4 * tail < valid && pilot.size() >= 1000) {
+  // To sort it takes less time than to pass over the values.
+  const std::size_t pilots = std::clamp<std::size_t>(x.size() / 64, 1024, 16384);
+  if (const auto pilot = pilot_sample(x, pilots); 4 * tail < valid && pilot.size() >= 500) {
     // The pilot's rank of the bracket scatters binomially: four standard deviations out, it hardly ever misses.
     const double share = static_cast<double>(tail) / static_cast<double>(valid), m = static_cast<double>(pilot.size());
     const auto out = static_cast<std::size_t>(std::ceil(share * m + 4 * std::sqrt(share * m) + 1));
     if (2 * out < pilot.size()) low = pilot[out], high = pilot[pilot.size() - 1 - out];
   }
   if (!(low < high)) low = inf;
+  std::vector<double> below, above;
   const auto collect = [&] {
     std::vector<std::vector<double>> lows(parts(x.size())), highs(lows.size());
     const bool both = low < inf;
@@ -67,23 +69,52 @@ OrderedTails ordered_tails(std::span<const double> x, std::size_t valid, std::si
       append(lows[part], some, [&](double v) { return v <= low; });
       if (both) append(highs[part], some, [&](double v) { return v >= high; });
     });
-    t.low = joined(lows);
-    t.high = joined(highs);
+    below = joined(lows);
+    above = joined(highs);
   };
   collect();
-  if (low < inf && (t.low.size() < tail || t.high.size() < tail)) {
+  if (low < inf && (below.size() < tail || above.size() < tail)) {
     low = inf;
     collect();
   }
-  const auto sort = [&](std::size_t side) {
-    auto& tail_values = side == 0 ? t.low : t.high;
-    boost::sort::pdqsort_branchless(tail_values.begin(), tail_values.end());
-  };
+  const auto order = [&](std::size_t side) { (side == 0 ? t.low : t.high) = Binned(side == 0 ? below : above); };
   if (threads == 1 || parts(x.size()) == 1)
-    sort(0), sort(1);
+    order(0), order(1);
   else
-    propagation::parallel_for(2, threads, sort);
+    propagation::parallel_for(2, threads, order);
   return t;
+}
+
+std::size_t OrderedTails::shortest(std::size_t span) const {
+  double least = inf;
+  std::size_t best = 0;
+  const auto search = [&](std::size_t first, std::size_t last) {
+    const double* const from = low.sorted(first, last);
+    for (std::size_t r = first; r < last;) { // as far as one side goes
+      const Binned& side = holds(r + span);
+      const std::size_t end = std::min(last, &side == &low ? low.size() - span : last);
+      const double* const to = side.sorted(r + span - before(r + span), end - 1 + span - before(end - 1 + span) + 1);
+      for (const std::size_t begin = r; r < end; ++r)
+        if (const double length = to[r - begin] - from[r - first]; length < least || (length == least && r < best))
+          least = length, best = r;
+    }
+  };
+  struct Candidate {
+    double length; ///< no interval that begins in the bin is shorter
+    std::size_t first, last;
+  };
+  std::vector<Candidate> candidates;
+  for (const Binned::Bin& bin : low.bins()) {
+    if (bin.first + span >= size) break;
+    const std::size_t end = bin.first + span;
+    candidates.push_back(
+        {holds(end).bin_of(end - before(end)).least - bin.most, bin.first, std::min(bin.last, size - span)});
+  }
+  const auto first = std::ranges::min_element(candidates, {}, &Candidate::length);
+  search(first->first, first->last);
+  for (const Candidate& c : candidates)
+    if (c.length <= least) search(c.first, c.last);
+  return best;
 }
 
 } // namespace gumshoe::analysis

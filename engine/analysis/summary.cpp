@@ -35,21 +35,23 @@ Ends ordered_symmetric_ends(const OrderedTails& x, double p) {
 }
 
 Ends shortest_ends(const OrderedTails& x, double p) {
-  const std::size_t m = x.size, q = covered_ranks(m, p);
-  std::size_t best = 0;
-  double least = x[q] - x[0];
-  for (std::size_t r = 1; r + q < m; ++r)
-    if (const double length = x[r + q] - x[r]; length < least) least = length, best = r;
-  return {x[best], x[best + q]};
+  const std::size_t q = covered_ranks(x.size, p), r = x.shortest(q);
+  return {x[r], x[r + q]};
 }
 
-/// Half-width of the interval about y that holds as many values as a coverage interval: the farther end is left out
-/// until no more are to spare.
+/// Half-width of the interval about y that holds as many values as a coverage interval: of those to spare, the farthest
+/// from y are left out, `low` of them below it.
 double half_width_about(double y, const OrderedTails& x, double p) {
-  std::size_t low = 0, high = x.size - 1;
-  for (std::size_t spare = x.size - 1 - covered_ranks(x.size, p); spare > 0; --spare)
-    y - x[low] > x[high] - y ? ++low : --high;
-  return std::max(y - x[low], x[high] - y);
+  const std::size_t last = x.size - 1, spare = last - covered_ranks(x.size, p);
+  std::size_t low = 0;
+  for (std::size_t most = spare; low < most;) { // bisection: is one more below it no farther than the last above it?
+    const std::size_t middle = low + (most - low) / 2;
+    if (y - x[middle] <= x[last - (spare - middle - 1)] - y)
+      most = middle;
+    else
+      low = middle + 1;
+  }
+  return std::max(y - x[low], x[last - (spare - low)] - y);
 }
 
 /// Standard error of an order statistic: half the distance between the ranks one binomial standard

@@ -1,5 +1,7 @@
 #pragma once
 /// Keeps the samples of a run in memory, for studies without a file and for tests.
+#include <span>
+
 #include "propagation/run.h"
 
 namespace gumshoe::propagation {
@@ -13,6 +15,9 @@ public:
   void resize(std::uint64_t samples) override;
   std::vector<double> read(std::size_t output, std::uint64_t first, std::uint64_t count) const override;
   std::vector<std::uint8_t> read_status(std::uint64_t first, std::uint64_t count) const override;
+  /// The samples so far of one output, and the status of all of them, where they lie.
+  std::span<const double> values(std::size_t output) const { return {values_.data() + output * samples_, done_}; }
+  std::span<const std::uint8_t> status() const { return {status_.data(), done_}; }
 
 private:
   std::size_t outputs_;

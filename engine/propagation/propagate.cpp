@@ -72,6 +72,13 @@ ResultBlock run_block(const Experiment& e, const quantities::Sampler& sampler, s
   return block;
 }
 
+/// Blocks one after the other in the calling thread: a run of one block waits for no other thread to start.
+template <class Take, class Compute, class Finish>
+void one_by_one(const Take& take, const Compute& compute, const Finish& finish) {
+  ThreadBuffers buffers;
+  while (const std::optional<std::uint64_t> first = take()) finish(compute(*first, buffers));
+}
+
 #ifndef __SANITIZE_THREAD__
 
 /// Runs `body` with as many workers as asked for, more than there are processors too.
@@ -161,7 +168,6 @@ std::uint64_t propagate(const Experiment& e, Sink& sink, const RunSettings& sett
   const auto sampler = make_sampler(e);
   const std::uint64_t total = settings.last > 0 ? settings.last : e.scenario().run.samples;
   const std::uint64_t per_block = std::max<std::uint64_t>(1, e.model().block / block_samples) * block_samples;
-  const int threads = thread_count(settings.threads);
   std::uint64_t next = settings.first, done = settings.first;
   std::atomic<std::uint64_t> failed_at{total}; // first sample of the earliest block known to have failed
   std::exception_ptr failure;                  // of the first block that failed, in order: what follows it is discarded
@@ -191,7 +197,10 @@ std::uint64_t propagate(const Experiment& e, Sink& sink, const RunSettings& sett
     done = tried.block.first_sample + tried.block.samples;
     if (settings.progress) settings.progress({done, total});
   };
-  pipeline(threads, take, compute, finish);
+  if (settings.threads == 1 || end_of(settings.first) >= total)
+    one_by_one(take, compute, finish);
+  else
+    pipeline(thread_count(settings.threads), take, compute, finish);
   if (failure) std::rethrow_exception(failure);
   return done;
 }
@@ -215,11 +224,13 @@ std::vector<double> variates_of(const Experiment& e, std::uint64_t sample) {
 
 void parallel_for(std::size_t n, int threads, const std::function<void(std::size_t)>& body) {
   progress::Loop loop(n);
-  each(n, thread_count(threads), [&](std::size_t i) {
+  const auto step = [&](std::size_t i) {
     stop_if_interrupted();
     body(i);
     loop.step();
-  });
+  };
+  if (n > 1 && threads != 1) return each(n, thread_count(threads), step);
+  for (std::size_t i = 0; i < n; ++i) step(i);
 }
 
 } // namespace gumshoe::propagation

@@ -1,12 +1,14 @@
 #include "store/result_file.h"
 
 #include <chrono>
+#include <optional>
 #include <stdexcept>
 
 #include <fcntl.h>
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "propagation/memory_store.h"
 #include "store/identity.h"
 #include "store/origin.h"
 #include "store/place.h"
@@ -19,16 +21,20 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr std::uint64_t few = std::uint64_t{16} << 20; ///< bytes
+/// What a run may lose that is killed.
+constexpr auto unmarked = std::chrono::milliseconds(250);
+
 /// Whether so many bytes take a disk less than about a tenth of the time that it took to compute them.
 bool disk_keeps_up(std::uint64_t bytes, Clock::duration computed) {
   constexpr double disk = 1e8; // bytes per second
   return static_cast<double>(bytes) / disk < 0.1 * std::chrono::duration<double>(computed).count();
 }
 
-/// A power failure may take what the disk does not have yet; digests then show it. So a large file that is soon computed
-/// again is not waited for.
+/// A power failure may take what the disk does not have yet; digests then show it. So a large file that is soon
+/// computed again is not waited for.
 bool worth_waiting(std::uint64_t bytes, Clock::duration computed) {
-  return bytes < (std::uint64_t{16} << 20) || disk_keeps_up(bytes, computed);
+  return bytes < few || disk_keeps_up(bytes, computed);
 }
 
 } // namespace
@@ -38,7 +44,8 @@ struct ResultFile::Impl {
   Identity identity;
   std::vector<propagation::Output> outputs;
   std::vector<std::string> labels;
-  SampleFile samples; ///< without rows in a complete file that does not keep them
+  std::optional<propagation::MemoryStore> early; ///< the samples, before there is a file
+  SampleFile samples;                            ///< without rows in a complete file that does not keep them
   std::uint64_t done = 0;
   Clock::time_point begun = Clock::now(), marked_at = begun, synced_at = begun;
   Clock::duration sync_took{};
@@ -51,11 +58,18 @@ struct ResultFile::Impl {
       : claim(where), identity(run), outputs(rows), labels(readings) {}
 
   std::uint64_t bytes_of(std::uint64_t count) const { return count * (8 * outputs.size() + 1); }
+  std::uint64_t reserve() const { return (1u << 20) + 65536 * outputs.size(); } ///< for what comes last
+  /// A new run: in memory, if that is enough.
+  void begin();
+  /// Puts the samples that are in memory into a file.
+  void spill();
   /// A new file; `before`: the samples so far, which it takes over; `results`: complete with these. HDF5 changes a file
-  /// in many writes, between which it is no file to read: so none that stands at the path is changed but in its samples,
-  /// their digests and its marker, which have their place from the start.
+  /// in many writes, between which it is no file to read: so none that stands at the path is changed but in its
+  /// samples, their digests and its marker, which have their place from the start.
   void create(Impl* before = nullptr, const analysis::Results* results = nullptr);
   Record build(const std::string& name, const analysis::Results* results) const;
+  void copy_to(SampleFile& other, std::uint64_t count) const;
+  void require_room(bool before, bool keeps) const;
   /// Whether the file at the path is an unfinished one of the same run, which then goes on.
   bool resume();
   /// The same run with another number of samples, and no file yet.
@@ -75,27 +89,54 @@ Record ResultFile::Impl::build(const std::string& name, const analysis::Results*
   return record;
 }
 
+void ResultFile::Impl::begin() {
+  if (bytes_of(identity.samples) > few) return create();
+  require_room(false, true);
+  early.emplace(outputs.size(), identity.samples);
+}
+
+void ResultFile::Impl::spill() {
+  if (!early) return;
+  auto next = successor(identity.samples);
+  next->create(this);
+  samples = std::move(next->samples);
+  early.reset();
+  marked_at = Clock::now();
+}
+
+void ResultFile::Impl::copy_to(SampleFile& other, std::uint64_t count) const {
+  if (!early) return samples.copy_to(other, count);
+  std::vector<const double*> rows;
+  for (std::size_t row = 0; row < outputs.size(); ++row) rows.push_back(early->values(row).data());
+  other.write(0, rows, early->status().first(count));
+}
+
+/// Samples are written once while they are drawn, and once more into the complete file.
+void ResultFile::Impl::require_room(bool before, bool keeps) const {
+  const double copies = before ? keeps : 1.0 + identity.store_samples;
+  require_space(claim.target(),
+                copies * static_cast<double>(bytes_of(identity.samples)) + static_cast<double>(reserve()));
+}
+
 void ResultFile::Impl::create(Impl* before, const analysis::Results* results) {
-  const std::uint64_t reserve = (1u << 20) + 65536 * outputs.size(); // for what comes last
   const bool keeps = !results || identity.store_samples;
-  // Once while they are drawn, and once more in the complete file.
-  const double copies = (before ? keeps : 1.0 + identity.store_samples);
-  require_space(claim.target(), copies * static_cast<double>(bytes_of(identity.samples)) + static_cast<double>(reserve));
+  require_room(before, keeps);
   Draft draft;
   const std::string name = draft.add(claim);
   const Record record = build(name, results);
-  claim_space(name, reserve);
+  claim_space(name, reserve());
   RawFile file(name, O_RDWR);
   if (before) done = std::min(before->done, identity.samples);
   if (keeps) {
     samples = SampleFile(std::move(file), record);
-    if (before) before->samples.copy_to(samples, done);
+    if (before) before->copy_to(samples, done);
     samples.mark(done, false);
   } else {
     file.write(&done, sizeof done, record.places.at("samples_done").offset);
   }
   finished = results != nullptr;
-  draft.publish(worth_waiting(keeps ? bytes_of(done) : 0, Clock::now() - begun));
+  draft.publish(before &&
+                worth_waiting(keeps ? bytes_of(done) : 0, Clock::now() - begun)); // nothing is in it otherwise
 }
 
 bool ResultFile::Impl::resume() {
@@ -114,8 +155,9 @@ bool ResultFile::Impl::resume() {
   identity.samples = record.identity.samples;
   done = samples.sound();
   if (done < marked / digest_samples * digest_samples) // the last block may have been cut by the interruption
-    remark = fmt::format("'{}' is damaged: of {} samples only the first {} are as they were written; the run goes on from there",
-                         claim.path(), marked, done);
+    remark = fmt::format(
+        "'{}' is damaged: of {} samples only the first {} are as they were written; the run goes on from there",
+        claim.path(), marked, done);
   return true;
 }
 
@@ -141,15 +183,15 @@ void ResultFile::Impl::mark() {
 }
 
 ResultFile::ResultFile(const std::string& path, const Identity& identity,
-                       const std::vector<propagation::Output>& outputs,
-                       const std::vector<std::string>& reading_labels, bool force) {
+                       const std::vector<propagation::Output>& outputs, const std::vector<std::string>& reading_labels,
+                       bool force) {
   const Lock lock(hdf5::library());
   survive_size_limit();
   claim_ = claim_result(
       path, {identity.command, identity.scenario_file, identity.scenario_hash, identity.scenario_place, force});
   naming(path, [&] {
     impl_ = std::make_unique<Impl>(claim_, identity, outputs, reading_labels);
-    if (!resumed()) impl_->create();
+    if (!resumed()) impl_->begin();
   });
 }
 
@@ -164,7 +206,12 @@ bool ResultFile::resumed() {
 
 ResultFile::~ResultFile() {
   try {
-    if (!impl_->finished) impl_->mark();
+    if (impl_->finished || (impl_->early && impl_->done == 0)) return;
+    if (impl_->early) {
+      const Lock lock(hdf5::library());
+      impl_->spill();
+    }
+    impl_->mark();
   } catch (...) { // the marker stays where it was: the file is good up to there
   }
 }
@@ -180,6 +227,12 @@ void ResultFile::resize(std::uint64_t samples) {
   if (samples == f.identity.samples) return;
   if (samples <= f.done) { // the file keeps more; the complete one will not
     f.identity.samples = f.done = samples;
+    if (f.early) f.early->resize(samples);
+    return;
+  }
+  if (f.early && f.bytes_of(samples) <= few) {
+    f.early->resize(samples);
+    f.identity.samples = samples;
     return;
   }
   const Lock lock(hdf5::library());
@@ -196,14 +249,18 @@ void ResultFile::write(const propagation::ResultBlock& block) {
       block.outputs.size() < f.outputs.size() * block.samples || block.status.size() < block.samples)
     throw std::logic_error("blocks must come whole and in sample order");
   naming(f.claim.path(), [&] {
-    f.samples.write(block);
+    f.early ? f.early->write(block) : f.samples.write(block);
     f.done += block.samples;
-    if (Clock::now() - f.marked_at > std::chrono::milliseconds(250)) f.mark();
+    if (Clock::now() - f.marked_at < unmarked) return;
+    const Lock lock(hdf5::library());
+    f.spill();
+    f.mark();
   });
 }
 
 std::vector<double> ResultFile::read(std::size_t output, std::uint64_t first, std::uint64_t count) const {
   const Impl& f = *impl_;
+  if (f.early) return f.early->read(output, first, count);
   if (output >= f.samples.rows() || first > f.done || count > f.done - first)
     throw std::out_of_range("samples that are not there");
   std::vector<double> values(count);
@@ -213,6 +270,7 @@ std::vector<double> ResultFile::read(std::size_t output, std::uint64_t first, st
 
 std::vector<std::uint8_t> ResultFile::read_status(std::uint64_t first, std::uint64_t count) const {
   const Impl& f = *impl_;
+  if (f.early) return f.early->read_status(first, count);
   if (f.samples.rows() == 0 || first > f.done || count > f.done - first)
     throw std::out_of_range("samples that are not there");
   std::vector<std::uint8_t> status(count);
@@ -220,8 +278,16 @@ std::vector<std::uint8_t> ResultFile::read_status(std::uint64_t first, std::uint
   return status;
 }
 
+std::span<const double> ResultFile::in_memory(std::size_t output) const {
+  return impl_->early ? impl_->early->values(output) : std::span<const double>();
+}
+
 void ResultFile::settle() {
-  naming(impl_->claim.path(), [&] { impl_->samples.settle(impl_->done); });
+  const Lock lock(hdf5::library());
+  naming(impl_->claim.path(), [&] {
+    impl_->spill();
+    impl_->samples.settle(impl_->done);
+  });
 }
 
 void ResultFile::finish(const analysis::Results& results) {
@@ -229,7 +295,7 @@ void ResultFile::finish(const analysis::Results& results) {
   if (f.done != f.identity.samples) throw std::logic_error("finished before the last sample");
   const Lock lock(hdf5::library());
   naming(f.claim.path(), [&] {
-    f.mark();
+    if (!f.early) f.mark();
     auto next = f.successor(f.done);
     next->create(&f, &results);
     std::swap(impl_, next);

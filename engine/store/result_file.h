@@ -31,6 +31,9 @@ Identity identity_of(const scenario::Scenario& scenario);
 
 /// The samples of a run, written block by block in order. Throws OutputError naming path and reason
 /// (unwritable, disk full, not one of our files: never overwritten).
+///
+/// Few samples (16 MiB) stay in memory for their first quarter of a second: a short run writes one file, when it is
+/// complete, and a longer one has its samples in a file from then on.
 class ResultFile : public propagation::SampleStore {
 public:
   /// Creates the file, or opens it to resume if it holds an unfinished run of the same identity. Replaces what the same
@@ -48,6 +51,8 @@ public:
   void write(const propagation::ResultBlock& block) override;
   std::vector<double> read(std::size_t output, std::uint64_t first, std::uint64_t count) const override;
   std::vector<std::uint8_t> read_status(std::uint64_t first, std::uint64_t count) const override;
+  /// The samples so far of an output, if they are in memory: valid until the next change; else empty.
+  std::span<const double> in_memory(std::size_t output) const;
   /// Returns once the samples so far are on the disk and counted. A shard ends so.
   void settle();
   /// A new file with the samples and everything else, complete, takes the place of the old one.

@@ -78,16 +78,23 @@ void SampleFile::read_status(std::uint64_t first, std::uint64_t count, std::uint
 }
 
 void SampleFile::write(const propagation::ResultBlock& b) {
+  std::vector<const double*> rows;
+  for (std::size_t row = 0; row < rows_.size(); ++row) rows.push_back(b.outputs.data() + row * b.samples);
+  write(b.first_sample, rows, std::span(b.status).first(b.samples));
+}
+
+void SampleFile::write(std::uint64_t begin, const std::vector<const double*>& rows,
+                       std::span<const std::uint8_t> status) {
+  const std::uint64_t samples = status.size();
   for (std::size_t row = 0; row < rows_.size(); ++row) {
-    const double* values = b.outputs.data() + row * b.samples;
-    file_.write(values, 8 * b.samples, place(row, b.first_sample));
-    by_block(b.first_sample, b.samples, [&](std::uint64_t block, std::uint64_t first, std::uint64_t count) {
-      digest(block, row) += digest64(values + (first - b.first_sample), count, first);
+    file_.write(rows[row], 8 * samples, place(row, begin));
+    by_block(begin, samples, [&](std::uint64_t block, std::uint64_t first, std::uint64_t count) {
+      digest(block, row) += digest64(rows[row] + (first - begin), count, first);
     });
   }
-  file_.write(b.status.data(), b.samples, status_ + b.first_sample);
-  by_block(b.first_sample, b.samples, [&](std::uint64_t block, std::uint64_t first, std::uint64_t count) {
-    digest(block, rows_.size()) += digest_of_status(b.status.data() + (first - b.first_sample), count, first);
+  file_.write(status.data(), samples, status_ + begin);
+  by_block(begin, samples, [&](std::uint64_t block, std::uint64_t first, std::uint64_t count) {
+    digest(block, rows_.size()) += digest_of_status(status.data() + (first - begin), count, first);
   });
 }
 

@@ -2,6 +2,7 @@
 /// The samples of a result, read and written at their places in the file, without HDF5. Each block of each row has a
 /// digest. Private to this folder.
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "propagation/run.h"
@@ -31,6 +32,8 @@ public:
   void read_status(std::uint64_t first, std::uint64_t count, std::uint8_t* status) const;
   /// Blocks come in order, each once.
   void write(const propagation::ResultBlock& block);
+  /// The same for samples [first, first + status.size()); rows[row] points to as many values.
+  void write(std::uint64_t first, const std::vector<const double*>& rows, std::span<const std::uint8_t> status);
 
   /// The progress marker.
   std::uint64_t marked() const { return marked_; }

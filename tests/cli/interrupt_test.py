@@ -129,7 +129,7 @@ class Interrupt(InFolder):
             with self.subTest(study):
                 (self.folder / "s.toml").write_text(STUDY.replace("STUDY", study))
                 seconds, said = self.interrupted(["run", "s.toml", "--out", "r.h5"], signal.SIGINT,
-                                                 (self.folder / "r.h5").exists, 1)
+                                                 (self.folder / "r.h5.gumshoe-lock").exists, 1)
                 self.assertLess(seconds, LIMIT + SLACK)
                 self.assertIn("Repeat the command to resume.", said)
 

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "analysis/ordered_tails.h"
+#include "analysis/ranked.h"
 #include "analysis/summary.h"
 #include "random/streams.h"
 
@@ -53,6 +55,45 @@ TEST_CASE("tails are those of the sorted values", "[summary]") {
   const std::size_t step = (trap.size() + 16383) / 16384;
   for (std::size_t i = 0; i < trap.size(); i += step) trap[i] += 10;
   check_tails_of(trap, 15'000);
+}
+
+TEST_CASE("the shortest span is the first of the shortest", "[summary]") {
+  const auto u = uniforms(7, 120'000);
+  auto normal = u, ties = u, far = u;
+  for (double& v : normal) v = std::log(v / (1 - v)); // one mode
+  for (double& v : ties) v = std::floor(40 * v);
+  for (double& v : far) v = 1 / (v - 0.5); // crowds into few bins
+  const std::size_t some = 400;
+  for (const auto& x : {u, normal, ties, far, {u.begin(), u.begin() + some}}) {
+    auto sorted = x;
+    std::sort(sorted.begin(), sorted.end());
+    const std::size_t span = sorted.size() * 95 / 100;
+    std::size_t first = 0;
+    for (std::size_t r = 1; r + span < sorted.size(); ++r)
+      if (sorted[r + span] - sorted[r] < sorted[first + span] - sorted[first]) first = r;
+    CHECK(ordered_tails(x, x.size(), x.size() / 18, 1).shortest(span) == first);
+  }
+}
+
+TEST_CASE("ranks of values that are not kept are those of the sorted values", "[summary]") {
+  auto x = uniforms(8, 300'001);
+  const auto check = [&] {
+    auto sorted = x;
+    std::sort(sorted.begin(), sorted.end());
+    const auto fill = [&](std::size_t first, std::span<double> out) { std::copy_n(&x[first], out.size(), out.begin()); };
+    for (const std::size_t rank : {std::size_t{1}, x.size() / 3, x.size() * 95 / 100, x.size() - 2}) {
+      const std::size_t ranks[] = {rank - 1, rank, rank, rank + 1};
+      for (const int threads : {1, 2, 7})
+        CHECK(ranked(x.size(), fill, ranks, threads) ==
+              std::vector<double>{sorted[rank - 1], sorted[rank], sorted[rank], sorted[rank + 1]});
+    }
+  };
+  check();
+  // A bracket that must miss: just what the pilot takes is large.
+  for (std::size_t i = 0; i < x.size(); i += x.size() / 8192) x[i] += 10;
+  check();
+  x.resize(100); // too few for a pilot
+  check();
 }
 
 TEST_CASE("a summary has the same bits for any number of threads", "[summary]") {

@@ -243,14 +243,15 @@ TEST_CASE("relative names, links and empty files are good places", "[store]") {
   const Folder folder;
   const fs::path before = fs::current_path();
   fs::current_path(folder.path());
-  { CHECK_NOTHROW(ResultFile("bare.h5", identity(), outputs, labels)); }
+  { ResultFile("bare.h5", identity(), outputs, labels).write(block(0)); }
   std::ofstream("empty.h5").close();
-  { CHECK_NOTHROW(ResultFile("empty.h5", identity(), outputs, labels)); }
+  { ResultFile("empty.h5", identity(), outputs, labels).write(block(0)); }
   fs::create_symlink("bare.h5", "link.h5");
-  { ResultFile("link.h5", identity(), outputs, labels).write(block(0)); }
+  { ResultFile("link.h5", identity(), outputs, labels).write(block(1)); }
   fs::current_path(before);
   CHECK(fs::is_symlink(folder / "link.h5"));
-  CHECK(store::read_identity(folder / "bare.h5").samples_done == block_samples);
+  CHECK(store::read_identity(folder / "bare.h5").samples_done == 2 * block_samples);
+  CHECK(store::read_identity(folder / "empty.h5").samples_done == block_samples);
 }
 
 TEST_CASE("a place that cannot hold a file is an error with its reason", "[store][errors]") {
