@@ -7,6 +7,7 @@
 
 #include "math/lane_functions.h"
 #include "math/lanes.h"
+#include "quantities/latin_lanes.h"
 #include "quantities/philox_lanes.h"
 
 namespace gumshoe::quantities {
@@ -115,6 +116,11 @@ void uniforms(const random::Stream* stream, std::uint64_t first, std::size_t n, 
   fill_uniforms_in_lanes(*stream, first, n, out);
 }
 
+void latin_hypercube(const random::Stream* stream, const random::Permutation* strata, std::uint64_t first, std::size_t n,
+                     double* out) {
+  fill_latin_in_lanes(*stream, *strata, first, n, out);
+}
+
 void normal_probability(const double* z, double* out, std::size_t n) {
   each(z, out, n, [](const Lanes& x) {
     return xsimd::min(xsimd::max(normal_probability_lane(x), Lanes(0x1p-1022)), Lanes(0x1.fffffffffffffp-1));
@@ -126,4 +132,5 @@ void normal_probability(const double* z, double* out, std::size_t n) {
 
 extern "C" const gumshoe::quantities::Kernels GUMSHOE_KERNEL(gumshoe_quantity_kernels_);
 const gumshoe::quantities::Kernels GUMSHOE_KERNEL(gumshoe_quantity_kernels_) = {
-    gumshoe::quantities::uniforms, gumshoe::quantities::quantile, gumshoe::quantities::normal_probability};
+    gumshoe::quantities::uniforms, gumshoe::quantities::latin_hypercube, gumshoe::quantities::quantile,
+    gumshoe::quantities::normal_probability};

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "base/instruction_set.h"
+#include "random/latin_hypercube.h"
 #include "random/streams.h"
 
 namespace gumshoe::quantities {
@@ -44,6 +45,8 @@ struct QuantileSpec {
 /// One copy of the kernels. n is a multiple of 8; out may be the input.
 struct Kernels {
   void (*uniforms)(const random::Stream* stream, std::uint64_t first, std::size_t n, double* out);
+  void (*latin_hypercube)(const random::Stream* stream, const random::Permutation* strata, std::uint64_t first,
+                          std::size_t n, double* out);
   void (*quantile)(const QuantileSpec* spec, const double* u, double* out, std::size_t n);
   /// Standard normal distribution function, kept inside (0, 1): between 2^-1022 and 1 - 2^-53.
   void (*normal_probability)(const double* z, double* out, std::size_t n);

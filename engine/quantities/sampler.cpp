@@ -81,7 +81,8 @@ struct Sampler::Impl {
     random::Stream stream = source.stream;
     stream.purpose = static_cast<std::uint16_t>(purpose);
     if (design == PointSet::latin_hypercube) {
-      random::latin_hypercube(stream, total, first, n, out);
+      const random::Permutation strata = random::strata(stream, total);
+      kernels().latin_hypercube(&stream, &strata, first, n, out);
     } else if (!source.sobol.empty()) {
       source.sobol[static_cast<std::size_t>(purpose)](first, n, out);
     } else {

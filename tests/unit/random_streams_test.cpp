@@ -94,6 +94,26 @@ TEST_CASE("Latin hypercube hits each stratum once, whatever the blocks", "[rando
   }
 }
 
+TEST_CASE("Latin hypercubes have equal bits on every instruction set and for every block", "[random]") {
+  // Sizes just above and below a power of four: hardly any or three of four strata are walked more than once.
+  for (const std::uint64_t total : {1u, 2u, 7u, 1000u, 1023u, 1025u, 65536u, 65537u, 300'000'000u}) {
+    const Stream stream{hash64("latin", total), 0, 0, 0};
+    const random::Permutation strata = random::strata(stream, total);
+    std::vector<double> whole(4096);
+    latin_hypercube(stream, total, 64, whole.size(), whole.data());
+    for (const auto set : {InstructionSet::sse2, InstructionSet::avx2, InstructionSet::avx512}) {
+      if (!available(set)) continue;
+      INFO(name(set) << ", " << total);
+      for (const std::size_t block : {8, 64, 4096}) {
+        std::vector<double> parts(whole.size());
+        for (std::size_t i = 0; i < parts.size(); i += block)
+          quantities::kernels(set).latin_hypercube(&stream, &strata, 64 + i, block, parts.data() + i);
+        CHECK((parts == whole));
+      }
+    }
+  }
+}
+
 TEST_CASE("Latin hypercubes of different keys are unrelated", "[random]") {
   constexpr std::size_t n = 1 << 14;
   std::vector<double> a(n), b(n);
