@@ -51,6 +51,14 @@ public:
 
   int comments_like_rows() const { return comments_like_rows_; }
 
+  /// Passes over the lines before this one.
+  void skip_to(int line) {
+    while (line_ < line && at_ < text_.size()) {
+      at_ = std::min(text_.find_first_of("\r\n", at_), text_.size());
+      end_line();
+    }
+  }
+
 private:
   void comment(std::size_t begin) {
     const std::size_t end = std::min(text_.find_first_of("\r\n", begin), text_.size());
@@ -65,6 +73,10 @@ private:
     }
     comments_like_rows_ += cells > 0 && cells == cells_ && numbers > 0;
     at_ = end;
+    end_line();
+  }
+
+  void end_line() {
     if (at_ < text_.size() && text_[at_++] == '\r' && at_ < text_.size() && text_[at_] == '\n') ++at_;
     new_line();
   }
@@ -173,19 +185,28 @@ double Csv::number(const CsvCell& cell, char decimal) const {
                      other_sign ? fmt::format("decimal = \"{}\"", decimal == ',' ? '.' : ',') : ""}});
 }
 
-Csv parse_csv(std::string_view text, const std::string& file, char separator) {
+namespace {
+
+/// A last column that has neither a name nor a text: each line ends with a separator.
+void drop_empty_column(Csv& csv) {
+  const std::size_t last = csv.header.size() - 1;
+  if (last == 0 || !csv.header.back().text.empty()) return;
+  for (const auto& row : csv.rows)
+    if (!row[last].text.empty()) return;
+  csv.header.pop_back();
+  for (auto& row : csv.rows) row.pop_back();
+}
+
+} // namespace
+
+Csv parse_csv(std::string_view text, const std::string& file, const CsvLayout& layout) {
   Csv csv;
   csv.file = file;
-  Reader reader(text, csv.file, separator);
+  Reader reader(text, csv.file, layout.separator);
   std::vector<Problem> problems;
+  reader.skip_to(layout.header);
   if (!reader.next(csv.header)) throw InputError({{{file, 0, 0}, "the file is empty", "", "write a header and rows"}});
-  for (std::size_t i = 0; i < csv.header.size(); ++i) {
-    const CsvCell& cell = csv.header[i];
-    if (cell.text.empty())
-      problems.push_back({csv.at(cell), "a column has no name", "", ""});
-    else if (csv.find(cell.text) != static_cast<int>(i))
-      problems.push_back({csv.at(cell), fmt::format("column '{}' appears twice", cell.text), "", ""});
-  }
+  reader.skip_to(layout.rows);
   for (std::vector<CsvCell> row; problems.size() < most_problems && reader.next(row);) {
     if (row.size() != csv.header.size()) {
       problems.push_back({csv.at(row.front()),
@@ -193,6 +214,14 @@ Csv parse_csv(std::string_view text, const std::string& file, char separator) {
     } else {
       csv.rows.push_back(std::move(row));
     }
+  }
+  drop_empty_column(csv);
+  for (std::size_t i = 0; i < csv.header.size(); ++i) {
+    const CsvCell& cell = csv.header[i];
+    if (cell.text.empty())
+      problems.push_back({csv.at(cell), "a column has no name", "", ""});
+    else if (csv.find(cell.text) != static_cast<int>(i))
+      problems.push_back({csv.at(cell), fmt::format("column '{}' appears twice", cell.text), "", ""});
   }
   if (!problems.empty()) throw InputError(std::move(problems));
   csv.comments_like_rows = reader.comments_like_rows();

@@ -34,12 +34,19 @@ struct Csv {
   double number(const CsvCell& cell, char decimal = '.') const;
 };
 
+/// Where the table stands in its file.
+struct CsvLayout {
+  char separator = '\0';
+  int header = 0; ///< line of the column names, from 1; 0: the first with a text
+  int rows = 0;   ///< line of the first row; 0: the next after the names
+};
+
 /// `separator`: ',', ';', '\t', or ' ' for any number of blanks. '\0' takes it from the header: a comma if it has one outside
 /// quotes, otherwise a semicolon or a tab. A line that begins with # is a comment. Quoted cells may contain separators,
 /// doubled quotes and line ends; rows without any text are skipped; a byte order mark and CR LF are accepted. Throws
 /// InputError with every problem, located: no header, an unnamed or repeated column, a row of another length, an unclosed
-/// quote.
-Csv parse_csv(std::string_view text, const std::string& file, char separator = '\0');
+/// quote. A last column without a name and without any text is none: lines may end with a separator.
+Csv parse_csv(std::string_view text, const std::string& file, const CsvLayout& layout = {});
 
 /// A table of the parts' rows, one after the other. Columns are matched by name to those of the first part; further ones
 /// are left out. `added`: names of columns that come first, and their text in each part. Throws InputError where a part

@@ -12,15 +12,16 @@ namespace gumshoe::scenario {
 namespace {
 
 constexpr std::size_t largest_form = std::size_t{1} << 20;
+constexpr std::int64_t last_line = 1'000'000'000;
 constexpr std::array separators{',', ';', '\t', ' '};
 const std::vector<std::string> separator_words{",", ";", "tab", "blanks"};
 
 /// The description of a log; nothing and problems if it is wrong.
 std::optional<TextTable> log_table(Table& table, DataFiles& files) {
   const auto name = table.text("form");
-  if (table.has("delimiter"))
-    table.refuse_key("delimiter", "given together with form", "the description says what separates the cells",
-                     "leave it out");
+  for (const char* key : {"delimiter", "header", "first_row"})
+    if (table.has(key))
+      table.refuse_key(key, "given together with form", "the description says where the table stands", "leave it out");
   if (!name) return std::nullopt;
   const std::string path = (std::filesystem::path(table.problems().file()).parent_path() / *name).string();
   try {
@@ -38,11 +39,14 @@ std::optional<TextTable> log_table(Table& table, DataFiles& files) {
 std::optional<TextTable> text_table(Table& table, DataFiles& files) {
   if (table.has("form")) return log_table(table, files);
   const auto index = table.choice("delimiter", separator_words);
-  if (!index) return TextTable{};
-  const char separator = separators[*index];
-  return TextTable{separator_words[*index], [separator](std::string_view text, const std::string& file) {
-                     return parse_csv(text, file, separator);
-                   }};
+  CsvLayout layout;
+  if (index) layout.separator = separators[*index];
+  layout.header = static_cast<int>(table.integer("header", 1, last_line).value_or(0));
+  layout.rows = static_cast<int>(table.integer("first_row", layout.header + 1, last_line).value_or(0));
+  if (!index && layout.header == 0 && layout.rows == 0) return TextTable{};
+  const std::string name = fmt::format("{} {} {}", index ? separator_words[*index] : "", layout.header, layout.rows);
+  return TextTable{name,
+                   [layout](std::string_view text, const std::string& file) { return parse_csv(text, file, layout); }};
 }
 
 } // namespace
@@ -55,6 +59,9 @@ std::vector<Key> data_file_keys() {
       {"form", shape::text(),
        "description of a log that is no table, relative to the scenario: a TOML file of the patterns of its lines"},
       {"delimiter", shape::words(separator_words), "what separates the cells; default: as the header shows"},
+      {"header", shape::whole(1, last_line), "line of the column names; default: the first that is no comment"},
+      {"first_row", shape::whole(1, last_line),
+       "line of the first row, where lines such as units follow the names; default: the next line"},
       {"decimal", shape::words({".", ","}), "decimal sign of the numbers in the file", false, "\".\""}};
 }
 

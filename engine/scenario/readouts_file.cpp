@@ -20,8 +20,15 @@ std::vector<Key> shared_keys() {
   keys.push_back({"labels", shape::map(shape::text()), "label = column"});
   keys.push_back({"conditions", shape::map(number_column_shape()), "conditions that are columns"});
   keys.push_back(where_key());
+  keys.push_back({"repeats", shape::words({"mean", "apart"}),
+                  "rows of equal labels and conditions: \"mean\" takes them as one reading, \"apart\" as readings of "
+                  "their own, with the label row",
+                  false, "\"mean\""});
   return keys;
 }
+
+/// The label that tells rows apart: the number of the row of the table, from 1.
+constexpr const char* row_label = "row";
 
 /// { column = "x" } for the name of a column alone.
 Node as_table(const Node& node) {
@@ -70,10 +77,11 @@ public:
       file_ = &*out.file;
       labels();
       for (Table* table : tables()) filter_.add(*table, *file_->csv, labels_);
+      keep_apart();
       out.fixed = filter_.fixed();
       rows(conditions, out);
     }
-    for (const char* key : {"column", "unit", "labels", "conditions", "where"}) own_.find(key);
+    for (const char* key : {"column", "unit", "labels", "conditions", "where", "repeats"}) own_.find(key);
     own_.refuse_unknown();
     if (out.used.empty() && out.file && good()) nothing();
     return out;
@@ -97,6 +105,14 @@ private:
           std::erase_if(labels_, [&](const auto& known) { return known.first == m.key; });
           labels_.push_back({m.key, static_cast<std::size_t>(column)});
         }
+  }
+
+  void keep_apart() {
+    for (Table* from : tables())
+      if (const auto choice = from->choice("repeats", {"mean", "apart"})) apart_ = *choice == 1;
+    if (apart_ && std::ranges::find(labels_, row_label, &RowFilter::Columns::value_type::first) != labels_.end())
+      own_.refuse(fmt::format("the label '{}' is already used", row_label),
+                  "repeats that are kept apart have this label", "choose another name for the label");
   }
 
   std::map<std::size_t, NumberColumn> conditions() {
@@ -158,6 +174,7 @@ private:
         here[condition] = value[k].value_or(0);
       }
       if (!good) continue;
+      if (apart_) labels.emplace_back(row_label, std::to_string(rows[k] + 1));
       all.add(labels, here, *values[k], rows[k]);
       if (counts) used.add(labels, here, *values[k], rows[k]);
     }
@@ -218,6 +235,7 @@ private:
   const std::size_t problems_before_;
   const DataFile* file_ = nullptr;
   RowFilter::Columns labels_; ///< label, column
+  bool apart_ = false;        ///< each row is a reading
   RowFilter filter_;
 };
 

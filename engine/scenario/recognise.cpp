@@ -139,7 +139,8 @@ std::vector<std::pair<std::string, double>> signs(const std::set<std::string>& t
 /// The form in which all texts are clock times; empty if there is none.
 std::string clock_form(const std::vector<std::string>& texts) {
   for (const char* form : {"iso", "%d.%m.%Y %H:%M:%S", "%d.%m.%Y %H:%M", "%d-%m-%Y %H:%M:%S", "%d/%m/%Y %H:%M:%S",
-                           "%Y/%m/%d %H:%M:%S", "%m/%d/%Y %I:%M:%S %p", "%d-%b-%Y %H:%M:%S", "%H:%M:%S", "%H:%M"}) {
+                           "%Y/%m/%d %H:%M:%S", "%m/%d/%Y %I:%M:%S %p", "%m/%d/%Y %H:%M:%S", "%d.%m.%y %H:%M:%S",
+                           "%d-%b-%Y %H:%M:%S", "%I:%M:%S %p", "%H:%M:%S", "%H:%M"}) {
     const ClockFormat format(form);
     if (std::ranges::all_of(texts, [&](const std::string& t) { return format.parse(t).has_value(); })) return form;
   }
@@ -155,11 +156,11 @@ bool is_number(const Csv& csv, const CsvCell& cell, char decimal) {
   }
 }
 
-/// Whether the cells that are not empty are numbers, more than half of all.
+/// Whether the cells that are not missing are numbers, more than half of all.
 bool numbers(const Csv& csv, std::size_t column, char decimal) {
   std::size_t n = 0;
   for (const auto& row : csv.rows) {
-    if (row[column].text.empty()) continue;
+    if (says_missing(row[column].text)) continue;
     if (!is_number(csv, row[column], decimal)) return false;
     ++n;
   }
@@ -182,11 +183,13 @@ bool fits(ColumnRole role, const std::string& unit) {
                             role == ColumnRole::uncertainty);
 }
 
-RecognisedColumn column_of(const RecognisedData& data, std::size_t c) {
+/// @param below  unit below the name; empty: none
+RecognisedColumn column_of(const RecognisedData& data, std::size_t c, const std::string& below) {
   RecognisedColumn out{data.csv.header[c].text, "1", ColumnRole::other, numbers(data.csv, c, data.decimal), false, ""};
   std::string rest;
   std::string unit = unit_in(out.name, rest);
   const auto words = words_of(rest);
+  if (!below.empty()) unit = below;
   if (unit.empty()) unit = unit_of_time(words);
   for (const RoleWords& known : role_words()) {
     if (out.role != ColumnRole::other) break;
@@ -222,7 +225,7 @@ RecognisedColumn column_of(const RecognisedData& data, std::size_t c) {
       out.why = "by its clock times";
     }
   }
-  out.gaps = out.number && different.contains("");
+  out.gaps = out.number && std::ranges::any_of(different, says_missing);
   if (out.role == ColumnRole::other) out.why.clear();
   const bool plain = out.role == ColumnRole::cycle || out.role == ColumnRole::direction;
   if (out.number && !plain) out.unit = unit.empty() ? "?" : unit;
@@ -270,6 +273,12 @@ bool counts_rows(const RecognisedColumn& c) {
   return words.size() == 1 && names.contains(words.front());
 }
 
+bool says_missing(const std::string& text) {
+  static const std::set<std::string> words{"",     "nan", "na", "n/a", "#n/a", "null",
+                                           "none", "-",   "--", "---", "?",    "missing"};
+  return words.contains(lower(text));
+}
+
 bool names_parts(const RecognisedColumn& c) {
   static const std::set<std::string> names{"operator", "bediener", "observer", "lab",    "laboratory", "batch",
                                            "lot",      "machine",  "maschine", "sample", "part",       "specimen",
@@ -284,7 +293,7 @@ bool was_set(const RecognisedData& data, const RecognisedColumn& c) {
   std::set<std::string> texts;
   std::vector<double> values;
   for (const auto& row : data.csv.rows) {
-    if (row[column].text.empty()) continue;
+    if (says_missing(row[column].text)) continue;
     texts.insert(row[column].text);
     values.push_back(data.csv.number(row[column], data.decimal));
   }
@@ -306,15 +315,108 @@ std::vector<std::string> words_of(const std::string& name) {
 }
 
 const RecognisedColumn* RecognisedData::find(ColumnRole role) const {
-  const auto it = std::ranges::find(columns, role, &RecognisedColumn::role);
+  const auto it = std::ranges::find_if(columns, [&](const RecognisedColumn& c) {
+    return c.role == role && (role != ColumnRole::time || c.number || !c.clock.empty());
+  });
   return it == columns.end() ? nullptr : &*it;
 }
 
+namespace {
+
+/// Line of the column names below other lines: the first that has as many cells as most lines have. 0: the first line,
+/// or there is no table.
+int line_of_names(const std::string& text) {
+  std::vector<std::string> lines;
+  for (std::size_t from = 0; from < text.size();) {
+    const std::size_t to = std::min(text.find('\n', from), text.size());
+    lines.push_back(text.substr(from, to - from));
+    from = to + 1;
+  }
+  for (const char separator : {';', '\t', ','}) {
+    std::map<std::size_t, std::size_t> count; // lines by number of separators
+    const auto separators = [&](const std::string& l) {
+      return static_cast<std::size_t>(std::ranges::count(l, separator));
+    };
+    for (const std::string& l : lines) ++count[separators(l)];
+    const auto most = std::ranges::max_element(count, {}, [](const auto& c) { return c.second; });
+    if (most == count.end() || most->first == 0 || 2 * most->second <= lines.size()) continue;
+    const auto names = std::ranges::find(lines, most->first, separators);
+    return static_cast<int>(names - lines.begin()) + 1;
+  }
+  return 0;
+}
+
+/// The unit in a cell below a column's name: "mm", "[um]"; empty if it is none.
+std::string unit_below(std::string text) {
+  if (text.size() > 2 && (text.front() == '[' || text.front() == '(')) text = text.substr(1, text.size() - 2);
+  if (const auto known = unit_words().find(text); known != unit_words().end()) return known->second;
+  try {
+    units::si_unit_of(text);
+    return text;
+  } catch (const InputError&) {
+    return "";
+  }
+}
+
+/// Takes a first row of units out of the table and into the names, as if it stood there: "pos [mm]".
+std::map<std::string, std::string> take_units(RecognisedData& data) {
+  std::map<std::string, std::string> out;
+  auto& rows = data.csv.rows;
+  if (rows.size() < 3) return out;
+  for (std::size_t c = 0; c < data.csv.header.size(); ++c) {
+    const CsvCell& cell = rows[0][c];
+    if (cell.text.empty() || cell.text == "-") continue;
+    if (is_number(data.csv, cell, '.') || is_number(data.csv, cell, ',')) return {};
+    const std::string unit = unit_below(cell.text);
+    if (unit.empty()) return {};
+    out[data.csv.header[c].text] = unit;
+  }
+  if (out.empty()) return out;
+  data.first_row = rows[1].front().line;
+  rows.erase(rows.begin());
+  return out;
+}
+
+/// Dates in a column of their own, next to the times of the day.
+void find_dates(RecognisedData& data) {
+  for (RecognisedColumn& time : data.columns) {
+    if (time.clock.empty() || ClockFormat(time.clock).has_date()) continue;
+    for (RecognisedColumn& date : data.columns) {
+      if (date.number || &date == &time || !date.words.empty()) continue;
+      const auto d = static_cast<std::size_t>(data.csv.find(date.name)),
+                 t = static_cast<std::size_t>(data.csv.find(time.name));
+      std::vector<std::string> texts;
+      for (const auto& row : data.csv.rows) texts.push_back(row[d].text + ' ' + row[t].text);
+      const std::string form = clock_form(texts);
+      if (form.empty()) continue;
+      time.clock = form;
+      time.date = date.name;
+      time.role = ColumnRole::time;
+      if (time.why.empty()) time.why = "by its clock times";
+      date.role = ColumnRole::time;
+      date.why = "with the column " + time.name;
+      break;
+    }
+  }
+}
+
+Csv table_of(const std::string& text, const std::string& file, RecognisedData& out) {
+  try {
+    return parse_csv(text, file);
+  } catch (const InputError&) {
+    out.header = line_of_names(text);
+    if (out.header <= 1) throw;
+    return parse_csv(text, file, {.header = out.header});
+  }
+}
+
+} // namespace
+
 RecognisedData recognise(const std::string& text, const std::string& file) {
   RecognisedData out;
-  out.csv = parse_csv(text, file);
+  out.csv = table_of(text, file, out);
   if (out.csv.header.size() == 1 && words_of(out.csv.header[0].text).size() > 1) try { // blanks, if they make a table
-      Csv blanks = parse_csv(text, file, ' ');
+      Csv blanks = parse_csv(text, file, {.separator = ' '});
       if (blanks.header.size() > 1) out.csv = std::move(blanks), out.delimiter = "blanks";
     } catch (const InputError&) {
     }
@@ -323,8 +425,13 @@ RecognisedData recognise(const std::string& text, const std::string& file) {
                           [&](const CsvCell& c) { return is_number(out.csv, c, '.') || is_number(out.csv, c, ','); }))
     throw InputError({{out.csv.at(out.csv.header.front()), "the first row holds numbers, not names of columns", "",
                        "write a line with a name for each column above it"}});
+  const auto below = take_units(out);
   if (number_columns(out.csv, ',') > number_columns(out.csv, '.')) out.decimal = ',';
-  for (std::size_t c = 0; c < out.csv.header.size(); ++c) out.columns.push_back(column_of(out, c));
+  for (std::size_t c = 0; c < out.csv.header.size(); ++c) {
+    const auto unit = below.find(out.csv.header[c].text);
+    out.columns.push_back(column_of(out, c, unit == below.end() ? "" : unit->second));
+  }
+  find_dates(out);
   guess_roles(out);
   return out;
 }

@@ -23,21 +23,25 @@ struct RecognisedColumn {
   bool gaps = false;                                      ///< it has empty cells
   std::string why;                                        ///< "by its name", "as the first column of numbers"
   std::string clock = {};                                 ///< form of its clock times (base/clock.h); empty: none
+  std::string date = {};                                  ///< column of their dates; empty: they have them, or none
   std::vector<std::pair<std::string, double>> words = {}; ///< a direction's words and their signs
 };
 
 struct RecognisedData {
   Csv csv;
-  std::string delimiter; ///< as [data] states it; empty: as the header shows
+  std::string delimiter;         ///< as [data] states it; empty: as the header shows
+  int header = 0, first_row = 0; ///< lines of the names and of the first row, if [data] must state them; 0: not
   char decimal = '.';
   std::vector<RecognisedColumn> columns;
   const RecognisedColumn* find(ColumnRole role) const; ///< the first one, or null
 };
 
-/// Reads the text of a data file. Throws InputError: no table, no rows, or a first row of numbers instead of names.
+/// Reads the text of a data file; lines before the names of columns, and a line of units below them, are found. Throws
+/// InputError: no table, no rows, or a first row of numbers instead of names.
 RecognisedData recognise(const std::string& text, const std::string& file);
 
-/// Position and reading, where there is none yet: the first column of numbers that is left, if it was set, and the last.
+/// Position and reading, where there is none yet: the first column of numbers that is left, if it was set, and the
+/// last.
 void guess_roles(RecognisedData& data);
 
 /// Whether the numbers of a column look set, not measured: they recur, or only rise, or only fall.
@@ -45,6 +49,9 @@ bool was_set(const RecognisedData& data, const RecognisedColumn& column);
 
 /// Whether a column counts rows and measures nothing, by its name.
 bool counts_rows(const RecognisedColumn& column);
+
+/// Whether a cell among numbers says that there is none: "NaN", "-".
+bool says_missing(const std::string& text);
 
 /// Whether the numbers of a column name parts, people or places, by its name: "operator 2".
 bool names_parts(const RecognisedColumn& column);

@@ -60,6 +60,8 @@ std::string starter_axis(const StarterData& data, const std::string& scenario) {
   if (!position || !reading)
     throw InputError(found.csv.file + ": there is no column of readings", "numbers that were measured are needed",
                      "tell which it is: --role COLUMN=reading");
+  require_numbers(found, *position, "positions");
+  require_numbers(found, *reading, "readings");
   const RecognisedColumn* const direction = found.find(Role::direction);
   const RecognisedColumn* const sd = found.find(Role::uncertainty);
   const bool measured = measured_position(found, *position, *reading);

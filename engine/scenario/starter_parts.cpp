@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/units.h"
 
@@ -28,7 +29,8 @@ namespace {
 
 /// "pos_mm", or a table of its map or clock.
 std::string column_text(const RecognisedColumn& c) {
-  if (!c.clock.empty()) return fmt::format("{{ column = {}, clock = {} }}", quoted(c.name), quoted(c.clock));
+  const std::string column = c.date.empty() ? quoted(c.name) : fmt::format("[{}, {}]", quoted(c.date), quoted(c.name));
+  if (!c.clock.empty()) return fmt::format("{{ column = {}, clock = {} }}", column, quoted(c.clock));
   if (c.words.empty() || c.number) return quoted(c.name);
   std::string map;
   for (const auto& [word, sign] : c.words) map += fmt::format("{}{} = {}", map.empty() ? "" : ", ", quoted(word), sign);
@@ -61,9 +63,35 @@ NamedColumns labels_of(const RecognisedData& data) {
   return out;
 }
 
+namespace {
+
+/// The texts of a column's cells that are no numbers: "\"\"", or a list.
+std::string missing_of(const RecognisedData& data, const RecognisedColumn& c) {
+  std::set<std::string> texts;
+  for (const auto& row : data.csv.rows)
+    if (const std::string& text = row[static_cast<std::size_t>(data.csv.find(c.name))].text; says_missing(text))
+      texts.insert(quoted(text));
+  return texts.size() == 1 ? *texts.begin() : fmt::format("[{}]", fmt::join(texts, ", "));
+}
+
+/// Whether two rows agree in all labels and conditions.
+bool recur(const RecognisedData& data, const NamedColumns& labels, const NamedColumns& conditions) {
+  std::set<std::vector<std::string>> known;
+  return std::ranges::any_of(data.csv.rows, [&](const auto& row) {
+    std::vector<std::string> key;
+    for (const auto* columns : {&labels, &conditions})
+      for (const auto& [name, c] : *columns) key.push_back(row[static_cast<std::size_t>(data.csv.find(c->name))].text);
+    return !known.insert(std::move(key)).second;
+  });
+}
+
+} // namespace
+
 std::string data_section(const StarterData& data, const NamedColumns& labels, const NamedColumns& conditions,
                          const std::set<std::string>& used) {
   std::string out = "[data]\n" + line("file", quoted(data.file), "several files as one: \"run_{run}.csv\"");
+  if (data.found.header > 0) out += line("header", std::to_string(data.found.header), "line of the column names");
+  if (data.found.first_row > 0) out += line("first_row", std::to_string(data.found.first_row), "line of the first row");
   if (!data.found.delimiter.empty()) out += line("delimiter", quoted(data.found.delimiter), "");
   if (data.found.decimal == ',') out += line("decimal", "\",\"", "");
   std::string names;
@@ -73,7 +101,10 @@ std::string data_section(const StarterData& data, const NamedColumns& labels, co
   std::string where;
   for (const RecognisedColumn& c : data.found.columns)
     if (c.gaps && used.contains(c.name))
-      where += fmt::format("{}{} = {{ not = \"\" }}", where.empty() ? "" : ", ", quoted(c.name));
+      where +=
+          fmt::format("{}{} = {{ not = {} }}", where.empty() ? "" : ", ", quoted(c.name), missing_of(data.found, c));
+  if (recur(data.found, labels, conditions))
+    out += line("repeats", "\"apart\"", "rows that agree in all this are readings of their own, in their order");
   if (!where.empty()) out += line("where", "{ " + where + " }", "rows without a number are left out");
   out += "\n[data.units]\n";
   for (const RecognisedColumn& c : data.found.columns)
@@ -93,7 +124,7 @@ double range(const RecognisedData& data, const RecognisedColumn& c) {
   double low = HUGE_VAL, high = -HUGE_VAL;
   const auto column = static_cast<std::size_t>(data.csv.find(c.name));
   for (const auto& row : data.csv.rows) {
-    if (row[column].text.empty()) continue;
+    if (says_missing(row[column].text)) continue;
     const double x = data.csv.number(row[column], data.decimal);
     low = std::min(low, x), high = std::max(high, x);
   }
@@ -115,6 +146,21 @@ bool measured_position(const RecognisedData& data, const RecognisedColumn& posit
   if (kind(position) != kind(reading)) return false;
   const double share = range(data, reading) / range(data, position);
   return share > 0.5 && share < 2; // an axis errs by less than half of its travel
+}
+
+void require_numbers(const RecognisedData& data, const RecognisedColumn& c, const std::string& role) {
+  if (c.number) return;
+  const auto column = static_cast<std::size_t>(data.csv.find(c.name));
+  for (const auto& row : data.csv.rows)
+    if (!says_missing(row[column].text)) try {
+        data.csv.number(row[column], data.decimal);
+      } catch (const InputError& error) {
+        Problem problem = error.problems().front();
+        problem.why = fmt::format("the column '{}' has the {}", c.name, role);
+        problem.remedy = fmt::format(
+            "write numbers without signs between thousands, or tell another column: --role COLUMN={}", name(c.role));
+        throw InputError({problem});
+      }
 }
 
 std::string unit_or(const RecognisedColumn& c, const char* otherwise) { return c.unit == "?" ? otherwise : c.unit; }

@@ -25,6 +25,9 @@ std::size_t different(const RecognisedData& data, const RecognisedColumn& c);
 /// Columns whose words tell readings apart: cycles, and texts that recur.
 NamedColumns labels_of(const RecognisedData& data);
 
+/// Refuses a column that a scenario needs as numbers and that has a cell of another kind. @param role  "readings"
+void require_numbers(const RecognisedData& data, const RecognisedColumn& column, const std::string& role);
+
 /// Whether the readings are the positions themselves, measured, and not their errors: then they span what the positions
 /// span.
 /// Whether positions are angles that go round, but for a tenth.

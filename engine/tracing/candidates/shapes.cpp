@@ -36,6 +36,24 @@ bool of_the_start(const Vector& curve) {
   return x.head(first).squaredNorm() > criteria.few_share * x.squaredNorm();
 }
 
+/// The direction from which each value was approached, 1 or -1. Where motion turns at a value that is met several
+/// times, the first half of these come from one side and the others from the other.
+Vector senses(const Vector& x) {
+  Vector out = Vector::Zero(x.size());
+  double before = 0;
+  for (Index from = 0; from < x.size();) {
+    Index to = from;
+    while (to < x.size() && x[to] == x[from]) ++to;
+    const double after = to == x.size() ? before : x[to] > x[from] ? 1 : -1;
+    const Index first = before == 0 ? 0 : (to - from + 1) / 2;
+    out.segment(from, first).setConstant(before);
+    out.segment(from + first, to - from - first).setConstant(after);
+    before = after;
+    from = to;
+  }
+  return out;
+}
+
 class Shapes {
 public:
   Shapes(const Observations& o, std::size_t most_cells) : o_(o), most_cells_(most_cells) {}
@@ -150,9 +168,7 @@ private:
   }
 
   void hysteresis(const Covariate& c) {
-    const Vector x = plain(o_, c);
-    Vector sign = Vector::Zero(x.size());
-    for (Index i = 1; i < x.size(); ++i) sign[i] = x[i] > x[i - 1] ? 1 : x[i] < x[i - 1] ? -1 : sign[i - 1];
+    const Vector sign = senses(plain(o_, c));
     // Both ways, more than to start anew.
     const auto up = (sign.array() > 0).count(), down = (sign.array() < 0).count();
     if (8 * std::min(up, down) >= std::max(up, down) && std::min(up, down) >= 3)
