@@ -194,6 +194,9 @@ z = "g * p * s"
 [data]
 file = "values.csv"
 delimiter = ","
+header = 1
+first_row = 2
+repeats = "mean"
 decimal = "."
 labels = { w = "w" }
 units = { r = "mm" }
@@ -201,14 +204,14 @@ where = { w = ["a", "b"] }
 conditions = { s = { column = "w", map = { a = 1, b = -1 } }, p = { column = "r", unit = "mm" }, d = { column = "w", map = { a = 1, b = -1 } }, t = { column = "c", clock = "%H:%M" } }
 [quantities]
 g = { value = 1, estimated = true }
-h = { distribution = "empirical", values = { file = "values.csv", column = "r", unit = "mm", delimiter = "," } }
+h = { distribution = "empirical", values = { file = "values.csv", column = "r", unit = "mm", delimiter = ",", header = 1, first_row = 2 } }
 [indications.x]
 readings = "r"
 u = { column = "r", unit = "mm" }
 [indications.y]
 readings = { column = "r", unit = "mm", where = { w = ["a", "b"] } }
 [indications.z]
-readings = { file = "values.csv", delimiter = ",", column = "r", unit = "mm", labels = { w = "w" }, conditions = { p = { column = "r", unit = "mm" }, d = { column = "w", map = { a = 1, b = -1 } }, t = { column = "c", clock = "%H:%M" }, s = { column = "w", map = { a = 1, b = -1 } } } }
+readings = { file = "values.csv", delimiter = ",", header = 1, first_row = 2, repeats = "mean", column = "r", unit = "mm", labels = { w = "w" }, conditions = { p = { column = "r", unit = "mm" }, d = { column = "w", map = { a = 1, b = -1 } }, t = { column = "c", clock = "%H:%M" }, s = { column = "w", map = { a = 1, b = -1 } } } }
 [trace]
 blocks = { every = "1 min", of = "t" }
 columns = { q = { column = "v", unit = "mm" }, f = { column = "w", map = { a = 1, b = -1 } }, m = { column = "c", clock = "%H:%M" } }

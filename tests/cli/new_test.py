@@ -162,6 +162,30 @@ class New(InFolder):
         said = self.new("laser_ball_bar", "--from", "rods.csv")
         self.assertIn("indications.length_1.readings.column: 'rods.csv' has no column '?'. Use one of rod, a_mm, b_mm.", said)
 
+    def test_files_as_programs_write_them(self):
+        """Lines above the names, units below them, cells without a number, dates apart from times: all is one axis."""
+        draw = random.Random(4)
+        plan = [(x, s) for _ in range(5) for s in (1, -1) for x in range(0, 500, 50)[::s]]
+        rows = [(x, 0.01 * x + 0.6 * s + draw.gauss(0, 0.3), s) for x, s in plan]
+        files = {
+            "units": ("pos;dev\n[mm];um\n" + "".join(f"{x};{y:.2f}\n" for x, y, s in rows), "first_row = 3"),
+            "above": ("Machine: M 5\nDate: 2026-01-02\n\nPos [mm],Dev [um]\n" + "".join(f"{x},{y:.2f}\n" for x, y, s in rows), "header = 4"),
+            "ends": ("pos_mm,dev_um,\n" + "".join(f"{x},{y:.2f},\n" for x, y, s in rows), 'repeats = "apart"'),
+            "gaps": ("pos_mm,dev_um\n" + "".join(f"{x},{'NaN' if i == 7 else '-' if i == 9 else f'{y:.2f}'}\n" for i, (x, y, s) in enumerate(rows)),
+                     '"dev_um" = { not = ["-", "NaN"] }'),
+            "dates": ("Date,Time,pos_mm,dev_um\n" + "".join(f"03/01/2026,{8 + i // 60}:{i % 60:02d}:00 AM,{x},{y:.2f}\n" for i, (x, y, s) in enumerate(rows)),
+                      'time = { column = ["Date", "Time"], clock = "%m/%d/%Y %I:%M:%S %p" }')}
+        for name, (text, line) in files.items():
+            (self.folder / f"{name}.csv").write_text(text)
+            self.assertIn("ready", self.new("--from", f"{name}.csv"))
+            self.assertIn(line, (self.folder / f"{name}.toml").read_text())
+            run = gumshoe("trace", f"{name}.toml", "--draws", "99", "--format", "json", cwd=self.folder)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            # Repeats kept apart tell the way up from the way down.
+            self.assertEqual([f["described_by"] for f in json.loads(run.stdout)["findings"]], ["hysteresis:position"], name)
+        (self.folder / "signs.csv").write_text("pos_mm;dev_um\n" + "".join(f"{x};1,00{x % 7}.25\n" for x in range(20)))
+        self.assertIn("signs.csv:2:3: error: '1,000.25' is not a number (the column 'dev_um' has the readings)", self.new("--from", "signs.csv", code=2))
+
     def test_a_linear_model_of_any_columns(self):
         """Three machines, of which one has another slope; coefficients within three of their u, 0.01 to 0.02 N."""
         draw = random.Random(3)
