@@ -28,7 +28,7 @@ using scenario::RecognisedData;
 constexpr std::size_t largest_file = std::size_t{256} << 20;
 
 struct Options {
-  std::string model, from, out;
+  std::string model, from, out, machine;
   std::vector<std::string> units, roles, terms;
   bool force = false;
 };
@@ -134,6 +134,7 @@ std::string text_of(const Options& o, const RecognisedData* found, const std::st
                                                        : scenario::starter_series(*data, out);
   if (o.model == "budget") return scenario::starter_budget();
   if (o.model == "linear") return scenario::starter_linear(*data, o.terms, out);
+  if (o.model == "sphere_probing" && data) return scenario::starter_probing(*data, o.machine);
   if (std::string text = text_of_model(o.model, data.get()); !text.empty()) return text;
   const std::string meant = nearest(o.model, names());
   throw InputError(fmt::format("unknown model '{}'", o.model), "",
@@ -168,7 +169,7 @@ void print_columns(const RecognisedData& found) {
 void print_next(const Options& o, const std::string& out, const RecognisedData* found) {
   try {
     const auto s = scenario::read(out, catalogue());
-    if (s.made && !s.made->card->axes.empty())
+    if (s.made && !s.made->card->axes.empty() && o.machine.empty())
       std::cout << fmt::format(
           "{}: the machine is that of the example. Replace [machine] by yours, then: gumshoe {} {}\n", out,
           o.from.empty() ? "run" : "estimate", out);
@@ -177,10 +178,11 @@ void print_next(const Options& o, const std::string& out, const RecognisedData* 
                                o.model.empty() || o.model == "linear" ? "trace" : "run", out);
   } catch (const InputError& error) {
     std::cout << fmt::format("{}: to fill in, then gumshoe check {}:\n{}\n", out, out, error.what());
-    std::string units;
+    std::string options;
     for (const auto& c : found ? found->columns : std::vector<scenario::RecognisedColumn>{})
-      if (c.unit == "?" && c.role != ColumnRole::other) units += fmt::format(" --unit {}=UNIT", c.name);
-    if (!units.empty()) std::cout << fmt::format("or write it anew: gumshoe new ... --force{}\n", units);
+      if (c.unit == "?" && c.role != ColumnRole::other) options += fmt::format(" --unit {}=UNIT", c.name);
+    if (o.model == "sphere_probing" && o.machine.empty()) options += " --machine B,C/X,Y,Z";
+    if (!options.empty()) std::cout << fmt::format("or write it anew: gumshoe new ... --force{}\n", options);
   }
 }
 
@@ -200,6 +202,11 @@ ExitCode run(Options o) {
                      "name one by --from");
   if (o.model != "linear" && !o.terms.empty())
     throw InputError("--term: only a linear model has terms", "", "write gumshoe new linear --from FILE --term ...");
+  if (!o.machine.empty() && (o.model != "sphere_probing" || o.from.empty()))
+    throw InputError("--machine: only a sphere's readings are started on a machine of yours", "",
+                     "write gumshoe new sphere_probing --from FILE --machine B,C/X,Y,Z");
+  if (on_terminal() && o.model == "sphere_probing" && !o.from.empty() && o.machine.empty())
+    o.machine = asked("axes from the bed to the workpiece / to the tool, such as B,C/X,Y,Z; empty: decide later:");
   std::unique_ptr<RecognisedData> found;
   if (!o.from.empty()) {
     found = std::make_unique<RecognisedData>(scenario::recognise(read_data_file(o.from, largest_file), o.from));
@@ -235,6 +242,9 @@ void add_new(CLI::App& app, Action& action) {
                    "every column of numbers)")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command->add_option("--machine", o->machine,
+                      "of sphere_probing: axes from the bed to the workpiece / to the tool, such as B,C/X,Y,Z, or a "
+                      "known machine such as TTTRR");
   add_force(*command, o->force);
   command->callback([=, &action] { action = [=] { return run(*o); }; });
 }

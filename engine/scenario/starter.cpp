@@ -72,6 +72,7 @@ std::string starter_axis(const StarterData& data, const std::string& scenario) {
   NamedColumns conditions{{"position", position}};
   if (direction) conditions.emplace_back("direction", direction);
   std::set<std::string> used{position->name, reading->name};
+  if (direction) used.insert(direction->name);
   if (sd && sd->number) used.insert(sd->name);
   const std::string recorded = columns_of(found, used);
 

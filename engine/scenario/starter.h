@@ -33,4 +33,11 @@ std::string starter_linear(const StarterData& data, const std::vector<std::strin
 /// place of the example's readings and conditions; an indication without a column gets "?".
 std::string starter_model(const ModelCard& card, const std::string& example, const StarterData* data);
 
+/// A sphere on a machine, its readings in the data: location errors of the rotary axes and the sphere's place are
+/// fitted; what only the user knows is "?".
+/// @param machine "B,C/X,Y,Z": axes to the workpiece / axes to the tool, from the bed outwards; or a name that
+/// chain::find_machine knows. Empty: the axes that the columns name, their sides left to fill in
+/// Throws InputError if the machine is wrong, or the columns name no rotary axis.
+std::string starter_probing(const StarterData& data, const std::string& machine);
+
 } // namespace gumshoe::scenario

@@ -66,6 +66,8 @@ public:
   std::string write(const std::string& example) {
     std::string out;
     bool written = !data_;
+    // Before [data] is written: its columns are read there.
+    const std::string trace = example.find("estimated = true") == std::string::npos ? "" : trace_text();
     for (const Section& section : sections_of(example)) {
       const bool replaced = data_ && (section.name.starts_with("indications") || section.name == "conditions");
       if (!written && !section.name.empty() && section.name != "model") {
@@ -75,23 +77,14 @@ public:
       out += replaced ? kept(section) : commented(section);
     }
     if (!written) out += data_text();
-    return out + (example.find("estimated = true") == std::string::npos ? "" : trace_text()) + others();
+    return out + trace + others();
   }
 
 private:
-  bool is(const RecognisedColumn& c, std::string_view name) const {
-    auto words = words_of(c.name), wanted = words_of(std::string(name));
-    const auto unit = words_of(c.unit);
-    std::erase_if(words, [&](const std::string& w) {
-      return std::ranges::find(unit, w) != unit.end() && std::ranges::find(wanted, w) == wanted.end();
-    });
-    return words == wanted;
-  }
-
   void match() {
     const auto& columns = data_->found.columns;
     for (const VariableCard& i : card_.indications) {
-      auto c = std::ranges::find_if(columns, [&](const auto& one) { return one.number && is(one, i.name); });
+      auto c = std::ranges::find_if(columns, [&](const auto& one) { return one.number && is_named(one, i.name); });
       const RecognisedColumn* only = card_.indications.size() == 1 ? data_->found.find(Role::reading) : nullptr;
       readings_.emplace_back(i.name, c != columns.end() ? &*c : only);
       if (readings_.back().second) used_.insert(readings_.back().second->name);
@@ -100,7 +93,7 @@ private:
       for (const RecognisedColumn& c : columns) {
         if (used_.contains(c.name)) continue;
         const bool role = v.name == scenario::name(c.role); // a condition "other" there is not
-        if (!(is(c, v.name) && c.number) && !role) continue;
+        if (!(is_named(c, v.name) && c.number) && !role) continue;
         conditions_.emplace_back(v.name, &c);
         used_.insert(c.name);
         break;
@@ -117,7 +110,7 @@ private:
                          std::string(std::max<std::size_t>(1, 25 - std::min<std::size_t>(24, card.name.size())), ' '),
                          card.meaning, card.unit);
       out += line("readings", c ? quoted(c->name) : "\"?\"",
-                  c ? "recognised " + (c->why.empty() || is(*c, card.name) ? std::string("by its name") : c->why)
+                  c ? "recognised " + (c->why.empty() || is_named(*c, card.name) ? std::string("by its name") : c->why)
                     : "which column? Write its name; the file has " +
                           fmt::format("{}", fmt::join(data_->found.csv.names(), ", ")));
       out += "# u = \"...\"                              # standard uncertainty of one reading, or { column = \"...\" "
@@ -127,11 +120,11 @@ private:
   }
 
   /// What tracing asks of the data, where the example has something to fit.
-  std::string trace_text() const {
+  std::string trace_text() {
     if (!data_) return "";
     const bool timed = std::ranges::any_of(conditions_, [](const auto& c) { return c.first == "time"; });
     return "\n[trace]\n" + blocks_of(data_->found, labels_of(data_->found)) +
-           (timed ? line("order", "\"time\"", "") : "");
+           (timed ? line("order", "\"time\"", "") : "") + columns_of(data_->found, used_);
   }
 
   /// Whether the model takes positions for deviations on request, and the data's readings are positions.
@@ -173,9 +166,6 @@ private:
           if (v.name == key) out += fmt::format("# {}: {}\n", v.name, v.meaning);
       out += row + '\n';
     }
-    if (section.name.empty())
-      out = "# Written by gumshoe new: the example of the model " + std::string(card_.name) +
-            ", whose numbers and sources are to be replaced by yours.\n" + out;
     return out;
   }
 
@@ -203,8 +193,13 @@ private:
 
 } // namespace
 
-std::string starter_model(const ModelCard& card, const std::string& example, const StarterData* data) {
+std::string filled_in(const ModelCard& card, const std::string& example, const StarterData* data) {
   return ModelStarter(card, data).write(example);
+}
+
+std::string starter_model(const ModelCard& card, const std::string& example, const StarterData* data) {
+  return "# Written by gumshoe new: the example of the model " + std::string(card.name) +
+         ", whose numbers and sources are to be replaced by yours.\n" + filled_in(card, example, data);
 }
 
 } // namespace gumshoe::scenario

@@ -44,6 +44,15 @@ std::string line(const std::string& key, const std::string& value, const std::st
   return comment.empty() ? text + '\n' : fmt::format("{:<39} # {}\n", text, comment);
 }
 
+bool is_named(const RecognisedColumn& c, std::string_view name) {
+  auto words = words_of(c.name), wanted = words_of(std::string(name));
+  const auto unit = words_of(c.unit);
+  std::erase_if(words, [&](const std::string& w) {
+    return std::ranges::find(unit, w) != unit.end() && std::ranges::find(wanted, w) == wanted.end();
+  });
+  return words == wanted;
+}
+
 std::size_t different(const RecognisedData& data, const RecognisedColumn& c) {
   std::set<std::string> texts;
   const auto column = static_cast<std::size_t>(data.csv.find(c.name));
@@ -180,7 +189,7 @@ std::string columns_of(const RecognisedData& data, std::set<std::string>& used) 
   std::string out;
   bool ordered = false;
   for (const RecognisedColumn& c : data.columns) {
-    if (c.role != ColumnRole::time && c.role != ColumnRole::temperature) continue;
+    if (c.role != ColumnRole::time && c.role != ColumnRole::temperature && c.role != ColumnRole::direction) continue;
     if (c.role == ColumnRole::time && !c.number && c.clock.empty()) continue;
     if ((c.role == ColumnRole::time && ordered) || used.contains(c.name)) continue;
     used.insert(c.name);

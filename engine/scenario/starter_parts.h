@@ -2,6 +2,7 @@
 /// Parts that first scenarios share: names, lines with comments, sections about a data file.
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -20,6 +21,8 @@ std::string plain_name(const std::string& text);
 std::string line(const std::string& key, const std::string& value, const std::string& comment);
 std::string unit_or(const RecognisedColumn& c, const char* otherwise);
 
+/// Whether a column has this name, but for its unit: "X_mm" is X.
+bool is_named(const RecognisedColumn& c, std::string_view name);
 /// Number of different texts in a column.
 std::size_t different(const RecognisedData& data, const RecognisedColumn& c);
 /// Columns whose words tell readings apart: cycles, and texts that recur.
@@ -34,12 +37,16 @@ void require_numbers(const RecognisedData& data, const RecognisedColumn& column,
 bool full_turn(const RecognisedData& data, const RecognisedColumn& position);
 bool measured_position(const RecognisedData& data, const RecognisedColumn& position, const RecognisedColumn& reading);
 
+/// An example of the model with what the card says of every quantity, and the data's columns in the place of its
+/// readings and conditions.
+std::string filled_in(const ModelCard& card, const std::string& example, const StarterData* data);
+
 /// [data] with its units and conditions. @param used names of the columns that the scenario reads
 std::string data_section(const StarterData& data, const NamedColumns& labels, const NamedColumns& conditions,
                          const std::set<std::string>& used);
 /// `blocks` of [trace]: a label with enough values, or stretches.
 std::string blocks_of(const RecognisedData& data, const NamedColumns& labels);
-/// `order` and [trace.columns]: times and temperatures that are not conditions; adds their names to `used`.
+/// `order` and [trace.columns]: times, temperatures and directions that are not conditions; adds their names to `used`.
 std::string columns_of(const RecognisedData& data, std::set<std::string>& used);
 
 } // namespace gumshoe::scenario
