@@ -1,6 +1,7 @@
 #include "analysis/agreement.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -8,34 +9,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "analysis/shared_inputs.h"
 #include "base/error.h"
 
 namespace gumshoe::analysis {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
-const Contribution* find(const Budget* budget, const std::string& name) {
-  if (!budget) return nullptr;
-  const auto at = std::ranges::find(budget->contributions, name, &Contribution::name);
-  return at == budget->contributions.end() ? nullptr : &*at;
-}
-
-const Budget* budget_of(const Results& r, const std::string& output) {
-  for (const Budget& b : r.budgets)
-    if (b.output.name == output) return &b;
-  return nullptr;
-}
-
-double covariance(const Contribution& a, const Contribution& b) {
-  return a.sensitivity * a.standard_uncertainty * b.sensitivity * b.standard_uncertainty;
-}
-
-/// Whether two budgets seem to mean the same error: a reading's own scatter (Type A) is drawn anew each time.
-bool alike(const Contribution& a, const Contribution& b) {
-  return a.evaluation == 'B' && b.evaluation == 'B' && a.standard_uncertainty > 0 &&
-         a.standard_uncertainty == b.standard_uncertainty && a.distribution == b.distribution;
-}
 
 std::vector<ContributionChange> changes(const Budget* before, const Budget* after) {
   std::map<std::string, ContributionChange> squares;
@@ -66,9 +46,9 @@ Agreement agreement(const Summary& before, const Summary& after, const Budget* b
   std::vector<std::pair<std::string, double>> maybe; // quantities alike, with their covariance
   if (budget_before)
     for (const Contribution& a : budget_before->contributions) {
-      const Contribution* b = find(budget_after, a.name);
+      const Contribution* b = find_contribution(budget_after, a.name);
       if (!b) continue;
-      const double both = covariance(a, *b);
+      const double both = signed_contribution(a) * signed_contribution(*b);
       if (std::ranges::find(same, a.quantity) != same.end()) {
         if (!std::isfinite(both))
           throw InputError("--same " + a.quantity + ": its covariance is unknown",
@@ -97,41 +77,12 @@ Agreement agreement(const Summary& before, const Summary& after, const Budget* b
   return out;
 }
 
-/// Every quantity named must be in both budgets of some measurand, or it was misspelt.
-void require_known(const std::vector<std::string>& same, const Results& before, const Results& after) {
-  const auto quantities = [](const Results& r) {
-    std::vector<std::string> names;
-    for (const Budget& b : r.budgets)
-      for (const Contribution& c : b.contributions)
-        if (std::ranges::find(names, c.quantity) == names.end()) names.push_back(c.quantity);
-    return names;
-  };
-  const auto a = quantities(before), b = quantities(after);
-  const auto in = [](const auto& names, const std::string& name) {
-    return std::ranges::find(names, name) != names.end();
-  };
-  std::vector<Problem> problems;
-  for (const std::string& name : same) {
-    if (in(a, name) && in(b, name)) continue;
-    std::vector<std::string> both;
-    std::ranges::copy_if(a, std::back_inserter(both), [&](const auto& one) { return in(b, one); });
-    const std::string near = nearest(name, both);
-    problems.push_back({{},
-                        "--same " + name + ": not a quantity in the budgets of both results",
-                        "",
-                        near.empty() ? "" : "did you mean '" + near + "'?"});
-  }
-  if (!problems.empty()) throw InputError(std::move(problems));
-}
-
 } // namespace
 
 Agreements agreements(const Results& before, const Results& after, const std::vector<std::string>& same) {
-  if (before.coverage_probability != after.coverage_probability)
-    throw InputError("the results have different coverage probabilities",
-                     fmt::format("{:g} and {:g}", before.coverage_probability, after.coverage_probability),
-                     "state the same coverage_probability in [analysis] of both, and use gumshoe analyse");
-  require_known(same, before, after);
+  const std::array results{&before, &after};
+  require_one_coverage(results);
+  require_shared(same, results);
   Agreements out;
   for (const Summary& a : before.summaries) {
     if (a.output.diagnostic) continue;

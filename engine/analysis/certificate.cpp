@@ -10,6 +10,20 @@
 
 namespace gumshoe::analysis {
 
+std::string certificate_line(const Summary& s, double p, bool error) {
+  const auto& o = s.output;
+  const auto kind = error ? units::Kind::difference : units::Kind::point;
+  const double expanded = units::from_si(s.expanded_uncertainty, o.unit, o.si_unit, units::Kind::difference);
+  const int d = decimals_for(expanded);
+  const std::string pair =
+      fmt::format("{} +- {}", fixed(units::from_si(s.estimate, o.unit, o.si_unit, kind), d), fixed(expanded, d));
+  return fmt::format(
+      "{} = {}, k = {:.2f}{}, {:.4g} %", o.name, o.unit == "1" ? pair : "(" + pair + ") " + o.unit, s.coverage_factor,
+      std::isfinite(s.degrees_of_freedom) ? fmt::format(" ({:.0f} effective degrees of freedom)", s.degrees_of_freedom)
+                                          : "",
+      100 * p);
+}
+
 void certify(Summary& s, const Budget& b, const Validation& v, double p, bool error) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const bool gum = b.applicable && v.verdict == "validated";
@@ -20,18 +34,7 @@ void certify(Summary& s, const Budget& b, const Validation& v, double p, bool er
   if (!std::isfinite(s.standard_uncertainty) || !std::isfinite(s.estimate) || !std::isfinite(s.expanded_uncertainty))
     return void(s.expanded_uncertainty = s.coverage_factor = nan);
   if (!(s.expanded_uncertainty > 0)) return void(s.coverage_factor = nan); // a constant
-  const auto& o = s.output;
-  const auto kind = error ? units::Kind::difference : units::Kind::point;
-  const double expanded = units::from_si(s.expanded_uncertainty, o.unit, o.si_unit, units::Kind::difference);
-  const int d = decimals_for(expanded);
-  const std::string pair =
-      fmt::format("{} +- {}", fixed(units::from_si(s.estimate, o.unit, o.si_unit, kind), d), fixed(expanded, d));
-  s.certificate = fmt::format("{} = {}, k = {:.2f}{}, {:.4g} %", o.name,
-                              o.unit == "1" ? pair : "(" + pair + ") " + o.unit, s.coverage_factor,
-                              std::isfinite(s.degrees_of_freedom)
-                                  ? fmt::format(" ({:.0f} effective degrees of freedom)", s.degrees_of_freedom)
-                                  : "",
-                              100 * p);
+  s.certificate = certificate_line(s, p, error);
 }
 
 } // namespace gumshoe::analysis

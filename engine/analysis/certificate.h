@@ -1,5 +1,7 @@
 #pragma once
 /// The result as a certificate states it (GUM 7.2.3): Y = (y +- U), k and the coverage probability.
+#include <string>
+
 #include "analysis/results.h"
 
 namespace gumshoe::analysis {
@@ -9,5 +11,8 @@ namespace gumshoe::analysis {
 /// `error`: the output is an error, a difference of two values, and converts by scale.
 void certify(Summary& summary, const Budget& budget, const Validation& validation, double coverage_probability,
              bool error);
+
+/// "laser_z = (10.003387 +- 0.000099) mm, k = 1.96, 95 %" of a summary with U and k.
+std::string certificate_line(const Summary& summary, double coverage_probability, bool error = false);
 
 } // namespace gumshoe::analysis

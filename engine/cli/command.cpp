@@ -73,7 +73,7 @@ void write_table(const std::string& path, const std::string& text, bool force) {
   const std::string there{std::istreambuf_iterator<char>(in), {}};
   if (there == text) return;
   if (!there.empty() && !force)
-    throw OutputError("'" + path + "': not overwritten", "another table stands there",
+    throw OutputError("'" + path + "': not overwritten", "another file stands there",
                       "choose another name, or use --force to replace it");
   store::Draft draft;
   draft.add(claim, text);

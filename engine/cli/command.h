@@ -24,6 +24,7 @@ void add_report(CLI::App& app, Action& action);
 void add_evaluate(CLI::App& app, Action& action);
 void add_estimate(CLI::App& app, Action& action);
 void add_compare(CLI::App& app, Action& action);
+void add_combine(CLI::App& app, Action& action);
 void add_choose(CLI::App& app, Action& action);
 void add_trace(CLI::App& app, Action& action);
 void add_plan(CLI::App& app, Action& action);

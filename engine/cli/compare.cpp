@@ -32,15 +32,11 @@ struct Options {
 };
 
 bool is_trace(const std::string& path) {
-  const store::Stored stored = store::read_identity(path);
-  refuse_shard(stored.identity, path);
-  if (!stored.complete)
-    throw InputError(path + ": the run is not finished", "it was interrupted",
-                     "run the same command again to resume it");
-  if (stored.command() == "choose")
+  const std::string command = require_finished(path).command;
+  if (command == "choose")
     throw InputError(path + ": holds no result to compare", "gumshoe choose wrote it",
                      "compare results of gumshoe run, or of gumshoe trace");
-  return stored.command() == "trace";
+  return command == "trace";
 }
 
 /// "21 % smaller"; empty where there is nothing to relate.

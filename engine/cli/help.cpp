@@ -29,6 +29,7 @@ constexpr CommandHelp helps[] = {
     {"evaluate", "gumshoe evaluate rod_gauging --table points.csv", "evaluates the model at the rows of a table", again},
     {"estimate", "gumshoe estimate scenarios/gauge/gum_h3.toml", "fits the quantities marked as estimated", again},
     {"compare", "gumshoe compare before.h5 after.h5", "says whether two results agree, and what changed", ""},
+    {"combine", "gumshoe combine a.h5 b.h5 --same NAME --out mean.toml", "weighted mean of results that share an input", ""},
     {"choose", "gumshoe choose scenarios/choose_rod_readouts.toml --samples 1e4", "finds the fastest settings", again},
     {"trace", "gumshoe trace scenarios/trace_sphere.toml --report page.html", "finds what the model lacks", again},
     {"plan", "gumshoe plan scenarios/plan_axis.toml", "says what to measure next", again},

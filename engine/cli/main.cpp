@@ -33,6 +33,7 @@ int main(int argc, char** argv) {
   cli::add_evaluate(app, action);
   cli::add_estimate(app, action);
   cli::add_compare(app, action);
+  cli::add_combine(app, action);
   cli::add_choose(app, action);
   cli::add_trace(app, action);
   cli::add_plan(app, action);

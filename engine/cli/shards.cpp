@@ -73,4 +73,13 @@ void refuse_shard(const store::Identity& identity, const std::string& file) {
                    "join all shards with gumshoe merge");
 }
 
+store::Identity require_finished(const std::string& file) {
+  store::Stored stored = store::read_identity(file);
+  refuse_shard(stored.identity, file);
+  if (!stored.complete)
+    throw InputError(file + ": the run is not finished", "it was interrupted",
+                     "run the same command again to resume it");
+  return std::move(stored.identity);
+}
+
 } // namespace gumshoe::cli

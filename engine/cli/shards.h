@@ -28,6 +28,9 @@ void print_shard(const store::Identity& identity, const propagation::SampleRange
 /// Throws InputError where a command needs a whole run.
 void refuse_shard(const store::Identity& identity, const std::string& file);
 
+/// What made a finished result. Throws InputError if it is a shard, or was interrupted.
+store::Identity require_finished(const std::string& file);
+
 /// All shards of one run, finished and sound.
 struct ShardSet {
   store::Identity identity; ///< of any of them

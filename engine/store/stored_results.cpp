@@ -34,6 +34,7 @@ std::vector<Summary> read_summaries(hid_t file) {
   fill(group, "standard_uncertainty", rows, &Summary::standard_uncertainty);
   fill(group, "expanded_uncertainty", rows, &Summary::expanded_uncertainty);
   fill(group, "coverage_factor", rows, &Summary::coverage_factor);
+  fill(group, "degrees_of_freedom", rows, &Summary::degrees_of_freedom);
   fill(group, "certificate", rows, &Summary::certificate);
   return rows;
 }
@@ -52,6 +53,7 @@ Budget read_budget(hid_t group, const propagation::Output& output) {
   fill(group, "estimate", rows, &Contribution::estimate);
   fill(group, "standard_uncertainty", rows, &Contribution::standard_uncertainty);
   fill(group, "distribution", rows, &Contribution::distribution);
+  fill(group, "degrees_of_freedom", rows, &Contribution::degrees_of_freedom);
   fill(group, "sensitivity", rows, &Contribution::sensitivity);
   fill(group, "contribution", rows, &Contribution::contribution);
   fill(group, "source", rows, &Contribution::source);

@@ -8,8 +8,8 @@
 
 namespace gumshoe::store {
 
-/// The figures of a run: title, coverage probability and, for every measurand, estimate, u, U, k, certificate and
-/// budget; nothing else is filled in. Check the file by read_identity() first.
+/// The figures of a run: title, coverage probability and, for every measurand, estimate, u, U, k, its degrees of
+/// freedom, certificate and budget; nothing else is filled in. Check the file by read_identity() first.
 analysis::Results read_results(const std::string& path);
 
 /// What a trace says in brief.

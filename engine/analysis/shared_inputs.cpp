@@ -1,0 +1,64 @@
+#include "analysis/shared_inputs.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+
+namespace gumshoe::analysis {
+
+const Budget* budget_of(const Results& result, const std::string& output) {
+  for (const Budget& b : result.budgets)
+    if (b.output.name == output) return &b;
+  return nullptr;
+}
+
+const Contribution* find_contribution(const Budget* budget, const std::string& component) {
+  if (!budget) return nullptr;
+  const auto at = std::ranges::find(budget->contributions, component, &Contribution::name);
+  return at == budget->contributions.end() ? nullptr : &*at;
+}
+
+double signed_contribution(const Contribution& c) { return c.sensitivity * c.standard_uncertainty; }
+
+bool alike(const Contribution& a, const Contribution& b) {
+  return a.evaluation == 'B' && b.evaluation == 'B' && a.standard_uncertainty > 0 &&
+         a.standard_uncertainty == b.standard_uncertainty && a.distribution == b.distribution;
+}
+
+void require_shared(std::span<const std::string> same, std::span<const Results* const> results) {
+  std::map<std::string, std::size_t> known; // in how many results
+  for (const Results* r : results) {
+    std::set<std::string> names;
+    for (const Budget& b : r->budgets)
+      for (const Contribution& c : b.contributions) names.insert(c.quantity);
+    for (const std::string& name : names) ++known[name];
+  }
+  std::vector<std::string> shared;
+  for (const auto& [name, count] : known)
+    if (count > 1) shared.push_back(name);
+  std::vector<Problem> problems;
+  for (const std::string& name : same) {
+    if (std::ranges::find(shared, name) != shared.end()) continue;
+    const std::string near = nearest(name, shared);
+    problems.push_back({{},
+                        fmt::format("--same {}: not a quantity in the budgets of {}", name,
+                                    results.size() == 2 ? "both results" : "two of the results"),
+                        "",
+                        near.empty() ? "" : "did you mean '" + near + "'?"});
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
+}
+
+void require_one_coverage(std::span<const Results* const> results) {
+  for (const Results* r : results)
+    if (r->coverage_probability != results[0]->coverage_probability)
+      throw InputError("the results have different coverage probabilities",
+                       fmt::format("{:g} and {:g}", results[0]->coverage_probability, r->coverage_probability),
+                       "state the same coverage_probability in [analysis] of all, and use gumshoe analyse");
+}
+
+} // namespace gumshoe::analysis

@@ -1,0 +1,241 @@
+#include "analysis/weighted_mean.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include <Eigen/Dense>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "analysis/certificate.h"
+#include "analysis/combine.h"
+#include "analysis/shared_inputs.h"
+#include "base/error.h"
+
+namespace gumshoe::analysis {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+/// The results of one measurand on their way to the mean.
+class Combining {
+public:
+  Combining(const std::vector<NamedResult>& results, const std::vector<std::string>& same, const std::string& output)
+      : same_(same) {
+    for (std::size_t i = 0; i < results.size(); ++i)
+      for (const Summary& s : results[i].results.summaries)
+        if (s.output.name == output && !s.output.diagnostic) add(i, results[i], s);
+  }
+
+  WeightedMean combine(double coverage_probability) {
+    find_shared();
+    for (std::size_t i = 0; i < size(); ++i) separate(i);
+    solve();
+    expand_mean(coverage_probability);
+    compare();
+    find_alike();
+    return std::move(out_);
+  }
+
+private:
+  std::size_t size() const { return out_.parts.size(); }
+
+  void add(std::size_t i, const NamedResult& result, const Summary& s) {
+    const std::string where = result.name + ": " + s.output.name;
+    const double u = s.expanded_uncertainty / s.coverage_factor; // the one to which k and the degrees of freedom belong
+    if (!(u > 0) || !std::isfinite(u) || !std::isfinite(s.estimate))
+      throw InputError(where + " has no standard uncertainty", "its weight would not be known", "leave the result out");
+    if (out_.parts.empty()) out_.mean.output = s.output;
+    const propagation::Output& first = out_.mean.output;
+    if (s.output.si_unit != first.si_unit)
+      throw InputError(where + ": the results have different dimensions",
+                       fmt::format("{} and {}", first.unit, s.output.unit));
+    WeightedPart part;
+    part.result = i;
+    part.summary = s;
+    part.summary.output.unit = first.unit;
+    part.summary.standard_uncertainty = u;
+    out_.parts.push_back(part);
+    budgets_.push_back(budget_of(result.results, s.output.name));
+    names_.push_back(where);
+  }
+
+  /// Whether u is that of the GUM framework, with finite degrees of freedom. The samples' u has their widening in it.
+  bool by_framework(std::size_t i) const { return std::isfinite(out_.parts[i].summary.degrees_of_freedom); }
+
+  bool is_same(const Contribution& c) const { return std::ranges::find(same_, c.quantity) != same_.end(); }
+
+  /// The components of `same` that two budgets have.
+  void find_shared() {
+    std::map<std::string, std::vector<const Contribution*>> found;
+    for (std::size_t i = 0; i < size(); ++i)
+      if (budgets_[i])
+        for (const Contribution& c : budgets_[i]->contributions)
+          if (is_same(c)) found.try_emplace(c.name, size(), nullptr).first->second[i] = &c;
+    for (const auto& [name, by_part] : found) {
+      if (std::ranges::count(by_part, nullptr) > static_cast<std::ptrdiff_t>(size()) - 2) continue;
+      SharedPart shared;
+      shared.name = name;
+      shared.degrees_of_freedom = infinite;
+      for (std::size_t i = 0; i < size(); ++i) {
+        const Contribution* c = by_part[i];
+        shared.contributions.push_back(c ? signed_contribution(*c) : 0);
+        if (c && by_framework(i))
+          shared.degrees_of_freedom = std::min(shared.degrees_of_freedom, c->degrees_of_freedom);
+        if (c) shared.quantity = c->quantity;
+      }
+      out_.shared.push_back(std::move(shared));
+    }
+  }
+
+  bool shares(const std::string& component, std::size_t i) const {
+    return std::ranges::any_of(out_.shared,
+                               [&](const SharedPart& s) { return s.name == component && s.contributions[i] != 0; });
+  }
+
+  /// Divides the u of part i into what is shared and what is its own.
+  void separate(std::size_t i) {
+    WeightedPart& part = out_.parts[i];
+    part.own = part.summary.standard_uncertainty;
+    part.own_degrees_of_freedom = by_framework(i) ? part.summary.degrees_of_freedom : infinite;
+    const bool sharing = std::ranges::any_of(out_.shared, [&](const SharedPart& s) { return s.contributions[i] != 0; });
+    if (!sharing) return;
+    double all = 0, own = 0, satterthwaite = 0;
+    for (const Contribution& c : budgets_[i]->contributions) {
+      const double square = std::pow(signed_contribution(c), 2);
+      if (!std::isfinite(square))
+        throw InputError(names_[i] + ": what it shares is not known",
+                         fmt::format("its budget has no sensitivity coefficient of {}", c.name),
+                         "leave --same out, or combine other results");
+      all += square;
+      if (shares(c.name, i)) continue;
+      own += square;
+      satterthwaite += square * square / c.degrees_of_freedom;
+    }
+    const double scale = part.own / std::sqrt(all);
+    part.own = scale * std::sqrt(own);
+    part.own_degrees_of_freedom = by_framework(i) && satterthwaite > 0 ? own * own / satterthwaite : infinite;
+    for (SharedPart& s : out_.shared) s.contributions[i] *= scale;
+  }
+
+  void solve() {
+    const auto n = static_cast<Eigen::Index>(size());
+    // In units of the u's: the matrix of the correlations.
+    Eigen::MatrixXd correlation = Eigen::MatrixXd::Identity(n, n);
+    for (Eigen::Index i = 0; i < n; ++i)
+      for (Eigen::Index j = 0; j < i; ++j) {
+        double both = 0;
+        for (const SharedPart& s : out_.shared) both += s.contributions[at(i)] * s.contributions[at(j)];
+        correlation(i, j) = correlation(j, i) = both / (u(i) * u(j));
+      }
+    const Eigen::LLT<Eigen::MatrixXd> factor(correlation);
+    if (factor.info() != Eigen::Success || !(factor.rcond() > 1e-12)) // the weights would be rounding
+      throw InputError(out_.mean.output.name + ": the results cannot be combined",
+                       "two of them differ by nothing but what they share", "leave one of them out");
+    Eigen::VectorXd ones(n), y(n);
+    const double origin = out_.parts[0].summary.estimate; // keeps the digits of what differs
+    for (Eigen::Index i = 0; i < n; ++i) {
+      ones[i] = 1 / u(i);
+      y[i] = (out_.parts[at(i)].summary.estimate - origin) / u(i);
+    }
+    const Eigen::VectorXd solved = factor.solve(ones);
+    const double information = ones.dot(solved), shift = solved.dot(y) / information;
+    out_.mean.estimate = origin + shift;
+    out_.mean.standard_uncertainty = 1 / std::sqrt(information);
+    for (Eigen::Index i = 0; i < n; ++i) out_.parts[at(i)].weight = solved[i] / (u(i) * information);
+    const Eigen::VectorXd residuals = y - shift * ones;
+    out_.chi_squared = std::max(0.0, residuals.dot(factor.solve(residuals)));
+    out_.probability =
+        cdf(complement(boost::math::chi_squared(static_cast<double>(n - 1)), std::min(out_.chi_squared, 1e300)));
+  }
+
+  static std::size_t at(Eigen::Index i) { return static_cast<std::size_t>(i); }
+  double u(Eigen::Index i) const { return out_.parts[at(i)].summary.standard_uncertainty; }
+
+  void expand_mean(double coverage_probability) {
+    double satterthwaite = 0;
+    for (const WeightedPart& p : out_.parts) satterthwaite += std::pow(p.weight * p.own, 4) / p.own_degrees_of_freedom;
+    for (const SharedPart& s : out_.shared) {
+      double sum = 0;
+      for (std::size_t i = 0; i < size(); ++i) sum += out_.parts[i].weight * s.contributions[i];
+      satterthwaite += std::pow(sum, 4) / s.degrees_of_freedom;
+    }
+    CombinedVariance variance;
+    variance.independent = std::pow(out_.mean.standard_uncertainty, 2);
+    if (satterthwaite > 0)
+      variance.effective_degrees_of_freedom = variance.independent * variance.independent / satterthwaite;
+    const Expansion x = expand(variance, coverage_probability);
+    out_.mean.coverage_factor = x.coverage_factor;
+    out_.mean.expanded_uncertainty = x.expanded_uncertainty;
+    out_.mean.degrees_of_freedom = x.effective_degrees_of_freedom;
+    out_.mean.certificate = certificate_line(out_.mean, coverage_probability);
+  }
+
+  /// Each result with the mean: cov(y_i, mean) = u(mean)^2.
+  void compare() {
+    for (WeightedPart& p : out_.parts) {
+      p.difference = p.summary.estimate - out_.mean.estimate;
+      const double square = std::pow(p.summary.standard_uncertainty, 2) - std::pow(out_.mean.standard_uncertainty, 2);
+      p.normalised_error = square > 0 ? p.difference / (out_.mean.coverage_factor * std::sqrt(square))
+                                      : std::numeric_limits<double>::quiet_NaN();
+    }
+  }
+
+  void find_alike() {
+    std::map<std::string, double> effect; // on u^2 of the mean, by quantity
+    for (std::size_t i = 0; i < size(); ++i)
+      for (const Contribution& a : budgets_[i] ? budgets_[i]->contributions : std::vector<Contribution>{})
+        for (std::size_t j = 0; j < i; ++j) {
+          const Contribution* b = find_contribution(budgets_[j], a.name);
+          if (!b || is_same(a) || !alike(a, *b)) continue;
+          const double both = signed_contribution(a) * signed_contribution(*b);
+          if (std::isfinite(both)) effect[a.quantity] += 2 * out_.parts[i].weight * out_.parts[j].weight * both;
+        }
+    for (const auto& [name, change] : effect)
+      if (std::fabs(change) > 0.01 * std::pow(out_.mean.standard_uncertainty, 2)) out_.alike.push_back(name);
+  }
+
+  const std::vector<std::string>& same_;
+  std::vector<const Budget*> budgets_; ///< by part; null: none
+  std::vector<std::string> names_;     ///< by part: "a.h5: laser_z"
+  WeightedMean out_;
+};
+
+/// Names of the outputs, each with the files that have it, in the order of the files.
+std::vector<std::pair<std::string, std::vector<std::string>>> outputs_of(const std::vector<NamedResult>& results) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> out;
+  for (const NamedResult& r : results)
+    for (const Summary& s : r.results.summaries) {
+      if (s.output.diagnostic) continue;
+      auto known = std::ranges::find(out, s.output.name, [](const auto& o) { return o.first; });
+      if (known == out.end()) known = out.insert(out.end(), {s.output.name, {}});
+      known->second.push_back(r.name);
+    }
+  return out;
+}
+
+} // namespace
+
+WeightedMeans weighted_means(const std::vector<NamedResult>& results, const std::vector<std::string>& same) {
+  if (results.size() < 2) throw InputError("a single result cannot be combined", "", "name two or more result files");
+  std::vector<const Results*> all;
+  for (const NamedResult& r : results) all.push_back(&r.results);
+  require_one_coverage(all);
+  require_shared(same, all);
+  WeightedMeans out;
+  for (const auto& [output, files] : outputs_of(results)) {
+    if (files.size() < 2)
+      out.single.push_back(fmt::format("{} ({})", output, files[0]));
+    else
+      out.rows.push_back(Combining(results, same, output).combine(all[0]->coverage_probability));
+  }
+  if (out.rows.empty())
+    throw InputError("the results have no measurand in common", fmt::format("{}", fmt::join(out.single, ", ")),
+                     "labels are part of a name. Use the same labels in all scenarios");
+  return out;
+}
+
+} // namespace gumshoe::analysis

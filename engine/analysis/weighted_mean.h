@@ -1,0 +1,73 @@
+#pragma once
+/// Several results of the same measurands, combined by least squares: the weighted mean and whether the results are
+/// consistent with it.
+#include <string>
+#include <vector>
+
+#include "analysis/results.h"
+
+namespace gumshoe::analysis {
+
+/// Results whose chi-squared would be exceeded with a smaller probability than this are inconsistent (Cox 2002,
+/// procedure A).
+inline constexpr double least_consistent_probability = 0.05;
+
+/// A result that is to be combined.
+struct NamedResult {
+  std::string name; ///< its file
+  Results results;  ///< what store::read_results() gives
+};
+
+/// What one result is in the mean of a measurand.
+struct WeightedPart {
+  std::size_t result = 0; ///< position among the results given
+  Summary summary;        ///< in that result: estimate, u = U / k, degrees of freedom; unit of the mean
+  double own = 0;         ///< standard uncertainty without what is shared
+  double own_degrees_of_freedom = 0;
+  double weight = 0;           ///< negative where a strong correlation makes it so; they add up to 1
+  double difference = 0;       ///< from the mean
+  double normalised_error = 0; ///< E_n = d / U(d); NaN where U(d) is 0
+};
+
+/// A component that has one unknown error in several results.
+struct SharedPart {
+  std::string name, quantity; ///< "rod_length[rod 1]" and "rod_length"
+  double degrees_of_freedom = 0;
+  std::vector<double> contributions; ///< by part, c_i u_i with its sign; 0 where it is not in that budget
+};
+
+struct WeightedMean {
+  Summary mean; ///< estimate, u, U, k, degrees of freedom and certificate
+  std::vector<WeightedPart> parts;
+  std::vector<SharedPart> shared;
+  double chi_squared = 0, probability = 0; ///< with parts.size() - 1 degrees of freedom; probability of more
+  /// Quantities that two budgets list alike, taken as independent although counting them would change u^2 of the mean
+  /// by more than 1 %.
+  std::vector<std::string> alike;
+  bool consistent() const { return probability >= least_consistent_probability; }
+};
+
+struct WeightedMeans {
+  std::vector<WeightedMean> rows;  ///< of the measurands that two or more results have, by name
+  std::vector<std::string> single; ///< "z (a.h5)": of one result alone
+};
+
+/// Combines the measurands of the same name.
+///
+/// The results are taken as independent, except for the components of the quantities `same`, which have one unknown
+/// error in all of them. With s_ki the contribution c u of such a component k to result i, and v_i what else there is,
+///     V = diag(v_i^2) + sum_k s_k s_k',   V_ii = u_i^2,
+/// the mean is sum w_i y_i with w = V^-1 1 / (1'V^-1 1), and u^2 = 1 / (1'V^-1 1) (JCGM 102, 7; Cox 2002, Metrologia
+/// 39, 589, extended to correlated results). U is that of the t distribution with the effective degrees of freedom of
+/// v_i and s_k (JCGM 100, G.4.1). chi^2 = (y - mean)'V^-1 (y - mean); u(y_i - mean)^2 = u_i^2 - u^2.
+///
+/// The u_i of a result is U / k of its certificate: that of the framework with its degrees of freedom where Monte Carlo
+/// validates it, else that of the samples, which has them in it already. A budget is the first order: its contributions
+/// are scaled to add up to u_i. Correlations between different quantities of a result are so spread over all of them.
+///
+/// Throws InputError: fewer than two results, no common measurand, different coverage probabilities or dimensions, a
+/// quantity of `same` that no two budgets have or without a coefficient, a result without u, results that differ by
+/// nothing but what they share.
+WeightedMeans weighted_means(const std::vector<NamedResult>& results, const std::vector<std::string>& same);
+
+} // namespace gumshoe::analysis

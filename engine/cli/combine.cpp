@@ -1,0 +1,182 @@
+/// `gumshoe combine`: the weighted mean of results that may share inputs, and whether they are consistent.
+#include <algorithm>
+#include <iostream>
+#include <map>
+#include <memory>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "analysis/fields_json.h"
+#include "analysis/rounding.h"
+#include "analysis/weighted_mean.h"
+#include "base/units.h"
+#include "calibration/combined_scenario.h"
+#include "cli/command.h"
+#include "cli/shards.h"
+#include "store/result_file.h"
+#include "store/stored_results.h"
+
+namespace gumshoe::cli {
+
+namespace {
+using namespace analysis;
+
+struct Options {
+  std::vector<std::string> files, same;
+  std::string measurand, out, format = "text";
+  bool force = false;
+};
+
+/// A file that is one of the others again, or a copy, would be counted twice.
+std::vector<NamedResult> read_all(const std::vector<std::string>& files) {
+  std::vector<NamedResult> out;
+  std::map<std::string, std::string> scenarios; // hash to file
+  for (const std::string& file : files) {
+    const store::Identity identity = require_finished(file);
+    if (identity.command == "choose" || identity.command == "trace")
+      throw InputError(file + ": holds no result to combine", fmt::format("gumshoe {} wrote it", identity.command),
+                       "name results of gumshoe run");
+    const auto [first, fresh] = scenarios.try_emplace(identity.scenario_hash, file);
+    if (!fresh)
+      throw InputError(fmt::format("{} and {} are one measurement", first->second, file),
+                       "their scenarios and readings are equal, and the mean would count them twice",
+                       "name each measurement once");
+    out.push_back({file, store::read_results(file)});
+  }
+  return out;
+}
+
+std::string verdict(const WeightedMean& m) {
+  if (m.consistent()) return "the results are consistent";
+  const auto far =
+      std::ranges::max_element(m.parts, {}, [](const WeightedPart& p) { return std::fabs(p.normalised_error); });
+  return fmt::format(
+      "the results are not consistent, and U of the mean is too small: a result, most likely number {}, has "
+      "an error that its budget lacks",
+      far - m.parts.begin() + 1);
+}
+
+void print(const WeightedMean& m, const std::vector<NamedResult>& results) {
+  const auto& o = m.mean.output;
+  const auto with_unit = [&](double x) { return with_suitable_unit(x, o.unit, o.si_unit); };
+  std::cout << fmt::format("{}\n  u = {}; weighted mean of {} results\n", m.mean.certificate,
+                           with_unit(m.mean.standard_uncertainty), m.parts.size());
+  const int digits =
+      decimals_for(units::from_si(m.mean.expanded_uncertainty, o.unit, o.si_unit, units::Kind::difference));
+  for (std::size_t i = 0; i < m.parts.size(); ++i) {
+    const WeightedPart& p = m.parts[i];
+    std::cout << fmt::format("  {}. {}: {}{}, u = {}, weight {:.2f}, E_n = {:.2f}\n", i + 1, results[p.result].name,
+                             fixed(units::from_si(p.summary.estimate, o.unit, o.si_unit), digits),
+                             o.unit == "1" ? "" : " " + o.unit, with_unit(p.summary.standard_uncertainty), p.weight,
+                             p.normalised_error);
+  }
+  std::cout << fmt::format("  chi^2 = {:.2f} ({} degree{} of freedom, p = {}): {}\n", m.chi_squared, m.parts.size() - 1,
+                           m.parts.size() == 2 ? "" : "s", probability_text(m.probability, 1e-6), verdict(m));
+  std::vector<std::string> shared;
+  for (const SharedPart& s : m.shared) shared.push_back(s.name);
+  if (!shared.empty()) std::cout << fmt::format("  one error in several results: {}\n", fmt::join(shared, ", "));
+}
+
+void print(const WeightedMeans& all, const std::vector<NamedResult>& results) {
+  std::vector<std::string> alike;
+  for (const WeightedMean& m : all.rows) {
+    print(m, results);
+    for (const std::string& name : m.alike)
+      if (std::ranges::find(alike, name) == alike.end()) alike.push_back(name);
+  }
+  if (!all.single.empty()) std::cout << fmt::format("in one result only: {}\n", fmt::join(all.single, ", "));
+  if (!alike.empty())
+    std::cout << fmt::format(
+        "treated as independent, although the budgets list alike: {}. Where one error is in several "
+        "results (the same certificate, the same reference), add --same NAME\n",
+        fmt::join(alike, ", "));
+}
+
+Json to_json(const WeightedMean& m, const std::vector<NamedResult>& results) {
+  const auto& o = m.mean.output;
+  const auto point = [&](double x) { return number(units::from_si(x, o.unit, o.si_unit)); };
+  const auto width = [&](double x) { return number(units::from_si(x, o.unit, o.si_unit, units::Kind::difference)); };
+  Json out{{"output", o.name},
+           {"unit", o.unit},
+           {"estimate", point(m.mean.estimate)},
+           {"standard_uncertainty", width(m.mean.standard_uncertainty)},
+           {"expanded_uncertainty", width(m.mean.expanded_uncertainty)},
+           {"coverage_factor", number(m.mean.coverage_factor)},
+           {"degrees_of_freedom", number(m.mean.degrees_of_freedom)},
+           {"certificate", m.mean.certificate},
+           {"chi_squared", number(m.chi_squared)},
+           {"chi_squared_degrees_of_freedom", m.parts.size() - 1},
+           {"probability", number(m.probability)},
+           {"consistent", m.consistent()},
+           {"results", Json::array()},
+           {"shared", Json::array()},
+           {"alike", m.alike}};
+  for (const WeightedPart& p : m.parts)
+    out["results"].push_back({{"file", results[p.result].name},
+                              {"estimate", point(p.summary.estimate)},
+                              {"standard_uncertainty", width(p.summary.standard_uncertainty)},
+                              {"own_uncertainty", width(p.own)},
+                              {"weight", number(p.weight)},
+                              {"difference", width(p.difference)},
+                              {"normalised_error", number(p.normalised_error)}});
+  for (const SharedPart& s : m.shared) {
+    out["shared"].push_back({{"component", s.name}, {"contributions", Json::array()}});
+    for (const double c : s.contributions) out["shared"].back()["contributions"].push_back(width(c));
+  }
+  return out;
+}
+
+/// Leaves the measurand that is asked for.
+void select(WeightedMeans& all, const Options& o) {
+  if (!o.measurand.empty()) {
+    std::vector<std::string> names;
+    for (const WeightedMean& m : all.rows) names.push_back(m.mean.output.name);
+    std::erase_if(all.rows, [&](const WeightedMean& m) { return m.mean.output.name != o.measurand; });
+    const std::string near = nearest(o.measurand, names);
+    if (all.rows.empty())
+      throw InputError(fmt::format("--measurand {}: no two results have it", o.measurand),
+                       fmt::format("they have {}", fmt::join(names, ", ")),
+                       near.empty() ? "" : "did you mean '" + near + "'?");
+  }
+  if (!o.out.empty() && all.rows.size() > 1)
+    throw InputError("--out: a scenario has the mean of one measurand",
+                     fmt::format("the results have {} in common", all.rows.size()), "name one by --measurand");
+}
+
+ExitCode combine(const Options& o) {
+  for (const std::string& file : o.files)
+    if (!o.out.empty()) require_different(o.out, file);
+  const std::vector<NamedResult> results = read_all(o.files);
+  WeightedMeans all = weighted_means(results, o.same);
+  select(all, o);
+  if (!o.out.empty()) write_table(o.out, calibration::combined_scenario(all.rows[0], results), o.force);
+  if (o.format == "text") {
+    print(all, results);
+    if (!o.out.empty()) std::cout << fmt::format("{}: the mean as a scenario. Next: gumshoe run {}\n", o.out, o.out);
+    return ExitCode::done;
+  }
+  Json out{
+      {"means", Json::array()}, {"single", all.single}, {"scenario_out", o.out.empty() ? Json(nullptr) : Json(o.out)}};
+  for (const WeightedMean& m : all.rows) out["means"].push_back(to_json(m, results));
+  std::cout << out.dump(2) << '\n';
+  return ExitCode::done;
+}
+
+} // namespace
+
+void add_combine(CLI::App& app, Action& action) {
+  auto* command =
+      app.add_subcommand("combine", "weighted mean of two or more results, and whether they are consistent");
+  const auto o = std::make_shared<Options>();
+  command->add_option("results", o->files, "result files (HDF5) of the same measurands")->required();
+  command->add_option("--same", o->same, "quantities that have one error in several results, such as a certificate's")
+      ->delimiter(',');
+  command->add_option("--measurand", o->measurand, "the one to combine, with its labels (default: all in common)");
+  command->add_option("--out", o->out, "scenario to write with the mean: gumshoe run then gives its result and budget");
+  command->add_option("--format", o->format, "text or json (all digits)")->check(CLI::IsMember({"text", "json"}));
+  add_force(*command, o->force);
+  command->callback([=, &action] { action = [=] { return combine(*o); }; });
+}
+
+} // namespace gumshoe::cli

@@ -1,0 +1,209 @@
+"""`gumshoe combine`: weighted mean, shared inputs and consistency against closed forms; the mean as a scenario.
+
+usage: combine_test.py path/to/gumshoe [unittest options]
+"""
+import json
+import math
+import shutil
+import unittest
+
+import h5py
+
+from program import ROOT, InOneFolder, complaint, gumshoe
+
+SAMPLES = 100_000
+K = 1.959963984540054  # of 95 % and a normal distribution: the model is linear, its inputs are normal
+
+SCENARIO = """schema = 1
+[model]
+name = "expression"
+[model.measurands]
+y = "{formula}"
+[quantities.reading]
+value = "{reading} mm"
+u = "{u_reading} um"
+{reading_more}
+[quantities.reference]
+value = "100 mm"
+u = "4 um"
+source = "certificate 12"
+[run]
+samples = {samples}
+seed = 1
+[analysis]
+coverage_probability = {p}
+validation_digits = 1
+"""
+
+
+class Combine(InOneFolder):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.a = cls.result("a")
+        cls.b = cls.result("b", reading=110.006, u_reading=1)
+
+    @classmethod
+    def result(cls, name, formula="reading - reference", reading=110.000, u_reading=3, p=0.95, more="", change=str):
+        scenario = cls.folder / f"{name}.toml"
+        scenario.write_text(change(SCENARIO.format(formula=formula, reading=reading, u_reading=u_reading, p=p,
+                                                   samples=SAMPLES, reading_more=more)))
+        out = cls.folder / f"{name}.h5"
+        run = gumshoe("run", scenario, "--out", out)
+        assert run.returncode == 0, run.stderr
+        return out
+
+    def combined(self, *words):
+        run = gumshoe("combine", *words, "--format", "json")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        return json.loads(run.stdout)
+
+    def mean(self, *words):
+        return self.combined(*words)["means"][0]
+
+    def refused(self, words, *given):
+        run = gumshoe("combine", *given)
+        self.assertIsNone(complaint(run))
+        self.assertIn(words, run.stderr)
+
+    # The u of a result is that of its samples, with the relative standard error 1 / sqrt(2 n); 5 of them.
+    RELATIVE = 5 / math.sqrt(2 * SAMPLES)
+
+    def test_independent_results_are_weighted_by_their_variances(self):
+        row = self.mean(self.a, self.b)
+        va, vb = 3**2 + 4**2, 1 + 4**2
+        u = math.sqrt(1 / (1 / va + 1 / vb)) / 1000
+        self.assertEqual((row["output"], row["unit"]), ("y", "mm"))
+        self.assertAlmostEqual(row["standard_uncertainty"], u, delta=2 * self.RELATIVE * u)
+        self.assertAlmostEqual(row["expanded_uncertainty"], K * u, delta=2 * self.RELATIVE * K * u)
+        weights = [r["weight"] for r in row["results"]]
+        self.assertAlmostEqual(weights[0], vb / (va + vb), delta=4 * self.RELATIVE)
+        self.assertAlmostEqual(sum(weights), 1, delta=1e-12)
+        self.assertAlmostEqual(row["estimate"], 10 + 0.006 * weights[1], delta=5 * 0.005 / math.sqrt(SAMPLES))
+        # Of two results chi^2 = d^2 / (va + vb), and both have its root over k for E_n.
+        chi = 6 / math.sqrt(va + vb)
+        self.assertAlmostEqual(row["chi_squared"], chi**2, delta=0.03)
+        self.assertAlmostEqual(row["probability"], math.erfc(chi / math.sqrt(2)), delta=0.01)
+        for r, sign in zip(row["results"], (-1, 1)):
+            self.assertAlmostEqual(r["normalised_error"], sign * chi / K, delta=0.01)
+        self.assertTrue(row["consistent"])
+        self.assertEqual((row["alike"], row["shared"]), (["reference"], []))
+
+    def test_a_shared_input_stays_in_the_mean_and_cancels_in_the_difference(self):
+        # V = diag(9, 1) + 16: the weights are those of 9 and 1, u^2 = 16 + 1 / (1/9 + 1), and the difference has 9 + 1.
+        row = self.mean(self.a, self.b, "--same", "reference")
+        u = math.sqrt(16 + 0.9) / 1000
+        self.assertAlmostEqual(row["standard_uncertainty"], u, delta=2 * self.RELATIVE * u)
+        # A relative error e of u_i, times 25 or 17 um^2, stands next to the 10 um^2 of the difference in the weights.
+        self.assertAlmostEqual(row["results"][0]["weight"], 0.1, delta=self.RELATIVE * (25 + 17) / 10)
+        self.assertAlmostEqual(row["chi_squared"], 36 / 10, delta=2 * self.RELATIVE * 36 / 10 + 0.1)
+        self.assertEqual(row["shared"][0]["component"], "reference")
+        for shown in row["shared"][0]["contributions"]:
+            self.assertAlmostEqual(shown, -0.004, delta=0.004 * self.RELATIVE)
+        self.assertEqual(row["alike"], [])
+        # With opposite signs the error of the reference cancels in the mean: V = [25, -16; -16, 17].
+        other = self.result("opposite", formula="reading + reference - 2 * datum", reading=110.006, u_reading=1,
+                            change=lambda t: t.replace("[run]", '[quantities.datum]\nvalue = "100 mm"\n[run]'))
+        row = self.mean(self.a, other, "--same", "reference")
+        u = math.sqrt((25 * 17 - 16**2) / (25 + 17 + 32)) / 1000
+        self.assertAlmostEqual(row["standard_uncertainty"], u, delta=3 * self.RELATIVE * u)
+
+    def test_equal_seeds_do_not_couple_results(self):
+        # Both draw 'reading' from the same stream, but their scatter is not the same error.
+        row = self.mean(self.a, self.result("c", reading=110.001))
+        self.assertAlmostEqual(row["standard_uncertainty"], 0.005 / math.sqrt(2), delta=2 * self.RELATIVE * 0.005)
+
+    def test_three_results_share_in_pairs(self):
+        # The third has another reference: V = diag(9, 1, 4 + 16) with 16 between the first two.
+        third = self.result("third", formula="reading - standard", u_reading=2,
+                            change=lambda t: t.replace("quantities.reference", "quantities.standard"))
+        row = self.mean(self.a, self.b, third, "--same", "reference")
+        first = 16 + 0.9
+        u = math.sqrt(1 / (1 / first + 1 / 20)) / 1000
+        self.assertAlmostEqual(row["standard_uncertainty"], u, delta=2 * self.RELATIVE * u)
+        self.assertEqual(row["chi_squared_degrees_of_freedom"], 2)
+        self.assertEqual(row["shared"][0]["contributions"][2], 0)
+
+    def test_effective_degrees_of_freedom(self):
+        # Two results with 5 degrees of freedom and equal u: (u^2 / 2)^2 / (2 (u / 2)^4 / 5) = 10 (JCGM 100, G.4.1). The
+        # samples have u sqrt(5 / 3), of which the t quantile would count the degrees of freedom twice.
+        plain = lambda t: t.replace('u = "4 um"\n', "")
+        row = self.mean(*[self.result(f"few{k}", reading=110 + k / 1000, more="degrees_of_freedom = 5", change=plain)
+                          for k in range(2)])
+        self.assertEqual(row["degrees_of_freedom"], 10)
+        self.assertAlmostEqual(row["expanded_uncertainty"], 2.2281388520 * 0.003 / math.sqrt(2), delta=1e-9)
+
+    def test_inconsistent_results_are_said(self):
+        far = self.result("far", reading=110.030, u_reading=1)
+        said = gumshoe("combine", self.a, far)
+        self.assertEqual(said.returncode, 0)
+        self.assertIn("the results are not consistent", said.stdout)
+        self.assertFalse(self.mean(self.a, far)["consistent"])
+        self.assertTrue(self.mean(self.a, self.b)["consistent"])
+
+    def test_text(self):
+        said = gumshoe("combine", self.a, self.b).stdout
+        self.assertRegex(said, r"^y = \(10\.00\d+ \+- 0\.00\d+\) mm, k = 1\.96, 95 %\n  u = 3\.2 um; weighted mean of 2 results\n")
+        self.assertIn("the budgets list alike: reference. Where one error is in several", said)
+        self.assertIn("chi^2 = 0.8", said)
+        self.assertIn("one error in several results: reference", gumshoe("combine", self.a, self.b, "--same", "reference").stdout)
+
+    def test_the_mean_as_a_scenario_runs_to_the_same_result(self):
+        out = self.folder / "mean.toml"
+        row = self.mean(self.a, self.b, "--same", "reference", "--out", out)
+        results = []
+        for threads in (1, 2):
+            h5 = self.folder / f"mean{threads}.h5"
+            run = gumshoe("run", out, "--samples", SAMPLES, "--threads", threads, "--format", "json", "--out", h5)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            one = json.loads(run.stdout)[0]
+            with h5py.File(h5) as file:
+                results.append(file["outputs/y"][:].tobytes())
+        self.assertEqual(*results)
+        self.assertAlmostEqual(one["estimate"], row["estimate"], delta=5 * 0.0042 / math.sqrt(SAMPLES))
+        self.assertAlmostEqual(one["expanded_uncertainty"], row["expanded_uncertainty"],  # U of the samples
+                               delta=2 * self.RELATIVE * row["expanded_uncertainty"])
+        # Nothing else is replaced unasked.
+        out.write_text("# mine\n")
+        self.refused("not overwritten", self.a, self.b, "--out", out)
+
+    def test_labels_and_several_measurands(self):
+        two = [self.result(f"two{k}", reading=110 + k / 1000,
+                           change=lambda t: t.replace('y = "', 'z = "reference"\ny = "')) for k in range(2)]
+        self.assertEqual([m["output"] for m in self.combined(*two)["means"]], ["z", "y"])
+        self.assertEqual([m["output"] for m in self.combined(*two, "--measurand", "y")["means"]], ["y"])
+        self.assertEqual(self.combined(two[0], self.b)["single"], [f"z ({two[0]})"])
+        self.refused("--out: a scenario has the mean of one measurand", *two, "--out", self.folder / "two.toml")
+        self.refused("--measurand x: no two results have it", *two, "--measurand", "x")
+        # The certificate's own length is all of z: two of them are one.
+        self.refused("z: the results cannot be combined", *two, "--same", "reference")
+
+    def test_refusals(self):
+        self.refused("a single result cannot be combined", self.a)
+        copy = self.folder / "copy.h5"
+        shutil.copy(self.a, copy)
+        self.refused("are one measurement", self.a, self.b, copy)
+        self.refused("not a quantity in the budgets of both results", self.a, self.b, "--same", "refrence")
+        self.refused("Did you mean 'reference'?", self.a, self.b, "--same", "refrence")
+        self.refused("different coverage probabilities", self.a, self.result("p99", p=0.99))
+        self.refused("y: the results have different dimensions", self.a, self.result("ratio", formula="reading / reference"))
+        self.refused("y has no standard uncertainty", self.a,
+                     self.result("exact", change=lambda t: t.replace('u = "3 um"\n', "").replace('u = "4 um"\n', "")))
+        other = self.result("other", change=lambda t: t.replace('y = "', 'other = "'))
+        self.refused("no measurand in common", self.a, other)
+        self.refused("missing.h5", self.a, self.folder / "missing.h5")
+        self.refused("a.toml", self.folder / "a.toml", self.b)  # not a result
+        self.refused("this is the file that is read", self.a, self.b, "--out", self.a)
+        # A coefficient that does not exist at the estimate.
+        kink = self.result("kink", formula="reading - reference + abs(reference - datum)", u_reading=1,
+                           change=lambda t: t.replace("[run]", '[quantities.datum]\nvalue = "100 mm"\n[run]'))
+        self.refused("y: what it shares is not known", self.a, kink, "--same", "reference")
+        cell = self.folder / "cell.h5"
+        shutil.copytree(ROOT / "scenarios", self.folder / "scenarios")
+        run = gumshoe("trace", "scenarios/trace_load_cell.toml", "--draws", 19, "--out", cell, cwd=self.folder, seconds=300)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.refused("holds no result to combine", self.a, cell)
+
+
+if __name__ == "__main__":
+    unittest.main()
