@@ -65,12 +65,13 @@ TEST_CASE("tabs and blanks separate cells", "[csv]") {
   REQUIRE(tabs.header.size() == 3);
   CHECK(tabs.header[1].text == "b c");
   CHECK(tabs.rows[0][1].text.empty());
-  const auto blanks = parse_csv("  a   b\tc  \n1 2    3\n\n -4   5 6 \r\n", "t.csv", ' ');
+  const auto blanks = parse_csv("  a   b\tc  \n1 2    3\n\n -4   5 6 \r\n", "t.csv", {.separator = ' '});
   REQUIRE(blanks.header.size() == 3);
   REQUIRE(blanks.rows.size() == 2);
   CHECK(blanks.number(blanks.rows[1][0]) == -4);
   CHECK(blanks.rows[1][2].text == "6");
-  CHECK(parse_csv("a;b,c\n1,5;2\n", "t.csv", ';').number(parse_csv("a;b,c\n1,5;2\n", "t.csv", ';').rows[0][0], ',') == 1.5);
+  const auto decimal = parse_csv("a;b,c\n1,5;2\n", "t.csv", {.separator = ';'});
+  CHECK(decimal.number(decimal.rows[0][0], ',') == 1.5);
   CHECK(parse_csv("a;b\n1;2\n;\n\t\n", "t.csv").rows.size() == 1); // a row without any text
 }
 
