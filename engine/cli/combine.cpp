@@ -171,7 +171,8 @@ void add_combine(CLI::App& app, Action& action) {
   const auto o = std::make_shared<Options>();
   command->add_option("results", o->files, "result files (HDF5) of the same measurands")->required();
   command->add_option("--same", o->same, "quantities that have one error in several results, such as a certificate's")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->allow_extra_args(false); // what follows is a file
   command->add_option("--measurand", o->measurand, "the one to combine, with its labels (default: all in common)");
   command->add_option("--out", o->out, "scenario to write with the mean: gumshoe run then gives its result and budget");
   command->add_option("--format", o->format, "text or json (all digits)")->check(CLI::IsMember({"text", "json"}));

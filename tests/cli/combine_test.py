@@ -9,49 +9,20 @@ import unittest
 
 import h5py
 
-from program import ROOT, InOneFolder, complaint, gumshoe
+from lengths import K, Lengths
+from program import ROOT, gumshoe
 
 SAMPLES = 100_000
-K = 1.959963984540054  # of 95 % and a normal distribution: the model is linear, its inputs are normal
-
-SCENARIO = """schema = 1
-[model]
-name = "expression"
-[model.measurands]
-y = "{formula}"
-[quantities.reading]
-value = "{reading} mm"
-u = "{u_reading} um"
-{reading_more}
-[quantities.reference]
-value = "100 mm"
-u = "4 um"
-source = "certificate 12"
-[run]
-samples = {samples}
-seed = 1
-[analysis]
-coverage_probability = {p}
-validation_digits = 1
-"""
 
 
-class Combine(InOneFolder):
+class Combine(Lengths):
+    COMMAND, SAMPLES = "combine", SAMPLES
+
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        cls.a = cls.result("a")
+        cls.a = cls.result("a", reading=110)
         cls.b = cls.result("b", reading=110.006, u_reading=1)
-
-    @classmethod
-    def result(cls, name, formula="reading - reference", reading=110.000, u_reading=3, p=0.95, more="", change=str):
-        scenario = cls.folder / f"{name}.toml"
-        scenario.write_text(change(SCENARIO.format(formula=formula, reading=reading, u_reading=u_reading, p=p,
-                                                   samples=SAMPLES, reading_more=more)))
-        out = cls.folder / f"{name}.h5"
-        run = gumshoe("run", scenario, "--out", out)
-        assert run.returncode == 0, run.stderr
-        return out
 
     def combined(self, *words):
         run = gumshoe("combine", *words, "--format", "json")
@@ -60,11 +31,6 @@ class Combine(InOneFolder):
 
     def mean(self, *words):
         return self.combined(*words)["means"][0]
-
-    def refused(self, words, *given):
-        run = gumshoe("combine", *given)
-        self.assertIsNone(complaint(run))
-        self.assertIn(words, run.stderr)
 
     # The u of a result is that of its samples, with the relative standard error 1 / sqrt(2 n); 5 of them.
     RELATIVE = 5 / math.sqrt(2 * SAMPLES)
@@ -115,7 +81,7 @@ class Combine(InOneFolder):
 
     def test_three_results_share_in_pairs(self):
         # The third has another reference: V = diag(9, 1, 4 + 16) with 16 between the first two.
-        third = self.result("third", formula="reading - standard", u_reading=2,
+        third = self.result("third", formula="reading - standard", reading=110, u_reading=2,
                             change=lambda t: t.replace("quantities.reference", "quantities.standard"))
         row = self.mean(self.a, self.b, third, "--same", "reference")
         first = 16 + 0.9
@@ -127,8 +93,8 @@ class Combine(InOneFolder):
     def test_effective_degrees_of_freedom(self):
         # Two results with 5 degrees of freedom and equal u: (u^2 / 2)^2 / (2 (u / 2)^4 / 5) = 10 (JCGM 100, G.4.1). The
         # samples have u sqrt(5 / 3), of which the t quantile would count the degrees of freedom twice.
-        plain = lambda t: t.replace('u = "4 um"\n', "")
-        row = self.mean(*[self.result(f"few{k}", reading=110 + k / 1000, more="degrees_of_freedom = 5", change=plain)
+        plain = lambda t: t.replace('u = "4 um"\n', "").replace('u = "3 um"\n', 'u = "3 um"\ndegrees_of_freedom = 5\n')
+        row = self.mean(*[self.result(f"few{k}", reading=110 + k / 1000, change=plain)
                           for k in range(2)])
         self.assertEqual(row["degrees_of_freedom"], 10)
         self.assertAlmostEqual(row["expanded_uncertainty"], 2.2281388520 * 0.003 / math.sqrt(2), delta=1e-9)
@@ -140,6 +106,11 @@ class Combine(InOneFolder):
         self.assertIn("the results are not consistent", said.stdout)
         self.assertFalse(self.mean(self.a, far)["consistent"])
         self.assertTrue(self.mean(self.a, self.b)["consistent"])
+
+    def test_order_changes_nothing(self):
+        there, back = self.mean("--same", "reference", self.a, self.b), self.mean("--same=reference", self.b, self.a)
+        for key in ("estimate", "standard_uncertainty", "chi_squared", "probability"):
+            self.assertAlmostEqual(there[key], back[key], delta=1e-12 * abs(there[key]))
 
     def test_text(self):
         said = gumshoe("combine", self.a, self.b).stdout

@@ -9,57 +9,25 @@ import unittest
 
 import h5py
 
-from program import ROOT, InOneFolder, complaint, gumshoe
+from lengths import K, Lengths
+from program import ROOT, gumshoe
 
 SAMPLES = 200_000
-K = 1.959963984540054  # of 95 % and a normal distribution: the model is linear, its inputs are normal
-
-SCENARIO = """schema = 1
-[model]
-name = "expression"
-[model.measurands]
-y = "{formula}"
-[quantities.reading]
-value = "{reading} mm"
-u = "{u_reading} um"
-[quantities.reference]
-value = "100 mm"
-u = "4 um"
-source = "certificate 12"
-[run]
-samples = 200_000
-seed = {seed}
-[analysis]
-coverage_probability = {p}
-validation_digits = 1
-"""
 
 
-class Compare(InOneFolder):
+class Compare(Lengths):
+    COMMAND, SAMPLES = "compare", SAMPLES
+
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
         cls.before = cls.result("before")
         cls.after = cls.result("after", reading=10.012, u_reading=1, seed=2)
 
-    @classmethod
-    def result(cls, name, formula="reading - reference", reading=10.000, u_reading=3, seed=1, p=0.95, text=None):
-        scenario = cls.folder / f"{name}.toml"
-        scenario.write_text(text or SCENARIO.format(formula=formula, reading=reading, u_reading=u_reading, seed=seed, p=p))
-        out = cls.folder / f"{name}.h5"
-        run = gumshoe("run", scenario, "--out", out)
-        assert run.returncode == 0, run.stderr
-        return out
-
     def compared(self, *words):
         run = gumshoe("compare", *words, "--format", "json")
         self.assertEqual(run.returncode, 0, run.stderr)
         return json.loads(run.stdout)
-
-    def refused(self, words, *given):
-        run = gumshoe("compare", *given)
-        self.assertIsNone(complaint(run))
-        self.assertIn(words, run.stderr)
 
     def test_independent_results_differ_by_the_closed_form(self):
         # The estimates are means of the samples: 5 standard errors of their difference, in mm and relative to U.
@@ -111,8 +79,8 @@ class Compare(InOneFolder):
         self.assertIn("only after: z", gumshoe("compare", self.before, self.two_measurands()).stdout)
 
     def two_measurands(self):
-        text = SCENARIO.format(formula="reading", reading=10, u_reading=1, seed=1, p=0.95)
-        return self.result("two", text=text.replace('y = "reading"', 'y = "reading"\nz = "reference"'))
+        return self.result("two", formula="reading", u_reading=1,
+                           change=lambda text: text.replace('y = "reading"', 'y = "reading"\nz = "reference"'))
 
     def test_traces_are_compared_by_their_residuals(self):
         shutil.copytree(ROOT / "scenarios", self.folder / "scenarios")
@@ -159,8 +127,8 @@ class Compare(InOneFolder):
         self.refused("not a quantity in the budgets of both results", self.before, self.after, "--same", "refrence")
         self.refused("Did you mean 'reference'?", self.before, self.after, "--same", "refrence")
         self.refused("different coverage probabilities", self.before, self.result("p99", p=0.99))
-        text = SCENARIO.format(formula="reading", reading=10, u_reading=1, seed=1, p=0.95).replace("y = ", "other = ", 1)
-        self.refused("no measurand in common", self.before, self.result("other", text=text))
+        other = self.result("other", change=lambda text: text.replace("y = ", "other = ", 1))
+        self.refused("no measurand in common", self.before, other)
         self.refused("y: the results have different dimensions", self.before, self.result("ratio", formula="reading / reference"))
         self.refused("before.toml", self.folder / "before.toml", self.after)  # not a result
         damaged = self.folder / "damaged.h5"
