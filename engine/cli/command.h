@@ -29,6 +29,7 @@ void add_choose(CLI::App& app, Action& action);
 void add_trace(CLI::App& app, Action& action);
 void add_plan(CLI::App& app, Action& action);
 void add_compensate(CLI::App& app, Action& action);
+void add_volume(CLI::App& app, Action& action);
 void add_replay(CLI::App& app, Action& action);
 void add_models(CLI::App& app, Action& action);
 void add_effects(CLI::App& app, Action& action);

@@ -34,6 +34,7 @@ constexpr CommandHelp helps[] = {
     {"trace", "gumshoe trace scenarios/trace_sphere.toml --report page.html", "finds what the model lacks", again},
     {"plan", "gumshoe plan scenarios/plan_axis.toml", "says what to measure next", again},
     {"compensate", "gumshoe compensate x.traced.toml --format linuxcnc-trim", "writes a table that a control corrects by", ""},
+    {"volume", "gumshoe volume scenarios/volume_five_axis.toml", "maps the errors of a machine over its working volume", again},
     {"replay", "gumshoe replay results/x.h5 --sample 12345", "repeats one sample with every intermediate value", again},
     {"models", "gumshoe models rod_gauging", "quantities, units, defaults, limits, meaning", ""},
     {"effects", "gumshoe effects z_scale", "the same for an effect", ""},

@@ -38,6 +38,7 @@ int main(int argc, char** argv) {
   cli::add_trace(app, action);
   cli::add_plan(app, action);
   cli::add_compensate(app, action);
+  cli::add_volume(app, action);
   cli::add_replay(app, action);
   cli::add_models(app, action);
   cli::add_effects(app, action);

@@ -21,6 +21,7 @@
 #include "scenario/schema.h"
 #include "scenario/stated_effects.h"
 #include "scenario/trace.h"
+#include "scenario/volume.h"
 
 namespace gumshoe::scenario {
 namespace {
@@ -92,6 +93,7 @@ public:
     if (auto plan = top.table("plan"))
       out_.plan = std::make_shared<const Plan>(
           read_plan(*plan, {own, out_, catalogue_, readings.readouts, top.find("indications")}, context_));
+    if (auto volume = top.table("volume")) read_volume(*volume, top, problems_);
     top.refuse_unknown();
     problems_.raise();
     out_.hash = fmt::format("{:016x}", files_.hash(hash64(out_.text)));

@@ -20,6 +20,7 @@
 #include "scenario/readings.h"
 #include "scenario/stated_effects.h"
 #include "scenario/trace.h"
+#include "scenario/volume.h"
 
 namespace gumshoe::scenario {
 namespace {
@@ -175,6 +176,8 @@ const std::vector<Key>& sections() {
        "uncertainty"},
       {"plan", plan_shape(),
        "options of gumshoe plan: the further readings that are allowed, their costs, and what they must reach"},
+      {"volume", volume_shape(),
+       "options of gumshoe volume: the commands of the machine's axes over which its errors are mapped"},
       {"trace", trace_shape(),
        "options of gumshoe trace: blocks, order, re-done set-up steps, and what was recorded with the readings"},
       {"stated_effects", stated_effects_shape(),

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/result_fields.h"
+#include "analysis/volume.h"
 #include "choice/fields.h"
 #include "tracing/findings/trace_fields.h"
 
@@ -42,6 +43,7 @@ std::vector<TableText> tables() {
       target_study_fields, target_fields, stopping_fields);
   add(choice::question_fields, choice::variable_fields, choice::case_fields, choice::candidate_fields,
       choice::figure_fields, choice::asked_fields, choice::searched_fields, choice::fresh_fields, choice::neighbour_fields);
+  add(volume_fields, volume_axis_fields, volume_point_fields, volume_share_fields);
   add(tracing::residual_fields, tracing::trace_fields, tracing::finding_fields, tracing::size_fields,
       tracing::candidate_fields, tracing::limit_fields, tracing::rms_fields, tracing::noise_fields, tracing::lack_of_fit_fields,
       tracing::anomalous_block_fields, tracing::outlier_fields);

@@ -134,6 +134,14 @@ def trace(t):
                            **line("residuals", row)} for row in t.residuals]}
 
 
+def volume(v):
+    """The grid of errors, and what causes the largest one."""
+    if v is None:
+        return {}
+    return {"axes": [line("volume/axes", a) for a in v.axes], "points": [line("volume/points", p) for p in v.points],
+            "causes": [line("volume/causes", s) for s in v.shares]}
+
+
 def text(lines):
     """A table as CSV; lines without a column leave it empty."""
     out = io.StringIO(newline="")
@@ -146,7 +154,7 @@ def text(lines):
 def files(r, folder, stem):
     """Every table that has rows, and the budget as a workbook: their contents by the paths where they belong."""
     found = {folder / f"{stem}_{name}.csv": text(lines).encode("utf-8") for name, lines in
-             {**plain(r), **sensitivity(r), **decisions(r), **choice(r.choice), **trace(r.trace)}.items() if lines}
+             {**plain(r), **sensitivity(r), **decisions(r), **choice(r.choice), **trace(r.trace), **volume(r.volume)}.items() if lines}
     if book := workbook.budget(r):
         found[folder / f"{stem}_budget.xlsx"] = book
     return found

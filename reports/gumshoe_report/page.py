@@ -1,4 +1,4 @@
-"""The page: fills the template with what the page of a run, a choice or a trace consists of."""
+"""The page: fills the template with what the page of a run, a choice, a trace or a volume consists of."""
 import itertools
 import pathlib
 import re
@@ -6,7 +6,7 @@ import re
 import jinja2
 import markupsafe
 
-from . import choice_page, mathml, pictures, rounding, run_page, studies, trace_page
+from . import choice_page, mathml, pictures, rounding, run_page, studies, trace_page, volume_page
 
 HERE = pathlib.Path(__file__).parent
 
@@ -48,7 +48,8 @@ def render(r):
                                symbols=symbols,
                                verdicts=studies.sobol_verdict)
     template, contents = ("choice.html.j2", choice_page.contents(r)) if r.choice else \
-        ("trace.html.j2", trace_page.contents(r)) if r.trace else ("run.html.j2", run_page.contents(r))
+        ("trace.html.j2", trace_page.contents(r)) if r.trace else \
+        ("volume.html.j2", volume_page.contents(r)) if r.volume else ("run.html.j2", run_page.contents(r))
     return environment.get_template(template).render(
         r=r, question=question(r.scenario_text), p=rounding.probability(r.coverage_probability), **measurement(r), **contents,
         css=markupsafe.Markup((HERE / "style.css").read_text(encoding="utf-8")))

@@ -122,6 +122,13 @@ def trace(file):
         data=types.SimpleNamespace(**{n: columns(data[n]) for n in ("labels", "conditions", "indications", "columns")}))
 
 
+def volume(group):
+    """What `gumshoe volume` found; None of another file."""
+    if group is None:
+        return None
+    return types.SimpleNamespace(**attributes(group), axes=rows(group["axes"]), points=rows(group["points"]), shares=rows(group.get("causes")))
+
+
 def texts(file, name):
     return [plain(t) for t in file[name][()]] if name in file else []
 
@@ -158,6 +165,7 @@ def result(path):
         studies(file, r)
         r.choice = choice(file.get("choice"))
         r.trace = trace(file)
+        r.volume = volume(file.get("volume"))
         r.validations = rows(file.get("validation"))
         r.comparisons = rows(file.get("comparison"))
         r.printed = rows(file.get("printed"))

@@ -157,6 +157,20 @@ alpha = 0.05
 x = { from = 0, to = 3, step = 1 }
 warmth = [1, 2]
 ''',
+    "volume": '''
+schema = 1
+[model]
+name = "serial_chain"
+method = "virtual_experiment"
+measured = "position"
+[machine]
+name = "TTTRR"
+[volume]
+X = { from = "0 mm", to = "400 mm", points = 3 }
+tool = ["0 mm", "0 mm", "-150 mm"]
+payload = "1 kg"
+samples = 1000
+''',
     "plan by points": '''
 schema = 1
 [model]

@@ -1,0 +1,197 @@
+"""`gumshoe volume`: the error of the tool's place over the working volume, its uncertainty and its causes.
+
+usage: volume_test.py path/to/gumshoe [unittest options]
+"""
+import csv
+import io
+import json
+import math
+import pathlib
+import re
+import tempfile
+import unittest
+
+import h5py
+import numpy as np
+
+from plain_machine import DEG, motion, side
+from program import ROOT, InFolder, complaint, gumshoe
+
+SHIPPED = ROOT / "scenarios" / "volume_five_axis.toml"
+THREE = """schema = 1
+[model]
+name = "sphere_probing"
+method = "virtual_experiment"
+[machine]
+workpiece_side = []
+tool_side = ["X", "Y", "Z"]
+"""
+CUBE = """[volume]
+X = { from = "0 mm", to = "400 mm", points = 3 }
+Y = { from = "-300 mm", to = "300 mm", points = 5 }
+Z = { from = "0 mm", to = "200 mm", points = 2 }
+"""
+
+
+def place(sides, commands, errors, tip):
+    """The tip from the workpiece, by plain matrices."""
+    poses = []
+    for axes in sides:
+        pose = np.eye(4)
+        for axis in axes:
+            pose = pose @ motion(axis, commands.get(axis[0], 0.0), errors)
+        poses.append(pose)
+    return (np.linalg.inv(poses[0]) @ poses[1] @ [*tip, 1])[:3]
+
+
+class Volume(InFolder):
+    def map(self, text, *options):
+        file = self.folder / "volume.toml"
+        file.write_text(text)
+        run = gumshoe("volume", file, "--format", "json", "--out", self.folder / "v.h5", "--force", *options)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        return json.loads(run.stdout)
+
+    def test_one_squareness_error_is_a_linear_map(self):
+        g = 100e-6
+        out = self.map(THREE + f'[quantities]\nE_C0Y = "{g / DEG!r} deg"\n' + CUBE)
+        self.assertEqual([a["points"] for a in out["axes"]], [3, 5, 2])
+        self.assertEqual(len(out["points"]), 30)
+        for k, p in enumerate(out["points"]):  # Z goes fastest
+            x, y, z = 0.2 * (k // 10), -0.3 + 0.15 * (k // 2 % 5), 0.2 * (k % 2)
+            for name, true in (("x", x), ("y", y), ("z", z), ("error_x", -y * math.sin(g)), ("error_y", y * (math.cos(g) - 1)),
+                               ("error_z", 0), ("u_x", 0), ("u_length", 0), ("length", abs(y) * math.sqrt(2 - 2 * math.cos(g)))):
+                self.assertAlmostEqual(p[name], true, delta=1e-13, msg=(k, name))
+        worst = out["points"][out["largest"]]
+        self.assertAlmostEqual(abs(worst["y"]), 0.3)
+        self.assertEqual([c["name"] for c in out["causes"]], ["E_C0Y"])
+        self.assertAlmostEqual(out["causes"][0]["error"], 0.3 * g, delta=1e-11)
+        self.assertRegex(out["statement"], r"^The largest error is 0.030 mm \(u = 0 mm\), at X .* mm, Y -?300 mm, Z .* mm\. E_C0Y causes the largest part of it, 0.030 mm\.$")
+
+    def test_mean_and_u_against_plain_matrices_and_linear_propagation(self):
+        """Seven errors of a five-axis machine with a table that tilts and a point off its axes."""
+        errors = {"E_X0B": (30e-6, 4e-6), "E_A0B": (5e-5, 1e-5), "E_Y0C": (-20e-6, 3e-6), "E_B0C": (-4e-5, 2e-5), "E_C0Y": (6e-5, 1e-5),
+                  "E_BX": (3e-5, 2e-5), "E_ZZ": (8e-6, 5e-6)}
+        sides = side(("B", (0.0, 0.0, 0.05)), "C", workpiece=True), side("X", "Y", "Z")
+        tip, angles, n = (0.01, -0.02, -0.15), {"B": 30 * DEG, "C": -50 * DEG}, 20000
+        def shown(name, v):
+            return f'"{v / DEG!r} deg"' if name[2] in "ABC" else f'"{1e3 * v!r} mm"'
+        text = THREE.replace("[]", '[{ axis = "B", point = ["0 mm", "0 mm", "50 mm"] }, "C"]') + "[quantities]\n"
+        text += "".join(f"{name} = {{ value = {shown(name, v)}, u = {shown(name, u)} }}\n" for name, (v, u) in errors.items())
+        text += 'probe_x = { value = "10 mm", u = "5 um" }\nprobe_y = "-20 mm"\nprobe_z = "-150 mm"\n'  # the tool's, not the machine's
+        out = self.map(text + CUBE + f'B = "30 deg"\nC = "-50 deg"\nsamples = {n}\n')
+        values = {name: v for name, (v, _) in errors.items()}
+        for k, p in enumerate(out["points"]):
+            commands = {"X": 0.2 * (k // 10), "Y": -0.3 + 0.15 * (k // 2 % 5), "Z": 0.2 * (k % 2), **angles}
+            null = place(sides, commands, {}, tip)
+            def error(changed={}):
+                return place(sides, commands, values | changed, tip) - null
+            mean = error()
+            parts = np.array([(error({name: v + u}) - error({name: v - u})) / 2 for name, (v, u) in errors.items()])
+            u = np.sqrt((parts ** 2).sum(axis=0))
+            along = math.sqrt(((parts @ (mean / np.linalg.norm(mean))) ** 2).sum())
+            for i, c in enumerate("xyz"):
+                self.assertAlmostEqual(p[c], null[i], delta=1e-12)
+                self.assertAlmostEqual(p["error_" + c], mean[i], delta=5 * u[i] / math.sqrt(n) + 1e-12)
+                self.assertAlmostEqual(p["u_" + c], u[i], delta=5 * u[i] / math.sqrt(2 * n))
+            if np.linalg.norm(mean) > 5 * along:  # so long that its direction hardly varies
+                self.assertAlmostEqual(p["u_length"], along, delta=0.03 * along)
+        self.assertAlmostEqual(sum(c["share"] for c in out["causes"]), 1, delta=1e-9)
+        worst = out["points"][out["largest"]]
+        mean = math.dist((0, 0, 0), [worst["error_" + c] for c in "xyz"])
+        self.assertAlmostEqual(sum(c["error"] for c in out["causes"]), mean, delta=5 * out["linear_u"] / math.sqrt(n))
+        self.assertNotIn("probe_x", [c["name"] for c in out["causes"]][:3])
+
+    def test_correlated_errors_cancel(self):
+        text = THREE + '''[quantities]
+E_XX = { value = "10 um", u = "3 um" }
+E_X0X = { value = "10 um", u = "3 um" }
+[[correlations]]
+quantities = ["E_XX", "E_X0X"]
+kind = "pearson"
+matrix = [[1, -0.9], [-0.9, 1]]
+source = "one fit"
+'''
+        out = self.map(text + CUBE)
+        u = 3e-6 * math.sqrt(0.2)
+        self.assertAlmostEqual(out["points"][0]["u_x"], u, delta=5 * u / math.sqrt(2e4))
+        self.assertAlmostEqual(out["linear_u"], u, delta=5 * u / math.sqrt(2e4))
+
+    def test_joints_of_a_robot(self):
+        text = (ROOT / "scenarios" / "serial_chain.toml").read_text().replace('"data/', f'"{ROOT}/scenarios/data/')
+        out = self.map(text + '\n[volume]\nJ1 = { from = "-90 deg", to = "90 deg", points = 3 }\nJ2 = { from = "-120 deg", to = "-60 deg", points = 4 }\n'
+                       'J3 = "45 deg"\nsamples = 1000\n')
+        self.assertEqual(len(out["points"]), 12)
+        self.assertGreater(min(p["u_length"] for p in out["points"]), 1e-5)
+        self.assertNotIn("base_x", [c["name"] for c in out["causes"]])
+
+    def test_any_number_of_threads_gives_the_same_bits(self):
+        found = []
+        for threads in (1, 3):
+            run = gumshoe("volume", SHIPPED, "--samples", 3000, "--threads", threads, "--format", "json", "--out", self.folder / "t.h5", "--force")
+            self.assertEqual(run.returncode, 0, run.stderr)
+            found.append(run.stdout)
+        self.assertEqual(*found)
+
+    def test_the_file_and_the_page(self):
+        run = gumshoe("volume", SHIPPED, "--samples", 1000, "--out", "v.h5", cwd=self.folder)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn("there caused by", run.stdout)
+        with h5py.File(self.folder / "v.h5") as f:
+            v = f["volume"]
+            statement = v.attrs["statement"]
+            statement = statement.decode() if isinstance(statement, bytes) else statement
+            shape = [int(n) for n in v["axes/points"]]
+            self.assertEqual(shape, [9, 7, 3])
+            length = v["points/length"][()].reshape(shape)
+            self.assertEqual(np.argmax(length), v.attrs["largest"])
+            self.assertEqual(v["points/length"].attrs["units"], "m" if isinstance(v["points/length"].attrs["units"], str) else b"m")
+        run = gumshoe("report", "v.h5", cwd=self.folder)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        page = (self.folder / "v.html").read_text()
+        self.assertIn(statement.split(",")[0].replace("um", "µm"), page.replace("\u202f", " "))
+        self.assertEqual(page.count('<svg role="img" aria-label="Mean length') + page.count('<svg role="img" aria-label="Standard uncertainty'), 2)
+        self.assertIn("What causes it", page)
+        points = list(csv.DictReader(io.StringIO((self.folder / "v_points.csv").read_text())))
+        self.assertEqual(len(points), 9 * 7 * 3)
+        self.assertAlmostEqual(max(float(p["length"]) for p in points), length.max(), delta=1e-12)
+        self.assertTrue((self.folder / "v_causes.csv").exists())
+
+    def test_what_is_wrong_is_said_where_it_is(self):
+        by_label = THREE.replace("virtual_experiment", "propagation") + '''[indications.X]
+readings = { file = "r.csv", column = "x", unit = "mm", labels = { s = "s" } }
+[indications.Y]
+readings = { file = "r.csv", column = "x", unit = "mm", labels = { s = "s" } }
+[indications.Z]
+readings = { file = "r.csv", column = "x", unit = "mm", labels = { s = "s" } }
+[quantities.E_XX.by.s]
+a = "1 um"
+b = "2 um"
+'''
+        (self.folder / "r.csv").write_text("s,x\na,1\nb,2\n")
+        rod = 'schema = 1\n[model]\nname = "rod_gauging"\nmethod = "virtual_experiment"\n'
+        one = 'X = { from = "0 mm", to = "9 mm", points = 3 }\n'
+        for name, text, *said in (
+                ("no section", THREE, "[volume] is missing"),
+                ("no machine", rod + "[volume]\n" + one, "volume: the scenario has no [machine]"),
+                ("no range", THREE + '[volume]\nX = "5 mm"\n', "volume: no axes have a range"),
+                ("four ranges", THREE.replace('"Z"]', '"Z", "A"]') + CUBE + 'A = { from = "0 deg", to = "9 deg", points = 3 }\n', "more than three axes have a range"),
+                ("an unknown axis", THREE + "[volume]\n" + one + 'Q = "1 mm"\n', "the machine has no axis 'Q'"),
+                ("no length", THREE + '[volume]\nX = { from = "1 mm", to = "1 mm", points = 3 }\n', "volume.X: the range has no length"),
+                ("no end", THREE + '[volume]\nX = { from = "1 mm", points = 3 }\n', "volume.X.to is missing"),
+                ("a wrong unit", THREE + '[volume]\nX = { from = "1 deg", to = "2 mm", points = 3 }\n', "is not a length"),
+                ("a tool of two", THREE + "[volume]\n" + one + 'tool = ["1 mm", "2 mm"]\n', "volume.tool: X, Y and Z are needed"),
+                ("values by label", by_label + "[volume]\n" + one, "volume: E_XX has several values, by label"),
+                ("too long", THREE + '[volume]\nsamples = 1_000_000\nX = { from = "0 mm", to = "9 mm", points = 200 }\nY = { from = "0 mm", to = "9 mm", points = 200 }\n',
+                 "volume: 40000 points and 1000000 samples take too long")):
+            with self.subTest(name):
+                file = self.folder / "wrong.toml"
+                file.write_text(text)
+                run = gumshoe("volume", file, "--out", self.folder / "w.h5")
+                self.assertIsNone(complaint(run), run.stderr)
+                for words in said:
+                    self.assertIn(words, run.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
