@@ -65,6 +65,12 @@ def gap(workpiece_side, tool_side, commands, values):
     return (tip - sphere)[:3] - point("contact")[:3], sides[0]
 
 
+def place(workpiece_side, tool_side, commands, values):
+    """The tip from the workpiece's frame."""
+    tip, bed_from_workpiece = gap(workpiece_side, tool_side, commands, {k: v for k, v in values.items() if k[:6] not in ("sphere", "contac")})
+    return bed_from_workpiece[:3, :3].T @ tip
+
+
 def closing(workpiece_side, tool_side, angles, values, slides="XYZ"):
     """Commands of the slides that close the gap: linear equations by differences over 1 m, solved twice."""
     commands = {**angles, **{s: 0.0 for s in slides}}

@@ -14,7 +14,7 @@ import unittest
 import h5py
 import numpy as np
 
-from plain_machine import DEG, motion, side
+from plain_machine import DEG, place, side
 from program import ROOT, InFolder, complaint, gumshoe
 
 SHIPPED = ROOT / "scenarios" / "volume_five_axis.toml"
@@ -31,17 +31,6 @@ X = { from = "0 mm", to = "400 mm", points = 3 }
 Y = { from = "-300 mm", to = "300 mm", points = 5 }
 Z = { from = "0 mm", to = "200 mm", points = 2 }
 """
-
-
-def place(sides, commands, errors, tip):
-    """The tip from the workpiece, by plain matrices."""
-    poses = []
-    for axes in sides:
-        pose = np.eye(4)
-        for axis in axes:
-            pose = pose @ motion(axis, commands.get(axis[0], 0.0), errors)
-        poses.append(pose)
-    return (np.linalg.inv(poses[0]) @ poses[1] @ [*tip, 1])[:3]
 
 
 class Volume(InFolder):
@@ -73,7 +62,7 @@ class Volume(InFolder):
         errors = {"E_X0B": (30e-6, 4e-6), "E_A0B": (5e-5, 1e-5), "E_Y0C": (-20e-6, 3e-6), "E_B0C": (-4e-5, 2e-5), "E_C0Y": (6e-5, 1e-5),
                   "E_BX": (3e-5, 2e-5), "E_ZZ": (8e-6, 5e-6)}
         sides = side(("B", (0.0, 0.0, 0.05)), "C", workpiece=True), side("X", "Y", "Z")
-        tip, angles, n = (0.01, -0.02, -0.15), {"B": 30 * DEG, "C": -50 * DEG}, 20000
+        tip, angles, n = {"probe_x": 0.01, "probe_y": -0.02, "probe_z": -0.15}, {"B": 30 * DEG, "C": -50 * DEG}, 20000
         def shown(name, v):
             return f'"{v / DEG!r} deg"' if name[2] in "ABC" else f'"{1e3 * v!r} mm"'
         text = THREE.replace("[]", '[{ axis = "B", point = ["0 mm", "0 mm", "50 mm"] }, "C"]') + "[quantities]\n"
@@ -83,9 +72,9 @@ class Volume(InFolder):
         values = {name: v for name, (v, _) in errors.items()}
         for k, p in enumerate(out["points"]):
             commands = {"X": 0.2 * (k // 10), "Y": -0.3 + 0.15 * (k // 2 % 5), "Z": 0.2 * (k % 2), **angles}
-            null = place(sides, commands, {}, tip)
+            null = place(*sides, commands, tip)
             def error(changed={}):
-                return place(sides, commands, values | changed, tip) - null
+                return place(*sides, commands, values | changed | tip) - null
             mean = error()
             parts = np.array([(error({name: v + u}) - error({name: v - u})) / 2 for name, (v, u) in errors.items()])
             u = np.sqrt((parts ** 2).sum(axis=0))

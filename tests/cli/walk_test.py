@@ -14,7 +14,7 @@ import tempfile
 import tomllib
 import unittest
 
-from plain_machine import closing, side
+from plain_machine import closing, place, side
 from plain_robot import DEG, Robot, instrument, table
 from program import gumshoe
 
@@ -172,9 +172,10 @@ class ProbeAndSphere(Walk):
     def test_from_touches_to_finding_and_budget(self):
         out = self.run_it("new", "sphere_probing", "--from", "touches.csv", "--machine", "B,C/X,Y,Z")
         self.assertEqual(re.findall(r"error: (\S+): '\?'", out), ["quantities.probe_z.value"], out)
-        # What only the user knows: the length of the probe.
+        # What only the user knows: the length of the probe, and where the machine works.
         file = self.folder / "sphere_probing.toml"
-        file.write_text(file.read_text().replace('"?", u', '"-150 mm", u'))
+        volume = "".join(f'{axis} = {{ from = "-{end} mm", to = "{end} mm", points = 3 }}\n' for axis, end in (("X", 200), ("Y", 150), ("Z", 100)))
+        file.write_text(file.read_text().replace('"?", u', '"-150 mm", u') + f'\n[volume]\n{volume}B = "30 deg"\n')
         self.run_it("check", "sphere_probing.toml")
         # The verdict: Y is not square to X, and something grows with the temperature; held-out touches are as good as noise.
         rounds = json.loads(self.run_it("trace", "sphere_probing.toml", "--loop", "3", "--format", "json", "--out", "t.h5"))["rounds"]
@@ -193,6 +194,16 @@ class ProbeAndSphere(Walk):
             true /= DEG if name[2] in "ABC" and name[0] == "E" else 1e-3
             self.assertLess(abs(value - true), 4 * u, name)
             self.assertLess(u, 0.006, name)
+        # The map: how far the tool is from where the commands say, calibrated at one sphere, over the whole volume.
+        points = json.loads(self.run_it("volume", "sphere_probing.traced.toml", "--format", "json", "--out", "v.h5"))["points"]
+        sides = side("B", "C", workpiece=True), side("X", "Y", "Z")
+        tip = {"probe_z": self.truth["probe_z"]}
+        for k, p in enumerate(points):
+            commands = {"X": 0.2 * (k // 9 - 1), "Y": 0.15 * (k // 3 % 3 - 1), "Z": 0.1 * (k % 3 - 1), "B": 30 * DEG, "C": 0.0}
+            error = place(*sides, commands, self.truth) - place(*sides, commands, tip)
+            for axis, true in zip("xyz", error):
+                self.assertLess(abs(p[f"error_{axis}"] - true), 4 * p[f"u_{axis}"] + 1e-9, (commands, axis))
+                self.assertLess(p[f"u_{axis}"], 10e-6)
         # The budget: where the tip stands against the sphere, to little more than the noise of a touch.
         outputs = json.loads(self.run_it("run", "sphere_probing.traced.toml", "--samples", "1e4", "--format", "json", "--out", "b.h5"))
         self.assertEqual(len(outputs), 3 * 72)
