@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <exception>
 #include <limits>
 
 #include <fmt/format.h>
@@ -196,15 +198,15 @@ void write_texts(hid_t dataset, const std::vector<std::string>& texts) {
   std::vector<const char*> data;
   for (const std::string& text : texts) data.push_back(text.c_str());
   if (data.empty()) return;
-  // HDF5 converts texts in a buffer of a megabyte, cleared for every dataset: files of many small tables spent their time
-  // there. No text takes more than this in it.
+  // HDF5 converts texts in a buffer of a megabyte, cleared for every dataset: files of many small tables spent their
+  // time there. No text takes more than this in it.
   constexpr std::size_t of_a_text = 64, usual = std::size_t{1} << 20;
   const Handle transfer = own(H5Pcreate(H5P_DATASET_XFER), H5Pclose, "write text");
   require(H5Pset_buffer(transfer, std::min(usual, of_a_text * data.size()), nullptr, nullptr), "write text");
   require(H5Dwrite(dataset, text_type(), H5S_ALL, H5S_ALL, transfer, data.data()), "write text");
 }
 
-Handle create_dimension(hid_t parent, const std::string& name, hsize_t length) {
+Scale create_dimension(hid_t parent, const std::string& name, hsize_t length) {
   const Handle plist = own(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "describe a dimension");
   H5Pset_obj_track_times(plist, false);
   const Handle space = own(H5Screate_simple(1, &length, nullptr), H5Sclose, "describe a dimension");
@@ -212,19 +214,57 @@ Handle create_dimension(hid_t parent, const std::string& name, hsize_t length) {
   Handle scale = own(H5Dcreate2(parent, name.c_str(), H5T_IEEE_F32BE, space, H5P_DEFAULT, plist, H5P_DEFAULT), H5Dclose,
                      "create a dimension");
   const std::string mark = fmt::format("This is a netCDF dimension but not a netCDF variable.{:10d}", length);
-  require(H5DSset_scale(scale, mark.c_str()), "create a dimension");
+  make_scale(scale, mark);
   write_attribute(scale, "units", std::string("1"));
   write_attribute(scale, "long_name", "dimension " + name + ", without values");
-  return scale;
+  return {std::move(scale), name};
 }
 
 void make_scale(hid_t dataset, const std::string& name) {
   require(H5DSset_scale(dataset, name.c_str()), "make a dimension scale");
 }
 
-void attach(hid_t dataset, unsigned axis, hid_t scale, const std::string& name) {
-  require(H5DSattach_scale(dataset, scale, axis), "attach a dimension scale");
-  require(H5DSset_label(dataset, axis, name.c_str()), "label a dimension");
+namespace {
+void create_attribute(hid_t object, const char* name, hid_t type, hsize_t count, const void* values) {
+  const Handle space = own(H5Screate_simple(1, &count, nullptr), H5Sclose, "describe a dimension");
+  const Handle attribute =
+      own(H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, "label a dimension");
+  require(H5Awrite(attribute, type, values), "label a dimension");
+}
+
+hobj_ref_t reference_to(hid_t object) {
+  hobj_ref_t reference = 0;
+  require(H5Rcreate(&reference, object, ".", H5R_OBJECT, -1), "attach a dimension scale");
+  return reference;
+}
+} // namespace
+
+Scale::Scale(Handle scale, std::string name)
+    : handle_(std::move(scale)), name_(std::move(name)), self_(reference_to(handle_)),
+      exceptions_(std::uncaught_exceptions()) {}
+
+Scale::~Scale() noexcept(false) {
+  if (attached_.empty() || std::uncaught_exceptions() > exceptions_) return;
+  const Handle type = own(H5Tcreate(H5T_COMPOUND, sizeof(Reference)), H5Tclose, "describe a dimension");
+  require(H5Tinsert(type, "dataset", offsetof(Reference, dataset), H5T_STD_REF_OBJ), "describe a dimension");
+  require(H5Tinsert(type, "dimension", offsetof(Reference, axis), H5T_NATIVE_INT), "describe a dimension");
+  create_attribute(handle_, "REFERENCE_LIST", type, attached_.size(), attached_.data());
+}
+
+void attach(hid_t dataset, const std::vector<const Scale*>& axes) {
+  const hobj_ref_t self = reference_to(dataset);
+  std::vector<hvl_t> scales;
+  std::vector<const char*> labels;
+  for (const Scale* axis : axes) {
+    scales.push_back({1, const_cast<hobj_ref_t*>(&axis->self_)});
+    labels.push_back(axis->name_.c_str());
+    axis->attached_.push_back({self, static_cast<int>(labels.size()) - 1});
+  }
+  const Handle list = own(H5Tvlen_create(H5T_STD_REF_OBJ), H5Tclose, "describe a dimension");
+  create_attribute(dataset, "DIMENSION_LIST", list, axes.size(), scales.data());
+  const Handle text = own(H5Tcopy(H5T_C_S1), H5Tclose, "describe text");
+  H5Tset_size(text, H5T_VARIABLE);
+  create_attribute(dataset, "DIMENSION_LABELS", text, axes.size(), labels.data());
 }
 
 } // namespace gumshoe::store::hdf5

@@ -86,10 +86,37 @@ Handle create_dataset(hid_t parent, const std::string& name, hid_t type, const s
                       const Units& units, const std::string& long_name, bool fill_nan = false);
 void write_texts(hid_t dataset, const std::vector<std::string>& texts);
 
-/// A named dimension without values of its own, as netCDF-4 writes it.
-Handle create_dimension(hid_t parent, const std::string& name, hsize_t length);
 /// Turns a dataset into the scale of the dimension it is named after.
 void make_scale(hid_t dataset, const std::string& name);
-void attach(hid_t dataset, unsigned axis, hid_t scale, const std::string& name);
+
+/// The scale of a dimension, and what is attached to it: recorded in it all at once when this ends, where HDF5's own
+/// function would read and write the record anew for each. Its end throws OutputError if that fails.
+class Scale {
+public:
+  Scale() = default;
+  Scale(Handle scale, std::string name);
+  Scale(Scale&&) = default;
+  Scale& operator=(Scale&&) = default;
+  ~Scale() noexcept(false);
+  operator hid_t() const { return handle_; }
+
+private:
+  friend void attach(hid_t dataset, const std::vector<const Scale*>& axes);
+  struct Reference { // as the dimension scales' specification has it
+    hobj_ref_t dataset = 0;
+    int axis = 0;
+    int padding = 0; // written, too
+  };
+  Handle handle_;
+  std::string name_;
+  hobj_ref_t self_ = 0;
+  int exceptions_ = 0; ///< under way when this began: it may be written while one is
+  mutable std::vector<Reference> attached_;
+};
+
+/// A named dimension without values of its own, as netCDF-4 writes it.
+Scale create_dimension(hid_t parent, const std::string& name, hsize_t length);
+/// Names the axes of a dataset and attaches the scales to them, one for each. The scales outlive the dataset's handle.
+void attach(hid_t dataset, const std::vector<const Scale*>& axes);
 
 } // namespace gumshoe::store::hdf5

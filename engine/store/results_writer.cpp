@@ -120,11 +120,10 @@ void write_draws(hid_t file, const InputDraws& draws, std::uint64_t samples) {
   const hdf5::Handle group = hdf5::create_group(file, "draws");
   Table table(group, "component", n, draws.names);
   table.units(draws.si_units, draws.units);
-  const hdf5::Handle sample = hdf5::create_dimension(group, "sample", samples);
+  const hdf5::Scale sample = hdf5::create_dimension(group, "sample", samples);
   const hdf5::Handle values = hdf5::create_dataset(group, "deviation", H5T_IEEE_F64LE, {n, samples},
                                                    common_units(draws.si_units), "deviation drawn, from the estimate");
-  hdf5::attach(values, 0, table.scale(), "component");
-  hdf5::attach(values, 1, sample, "sample");
+  hdf5::attach(values, {&table.scale(), &sample});
   const std::size_t chunk = std::max<std::size_t>(1, (std::size_t{1} << 22) / n);
   std::vector<double> some;
   for (std::uint64_t first = 0; first < samples; first += chunk) {

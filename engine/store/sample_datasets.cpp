@@ -12,7 +12,7 @@ namespace gumshoe::store {
 
 namespace {
 
-void create_status(hid_t group, hid_t sample, std::uint64_t samples) {
+void create_status(hid_t group, const hdf5::Scale& sample, std::uint64_t samples) {
   const hdf5::Handle flags =
       hdf5::create_dataset(group, "status", H5T_STD_U8LE, {samples}, "1", "why a sample has no value");
   std::vector<std::uint8_t> values;
@@ -23,16 +23,15 @@ void create_status(hid_t group, hid_t sample, std::uint64_t samples) {
   }
   hdf5::write_attribute(flags, "flag_values", values);
   hdf5::write_attribute(flags, "flag_meanings", meanings);
-  hdf5::attach(flags, 0, sample, "sample");
+  hdf5::attach(flags, {&sample});
 }
 
 void create_digests(hid_t file, std::uint64_t blocks, std::size_t rows) {
-  const hdf5::Handle block = hdf5::create_dimension(file, "digest_block", blocks);
-  const hdf5::Handle row = hdf5::create_dimension(file, "digest_row", rows);
+  const hdf5::Scale block = hdf5::create_dimension(file, "digest_block", blocks);
+  const hdf5::Scale row = hdf5::create_dimension(file, "digest_row", rows);
   const hdf5::Handle digests = hdf5::create_dataset(file, "digests", H5T_STD_U64LE, {blocks, rows}, "1",
                                                     "digest of each block of samples of each output, the status last");
-  hdf5::attach(digests, 0, block, "digest_block");
-  hdf5::attach(digests, 1, row, "digest_row");
+  hdf5::attach(digests, {&block, &row});
 }
 
 } // namespace
@@ -48,11 +47,12 @@ void create_samples(hid_t file, const std::vector<propagation::Output>& outputs,
                     const std::vector<std::string>& reading_labels, bool of_errors, Record& record) {
   const std::size_t readings = reading_labels.size();
   const hdf5::Handle group = hdf5::create_group(file, "outputs");
-  const hdf5::Handle sample = hdf5::create_dimension(group, "sample", samples);
-  const hdf5::Handle reading =
+  const hdf5::Scale sample = hdf5::create_dimension(group, "sample", samples);
+  hdf5::Handle labels =
       hdf5::create_dataset(group, "reading", hdf5::text_type(), {readings}, "1", "label values of the reading");
-  hdf5::write_texts(reading, reading_labels);
-  hdf5::make_scale(reading, "reading");
+  hdf5::write_texts(labels, reading_labels);
+  hdf5::make_scale(labels, "reading");
+  const hdf5::Scale reading(std::move(labels), "reading");
   std::vector<std::string> paths{"outputs/status", "digests"};
   for (const auto& output : outputs) {
     if (output.reading >= readings) throw std::logic_error("output of an unknown reading");
@@ -66,8 +66,7 @@ void create_samples(hid_t file, const std::vector<propagation::Output>& outputs,
     const hdf5::Handle dataset = hdf5::create_dataset(group, name, H5T_IEEE_F64LE, {readings, samples}, output.si_unit,
                                                       (of_errors ? "error of " : "") + long_name + ", samples", holes);
     write_display(dataset, output.unit, output.si_unit);
-    hdf5::attach(dataset, 0, reading, "reading");
-    hdf5::attach(dataset, 1, sample, "sample");
+    hdf5::attach(dataset, {&reading, &sample});
   }
   create_status(group, sample, samples);
   create_digests(file, digest_blocks(samples), outputs.size() + 1);

@@ -31,9 +31,10 @@ Table::Table(hid_t group, std::string dimension, std::size_t rows, const std::ve
     return;
   }
   if (names.size() != rows_) throw OutputError("cannot write dimension '" + dimension_ + "'", "it has another length");
-  scale_ = hdf5::create_dataset(group_, dimension_, hdf5::text_type(), {rows_}, "1", "names of the rows");
-  hdf5::write_texts(scale_, names);
-  hdf5::make_scale(scale_, dimension_);
+  hdf5::Handle scale = hdf5::create_dataset(group_, dimension_, hdf5::text_type(), {rows_}, "1", "names of the rows");
+  hdf5::write_texts(scale, names);
+  hdf5::make_scale(scale, dimension_);
+  scale_ = {std::move(scale), dimension_};
 }
 
 template <class T>
@@ -45,7 +46,7 @@ void Table::numbers(const std::string& name, const std::vector<T>& values, const
       hdf5::create_dataset(group_, name, hdf5::file_type<T>(), {rows_}, units.text.empty() ? "1" : units, long_name);
   hdf5::require(H5Dwrite(dataset, hdf5::memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
                 "write a column");
-  hdf5::attach(dataset, 0, scale_, dimension_);
+  hdf5::attach(dataset, {&scale_});
 }
 template void Table::numbers(const std::string&, const std::vector<double>&, const hdf5::Units&, const std::string&);
 template void Table::numbers(const std::string&, const std::vector<std::uint64_t>&, const hdf5::Units&,
@@ -59,7 +60,7 @@ void Table::texts(const std::string& name, const std::vector<std::string>& value
   if (values.size() != rows_) throw OutputError("cannot write column '" + name + "'", "it has another length");
   const hdf5::Handle dataset = hdf5::create_dataset(group_, name, hdf5::text_type(), {rows_}, "1", long_name);
   hdf5::write_texts(dataset, values);
-  hdf5::attach(dataset, 0, scale_, dimension_);
+  hdf5::attach(dataset, {&scale_});
 }
 
 void Table::values(const std::string& name, const std::vector<analysis::Value>& values, const hdf5::Units& units,
@@ -120,8 +121,7 @@ void Table::matrix(const std::string& name, const Table& columns, const std::vec
       hdf5::create_dataset(group_, name, hdf5::file_type<double>(), {rows_, columns.rows_}, units, long_name);
   hdf5::require(H5Dwrite(dataset, hdf5::memory_type<double>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
                 "write a matrix");
-  hdf5::attach(dataset, 0, scale_, dimension_);
-  hdf5::attach(dataset, 1, columns.scale_, columns.dimension_);
+  hdf5::attach(dataset, {&scale_, &columns.scale_});
 }
 
 void write_display(hid_t object, const std::string& unit, const std::string& si_unit) {

@@ -54,13 +54,13 @@ public:
   void matrix(const std::string& name, const Table& columns, const std::vector<double>& values,
               const hdf5::Units& units, const std::string& long_name);
 
-  hid_t scale() const { return scale_; }
+  const hdf5::Scale& scale() const { return scale_; }
 
 private:
   hid_t group_;
   std::string dimension_;
   hsize_t rows_;
-  hdf5::Handle scale_;
+  hdf5::Scale scale_;
 };
 
 /// The attributes `display_units`, `display_factor` and `display_offset`.
