@@ -24,25 +24,38 @@ inline Words mix64_lanes(Words x) {
   return x ^ (x >> 31);
 }
 
-/// One pass of a permutation's Feistel network; what comes out may lie beyond its size.
-inline Words feistel_lanes(const random::Permutation& p, const Words& i) {
+/// Words that go through the network side by side, because its steps wait for each other.
+constexpr std::size_t abreast = 4;
+constexpr std::size_t feistel_step = abreast * Lanes::size;
+
+/// One pass of a permutation's Feistel network over feistel_step values, in place; what comes out may lie beyond its
+/// size.
+inline void feistel_lanes(const random::Permutation& p, std::uint64_t* values) {
   const auto half = static_cast<int>(p.half_bits());
   const Words mask((std::uint64_t{1} << half) - 1);
-  Words left = i >> half, right = i & mask;
-  for (std::uint64_t round = 0; round < random::Permutation::rounds; ++round) {
-    const Words next = left ^ (mix64_lanes(right ^ Words(p.round_key(round))) & mask);
-    left = right;
-    right = next;
+  Words left[abreast], right[abreast];
+  for (std::size_t k = 0; k < abreast; ++k) {
+    const Words i = Words::load_unaligned(values + k * Lanes::size);
+    left[k] = i >> half;
+    right[k] = i & mask;
   }
-  return (left << half) | right;
+  for (std::uint64_t round = 0; round < random::Permutation::rounds; ++round) {
+    const Words key(p.round_key(round));
+    for (std::size_t k = 0; k < abreast; ++k) {
+      const Words next = left[k] ^ (mix64_lanes(right[k] ^ key) & mask);
+      left[k] = right[k];
+      right[k] = next;
+    }
+  }
+  for (std::size_t k = 0; k < abreast; ++k) ((left[k] << half) | right[k]).store_unaligned(values + k * Lanes::size);
 }
 
-/// stratum[i] = p(stratum[i]) for i < n, n a multiple of the lanes and at most permuted_strip. What a pass leaves
-/// beyond the permutation's size is gathered for the next one.
+/// stratum[i] = p(stratum[i]) for i < n, at most permuted_strip; the rest of the strip is overwritten. What a pass
+/// leaves beyond the permutation's size is gathered for the next one.
 constexpr std::size_t permuted_strip = 512;
 inline void permute_lanes(const random::Permutation& p, std::uint64_t* stratum, std::size_t n) {
-  for (std::size_t i = 0; i < n; i += Lanes::size)
-    feistel_lanes(p, Words::load_unaligned(stratum + i)).store_unaligned(stratum + i);
+  static_assert(permuted_strip % feistel_step == 0);
+  for (std::size_t i = 0; i < n; i += feistel_step) feistel_lanes(p, stratum + i);
   std::array<std::uint32_t, permuted_strip> beyond;
   std::size_t left = 0;
   for (std::size_t i = 0; i < n; ++i) {
@@ -51,11 +64,11 @@ inline void permute_lanes(const random::Permutation& p, std::uint64_t* stratum, 
   }
   while (left > 0) {
     std::size_t still = 0;
-    for (std::size_t k = 0; k < left; k += Lanes::size) {
-      alignas(64) std::uint64_t some[Lanes::size] = {};
-      const std::size_t count = std::min(Lanes::size, left - k);
+    for (std::size_t k = 0; k < left; k += feistel_step) {
+      alignas(64) std::uint64_t some[feistel_step] = {};
+      const std::size_t count = std::min(feistel_step, left - k);
       for (std::size_t j = 0; j < count; ++j) some[j] = stratum[beyond[k + j]];
-      feistel_lanes(p, Words::load_aligned(some)).store_aligned(some);
+      feistel_lanes(p, some);
       for (std::size_t j = 0; j < count; ++j) {
         const std::uint32_t place = beyond[k + j];
         stratum[place] = some[j];
@@ -73,7 +86,7 @@ inline void fill_latin_in_lanes(const random::Stream& stream, const random::Perm
   fill_uniforms_in_lanes(stream, first, n, out);
   const double scale = random::jitter_scale(p.size());
   const Lanes total(static_cast<double>(p.size())), half(0.5);
-  alignas(64) std::array<std::uint64_t, permuted_strip> stratum;
+  alignas(64) std::array<std::uint64_t, permuted_strip> stratum{};
   std::uint64_t place = first % p.size();
   for (std::size_t start = 0; start < n; start += permuted_strip) {
     const std::size_t count = std::min(permuted_strip, n - start);
