@@ -9,17 +9,16 @@ void MemoryStore::write(const ResultBlock& block) {
   if (block.first_sample != done_ || done_ + block.samples > samples_)
     throw std::logic_error("blocks must come whole and in sample order");
   for (std::size_t o = 0; o < outputs_; ++o)
-    std::copy_n(&block.outputs[o * block.samples], block.samples, &values_[o * samples_ + done_]);
+    std::copy_n(&block.outputs[o * block.samples], block.samples, values_.get() + o * samples_ + done_);
   std::copy_n(block.status.begin(), block.samples, status_.begin() + static_cast<std::ptrdiff_t>(done_));
   done_ += block.samples;
 }
 
 void MemoryStore::resize(std::uint64_t samples) {
-  std::vector<double> values(outputs_ * samples);
+  auto values = std::make_unique_for_overwrite<double[]>(outputs_ * samples);
   const std::uint64_t kept = std::min(done_, samples);
   for (std::size_t o = 0; o < outputs_; ++o)
-    std::copy_n(values_.begin() + static_cast<std::ptrdiff_t>(o * samples_), kept,
-                values.begin() + static_cast<std::ptrdiff_t>(o * samples));
+    std::copy_n(values_.get() + o * samples_, kept, values.get() + o * samples);
   values_ = std::move(values);
   status_.resize(samples);
   samples_ = samples;
@@ -29,8 +28,8 @@ void MemoryStore::resize(std::uint64_t samples) {
 std::vector<double> MemoryStore::read(std::size_t output, std::uint64_t first, std::uint64_t count) const {
   if (output >= outputs_ || first > done_ || count > done_ - first)
     throw std::out_of_range("samples that are not there");
-  const auto from = values_.begin() + static_cast<std::ptrdiff_t>(output * samples_ + first);
-  return {from, from + static_cast<std::ptrdiff_t>(count)};
+  const double* const from = values_.get() + output * samples_ + first;
+  return {from, from + count};
 }
 
 std::vector<std::uint8_t> MemoryStore::read_status(std::uint64_t first, std::uint64_t count) const {

@@ -1,5 +1,6 @@
 #pragma once
 /// Keeps the samples of a run in memory, for studies without a file and for tests.
+#include <memory>
 #include <span>
 
 #include "propagation/run.h"
@@ -16,13 +17,13 @@ public:
   std::vector<double> read(std::size_t output, std::uint64_t first, std::uint64_t count) const override;
   std::vector<std::uint8_t> read_status(std::uint64_t first, std::uint64_t count) const override;
   /// The samples so far of one output, and the status of all of them, where they lie.
-  std::span<const double> values(std::size_t output) const { return {values_.data() + output * samples_, done_}; }
+  std::span<const double> values(std::size_t output) const { return {values_.get() + output * samples_, done_}; }
   std::span<const std::uint8_t> status() const { return {status_.data(), done_}; }
 
 private:
   std::size_t outputs_;
   std::uint64_t samples_ = 0, done_ = 0;
-  std::vector<double> values_; ///< [output][sample]
+  std::unique_ptr<double[]> values_; ///< [output][sample]; not set before they are written
   std::vector<std::uint8_t> status_;
 };
 
