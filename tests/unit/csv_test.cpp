@@ -48,7 +48,8 @@ TEST_CASE("comments and semicolons", "[csv]") {
 TEST_CASE("malformed tables are refused with their place", "[csv]") {
   CHECK_THROWS_WITH(parse_csv("", "t.csv"), Catch::Contains("t.csv: error: the file is empty"));
   CHECK_THROWS_WITH(parse_csv("a,a\n", "t.csv"), Catch::Contains("t.csv:1:3: error: column 'a' appears twice"));
-  CHECK_THROWS_WITH(parse_csv("a,\n", "t.csv"), Catch::Contains("t.csv:1:3: error: a column has no name"));
+  CHECK(parse_csv("a,\n1,\n", "t.csv").header.size() == 1); // lines that end with a separator
+  CHECK_THROWS_WITH(parse_csv("a,\n1,2\n", "t.csv"), Catch::Contains("t.csv:1:3: error: a column has no name"));
   CHECK_THROWS_WITH(parse_csv("a,b\n1,2\n1\n1,2,3\n", "t.csv"),
                     Catch::Contains("t.csv:3:1: error: the row has 1 cells, the header 2") &&
                         Catch::Contains("t.csv:4:1:"));
