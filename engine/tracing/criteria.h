@@ -85,7 +85,7 @@ struct Criteria {
   double own_wave = 0.5; ///< share of a wave that the declared model must leave
   /// A shape of which so many successive readings hold this share is one of outliers.
   Index few_readings = 3;
-  double few_share = 0.9;
+  double few_share = 0.75;
   /// Time constants tried: so many, from this share of the duration (three readings at least) to this multiple of it.
   /// Beyond the ends a rise is a step or a line.
   int time_constants = 6;
@@ -172,6 +172,9 @@ struct Criteria {
   /// Variance of a declared draw, or of a combination of them, of what was declared: below it readings say something of
   /// them, and the traced scenario holds what.
   double informed_variance = 0.9;
+  /// Correlation of an estimate and a declared draw from which the traced scenario holds it: less changes the u of a
+  /// prediction by 5 % at most.
+  double told_correlation = 0.1;
   /// Times the upper end of an effect's typical sizes, and the lower end, beyond which a size is likely an alias's.
   double implausible_size = 5, negligible_size = 0.02;
   double implausible_shift = 10;     ///< times the declared standard uncertainty of a quantity that cause a remark

@@ -1,5 +1,6 @@
 /// What the readings say of declared draws.
 #include <algorithm>
+#include <cmath>
 
 #include <Eigen/Eigenvalues>
 
@@ -40,6 +41,13 @@ DrawsGivenReadings Fitter::draws_given_readings(JointFit& fit) const {
   out.covariance = Matrix::Zero(all + m, all + m);
   out.covariance(place, place) = fit.variance * covariance(solved, solved);
   follow_draws(fit, place, out);
+  for (Index i = 0; i < all; ++i)
+    for (Index j = all; j < all + m; ++j) {
+      const double squares = out.covariance(i, i) * out.covariance(j, j);
+      if (squares > 0)
+        out.largest_correlation =
+            std::max(out.largest_correlation, std::fabs(out.covariance(i, j)) / std::sqrt(squares));
+    }
   return out;
 }
 

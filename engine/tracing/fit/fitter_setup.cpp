@@ -82,7 +82,7 @@ void Fitter::find_draws() {
     d.local = std::ranges::all_of(d.moves, [&](const auto& m) { return m.first == d.moves.front().first; });
 }
 
-/// Where readings jump or have a kink, the tangent leads nowhere, and declared draws stay as declared.
+/// Where readings jump or have a kink with a quantity, the tangent leads nowhere, and its draws stay as declared.
 void Fitter::find_fitted() {
   std::map<std::size_t, double> largest; // by quantity
   for (Draw& d : draws_) {
@@ -92,8 +92,9 @@ void Fitter::find_fitted() {
     if (!d.fitted) continue;
     for (const auto& [r, q] : d.moves) largest[q] = std::max(largest[q], d.u);
   }
-  const bool jumps = !smooth(largest);
-  for (Draw& d : draws_) d.fitted = d.fitted && !jumps;
+  const std::set<std::size_t> jumping = not_smooth(largest);
+  for (Draw& d : draws_)
+    d.fitted = d.fitted && std::ranges::none_of(d.moves, [&](const auto& m) { return jumping.contains(m.second); });
   // Tied draws move together or not at all.
   for (const auto& group : experiment_.plan().copulas) {
     const bool all = std::ranges::all_of(group.variates, [&](std::size_t v) { return draws_[v].fitted; });
@@ -101,19 +102,20 @@ void Fitter::find_fitted() {
   }
 }
 
-bool Fitter::smooth(const std::map<std::size_t, double>& steps) const {
+std::set<std::size_t> Fitter::not_smooth(const std::map<std::size_t, double>& steps) const {
+  std::set<std::size_t> out;
   std::vector<std::size_t> quantities;
   std::vector<Variation> variations;
   for (const auto& [q, u] : steps) {
     quantities.push_back(q);
     for (const double share : {1.0, -1.0, 0.5, -0.5}) variations.push_back({{{q, share * u, false}}});
   }
-  if (quantities.empty()) return true;
+  if (quantities.empty()) return out;
   const Points at = simulator_.estimates();
   Vector here;
   Matrix slope, f;
   std::vector<bool> valid;
-  if (!simulator_.derivatives(at, quantities, here, slope)) return false;
+  if (!simulator_.derivatives(at, quantities, here, slope)) return {quantities.begin(), quantities.end()};
   simulator_.vary(at, variations, f, valid);
   for (std::size_t i = 0; i < quantities.size(); ++i) {
     const auto first = index(4 * i);
@@ -121,9 +123,9 @@ bool Fitter::smooth(const std::map<std::size_t, double>& steps) const {
     const Vector line = slope.col(index(i)) * steps.at(quantities[i]);
     const auto off = [&](Index column, double share) { return (f.col(first + column) - here - share * line).norm(); };
     const double whole = off(0, 1) + off(1, -1), half = off(2, 0.5) + off(3, -0.5);
-    if (whole > criteria.straight * line.norm() && half > criteria.curved * whole) return false;
+    if (whole > criteria.straight * line.norm() && half > criteria.curved * whole) out.insert(quantities[i]);
   }
-  return true;
+  return out;
 }
 
 void Fitter::find_responses() {

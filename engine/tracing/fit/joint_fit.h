@@ -2,6 +2,7 @@
 /// The declared model and the effects found so far, fitted to some of the readings with the full non-linear model.
 #include <map>
 #include <optional>
+#include <set>
 
 #include "tracing/candidates/candidates.h"
 #include "tracing/fit/scan.h"
@@ -56,8 +57,9 @@ struct FreeUnknown {
 struct DrawsGivenReadings {
   std::vector<std::size_t> draws; ///< by position in the plan's variates
   Vector mean;
-  Matrix covariance; ///< of the fit's fixed columns (SI; zero where not fitted), then of the draws
-  bool informed = false; ///< true if the readings say anything of them
+  Matrix covariance;              ///< of the fit's fixed columns (SI; zero where not fitted), then of the draws
+  bool informed = false;          ///< true if the readings say anything of them
+  double largest_correlation = 0; ///< of a fixed column and a draw: a length that was measured against a reference
 };
 
 /// Fits the declared model and terms to some of the readings, with the whole non-linear model.
@@ -117,8 +119,8 @@ private:
   void find_unknowns();
   void find_draws();
   void find_fitted();
-  /// Whether readings follow these steps of quantities (of both signs) like a smooth function.
-  bool smooth(const std::map<std::size_t, double>& steps) const;
+  /// Quantities whose steps (of both signs) the readings do not follow like a smooth function.
+  std::set<std::size_t> not_smooth(const std::map<std::size_t, double>& steps) const;
   /// Throws InputError if noise is declared, and an indication has none that differs from reading to reading.
   void need_independent_noise() const;
   /// Computes the responses to declared draws of effects over their values, at the estimates.

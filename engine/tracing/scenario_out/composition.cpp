@@ -307,7 +307,7 @@ private:
   /// Declared draws that all readings of an entry share, as these readings know them.
   void known_draws() {
     const DrawsGivenReadings given = c_.fitter.draws_given_readings(fit_);
-    if (!given.informed) return;
+    if (!given.informed && given.largest_correlation < criteria.told_correlation) return;
     const auto& plan = c_.experiment.plan();
     for (std::size_t i = 0; i < given.draws.size(); ++i) {
       const quantities::Variate& v = plan.variates[given.draws[i]];
