@@ -23,8 +23,9 @@ bool is_term(const JointFit& fit, const Candidate& a) {
   });
 }
 
-/// The largest share of all squares (by row) that a few successive readings hold.
+/// The largest share of what is removed (squares, by row) that a few successive readings hold; all, if nothing is.
 double share_of_few(const Vector& squares, std::size_t indications) {
+  if (!(squares.sum() > 0)) return 1;
   const Index few = std::min(squares.size(), criteria.few_readings * index(indications));
   double most = 0;
   for (Index from = 0; from + few <= squares.size(); from += index(indications))
