@@ -1,6 +1,7 @@
 """What one trace of a set, with its rounds, is worth: plain counts, added up by `battery_tables.py`."""
 import itertools
 import math
+import re
 
 from score import covered, is_shape, number, plain, same_place
 
@@ -30,9 +31,14 @@ def right(finding, effect):
     return bool(known & allowed(effect)) and (plain(effect["name"]) in known or effect["outside"]) and known <= allowed(effect)
 
 
+def holds_its_shape(finding, effect):
+    """A class with a shape of what is in no catalogue: `scatter:cycle | step:cycle 1`."""
+    return effect["outside"] and any(same_place(re.split("[:*^ ]", m)[1:2], effect["depends_on"]) for m in finding.get("members", []) if is_shape(m))
+
+
 def wrong(finding, truth):
     """A cause that is not there, alone or as a class of such."""
-    if a_shape(finding):
+    if a_shape(finding) or any(holds_its_shape(finding, e) for e in truth["effects"]):
         return False
     if finding["kind"] == "scatter" and truth["expected"] == "scatter":
         return False

@@ -16,9 +16,6 @@ def make(program, family, seed, folder):
     system = SYSTEMS[family.system]
     d, y, truth = sets.make(program, system, "several" if family.missing else "null", family.missing, 0, seed, family.noise,
                             floor=family.system != "tool_length", **family.options)
-    outside = {n: n in system.OUTSIDE for n, _ in family.missing}
-    for (name, _), effect in zip(family.missing, truth["effects"]):
-        effect["outside"] = outside[name]
     return sets.write(folder, folder / "truth", "set", d, y, truth, system), truth
 
 

@@ -72,6 +72,10 @@ class Parts(unittest.TestCase):
         self.assertEqual(count(outside, named("creep")), [1, 0, 0])
         self.assertEqual(count(outside, dict(unknown, depends_on=["x"])), [0, 0, 0])
         self.assertEqual(count(outside, named("drift")), [0, 0, 1])
+        scatter = lambda *members: dict(kind="scatter", name=members[0], members=list(members), depends_on=["cycle"])
+        self.assertEqual(count(outside, scatter("scatter:cycle")), [0, 0, 1])
+        self.assertEqual(count(outside, scatter("scatter:cycle", "omnibus:time")), [0, 0, 0])  # not told, and not wrong
+        self.assertEqual(count(outside, scatter("scatter:cycle", "step:cycle 2")), [0, 0, 1])
         null = dict(expected="nothing_found", effects=[])
         self.assertEqual([row(verdict(*f), null)["alarm"] for f in ((), (unknown,))], [False, True])
         for more in (dict(lack_of_fit=dict(found=True, depends_on=["time"])), dict(anomalous_blocks=[dict(name="time 3")])):

@@ -9,7 +9,7 @@ import sys
 
 from units import factor
 
-SHAPES = ("polynomial:", "harmonic:", "step:", "hysteresis:", "drift:", "product:", "omnibus:")
+SHAPES = ("polynomial:", "harmonic:", "step:", "hysteresis:", "drift:", "product:", "omnibus:", "table:", "wave:")
 
 
 def plain(name):

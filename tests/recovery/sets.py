@@ -79,7 +79,7 @@ def make(program, system, kind, what, strength, seed, noise_kind="white", floor=
         total = total + shift
         shift = size * one.smooth if hasattr(one, "smooth") else shift
         truth.update(sizes={n: size * part for n, part in getattr(one, "parts", {}).items()} or {truth["quantity"]: size})
-        truth.update(size=size, strength=d0.strength(shift), depends_on=list(truth["depends_on"]))
+        truth.update(size=size, strength=d0.strength(shift), depends_on=list(truth["depends_on"]), outside=name in system.OUTSIDE)
         effects.append((truth, shift))
     e = noise(noise_kind, rng, d.time, base.shape[1], deviations(noise_kind, d))
     if noise_kind.startswith("clamp") or kind == "scatter":
@@ -167,8 +167,10 @@ def judged(oracle, truth, shift, rng):
         truth = {**truth, "made_with": float(truth["size"]), "size": oracle.nearest(truth["name"], shift)}
     rivals = oracle.rivals(shift)
     limit = oracle.threshold(rng)
-    # A rival is refused when twice its log likelihood falls short by chi-square's 95 % point of one degree of freedom.
-    unsplit = [n for n, c in rivals.items() if n != truth["name"] and seen**2 * (1 - c * c) < 3.84]
+    # A rival is refused when twice its log likelihood falls short by chi-square's 95 % point of one degree of freedom; where
+    # nobody knows the truth's shape, when what it leaves would be found by itself.
+    short = limit**2 if truth["outside"] else 3.84
+    unsplit = [n for n, c in rivals.items() if n != truth["name"] and seen**2 * (1 - c * c) < short]
     return {**truth, "size": float(truth["size"]), "power_known": power(seen, 1.96), "power_catalogue": power(seen, limit),
             "threshold": limit, "twins": [n for n, c in rivals.items() if c > 0.98 and n != truth["name"]], "unsplit": unsplit,
             "rivals": {n: round(c, 4) for n, c in list(rivals.items())[:8]}}

@@ -17,6 +17,13 @@ std::string size_of(const Finding& f) {
   return fmt::format(" ({} {})", q.name, shown_size(q.value, q.unit, q.si_unit));
 }
 
+/// What may be there in place of scatter: the second member of its finding, if it has one.
+std::string in_its_place(const Finding& f) {
+  if (f.members.size() < 2) return {};
+  const std::string &shape = f.members[1], on = shape.substr(shape.find(':') + 1);
+  return shape.starts_with("step:") ? on + " differs from the others, which agree" : "the readings follow " + on;
+}
+
 std::string what_was_found(const Finding& f) {
   const std::string size = size_of(f);
   const auto depends_on = fmt::format("{}", fmt::join(f.depends_on, " and "));
@@ -34,7 +41,8 @@ std::string what_was_found(const Finding& f) {
                        "distinguish them.",
                        fmt::join(f.members, ", "));
   case Kind::scatter:
-    return fmt::format("The readings scatter more than declared from one {} to the next{}.", depends_on, size);
+    return fmt::format("The readings scatter more than declared from one {} to the next{}{}.", depends_on, size,
+                       f.members.size() < 2 ? "" : ", or " + in_its_place(f) + ": these data cannot distinguish them");
   case Kind::not_in_catalogue:
     if (f.described_by.starts_with("table:"))
       return fmt::format("A part of the error repeats that no effect of the catalogue explains; it depends on {}.",
@@ -57,7 +65,8 @@ std::string briefly(const Finding& f) {
   case Kind::equivalence_class:
     return fmt::format("one of {}", fmt::join(f.members, ", "));
   case Kind::scatter:
-    return fmt::format("scatter from one {} to the next{}", depends_on, size_of(f));
+    return fmt::format("scatter from one {} to the next{}{}", depends_on, size_of(f),
+                       f.members.size() < 2 ? "" : ", or " + in_its_place(f));
   case Kind::not_in_catalogue:
     return "an unknown effect of " + depends_on;
   }
@@ -80,6 +89,9 @@ std::string change(double before, double after, const Rms& r) {
 std::string what_to_do(const std::vector<Finding>& found, const Rms& r) {
   const Finding& f = found.front();
   const char* with = found.size() > 1 ? "with them" : "with it";
+  if (f.kind == Kind::scatter && f.members.size() > 1)
+    return fmt::format("Include it in the uncertainty budget; with more values of {}, the two can be distinguished.",
+                       fmt::join(f.depends_on, " and "));
   if (f.kind == Kind::scatter) return "It cannot be corrected for; include it in the uncertainty budget.";
   if (f.kind == Kind::equivalence_class && !f.suggestion.empty()) return "To distinguish them, " + f.suggestion + ".";
   if (std::isfinite(r.holdout_after)) {

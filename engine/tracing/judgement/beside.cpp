@@ -24,6 +24,24 @@ bool is_another(const Evidence& e, const Observations& o, std::size_t a, const C
   return c.family == Family::shape && c.columns.cols() == 1 && std::ranges::all_of(c.depends_on, recorded);
 }
 
+bool depends_within(const Candidate& a, const Candidate& b) {
+  return std::ranges::all_of(a.depends_on, [&](const std::string& name) {
+    return std::ranges::find(b.depends_on, name) != b.depends_on.end();
+  });
+}
+
+/// What one shape of no more sizes than the two explains, where the effect depends on nothing that the simpler shape
+/// does not: every curve in these conditions holds some of the effect.
+double by_one_shape(const Evidence& e, const Candidate& effect, const Candidate& simpler) {
+  double best = 0;
+  if (!depends_within(effect, simpler)) return best;
+  for (std::size_t a = 0; a < e.candidates().size(); ++a)
+    if (const Candidate& c = e.candidates()[a]; !c.physical() && depends_within(c, simpler) &&
+                                                c.columns.cols() <= effect.columns.cols() + simpler.columns.cols())
+      best = std::max(best, e.score(a));
+  return best;
+}
+
 } // namespace
 
 std::optional<std::size_t> simpler_beside_another(const Evidence& e, const Observations& o, std::size_t shape) {
@@ -46,7 +64,8 @@ std::optional<std::size_t> simpler_beside_another(const Evidence& e, const Obser
       const double added = e.scan().pair_ratio(s, a, e.residuals(), model) - alone;
       const double both = simpler[s].score + added - 2 * e.assessment().null[a].mean;
       const std::pair order{e.candidates()[s].columns.cols(), -both};
-      if (counts_beside(both, {e.score(a), simpler[s].score}, added, {e.limit(a), e.limit(s)}, e.score(shape)) &&
+      if (both >= by_one_shape(e, e.candidates()[a], e.candidates()[s]) &&
+          counts_beside(both, {e.score(a), simpler[s].score}, added, {e.limit(a), e.limit(s)}, e.score(shape)) &&
           order < best) {
         best = order;
         out = s;

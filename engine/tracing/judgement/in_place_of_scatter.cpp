@@ -7,13 +7,14 @@
 namespace gumshoe::tracing {
 namespace {
 
-/// One group that differs, or a straight line in what was recorded: shapes of one size that scatter may look like.
+/// One group that differs, a straight line in what was recorded, a course in time: shapes that scatter may look like.
 bool is_plain(const Candidate& a, const Grouping& group, const Observations& o) {
   const bool step = std::ranges::any_of(group.groups, [&](const std::string& g) { return a.name == "step:" + g; });
   const bool line = std::ranges::any_of(o.covariates, [&](const Covariate& x) {
     return !x.commanded && a.name == "polynomial:" + x.name && a.shape.empty();
   });
-  return a.family == Family::shape && a.columns.cols() == 1 && (step || line);
+  const bool course = a.family == Family::omnibus && (a.name == "omnibus:time" || a.name == "omnibus:order");
+  return course || (a.family == Family::shape && a.columns.cols() == 1 && (step || line));
 }
 
 } // namespace

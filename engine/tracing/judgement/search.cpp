@@ -372,8 +372,7 @@ private:
         adopt(instead.fit);
         return true;
       }
-      if (instead.as_well)
-        found->finding.remarks.push_back("described as well by " + with_shape(candidate(*instead.as_well)));
+      if (instead.as_well) found->finding.members.push_back(candidate(*instead.as_well).name);
     }
     add(*found);
     return false;
