@@ -52,8 +52,8 @@ FORMS = {"declared": lambda rest: f"{of_quantity(rest)} (declared)",
 def readable(name, shape=""):
     """A candidate as a reader says it; `shape`: what was held fixed of it."""
     family, colon, rest = name.partition(":")
-    if family == "step" and (found := re.match(r"after ([\d.]+) of the range", shape)):
-        return f"step after {100 * float(found[1]):.0f}\u202f% of {plain(rest)}"
+    if family == "step" and " after " in rest:
+        return f"step after {rest.partition(' after ')[2]}"
     if family == "polynomial" and shape.startswith("square"):
         return f"square of {plain(rest)}"
     return FORMS[family](rest) if colon and family in FORMS else plain(name)

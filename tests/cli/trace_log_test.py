@@ -72,6 +72,18 @@ def ball_screw():
                 yield f"{run},{3 * i},{'+' if sign > 0 else '-'},{y:.2f}"
 
 
+def slipped():
+    """An axis in six cycles, in both directions; between two readings of the third the reflector slips by 2.4 um."""
+    draw, t = random.Random(17), 0
+    yield "cycle,position_mm,direction,time_s,dev_um"
+    for cycle in range(1, 7):
+        for way in (1, -1):
+            for place in range(0, 11)[::way]:
+                slip = 2.4 if cycle > 3 or (cycle == 3 and way < 0 and place < 7) else 0
+                yield f"{cycle},{50 * place},{way},{t},{0.004 * 50 * place + 0.6 * way + slip + draw.gauss(0, 0.6):.2f}"
+                t += 12
+
+
 def warm_screw():
     """A screw that warms by 15 K and grows away from its bearing at 0: 3.45 um/(m K), in both directions, with a play."""
     draw, screw = random.Random(8), 20.0
@@ -156,6 +168,16 @@ class TraceLog(InFolder):
             for true, value, u in ((period, said[1], said[2]), (amplitude, said[3], said[4])):
                 self.assertAlmostEqual(float(value), true, delta=3.5 * float(u))
             (self.folder / "log.toml").unlink()
+
+    def test_a_step_is_told_with_its_instant(self):
+        v = self.trace(slipped())
+        step = [f for f in v["findings"] if f["described_by"].startswith("step:time after reading ")]
+        self.assertEqual(len(step), 1, [f["described_by"] for f in v["findings"]])
+        # Readings 1 to 22 are one cycle; the last before the slip is the fourth on the way back of the third.
+        self.assertAlmostEqual(int(step[0]["described_by"].split()[-1]), 2 * 22 + 11 + 4, delta=2)
+        size, u = re.search(r"it differs by (\S+) um, u = (\S+) um", " ".join(step[0]["remarks"])).groups()
+        self.assertAlmostEqual(float(size), 2.4, delta=3.5 * float(u))
+        self.assertIn("Something changed after reading", " ".join(v["plain"]))
 
     def test_growth_with_a_temperature_is_one_shape(self):
         """Not a smooth surface of many sizes: readings that are far off without it are not outlying with it."""

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <numbers>
+#include <numeric>
 #include <set>
 
 #include "base/units.h"
+#include "tracing/candidates/instants.h"
 #include "unit/tracing_case.h"
 #include "unit/tracing_dense.h"
 
@@ -39,6 +41,7 @@ Observations made() {
   }
   o.covariates = {covariate("feed", "m/s", feed), covariate("angle", "rad", angle), covariate("load", "N", load),
                   covariate("time", "s", time)};
+  o.covariates.back().course = true;
   o.labels = {setup};
   return o;
 }
@@ -61,6 +64,28 @@ double outside(const Matrix& basis, const Observations& o, std::size_t covariate
 Matrix with_constant(const Matrix& basis) { return tracing_dense::joined(Matrix::Ones(basis.rows(), 1), basis); }
 
 } // namespace
+
+TEST_CASE("a step is found between the readings between which it was made", "[tracing]") {
+  const Observations o = made();
+  std::vector<Index> rows(count);
+  std::iota(rows.begin(), rows.end(), 0);
+  // Readings that follow a step and nothing else: the columns' gain is their squared cosine with it.
+  for (const Index from : {4, 11, 40, 43}) {
+    Vector step = Vector::Zero(static_cast<Index>(count));
+    step.tail(step.size() - from).setOnes();
+    step.array() -= step.mean();
+    const gumshoe::tracing::Gain gain = [&](const Matrix& columns, Index, double) {
+      const Matrix centred = columns.rowwise() - columns.colwise().mean();
+      return Vector((centred.transpose() * step).array().square() /
+                    centred.colwise().squaredNorm().transpose().array());
+    };
+    const auto found = steps_at_instants(o, rows, gain);
+    REQUIRE(found.size() == 1); // time is the only course
+    CHECK(found[0].name ==
+          "step:time after reading " + std::to_string(o.sequence[static_cast<std::size_t>(from - 1)] + 1));
+    CHECK((found[0].columns.array() - found[0].columns.mean() - step.array()).matrix().norm() < 1e-12);
+  }
+}
 
 TEST_CASE("shapes span what they say", "[tracing]") {
   const Observations o = made();
@@ -87,8 +112,6 @@ TEST_CASE("shapes span what they say", "[tracing]") {
     spans("harmonic:" + std::to_string(h) + "xangle", 1, [&](double x) { return std::cos(h * x + 0.7); });
   spans(
       "drift:time", 3, [](double x) { return std::exp(-(x - 53) / (0.25 * 47)); }, "saturating, 0.25 of the range");
-  spans(
-      "step:time", 3, [](double x) { return x > 53 + 0.5 * 47 ? 1 : -1; }, "after 0.5 of the range");
   // A step of a label: one there, nought elsewhere, by sequence.
   const Matrix step = named(all, "step:setup 2").columns;
   for (std::size_t i = 0; i < count; ++i) CHECK(step(static_cast<Index>(i), 0) == (o.sequence[i] % 3 == 1 ? 1 : 0));

@@ -61,13 +61,13 @@ public:
   std::vector<Candidate> all() {
     for (const Covariate& c : o_.covariates) {
       c.angle ? harmonics(c) : polynomials(c);
-      if (c.name == "time" || c.name == "order") drift(c);
-      if (c.levels.size() > 2 && c.name != "time" && c.name != "order") hysteresis(c);
+      if (c.course) drift(c);
+      if (c.levels.size() > 2 && !c.course) hysteresis(c);
     }
     for (const Grouping& g : o_.labels) steps(g);
     for (const Grouping* g : part_labels(o_))
       for (const Covariate& c : o_.covariates)
-        if (c.commanded && c.name != "time" && c.name != "order") in_groups(c, *g);
+        if (c.commanded && !c.course) in_groups(c, *g);
     for (std::size_t i = 0; i < o_.covariates.size(); ++i)
       for (std::size_t j = i + 1; j < o_.covariates.size(); ++j) product(o_.covariates[i], o_.covariates[j]);
     for (const Covariate& c : o_.covariates)
@@ -159,12 +159,6 @@ private:
     for (const double share : {0.04, 0.1, 0.25, 0.6})
       add(Family::shape, "drift:" + c.name, 1 - (-t.array() / (share * range)).exp(), {c.name},
           fmt::format("saturating, {:.3g} of the range", share));
-    for (int i = 1; i < 10; ++i) {
-      const double at = 0.1 * i * range;
-      const Vector step = (t.array() > at).cast<double>();
-      if (step.sum() >= 2 && step.sum() <= static_cast<double>(step.size()) - 2)
-        add(Family::shape, "step:" + c.name, step, {c.name}, fmt::format("after {:.2g} of the range", 0.1 * i));
-    }
   }
 
   void hysteresis(const Covariate& c) {
@@ -203,8 +197,7 @@ private:
   void tables() {
     std::vector<const Covariate*> repeated;
     for (const Covariate& c : o_.covariates)
-      if (c.name != "time" && c.name != "order" && c.levels.size() * criteria.least_repeats <= o_.readings)
-        repeated.push_back(&c);
+      if (!c.course && c.levels.size() * criteria.least_repeats <= o_.readings) repeated.push_back(&c);
     for (std::size_t i = 0; i < repeated.size(); ++i) {
       if (static_cast<int>(repeated[i]->levels.size()) > criteria.omnibus_columns + 1) table({repeated[i]});
       for (std::size_t j = i + 1; j < repeated.size(); ++j) table({repeated[i], repeated[j]});

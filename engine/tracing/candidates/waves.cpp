@@ -32,7 +32,7 @@ public:
   }
 
   /// Cycles over the range that explain most: the best of a grid, then by Brent's method about it.
-  double best(double most, const PairGain& gain) const {
+  double best(double most, const Gain& gain) const {
     const double step = 1.0 / criteria.wave_grid;
     const auto count = static_cast<Index>(std::floor((most - least_cycles) / step)) + 1;
     double found = least_cycles, height = -1;
@@ -42,10 +42,10 @@ public:
       for (Index k = 0; k < n; ++k)
         pairs.middleCols(2 * k, 2) = columns(least_cycles + step * static_cast<double>(from + k));
       Index highest = 0;
-      const double here = gain(pairs).maxCoeff(&highest);
+      const double here = gain(pairs, 2, criteria.own_wave).maxCoeff(&highest);
       if (here > height) height = here, found = least_cycles + step * static_cast<double>(from + highest);
     }
-    const auto loss = [&](double cycles) { return -gain(columns(cycles))[0]; };
+    const auto loss = [&](double cycles) { return -gain(columns(cycles), 2, criteria.own_wave)[0]; };
     constexpr int bits = 20; // of the cycles: far finer than the data resolve
     return boost::math::tools::brent_find_minima(loss, std::max(least_cycles, found - step),
                                                  std::min(most, found + step), bits)
@@ -93,14 +93,13 @@ std::size_t places(const Covariate& c) {
 
 } // namespace
 
-std::vector<Candidate> waves(const Observations& o, const std::vector<const Candidate*>& known, const PairGain& gain) {
+std::vector<Candidate> waves(const Observations& o, const std::vector<const Candidate*>& known, const Gain& gain) {
   std::vector<Candidate> out;
-  const auto is_time = [](const Covariate& c) { return c.name == "time" || c.name == "order"; };
   // A programme that recurs is itself a wave in time.
   const bool programme =
-      std::ranges::any_of(o.covariates, [&](const Covariate& c) { return c.commanded && !is_time(c); });
+      std::ranges::any_of(o.covariates, [&](const Covariate& c) { return c.commanded && !c.course; });
   for (const Covariate& c : o.covariates) {
-    if (c.angle || (is_time(c) ? programme : !c.commanded) || c.levels.size() < 2) continue;
+    if (c.angle || (c.course ? programme : !c.commanded) || c.levels.size() < 2) continue;
     const std::size_t levels = places(c);
     if (levels <= criteria.levels_for_fine_omnibus) continue;
     const double most = std::min(static_cast<double>(levels - 1) / 2, criteria.most_cycles);

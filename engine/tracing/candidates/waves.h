@@ -1,22 +1,16 @@
 #pragma once
 /// Waves of unknown period: the cycle of an air conditioning along time, the lead of a screw along a slide.
-#include <functional>
-
-#include "tracing/candidates/candidates.h"
+#include "tracing/candidates/gain.h"
 
 namespace gumshoe::tracing {
 
-/// Squares of the residuals that pairs of columns explain, in units of the noise; one value per pair (2k, 2k + 1).
-/// Rows in the order of measurement.
-using PairGain = std::function<Vector(const Matrix& pairs)>;
-
-/// For each indication and each commanded condition with many levels or, if none varies, time or the order: the wave that
-/// explains most, with between two cycles over the range and one per two levels. Its p-value counts 4 W times, W being the
-/// number of cycles up to which it was sought: the bound of Baluev, Mon. Not. R. Astron. Soc. 385 (2008) 1279, for a
-/// periodogram's maximum of 16, about where one decides.
+/// For each indication and each commanded condition with many levels or, if none varies, time or the order: the wave
+/// that explains most, with between two cycles over the range and one per two levels. Its p-value counts 4 W times, W
+/// being the number of cycles up to which it was sought: the bound of Baluev, Mon. Not. R. Astron. Soc. 385 (2008)
+/// 1279, for a periodogram's maximum of 16, about where one decides.
 /// @param known  waves that are terms already; one that the range does not resolve from these is no candidate
 std::vector<Candidate> waves(const Observations& observations, const std::vector<const Candidate*>& known,
-                             const PairGain& gain);
+                             const Gain& gain);
 
 /// The same wave with another number of cycles over the range.
 Candidate at_cycles(const Observations& observations, const Candidate& wave, double cycles);

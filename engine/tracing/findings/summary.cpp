@@ -17,11 +17,20 @@ std::string size_of(const Finding& f) {
   return fmt::format(" ({} {})", q.name, shown_size(q.value, q.unit, q.si_unit));
 }
 
+/// "reading 27", after which the readings differ by a constant; empty of any other shape.
+std::string instant_of(const std::string& shape) {
+  const std::string after = " after ";
+  const auto at = shape.find(after);
+  return shape.starts_with("step:") && at != std::string::npos ? shape.substr(at + after.size()) : "";
+}
+
 /// What may be there in place of scatter: the second member of its finding, if it has one.
 std::string in_its_place(const Finding& f) {
   if (f.members.size() < 2) return {};
   const std::string &shape = f.members[1], on = shape.substr(shape.find(':') + 1);
-  return shape.starts_with("step:") ? on + " differs from the others, which agree" : "the readings follow " + on;
+  if (const std::string reading = instant_of(shape); !reading.empty()) return "something changed after " + reading;
+  if (shape.starts_with("step:")) return on + " differs from the others, which agree";
+  return shape == on ? on + " is there" : "the readings follow " + on;
 }
 
 std::string what_was_found(const Finding& f) {
@@ -47,6 +56,8 @@ std::string what_was_found(const Finding& f) {
     if (f.described_by.starts_with("table:"))
       return fmt::format("A part of the error repeats that no effect of the catalogue explains; it depends on {}.",
                          depends_on);
+    if (const std::string reading = instant_of(f.described_by); !reading.empty())
+      return fmt::format("Something changed after {}: from then on the readings differ by a constant.", reading);
     if (const std::string step = "step:";
         f.described_by.starts_with(step) && f.described_by.find(depends_on + " ") != std::string::npos)
       return fmt::format("{} differs from the others by a constant.", f.described_by.substr(step.size()));
@@ -68,6 +79,7 @@ std::string briefly(const Finding& f) {
     return fmt::format("scatter from one {} to the next{}{}", depends_on, size_of(f),
                        f.members.size() < 2 ? "" : ", or " + in_its_place(f));
   case Kind::not_in_catalogue:
+    if (const std::string reading = instant_of(f.described_by); !reading.empty()) return "a step after " + reading;
     return "an unknown effect of " + depends_on;
   }
   return {};
@@ -90,8 +102,7 @@ std::string what_to_do(const std::vector<Finding>& found, const Rms& r) {
   const Finding& f = found.front();
   const char* with = found.size() > 1 ? "with them" : "with it";
   if (f.kind == Kind::scatter && f.members.size() > 1)
-    return fmt::format("Include it in the uncertainty budget; with more values of {}, the two can be distinguished.",
-                       fmt::join(f.depends_on, " and "));
+    return "Until further readings distinguish them, include it in the uncertainty budget.";
   if (f.kind == Kind::scatter) return "It cannot be corrected for; include it in the uncertainty budget.";
   if (f.kind == Kind::equivalence_class && !f.suggestion.empty()) return "To distinguish them, " + f.suggestion + ".";
   if (std::isfinite(r.holdout_after)) {

@@ -6,6 +6,7 @@
 
 #include <Eigen/LU>
 
+#include "tracing/candidates/instants.h"
 #include "tracing/candidates/shapes.h"
 #include "tracing/candidates/waves.h"
 #include "tracing/criteria.h"
@@ -112,7 +113,7 @@ Evidence::Evidence(const TraceContext& c, const JointFit& fit, std::size_t round
                           [&](const Candidate& a, const Matrix& sizes) { return c.fitter.best_start(fit, a, sizes); });
   for (Candidate& a : shapes(c.observations, wide ? wide_cells(c.observations.readings) : criteria.most_table_cells))
     if (!known(a)) candidates_.push_back(std::move(a));
-  add_waves(dropped);
+  add_sought(dropped);
   for (const Candidate& a : candidates_) pointers_.push_back(&a);
   scan_ = std::make_unique<Scan>(fit.design, c.fitter.rows(), pointers_, c.threads);
   data_ = scan_->whitened(scan_->plain()).take(fit.residual);
@@ -127,28 +128,30 @@ Evidence::Evidence(const TraceContext& c, const JointFit& fit, std::size_t round
       noise_freedom(c.experiment), rarity);
 }
 
-void Evidence::add_waves(const std::set<std::string>& dropped) {
+void Evidence::add_sought(const std::set<std::string>& dropped) {
   std::vector<const Candidate*> known;
   for (const Term& t : fit_.terms)
     if (t.candidate.cycles > 0) known.push_back(&t.candidate);
   const auto use = independent(fit_.design, c_.fitter.rows());
   const Whitened plain(fit_.design, c_.fitter.rows(), use, {}), white(plain, fit_.covariance_model);
   const Vector left = white.reduce(plain.winsorised(plain.take(fit_.residual)));
-  const auto gain = [&](const Matrix& pairs) {
-    const Matrix whole = white.whiten(plain.take(pairs)), columns = white.reduce(plain.take(pairs));
-    Vector out = Vector::Zero(pairs.cols() / 2);
+  const Gain gain = [&](const Matrix& all, Index each, double share) {
+    const Matrix whole = white.whiten(plain.take(all)), reduced = white.reduce(plain.take(all));
+    Vector out = Vector::Zero(all.cols() / each);
     for (Index k = 0; k < out.size(); ++k) {
-      const auto pair = columns.middleCols(2 * k, 2);
-      const Eigen::Matrix2d squares = pair.transpose() * pair;
-      const Eigen::Vector2d product = pair.transpose() * left;
-      // A wave that unknowns follow has an alias that is none.
-      const bool own = pair.squaredNorm() > criteria.own_wave * whole.middleCols(2 * k, 2).squaredNorm();
-      if (own && squares.determinant() > criteria.absorbed_share * squares(0, 0) * squares(1, 1))
+      const auto columns = reduced.middleCols(each * k, each);
+      const Matrix squares = columns.transpose() * columns;
+      const Vector product = columns.transpose() * left;
+      // What unknowns follow has an alias that is none.
+      const bool own = columns.squaredNorm() > share * whole.middleCols(each * k, each).squaredNorm();
+      if (own && squares.determinant() > criteria.absorbed_share * squares.diagonal().prod())
         out[k] = product.dot(squares.inverse() * product);
     }
     return out;
   };
-  for (Candidate& a : waves(c_.observations, known, gain))
+  std::vector<Candidate> sought = waves(c_.observations, known, gain);
+  std::ranges::move(steps_at_instants(c_.observations, c_.fitter.rows(), gain), std::back_inserter(sought));
+  for (Candidate& a : sought)
     if (!dropped.contains(a.name)) candidates_.push_back(std::move(a));
 }
 
@@ -319,7 +322,7 @@ double WithoutScatter::chance_of_lead(const std::vector<std::size_t>& of, std::s
 }
 
 double WithoutScatter::score(std::size_t a) const {
-  return statistics_.ratio(index(a), 0) - 2 * evidence_.assessment().null[a].mean;
+  return statistics_.ratio(index(a), 0) - evidence_.chance(a);
 }
 
 } // namespace gumshoe::tracing

@@ -75,8 +75,9 @@ public:
   Matrix noise(std::size_t draws, std::uint64_t key) const;
 
 private:
-  /// Waves whose periods explain most of what the fit leaves, under its covariance model.
-  void add_waves(const std::set<std::string>& dropped);
+  /// Waves and steps in time whose periods and instants explain most of what the fit leaves, under its covariance
+  /// model.
+  void add_sought(const std::set<std::string>& dropped);
   /// Shape of draws of the seat of a clamping: if readings jump with the seat, so do the draws.
   Matrix scatter_response(const CovarianceModel& model, double variance) const;
   Trial trial(std::size_t candidate, const Term& term) const;

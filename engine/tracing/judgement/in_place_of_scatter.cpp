@@ -2,19 +2,27 @@
 
 #include <algorithm>
 
+#include "tracing/criteria.h"
 #include "tracing/judgement/decisions.h"
 
 namespace gumshoe::tracing {
 namespace {
 
-/// One group that differs, a straight line in what was recorded, a course in time: shapes that scatter may look like.
+/// One group that differs, a straight line in what was recorded, a step or a course in time: shapes that scatter may
+/// look like.
 bool is_plain(const Candidate& a, const Grouping& group, const Observations& o) {
-  const bool step = std::ranges::any_of(group.groups, [&](const std::string& g) { return a.name == "step:" + g; });
-  const bool line = std::ranges::any_of(o.covariates, [&](const Covariate& x) {
-    return !x.commanded && a.name == "polynomial:" + x.name && a.shape.empty();
-  });
-  const bool course = a.family == Family::omnibus && (a.name == "omnibus:time" || a.name == "omnibus:order");
-  return course || (a.family == Family::shape && a.columns.cols() == 1 && (step || line));
+  if (a.name.starts_with("step:") && std::ranges::find(group.groups, a.name.substr(5)) != group.groups.end())
+    return true;
+  const auto x = std::ranges::find(o.covariates, a.depends_on.front(), &Covariate::name);
+  if (a.physical() || a.depends_on.size() > 1 || x == o.covariates.end()) return false;
+  if (x->course) return a.family == Family::omnibus || a.name.starts_with("step:");
+  return !x->commanded && a.name == "polynomial:" + x->name && a.shape.empty();
+}
+
+/// Whether a noise, in units of the declared one, is surely larger than that.
+bool larger_than_declared(const TraceContext& c, const JointFit& fit, double noise) {
+  const double freedom = static_cast<double>(c.fitter.rows().size()) - static_cast<double>(fit.design.fixed.cols());
+  return noise * (1 - 2 / std::sqrt(2 * freedom)) > 1;
 }
 
 } // namespace
@@ -32,9 +40,9 @@ std::optional<SearchFinding> scatter_shown(const TraceContext& c, const JointFit
     return found;
   }
   // Noise of single readings, correlation and components apart: that is what would be declared.
-  const double freedom = static_cast<double>(c.fitter.rows().size()) - static_cast<double>(fit.design.fixed.cols());
-  const double scale = fit.noise * std::sqrt(a.data.variance[0]), surely = scale * (1 - 2 / std::sqrt(2 * freedom));
-  if (!(surely > 1) || !larger_noise_found(a, c.alpha, findings)) return std::nullopt;
+  if (!larger_than_declared(c, fit, fit.noise * std::sqrt(a.data.variance[0])) ||
+      !larger_noise_found(a, c.alpha, findings))
+    return std::nullopt;
   found.finding.p_value = a.p_noise_overall;
   found.finding.depends_on = {"reading"};
   found.finding.members = {"scatter:reading"};
@@ -99,6 +107,17 @@ InPlaceOfScatter in_place_of_scatter(const TraceContext& c, const Evidence& e, c
   else if (out.effects.finding.members.size() == 1)
     out.effects.finding.kind = Kind::named;
   return out;
+}
+
+std::optional<std::size_t> in_place_of_larger_noise(const TraceContext& c, const Evidence& e) {
+  std::vector<Scored> all;
+  for (std::size_t a = 0; a < e.candidates().size(); ++a)
+    all.push_back({e.candidates()[a].name, e.score(a), !e.candidates()[a].physical() || e.testable(a)});
+  for (const std::size_t a : best_of(all, criteria.most_shapes))
+    if (const JointFit fit = e.trial(a).fit; e.score(a) > criteria.decisive && fit.valid &&
+                                             !larger_than_declared(c, fit, fit.noise * std::sqrt(fit.variance)))
+      return a;
+  return std::nullopt;
 }
 
 } // namespace gumshoe::tracing

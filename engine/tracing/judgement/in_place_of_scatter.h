@@ -27,4 +27,7 @@ struct InPlaceOfScatter {
 InPlaceOfScatter in_place_of_scatter(const TraceContext& context, const Evidence& evidence,
                                      const SearchFinding& scatter);
 
+/// The best candidate with which readings scatter as declared; none: with each of the best they scatter more.
+std::optional<std::size_t> in_place_of_larger_noise(const TraceContext& context, const Evidence& evidence);
+
 } // namespace gumshoe::tracing

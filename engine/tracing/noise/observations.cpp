@@ -192,12 +192,12 @@ Observations observe(const propagation::Experiment& e) {
                   std::string(card.conditions[c].si_unit), one, true);
   }
   for (const auto& c : s.trace.columns) add_covariate(o, c.name, c.unit, c.si_unit, c.values);
-  const bool ordered = std::ranges::any_of(
-      o.covariates, [&](const Covariate& c) { return c.name == s.trace.order_name || c.name == "time"; });
-  if (!ordered && o.readings > 2) {
+  for (Covariate& c : o.covariates) c.course = c.name == s.trace.order_name || c.name == "time";
+  if (std::ranges::none_of(o.covariates, &Covariate::course) && o.readings > 2) {
     std::vector<double> rank(o.readings);
     for (std::size_t i = 0; i < o.readings; ++i) rank[o.sequence[i]] = static_cast<double>(i + 1);
     add_covariate(o, "order", "1", "1", rank);
+    o.covariates.back().course = true;
   }
   for (const std::string& label : label_names(s)) {
     Grouping g = grouping(s, o.sequence, {label});

@@ -14,6 +14,7 @@ struct Covariate {
   std::vector<double> levels; ///< distinct values, ascending
   bool angle = false;
   bool commanded = false; ///< a condition of the model, and no column that was only recorded
+  bool course = false;    ///< time, or the order of measurement
 };
 
 /// Number of the group of each reading, if the levels are cut into at most so many groups of neighbours.
