@@ -180,7 +180,8 @@ void print_next(const Options& o, const std::string& out, const RecognisedData* 
     std::cout << fmt::format("{}: to fill in, then gumshoe check {}:\n{}\n", out, out, error.what());
     std::string options;
     for (const auto& c : found ? found->columns : std::vector<scenario::RecognisedColumn>{})
-      if (c.unit == "?" && c.role != ColumnRole::other) options += fmt::format(" --unit {}=UNIT", c.name);
+      if (std::string(error.what()).find(fmt::format("the unit of the column '{}'", c.name)) != std::string::npos)
+        options += fmt::format(" --unit {}=UNIT", c.name);
     if (o.model == "sphere_probing" && o.machine.empty()) options += " --machine B,C/X,Y,Z";
     if (!options.empty()) std::cout << fmt::format("or write it anew: gumshoe new ... --force{}\n", options);
   }

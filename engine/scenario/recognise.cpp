@@ -26,9 +26,10 @@ const std::vector<RoleWords>& role_words() {
       {ColumnRole::uncertainty, {"sd", "std", "sigma", "u", "uncertainty", "unsicherheit"}},
       {ColumnRole::temperature, {"temp", "temperature", "temperatur"}},
       {ColumnRole::direction, {"dir", "direction", "richtung", "approach", "sense"}},
-      {ColumnRole::cycle, {"cycle", "run",    "repeat", "repetition", "pass",    "lauf",      "zyklus",
-                           "setup", "series", "reihe",  "messreihe",  "serie",   "durchgang", "trial",
-                           "round", "runde",  "expt",   "experiment", "versuch", "replicate", "rep"}},
+      {ColumnRole::cycle, {"cycle",   "run",     "repeat", "repetition", "pass",    "lauf",      "zyklus",
+                           "setup",   "series",  "reihe",  "messreihe",  "serie",   "durchgang", "trial",
+                           "round",   "runde",   "expt",   "experiment", "versuch", "replicate", "rep",
+                           "session", "sitzung", "visit",  "campaign",   "sweep",   "lap",       "umlauf"}},
       {ColumnRole::time,
        {"time", "zeit", "timestamp", "datetime", "date", "datum", "clock", "uhrzeit", "t", "elapsed", "seconds",
         "sekunden", "minutes", "minuten", "hours", "stunden"}},
@@ -280,10 +281,10 @@ bool says_missing(const std::string& text) {
 }
 
 bool names_parts(const RecognisedColumn& c) {
-  static const std::set<std::string> names{"operator", "bediener", "observer", "lab",    "laboratory", "batch",
-                                           "lot",      "machine",  "maschine", "sample", "part",       "specimen",
-                                           "tool",     "artefact", "probe",    "sensor", "day",        "tag",
-                                           "shift",    "wafer",    "rod"};
+  static const std::set<std::string> names{
+      "operator", "bediener", "observer", "lab",   "laboratory", "batch", "lot",      "machine", "maschine",
+      "sample",   "part",     "specimen", "tool",  "artefact",   "probe", "sensor",   "day",     "tag",
+      "shift",    "wafer",    "rod",      "touch", "hit",        "shot",  "antastung"};
   const auto words = words_of(c.name);
   return c.unit == "?" && std::ranges::any_of(words, [&](const std::string& w) { return names.contains(w); });
 }

@@ -1,3 +1,6 @@
+#include <map>
+#include <numeric>
+
 #include <fmt/format.h>
 
 #include "scenario/starter_parts.h"
@@ -13,6 +16,53 @@ NamedColumns readings_of(const RecognisedData& data) {
         (c.role == ColumnRole::reading || (c.role == ColumnRole::other && !was_set(data, c))))
       out.emplace_back(plain_name(c.name), &c);
   return out;
+}
+
+/// The readings of a column by the text in another.
+std::map<std::string, std::vector<double>> by_text(const RecognisedData& data, const RecognisedColumn& reading,
+                                                   const RecognisedColumn& text) {
+  const auto y = static_cast<std::size_t>(data.csv.find(reading.name)),
+             at = static_cast<std::size_t>(data.csv.find(text.name));
+  std::map<std::string, std::vector<double>> out;
+  for (const auto& row : data.csv.rows)
+    if (!says_missing(row[y].text)) out[row[at].text].push_back(data.csv.number(row[y], data.decimal));
+  return out;
+}
+
+/// Whether each part has a value of its own: parts differ ten times as much as readings of one part, such as tools by
+/// their lengths.
+bool differ(const std::map<std::string, std::vector<double>>& parts) {
+  const auto mean = [](const std::vector<double>& y) {
+    return std::accumulate(y.begin(), y.end(), 0.0) / static_cast<double>(y.size());
+  };
+  const auto squares = [&](const std::vector<double>& y) {
+    const double m = mean(y);
+    return std::accumulate(y.begin(), y.end(), 0.0, [&](double sum, double x) { return sum + (x - m) * (x - m); });
+  };
+  std::vector<double> means;
+  double within = 0, readings = 0;
+  for (const auto& [part, y] : parts) {
+    means.push_back(mean(y));
+    within += squares(y), readings += static_cast<double>(y.size());
+  }
+  const double parts_n = static_cast<double>(parts.size());
+  constexpr double far = 10;
+  return parts_n > 1 && readings > parts_n &&
+         squares(means) / (parts_n - 1) > far * far * within / (readings - parts_n);
+}
+
+/// The constant that is fitted to a column of readings: one, or one of each part.
+std::string offset_of(const RecognisedData& data, const RecognisedColumn& reading, const NamedColumns& labels) {
+  const std::string zero = fmt::format("\"0 {}\"", unit_or(reading, "um"));
+  for (const auto& [name, c] : labels) {
+    if (c->role == ColumnRole::cycle) continue;
+    const auto parts = by_text(data, reading, *c);
+    if (!differ(parts)) continue;
+    std::string all;
+    for (const auto& [part, y] : parts) all += fmt::format("{}{} = {}", all.empty() ? "" : ", ", quoted(part), zero);
+    return fmt::format("{{ estimated = true, by.{} = {{ {} }} }}", name, all);
+  }
+  return fmt::format("{{ estimated = true, value = {} }}", zero);
 }
 
 } // namespace
@@ -51,8 +101,7 @@ std::string starter_series(const StarterData& data, const std::string& scenario)
   for (const auto& [name, c] : readings) out += line(name, quoted(name + "_offset"), "");
   out += '\n' + data_section(data, labels, conditions, used);
   out += "\n[quantities]                            # fitted to the readings\n";
-  for (const auto& [name, c] : readings)
-    out += line(name + "_offset", fmt::format("{{ estimated = true, value = \"0 {}\" }}", unit_or(*c, "um")), "");
+  for (const auto& [name, c] : readings) out += line(name + "_offset", offset_of(found, *c, labels), "");
   for (const auto& [name, c] : readings)
     out += fmt::format("\n[indications.{}]\n", name) +
            line("readings", quoted(c->name),

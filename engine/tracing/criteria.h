@@ -83,6 +83,7 @@ struct Criteria {
   double wave_grid = 4, most_cycles = 500;
   double shown_wave = 3; ///< amplitude in u from which a wave per turn is told
   double own_wave = 0.5; ///< share of a wave that the declared model must leave
+  double drift_forms = 4; ///< independent forms of a drift that levels off, between the shortest and the longest
   /// A shape of which so many successive readings hold this share is one of outliers.
   Index few_readings = 3;
   double few_share = 0.75;

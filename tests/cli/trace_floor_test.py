@@ -49,8 +49,8 @@ class Floor(InFolder):
                 self.assertFalse(v["lack_of_fit"]["found"])
 
     def test_lack_of_fit_is_a_verdict(self):
-        """A reading comes back without a condition that says how: only its place in the block does."""
-        repeats.write_unrecorded(self.folder)
+        """A reading comes back without a condition that says how: its place in the block does, and two labels together."""
+        repeats.write_unrecorded(self.folder, sides=2)
         v = json.loads(gumshoe("trace", "s.toml", "--format", "json", "--threads", "1", cwd=self.folder, seconds=300).stdout)
         self.assertEqual(v["verdict"], "lack_of_fit")
         self.assertAlmostEqual(v["lack_of_fit"]["size"] * 1e6, 3, delta=0.5)

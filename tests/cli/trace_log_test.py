@@ -84,6 +84,30 @@ def slipped():
                 t += 12
 
 
+def two_probes():
+    """A straightedge in five passes by two probes, each with an error of its own along the slide: um."""
+    draw = random.Random(7)
+    error = {"P1": [draw.gauss(0, 2) for _ in range(13)], "P2": [2 + draw.gauss(0, 2) for _ in range(13)]}
+    yield "pass,probe,x_mm,y_um"
+    for turn in range(1, 6):
+        for probe in ("P1", "P2"):
+            for i in range(13):
+                yield f"{turn},{probe},{40 * i},{error[probe][i] + draw.gauss(0, 0.3):.2f}"
+
+
+def worn_tool():
+    """Four tools on a setter, in eight sessions: the spindle grows, and one tool wears by 6 um/h."""
+    draw, t = random.Random(2), 0
+    lengths = {"T1": 120.1, "T2": 85.3, "T3": 101.77, "T4": 66.5}
+    yield "session,tool,touch,time_s,length_mm"
+    for session in range(1, 9):
+        for tool, length in lengths.items():
+            for touch in range(1, 4):
+                y = 9 * (1 - math.exp(-t / 1200)) - (6 / 3600 * t if tool == "T3" else 0) + draw.gauss(0, 0.6)
+                yield f"{session},{tool},{touch},{t},{length + 1e-3 * y:.4f}"
+                t += 45
+
+
 def warm_screw():
     """A screw that warms by 15 K and grows away from its bearing at 0: 3.45 um/(m K), in both directions, with a play."""
     draw, screw = random.Random(8), 20.0
@@ -178,6 +202,31 @@ class TraceLog(InFolder):
         size, u = re.search(r"it differs by (\S+) um, u = (\S+) um", " ".join(step[0]["remarks"])).groups()
         self.assertAlmostEqual(float(size), 2.4, delta=3.5 * float(u))
         self.assertIn("Something changed after reading", " ".join(v["plain"]))
+
+    def test_each_part_may_have_a_curve_of_its_own(self):
+        v = self.trace(two_probes())
+        self.assertEqual([f["described_by"] for f in v["findings"]], ["table:position*probe"])
+        # A value of each cell from four readings leaves sqrt(1 + 1/4) of the noise.
+        self.assertAlmostEqual(v["rms"]["holdout_after"], 0.3e-6 * math.sqrt(1.25), delta=3 * 0.3e-6 / math.sqrt(2 * 26))
+        run = gumshoe("trace", "log.traced.toml", "--draws", "199", "--format", "json", cwd=self.folder, seconds=300)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        again = json.loads(run.stdout)
+        self.assertEqual(again["findings"], [])
+        self.assertAlmostEqual(again["rms"]["holdout_before"] / v["rms"]["holdout_after"], 1, delta=0.02)
+
+    def test_one_tool_wears(self):
+        """Each tool has a length of its own, which `new` sees; the growth is of all of them, and the wear of one."""
+        v = self.trace(worn_tool())
+        self.assertIn("by.tool", (self.folder / "log.toml").read_text())
+        self.assertEqual({f["described_by"] for f in v["findings"]}, {"drift:time", "product:time*tool T3"})
+        wear = next(f for f in v["findings"] if "T3" in f["described_by"])
+        slope, u = re.search(r"tool T3 alone has a straight line against time: (\S+) um/s, u = (\S+) um/s", " ".join(wear["remarks"])).groups()
+        self.assertAlmostEqual(float(slope), -6 / 3600, delta=3.5 * float(u))
+        growth = next(f for f in v["findings"] if f["described_by"] == "drift:time")
+        said = re.search(r"time constant (\S+) s, u = (\S+) s; it levels off at (\S+) um, u = (\S+) um", " ".join(growth["remarks"])).groups()
+        for true, value, u in ((1200, said[0], said[1]), (9, said[2], said[3])):
+            self.assertAlmostEqual(float(value), true, delta=3.5 * float(u))
+        self.assertIn("on tool T3 alone", " ".join(v["plain"]))
 
     def test_growth_with_a_temperature_is_one_shape(self):
         """Not a smooth surface of many sizes: readings that are far off without it are not outlying with it."""

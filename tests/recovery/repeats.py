@@ -48,15 +48,17 @@ def write(folder, missing, seed=1, declared=True, cycles=CYCLES, draws=99):
     (folder / "s.toml").write_text(axis.scenario(declared, draws))
 
 
-def write_unrecorded(folder, seed=1, declared=True, draws=99):
-    """Two runs through the positions in each cycle, told apart by a label only; what reads 3 um more in
-    one reads 3 um less in the other, and so from position to position."""
-    lines = ["cycle,run,x,direction,t,T,d"]
+def write_unrecorded(folder, seed=1, declared=True, draws=99, sides=1):
+    """Two runs through the positions in each cycle (on each of the sides), told apart by labels only; what reads 3 um more
+    in one reads 3 um less in the other, and so from position to position and from side to side."""
+    lines = ["cycle,run,side,x,direction,t,T,d"]
     chance = random.Random(f"unrecorded {seed}")
     for c in range(6):
-        for run in (1, 2):
-            for p in range(POSITIONS):
-                d = 2 + 3 * (-1) ** (run + p) + chance.gauss(0, 1)
-                lines.append(f"{c + 1},{run},{PITCH * p},1,{STEP * len(lines)},{20 + 1e-3 * len(lines)},{d}")
+        for side in range(1, sides + 1):
+            for run in (1, 2):
+                for p in range(POSITIONS):
+                    d = 2 + 3 * (-1) ** (run + p + side) + chance.gauss(0, 1)
+                    lines.append(f"{c + 1},{run},{side},{PITCH * p},1,{STEP * len(lines)},{20 + 1e-3 * len(lines)},{d}")
+    labels = '{ cycle = "cycle", run = "run"' + (', side = "side"' if sides > 1 else "") + " }"
     (folder / "r.csv").write_text("\n".join(lines) + "\n")
-    (folder / "s.toml").write_text(axis.scenario(declared, draws).replace('{ cycle = "cycle" }', '{ cycle = "cycle", run = "run" }'))
+    (folder / "s.toml").write_text(axis.scenario(declared, draws).replace('{ cycle = "cycle" }', labels))

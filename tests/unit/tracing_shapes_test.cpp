@@ -7,7 +7,7 @@
 #include <set>
 
 #include "base/units.h"
-#include "tracing/candidates/instants.h"
+#include "tracing/candidates/courses.h"
 #include "unit/tracing_case.h"
 #include "unit/tracing_dense.h"
 
@@ -29,7 +29,7 @@ Observations made() {
   o.indications = 1;
   o.names = {"z"};
   std::vector<double> feed, angle, load, time;
-  Grouping setup{"setup", {"setup"}, {}, {"setup 1", "setup 2", "setup 3"}};
+  Grouping setup{"setup", {"setup"}, {}, {"setup 1", "setup 2", "setup 3"}, {{"1"}, {"2"}, {"3"}}};
   for (std::size_t r = 0; r < count; ++r) {
     o.sequence.push_back(count - 1 - r);
     const auto i = static_cast<double>(r);
@@ -79,11 +79,11 @@ TEST_CASE("a step is found between the readings between which it was made", "[tr
       return Vector((centred.transpose() * step).array().square() /
                     centred.colwise().squaredNorm().transpose().array());
     };
-    const auto found = steps_at_instants(o, rows, gain);
-    REQUIRE(found.size() == 1); // time is the only course
-    CHECK(found[0].name ==
+    const auto found = courses(o, rows, gain);
+    REQUIRE(found.size() == 2); // time is the only course; a drift comes first
+    CHECK(found[1].name ==
           "step:time after reading " + std::to_string(o.sequence[static_cast<std::size_t>(from - 1)] + 1));
-    CHECK((found[0].columns.array() - found[0].columns.mean() - step.array()).matrix().norm() < 1e-12);
+    CHECK((found[1].columns.array() - found[1].columns.mean() - step.array()).matrix().norm() < 1e-12);
   }
 }
 
@@ -110,8 +110,6 @@ TEST_CASE("shapes span what they say", "[tracing]") {
   spans("polynomial:load", 2, [](double x) { return x; });
   for (int h = 1; h <= 4; ++h) // any phase
     spans("harmonic:" + std::to_string(h) + "xangle", 1, [&](double x) { return std::cos(h * x + 0.7); });
-  spans(
-      "drift:time", 3, [](double x) { return std::exp(-(x - 53) / (0.25 * 47)); }, "saturating, 0.25 of the range");
   // A step of a label: one there, nought elsewhere, by sequence.
   const Matrix step = named(all, "step:setup 2").columns;
   for (std::size_t i = 0; i < count; ++i) CHECK(step(static_cast<Index>(i), 0) == (o.sequence[i] % 3 == 1 ? 1 : 0));

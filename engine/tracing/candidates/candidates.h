@@ -36,6 +36,10 @@ struct Amplitude {
 };
 
 /// One signature that is tried.
+/// A shape of one unknown parameter, over the range of what it runs along: the cycles of a wave, the logarithm of the
+/// time constant of a drift that levels off.
+enum class Form { fixed, wave, drift };
+
 struct Candidate {
   std::string name;  ///< "trigger_latency", "rod_runout[rod 2]", "declared:rod_length[rod 2]", "polynomial:feed^2"
   std::string shape; ///< shape parameters held fixed, in words; or "at +5 um" for a signature taken over a finite step
@@ -48,9 +52,10 @@ struct Candidate {
   /// Where readings jump: the sizes of all amplitudes, SI, over which its one column was taken, and from which the
   /// whole model is fitted. Empty: readings do not jump, or it is the derivative.
   std::vector<double> start;
-  Matrix tried;                    ///< amplitudes x sizes of which that is the best; the p-value counts as often
-  double cycles = 0, cycles_u = 0; ///< of a wave, over the range of what it runs along, and their standard uncertainty
-  double searched = 1;             ///< independent forms of which this is the best; the p-value counts as often
+  Matrix tried; ///< amplitudes x sizes of which that is the best; the p-value counts as often
+  Form form = Form::fixed;
+  double parameter = 0, parameter_u = 0; ///< of its form, and the standard uncertainty
+  double searched = 1;                   ///< independent forms of which this is the best; the p-value counts as often
   double tries() const { return tried.cols() > 0 ? static_cast<double>(tried.cols()) : searched; }
   /// An effect at some of the readings only: of one rod, of one set-up.
   bool in_part() const { return family == Family::effect && rare(); }

@@ -54,6 +54,16 @@ Vector senses(const Vector& x) {
   return out;
 }
 
+/// Time as it is within the training readings, and at their ends beyond them: no curve says how it goes on.
+Covariate within_training(const Observations& o, Covariate c) {
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (std::size_t r = 0; r < o.readings; ++r)
+    if (o.held_out.empty() || !o.held_out[r]) low = std::min(low, c.value[r]), high = std::max(high, c.value[r]);
+  for (double& x : c.value) x = std::clamp(x, low, high);
+  std::erase_if(c.levels, [&](double x) { return x < low || x > high; });
+  return c;
+}
+
 class Shapes {
 public:
   Shapes(const Observations& o, std::size_t most_cells) : o_(o), most_cells_(most_cells) {}
@@ -61,13 +71,12 @@ public:
   std::vector<Candidate> all() {
     for (const Covariate& c : o_.covariates) {
       c.angle ? harmonics(c) : polynomials(c);
-      if (c.course) drift(c);
       if (c.levels.size() > 2 && !c.course) hysteresis(c);
     }
     for (const Grouping& g : o_.labels) steps(g);
     for (const Grouping* g : part_labels(o_))
       for (const Covariate& c : o_.covariates)
-        if (c.commanded && !c.course) in_groups(c, *g);
+        if (c.commanded || c.course) in_groups(c, *g);
     for (std::size_t i = 0; i < o_.covariates.size(); ++i)
       for (std::size_t j = i + 1; j < o_.covariates.size(); ++j) product(o_.covariates[i], o_.covariates[j]);
     for (const Covariate& c : o_.covariates)
@@ -153,14 +162,6 @@ private:
       add(Family::shape, "polynomial:" + c.name + "^2", scaled(o_, c).array().square(), {c.name});
   }
 
-  void drift(const Covariate& c) {
-    const double range = c.levels.back() - c.levels.front();
-    const Vector t = plain(o_, c).array() - c.levels.front();
-    for (const double share : {0.04, 0.1, 0.25, 0.6})
-      add(Family::shape, "drift:" + c.name, 1 - (-t.array() / (share * range)).exp(), {c.name},
-          fmt::format("saturating, {:.3g} of the range", share));
-  }
-
   void hysteresis(const Covariate& c) {
     const Vector sign = senses(plain(o_, c));
     // Both ways, more than to start anew.
@@ -203,16 +204,22 @@ private:
       for (std::size_t j = i + 1; j < repeated.size(); ++j) table({repeated[i], repeated[j]});
     }
     if (repeated.size() > 2) table(repeated);
+    // Each part, such as a probe, may have a curve of its own.
+    for (const Grouping* g : part_labels(o_))
+      for (const Covariate* c : repeated)
+        if (g->groups.size() <= criteria.most_omnibus_groups) table({c}, g);
   }
 
-  void table(const std::vector<const Covariate*>& by) {
+  void table(const std::vector<const Covariate*>& by, const Grouping* part = nullptr) {
     std::map<std::vector<double>, Index> cells;
     std::vector<Index> cell;
     std::vector<std::string> names;
     for (const Covariate* c : by) names.push_back(c->name);
+    if (part) names.push_back(part->name);
     for (const std::size_t r : o_.sequence) {
       std::vector<double> level;
       for (const Covariate* c : by) level.push_back(c->value[r]);
+      if (part) level.push_back(static_cast<double>(part->group[r]));
       cell.push_back(cells.insert({std::move(level), index(cells.size())}).first->second);
     }
     if (cells.size() > most_cells_ || cells.size() * criteria.least_repeats > o_.readings) return;
@@ -282,8 +289,9 @@ private:
 
 } // namespace
 
-Matrix smooth_basis(const Observations& o, const Covariate& c, int most) {
+Matrix smooth_basis(const Observations& o, const Covariate& all, int most) {
   const auto n = index(o.readings);
+  const Covariate c = all.course ? within_training(o, all) : all;
   const Vector raw = plain(o, c), x = scaled(o, c);
   if (static_cast<int>(c.levels.size()) <= most + 1) {
     Matrix out = Matrix::Zero(n, index(c.levels.size()) - 1);

@@ -4,8 +4,9 @@
 
 namespace gumshoe::tracing {
 
-/// Polynomials, harmonics of angles, steps by label and in the order, hysteresis by direction of motion, saturating
-/// drift, products of two covariates; and the omnibus families: any smooth dependence on one covariate, or on two.
+/// Polynomials, harmonics of angles, steps by label, hysteresis by direction of motion, products of two covariates; a
+/// condition in one part alone; and the omnibus families: any smooth dependence on one covariate or on two, any value at
+/// each level of what was set again and again, of each part by itself, too.
 /// @param most_cells  levels, or combinations of levels, up to which "any value" is a candidate
 std::vector<Candidate> shapes(const Observations& observations, std::size_t most_cells);
 

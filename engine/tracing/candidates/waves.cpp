@@ -61,27 +61,6 @@ private:
   Vector x_; ///< in the order of measurement, 0 to 1 over the range
 };
 
-Candidate candidate(const Observations& o, const Covariate& c, std::size_t indication, double cycles) {
-  Candidate a;
-  a.family = Family::shape;
-  a.name = "wave:" + c.name + (o.indications > 1 ? " of " + o.names[indication] : "");
-  const double range = c.levels.back() - c.levels.front();
-  a.shape = fmt::format("period {:.4g} {}", units::from_si(range / cycles, c.unit, c.si_unit, units::Kind::difference),
-                        c.unit);
-  a.columns = Waves(o, c, indication).columns(cycles);
-  a.cycles = cycles;
-  a.depends_on = {c.name};
-  Amplitude size;
-  size.quantity = Amplitude::npos;
-  size.name = "size";
-  a.amplitudes.assign(2, size);
-  return a;
-}
-
-} // namespace
-
-namespace {
-
 /// Levels that a wave can tell apart: those within a tenth of their mean distance count as one, such as a target that
 /// was met again but for its jitter.
 std::size_t places(const Covariate& c) {
@@ -92,6 +71,24 @@ std::size_t places(const Covariate& c) {
 }
 
 } // namespace
+
+Candidate wave(const Observations& o, const Covariate& c, std::size_t indication, double cycles) {
+  Candidate a;
+  a.family = Family::shape;
+  a.name = "wave:" + c.name + (o.indications > 1 ? " of " + o.names[indication] : "");
+  const double range = c.levels.back() - c.levels.front();
+  a.shape = fmt::format("period {:.4g} {}", units::from_si(range / cycles, c.unit, c.si_unit, units::Kind::difference),
+                        c.unit);
+  a.columns = Waves(o, c, indication).columns(cycles);
+  a.form = Form::wave;
+  a.parameter = cycles;
+  a.depends_on = {c.name};
+  Amplitude size;
+  size.quantity = Amplitude::npos;
+  size.name = "size";
+  a.amplitudes.assign(2, size);
+  return a;
+}
 
 std::vector<Candidate> waves(const Observations& o, const std::vector<const Candidate*>& known, const Gain& gain) {
   std::vector<Candidate> out;
@@ -104,24 +101,14 @@ std::vector<Candidate> waves(const Observations& o, const std::vector<const Cand
     if (levels <= criteria.levels_for_fine_omnibus) continue;
     const double most = std::min(static_cast<double>(levels - 1) / 2, criteria.most_cycles);
     for (std::size_t i = 0; i < o.indications; ++i) {
-      Candidate a = candidate(o, c, i, Waves(o, c, i).best(most, gain));
+      Candidate a = wave(o, c, i, Waves(o, c, i).best(most, gain));
       a.searched = 4 * most;
       const bool resolved = std::ranges::none_of(known, [&](const Candidate* other) {
-        return other->name == a.name && std::fabs(other->cycles - a.cycles) < 1;
+        return other->name == a.name && std::fabs(other->parameter - a.parameter) < 1;
       });
       if (resolved) out.push_back(std::move(a));
     }
   }
-  return out;
-}
-
-Candidate at_cycles(const Observations& o, const Candidate& wave, double cycles) {
-  const auto along = std::ranges::find(o.covariates, wave.depends_on[0], &Covariate::name);
-  Index moved = 0;
-  wave.columns.col(0).cwiseAbs().maxCoeff(&moved);
-  Candidate out = candidate(o, *along, index(moved % index(o.indications)), cycles);
-  out.searched = wave.searched;
-  out.cycles_u = wave.cycles_u;
   return out;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 /// Waves of unknown period: the cycle of an air conditioning along time, the lead of a screw along a slide.
-#include "tracing/candidates/gain.h"
+#include "tracing/candidates/forms.h"
 
 namespace gumshoe::tracing {
 
@@ -12,7 +12,7 @@ namespace gumshoe::tracing {
 std::vector<Candidate> waves(const Observations& observations, const std::vector<const Candidate*>& known,
                              const Gain& gain);
 
-/// The same wave with another number of cycles over the range.
-Candidate at_cycles(const Observations& observations, const Candidate& wave, double cycles);
+/// The wave of so many cycles over the range.
+Candidate wave(const Observations& observations, const Covariate& along, std::size_t indication, double cycles);
 
 } // namespace gumshoe::tracing

@@ -23,6 +23,14 @@ std::size_t moved_indication(const Matrix& columns, std::size_t indications) {
   return 0;
 }
 
+/// "3.31 s, u = 0.01 s"
+std::string with_u(double x, double u, const std::string& unit, const std::string& si_unit) {
+  const auto number = [&](double si) { return units::from_si(si, unit, si_unit, units::Kind::difference); };
+  const int decimals = analysis::decimals_for(number(u));
+  return fmt::format("{} {}, u = {} {}", analysis::fixed(number(x), decimals), unit,
+                     analysis::fixed(number(u), decimals), unit);
+}
+
 class CurveMaker {
 public:
   CurveMaker(const TraceContext& c, const JointFit& fit, std::size_t term)
@@ -87,24 +95,27 @@ public:
                        shown_size(std::sqrt(covariance_(0, 0)) * std::fabs(per_size), unit, si_unit));
   }
 
+  /// "38 min, u = 4 min; it levels off at 6.1 um, u = 0.3 um" of a drift; empty of anything else.
+  std::string time_constant(const Covariate& time) const {
+    if (term_.candidate.form != Form::drift || term_.size.size() != 1 || !(term_.candidate.parameter_u > 0)) return "";
+    const double constant = std::exp(term_.candidate.parameter) * (time.levels.back() - time.levels.front());
+    return fmt::format("{}; it levels off at {}",
+                       with_u(constant, constant * term_.candidate.parameter_u, time.unit, time.si_unit),
+                       with_u(term_.size[0], std::sqrt(covariance_(0, 0)), small_unit(), empty_.indication_si_unit));
+  }
+
   /// "period 3.31 s, u = 0.01 s; amplitude 1.5 um, u = 0.2 um" of a wave; empty of anything else.
   std::string wave(const Covariate& covariate) const {
-    const double cycles = term_.candidate.cycles;
-    if (!(cycles > 0) || term_.size.size() != 2) return "";
+    const double cycles = term_.candidate.parameter;
+    if (term_.candidate.form != Form::wave || term_.size.size() != 2) return "";
     const double amplitude = term_.size.norm();
     const Vector direction = term_.size / amplitude;
     const double u = std::sqrt(direction.dot(covariance_ * direction));
     const double range = covariate.levels.back() - covariate.levels.front();
-    const auto shown = [](double x, double ux, const std::string& unit, const std::string& si_unit) {
-      const auto number = [&](double si) { return units::from_si(si, unit, si_unit, units::Kind::difference); };
-      const int decimals = analysis::decimals_for(number(ux));
-      return fmt::format("{} {}, u = {} {}", analysis::fixed(number(x), decimals), unit,
-                         analysis::fixed(number(ux), decimals), unit);
-    };
-    return fmt::format(
-        "period {}; amplitude {}",
-        shown(range / cycles, range / cycles / cycles * term_.candidate.cycles_u, covariate.unit, covariate.si_unit),
-        shown(amplitude, u, small_unit(), empty_.indication_si_unit));
+    return fmt::format("period {}; amplitude {}",
+                       with_u(range / cycles, range / cycles / cycles * term_.candidate.parameter_u, covariate.unit,
+                              covariate.si_unit),
+                       with_u(amplitude, u, small_unit(), empty_.indication_si_unit));
   }
 
   /// "1 wave per turn 3.6 um, u = 0.1 um; 2 waves ..." of a dependence on an angle that goes round: those that exceed
@@ -244,6 +255,8 @@ void add_curves(const TraceContext& c, const JointFit& fit, std::size_t term, Fi
   if (covariates.size() + labels.size() == 1) {
     if (const std::string wave = labels.empty() ? make.wave(*covariates[0]) : ""; !wave.empty())
       finding.remarks.push_back(fmt::format("a wave along {}: {}", covariates[0]->name, wave));
+    else if (const std::string drift = labels.empty() ? make.time_constant(*covariates[0]) : ""; !drift.empty())
+      finding.remarks.push_back("time constant " + drift);
     else if (const std::string waves = labels.empty() ? make.waves_per_turn(*covariates[0]) : ""; !waves.empty())
       finding.remarks.push_back(fmt::format("per turn of {}: {}", covariates[0]->name, waves));
     else if (const std::string step = make.step(); !step.empty())

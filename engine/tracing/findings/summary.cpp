@@ -24,6 +24,14 @@ std::string instant_of(const std::string& shape) {
   return shape.starts_with("step:") && at != std::string::npos ? shape.substr(at + after.size()) : "";
 }
 
+/// "tool T3", which alone changes with the first condition; empty of any other shape.
+std::string part_alone(const Finding& f) {
+  if (f.depends_on.size() != 2) return {};
+  const std::string product = fmt::format("product:{}*{} ", f.depends_on[0], f.depends_on[1]);
+  if (!f.described_by.starts_with(product)) return {};
+  return f.depends_on[1] + " " + f.described_by.substr(product.size());
+}
+
 /// What may be there in place of scatter: the second member of its finding, if it has one.
 std::string in_its_place(const Finding& f) {
   if (f.members.size() < 2) return {};
@@ -58,6 +66,8 @@ std::string what_was_found(const Finding& f) {
                          depends_on);
     if (const std::string reading = instant_of(f.described_by); !reading.empty())
       return fmt::format("Something changed after {}: from then on the readings differ by a constant.", reading);
+    if (const std::string part = part_alone(f); !part.empty())
+      return fmt::format("An unknown effect changes the readings of {} alone with {}.", part, f.depends_on[0]);
     if (const std::string step = "step:";
         f.described_by.starts_with(step) && f.described_by.find(depends_on + " ") != std::string::npos)
       return fmt::format("{} differs from the others by a constant.", f.described_by.substr(step.size()));
@@ -80,6 +90,8 @@ std::string briefly(const Finding& f) {
                        f.members.size() < 2 ? "" : ", or " + in_its_place(f));
   case Kind::not_in_catalogue:
     if (const std::string reading = instant_of(f.described_by); !reading.empty()) return "a step after " + reading;
+    if (const std::string part = part_alone(f); !part.empty())
+      return fmt::format("an unknown effect of {} on {} alone", f.depends_on[0], part);
     return "an unknown effect of " + depends_on;
   }
   return {};

@@ -6,7 +6,7 @@
 
 #include <Eigen/LU>
 
-#include "tracing/candidates/instants.h"
+#include "tracing/candidates/courses.h"
 #include "tracing/candidates/shapes.h"
 #include "tracing/candidates/waves.h"
 #include "tracing/criteria.h"
@@ -131,28 +131,40 @@ Evidence::Evidence(const TraceContext& c, const JointFit& fit, std::size_t round
 void Evidence::add_sought(const std::set<std::string>& dropped) {
   std::vector<const Candidate*> known;
   for (const Term& t : fit_.terms)
-    if (t.candidate.cycles > 0) known.push_back(&t.candidate);
+    if (t.candidate.form == Form::wave) known.push_back(&t.candidate);
   const auto use = independent(fit_.design, c_.fitter.rows());
-  const Whitened plain(fit_.design, c_.fitter.rows(), use, {}), white(plain, fit_.covariance_model);
-  const Vector left = white.reduce(plain.winsorised(plain.take(fit_.residual)));
-  const Gain gain = [&](const Matrix& all, Index each, double share) {
-    const Matrix whole = white.whiten(plain.take(all)), reduced = white.reduce(plain.take(all));
-    Vector out = Vector::Zero(all.cols() / each);
-    for (Index k = 0; k < out.size(); ++k) {
-      const auto columns = reduced.middleCols(each * k, each);
-      const Matrix squares = columns.transpose() * columns;
-      const Vector product = columns.transpose() * left;
-      // What unknowns follow has an alias that is none.
-      const bool own = columns.squaredNorm() > share * whole.middleCols(each * k, each).squaredNorm();
-      if (own && squares.determinant() > criteria.absorbed_share * squares.diagonal().prod())
-        out[k] = product.dot(squares.inverse() * product);
-    }
-    return out;
-  };
-  std::vector<Candidate> sought = waves(c_.observations, known, gain);
-  std::ranges::move(steps_at_instants(c_.observations, c_.fitter.rows(), gain), std::back_inserter(sought));
-  for (Candidate& a : sought)
-    if (!dropped.contains(a.name)) candidates_.push_back(std::move(a));
+  const Whitened plain(fit_.design, c_.fitter.rows(), use, {});
+  const Vector residual = plain.winsorised(plain.take(fit_.residual));
+  // A correlation or a component that stands for the very shape would hide its form.
+  std::vector<CovarianceModel> models{fit_.covariance_model};
+  if (models[0].correlation != 0 || models[0].scatter >= 0) models.emplace_back();
+  std::vector<Candidate> sought;
+  for (const CovarianceModel& model : models) {
+    const Whitened white(plain, model);
+    const Vector left = white.reduce(residual);
+    const Gain gain = [&](const Matrix& all, Index each, double share) {
+      const Matrix whole = white.whiten(plain.take(all)), reduced = white.reduce(plain.take(all));
+      Vector out = Vector::Zero(all.cols() / each);
+      for (Index k = 0; k < out.size(); ++k) {
+        const auto columns = reduced.middleCols(each * k, each);
+        const Matrix squares = columns.transpose() * columns;
+        const Vector product = columns.transpose() * left;
+        // What unknowns follow has an alias that is none.
+        const bool own = columns.squaredNorm() > share * whole.middleCols(each * k, each).squaredNorm();
+        if (own && squares.determinant() > criteria.absorbed_share * squares.diagonal().prod())
+          out[k] = product.dot(squares.inverse() * product);
+      }
+      return out;
+    };
+    std::ranges::move(waves(c_.observations, known, gain), std::back_inserter(sought));
+    std::ranges::move(courses(c_.observations, c_.fitter.rows(), gain), std::back_inserter(sought));
+  }
+  for (Candidate& a : sought) {
+    const bool twice = std::ranges::any_of(
+        candidates_, [&](const Candidate& other) { return other.name == a.name && other.shape == a.shape; });
+    a.searched *= static_cast<double>(models.size());
+    if (!twice && !dropped.contains(a.name)) candidates_.push_back(std::move(a));
+  }
 }
 
 Matrix Evidence::scatter_response(const CovarianceModel& model, double variance) const {
@@ -253,10 +265,12 @@ bool Evidence::predicts_better(const JointFit& other, const CovarianceModel& mod
 }
 
 bool Evidence::of_few(const JointFit& other) const {
+  CovarianceModel model = other.covariance_model;
+  model.correlation = 0; // it would spread what is of one reading
   const auto squares = [&](const JointFit& fit) {
-    const Scan scan(fit.design, c_.fitter.rows(), {}, c_.threads);
-    const Whitened& w = scan.whitened(scan.plain());
-    return Vector(w.left_over(scan.winsorised(w.take(fit.residual))).array().square());
+    const auto use = independent(fit.design, c_.fitter.rows());
+    const Whitened plain(fit.design, c_.fitter.rows(), use, {}), white(plain, model);
+    return Vector(white.left_over(plain.winsorised(plain.take(fit.residual))).array().square());
   };
   return share_of_few(squares(fit_) - squares(other), c_.observations.indications) > criteria.few_share;
 }
@@ -321,8 +335,6 @@ double WithoutScatter::chance_of_lead(const std::vector<std::size_t>& of, std::s
   return (1.0 + as_much) / (1.0 + static_cast<double>(criteria.rival_draws));
 }
 
-double WithoutScatter::score(std::size_t a) const {
-  return statistics_.ratio(index(a), 0) - evidence_.chance(a);
-}
+double WithoutScatter::score(std::size_t a) const { return statistics_.ratio(index(a), 0) - evidence_.chance(a); }
 
 } // namespace gumshoe::tracing

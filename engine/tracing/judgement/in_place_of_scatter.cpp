@@ -13,8 +13,9 @@ namespace {
 bool is_plain(const Candidate& a, const Grouping& group, const Observations& o) {
   if (a.name.starts_with("step:") && std::ranges::find(group.groups, a.name.substr(5)) != group.groups.end())
     return true;
-  const auto x = std::ranges::find(o.covariates, a.depends_on.front(), &Covariate::name);
-  if (a.physical() || a.depends_on.size() > 1 || x == o.covariates.end()) return false;
+  if (a.physical() || a.depends_on.size() != 1) return false;
+  const auto x = std::ranges::find(o.covariates, a.depends_on[0], &Covariate::name);
+  if (x == o.covariates.end()) return false;
   if (x->course) return a.family == Family::omnibus || a.name.starts_with("step:");
   return !x->commanded && a.name == "polynomial:" + x->name && a.shape.empty();
 }

@@ -12,9 +12,9 @@
 #include "tracing/judgement/beside.h"
 #include "tracing/judgement/decisions.h"
 #include "tracing/judgement/evidence.h"
+#include "tracing/judgement/form_tuning.h"
 #include "tracing/judgement/in_place_of_scatter.h"
 #include "tracing/judgement/ranking.h"
-#include "tracing/judgement/wave_tuning.h"
 
 namespace gumshoe::tracing {
 namespace {
@@ -110,11 +110,13 @@ private:
     return true;
   }
 
-  /// Adds a finding; a size of an effect that is named already joins it.
+  /// Adds a finding; a size of an effect that is named already joins it, as does a scatter that is known.
   void add(SearchFinding found) {
     const auto same = std::ranges::find_if(out_.findings, [&](const SearchFinding& f) {
-      return f.finding.kind == Kind::named && found.finding.kind == Kind::named &&
-             f.finding.members == found.finding.members;
+      const bool one_kind = f.finding.kind == found.finding.kind;
+      return one_kind && (f.finding.kind == Kind::scatter
+                              ? f.component == found.component
+                              : f.finding.kind == Kind::named && f.finding.members == found.finding.members);
     });
     if (same == out_.findings.end())
       out_.findings.push_back(std::move(found));
@@ -174,7 +176,7 @@ private:
   }
 
   /// The fit with the terms of another, its noise found anew.
-  void adopt(const JointFit& fit) { out_.found = with_tuned_waves(c_, c_.fitter.fit(fit.terms, 0, &fit)); }
+  void adopt(const JointFit& fit) { out_.found = with_tuned_forms(c_, c_.fitter.fit(fit.terms, 0, &fit)); }
 
   /// Candidates that could win, by the whole model, best first.
   std::vector<Trial> trials() const {
@@ -300,6 +302,21 @@ private:
     adopt(best.fit);
   }
 
+  /// A form of one size, such as a drift that levels off, goes before a free curve in the same condition that does not
+  /// exclude it: it says more, and goes on beyond the readings.
+  void straighten(std::vector<Trial>& tried) const {
+    const Candidate& curve = candidate(tried[0].candidate);
+    if (curve.family != Family::omnibus || curve.depends_on.size() != 1) return;
+    const auto simple = std::ranges::find_if(tried, [&](const Trial& t) {
+      const Candidate& one = candidate(t.candidate);
+      return one.columns.cols() == 1 && one.depends_on == curve.depends_on;
+    });
+    if (simple == tried.end()) return;
+    const double lead = tried[0].score - simple->score;
+    if (!shape_excludes(lead, [&] { return evidence_->chance_of_lead(tried[0].candidate, simple->candidate, lead); }))
+      std::rotate(tried.begin(), simple, simple + 1);
+  }
+
   /// No known effect: the dependence itself, as smooth as the data ask for.
   bool take_shape() {
     const auto& assessment = evidence_->assessment();
@@ -315,6 +332,7 @@ private:
     const auto place = [](const Trial& t) { return std::pair{-std::round(t.score * 1e3), t.candidate}; };
     std::ranges::sort(tried, std::ranges::less{}, place);
     if (tried.empty()) return false;
+    straighten(tried);
     if (const auto simpler = simpler_beside_another(*evidence_, c_.observations, tried[0].candidate))
       if (Trial one = evidence_->trial(*simpler); one.fit.valid) tried.insert(tried.begin(), std::move(one));
     std::vector<std::pair<std::size_t, JointFit>> described;
@@ -349,7 +367,9 @@ private:
     SearchFinding found = found_by(a, Kind::not_in_catalogue);
     found.finding.p_value = p;
     found.finding.described_by = candidate(a).name;
-    found.finding.remarks.push_back("described by " + with_shape(candidate(a)));
+    // A time constant is told as it is fitted in the end.
+    const bool fixed = candidate(a).form == Form::fixed;
+    found.finding.remarks.push_back("described by " + (fixed ? with_shape(candidate(a)) : candidate(a).name));
     if (!remark.empty()) found.finding.remarks.push_back(remark);
     outcomes_[a] = "describes an unknown effect";
     add(std::move(found));

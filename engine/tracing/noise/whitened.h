@@ -49,7 +49,8 @@ public:
   /// @param scale   robust standard deviation by column, in units of the design's
   /// @param weight  1 where a residual was not changed, below 1 where it was winsorised
   Matrix winsorised(const Matrix& residuals, Vector* scale = nullptr, Matrix* weight = nullptr) const;
-  /// Whitened part of chosen rows that the fixed and random columns leave. For the plain model.
+  /// Whitened part of chosen rows that the fixed and random columns and the component leave. For models without
+  /// correlation.
   Matrix left_over(Matrix chosen) const { return elimination_->projected(in_units(std::move(chosen))); }
   /// Minus twice the logarithm of the density's factor that does not depend on the data.
   double log_determinant() const { return log_determinant_; }

@@ -81,12 +81,13 @@ private:
         fmt::format("not in the catalogue{}: depends on {}", f ? fmt::format(", p = {:.2g}", f->p_value) : "",
                     fmt::join(one.candidate.depends_on, " and "));
     for (Correction& c : written_[t]->effects) {
+      const Index j = &c - written_[t]->effects.data();
       c.source = source + "; known at the levels measured, and linear between those of one condition";
       out_.extended.quantities.push_back({c.name + ".size", c.unit, c.si_unit, {}, true});
       if (written_[t]->label)
-        sizes_by_label(t, *written_[t]->label, !c.keys.empty(), source);
+        sizes_by_label(t, *written_[t]->label, c.keys.empty() ? -1 : j, source);
       else
-        size_of_column(t, index(&c - written_[t]->effects.data()), source);
+        size_of_column(t, j, source);
       out_.corrections.push_back(c);
     }
   }
@@ -97,13 +98,15 @@ private:
     lines_.push_back({unknown(q, 0), fit_.terms[t].size[j], first_column(fit_, t) + j, {false, {}, source}});
   }
 
-  /// @param of_condition the one group that counts does so by a condition: the loading holds what the column holds
-  void sizes_by_label(std::size_t t, const Grouping& label, bool of_condition, const std::string& source) {
+  /// @param by_condition the column by which one group alone depends on a condition: the loading holds what it holds;
+  ///                     -1: none
+  void sizes_by_label(std::size_t t, const Grouping& label, Index by_condition, const std::string& source) {
     const Observations& o = c_.observations;
     const Matrix& columns = fit_.terms[t].candidate.columns;
+    const bool of_condition = by_condition >= 0;
     std::vector<bool> counts(label.groups.size(), false);
-    for (Index i = 0; i < columns.rows(); ++i)
-      if (!columns.row(i).isZero(0)) counts[label.group[o.sequence[index(i) / o.indications]]] = true;
+    for (Index i = 0; of_condition && i < columns.rows(); ++i)
+      if (columns(i, by_condition) != 0) counts[label.group[o.sequence[index(i) / o.indications]]] = true;
     const std::size_t q = out_.extended.quantities.size() - 1;
     std::vector<bool> done(label.groups.size(), false);
     for (std::size_t i = 0; i < o.readings; ++i) {
@@ -114,7 +117,7 @@ private:
       const auto& labels = c_.experiment.scenario().readings[reading].labels;
       entries.push_back({{{label.name, *quantities::label_value(labels, label.name)}}, 0, {}, ""});
       const auto rows = columns.middleRows(index(i * o.indications), index(o.indications)).colwise().sum();
-      Index column = of_condition && counts[group] ? 0 : -1;
+      Index column = of_condition && counts[group] ? by_condition : -1;
       for (Index j = 0; j < rows.size() && !of_condition; ++j)
         if (rows[j] != 0) column = j;
       lines_.push_back({unknown(q, entries.size() - 1),

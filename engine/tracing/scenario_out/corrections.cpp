@@ -1,6 +1,7 @@
 #include "tracing/scenario_out/corrections.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include <fmt/format.h>
@@ -63,20 +64,36 @@ Correction common(const TraceContext& c, const Candidate& shape, const std::stri
   return out;
 }
 
-/// A group's own dependence on a condition over the levels it met; empty if other groups went beyond them.
-std::optional<Correction> in_a_group(const TraceContext& c, const Matrix& loading, const Grouping& g,
+/// Slope of a line through the origin on which all rows lie; empty if there is none.
+std::optional<double> slope_of(const std::map<double, double>& rows) {
+  const auto& [x, y] = *rows.rbegin();
+  if (x == 0) return std::nullopt;
+  const double slope = y / x;
+  constexpr double rounding = 1e-12;
+  const bool line = std::ranges::all_of(
+      rows, [&](const auto& row) { return std::fabs(row.second - slope * row.first) <= rounding * std::fabs(y); });
+  return line ? std::optional(slope) : std::nullopt;
+}
+
+/// A group's own dependence on a condition over the levels it met, by one column of the loading. Where other groups
+/// went beyond them, a line goes on; of anything else it is empty.
+std::optional<Correction> in_a_group(const TraceContext& c, const Vector& loading, const Grouping& g,
                                      const std::string& condition, Correction out) {
   const Observations& o = c.observations;
   const auto keys = keys_of(c, {condition});
   if (keys.empty()) return std::nullopt;
   std::size_t active = 0;
   for (std::size_t i = 0; i < o.readings; ++i)
-    if (loading(index(i), 0) != 0) active = g.group[o.sequence[i]];
+    if (loading[index(i)] != 0) active = g.group[o.sequence[i]];
   std::map<double, double> rows;
   for (std::size_t i = 0; i < o.readings; ++i)
-    if (g.group[o.sequence[i]] == active) rows[keys[0]->value[o.sequence[i]]] = loading(index(i), 0);
+    if (g.group[o.sequence[i]] == active) rows[keys[0]->value[o.sequence[i]]] = loading[index(i)];
   const auto& levels = keys[0]->levels;
-  if (levels.front() < rows.begin()->first || levels.back() > rows.rbegin()->first) return std::nullopt;
+  if (levels.front() < rows.begin()->first || levels.back() > rows.rbegin()->first) {
+    const auto slope = slope_of(rows);
+    if (!slope) return std::nullopt;
+    for (const double end : {levels.front(), levels.back()}) rows.try_emplace(end, *slope * end);
+  }
   out.keys = {{keys[0]->name, keys[0]->unit, keys[0]->si_unit, {}}};
   for (const auto& [level, here] : rows) {
     out.keys[0].levels.push_back(level);
@@ -103,9 +120,12 @@ std::optional<WrittenShape> written_shape(const TraceContext& c, const Term& ter
     }
   for (const Grouping& g : o.labels)
     if (depends_on.size() == 2 && g.labels == std::vector{depends_on[1]}) {
-      std::optional<Correction> one = in_a_group(c, loading, g, depends_on[0], named(name));
-      if (!one) return std::nullopt;
-      out.effects = {std::move(*one)};
+      for (Index j = 0; j < loading.cols(); ++j) {
+        const std::string own = loading.cols() > 1 ? fmt::format("{}_{}", name, j + 1) : name;
+        std::optional<Correction> one = in_a_group(c, loading.col(j), g, depends_on[0], named(own));
+        if (!one) return std::nullopt;
+        out.effects.push_back(std::move(*one));
+      }
       out.label = &g;
       return out;
     }

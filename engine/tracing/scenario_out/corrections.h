@@ -7,7 +7,7 @@
 namespace gumshoe::tracing {
 
 struct WrittenShape {
-  std::vector<Correction> effects; ///< one per size of the term; one alone if it depends on a label
+  std::vector<Correction> effects; ///< one per size of the term; one alone if it depends on nothing but a label
   const Grouping* label = nullptr; ///< the size then takes a value for each of its groups
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What a shape of unknown form would explain, for the search of its best form.
+/// Shapes of unknown form: the search of the best one, and the same with another parameter.
 #include <functional>
 
 #include "tracing/candidates/candidates.h"
@@ -9,5 +9,8 @@ namespace gumshoe::tracing {
 /// Squares of the residuals that each group of `each` neighbouring columns explains, in units of the noise. Rows in the
 /// order of measurement. 0 where the declared model leaves less than a share of the columns.
 using Gain = std::function<Vector(const Matrix& columns, Index each, double share)>;
+
+/// The same wave or drift with another parameter. @param shape  of Form::wave or Form::drift
+Candidate with_parameter(const Observations& observations, const Candidate& shape, double parameter);
 
 } // namespace gumshoe::tracing

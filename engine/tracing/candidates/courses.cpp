@@ -1,0 +1,152 @@
+#include "tracing/candidates/courses.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <boost/math/tools/minima.hpp>
+#include <fmt/format.h>
+
+#include "base/units.h"
+#include "tracing/criteria.h"
+
+namespace gumshoe::tracing {
+namespace {
+
+constexpr Index at_once = 64;
+
+/// "38 min"
+std::string shown(const Covariate& c, double si) {
+  return fmt::format("{:.2g} {}", units::from_si(si, c.unit, c.si_unit, units::Kind::difference), c.unit);
+}
+
+/// The step between two successive readings of one indication.
+class Steps {
+public:
+  Steps(const Observations& o, std::size_t indication) : o_(o), indication_(index(indication)) {}
+
+  /// From each of these places in the sequence on.
+  Matrix columns(const std::vector<Index>& from) const {
+    const Index n = index(o_.readings), k = index(o_.indications);
+    Matrix out = Matrix::Zero(n * k, index(from.size()));
+    for (Index j = 0; j < out.cols(); ++j)
+      for (Index r = from[static_cast<std::size_t>(j)]; r < n; ++r) out(r * k + indication_, j) = 1;
+    return out;
+  }
+
+  /// The one that explains most.
+  Index best(const std::vector<Index>& places, const Gain& gain) const {
+    Index found = places.front();
+    double height = -1;
+    for (std::size_t i = 0; i < places.size(); i += at_once) {
+      const std::vector<Index> some(places.begin() + index(i),
+                                    places.begin() + index(std::min(places.size(), i + at_once)));
+      Index highest = 0;
+      const double here = gain(columns(some), 1, criteria.absorbed_share).maxCoeff(&highest);
+      if (here > height) height = here, found = some[static_cast<std::size_t>(highest)];
+    }
+    return found;
+  }
+
+private:
+  const Observations& o_;
+  Index indication_;
+};
+
+/// Places in the sequence where a step may begin, with a few fitted readings before and after.
+std::vector<Index> instants(const Observations& o, const std::vector<Index>& rows) {
+  std::vector<Index> fitted;
+  for (const Index row : rows)
+    if (const Index reading = row / index(o.indications); fitted.empty() || fitted.back() != reading)
+      fitted.push_back(reading);
+  const std::size_t few = static_cast<std::size_t>(criteria.few_readings) + 1;
+  if (fitted.size() < 2 * few) return {};
+  return {fitted.begin() + index(few), fitted.end() - index(few) + 1};
+}
+
+/// 1 - exp(-t / tau) of one indication, t being the time since the first reading.
+class Drifts {
+public:
+  Drifts(const Observations& o, const Covariate& c, std::size_t indication)
+      : range_(c.levels.back() - c.levels.front()), every_(index(o.indications)), indication_(index(indication)),
+        t_(index(o.readings)) {
+    for (std::size_t i = 0; i < o.readings; ++i) t_[index(i)] = (c.value[o.sequence[i]] - c.levels.front()) / range_;
+  }
+
+  /// @param shares  time constants over the range
+  Matrix columns(const std::vector<double>& shares) const {
+    Matrix out = Matrix::Zero(t_.size() * every_, index(shares.size()));
+    for (Index j = 0; j < out.cols(); ++j)
+      out(Eigen::seq(indication_, Eigen::last, every_), j) =
+          1 - (-t_.array() / shares[static_cast<std::size_t>(j)]).exp();
+    return out;
+  }
+
+  /// Share of the best of a grid, then by Brent's method about it.
+  double best(const Gain& gain) const {
+    const double low = std::log(std::max(criteria.shortest,
+                                         static_cast<double>(criteria.few_readings) / static_cast<double>(t_.size()))),
+                 step = (std::log(criteria.longest) - low) / grid;
+    std::vector<double> shares;
+    for (int i = 0; i <= grid; ++i) shares.push_back(std::exp(low + step * i));
+    Index at = 0;
+    gain(columns(shares), 1, criteria.absorbed_share).maxCoeff(&at);
+    const auto loss = [&](double x) { return -gain(columns({std::exp(x)}), 1, criteria.absorbed_share)[0]; };
+    const double middle = low + step * static_cast<double>(at);
+    constexpr int bits = 12;
+    return std::exp(boost::math::tools::brent_find_minima(loss, std::max(low, middle - step),
+                                                          std::min(low + step * grid, middle + step), bits)
+                        .first);
+  }
+
+  double range() const { return range_; }
+
+private:
+  static constexpr int grid = 8;
+  double range_;
+  Index every_, indication_;
+  Vector t_; ///< in the order of measurement, 0 to 1 over the range
+};
+
+Candidate shape(const Observations& o, const Covariate& c, std::size_t indication, const std::string& name,
+                Matrix column) {
+  Candidate a;
+  a.family = Family::shape;
+  a.name = name + (o.indications > 1 ? " of " + o.names[indication] : "");
+  a.columns = std::move(column);
+  a.amplitudes.resize(1);
+  a.amplitudes[0].quantity = Amplitude::npos;
+  a.amplitudes[0].name = "size";
+  a.depends_on = {c.name};
+  return a;
+}
+
+} // namespace
+
+Candidate drift(const Observations& o, const Covariate& c, std::size_t indication, double logarithm) {
+  const Drifts drifts(o, c, indication);
+  const double share = std::exp(logarithm);
+  Candidate out = shape(o, c, indication, "drift:" + c.name, drifts.columns({share}));
+  out.shape = fmt::format("saturating, time constant {}", shown(c, share * drifts.range()));
+  out.form = Form::drift;
+  out.parameter = logarithm;
+  return out;
+}
+
+std::vector<Candidate> courses(const Observations& o, const std::vector<Index>& rows, const Gain& gain) {
+  std::vector<Candidate> out;
+  const std::vector<Index> places = instants(o, rows);
+  for (const Covariate& c : o.covariates)
+    for (std::size_t i = 0; c.course && !places.empty() && i < o.indications; ++i) {
+      const double share = Drifts(o, c, i).best(gain);
+      out.push_back(drift(o, c, i, std::log(share)));
+      out.back().searched = criteria.drift_forms;
+      const Steps steps(o, i);
+      const Index from = steps.best(places, gain);
+      const std::size_t reading = o.sequence[static_cast<std::size_t>(from - 1)] + 1;
+      out.push_back(shape(o, c, i, fmt::format("step:{} after reading {}", c.name, reading), steps.columns({from})));
+      out.back().searched = static_cast<double>(places.size());
+    }
+  return out;
+}
+
+} // namespace gumshoe::tracing

@@ -1,0 +1,17 @@
+#pragma once
+/// Courses of unknown form in time: a step at an unknown instant (something gave way, was hit or was set to zero anew),
+/// and a drift that levels off with an unknown time constant.
+#include "tracing/candidates/forms.h"
+
+namespace gumshoe::tracing {
+
+/// For each indication and each course of the measurement (time, or the order): the step between two successive
+/// readings that explains most, and the saturating drift that does. The p-value of a step counts as often as there are
+/// instants; that of a drift criteria.drift_forms times.
+/// @param rows  of the readings that are fitted, in the order of measurement
+std::vector<Candidate> courses(const Observations& observations, const std::vector<Index>& rows, const Gain& gain);
+
+/// The drift whose time constant over the range has this logarithm.
+Candidate drift(const Observations& observations, const Covariate& along, std::size_t indication, double logarithm);
+
+} // namespace gumshoe::tracing

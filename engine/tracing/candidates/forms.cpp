@@ -1,0 +1,22 @@
+#include "tracing/candidates/forms.h"
+
+#include <algorithm>
+
+#include "tracing/candidates/courses.h"
+#include "tracing/candidates/waves.h"
+
+namespace gumshoe::tracing {
+
+Candidate with_parameter(const Observations& o, const Candidate& shape, double parameter) {
+  const auto along = std::ranges::find(o.covariates, shape.depends_on[0], &Covariate::name);
+  Index moved = 0;
+  shape.columns.col(0).cwiseAbs().maxCoeff(&moved);
+  const std::size_t indication = static_cast<std::size_t>(moved) % o.indications;
+  Candidate out =
+      shape.form == Form::wave ? wave(o, *along, indication, parameter) : drift(o, *along, indication, parameter);
+  out.searched = shape.searched;
+  out.parameter_u = shape.parameter_u;
+  return out;
+}
+
+} // namespace gumshoe::tracing
