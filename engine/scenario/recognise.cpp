@@ -240,6 +240,14 @@ bool is_place(const RecognisedColumn& c) {
   return si_unit == "m" || si_unit == "rad";
 }
 
+/// Whether a column numbers all rows in their order.
+bool numbers_rows(const RecognisedData& data, const RecognisedColumn& c) {
+  if (!c.number || c.gaps || !counts_rows(c)) return false;
+  const auto column = static_cast<std::size_t>(data.csv.find(c.name));
+  const auto value = [&](const auto& row) { return data.csv.number(row[column], data.decimal); };
+  return std::ranges::adjacent_find(data.csv.rows, std::greater_equal{}, value) == data.csv.rows.end();
+}
+
 } // namespace
 
 void guess_roles(RecognisedData& data) {
@@ -266,6 +274,12 @@ void guess_roles(RecognisedData& data) {
     last->why = "as the last column of numbers";
   }
   if (!has(ColumnRole::position)) take(std::span(columns), ColumnRole::position, "as the first column of numbers");
+  if (has(ColumnRole::time)) return;
+  const auto count = std::ranges::find_if(columns, [&](const RecognisedColumn& c) { return numbers_rows(data, c); });
+  if (count == columns.end()) return;
+  count->role = ColumnRole::time;
+  count->unit = "1";
+  count->why = "as it counts the readings";
 }
 
 bool counts_rows(const RecognisedColumn& c) {

@@ -41,7 +41,7 @@ struct RecognisedData {
 RecognisedData recognise(const std::string& text, const std::string& file);
 
 /// Position and reading, where there is none yet: the first column of numbers that is left, if it was set, and the
-/// last.
+/// last. Without a time, a column that counts the readings stands for it.
 void guess_roles(RecognisedData& data);
 
 /// Whether the numbers of a column look set, not measured: they recur, or only rise, or only fall.

@@ -185,6 +185,8 @@ std::string blocks_of(const RecognisedData& data, const NamedColumns& labels) {
   return line("blocks", "{ count = 6 }", "guessed: no column tells four or more cycles apart");
 }
 
+std::string course_name(const RecognisedColumn& time) { return counts_rows(time) ? plain_name(time.name) : "time"; }
+
 std::string columns_of(const RecognisedData& data, std::set<std::string>& used) {
   std::string out;
   bool ordered = false;
@@ -195,8 +197,8 @@ std::string columns_of(const RecognisedData& data, std::set<std::string>& used) 
     used.insert(c.name);
     if (c.role == ColumnRole::time) {
       ordered = true;
-      out = line("order", "\"time\"", "") + "\n[trace.columns]\n" +
-            line("time", column_text(c), "recognised " + c.why) + out;
+      out = line("order", quoted(course_name(c)), "") + "\n[trace.columns]\n" +
+            line(course_name(c), column_text(c), "recognised " + c.why) + out;
     } else {
       out += line(plain_name(c.name), column_text(c), "recognised " + c.why);
     }

@@ -46,6 +46,8 @@ std::string data_section(const StarterData& data, const NamedColumns& labels, co
                          const std::set<std::string>& used);
 /// `blocks` of [trace]: a label with enough values, or stretches.
 std::string blocks_of(const RecognisedData& data, const NamedColumns& labels);
+/// "time", or the name of the column that counts the readings in its place.
+std::string course_name(const RecognisedColumn& time);
 /// `order` and [trace.columns]: times, temperatures and directions that are not conditions; adds their names to `used`.
 std::string columns_of(const RecognisedData& data, std::set<std::string>& used);
 

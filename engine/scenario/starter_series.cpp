@@ -79,7 +79,7 @@ std::string starter_series(const StarterData& data, const std::string& scenario)
   NamedColumns conditions;
   const RecognisedColumn* const time = found.find(ColumnRole::time);
   if (time && (time->number || !time->clock.empty())) {
-    conditions.emplace_back("time", time);
+    conditions.emplace_back(course_name(*time), time);
     used.insert(time->name);
   }
   std::string recorded = columns_of(found, used);
@@ -107,8 +107,8 @@ std::string starter_series(const StarterData& data, const std::string& scenario)
            line("readings", quoted(c->name),
                 c->why.empty() ? "guessed: numbers that were measured" : "recognised " + c->why) +
            "# u = \"0.2 um\"                          # state the noise of a reading if you know it\n";
-  return out + "\n[trace]\n" + blocks_of(found, labels) + (conditions.empty() ? "" : line("order", "\"time\"", "")) +
-         recorded;
+  return out + "\n[trace]\n" + blocks_of(found, labels) +
+         (conditions.empty() ? "" : line("order", quoted(conditions[0].first), "")) + recorded;
 }
 
 } // namespace gumshoe::scenario

@@ -117,7 +117,7 @@ class New(InFolder):
         (self.folder / "g.csv").write_bytes(("\ufeffNr;Pos_X (mm);Messwert [um];Side\r\n" + rows).encode())
         said = self.new("--from", "g.csv")
         self.assertIn("g.toml: ready", said)
-        self.assertIn("Nr: not used", said)
+        self.assertIn("Nr: time (as it counts the readings)", said)
         text = (self.folder / "g.toml").read_text()
         for part in ('where = { "Messwert [um]" = { not = "" } }', 'readings = "Messwert [um]"', '# blocks = { count = 6 }',
                      'direction = { column = "Side", map = { "+" = 1, "-" = -1 } }'):

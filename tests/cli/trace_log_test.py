@@ -203,6 +203,16 @@ class TraceLog(InFolder):
         self.assertAlmostEqual(float(size), 2.4, delta=3.5 * float(u))
         self.assertIn("Something changed after reading", " ".join(v["plain"]))
 
+    def test_a_column_that_counts_the_readings_is_their_course(self):
+        draw = random.Random(3)
+        v = self.trace(["n,diameter_mm"] + [f"{i},{25.003 + 1e-3 * ((1.5 if i > 47 else 0) + draw.gauss(0, 0.4)):.5f}" for i in range(1, 81)])
+        self.assertEqual([f["depends_on"] for f in v["findings"]], [["n"]])
+        self.assertAlmostEqual(int(v["findings"][0]["described_by"].split()[-1]), 47, delta=2)
+        run = gumshoe("trace", "log.traced.toml", "--draws", "199", "--format", "json", cwd=self.folder, seconds=300)
+        again = json.loads(run.stdout)
+        self.assertEqual(again["findings"], [])
+        self.assertAlmostEqual(again["rms"]["holdout_before"] / v["rms"]["holdout_after"], 1, delta=0.02)
+
     def test_each_part_may_have_a_curve_of_its_own(self):
         v = self.trace(two_probes())
         self.assertEqual([f["described_by"] for f in v["findings"]], ["table:position*probe"])
