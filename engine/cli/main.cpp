@@ -7,6 +7,7 @@
 #include "base/interrupt.h"
 #include "base/version.h"
 #include "cli/command.h"
+#include "propagation/ranks.h"
 
 namespace {
 
@@ -24,6 +25,8 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", std::string("gumshoe ") + version + " (" + git_hash + ")");
   app.require_subcommand(1);
   cli::Action action;
+  const auto launch = propagation::launched();
+  const bool silent = launch && launch->rank > 0; // the first rank speaks for all
   cli::add_new(app, action);
   cli::add_check(app, action);
   cli::add_run(app, action);
@@ -48,6 +51,11 @@ int main(int argc, char** argv) {
   cli::add_help(app, action);
   try {
     app.parse(argc, argv);
+    if (launch && !app.got_subcommand("run")) {
+      if (silent) return 0;
+      throw InputError("gumshoe " + app.get_subcommands().front()->get_name() + " is the work of one process",
+                       "a launcher of MPI started several", "start it without the launcher");
+    }
     catch_interrupts();
     const ExitCode code = action ? action() : ExitCode::done;
     std::cout.flush();
@@ -59,8 +67,9 @@ int main(int argc, char** argv) {
   } catch (const Interrupted&) {
     return interrupted_exit();
   } catch (const CLI::Success& wanted) { // --help, --version
-    return app.exit(wanted);
+    return silent ? 0 : app.exit(wanted);
   } catch (const CLI::ParseError& error) {
+    if (silent) return 0;
     std::cerr << format(cli::parse_problem(app, {argv + 1, argv + argc}, error)) << '\n';
     return static_cast<int>(ExitCode::bad_input);
   } catch (const std::bad_alloc&) {

@@ -10,6 +10,7 @@
 #include "cli/requested_run.h"
 #include "cli/shards.h"
 #include "propagation/propagate.h"
+#include "propagation/ranks.h"
 
 namespace gumshoe::cli {
 
@@ -52,19 +53,45 @@ bool sample(scenario::Scenario& s, const propagation::Experiment& e, store::Resu
   return !stopped;
 }
 
+/// What fixes the samples of a run, for ranks to compare.
+std::string same_run(const store::Identity& i) {
+  return fmt::format("scenario {}, design {}, seed {}, {} samples, version {}", i.scenario_hash, i.design_hash, i.seed,
+                     i.samples, i.version);
+}
+
+/// A rank other than the first makes samples for it, and says nothing.
+ExitCode help_first_rank(propagation::Ranks& ranks, const Options& o) {
+  const std::optional<std::string> wanted = ranks.awaited();
+  if (!wanted) return ExitCode::done;
+  try {
+    const scenario::Scenario s = scenario_of_run(o.file, o.request);
+    const propagation::Experiment experiment(s);
+    if (const std::string own = same_run(identity_of_run(experiment)); own != *wanted)
+      throw InputError("the ranks have different runs", "one has " + own + ", the first " + *wanted,
+                       "give all machines the same files and options");
+    ranks.serve(experiment, ranks.threads(o.threads));
+  } catch (const std::exception& failure) {
+    ranks.report(failure);
+  }
+  return ExitCode::done;
+}
+
 ExitCode run(const Options& o) {
   const Begun begun;
+  auto ranks = o.shard.empty() ? propagation::Ranks::join() : nullptr; // shards share nothing
+  if (ranks && !ranks->first()) return help_first_rank(*ranks, o);
   scenario::Scenario s = scenario_of_run(o.file, o.request);
   const propagation::Experiment experiment(s);
   store::Identity identity = identity_of_run(experiment);
+  propagation::RunSettings settings;
+  if (ranks) settings.elsewhere = ranks->begin(same_run(identity));
   propagation::SampleRange part{0, s.run.samples};
   if (!o.shard.empty()) part = make_shard(identity, o.shard, o.request);
   const std::string out = !o.out.empty() ? o.out : default_output(o.file, ending_of(identity.shard));
   store::ResultFile file(out, identity, experiment.outputs(), experiment.place_names(), o.force);
   if (!file.remark().empty()) std::cerr << file.remark() << '\n';
 
-  propagation::RunSettings settings;
-  settings.threads = o.threads;
+  settings.threads = ranks ? ranks->threads(o.threads) : o.threads;
   settings.first = part.first + file.samples_done();
   settings.stop = &interrupted();
   ProgressLine line;
@@ -80,6 +107,7 @@ ExitCode run(const Options& o) {
     return o.shard.empty() ? sample(s, experiment, file, settings, stopping)
                            : sample_shard(experiment, part, file, settings);
   });
+  ranks.reset();
   if (!whole) {
     line.clear();
     std::cerr << fmt::format("interrupted after {} of {} samples. Repeat the command to resume.\n", file.samples_done(),

@@ -79,6 +79,39 @@ void one_by_one(const Take& take, const Compute& compute, const Finish& finish) 
   while (const std::optional<std::uint64_t> first = take()) finish(compute(*first, buffers));
 }
 
+/// The other processes, each lent to one thread at a time.
+class Elsewhere {
+public:
+  explicit Elsewhere(const std::vector<MakeBlock>& all) {
+    for (const MakeBlock& one : all) free_.push_back(&one);
+  }
+  /// Calls body(process), or body(nullptr) where none is free.
+  template <class Body> auto lend(const Body& body) {
+    struct Loan {
+      Elsewhere& from;
+      const MakeBlock* const one;
+      ~Loan() { from.give_back(one); }
+    };
+    const Loan loan{*this, take()};
+    return body(loan.one);
+  }
+
+private:
+  const MakeBlock* take() {
+    const std::lock_guard lock(guard_);
+    if (free_.empty()) return nullptr;
+    const MakeBlock* one = free_.back();
+    free_.pop_back();
+    return one;
+  }
+  void give_back(const MakeBlock* one) {
+    const std::lock_guard lock(guard_);
+    if (one) free_.push_back(one);
+  }
+  std::mutex guard_;
+  std::vector<const MakeBlock*> free_;
+};
+
 #ifndef __SANITIZE_THREAD__
 
 /// Runs `body` with as many workers as asked for, more than there are processors too.
@@ -164,8 +197,16 @@ void pipeline(int threads, const Take& take, const Compute& compute, const Finis
 
 } // namespace
 
+MakeBlock block_maker(const Experiment& e) {
+  return [&e, sampler = make_sampler(e)](std::uint64_t first, std::uint64_t last) {
+    ThreadBuffers own;
+    return run_block(e, *sampler, first, static_cast<std::size_t>(last - first), own);
+  };
+}
+
 std::uint64_t propagate(const Experiment& e, Sink& sink, const RunSettings& settings) {
   const auto sampler = make_sampler(e);
+  Elsewhere elsewhere(settings.elsewhere);
   const std::uint64_t total = settings.last > 0 ? settings.last : e.scenario().run.samples;
   const std::uint64_t per_block = std::max<std::uint64_t>(1, e.model().block / block_samples) * block_samples;
   std::uint64_t next = settings.first, done = settings.first;
@@ -182,7 +223,10 @@ std::uint64_t propagate(const Experiment& e, Sink& sink, const RunSettings& sett
     // Thrown here, an exception would cancel the pipeline with earlier blocks still in it.
     try {
       if (first > failed_at) return {};
-      return {run_block(e, *sampler, first, static_cast<std::size_t>(end_of(first) - first), own), {}};
+      return elsewhere.lend([&](const MakeBlock* process) -> Tried {
+        if (process) return {(*process)(first, end_of(first)), {}};
+        return {run_block(e, *sampler, first, static_cast<std::size_t>(end_of(first) - first), own), {}};
+      });
     } catch (...) {
       std::uint64_t known = failed_at;
       while (first < known && !failed_at.compare_exchange_weak(known, first)) {
@@ -197,10 +241,10 @@ std::uint64_t propagate(const Experiment& e, Sink& sink, const RunSettings& sett
     done = tried.block.first_sample + tried.block.samples;
     if (settings.progress) settings.progress({done, total});
   };
-  if (settings.threads == 1 || end_of(settings.first) >= total)
+  if ((settings.threads == 1 && settings.elsewhere.empty()) || end_of(settings.first) >= total)
     one_by_one(take, compute, finish);
   else
-    pipeline(thread_count(settings.threads), take, compute, finish);
+    pipeline(thread_count(settings.threads) + static_cast<int>(settings.elsewhere.size()), take, compute, finish);
   if (failure) std::rethrow_exception(failure);
   return done;
 }

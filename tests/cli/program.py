@@ -27,6 +27,21 @@ resolution = "1 um"
 repeatability = { s = "0.4 um", degrees_of_freedom = 24 }
 """
 
+# Two measurands, of which one fails in a few percent of 20,001 samples.
+FORMULA = """schema = 1
+[model]
+name = "expression"
+[model.measurands]
+root = "sqrt(a)"
+sum = "a + b"
+[quantities]
+a = { value = "1", u = "0.5" }
+b = { value = "2", u = "0.1" }
+[run]
+samples = 20_001
+max_failed_share = 0.1
+"""
+
 
 class InFolder(unittest.TestCase):
     """Each test has a new, empty folder."""

@@ -4,6 +4,7 @@ import io
 import json
 import pathlib
 import re
+import struct
 import sys
 
 import h5py
@@ -22,6 +23,12 @@ def parts(path):
 
 def record(path):
     return parts(path)[1]
+
+
+def samples_done(path):
+    with open(path, "rb") as file:
+        file.seek(record(path)["places"]["samples_done"][0])
+        return struct.unpack("<Q", file.read(8))[0]
 
 
 def seal(path, content, said):

@@ -17,30 +17,11 @@ import unittest
 
 import h5py
 
-from program import GUMSHOE, ROOT, SCENARIO, InFolder, complaint, gumshoe
-from sealed import record, reseal
+from program import FORMULA, GUMSHOE, ROOT, SCENARIO, InFolder, complaint, gumshoe
+from sealed import record, reseal, samples_done
 from slow_model import SLOW, SLOW_PROGRAM
 
-FORMULA = """schema = 1
-[model]
-name = "expression"
-[model.measurands]
-root = "sqrt(a)"
-sum = "a + b"
-[quantities]
-a = { value = "1", u = "0.5" }
-b = { value = "2", u = "0.1" }
-[run]
-samples = 20_001
-max_failed_share = 0.1
-"""
 SAME_DATE = {**os.environ, "SOURCE_DATE_EPOCH": "0"}  # no host and no duration: equal runs give equal bytes
-
-
-def samples_done(path):
-    with open(path, "rb") as file:
-        file.seek(record(path)["places"]["samples_done"][0])
-        return struct.unpack("<Q", file.read(8))[0]
 
 
 class Shards(InFolder):

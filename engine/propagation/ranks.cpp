@@ -1,0 +1,195 @@
+#include "propagation/ranks.h"
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <thread>
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "base/error.h"
+#include "base/interrupt.h"
+
+namespace gumshoe::propagation {
+
+namespace {
+
+/// What launchers set: Open MPI; MPICH, Intel MPI and Slurm's PMI-2; Slurm's PMIx.
+constexpr struct {
+  const char *rank, *size;
+} variables[] = {{"OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE"}, {"PMI_RANK", "PMI_SIZE"}, {"PMIX_RANK", nullptr}};
+
+int number(const char* variable, int otherwise) {
+  const char* text = variable ? std::getenv(variable) : nullptr;
+  return text ? std::atoi(text) : otherwise;
+}
+
+/// Next to the program where it is built, in lib/gumshoe where it is installed.
+std::string module_file() {
+  namespace fs = std::filesystem;
+  std::error_code none;
+  const fs::path folder = fs::read_symlink("/proc/self/exe", none).parent_path();
+  const fs::path installed = folder.parent_path() / "lib/gumshoe/gumshoe_mpi.so";
+  return (fs::exists(installed, none) ? installed : folder / "gumshoe_mpi.so").string();
+}
+
+std::unique_ptr<Transport> open_transport(const Launch& launch) {
+  const std::string file = module_file();
+  void* const module = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL); // closed by the end of the process
+  void* const open = module ? dlsym(module, "gumshoe_open_transport") : nullptr;
+  if (!open)
+    throw InputError("this program has no MPI, and a launcher of MPI started several of it", dlerror(),
+                     "build it where MPI is installed, or use --shard and gumshoe merge");
+  std::unique_ptr<Transport> transport(reinterpret_cast<decltype(&gumshoe_open_transport)>(open)());
+  if (launch.size > transport->size())
+    throw InputError(fmt::format("the launcher started {} processes, which do not find each other", launch.size),
+                     "it belongs to another MPI than this program", "use the mpirun of that MPI");
+  return transport;
+}
+
+// A reply is a block or a failure, and its first letter says which.
+constexpr char block_reply = 'b', failure_reply = 'f', part_end = '\0';
+constexpr int control_tag = 0, first_block_tag = 1;
+
+std::string packed(const ResultBlock& block) {
+  std::string bytes(1, block_reply);
+  bytes.append(reinterpret_cast<const char*>(block.status.data()), block.status.size());
+  bytes.append(reinterpret_cast<const char*>(block.outputs.data()), block.outputs.size() * sizeof(double));
+  return bytes;
+}
+
+ResultBlock unpacked_block(const std::string& bytes, std::uint64_t first, std::uint64_t last) {
+  const auto samples = static_cast<std::size_t>(last - first);
+  ResultBlock block{first, samples, std::vector<double>((bytes.size() - 1 - samples) / sizeof(double)),
+                    std::vector<std::uint8_t>(samples)};
+  std::memcpy(block.status.data(), bytes.data() + 1, samples);
+  std::memcpy(block.outputs.data(), bytes.data() + 1 + samples, block.outputs.size() * sizeof(double));
+  return block;
+}
+
+std::string packed(const std::exception& failure) {
+  const auto* input = dynamic_cast<const InputError*>(&failure);
+  std::string bytes(1, failure_reply);
+  for (const Problem& p : input ? input->problems() : std::vector<Problem>{{{}, failure.what(), "", ""}})
+    for (const std::string& part :
+         {p.where.file, std::to_string(p.where.line), std::to_string(p.where.column), p.what, p.why, p.remedy})
+      bytes += part.c_str() + std::string(1, part_end);
+  return bytes;
+}
+
+std::vector<Problem> unpacked_problems(const std::string& bytes) {
+  std::vector<std::string> parts;
+  for (std::size_t at = 1; at < bytes.size(); at += parts.back().size() + 1) parts.emplace_back(bytes.c_str() + at);
+  std::vector<Problem> problems;
+  for (std::size_t k = 0; k + 5 < parts.size(); k += 6)
+    problems.push_back(
+        {{parts[k], std::stoi(parts[k + 1]), std::stoi(parts[k + 2])}, parts[k + 3], parts[k + 4], parts[k + 5]});
+  return problems;
+}
+
+} // namespace
+
+std::optional<Launch> launched() {
+  for (const auto& v : variables)
+    if (const Launch launch{number(v.rank, -1), number(v.size, 0)}; launch.rank >= 0 && launch.size != 1) return launch;
+  return std::nullopt;
+}
+
+std::unique_ptr<Ranks> Ranks::join() {
+  const std::optional<Launch> launch = launched();
+  if (!launch) return nullptr;
+  std::unique_ptr<Ranks> ranks(new Ranks(open_transport(*launch)));
+  for (const auto& v : variables) unsetenv(v.rank);
+  if (!ranks
+           ->first()) // rank 0 says when to stop; a handler, because programs that a model starts would inherit SIG_IGN
+    for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, [](int) {});
+  return ranks;
+}
+
+Ranks::~Ranks() {
+  if (interrupted()) {
+    transport_.release();
+    return;
+  }
+  if (!first()) return;
+  for (int rank = 1; rank < transport_->size() && !begun_; ++rank) transport_->send(rank, control_tag, "");
+  for (const Place& place : places_) transport_->send(place.rank, place.tag, "");
+}
+
+/// Waits by polling: with pauses that are short beside the time waited so far.
+std::string Ranks::receive(int from, int tag) {
+  using namespace std::chrono;
+  const auto begun = steady_clock::now();
+  for (;;) {
+    if (auto message = transport_->poll(from, tag)) return std::move(*message);
+    stop_if_interrupted();
+    const auto waited = duration_cast<microseconds>(steady_clock::now() - begun);
+    std::this_thread::sleep_for(std::clamp(waited / 20, microseconds(20), microseconds(1000)));
+  }
+}
+
+std::vector<MakeBlock> Ranks::begin(const std::string& run) {
+  begun_ = true;
+  for (int rank = 1; rank < transport_->size(); ++rank) transport_->send(rank, control_tag, run);
+  std::vector<Problem> problems;
+  std::vector<MakeBlock> makers;
+  for (int rank = 1; rank < transport_->size(); ++rank) {
+    const std::string reply = receive(rank, control_tag);
+    if (reply[0] == failure_reply) {
+      std::ranges::move(unpacked_problems(reply), std::back_inserter(problems));
+      continue;
+    }
+    const int threads = std::stoi(reply.substr(1));
+    for (int tag = first_block_tag; tag < first_block_tag + threads; ++tag) {
+      places_.push_back({rank, tag});
+      makers.push_back([this, place = places_.back()](std::uint64_t first, std::uint64_t last) {
+        return fetch(place, first, last);
+      });
+    }
+  }
+  if (!problems.empty()) throw InputError(problems);
+  return makers;
+}
+
+ResultBlock Ranks::fetch(const Place& place, std::uint64_t first, std::uint64_t last) {
+  transport_->send(place.rank, place.tag, fmt::format("{} {}", first, last));
+  const std::string reply = receive(place.rank, place.tag);
+  if (reply[0] == failure_reply) throw InputError(unpacked_problems(reply));
+  return unpacked_block(reply, first, last);
+}
+
+std::optional<std::string> Ranks::awaited() {
+  std::string run = receive(0, control_tag);
+  if (run.empty()) return std::nullopt;
+  return run;
+}
+
+void Ranks::serve(const Experiment& experiment, int threads) {
+  const MakeBlock make = block_maker(experiment);
+  transport_->send(0, control_tag, block_reply + std::to_string(threads));
+  std::vector<std::jthread> workers;
+  for (int t = 0; t < threads; ++t) workers.emplace_back([&, t] { make_blocks(make, first_block_tag + t); });
+}
+
+void Ranks::make_blocks(const MakeBlock& make, int tag) {
+  for (std::string wanted; !(wanted = receive(0, tag)).empty();) {
+    std::string reply;
+    try {
+      char* rest = nullptr;
+      const std::uint64_t first = std::strtoull(wanted.c_str(), &rest, 10);
+      reply = packed(make(first, std::strtoull(rest, nullptr, 10)));
+    } catch (const std::exception& failure) {
+      reply = packed(failure);
+    }
+    transport_->send(0, tag, reply);
+  }
+}
+
+void Ranks::report(const std::exception& failure) { transport_->send(0, control_tag, packed(failure)); }
+
+} // namespace gumshoe::propagation
