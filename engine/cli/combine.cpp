@@ -34,7 +34,7 @@ std::vector<NamedResult> read_all(const std::vector<std::string>& files) {
   std::map<std::string, std::string> scenarios; // hash to file
   for (const std::string& file : files) {
     const store::Identity identity = require_finished(file);
-    if (identity.command == "choose" || identity.command == "trace")
+    if (!identity.has_outputs())
       throw InputError(file + ": holds no result to combine", fmt::format("gumshoe {} wrote it", identity.command),
                        "name results of gumshoe run");
     const auto [first, fresh] = scenarios.try_emplace(identity.scenario_hash, file);

@@ -32,11 +32,11 @@ struct Options {
 };
 
 bool is_trace(const std::string& path) {
-  const std::string command = require_finished(path).command;
-  if (command == "choose")
-    throw InputError(path + ": holds no result to compare", "gumshoe choose wrote it",
+  const store::Identity identity = require_finished(path);
+  if (!identity.has_outputs() && identity.command != "trace")
+    throw InputError(path + ": holds no result to compare", fmt::format("gumshoe {} wrote it", identity.command),
                      "compare results of gumshoe run, or of gumshoe trace");
-  return command == "trace";
+  return identity.command == "trace";
 }
 
 /// "21 % smaller"; empty where there is nothing to relate.

@@ -20,6 +20,8 @@ struct Identity {
   bool store_samples = true;
   std::string design_hash; ///< propagation::design_hash; empty in files older than it
   std::string command = "run"; ///< that made it
+  /// Whether the file holds results of outputs, and no choice, trace or map.
+  bool has_outputs() const { return command == "run" || command == "analyse"; }
   std::string scenario_place;  ///< place_of(scenario_file)
   std::string external;        ///< Scenario::external
   std::string shard;           ///< "3/16": the file holds this part of a run, `samples` of them; empty: a whole run

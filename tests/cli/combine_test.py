@@ -174,6 +174,9 @@ class Combine(Lengths):
         run = gumshoe("trace", "scenarios/trace_load_cell.toml", "--draws", 19, "--out", cell, cwd=self.folder, seconds=300)
         self.assertEqual(run.returncode, 0, run.stderr)
         self.refused("holds no result to combine", self.a, cell)
+        volume = self.folder / "volume.h5"
+        self.assertEqual(gumshoe("volume", ROOT / "scenarios/volume_five_axis.toml", "--out", volume).returncode, 0)
+        self.refused("gumshoe volume wrote it", self.a, volume)
 
 
 if __name__ == "__main__":

@@ -131,6 +131,9 @@ class Compare(Lengths):
         self.refused("no measurand in common", self.before, other)
         self.refused("y: the results have different dimensions", self.before, self.result("ratio", formula="reading / reference"))
         self.refused("before.toml", self.folder / "before.toml", self.after)  # not a result
+        volume = self.folder / "volume.h5"
+        self.assertEqual(gumshoe("volume", ROOT / "scenarios/volume_five_axis.toml", "--out", volume).returncode, 0)
+        self.refused("gumshoe volume wrote it", volume, self.after)
         damaged = self.folder / "damaged.h5"
         data = bytearray(self.before.read_bytes())
         data[-60] ^= 1  # within the record
