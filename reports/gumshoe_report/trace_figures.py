@@ -271,7 +271,8 @@ def cells(t, name):
         members.sort(key=lambda k: keys[along][0][k])
         x, y, u = ([f(k) for k in members] for f in (lambda k: keys[along][0][k], lambda k: factor * t.rows[k].y,
                                                        lambda k: 2 * factor * t.rows[k].u))
-        what = ", ".join(f"{axis_label(n, '')} {v if isinstance(v, str) else f'{v:.4g}'}".replace("-", "−") for n, v in zip(others, level))
+        # The groups of a label have its name: "probe P1".
+        what = ", ".join((v if isinstance(v, str) else f"{axis_label(n, '')} {v:.4g}").replace("-", "−") for n, v in zip(others, level))
         axes.errorbar(x, y, u, color=colour, marker="o", markersize=3.5, linewidth=1.3, capsize=2.2, label=what or None)
     if others:
         axes.legend(loc="lower left", bbox_to_anchor=(-0.01, 1), ncols=2, frameon=False, fontsize=8)

@@ -91,8 +91,7 @@ public:
     const bool own_zero = units::to_si(0, covariate.unit, covariate.si_unit) != 0;
     const std::string unit = ratio(small_unit(), own_zero ? covariate.si_unit : covariate.unit),
                       si_unit = ratio(empty_.indication_si_unit, covariate.si_unit);
-    return fmt::format("{}, u = {}", shown_size(term_.size[0] * per_size, unit, si_unit),
-                       shown_size(std::sqrt(covariance_(0, 0)) * std::fabs(per_size), unit, si_unit));
+    return with_u(term_.size[0] * per_size, std::sqrt(covariance_(0, 0)) * std::fabs(per_size), unit, si_unit);
   }
 
   /// "38 min, u = 4 min; it levels off at 6.1 um, u = 0.3 um" of a drift; empty of anything else.
@@ -159,9 +158,8 @@ public:
     const Vector y = columns(Eigen::seq(index(indication_), Eigen::last, index(o_.indications)), 0);
     const double low = y.minCoeff(), high = y.maxCoeff();
     if (((y.array() - low) * (y.array() - high)).abs().maxCoeff() > 0) return "";
-    return fmt::format(
-        "{}, u = {}", shown_size(term_.size[0] * (high - low), small_unit(), empty_.indication_si_unit),
-        shown_size(std::sqrt(covariance_(0, 0)) * (high - low), small_unit(), empty_.indication_si_unit));
+    return with_u(term_.size[0] * (high - low), std::sqrt(covariance_(0, 0)) * (high - low), small_unit(),
+                  empty_.indication_si_unit);
   }
 
   /// By all of these together, if there are two readings of each combination or more; else without rows.
