@@ -8,6 +8,7 @@
 #include "base/units.h"
 #include "base/version.h"
 #include "quantities/cells.h"
+#include "scenario/set_points.h"
 #include "scenario/write.h"
 
 namespace gumshoe::calibration {
@@ -97,6 +98,10 @@ std::string opening(const std::string& scenario) {
 
 ScenarioText::ScenarioText(const scenario::Scenario& s, const std::string& folder)
     : scenario_(s), document_(scenario::parse_document(s.text, s.file)) {
+  std::vector<std::string> notes;
+  scenario::DataFiles files(s.file, s.data, notes);
+  scenario::Problems problems(s.file);
+  scenario::expand_set_points(document_, files, problems);
   const auto here = std::filesystem::absolute(s.file).parent_path();
   const auto there = std::filesystem::absolute(folder.empty() ? "." : folder);
   if (std::filesystem::weakly_canonical(here) != std::filesystem::weakly_canonical(there))

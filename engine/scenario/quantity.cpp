@@ -26,6 +26,8 @@ const std::vector<Key>& quantity_keys() {
          "false"},
         {"components", shape::list(shape::reference("component")), "deviations that add up"},
         {"by", shape::reference("by"), "values per label"},
+        {"column", shape::text(),
+         "column of [data] with what was set for each reading; u or a distribution is the deviation from it"},
     };
     const auto uncertainty = uncertainty_keys();
     all.insert(all.end(), uncertainty.begin(), uncertainty.end());
@@ -56,6 +58,9 @@ public:
     unit(table);
     const std::string& told = own.empty() ? source : own;
     if (labels.empty()) out_.estimated = table.boolean("estimated").value_or(false);
+    if (table.has("column")) // of a quantity as a whole it was expanded (set_points.h)
+      return table.refuse_key("column", "an entry by label has no column",
+                              "the column tells the set-points apart itself", "state it for the quantity as a whole");
     if (table.has("by"))
       by(table, labels, told);
     else
@@ -94,7 +99,8 @@ private:
       }
       e.components = read_components(table, std::string(card_.si_unit), given, e.value, context_);
     } else if (uncertain(table)) {
-      const Form form{std::string(card_.si_unit), true, given ? value : std::nullopt, card_.default_value,
+      const Form form{std::string(card_.si_unit),   true,
+                      given ? value : std::nullopt, card_.default_value,
                       given ? value : std::nullopt, table.find("value")};
       if (auto uncertainty = read_uncertainty(table, form, context_)) {
         e.value = uncertainty->value;

@@ -19,6 +19,7 @@
 #include "scenario/readings.h"
 #include "scenario/readouts_file.h"
 #include "scenario/schema.h"
+#include "scenario/set_points.h"
 #include "scenario/stated_effects.h"
 #include "scenario/trace.h"
 #include "scenario/volume.h"
@@ -45,6 +46,8 @@ public:
     document_ = parse_document(out_.text, out_.file);
     if (document_.members.empty())
       throw InputError({{{out_.file, 0, 0}, "the scenario is empty", "", "write schema = 1 and a [model] table"}});
+    expand_set_points(document_, files_, problems_);
+    problems_.raise();
     Table top(document_, "", problems_);
     top.declare(sections());
     if (top.require("schema", "schema = 1")) top.integer("schema", 1, 1);

@@ -197,6 +197,21 @@ y = { unit = "mm", meaning = "a length" }
 [quantities]
 x = "1 mm"
 ''',
+    "set-points": '''
+schema = 1
+[model]
+name = "expression"
+[model.indications]
+y = "g * p"
+[data]
+file = "values.csv"
+units = { r = "mm" }
+[quantities]
+g = { estimated = true, value = 1 }
+p = { column = "r", u = "1 um" }
+[indications.y]
+readings = "r"
+''',
     "data": '''
 schema = 1
 [model]
