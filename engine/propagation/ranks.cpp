@@ -95,8 +95,10 @@ std::vector<Problem> unpacked_problems(const std::string& bytes) {
 } // namespace
 
 std::optional<Launch> launched() {
-  for (const auto& v : variables)
-    if (const Launch launch{number(v.rank, -1), number(v.size, 0)}; launch.rank >= 0 && launch.size != 1) return launch;
+  for (const auto& v : variables) { // Open MPI sets PMIX_RANK, too: the first that is set decides
+    const Launch launch{number(v.rank, -1), number(v.size, 0)};
+    if (launch.rank >= 0) return launch.size == 1 ? std::nullopt : std::optional(launch);
+  }
   return std::nullopt;
 }
 
