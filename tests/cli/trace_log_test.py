@@ -42,6 +42,16 @@ def probed_ring():
         yield f"{i};{when};{speed};{('aus', 'ein')[coolant]};{seen}"
 
 
+def first_loading():
+    """A force transducer in six runs, of which the first shows 2e-3 more: it was not run in yet."""
+    draw = random.Random(9)
+    yield "run,direction,load_kN,d_mV/V"
+    for run in range(1, 7):
+        for way in (1, -1):
+            for load in range(0, 60, 10)[::way]:
+                yield f"{run},{way},{load},{0.04 * load * (1.002 if run == 1 else 1) + draw.gauss(0, 4e-4):.5f}"
+
+
 def three_machines():
     """A load cell read on three machines in six runs; one machine shows 0.02 um/N more."""
     draw = random.Random(1)
@@ -212,6 +222,12 @@ class TraceLog(InFolder):
         again = json.loads(run.stdout)
         self.assertEqual(again["findings"], [])
         self.assertAlmostEqual(again["rms"]["holdout_before"] / v["rms"]["holdout_after"], 1, delta=0.02)
+
+    def test_the_first_run_may_have_another_slope(self):
+        v = self.trace(first_loading())
+        self.assertEqual([f["described_by"] for f in v["findings"]], ["product:position*run 1"])
+        slope, u = re.search(r"run 1 alone has a straight line against position: (\S+) \S+, u = (\S+) ", " ".join(v["findings"][0]["remarks"])).groups()
+        self.assertAlmostEqual(float(slope), 8e-5, delta=3.5 * float(u))
 
     def test_each_part_may_have_a_curve_of_its_own(self):
         v = self.trace(two_probes())

@@ -77,6 +77,10 @@ public:
     for (const Grouping* g : part_labels(o_))
       for (const Covariate& c : o_.covariates)
         if (c.commanded || c.course) in_groups(c, *g);
+    // The first block may have another slope: what was at rest is not run in yet.
+    for (const Grouping& g : o_.labels)
+      for (const Covariate& c : o_.covariates)
+        if (g.group == o_.blocks.group && c.commanded && !c.course) in_group(c, g, g.group[o_.sequence[0]]);
     for (std::size_t i = 0; i < o_.covariates.size(); ++i)
       for (std::size_t j = i + 1; j < o_.covariates.size(); ++j) product(o_.covariates[i], o_.covariates[j]);
     for (const Covariate& c : o_.covariates)
@@ -181,17 +185,19 @@ private:
 
   /// A condition that counts in one group alone: one machine has another slope.
   void in_groups(const Covariate& c, const Grouping& g) {
+    for (std::size_t i = g.groups.size() == 2 ? 1 : 0; i < g.groups.size(); ++i) in_group(c, g, i);
+  }
+
+  void in_group(const Covariate& c, const Grouping& g, std::size_t i) {
     const Vector x = plain(o_, c) / std::max(std::fabs(c.levels.front()), std::fabs(c.levels.back()));
-    for (std::size_t i = g.groups.size() == 2 ? 1 : 0; i < g.groups.size(); ++i) {
-      Vector one = Vector::Zero(x.size());
-      std::set<double> levels;
-      for (Index r = 0; r < x.size(); ++r)
-        if (g.group[o_.sequence[index(r)]] == i) one[r] = x[r], levels.insert(x[r]);
-      if (levels.size() < 2) continue;
-      add(Family::shape, "product:" + c.name + "*" + g.groups[i], one, {c.name, g.name});
-      for (auto a = out_.end() - index(o_.indications); a != out_.end(); ++a)
-        a->amplitudes[0].labels = {{g.name, g.values[i][0]}};
-    }
+    Vector one = Vector::Zero(x.size());
+    std::set<double> levels;
+    for (Index r = 0; r < x.size(); ++r)
+      if (g.group[o_.sequence[index(r)]] == i) one[r] = x[r], levels.insert(x[r]);
+    if (levels.size() < 2) return;
+    add(Family::shape, "product:" + c.name + "*" + g.groups[i], one, {c.name, g.name});
+    for (auto a = out_.end() - index(o_.indications); a != out_.end(); ++a)
+      a->amplitudes[0].labels = {{g.name, g.values[i][0]}};
   }
 
   /// Any value at each level of what was set again and again: of one covariate, of two, and of all of them together.

@@ -221,8 +221,10 @@ private:
     return take_shape();
   }
 
-  /// A plain shape of no more parameters that fits better than the effect could let it.
-  std::optional<std::size_t> shape_instead(const Trial& best, const std::vector<std::size_t>& plain) const {
+  /// A plain shape of no more parameters that fits better than the effect could let it. One that fits better, as the
+  /// effect could seldom let it, is kept as `as_well_`.
+  std::optional<std::size_t> shape_instead(const Trial& best, const std::vector<std::size_t>& plain) {
+    as_well_.reset();
     for (const std::size_t g : plain) {
       if (sizes(candidate(g)) > sizes(candidate(best.candidate))) continue;
       double lead = evidence_->score(g) - best.score;
@@ -232,7 +234,10 @@ private:
       const auto excludes = [&] {
         return shape_excludes(lead, [&] { return evidence_->chance_of_lead(g, best.candidate, lead); });
       };
-      if (!excludes()) continue;
+      if (!excludes()) {
+        if (lead > criteria.equal_merit && !as_well_) as_well_ = g;
+        continue;
+      }
       // The whole model judges, as it judged the effect: its noise may differ from that of the search.
       const Trial whole = evidence_->trial(g);
       lead = whole.score - best.score;
@@ -298,6 +303,10 @@ private:
     }
     if (members.size() > 1) found.finding.kind = Kind::equivalence_class;
     for (const std::size_t a : members) outcomes_[a] = members.size() > 1 ? "in the class" : "named";
+    if (as_well_) {
+      found.finding.remarks.push_back(with_shape(candidate(*as_well_)) + " fits better, as chance could have it");
+      outcomes_[*as_well_] = "fits better than " + winner + ", as chance could have it";
+    }
     add(std::move(found));
     adopt(best.fit);
   }
@@ -402,8 +411,9 @@ private:
   Search out_;
   const Evidence* evidence_ = nullptr; ///< of this round
   std::size_t rounds_ = 0;
-  bool wide_ = false;             ///< tables of many cells are tried
-  std::set<std::string> dropped_; ///< names of candidates that another finding made superfluous
+  std::optional<std::size_t> as_well_; ///< candidate that fits better than the effect taken in this round
+  bool wide_ = false;                  ///< tables of many cells are tried
+  std::set<std::string> dropped_;      ///< names of candidates that another finding made superfluous
   std::map<std::size_t, std::string> outcomes_;
 };
 
