@@ -1,6 +1,7 @@
 #include "scenario/set_points.h"
 
 #include <algorithm>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -54,25 +55,44 @@ private:
     if (!open(table)) return;
     const int column = find_column(table, "column", *file_->csv);
     if (column < 0) return;
-    const auto unit = file_->units.find(place.text);
-    if (unit == file_->units.end())
-      return table.refuse_key("column", fmt::format("the unit of '{}' is not stated", place.text), "",
-                              fmt::format("[data.units] {} = \"mm\"", place.text));
-    Node by = levels(q.value, place, static_cast<std::size_t>(column), unit->second);
+    const auto unit = unit_of(table, place.text);
+    if (!unit) return;
+    Node by = levels(q.value, place, static_cast<std::size_t>(column), *unit);
     Node& data = *find(document_, "data");
     Node& labels = table_at(data, "labels", place);
     if (const Node* known = find(labels, q.key); known && known->text != place.text)
       return table.refuse_key("column", fmt::format("data.labels.{} is another column", q.key), "",
                               "give the label another name");
     if (!find(labels, q.key)) labels.members.push_back({q.key, place.line, place.column, text_at(place.text, place)});
-    if (Node* trace = find(document_, "trace"))
-      if (Node& columns = table_at(*trace, "columns", place); !find(columns, q.key + "_set"))
-        columns.members.push_back({q.key + "_set", place.line, place.column, text_at(place.text, place)});
+    if (Node& columns = table_at(table_at(document_, "trace", place), "columns", place);
+        !find(columns, q.key + "_set")) {
+      Node covariate;
+      covariate.line = place.line, covariate.column = place.column;
+      covariate.members.push_back({"column", place.line, place.column, text_at(place.text, place)});
+      covariate.members.push_back({"unit", place.line, place.column, text_at(*unit, place)});
+      columns.members.push_back({q.key + "_set", place.line, place.column, std::move(covariate)});
+    }
     std::erase_if(q.value.members, [](const Member& m) { return m.key != "source" && m.key != "unit"; });
     Node own;
     own.line = place.line, own.column = place.column;
     own.members.push_back({q.key, place.line, place.column, std::move(by)});
     q.value.members.push_back({"by", place.line, place.column, std::move(own)});
+  }
+
+  /// As [data.units] or the quantity says; nothing and a problem if neither does, or they differ.
+  std::optional<std::string> unit_of(Table& table, const std::string& column) {
+    const auto told = file_->units.find(column);
+    const auto own = table.text("unit");
+    if (told == file_->units.end() && !own) {
+      table.refuse_key("column", fmt::format("the unit of '{}' is not stated", column), "",
+                       "state it as unit, or in [data.units]");
+      return std::nullopt;
+    }
+    if (told != file_->units.end() && own && *own != told->second) {
+      table.refuse_key("unit", fmt::format("data.units.{} is '{}'", column, told->second), "", "state one of them");
+      return std::nullopt;
+    }
+    return own ? own : told->second;
   }
 
   /// [data], once; its problems are told by whoever reads it as a whole.
@@ -96,11 +116,20 @@ private:
   Node levels(const Node& quantity, const Node& place, std::size_t column, const std::string& unit) {
     Node out;
     out.line = place.line, out.column = place.column;
+    std::map<double, std::string> texts;
+    const bool deviates = std::ranges::any_of(
+        quantity.members, [](const Member& m) { return m.key != "column" && m.key != "unit" && m.key != "source"; });
     for (const auto& row : file_->csv->rows) {
       const std::string& text = row[column].text;
       if (find(out, text)) continue;
       const auto value = number(row[column]);
       if (!value) continue;
+      const auto [known, fresh] = texts.try_emplace(*value, text);
+      if (!fresh && deviates)
+        problems_.add(place,
+                      fmt::format("quantities: '{}' and '{}' in the column '{}' are one set-point", known->second, text,
+                                  place.text),
+                      "its deviation is drawn once", "write them alike");
       Node entry;
       entry.line = place.line, entry.column = place.column;
       entry.members.push_back({"value", place.line, place.column, text_at(fmt::format("{} {}", *value, unit), place)});

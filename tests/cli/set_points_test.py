@@ -70,7 +70,7 @@ class SetPoints(InFolder):
     def test_a_column_is_one_entry_for_each_set_point(self):
         by = ", ".join(f'"{a}" = {{ value = "{a} deg", u = "0.1 deg", source = "scale of the holder" }}' for a in ANGLES)
         written = SCENARIO.replace("LABELS", 'labels = { turn = "turn", holder = "holder_deg" }').replace(
-            "HOLDER", f"by.holder = {{ {by} }}").replace("COLUMNS", '[trace.columns]\nholder_set = "holder_deg"')
+            "HOLDER", f"by.holder = {{ {by} }}").replace("COLUMNS", '[trace.columns]\nholder_set = { column = "holder_deg", unit = "deg" }')
         self.write(SET), self.write(written, "by.toml")
         a, b = (self.said("trace", s, "--out", s.replace(".toml", ".h5")) for s in ("s.toml", "by.toml"))
         a.pop("made_by"), b.pop("made_by")
@@ -83,6 +83,13 @@ class SetPoints(InFolder):
         self.assertLess(v["rms"]["holdout_after"], v["rms"]["holdout_noise_interval95"][1])
         self.assertEqual(v["rounds"][-1]["added"], [])
         self.assertAlmostEqual(v["rounds"][1]["holdout_before"] / v["rms"]["holdout_after"], 1, delta=0.02)
+
+    def test_a_unit_beside_the_column_and_no_table_of_trace(self):
+        text = SET.replace('holder_deg = "deg"\n', "").replace('column = "holder_deg"', 'column = "holder_deg"\nunit = "deg"')
+        self.write(text[:text.index("[trace]")])
+        v = self.said("trace", "s.toml", "--draws", "199", "--out", "t.h5")
+        self.assertEqual([f["depends_on"] for f in v["findings"]], [["holder_set"]])
+        self.refused(SET.replace('column = "holder_deg"', 'column = "holder_deg"\nunit = "rad"'), "quantities.holder.unit: data.units.holder_deg is 'deg'")
 
     def refused(self, text, words):
         run = gumshoe("check", self.write(text), cwd=self.folder)
@@ -99,6 +106,10 @@ class SetPoints(InFolder):
         self.refused(COLUMN.replace("HOLDER", 'by.turn = { 1 = { column = "holder_deg" } }'), "an entry by label has no column")
         self.refused(re.sub(r"\[data\].*?\[conditions\]", "[conditions]", SET, flags=re.S), "there is no [data]")
         rows = (self.folder / "r.csv").read_text().replace("1,45,", "1,none,", 1)
+        data = (self.folder / "r.csv").read_text()
+        (self.folder / "r.csv").write_text(data.replace("2,45,", "2,45.0,", 1))
+        self.refused(SET, "'45' and '45.0' in the column 'holder_deg' are one set-point")
+        self.assertEqual(gumshoe("check", self.write(SET.replace('u = "0.1 deg"\n', "")), cwd=self.folder).returncode, 0)
         (self.folder / "r.csv").write_text(rows)
         self.refused(SET, "no value for holder = 'none'")
 
