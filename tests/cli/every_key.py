@@ -208,7 +208,7 @@ file = "values.csv"
 units = { r = "mm" }
 [quantities]
 g = { estimated = true, value = 1 }
-p = { column = "r", u = "1 um" }
+p = { column = "v", u = "1 um", unit = "mm" }
 [indications.y]
 readings = "r"
 ''',
