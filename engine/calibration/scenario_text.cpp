@@ -77,6 +77,10 @@ void move_paths(Node& node, const std::filesystem::path& from, const std::filesy
       const std::filesystem::path path = m.value.text;
       if (path.is_relative()) m.value.text = std::filesystem::relative(from / path, to).generic_string();
     }
+    if (m.key == "from" && m.value.kind == Node::Kind::text) // "results.h5:laser_z"; a measure has no colon
+      if (const std::size_t colon = m.value.text.rfind(':', m.value.text.find('[')); colon != std::string::npos)
+        if (const std::filesystem::path path = m.value.text.substr(0, colon); path.is_relative())
+          m.value.text = std::filesystem::relative(from / path, to).generic_string() + m.value.text.substr(colon);
     move_paths(m.value, from, to);
   }
   for (Node& item : node.items) move_paths(item, from, to);

@@ -13,6 +13,7 @@
 #include "cli/print.h"
 #include "effects/effect.h"
 #include "store/draft.h"
+#include "store/earlier_output.h"
 
 namespace gumshoe::cli {
 
@@ -41,6 +42,7 @@ scenario::Catalogue catalogue() {
   for (const EffectCard* e : effects::cards()) c.effects.push_back(e);
   c.applies = &effects::applies;
   c.trusts = &trusts;
+  c.read_output = &store::read_output;
   return c;
 }
 

@@ -60,7 +60,8 @@ const FamilyCard* find_family(std::string_view name);
 ///   uncertainty of the law of propagation, 0: the scale (simultaneous observations have another, JCGM 102 5.3.2);
 ///   exponential(mean) from 0; gamma(shape, scale); lognormal(mu, sigma of ln x);
 ///   truncated_normal(mean, u, low, high): mean and u are the parent's;
-///   discrete / empirical: no parameters, `values` with `probabilities` (empirical: equal).
+///   discrete / empirical: `values` with `probabilities` (empirical: equal), no parameters, but of an empirical one from
+///   an earlier result with degrees of freedom the first is the u of the law of propagation; 0: that of the values.
 struct Distribution {
   Family family = Family::constant;
   std::array<double, 4> parameters{};

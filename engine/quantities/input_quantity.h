@@ -3,6 +3,7 @@
 /// scopes and correlations. Plain data, SI units; quantities of models, of effects and the noise of
 /// indications are the same kind of thing.
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +15,12 @@ namespace gumshoe::quantities {
 /// Label values, e.g. {{"rod", "rod 2"}, {"setup", "1"}}.
 using Labels = std::vector<std::pair<std::string, std::string>>;
 
+/// An output of an earlier run.
+struct Earlier {
+  std::string file, output;      ///< the file as found from the current directory
+  std::vector<std::string> same; ///< quantities of its budget whose errors others have too
+};
+
 /// One source of uncertainty: a deviation added to the quantity's value.
 struct Component {
   std::string name;              ///< unique within the quantity; part of the random stream's key
@@ -23,6 +30,7 @@ struct Component {
   double degrees_of_freedom = std::numeric_limits<double>::infinity();
   std::vector<std::string> per;  ///< scope: one draw per combination of these labels ("reading": per reading)
   std::string source;
+  std::optional<Earlier> earlier = {}; ///< where the distribution is from
 };
 
 /// A value, and components, that hold for the given label values (all readings if `labels` is empty).

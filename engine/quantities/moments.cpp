@@ -121,6 +121,7 @@ Moments moments(const Distribution& d) {
 double Distribution::mean() const { return moments(*this).mean; }
 double Distribution::variance() const { return moments(*this).variance; }
 double Distribution::standard_uncertainty() const {
+  if (family == Family::empirical && parameters[0] > 0) return parameters[0];
   if (family != Family::t) return std::sqrt(variance());
   return parameters[3] > 0 ? parameters[3] : parameters[1];
 }

@@ -13,6 +13,7 @@
 #include "base/csv.h"
 #include "quantities/cells.h"
 #include "quantities/input_quantity.h"
+#include "scenario/earlier.h"
 #include "scenario/reader.h"
 
 namespace gumshoe::scenario {
@@ -69,6 +70,7 @@ struct Context {
   Problems& problems;
   DataFiles& files;
   std::vector<std::string>& notes;
+  EarlierResults& earlier;
   /// Labels of every reading; what a `by` or `per` may name.
   std::vector<quantities::Labels> readings;
   /// Label values that occur in the data, also in rows that `where` leaves out.

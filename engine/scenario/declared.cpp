@@ -12,7 +12,7 @@
 namespace gumshoe::scenario {
 namespace {
 
-constexpr std::array worded{"distribution", "evaluation", "source", "per",    "name",       "kind",
+constexpr std::array worded{"distribution", "evaluation", "source", "per",    "name",       "kind", "from", "same",
                             "labels",       "where",      "file",   "column", "conditions", "decimal"};
 constexpr std::array widths{"u", "U", "half_width"}; ///< which may be shares of the value
 

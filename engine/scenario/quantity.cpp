@@ -91,7 +91,7 @@ private:
     Entry e{labels, value.value_or(card_.default_value), {}, source};
     const std::size_t problems = context_.problems.size();
     if (table.has("components")) {
-      for (const char* key : {"distribution", "u", "U", "observations", "half_width", "low", "high", "per"}) {
+      for (const char* key : {"distribution", "u", "U", "observations", "half_width", "low", "high", "per", "from"}) {
         if (!table.has(key)) continue;
         context_.problems.add(*table.find(key),
                               fmt::format("{}: '{}' is given together with components", table.path(), key),
@@ -123,8 +123,9 @@ private:
 
   /// Anything but value and source states an uncertainty, or is a mistake that its reader finds.
   static bool uncertain(const Table& table) {
-    constexpr std::array words{"distribution", "u",   "U",          "observations",      "k", "half_width", "low",
-                               "high",         "per", "evaluation", "degrees_of_freedom"};
+    constexpr std::array words{
+        "distribution", "u",   "U",          "observations",      "k", "from", "same", "half_width", "low",
+        "high",         "per", "evaluation", "degrees_of_freedom"};
     return std::ranges::any_of(table.node().members,
                                [&](const Member& m) { return std::ranges::find(words, m.key) != words.end(); });
   }

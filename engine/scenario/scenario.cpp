@@ -34,9 +34,10 @@ constexpr std::size_t largest_scenario = std::size_t{4} << 20;
 class ScenarioReader {
 public:
   ScenarioReader(const std::string& path, const Catalogue& catalogue, const Overrides& overrides)
-      : catalogue_(catalogue), problems_(path),
-        files_(path, overrides.data, out_.notes), context_{problems_, files_, out_.notes, {}, {}, true,
-                                                                      {!catalogue.trusts || catalogue.trusts(path), overrides.external, {}}} {
+      : catalogue_(catalogue), problems_(path), files_(path, overrides.data, out_.notes),
+        earlier_(std::filesystem::path(path).parent_path().string(), catalogue.read_output),
+        context_{problems_, files_, out_.notes, earlier_,
+                 {},        {},     true,       {!catalogue.trusts || catalogue.trusts(path), overrides.external, {}}} {
     out_.file = path;
     out_.data = overrides.data;
     out_.text = read_text_file(path, largest_scenario);
@@ -47,6 +48,7 @@ public:
     if (document_.members.empty())
       throw InputError({{{out_.file, 0, 0}, "the scenario is empty", "", "write schema = 1 and a [model] table"}});
     expand_set_points(document_, files_, problems_);
+    earlier_.state_units(document_, problems_);
     problems_.raise();
     Table top(document_, "", problems_);
     top.declare(sections());
@@ -79,6 +81,7 @@ public:
     if (!out_.trace.free.empty()) check_free(top, own);
     if (!out_.trace.unconfirmed.empty()) check_unconfirmed(top);
     out_.correlations = read_correlations(top, out_.quantities);
+    for (auto& tied : tie_results(out_.quantities, document_, context_)) out_.correlations.push_back(std::move(tied));
     if (auto run = top.table("run")) out_.run = read_run(*run);
     if (auto analysis = top.table("analysis")) {
       out_.analysis = read_analysis(*analysis, {*model, out_.quantities}, context_);
@@ -99,7 +102,7 @@ public:
     if (auto volume = top.table("volume")) read_volume(*volume, top, problems_);
     top.refuse_unknown();
     problems_.raise();
-    out_.hash = fmt::format("{:016x}", files_.hash(hash64(out_.text)));
+    out_.hash = fmt::format("{:016x}", earlier_.hash(files_.hash(hash64(out_.text))));
     return std::move(out_);
   }
 
@@ -222,6 +225,7 @@ private:
   Scenario out_;
   Problems problems_;
   DataFiles files_;
+  EarlierResults earlier_;
   Context context_;
   Node document_;
 };

@@ -11,6 +11,7 @@
 #include "math/least_squares.h"
 #include "models/model.h"
 #include "quantities/input_quantity.h"
+#include "scenario/earlier.h"
 #include "scenario/choose_options.h"
 #include "scenario/trace_options.h"
 
@@ -208,6 +209,7 @@ struct Catalogue {
   bool (*applies)(const ModelCard& model, const EffectCard& effect) = nullptr;
   /// Whether a scenario file may start a program or load a library; null: any may.
   bool (*trusts)(const std::string& scenario) = nullptr;
+  ReadOutput read_output = {}; ///< of earlier results; none: they cannot be read
 };
 
 /// The card as an evaluation sees it: with the measurands that the evaluation yields.

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "scenario/series.h"
 #include "scenario/family.h"
+#include "scenario/series.h"
 
 namespace gumshoe::scenario {
 namespace {
@@ -78,8 +78,60 @@ std::optional<Uncertainty> read_distribution(Table& table, const Form& form, Con
   return out;
 }
 
-/// Finite degrees of freedom of u make a normal distribution a t, of a Type A evaluation (JCGM 101:2008, 6.4.9) and of a
-/// certificate (6.4.9.7) alike. For other families they only enter the effective degrees of freedom (GUM G.4.2).
+/// The samples of the output, which keep its shape; without any, its u with degrees of freedom.
+std::optional<Uncertainty> read_earlier(Table& table, const Form& form, Context& context) {
+  const Node& from = *table.find("from");
+  const std::string path = table.path("from");
+  const EarlierOutput* output = context.earlier.open(from, path, context.problems);
+  if (!output) return std::nullopt;
+  if (output->si_unit != form.si_unit) {
+    table.refuse_key("from",
+                     fmt::format("{} is in {}, not {}", output->name, output->unit, units::kind_name(form.si_unit)));
+    return std::nullopt;
+  }
+  Uncertainty out;
+  const bool deviation = form.value.has_value() || !form.absolute;
+  out.value = form.value.value_or(form.absolute ? output->estimate : 0);
+  Component& c = out.component;
+  c.earlier = context.earlier.locate(from.text);
+  c.degrees_of_freedom = output->degrees_of_freedom;
+  auto values = std::make_shared<std::vector<double>>();
+  for (const double x : output->samples)
+    if (!std::isnan(x)) values->push_back(x);
+  if (values->empty()) {
+    const double u = output->standard_uncertainty;
+    if (!std::isfinite(u)) {
+      table.refuse_key("from", fmt::format("{} has neither samples nor a standard uncertainty", output->name));
+      return std::nullopt;
+    }
+    out.exact = !(u > 0);
+    if (deviation) out.value += output->estimate;
+    c.distribution = {Family::normal, {0, u}, {}, {}};
+    context.note(fmt::format("{}: its samples are not stored; taken as {}", path,
+                             std::isfinite(c.degrees_of_freedom) ? "a t distribution" : "normal"));
+    return out;
+  }
+  const double n = static_cast<double>(values->size());
+  std::ranges::sort(*values);
+  const double front = values->front();
+  double mean = 0;
+  for (const double x : *values) mean += (x - front) / n;
+  // About the run's estimate, of which the first samples have not the exact mean.
+  for (double& x : *values) x = x - front - mean + (deviation ? output->estimate : 0);
+  out.exact = !(values->back() > values->front());
+  if (out.exact && deviation) out.value += output->estimate;
+  c.distribution = {Family::empirical, {}, std::move(values), {}};
+  if (std::isfinite(output->degrees_of_freedom)) c.distribution.parameters[0] = output->standard_uncertainty;
+  if (output->drawn > output->samples.size())
+    context.note(fmt::format("{}: drawn from the first {} of {} samples", path, output->samples.size(), output->drawn));
+  if (n < static_cast<double>(output->samples.size()))
+    context.note(fmt::format("{}: {} samples failed and are left out", path,
+                             output->samples.size() - static_cast<std::size_t>(n)));
+  return out;
+}
+
+/// Finite degrees of freedom of u make a normal distribution a t, of a Type A evaluation (JCGM 101:2008, 6.4.9) and of
+/// a certificate (6.4.9.7) alike. For other families they only enter the effective degrees of freedom (GUM G.4.2).
 void apply_degrees_of_freedom(Component& c, std::optional<double> declared, Table& table, Context& context) {
   if (declared) c.degrees_of_freedom = *declared;
   auto& d = c.distribution;
@@ -117,7 +169,8 @@ std::vector<Key> uncertainty_keys() {
   const Shape measure = reference("measure"), width = reference("width"), positive = reference("positive");
   return {
       {"distribution", words(distribution_names()), "JCGM 101:2008, Table 1, and a few more; default: normal"},
-      {"u", width, "standard uncertainty, absolute or relative to the value (\"0.1 %\"); for a t distribution the scale s/sqrt(n)"},
+      {"u", width,
+       "standard uncertainty, absolute or relative to the value (\"0.1 %\"); for a t distribution the scale s/sqrt(n)"},
       {"U", width, "expanded uncertainty, absolute or relative, with its coverage factor k"},
       {"k", positive, "coverage factor of U"},
       {"half_width", width, "half-width about the value, absolute or relative"},
@@ -134,8 +187,17 @@ std::vector<Key> uncertainty_keys() {
       {"values", reference("series"), "discrete and empirical: the values, or a column of a data file"},
       {"probabilities", list(interval(0, 1, false)), "discrete: one probability per value; their sum is 1"},
       {"observations", reference("series"),
-       "Type A evaluation: repeated observations, or a column of them in a data file, giving a t distribution with n - 1 "
+       "Type A evaluation: repeated observations, or a column of them in a data file, giving a t distribution with n - "
+       "1 "
        "degrees of freedom"},
+      {"from", text(),
+       "\"FILE.h5:OUTPUT\", output of an earlier run: its samples are the distribution, its estimate the value; "
+       "outputs of "
+       "one file keep their correlation"},
+      {"same", list(text()),
+       "from: quantities in the budget of that output whose errors are those of another result here, or of the "
+       "quantity "
+       "of that name here"},
       {"evaluation", words({"A", "B"}), "Type A or Type B evaluation (GUM 2.3.2, 2.3.3)"},
       {"degrees_of_freedom", positive,
        "degrees of freedom of u; finite ones make a normal distribution a t (JCGM 101, 6.4.9); default: infinite"},
@@ -150,7 +212,17 @@ std::optional<Uncertainty> read_uncertainty(Table& table, const Form& form, Cont
   if (observed && (table.has("distribution") || table.has("u") || table.has("U")))
     table.refuse("observations are given together with another statement of uncertainty", "both state the uncertainty",
                  "leave one out");
-  auto out = observed ? read_observations(table, form, context) : read_distribution(table, form, context);
+  const bool earlier = table.has("from");
+  if (earlier)
+    for (const char* key : {"distribution", "u", "U", "observations", "degrees_of_freedom", "evaluation"})
+      if (table.has(key))
+        table.refuse_key(key, "is given together with from", "the result states the uncertainty", "leave it out");
+  const auto same = table.texts("same");
+  if (table.has("same") && !earlier)
+    table.refuse_key("same", "there is no result", "", "from = \"calibration.h5:laser_z\"");
+  auto out = earlier    ? read_earlier(table, form, context)
+             : observed ? read_observations(table, form, context)
+                        : read_distribution(table, form, context);
 
   // Read in any case, so that these keys are known and their problems are told too.
   const auto evaluation = table.choice("evaluation", {"A", "B"});
@@ -163,7 +235,8 @@ std::optional<Uncertainty> read_uncertainty(Table& table, const Form& form, Cont
   if (evaluation) c.evaluation = *evaluation ? 'B' : 'A';
   apply_degrees_of_freedom(c, degrees, table, context);
   c.per = per;
-  c.source = source;
+  c.source = source.empty() && c.earlier ? table.find("from")->text : source;
+  if (c.earlier) c.earlier->same = same;
   return out;
 }
 

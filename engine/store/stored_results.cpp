@@ -43,6 +43,10 @@ Budget read_budget(hid_t group, const propagation::Output& output) {
   Budget out;
   out.output = output;
   out.applicable = hdf5::read_integer(group, "applicable") != 0;
+  if (out.applicable) {
+    out.combined_standard_uncertainty = hdf5::read_number(group, "combined_standard_uncertainty");
+    out.effective_degrees_of_freedom = hdf5::read_number(group, "effective_degrees_of_freedom");
+  }
   if (!hdf5::has(group, "name")) return out; // without contributions
   auto& rows = out.contributions;
   rows.resize(hdf5::read_texts(group, "name").size());

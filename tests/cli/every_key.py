@@ -1,5 +1,16 @@
 """Keys of the schema that no shipped scenario has: small scenarios that have them."""
 EVERY_KEY = {
+    "an earlier result": '''
+schema = 1
+[model]
+name = "expression"
+[model.measurands]
+y = "a + b + x"
+[quantities]
+x = { value = "1 um", u = "1 um" }
+a = { from = "earlier.h5:y", same = ["x"] }
+b = { value = "1 um", components = [{ from = "earlier.h5:y", same = ["x"] }] }
+''',
     "distributions": '''
 schema = 1
 [model]

@@ -179,6 +179,11 @@ class Schema(unittest.TestCase):
             (pathlib.Path(folder) / "points.csv").write_text("x,cost\n0,1\n1,2\n")
             (pathlib.Path(folder) / "model.py").write_text(
                 "import sys\nprint('y')\nfor row in sys.stdin.read().splitlines()[1:]: print(row)\n")
+            (pathlib.Path(folder) / "earlier.toml").write_text(
+                'schema = 1\n[model]\nname = "expression"\nmeasurands = { y = "x" }\n[quantities]\n'
+                'x = { value = "1 um", u = "1 um" }\n')
+            self.assertEqual(self.program("run", pathlib.Path(folder) / "earlier.toml", "--samples", 100, "--out",
+                                          pathlib.Path(folder) / "earlier.h5").returncode, 0)
             for name, text in EVERY_KEY.items():
                 with self.subTest(name):
                     document = plain(tomllib.loads(text))

@@ -1,0 +1,270 @@
+#include "scenario/earlier.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <numeric>
+#include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "base/hash.h"
+#include "quantities/cells.h"
+#include "scenario/context.h"
+
+namespace gumshoe::scenario {
+namespace {
+
+using quantities::Component;
+using Share = EarlierOutput::Share;
+
+const Node* member(const Node& table, std::string_view key) {
+  const auto it = std::ranges::find(table.members, key, &Member::key);
+  return it == table.members.end() ? nullptr : &it->value;
+}
+
+/// Of the samples that succeeded in both: the standard normal quantiles of their ranks, correlated.
+double correlation_of_scores(const std::vector<double>& a, const std::vector<double>& b) {
+  std::vector<std::size_t> both;
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+    if (!std::isnan(a[i]) && !std::isnan(b[i])) both.push_back(i);
+  const std::size_t n = both.size(), padded = (n + 7) / 8 * 8;
+  if (n < 2) return 0;
+  std::vector<double> quantiles(padded, 0.5);
+  for (std::size_t i = 0; i < n; ++i) quantiles[i] = (static_cast<double>(i) + 0.5) / static_cast<double>(n);
+  const quantities::QuantileFunction normal({quantities::Family::normal, {0, 1}, {}, {}});
+  normal(quantiles.data(), quantiles.data(), padded);
+  const auto scores = [&](const std::vector<double>& values) {
+    std::vector<std::size_t> order(n);
+    std::iota(order.begin(), order.end(), 0);
+    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return values[both[i]]; });
+    std::vector<double> out(n);
+    for (std::size_t i = 0; i < n; ++i) out[order[i]] = quantiles[i];
+    return out;
+  };
+  const std::vector<double> x = scores(a), y = scores(b);
+  const double r =
+      std::inner_product(x.begin(), x.end(), y.begin(), 0.0) / std::inner_product(x.begin(), x.end(), x.begin(), 0.0);
+  return std::clamp(r, -1.0, 1.0);
+}
+
+/// A draw of the scenario, as a correlation names it.
+struct Draw {
+  std::string name; ///< "laser_z", "laser_z.seat", "laser_z[rod = rod 1]"
+  std::string quantity;
+  std::string component; ///< as budgets name it: "rod_length[rod 1]: seat"
+  const Component* stated = nullptr;
+  const EarlierOutput* output = nullptr; ///< null: the scenario's own
+};
+
+std::vector<Draw> draws_of(const std::vector<quantities::InputQuantity>& quantities, const EarlierResults& results) {
+  std::vector<Draw> out;
+  for (const auto& q : quantities)
+    for (const auto& entry : q.entries)
+      for (const Component& c : entry.components) {
+        auto labels = entry.labels;
+        std::ranges::sort(labels); // as draws are named
+        const std::string place = labels.empty() ? q.name : fmt::format("{}[{}]", q.name, quantities::text_of(labels));
+        const bool several = entry.components.size() > 1;
+        const std::string budget = several ? fmt::format("{}: {}", place, c.name) : place;
+        out.push_back({several && labels.empty() ? fmt::format("{}.{}", q.name, c.name) : budget, q.name, budget, &c,
+                       c.earlier ? &results.output(*c.earlier) : nullptr});
+      }
+  return out;
+}
+
+class Ties {
+public:
+  Ties(std::vector<Draw> draws, const Node& document, Context& context)
+      : draws_(std::move(draws)), document_(document), context_(context), set_(draws_.size()) {
+    std::iota(set_.begin(), set_.end(), 0);
+  }
+
+  std::vector<quantities::Correlation> find() {
+    const std::size_t n = draws_.size();
+    std::vector<double> r(n * n, 0);
+    for (std::size_t i = 0; i < n; ++i) {
+      r[i * n + i] = 1;
+      if (!draws_[i].output) continue;
+      check_same(draws_[i]);
+      for (std::size_t j = 0; j < n; ++j) {
+        if (j == i || (draws_[j].output && j > i)) continue;
+        const double tied = draws_[j].output ? between(draws_[i], draws_[j]) : with_own(draws_[i], draws_[j]);
+        if (tied == 0) continue;
+        r[i * n + j] = r[j * n + i] = tied;
+        join(i, j);
+      }
+    }
+    std::vector<quantities::Correlation> out;
+    for (std::size_t first = 0; first < n; ++first) {
+      std::vector<std::size_t> members;
+      for (std::size_t i = 0; i < n; ++i)
+        if (root(i) == first) members.push_back(i);
+      if (members.size() < 2) continue;
+      quantities::Correlation c;
+      for (const std::size_t i : members) {
+        c.quantities.push_back(draws_[i].name);
+        for (const std::size_t j : members) c.matrix.push_back(r[i * n + j]);
+      }
+      context_.note(fmt::format("{}: tied as their results are", fmt::join(c.quantities, ", ")));
+      out.push_back(std::move(c));
+    }
+    return out;
+  }
+
+private:
+  std::size_t root(std::size_t i) const {
+    while (set_[i] != i) i = set_[i];
+    return i;
+  }
+  void join(std::size_t i, std::size_t j) {
+    const auto [low, high] = std::minmax({root(i), root(j)});
+    set_[high] = low;
+  }
+  static bool names(const Draw& d, const std::string& quantity) {
+    return std::ranges::find(d.stated->earlier->same, quantity) != d.stated->earlier->same.end();
+  }
+  static double u_of(const Draw& d) { return d.stated->distribution.standard_uncertainty(); }
+
+  double between(const Draw& a, const Draw& b) {
+    const bool one_file = a.stated->earlier->file == b.stated->earlier->file;
+    if (one_file && !a.output->samples.empty() && !b.output->samples.empty())
+      return correlation_of_scores(a.output->samples, b.output->samples);
+    double covariance = 0;
+    for (const Share& s : a.output->shares)
+      for (const Share& t : b.output->shares) {
+        if (s.component != t.component) continue;
+        if (one_file || (names(a, s.quantity) && names(b, s.quantity))) {
+          if (!std::isnan(s.contribution * t.contribution)) covariance += s.contribution * t.contribution;
+        } else if (s.evaluation == 'B' && t.evaluation == 'B' && s.u > 0 && s.u == t.u &&
+                   s.distribution == t.distribution) {
+          context_.note(
+              fmt::format("{} and {}: treated as independent, although the budgets of both list '{}' alike. If "
+                          "it is one error, such as that of one certificate, add same = [\"{}\"] to both",
+                          a.name, b.name, s.component, s.quantity));
+        }
+      }
+    return std::clamp(covariance / (u_of(a) * u_of(b)), -1.0, 1.0);
+  }
+
+  double with_own(const Draw& a, const Draw& own) {
+    if (!names(a, own.quantity)) return 0;
+    for (const Share& s : a.output->shares) {
+      if (s.component != own.component || std::isnan(s.contribution)) continue;
+      if (std::abs(s.u - u_of(own)) > 1e-6 * s.u) {
+        context_.problems.add(place(a),
+                              fmt::format("{}: '{}' has u = {:.6g} here and {:.6g} in {} (SI)", a.name, own.component,
+                                          u_of(own), s.u, a.stated->earlier->file),
+                              "one error has one uncertainty", "state it alike, or leave it out of same");
+        return 0;
+      }
+      return std::clamp(s.contribution / u_of(a), -1.0, 1.0);
+    }
+    return 0;
+  }
+
+  /// Every name in `same` is in the budget, and in another result or in the scenario as well.
+  void check_same(const Draw& a) {
+    std::set<std::string> known;
+    for (const Share& s : a.output->shares) known.insert(s.quantity);
+    for (const std::string& name : a.stated->earlier->same) {
+      const bool elsewhere = std::ranges::any_of(draws_, [&](const Draw& d) {
+        if (d.stated == a.stated) return false;
+        return d.output ? names(d, name) : d.quantity == name;
+      });
+      if (!known.contains(name))
+        context_.problems.add(
+            place(a), fmt::format("{}: same: '{}' is not in the budget of {}", a.name, name, a.stated->earlier->output),
+            "", did_you_mean(name, {known.begin(), known.end()}));
+      else if (!elsewhere)
+        context_.problems.add(place(a), fmt::format("{}: same: nothing else here has '{}'", a.name, name),
+                              "an error is shared by two",
+                              "name it in same of the other result too, or state it as a quantity");
+    }
+  }
+
+  const Node& place(const Draw& d) const {
+    const Node* table = member(document_, "quantities");
+    const Node* q = table ? member(*table, d.quantity) : nullptr;
+    return q ? *q : document_;
+  }
+
+  std::vector<Draw> draws_;
+  const Node& document_;
+  Context& context_;
+  std::vector<std::size_t> set_; ///< union-find: what is tied has one root
+};
+
+} // namespace
+
+std::optional<quantities::Earlier> EarlierResults::locate(const std::string& text) const {
+  // Labels in brackets may hold a colon.
+  const std::size_t colon = text.rfind(':', text.find('['));
+  if (colon == std::string::npos || colon == 0 || colon + 1 == text.size()) return std::nullopt;
+  return quantities::Earlier{
+      (std::filesystem::path(folder_) / text.substr(0, colon)).string(), text.substr(colon + 1), {}};
+}
+
+const EarlierOutput* EarlierResults::open(const Node& node, const std::string& path, Problems& problems) {
+  const auto text = read_text(node, path, problems);
+  if (!text) return nullptr;
+  const auto where = locate(*text);
+  if (!where || !read_) {
+    problems.add(node,
+                 where ? fmt::format("{}: results cannot be read here", path)
+                       : fmt::format("{}: '{}' names no output of a result", path, *text),
+                 "", "write \"FILE.h5:OUTPUT\", such as \"calibration.h5:laser_z\"");
+    return nullptr;
+  }
+  const auto [it, fresh] = outputs_.try_emplace({where->file, where->output});
+  if (!fresh) return it->second.get();
+  try {
+    it->second = std::make_unique<const EarlierOutput>(read_(where->file, where->output));
+  } catch (const InputError& error) {
+    outputs_.erase(it); // told to whoever asks again
+    problems.add(node, path, error);
+    return nullptr;
+  }
+  return it->second.get();
+}
+
+void EarlierResults::state_units(Node& document, Problems& problems) {
+  for (Member& section : document.members) {
+    if (section.key != "quantities") continue;
+    for (Member& q : section.value.members) {
+      const Node* from = member(q.value, "from");
+      if (!from || member(q.value, "unit")) continue;
+      Problems told_later(problems.file());
+      const EarlierOutput* output = open(*from, "quantities." + q.key + ".from", told_later);
+      if (!output) continue;
+      Node unit;
+      unit.kind = Node::Kind::text;
+      unit.line = from->line, unit.column = from->column;
+      unit.text = output->unit;
+      q.value.members.push_back({"unit", from->line, from->column, std::move(unit)});
+    }
+  }
+}
+
+std::uint64_t EarlierResults::hash(std::uint64_t hash) const {
+  for (const auto& [name, output] : outputs_) {
+    hash = hash64(fmt::format("{} {} {} {} {}", name.second, output->si_unit, output->estimate,
+                              output->standard_uncertainty, output->degrees_of_freedom),
+                  hash);
+    for (const Share& s : output->shares) hash = hash64(fmt::format("{} {}", s.component, s.contribution), hash);
+    hash =
+        hash64({reinterpret_cast<const char*>(output->samples.data()), output->samples.size() * sizeof(double)}, hash);
+  }
+  return hash;
+}
+
+std::vector<quantities::Correlation> tie_results(const std::vector<quantities::InputQuantity>& quantities,
+                                                 const Node& document, Context& context) {
+  std::vector<Draw> draws = draws_of(quantities, context.earlier);
+  if (std::ranges::none_of(draws, [](const Draw& d) { return d.output != nullptr; })) return {};
+  return Ties(std::move(draws), document, context).find();
+}
+
+} // namespace gumshoe::scenario
