@@ -236,7 +236,8 @@ void add_new(CLI::App& app, Action& action) {
   command->add_option("--out", o->out, "scenario to write (default: MODEL.toml, or the name of the data file)");
   command->add_option("--unit", o->units, "COLUMN=UNIT, where the header does not say it");
   command->add_option("--role", o->roles,
-                      "COLUMN=ROLE: position, reading, direction, time, temperature, cycle, uncertainty, other");
+                      "COLUMN=ROLE: position, reading, direction, time, temperature, cycle, alignment (its offset and slope are "
+                      "fitted for each of its values), uncertainty, other");
   command
       ->add_option("--term", o->terms,
                    "of linear: a column, or a product such as load*machine; a column of words is a factor (default: "

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <functional>
 #include <map>
 #include <ranges>
+#include <regex>
 #include <set>
 #include <span>
 
@@ -148,6 +150,12 @@ std::string clock_form(const std::vector<std::string>& texts) {
   return "";
 }
 
+/// Days without a time of the day.
+bool are_dates(const std::vector<std::string>& texts) {
+  static const std::regex date(R"(\d{4}-\d{1,2}-\d{1,2}|\d{1,2}[./]\d{1,2}[./](\d{4}|\d{2}))");
+  return std::ranges::all_of(texts, [](const std::string& t) { return std::regex_match(t, date); });
+}
+
 bool is_number(const Csv& csv, const CsvCell& cell, char decimal) {
   try {
     csv.number(cell, decimal);
@@ -184,6 +192,33 @@ bool fits(ColumnRole role, const std::string& unit) {
                             role == ColumnRole::uncertainty);
 }
 
+/// "T", "T_spindle", "T1": a temperature, where "t" is a time.
+bool is_temperature_symbol(const std::string& name) {
+  const auto letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
+  return !name.empty() && name.front() == 'T' && (name.size() == 1 || !letter(name[1]));
+}
+
+/// Whether the numbers of a column only rise, as times do.
+bool rises(const RecognisedData& data, std::size_t column) {
+  double last = -HUGE_VAL;
+  for (const auto& row : data.csv.rows) {
+    if (says_missing(row[column].text)) continue;
+    const double x = data.csv.number(row[column], data.decimal);
+    if (x <= last) return false;
+    last = x;
+  }
+  return true;
+}
+
+/// Temperatures without a unit are in degC where they could be nothing else: a shop at 50 degF freezes.
+bool in_degrees_celsius(const RecognisedData& data, std::size_t column) {
+  return std::ranges::all_of(data.csv.rows, [&](const auto& row) {
+    if (says_missing(row[column].text)) return true;
+    const double x = data.csv.number(row[column], data.decimal);
+    return x >= 10 && x <= 45;
+  });
+}
+
 /// @param below  unit below the name; empty: none
 RecognisedColumn column_of(const RecognisedData& data, std::size_t c, const std::string& below) {
   RecognisedColumn out{data.csv.header[c].text, "1", ColumnRole::other, numbers(data.csv, c, data.decimal), false, ""};
@@ -192,6 +227,10 @@ RecognisedColumn column_of(const RecognisedData& data, std::size_t c, const std:
   const auto words = words_of(rest);
   if (!below.empty()) unit = below;
   if (unit.empty()) unit = unit_of_time(words);
+  if (unit.empty() && lower(out.name) == "rpm") unit = "1/min";
+  const bool symbol = out.number && is_temperature_symbol(rest) && fits(ColumnRole::temperature, unit) &&
+                      (!unit.empty() || !rises(data, c));
+  if (symbol) out.role = ColumnRole::temperature;
   for (const RoleWords& known : role_words()) {
     if (out.role != ColumnRole::other) break;
     for (const std::string_view word : known.words)
@@ -218,7 +257,10 @@ RecognisedColumn column_of(const RecognisedData& data, std::size_t c, const std:
       out.why = out.number ? "by its signs" : "by its words";
     }
   }
-  if (!out.number && (out.role == ColumnRole::other || out.role == ColumnRole::time)) {
+  if (!out.number && (out.role == ColumnRole::other || out.role == ColumnRole::time) && are_dates(texts)) {
+    out.role = 2 * different.size() <= texts.size() ? ColumnRole::cycle : ColumnRole::other;
+    out.why = "by its dates";
+  } else if (!out.number && (out.role == ColumnRole::other || out.role == ColumnRole::time)) {
     out.clock = clock_form(texts);
     if (out.clock.empty()) out.role = ColumnRole::other;
     if (!out.clock.empty() && out.role == ColumnRole::other) {
@@ -230,14 +272,18 @@ RecognisedColumn column_of(const RecognisedData& data, std::size_t c, const std:
   if (out.role == ColumnRole::other) out.why.clear();
   const bool plain = out.role == ColumnRole::cycle || out.role == ColumnRole::direction;
   if (out.number && !plain) out.unit = unit.empty() ? "?" : unit;
+  if (out.role == ColumnRole::temperature && out.unit == "?" && in_degrees_celsius(data, c)) {
+    out.unit = "degC";
+    out.why += "; degC by its numbers";
+  }
   return out;
 }
 
-/// A length, an angle, or a number without a unit.
+/// A length, an angle, a force, a torque, a mass, or a number without a unit.
 bool is_place(const RecognisedColumn& c) {
   if (c.unit == "?" || c.unit == "1") return true;
-  const std::string si_unit = units::si_unit_of(c.unit);
-  return si_unit == "m" || si_unit == "rad";
+  static const std::set<std::string> set_units{"m", "rad", units::si_unit_of("N"), units::si_unit_of("N m"), "kg"};
+  return set_units.contains(units::si_unit_of(c.unit));
 }
 
 /// Whether a column numbers all rows in their order.
@@ -264,6 +310,15 @@ void guess_roles(RecognisedData& data) {
         return;
       }
   };
+  // U_mV: a voltage, where nothing else is one that it could be the uncertainty of.
+  for (RecognisedColumn& c : columns) {
+    if (c.role != ColumnRole::uncertainty || c.unit == "?" || words_of(c.name).front() != "u") continue;
+    const auto like = [&](const RecognisedColumn& other) {
+      return &other != &c && other.number &&
+             (other.unit == "?" || units::convertible(other.unit, units::si_unit_of(c.unit)));
+    };
+    if (std::ranges::none_of(columns, like)) c.role = ColumnRole::other, c.why.clear();
+  }
   if (!has(ColumnRole::reading))
     take(std::span(columns).last(columns.size()) | std::views::reverse, ColumnRole::reading,
          "as the last column of numbers");

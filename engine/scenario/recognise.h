@@ -8,10 +8,10 @@
 
 namespace gumshoe::scenario {
 
-enum class ColumnRole { other, position, reading, direction, time, temperature, cycle, uncertainty };
+enum class ColumnRole { other, position, reading, direction, time, temperature, cycle, alignment, uncertainty };
 constexpr const char* name(ColumnRole r) {
-  constexpr const char* names[] = {"other", "position",    "reading", "direction",
-                                   "time",  "temperature", "cycle",   "uncertainty"};
+  constexpr const char* names[] = {"other",       "position", "reading",   "direction",  "time",
+                                   "temperature", "cycle",    "alignment", "uncertainty"};
   return names[static_cast<int>(r)];
 }
 

@@ -53,6 +53,26 @@ seed    = 1
 )";
 }
 
+namespace {
+
+/// A quantity that is fitted: one, or one of each alignment.
+std::string fitted(const RecognisedData& data, const NamedColumns& labels, const std::string& unit) {
+  const std::string zero = fmt::format("\"0 {}\"", unit);
+  for (const auto& [name, c] : labels) {
+    if (c->role != Role::alignment) continue;
+    std::string all;
+    std::set<std::string> known;
+    for (const auto& row : data.csv.rows)
+      if (const std::string& text = row[static_cast<std::size_t>(data.csv.find(c->name))].text;
+          known.insert(text).second)
+        all += fmt::format("{}{} = {}", all.empty() ? "" : ", ", quoted(text), zero);
+    return fmt::format("{{ estimated = true, by.{} = {{ {} }} }}", name, all);
+  }
+  return fmt::format("{{ estimated = true, value = {} }}", zero);
+}
+
+} // namespace
+
 std::string starter_axis(const StarterData& data, const std::string& scenario) {
   const RecognisedData& found = data.found;
   const RecognisedColumn* const position = found.find(Role::position);
@@ -69,6 +89,7 @@ std::string starter_axis(const StarterData& data, const std::string& scenario) {
   const std::string name = measured ? "measured" : "deviation";
   const std::string pos = unit_or(*position, "mm"), read = unit_or(*reading, "um");
   const NamedColumns labels = labels_of(found);
+  const bool eccentric = turns && found.find(Role::alignment);
   NamedColumns conditions{{"position", position}};
   if (direction) conditions.emplace_back("direction", direction);
   std::set<std::string> used{position->name, reading->name};
@@ -85,14 +106,18 @@ std::string starter_axis(const StarterData& data, const std::string& scenario) {
   out += fmt::format("schema = 1\ntitle  = {}\n\n[model]\nname = \"expression\"\n\n[model.indications]\n",
                      quoted(data.file));
   out += line(name,
-              fmt::format("\"{}offset{}{}\"", measured ? "position + " : "", turns ? "" : " + gain * position",
+              fmt::format("\"{}offset{}{}\"", measured ? "position + " : "",
+                          eccentric ? " + eccentricity_x * cos(position) + eccentricity_y * sin(position)"
+                          : turns   ? ""
+                                    : " + gain * position",
                           direction ? " + reversal * direction" : ""),
               measured ? "guessed: the readings span what the positions span" : "guessed: the readings are errors");
   out += '\n' + data_section(data, labels, conditions, used);
   out += "\n[quantities]                            # fitted to the readings\n";
-  out += line("offset", fmt::format("{{ estimated = true, value = \"0 {}\" }}", read), "");
-  if (!turns)
-    out += line("gain", fmt::format("{{ estimated = true, value = \"0 ({})/({})\" }}", measured ? pos : read, pos), "");
+  out += line("offset", fitted(found, labels, read), "");
+  if (!turns) out += line("gain", fitted(found, labels, fmt::format("({})/({})", measured ? pos : read, pos)), "");
+  for (const char* axis : {"eccentricity_x", "eccentricity_y"})
+    if (eccentric) out += line(axis, fitted(found, labels, read), "");
   if (direction)
     out +=
         line("reversal", fmt::format("{{ estimated = true, value = \"0 {}\" }}", read), "half of the reversal error");

@@ -66,7 +66,7 @@ NamedColumns labels_of(const RecognisedData& data) {
     const std::size_t n = different(data, c);
     const bool recurs =
         (!c.number || names_parts(c)) && c.clock.empty() && c.words.empty() && n > 1 && 2 * n <= data.csv.rows.size();
-    if (c.role == ColumnRole::cycle || (c.role == ColumnRole::other && recurs))
+    if (c.role == ColumnRole::cycle || c.role == ColumnRole::alignment || (c.role == ColumnRole::other && recurs))
       out.emplace_back(plain_name(c.name), &c);
   }
   return out;
@@ -119,7 +119,9 @@ std::string data_section(const StarterData& data, const NamedColumns& labels, co
   for (const RecognisedColumn& c : data.found.columns)
     if (c.number && c.unit != "1" && used.contains(c.name))
       out += line(quoted(c.name), quoted(c.unit),
-                  c.unit == "?" ? "the file does not say it: write the unit, such as \"mm\"" : "from its header");
+                  c.unit == "?"                       ? "the file does not say it: write the unit, such as \"mm\""
+                  : c.why.ends_with("by its numbers") ? "guessed: temperatures of 10 to 45"
+                                                      : "from its header");
   if (!conditions.empty()) out += "\n[data.conditions]\n";
   for (const auto& [name, c] : conditions)
     out += line(name, column_text(*c), "recognised " + (c->why.empty() ? "by its name" : c->why));
@@ -174,10 +176,30 @@ void require_numbers(const RecognisedData& data, const RecognisedColumn& c, cons
 
 std::string unit_or(const RecognisedColumn& c, const char* otherwise) { return c.unit == "?" ? otherwise : c.unit; }
 
+namespace {
+
+/// Whether the words of a column alternate: each part was measured again after others.
+bool comes_back(const RecognisedData& data, const RecognisedColumn& c) {
+  const auto column = static_cast<std::size_t>(data.csv.find(c.name));
+  std::set<std::string> left;
+  std::string here;
+  for (const auto& row : data.csv.rows) {
+    const std::string& text = row[column].text;
+    if (text == here) continue;
+    if (left.contains(text)) return true;
+    left.insert(here);
+    here = text;
+  }
+  return false;
+}
+
+} // namespace
+
 std::string blocks_of(const RecognisedData& data, const NamedColumns& labels) {
   for (const bool cycle : {true, false}) // what counts cycles, before other words that recur
     for (const auto& [name, c] : labels)
-      if ((c->role == ColumnRole::cycle) == cycle && different(data, *c) >= 4)
+      if ((c->role == ColumnRole::cycle || c->role == ColumnRole::alignment) == cycle && different(data, *c) >= 4 &&
+          (cycle || !comes_back(data, *c)))
         return line("blocks", quoted(name), "an effect should recur in each of them");
   if (data.csv.rows.size() < 12)
     return "# blocks = { count = 6 }                # too few rows for blocks; an effect should recur in each of "

@@ -1,6 +1,7 @@
 #include "scenario/trace.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -51,9 +52,19 @@ private:
     return false;
   }
 
-  /// name = { column = "...", unit = "..." }, or another form of a column of numbers
+  /// name = { column = "...", unit = "..." }, or another form of a column of numbers; { counts = "readings" }
   void column(const Member& m, Table& columns) {
     const bool named = writable(m);
+    if (std::ranges::find(m.value.members, "counts", &Member::key) != m.value.members.end()) {
+      Table own(m.value, columns.path(m.key), problems_);
+      columns.find(m.key);
+      own.choice("counts", {"readings"});
+      own.refuse_unknown();
+      TraceColumn out{m.key, "1", "1", std::vector<double>(scope_.readings.size())};
+      std::iota(out.values.begin(), out.values.end(), 1.0);
+      if (named) out_.columns.push_back(std::move(out));
+      return;
+    }
     const auto& file = scope_.readouts.empty() ? std::nullopt : scope_.readouts.front().file;
     if (!file) {
       if (context_.readings_known)
@@ -206,6 +217,10 @@ private:
   TraceOptions out_;
 };
 
+std::vector<Key> counting_keys() {
+  return {{"counts", shape::words({"readings"}), "1, 2, 3, ... for the readings as they stand", true}};
+}
+
 } // namespace
 
 Options<TraceOptions> trace_options() {
@@ -238,9 +253,9 @@ Options<TraceOptions> trace_options() {
                     "nothing to find"),
       option::whole("draws", &TraceOptions::draws, 99, 1'000'000, "number of draws of the parametric bootstrap"),
       option::whole("seed", &TraceOptions::seed, 0, most_seed, "seed of the bootstrap"),
-      option::by_hand<TraceOptions>("columns", shape::map(number_column_shape()),
+      option::by_hand<TraceOptions>("columns", shape::map(shape::any_of({number_column_shape(), shape::table(counting_keys())})),
                                     "quantities recorded with the readings, in the same data file, such as a "
-                                    "temperature"),
+                                    "temperature; or the number of each reading"),
   };
 }
 

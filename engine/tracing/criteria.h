@@ -132,6 +132,10 @@ struct Criteria {
 
   // ---- Judgement ----
   std::size_t most_findings = 5; ///< terms or scatter found in one trace
+  double equal_shapes = 2; ///< 2 ln L by which shapes may differ that describe readings equally well
+  /// Slopes by group that are told: of groups and levels enough, far beyond what correlated noise shows as well.
+  std::size_t groups_of_alignments = 3, levels_of_alignments = 5;
+  double share_of_alignments = 0.5, p_of_alignments = 1e-6;
   /// An effect that one rod or one tool alone has is taken to be so many times rarer than one of them all.
   double rarity_of_part = 10;
   double beyond_doubt = 25; ///< 2 ln L beyond which no simulation is needed: five standard deviations

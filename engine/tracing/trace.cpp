@@ -174,6 +174,7 @@ Trace traced(const scenario::Scenario& scenario, const Settings& settings, bool&
         "readings jump with some sizes, of which the search may not have found the best; nearest to the readings: {}",
         fmt::join(found.jumping, ", ")));
   describe_repeats(c, found, out);
+  describe_alignments(c, found, out);
   describe_noise(c, found, out);
   collect(c, found, out);
   if (!std::isfinite(out.p_anything)) {

@@ -254,7 +254,7 @@ readings = { column = "r", unit = "mm", where = { w = ["a", "b"] } }
 readings = { file = "values.csv", delimiter = ",", header = 1, first_row = 2, repeats = "mean", column = "r", unit = "mm", labels = { w = "w" }, conditions = { p = { column = "r", unit = "mm" }, d = { column = "w", map = { a = 1, b = -1 } }, t = { column = "c", clock = "%H:%M" }, s = { column = "w", map = { a = 1, b = -1 } } } }
 [trace]
 blocks = { every = "1 min", of = "t" }
-columns = { q = { column = "v", unit = "mm" }, f = { column = "w", map = { a = 1, b = -1 } }, m = { column = "c", clock = "%H:%M" } }
+columns = { q = { column = "v", unit = "mm" }, f = { column = "w", map = { a = 1, b = -1 } }, m = { column = "c", clock = "%H:%M" }, n = { counts = "readings" } }
 ''',
     "logs": '''
 schema = 1

@@ -92,11 +92,12 @@ class New(InFolder):
         self.write("plain.csv")
         said = self.new("--from", "plain.csv")
         self.assertIn("plain.toml: to fill in, then gumshoe check plain.toml:", said)
-        for column in ("position", "error", "temp"):
+        self.assertIn("temp: temperature, degC (by its name; degC by its numbers)", said)
+        for column in ("position", "error"):
             self.assertIn(f"data.units.{column}: the unit of the column '{column}' is still to be told", said)
         check = gumshoe("check", "plain.toml", cwd=self.folder)
         self.assertEqual(check.returncode, 2)
-        self.assertEqual(check.stderr.count(": error: data.units."), 3, check.stderr)
+        self.assertEqual(check.stderr.count(": error: data.units."), 2, check.stderr)
         text = (self.folder / "plain.toml").read_text()
         for unit in ('"position" = "mm"', '"error" = "um"', '"temp" = "degC"'):
             text = text.replace(unit.split(" = ")[0] + ' = "?"', unit)
@@ -138,8 +139,33 @@ class New(InFolder):
         rows = ["x_mm;T_Lager [°C];T [s];d_um"] + [f"{x},0;{22 + x / 100};{x};{0.01 * x}".replace(".", ",") for x in range(0, 60, 10)]
         (self.folder / "t.csv").write_text("\n".join(rows) + "\n")
         said = self.new("--from", "t.csv", "--out", "t.toml")
-        self.assertIn("T_Lager [°C]: temperature, degC (by its unit)", said)
+        self.assertIn("T_Lager [°C]: temperature, degC (by its name)", said)
         self.assertIn("T [s]: time, s (by its name)", said)
+
+    def test_symbols_of_quantities(self):
+        """T_spindle, U_mV and rpm are no time, no uncertainty and no position; of days and returning parts."""
+        rows = ["time_min,rpm,dz_um,T_spindle"] + [f"{t},{4000 * (t // 10 % 2)},{t % 7},{20 + t % 7}" for t in range(40)]
+        (self.folder / "s.csv").write_text("\n".join(rows) + "\n")
+        said = self.new("--from", "s.csv")
+        self.assertIn("T_spindle: temperature, degC (by its name; degC by its numbers)", said)
+        self.assertIn("rpm: not used, unless by its name, 1/min", said)
+        self.assertIn("ready", said)
+        rows = ["series,F_N,U_mV"] + [f"{k},{f},{0.002 * f}" for k in range(1, 5) for f in range(0, 600, 100)]
+        (self.folder / "f.csv").write_text("\n".join(rows) + "\n")
+        said = self.new("--from", "f.csv")
+        self.assertIn("F_N: position, N", said)
+        self.assertIn("U_mV: reading, mV", said)
+        rows = ["x_mm,d_um,u_um"] + [f"{x},{x % 3},0.2" for x in range(12)]
+        (self.folder / "u.csv").write_text("\n".join(rows) + "\n")
+        self.assertIn("u_um: uncertainty, um", self.new("--from", "u.csv"))
+        rows = ["Datum,tool,d_mm"] + [f"{d:02}.05.2026,T{k},{10 * k}" for d in range(4, 10) for k in (1, 2, 3, 4)]
+        (self.folder / "d.csv").write_text("\n".join(rows) + "\n")
+        self.assertIn("Datum: cycle (by its dates)", self.new("--from", "d.csv"))
+        self.assertIn('blocks = "datum"', (self.folder / "d.toml").read_text())
+        rows = ["tool,d_mm"] + [f"T{k},{10 * k}" for d in range(6) for k in (1, 2, 3, 4)]
+        (self.folder / "p.csv").write_text("\n".join(rows) + "\n")
+        self.new("--from", "p.csv")
+        self.assertIn("blocks = { count = 6 }", (self.folder / "p.toml").read_text())
 
     def test_a_calibration_log(self):
         """Units after a blank, a series that is no position, a force, an indication of another kind."""

@@ -269,6 +269,44 @@ class TraceLog(InFolder):
         for waves, true in ((1, 4), (2, 1.2)):
             self.assertAlmostEqual(said[waves][0], true, delta=3.5 * said[waves][1])
 
+    def test_passes_that_were_aligned_anew(self):
+        """Straightness in eight passes, each with an offset and a slope of its own: it is told, and then fitted."""
+        draw, rows = random.Random(12), ["Lauf,X_mm,dY_um"]
+        for run in range(1, 9):
+            offset, slope = draw.gauss(0, 6), draw.gauss(0, 0.012)
+            rows += [f"{run},{x},{offset + slope * x + 2.5 * math.sin(2 * math.pi * x / 500) + draw.gauss(0, 0.4):.2f}" for x in range(0, 501, 25)]
+        (self.folder / "log.csv").write_text("\n".join(rows) + "\n")
+        for words, told in (((), True), (("--role", "Lauf=alignment", "--force"), False)):
+            self.assertEqual(gumshoe("new", "--from", "log.csv", *words, cwd=self.folder).returncode, 0)
+            run = gumshoe("trace", "log.toml", "--draws", "199", "--format", "json", "--out", "t.h5", "--force", cwd=self.folder)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            v = json.loads(run.stdout)
+            self.assertEqual(any("each lauf has a slope of its own against position" in s for s in v["statements"]), told)
+        self.assertEqual([f["depends_on"] for f in v["findings"]], [["position"]])
+        self.assertLess(v["rms"]["holdout_after"], v["rms"]["holdout_noise_interval95"][1])
+
+    def test_a_drift_without_times_or_by_a_temperature(self):
+        """An axis that grows while its temperature rises, and no time: what is found holds in the second round."""
+        draw, rows = random.Random(11), ["run,dir,target_mm,measured_mm,temp"]
+        for run in range(1, 4):
+            for way in (1, -1):
+                for i, p in enumerate(range(0, 1001, 50)[::way]):
+                    t = 20 + 0.6 * (run - 1) + 0.3 * (way < 0) + 0.015 * i
+                    y = p + 11e-6 * p * (t - 20) - 0.004 * (way < 0) + 0.003 * math.sin(p / 130) + draw.gauss(0, 0.0006)
+                    rows.append(f"{run},{'+' if way > 0 else '-'},{p},{y:.4f},{t:.2f}")
+        (self.folder / "log.csv").write_text("\n".join(rows) + "\n")
+        self.assertEqual(gumshoe("new", "--from", "log.csv", cwd=self.folder).returncode, 0)
+        run = gumshoe("trace", "log.toml", "--loop", "4", "--draws", "199", "--format", "json", "--out", "t.h5", cwd=self.folder)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        v = json.loads(run.stdout)
+        first, second = v["rounds"][:2]
+        self.assertEqual(second["added"], [])
+        self.assertAlmostEqual(second["before"], first["after"], delta=0.02 * first["after"])
+        traced = next(self.folder.glob("**/*.traced.toml")).read_text()
+        if "order" in traced:
+            self.assertIn('order = { counts = "readings" }', traced)
+            self.assertIn("these data cannot distinguish it from product:position*temp", run.stdout + json.dumps(v))
+
     def test_what_only_the_order_of_rows_tells_is_not_found_for_ever(self):
         """A load cell that bends and lags on the way down, and no column that says which way it was."""
         draw, rows = random.Random(31), ["Reihe;Lage;Stufe;Last kN;Anzeige mV/V"]

@@ -8,6 +8,8 @@ namespace gumshoe::tracing {
 void collect(const TraceContext& context, const Search& search, Trace& out);
 /// Fills out.lack_of_fit, but for what comparison.h gives, and out.anomalous_blocks.
 void describe_repeats(const TraceContext& context, const Search& search, Trace& out);
+/// Says where groups of readings have a slope or a first wave of their own.
+void describe_alignments(const TraceContext& context, const Search& search, Trace& out);
 void describe_noise(const TraceContext& context, const Search& search, Trace& out);
 /// Size of a variance component, with the interval of its profile likelihood; with none, size of the noise.
 void describe_scatter(const TraceContext& context, const JointFit& fit, int component, Finding& finding);

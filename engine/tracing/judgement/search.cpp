@@ -326,6 +326,20 @@ private:
       std::rotate(tried.begin(), simple, simple + 1);
   }
 
+  /// Shapes of one size that depend on something else and describe the readings as well: a drift with the order, or
+  /// with a temperature that rose meanwhile. Empty: none.
+  std::string rivals_of(std::size_t a, const std::vector<Trial>& tried) const {
+    const auto ratio = std::ranges::find(tried, a, &Trial::candidate)->ratio;
+    std::vector<std::string> out;
+    for (const Trial& t : tried) {
+      const Candidate &other = candidate(t.candidate), &own = candidate(a);
+      if (t.candidate != a && own.columns.cols() == 1 && other.columns.cols() == 1 &&
+          other.depends_on != own.depends_on && std::fabs(t.ratio - ratio) <= criteria.equal_shapes)
+        out.push_back(with_shape(other));
+    }
+    return out.empty() ? "" : fmt::format("these data cannot distinguish it from {}", fmt::join(out, ", "));
+  }
+
   /// No known effect: the dependence itself, as smooth as the data ask for.
   bool take_shape() {
     const auto& assessment = evidence_->assessment();
@@ -351,7 +365,7 @@ private:
         continue;
       }
       if (evidence_->predicts_better(fit, Judged::as_declared)) {
-        add_shape(a, fit, assessment.p_signature);
+        add_shape(a, fit, assessment.p_signature, rivals_of(a, tried));
         return true;
       }
       described.emplace_back(a, std::move(fit));
@@ -359,7 +373,7 @@ private:
     // A term that predicts other blocks goes before one that describes them, such as a curve in time.
     for (auto& [a, fit] : described) {
       if (evidence_->predicts_better(fit, Judged::given_the_others)) {
-        add_shape(a, fit, assessment.p_signature);
+        add_shape(a, fit, assessment.p_signature, rivals_of(a, tried));
         return true;
       }
       outcomes_[a] = not_predicted;

@@ -19,7 +19,8 @@ std::size_t indication_of(const Observations& o, const Matrix& columns) {
   return 0;
 }
 
-/// Conditions and columns that the scenario knows by name, those that the shape is named after first.
+/// Conditions and columns that the scenario knows by name, those that the shape is named after first; among these the
+/// number of the reading may be, which the traced scenario states.
 std::vector<const Covariate*> keys_of(const TraceContext& c, const std::vector<std::string>& first) {
   const auto& s = c.experiment.scenario();
   const auto known = [&](const Covariate& v) {
@@ -30,7 +31,7 @@ std::vector<const Covariate*> keys_of(const TraceContext& c, const std::vector<s
   std::vector<const Covariate*> keys;
   for (const std::string& name : first)
     for (const Covariate& v : c.observations.covariates)
-      if (v.name == name && known(v)) keys.push_back(&v);
+      if (v.name == name && (known(v) || (v.course && v.name == "order"))) keys.push_back(&v);
   if (keys.size() < first.size()) return {};
   for (const Covariate& v : c.observations.covariates)
     if (known(v) && std::ranges::find(first, v.name) == first.end()) keys.push_back(&v);

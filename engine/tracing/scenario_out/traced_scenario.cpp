@@ -175,6 +175,7 @@ private:
     }
     Node table;
     for (const Correction::Key& key : c.keys) {
+      if (key.name == "order") count_readings();
       std::vector<Node> levels;
       for (const double x : key.levels) levels.push_back(measure_node(x, key.unit, key.si_unit, false));
       table.members.push_back({key.name, 0, 0, calibration::list_node(std::move(levels))});
@@ -183,6 +184,16 @@ private:
     for (const double x : c.loading) loading.push_back(calibration::number_node(x));
     table.members.push_back({"loading", 0, 0, calibration::list_node(std::move(loading))});
     effect.members.push_back({"table", 0, 0, std::move(table)});
+  }
+
+  /// The course of data without times is the number of the reading, which has a name from here on.
+  void count_readings() {
+    if (!s_.trace.order_name.empty()) return;
+    Node& trace = member(text_.document(), "trace");
+    Node& columns = member(trace, "columns");
+    if (find_member(columns, "order")) return;
+    member(member(columns, "order"), "counts") = text_node("readings");
+    if (!find_member(trace, "order")) member(trace, "order") = text_node("order");
   }
 
   void parameter(std::size_t i) {
