@@ -181,7 +181,7 @@ void print_next(const Options& o, const std::string& out, const RecognisedData* 
     std::string options;
     for (const auto& c : found ? found->columns : std::vector<scenario::RecognisedColumn>{})
       if (std::string(error.what()).find(fmt::format("the unit of the column '{}'", c.name)) != std::string::npos)
-        options += fmt::format(" --unit {}=UNIT", c.name);
+        options += fmt::format(" --unit {1}{0}=UNIT{1}", c.name, c.name.find(' ') == std::string::npos ? "" : "'");
     if (o.model == "sphere_probing" && o.machine.empty()) options += " --machine B,C/X,Y,Z";
     if (!options.empty()) std::cout << fmt::format("or write it anew: gumshoe new ... --force{}\n", options);
   }
@@ -215,6 +215,13 @@ ExitCode run(Options o) {
   }
   const std::string out =
       !o.out.empty() ? o.out : (o.model.empty() ? fs::path(o.from).stem().string() : o.model) + ".toml";
+  if (found && !found->rewritten.empty()) {
+    const std::string rows = fs::path(out).replace_extension(".rows.csv").string();
+    require_different(rows, o.from);
+    write_file(rows, found->rewritten, o.force);
+    std::cout << fmt::format("{}: the runs of {} one below the other, with a row for each reading\n", rows, o.from);
+    o.from = rows;
+  }
   if (found) require_different(out, o.from);
   write_file(out, text_of(o, found.get(), out), o.force);
   if (found) {
@@ -235,9 +242,10 @@ void add_new(CLI::App& app, Action& action) {
   command->add_option("--from", o->from, "data file whose columns are recognised");
   command->add_option("--out", o->out, "scenario to write (default: MODEL.toml, or the name of the data file)");
   command->add_option("--unit", o->units, "COLUMN=UNIT, where the header does not say it");
-  command->add_option("--role", o->roles,
-                      "COLUMN=ROLE: position, reading, direction, time, temperature, cycle, alignment (its offset and slope are "
-                      "fitted for each of its values), uncertainty, other");
+  command->add_option(
+      "--role", o->roles,
+      "COLUMN=ROLE: position, reading, direction, time, temperature, cycle, alignment (its offset and slope are "
+      "fitted for each of its values), uncertainty, other");
   command
       ->add_option("--term", o->terms,
                    "of linear: a column, or a product such as load*machine; a column of words is a factor (default: "

@@ -5,10 +5,12 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <optional>
 #include <ranges>
 #include <regex>
 #include <set>
 #include <span>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -319,6 +321,10 @@ void guess_roles(RecognisedData& data) {
     };
     if (std::ranges::none_of(columns, like)) c.role = ColumnRole::other, c.why.clear();
   }
+  // A pressure next to a target is no second position.
+  for (bool known = false; RecognisedColumn & c : columns)
+    if (c.role == ColumnRole::position && std::exchange(known, true) && c.why == "by its name")
+      c.role = ColumnRole::other, c.why.clear();
   if (!has(ColumnRole::reading))
     take(std::span(columns).last(columns.size()) | std::views::reverse, ColumnRole::reading,
          "as the last column of numbers");
@@ -360,17 +366,20 @@ bool names_parts(const RecognisedColumn& c) {
 
 bool was_set(const RecognisedData& data, const RecognisedColumn& c) {
   const auto column = static_cast<std::size_t>(data.csv.find(c.name));
-  std::set<std::string> texts;
+  std::map<std::string, int> texts; // how often each occurs
   std::vector<double> values;
   for (const auto& row : data.csv.rows) {
     if (says_missing(row[column].text)) continue;
-    texts.insert(row[column].text);
+    ++texts[row[column].text];
     values.push_back(data.csv.number(row[column], data.decimal));
   }
   const auto in_order = [&](auto before) {
     return std::ranges::adjacent_find(values, std::not_fn(before)) == values.end();
   };
-  return 2 * texts.size() <= values.size() || in_order(std::less{}) || in_order(std::greater{});
+  // A measured number in coarse steps recurs as well, but some of its values come once.
+  const auto once = std::ranges::count(texts, 1, [](const auto& text) { return text.second; });
+  const bool recur = 2 * texts.size() <= values.size() && 10 * static_cast<std::size_t>(once) <= texts.size();
+  return recur || in_order(std::less{}) || in_order(std::greater{});
 }
 
 std::vector<std::string> words_of(const std::string& name) {
@@ -470,6 +479,60 @@ void find_dates(RecognisedData& data) {
   }
 }
 
+/// "R1+", "Run 2 up": a run's number, and the direction's word where there is one.
+struct RunColumn {
+  std::size_t column;
+  std::string run, direction;
+};
+
+std::optional<RunColumn> run_column(const std::string& name, std::size_t column) {
+  static const std::regex form(
+      R"(\s*(r|run|lauf|cycle|zyklus|messung|reihe|trial|pass|meas|n|)[\s_.#]*(\d+)[\s_.]*([^\s_.\d]*)\s*)",
+      std::regex::icase);
+  std::smatch match;
+  if (!std::regex_match(name, match, form)) return std::nullopt;
+  if (!match[3].str().empty() && signs({match[3]}).empty()) return std::nullopt;
+  return RunColumn{column, match[2], match[3]};
+}
+
+/// Readings of several runs in one row, as a table with one row for each; empty where they are not.
+std::string below_each_other(const RecognisedData& data) {
+  const auto& header = data.csv.header;
+  std::vector<RunColumn> runs;
+  std::vector<std::size_t> others;
+  for (std::size_t c = 0; c < header.size(); ++c)
+    if (const auto run = run_column(header[c].text, c))
+      runs.push_back(*run);
+    else
+      others.push_back(c);
+  if (runs.size() < 3 || others.empty()) return "";
+  const bool ways = std::ranges::all_of(runs, [](const RunColumn& r) { return !r.direction.empty(); });
+  const auto& first = data.csv.rows.front();
+  const std::string& below = first[runs.front().column].text; // maybe a line of units
+  const bool units = !is_number(data.csv, first[runs.front().column], '.') &&
+                     !is_number(data.csv, first[runs.front().column], ',') && !says_missing(below);
+  const auto named = [&](const std::string& name, const std::string& unit) {
+    return units && !unit.empty() ? fmt::format("{} [{}]", name, unit) : name;
+  };
+  std::string out;
+  for (const std::size_t c : others) out += named(header[c].text, first[c].text) + ';';
+  out += fmt::format("run;{}{}\n", ways ? "direction;" : "", named("reading", below));
+  for (const RunColumn& run : runs) {
+    std::vector<std::string> rows;
+    for (std::size_t r = units ? 1 : 0; r < data.csv.rows.size(); ++r) {
+      const auto& row = data.csv.rows[r];
+      if (says_missing(row[run.column].text)) continue;
+      std::string text;
+      for (const std::size_t c : others) text += row[c].text + ';';
+      rows.push_back(text + fmt::format("{};{}{}\n", run.run, ways ? run.direction + ';' : "", row[run.column].text));
+    }
+    const auto sign = ways ? signs({run.direction}).front().second : 1.0;
+    if (sign < 0) std::ranges::reverse(rows); // as they were taken
+    for (const std::string& row : rows) out += row;
+  }
+  return out;
+}
+
 Csv table_of(const std::string& text, const std::string& file, RecognisedData& out) {
   try {
     return parse_csv(text, file);
@@ -495,6 +558,11 @@ RecognisedData recognise(const std::string& text, const std::string& file) {
                           [&](const CsvCell& c) { return is_number(out.csv, c, '.') || is_number(out.csv, c, ','); }))
     throw InputError({{out.csv.at(out.csv.header.front()), "the first row holds numbers, not names of columns", "",
                        "write a line with a name for each column above it"}});
+  if (std::string rows = below_each_other(out); !rows.empty()) {
+    RecognisedData apart = recognise(rows, file);
+    apart.rewritten = std::move(rows);
+    return apart;
+  }
   const auto below = take_units(out);
   if (number_columns(out.csv, ',') > number_columns(out.csv, '.')) out.decimal = ',';
   for (std::size_t c = 0; c < out.csv.header.size(); ++c) {

@@ -32,11 +32,12 @@ struct RecognisedData {
   std::string delimiter;         ///< as [data] states it; empty: as the header shows
   int header = 0, first_row = 0; ///< lines of the names and of the first row, if [data] must state them; 0: not
   char decimal = '.';
+  std::string rewritten; ///< the table, where the file has several runs in a row ("R1+", "R1-"): one row a reading
   std::vector<RecognisedColumn> columns;
   const RecognisedColumn* find(ColumnRole role) const; ///< the first one, or null
 };
 
-/// Reads the text of a data file; lines before the names of columns, and a line of units below them, are found. Throws
+/// Reads the text of a data file; runs side by side are taken one after the other; lines before the names of columns, and a line of units below them, are found. Throws
 /// InputError: no table, no rows, or a first row of numbers instead of names.
 RecognisedData recognise(const std::string& text, const std::string& file);
 

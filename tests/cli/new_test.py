@@ -167,6 +167,31 @@ class New(InFolder):
         self.new("--from", "p.csv")
         self.assertIn("blocks = { count = 6 }", (self.folder / "p.toml").read_text())
 
+    def test_what_is_no_position(self):
+        """A pressure next to a target; a coordinate in coarse steps; runs side by side."""
+        rows = ["Target (mm)\tError (um)\tPressure (mbar)"] + [f"{x}\t{x % 7}\t{1013 + x % 3}" for x in range(0, 60, 5)] * 2
+        (self.folder / "p.txt").write_text("\n".join(rows) + "\n")
+        self.assertIn("Pressure (mbar): not used", self.new("--from", "p.txt"))
+        steps = [0, 1, 1, 2, 2, 2, 2, 2, 3, 3, 3, 4, 4, 5, 1, 2, 3, 2, 6, 3] * 3 + [9, 11]
+        rows = ["Time_min,Sphere_Y_mm,Diameter_mm"] + [f"{i},{200 + s / 1e4:.4f},{25 + i % 5 / 1e4}" for i, s in enumerate(steps)]
+        (self.folder / "s.csv").write_text("\n".join(rows) + "\n")
+        self.assertNotIn("position", self.new("--from", "s.csv"))
+
+    def test_runs_side_by_side(self):
+        """As sheets of ISO 230-2 have them, with and without a line of units."""
+        for units, option in ((["mm;um;um;um;um"], ()), ([], ("--unit", "reading=um", "--unit", "Pos=mm"))):
+            rows = ["Pos;R1+;R1-;R2+;R2-"] + units + [f"{x};1,{x};2,{x};3,{x};4,{x}" for x in range(10, 70, 5)]
+            (self.folder / "w.csv").write_text("\n".join(rows) + "\n")
+            said = self.new("--from", "w.csv", "--force", *option)
+            self.assertIn("w.rows.csv: the runs of w.csv one below the other", said)
+            self.assertIn("ready", said)
+            lines = (self.folder / "w.rows.csv").read_text().splitlines()
+            self.assertEqual(len(lines), 1 + 4 * 12)
+            self.assertEqual((lines[1], lines[13]), ("10;1;+;1,10", "65;1;-;2,65"))  # the way back begins where it ends
+            text = (self.folder / "w.toml").read_text()
+            for part in ('file = "w.rows.csv"', 'labels = { run = "run" }', 'map = { "+" = 1, "-" = -1 }', 'decimal = ","'):
+                self.assertIn(part, text)
+
     def test_a_calibration_log(self):
         """Units after a blank, a series that is no position, a force, an indication of another kind."""
         rows = ["Reihe\tLage\tStufe\tLast kN\tAnzeige mV/V\tTemp °C"]
