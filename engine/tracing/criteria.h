@@ -133,6 +133,9 @@ struct Criteria {
   // ---- Judgement ----
   std::size_t most_findings = 5; ///< terms or scatter found in one trace
   double equal_shapes = 2; ///< 2 ln L by which shapes may differ that describe readings equally well
+  /// A wave in a table by position is told: of so many levels chance seldom gives a wave so large a share.
+  std::size_t levels_of_waves = 15;
+  double share_of_waves = 0.8;
   /// Slopes by group that are told: of groups and levels enough, far beyond what correlated noise shows as well.
   std::size_t groups_of_alignments = 3, levels_of_alignments = 5;
   double share_of_alignments = 0.5, p_of_alignments = 1e-6;

@@ -269,6 +269,22 @@ class TraceLog(InFolder):
         for waves, true in ((1, 4), (2, 1.2)):
             self.assertAlmostEqual(said[waves][0], true, delta=3.5 * said[waves][1])
 
+    def test_a_table_by_position_shows_the_lead_of_the_screw(self):
+        draw, rows = random.Random(3), ["run,dir,x_mm,error_um"]
+        for run in range(1, 6):
+            for way in (1, -1):
+                rows += [f"{run},{way},{x},{0.8 * math.sin(2 * math.pi * x / 100) - 0.02 * x - 0.7 * way + draw.gauss(0, 0.3):.2f}"
+                         for x in range(0, 501, 25)[::way]]
+        v = self.trace(rows)
+        self.assertEqual([f["described_by"] for f in v["findings"]], ["table:position"])
+        period, size, share = re.search(r"a wave of period (\S+) mm and amplitude (\S+) um explains (\d+) % of it",
+                                        " ".join(v["findings"][0]["remarks"])).groups()
+        # Ten readings a level: u of the amplitude 0.3 sqrt(2 / 210); of the period 100 mm / 5 cycles of its u over pi.
+        u = 0.3 * math.sqrt(2 / 210)
+        self.assertAlmostEqual(float(size), 0.8, delta=3.5 * u)
+        self.assertAlmostEqual(float(period), 100, delta=3.5 * 20 * math.sqrt(6) / math.pi * u / 0.8)
+        self.assertGreaterEqual(int(share), 80)
+
     def test_passes_that_were_aligned_anew(self):
         """Straightness in eight passes, each with an offset and a slope of its own: it is told, and then fitted."""
         draw, rows = random.Random(12), ["Lauf,X_mm,dY_um"]

@@ -11,6 +11,7 @@
 #include "base/units.h"
 #include "quantities/cells.h"
 #include "tracing/criteria.h"
+#include "tracing/findings/period.h"
 #include "tracing/findings/sizes.h"
 
 namespace gumshoe::tracing {
@@ -257,6 +258,12 @@ void add_curves(const TraceContext& c, const JointFit& fit, std::size_t term, Fi
       finding.remarks.push_back("time constant " + drift);
     else if (const std::string waves = labels.empty() ? make.waves_per_turn(*covariates[0]) : ""; !waves.empty())
       finding.remarks.push_back(fmt::format("per turn of {}: {}", covariates[0]->name, waves));
+    else if (const std::string wave_there =
+                 labels.empty() && fit.terms[term].candidate.name.starts_with("table:") && !finding.curves.empty()
+                     ? wave_of(finding.curves.front(), covariates[0]->unit)
+                     : "";
+             !wave_there.empty())
+      finding.remarks.push_back(wave_there);
     else if (const std::string step = make.step(); !step.empty())
       finding.remarks.push_back("it differs by " + step);
     else if (const std::string slope = labels.empty() ? make.slope(*covariates[0]) : ""; !slope.empty())

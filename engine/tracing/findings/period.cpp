@@ -1,0 +1,58 @@
+#include "tracing/findings/period.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/QR>
+#include <fmt/format.h>
+
+#include "base/units.h"
+#include "tracing/criteria.h"
+#include "tracing/findings/sizes.h"
+
+namespace gumshoe::tracing {
+namespace {
+
+struct Fitted {
+  double squares = 0, amplitude = 0;
+};
+
+/// A constant, a straight line and a wave of so many cycles over the range.
+Fitted fitted(const Vector& x, const Vector& y, double cycles) {
+  Matrix a(x.size(), 4);
+  const Vector turn = 2 * std::numbers::pi * cycles * x;
+  a << Vector::Ones(x.size()), x, turn.array().cos().matrix(), turn.array().sin().matrix();
+  const Vector b = a.colPivHouseholderQr().solve(y);
+  return {(y - a * b).squaredNorm(), b.tail(2).norm()};
+}
+
+} // namespace
+
+std::string wave_of(const Curve& table, const std::string& unit) {
+  const Index n = index(table.x.size());
+  if (table.x.size() < criteria.levels_of_waves || !table.levels.empty()) return "";
+  const double first = table.x.front(), range = table.x.back() - first;
+  Vector x = Eigen::Map<const Vector>(table.x.data(), n), y = Eigen::Map<const Vector>(table.y.data(), n);
+  x = (x.array() - first) / range;
+  const double most = 0.45 * static_cast<double>(n - 1); // of half the levels only one phase is seen
+  double cycles = 2, least = HUGE_VAL;
+  for (const double step : {0.05, 0.002}) {
+    const double middle = cycles, low = step == 0.05 ? 2 : middle - 0.05, high = step == 0.05 ? most : middle + 0.05;
+    for (double k = low; k <= high; k += step)
+      if (const double squares = fitted(x, y, k).squares; squares < least) least = squares, cycles = k;
+  }
+  const Vector about_line = y - [&] {
+    Matrix line(n, 2);
+    line << Vector::Ones(n), x;
+    return Vector(line * line.colPivHouseholderQr().solve(y));
+  }();
+  const double share = 1 - least / about_line.squaredNorm();
+  if (!(share >= criteria.share_of_waves)) return "";
+  const std::string small = table.indication_si_unit == "m" ? "um" : table.indication_unit;
+  return fmt::format("a wave of period {:.3g} {} and amplitude {} explains {:.0f} % of it",
+                     units::from_si(range / cycles, unit, table.si_unit, units::Kind::difference), unit,
+                     shown_size(fitted(x, y, cycles).amplitude, small, table.indication_si_unit), 100 * share);
+}
+
+} // namespace gumshoe::tracing
