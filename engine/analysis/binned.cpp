@@ -12,7 +12,8 @@ namespace gumshoe::analysis {
 Binned::Binned(const std::vector<double>& values) {
   constexpr std::size_t values_a_bin = 16;
   if (values.empty()) return;
-  const auto [least, most] = std::ranges::minmax(values);
+  const auto range = std::ranges::minmax(values);
+  const double least = range.min, most = range.max; // no structured binding: clang 14 does not capture one
   std::size_t count = std::max<std::size_t>(1, values.size() / values_a_bin);
   const double per_width = static_cast<double>(count) / (most - least);
   if (!std::isfinite(per_width) || !std::isfinite(most - least)) count = 1;

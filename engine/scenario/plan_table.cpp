@@ -74,9 +74,9 @@ void add_missing(std::vector<PlanColumn>& columns, const PlanScope& scope, const
   using enum PlanColumn::Holds;
   const auto has = [&](const auto& is_it) { return std::ranges::any_of(columns, is_it); };
   for (const AllowedReading& reading : allowed)
-    for (const auto& [label, value] : reading.labels)
-      if (!has([&](const PlanColumn& p) { return p.holds == PlanColumn::Holds::label && p.label == label; }))
-        columns.push_back({label, PlanColumn::Holds::label, label});
+    for (const auto& label : reading.labels)
+      if (!has([&](const PlanColumn& p) { return p.holds == PlanColumn::Holds::label && p.label == label.first; }))
+        columns.push_back({label.first, PlanColumn::Holds::label, label.first});
   for (std::size_t c = 0; c < scope.model.conditions.size(); ++c) {
     if (has([&](const PlanColumn& p) { return p.holds == condition && p.condition == c; })) continue;
     std::set<double> values;

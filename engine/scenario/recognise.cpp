@@ -6,10 +6,8 @@
 #include <functional>
 #include <map>
 #include <optional>
-#include <ranges>
 #include <regex>
 #include <set>
-#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -303,14 +301,14 @@ void guess_roles(RecognisedData& data) {
   const auto has = [&](ColumnRole role) {
     return std::ranges::find(columns, role, &RecognisedColumn::role) != columns.end();
   };
-  const auto take = [&](auto&& range, ColumnRole role, const char* why) {
-    for (RecognisedColumn& c : range)
-      if (c.number && c.role == ColumnRole::other && !counts_rows(c) && !names_parts(c) &&
-          (role != ColumnRole::position || (is_place(c) && was_set(data, c)))) {
-        c.role = role;
-        c.why = why;
-        return;
-      }
+  const auto take = [&](auto first, auto end, ColumnRole role, const char* why) {
+    const auto one = std::find_if(first, end, [&](const RecognisedColumn& c) {
+      return c.number && c.role == ColumnRole::other && !counts_rows(c) && !names_parts(c) &&
+             (role != ColumnRole::position || (is_place(c) && was_set(data, c)));
+    });
+    if (one == end) return;
+    one->role = role;
+    one->why = why;
   };
   // U_mV: a voltage, where nothing else is one that it could be the uncertainty of.
   for (RecognisedColumn& c : columns) {
@@ -326,15 +324,16 @@ void guess_roles(RecognisedData& data) {
     if (c.role == ColumnRole::position && std::exchange(known, true) && c.why == "by its name")
       c.role = ColumnRole::other, c.why.clear();
   if (!has(ColumnRole::reading))
-    take(std::span(columns).last(columns.size()) | std::views::reverse, ColumnRole::reading,
-         "as the last column of numbers");
+    take(columns.rbegin(), columns.rend(), ColumnRole::reading, "as the last column of numbers");
   if (!has(ColumnRole::reading) && has(ColumnRole::position)) {
     // A force may be what was set or what was read.
-    const auto last = std::ranges::find(columns | std::views::reverse, ColumnRole::position, &RecognisedColumn::role);
+    const auto last =
+        std::ranges::find(columns.rbegin(), columns.rend(), ColumnRole::position, &RecognisedColumn::role);
     last->role = ColumnRole::reading;
     last->why = "as the last column of numbers";
   }
-  if (!has(ColumnRole::position)) take(std::span(columns), ColumnRole::position, "as the first column of numbers");
+  if (!has(ColumnRole::position))
+    take(columns.begin(), columns.end(), ColumnRole::position, "as the first column of numbers");
   if (has(ColumnRole::time)) return;
   const auto count = std::ranges::find_if(columns, [&](const RecognisedColumn& c) { return numbers_rows(data, c); });
   if (count == columns.end()) return;

@@ -111,10 +111,10 @@ FrameRows::Measurands<double> MachineFrame::of(const Points<double>& all, const 
   return {z.x, z.y, z.z, x.x, x.y, x.z, num::atan2(drop, num::sqrt(1 - drop * drop))};
 }
 std::string MachineFrame::check(const Points<double>& all) {
-  for (const auto& [direction, letter] : {std::pair{along_Z, 'Z'}, {along_X, 'X'}})
-    if (std::ranges::count_if(all.at, [&](const auto& at) { return at.c.motion == direction; }) < 2)
-      return fmt::format("a line along {} needs two points or more; their condition motion must be {:g}", letter,
-                         direction);
+  for (const auto& line : {std::pair{along_Z, 'Z'}, {along_X, 'X'}})
+    if (std::ranges::count_if(all.at, [&](const auto& at) { return at.c.motion == line.first; }) < 2)
+      return fmt::format("a line along {} needs two points or more; their condition motion must be {:g}", line.second,
+                         line.first);
   return "";
 }
 

@@ -55,7 +55,8 @@ template <class T> struct Command {
 };
 /// @param turned rad by which scan and second axis are ahead of the conditions
 template <class T> Command<T> command(const At<T>& at, const T& turned) {
-  const auto& [q, c] = std::tie(at.q, at.c);
+  const auto& q = at.q; // lambdas read them: a structured binding is not captured by clang 14
+  const auto& c = at.c;
   const chain::TwoRotaryAxes& axes = axes_of(at.context);
   const T theta = c.theta + turned;
   const Vector3<T> on_part{c.radius * num::cos(theta), c.radius * num::sin(theta), T(0.0)};
@@ -117,7 +118,8 @@ template <class T> struct Spot {
 };
 template <class T> Spot<T> spot(const At<T>& at, const SetUp<T>& set_up, Outcome<T>& outcome) {
   const T zero(0.0), one(1.0);
-  const auto& [q, c] = std::tie(at.q, at.c);
+  const auto& q = at.q;
+  const auto& c = at.c;
   const auto commanded = command(at, zero);
   outcome.refuse(!(commanded.spot.z == commanded.spot.z), "the surface does not reach as far as the commanded spot");
   const auto by_quantities = [&](const Command<T>& to) {

@@ -224,10 +224,10 @@ std::vector<Candidate> scan(const CurveReadings& d, Fitter& fitter) {
   for (Candidate& c : best) fitter.settle(c);
   std::ranges::stable_sort(best, {}, &Candidate::squares);
   // Several phases find one minimum.
-  const auto twins = std::ranges::unique(best, [](const Candidate& a, const Candidate& b) {
+  const auto twins = std::unique(best.begin(), best.end(), [](const Candidate& a, const Candidate& b) {
     return b.squares - a.squares < 1e-3 * b.squares && std::fabs(a.x[1] - b.x[1]) < 1e-9;
   });
-  best.erase(twins.begin(), twins.end());
+  best.erase(twins, best.end());
   if (best.size() > carried) best.resize(carried);
   return best;
 }
