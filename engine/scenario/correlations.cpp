@@ -82,7 +82,7 @@ Correlation read_correlation(Table table, const std::vector<NamedComponent>& nam
     table.refuse("either a coefficient or a matrix is needed", "", "write coefficient = 0.5");
   else if (coefficient && std::abs(*coefficient) > 1)
     table.refuse_key("coefficient", fmt::format("{} must lie between -1 and 1", *coefficient));
-  else if (coefficient)
+  else if (coefficient && known) // of names that mean nothing there may be any number
     for (std::size_t i = 0; i < n * n; ++i) out.matrix.push_back(i % n == i / n ? 1 : *coefficient);
   read_matrix(table, n, out.matrix);
   table.refuse_unknown();

@@ -89,7 +89,8 @@ void explain(const Scenario& s, std::size_t number, const ModelCard& model, Line
 }
 
 void explain(const quantities::Correlation& c, Lines out) {
-  constexpr std::string_view kinds[] = {"copula", "pearson", "spearman"};
+  constexpr std::string_view kinds[] = {"copula", "pearson", "spearman", "multivariate_t"};
+  static_assert(std::size(kinds) == static_cast<std::size_t>(quantities::Correlation::Kind::multivariate_t) + 1);
   fmt::format_to(out, "  {} ({}):", fmt::join(c.quantities, ", "), kinds[static_cast<int>(c.kind)]);
   for (std::size_t i = 0; i < c.matrix.size(); ++i)
     fmt::format_to(out, "{}{:.6g}", i && i % c.quantities.size() == 0 ? "; " : " ", c.matrix[i]);
