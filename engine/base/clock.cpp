@@ -13,6 +13,8 @@ namespace gumshoe {
 namespace {
 
 constexpr std::string_view fields = "YymdbHIMSps%";
+/// Of %s: any two moments, and the days between them, have a difference.
+constexpr std::int64_t last_second = 4'000'000'000'000'000'000;
 constexpr std::array<std::string_view, 12> months{"jan", "feb", "mar", "apr", "may", "jun",
                                                   "jul", "aug", "sep", "oct", "nov", "dec"};
 
@@ -55,7 +57,7 @@ public:
   std::optional<std::int64_t> seconds() {
     std::int64_t value = 0;
     const auto [stop, error] = std::from_chars(text_.data(), text_.data() + text_.size(), value);
-    if (error != std::errc()) return std::nullopt;
+    if (error != std::errc() || value < -last_second || value > last_second) return std::nullopt;
     text_.remove_prefix(static_cast<std::size_t>(stop - text_.data()));
     return value;
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -216,11 +217,12 @@ Csv parse_csv(std::string_view text, const std::string& file, const CsvLayout& l
     }
   }
   drop_empty_column(csv);
-  for (std::size_t i = 0; i < csv.header.size(); ++i) {
-    const CsvCell& cell = csv.header[i];
+  std::set<std::string_view> names; // a line that is no header may have hundreds of thousands
+  for (const CsvCell& cell : csv.header) {
+    if (problems.size() >= most_problems) break;
     if (cell.text.empty())
       problems.push_back({csv.at(cell), "a column has no name", "", ""});
-    else if (csv.find(cell.text) != static_cast<int>(i))
+    else if (!names.insert(cell.text).second)
       problems.push_back({csv.at(cell), fmt::format("column '{}' appears twice", cell.text), "", ""});
   }
   if (!problems.empty()) throw InputError(std::move(problems));

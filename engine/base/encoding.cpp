@@ -43,9 +43,12 @@ std::string from_utf16(std::string_view bytes, bool big) {
   std::string out;
   for (std::size_t i = 0; i + 1 < bytes.size(); i += 2) {
     std::uint32_t c = unit(i);
-    if (c >= 0xD800 && c < 0xDC00 && i + 3 < bytes.size()) {
-      c = 0x10000 + ((c - 0xD800) << 10) + (unit(i + 2) - 0xDC00);
+    const std::uint32_t next = i + 3 < bytes.size() ? unit(i + 2) : 0;
+    if (c >= 0xD800 && c < 0xDC00 && next >= 0xDC00 && next < 0xE000) {
+      c = 0x10000 + ((c - 0xD800) << 10) + (next - 0xDC00);
       i += 2;
+    } else if (c >= 0xD800 && c < 0xE000) {
+      c = 0xFFFD; // half of a pair stands for no character
     }
     append(out, c);
   }

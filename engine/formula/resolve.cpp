@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 namespace gumshoe::formula {
+namespace {
+constexpr std::size_t most_problems = 20; ///< of the names of one formula
+}
 
 Names::Names(const Statement& s, const std::vector<Formula>& formulas, std::vector<Problem>& problems)
     : formulas_(formulas) {
@@ -57,8 +60,10 @@ const Meaning* Names::find(const std::string& name, bool simulating) const {
 }
 
 void Names::check(const Formula& f, std::vector<Problem>& problems) const {
+  const std::size_t before = problems.size();
   for (const Node& n : f.nodes) {
     if (n.operation != Operation::name) continue;
+    if (problems.size() - before >= most_problems) return;
     const bool named = find(n.name, false) != nullptr;
     if (named && find_constant(n.name))
       problems.push_back(f.problem(n.at, fmt::format("'{}' has two meanings here", n.name),

@@ -11,6 +11,7 @@
 namespace gumshoe::scenario {
 namespace {
 
+constexpr std::size_t longest_name = 255; ///< bytes that a file system gives a name
 constexpr const char* example = "write a name such as \"axis_{run}.csv\"";
 
 bool digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
@@ -51,6 +52,8 @@ FilePattern::FilePattern(const std::string& pattern) : pattern_(pattern) {
   if (folder_.find_first_of("*{") != std::string::npos)
     throw InputError("the folder's name is a pattern", "only the file's own name may be one", example);
   const std::string name = path.filename().string();
+  if (name.size() > longest_name)
+    throw InputError("the file's name is too long", fmt::format("it may have {} bytes", longest_name), example);
   fixed_.emplace_back();
   for (std::size_t i = 0; i < name.size(); ++i) {
     if (name[i] != '*' && name[i] != '{') {
@@ -73,12 +76,13 @@ FilePattern::FilePattern(const std::string& pattern) : pattern_(pattern) {
   }
 }
 
-bool FilePattern::match(const std::string& name, std::size_t piece, std::size_t at, Match& out) const {
+bool FilePattern::match(const std::string& name, std::size_t piece, std::size_t at, Tried& tried, Match& out) const {
+  if (!tried.insert({piece, at}).second) return false; // *a*a*a*a has very many ways to the same place
   if (!name.substr(at).starts_with(fixed_[piece])) return false;
   at += fixed_[piece].size();
   if (piece == gaps_.size()) return at == name.size();
   for (std::size_t end = at; end <= name.size(); ++end) { // the shortest text
-    if (!match(name, piece + 1, end, out)) continue;
+    if (!match(name, piece + 1, end, tried, out)) continue;
     if (gaps_[piece] >= 0) out.texts[static_cast<std::size_t>(gaps_[piece])] = name.substr(at, end - at);
     return true;
   }
@@ -89,12 +93,13 @@ std::vector<FilePattern::Match> FilePattern::matches() const {
   std::vector<std::string> files;
   std::error_code none;
   for (const auto& entry : std::filesystem::directory_iterator(folder_.empty() ? "." : folder_, none))
-    if (entry.is_regular_file()) files.push_back(entry.path().filename().string());
+    if (entry.is_regular_file(none)) files.push_back(entry.path().filename().string());
   std::ranges::sort(files, before);
   std::vector<Match> out;
   for (const std::string& file : files) {
     Match m{(std::filesystem::path(folder_) / file).string(), std::vector<std::string>(names_.size())};
-    if (match(file, 0, 0, m)) out.push_back(std::move(m));
+    Tried tried;
+    if (match(file, 0, 0, tried, m)) out.push_back(std::move(m));
   }
   if (out.empty()) throw InputError("no file has such a name", "", example);
   return out;

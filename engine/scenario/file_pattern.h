@@ -1,6 +1,8 @@
 #pragma once
 /// Names that stand for several data files: "logs/axis_{run}.csv".
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace gumshoe::scenario {
@@ -16,7 +18,8 @@ public:
     std::string file;
     std::vector<std::string> texts; ///< by names()
   };
-  /// Throws InputError: a pattern in a folder's name, a brace that is not closed or holds no name, a name twice.
+  /// Throws InputError: a pattern in a folder's name, a brace that is not closed or holds no name, a name twice, a name
+  /// that no file can have.
   explicit FilePattern(const std::string& pattern);
   const std::vector<std::string>& names() const { return names_; }
   /// The files that match, sorted by name with numbers in their order (run2 before run10). Throws InputError if there
@@ -24,7 +27,8 @@ public:
   std::vector<Match> matches() const;
 
 private:
-  bool match(const std::string& name, std::size_t piece, std::size_t at, Match& out) const;
+  using Tried = std::set<std::pair<std::size_t, std::size_t>>; ///< pieces that were sought at these places
+  bool match(const std::string& name, std::size_t piece, std::size_t at, Tried& tried, Match& out) const;
 
   std::string pattern_, folder_;
   std::vector<std::string> fixed_; ///< texts around the gaps, one more than them

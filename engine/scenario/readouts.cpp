@@ -58,6 +58,8 @@ void read_row(Table& row, const VariableCard& card, const ModelCard& model, cons
     out.used.push_back(std::move(group));
   } else {
     same->values.insert(same->values.end(), group.values.begin(), group.values.end());
+    if (row.has("repeats") && same->repeats + group.repeats > most_repeats)
+      return row.refuse_key("repeats", fmt::format("the rows of this reading have more than {} in all", most_repeats));
     same->repeats += group.repeats;
   }
 }

@@ -131,6 +131,8 @@ private:
       ++at_;
     }
     at_ += long_one ? 3 : text_[std::min(at_, text_.size() - 1)] == quote;
+    // A long text may end with quotes of its own: """a quoted "word"""".
+    for (int own = 0; long_one && own < 2 && at_ < text_.size() && text_[at_] == quote; ++own) ++at_;
   }
 
   const std::string &text_, &file_;
