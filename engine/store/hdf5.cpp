@@ -152,10 +152,20 @@ double read_number(hid_t object, const std::string& name) {
   return value;
 }
 
+namespace {
+/// Values of a dataset. Its shape alone would have any number of them read: they must be in the file.
+std::size_t stored_values(hid_t data, hid_t space) {
+  const hssize_t n = H5Sget_simple_extent_npoints(space);
+  if (n < 0 || static_cast<hsize_t>(n) > H5Dget_storage_size(data))
+    throw OutputError("cannot read a dataset", "its values are not in the file");
+  return static_cast<std::size_t>(n);
+}
+} // namespace
+
 std::vector<double> read_numbers(hid_t group, const std::string& name) {
   const Handle data = own(H5Dopen2(group, name.c_str(), H5P_DEFAULT), H5Dclose, "open a dataset");
   const Handle space = own(H5Dget_space(data), H5Sclose, "open a dataset");
-  std::vector<double> out(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+  std::vector<double> out(stored_values(data, space));
   require(H5Dread(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, out.data()), "read a dataset");
   return out;
 }
@@ -164,7 +174,7 @@ std::vector<std::string> read_texts(hid_t group, const std::string& name) {
   const Handle data = own(H5Dopen2(group, name.c_str(), H5P_DEFAULT), H5Dclose, "open a dataset");
   const Handle space = own(H5Dget_space(data), H5Sclose, "open a dataset");
   const Handle type = text_type();
-  std::vector<char*> texts(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+  std::vector<char*> texts(stored_values(data, space));
   require(H5Dread(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, texts.data()), "read a dataset");
   std::vector<std::string> out;
   for (const char* text : texts) out.emplace_back(text ? text : "");

@@ -6,6 +6,7 @@
 
 #include "base/version.h"
 #include "store/identity.h"
+#include "store/record.h"
 #include "store/table.h"
 
 namespace gumshoe::store {
@@ -17,6 +18,13 @@ using tracing::Score;
 namespace {
 
 constexpr const char* kind = "evidence over campaigns";
+constexpr double most_variants = 1e6;
+
+/// Throws OutputError if the file is not as it was written: HDF5 is not safe on a damaged one.
+void require_sound(const std::string& path) {
+  if (read_record(path).identity.command != history_command)
+    throw InputError(path + ": it is no history", "gumshoe trace --append did not write it", "give another name");
+}
 
 /// One row per size of every score, and the entries of their information, row by row.
 void write_campaign(hid_t group, const Campaign& c) {
@@ -60,6 +68,10 @@ Campaign read_campaign(hid_t group) {
              unit = hdf5::read_texts(group, "unit"), si_unit = hdf5::read_texts(group, "si_unit");
   const auto variant = hdf5::read_numbers(group, "variant"), score = hdf5::read_numbers(group, "score"),
              information = hdf5::read_numbers(group, "information");
+  for (const std::size_t rows : {candidate.size(), size.size(), unit.size(), si_unit.size(), variant.size()})
+    if (rows != score.size()) throw OutputError("the columns of a campaign differ in length");
+  for (const double v : variant)
+    if (!(v >= 0 && v <= most_variants)) throw OutputError("a variant of a candidate has no number");
   for (std::size_t first = 0, at = 0; first < score.size();) {
     std::size_t end = first;
     while (end < score.size() && candidate[end] == candidate[first] && variant[end] == variant[first]) ++end;
@@ -96,9 +108,8 @@ std::vector<Campaign> read_history(const std::string& path) {
   if (!std::filesystem::exists(path)) return out;
   const Lock lock(hdf5::library());
   try {
+    require_sound(path);
     const hdf5::Handle file = open_file(path, H5F_ACC_RDONLY);
-    if (H5Aexists(file, "kind") <= 0 || hdf5::read_text(file, "kind") != kind)
-      throw InputError(path + ": it is no history", "gumshoe trace --append did not write it", "give another name");
     const hdf5::Handle campaigns = hdf5::open_group(file, "campaigns");
     for (std::uint64_t k = 0; k < hdf5::read_integer(file, "campaigns"); ++k)
       out.push_back(read_campaign(hdf5::open_group(campaigns, fmt::format("{:03d}", k))));
@@ -113,7 +124,8 @@ void write_history(Draft& draft, const Claim& claim, const std::vector<Campaign>
   const Lock lock(hdf5::library());
   survive_size_limit();
   naming(claim.path(), [&] {
-    hdf5::Handle file = open_file(draft.add(claim), H5F_ACC_TRUNC);
+    const std::string name = draft.add(claim);
+    hdf5::Handle file = open_file(name, H5F_ACC_TRUNC);
     hdf5::write_attribute(file, "program", std::string("gumshoe"));
     hdf5::write_attribute(file, "version", std::string(version));
     hdf5::write_attribute(file, "kind", std::string(kind));
@@ -121,6 +133,9 @@ void write_history(Draft& draft, const Claim& claim, const std::vector<Campaign>
     write_numbered(file, "campaigns", campaigns, write_campaign);
     write_evidence(file, evidence);
     close_file(file);
+    Record record;
+    record.identity.command = history_command;
+    seal(name, record);
   });
 }
 

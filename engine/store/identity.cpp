@@ -100,6 +100,7 @@ Stored read_identity(const std::string& path) {
     if (std::filesystem::is_directory(path)) throw NoResult("it is a directory");
     if (!std::filesystem::exists(path)) throw NoResult("the file does not exist");
     Record record = read_record(path);
+    if (record.identity.command == history_command) throw NoResult("it is a history of gumshoe trace --append");
     Stored stored{std::move(record.identity), 0, record.complete};
     const auto marker = record.places.find("samples_done");
     if (marker == record.places.end()) throw OutputError("it has no progress marker");

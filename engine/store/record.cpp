@@ -9,7 +9,6 @@
 
 #include "base/hash.h"
 #include "base/memory.h"
-#include "store/raw_file.h"
 
 namespace gumshoe::store {
 
@@ -23,48 +22,33 @@ constexpr std::string_view mark = "\ngumshoe record ";
 constexpr std::size_t foot = mark.size() + 16 + 1 + 16 + 1;
 constexpr std::uint64_t longest = std::uint64_t{1} << 30;
 
-/// Digest of the first `bytes` of a file without those places.
-std::uint64_t digest_around(const RawFile& file, std::uint64_t bytes, const std::map<std::string, Span>& places) {
-  std::vector<Span> left_out;
-  for (const auto& [name, span] : places) left_out.push_back(span);
-  std::ranges::sort(left_out, {}, &Span::offset);
-  left_out.push_back({bytes, 0});
-  constexpr std::uint64_t part = 1u << 20;
-  std::string text;
-  std::uint64_t at = 0, position = 0, sum = 0;
-  for (const Span& span : left_out) {
-    for (std::uint64_t end = span.offset; at < end; at += text.size()) {
-      text.resize(std::min(part, end - at));
-      file.read(text.data(), text.size(), at);
-      sum += digest64(text, position);
-      position += (text.size() + 7) / 8;
-    }
-    at = std::max(at, span.offset + span.bytes);
-  }
-  return sum;
-}
-
 Json to_json(const Record& r) {
   Json j{{"format_version", format_version}, {"complete", r.complete}, {"seed", r.identity.seed},
          {"samples", r.identity.samples},    {"rows", r.rows},         {"store_samples", r.identity.store_samples}};
   for (const auto& [name, member] : identity_texts) j[name] = r.identity.*member;
   for (const auto& [name, member] : shard_texts)
     if (!(r.identity.*member).empty()) j[name] = r.identity.*member;
+  j["places"] = Json::object();
   for (const auto& [name, span] : r.places) j["places"][name] = {span.offset, span.bytes};
   return j;
+}
+
+/// A number that the library would convert is none of ours: -1.5 has no value among whole numbers.
+std::uint64_t whole(const Json& j) {
+  if (!j.is_number_unsigned()) throw OutputError("the record at its end is damaged");
+  return j.get<std::uint64_t>();
 }
 
 Record from_json(const Json& j) {
   Record r;
   r.complete = j.at("complete").get<bool>();
-  r.identity.seed = j.at("seed").get<std::uint64_t>();
-  r.identity.samples = j.at("samples").get<std::uint64_t>();
+  r.identity.seed = whole(j.at("seed"));
+  r.identity.samples = whole(j.at("samples"));
   r.identity.store_samples = j.at("store_samples").get<bool>();
-  j.at("rows").get_to(r.rows);
+  for (const Json& row : j.at("rows")) r.rows.emplace_back(row.at(0).get<std::string>(), whole(row.at(1)));
   for (const auto& [name, member] : identity_texts) j.at(name).get_to(r.identity.*member);
   for (const auto& [name, member] : shard_texts) r.identity.*member = j.value(name, "");
-  for (const auto& [name, span] : j.at("places").items())
-    r.places[name] = {span.at(0).get<std::uint64_t>(), span.at(1).get<std::uint64_t>()};
+  for (const auto& [name, span] : j.at("places").items()) r.places[name] = {whole(span.at(0)), whole(span.at(1))};
   return r;
 }
 
@@ -94,6 +78,26 @@ std::string text_of(const RawFile& file, std::uint64_t& begin) {
 
 } // namespace
 
+std::uint64_t digest_around(const RawFile& file, std::uint64_t bytes, const std::map<std::string, Span>& places) {
+  std::vector<Span> left_out;
+  for (const auto& [name, span] : places) left_out.push_back(span);
+  std::ranges::sort(left_out, {}, &Span::offset);
+  left_out.push_back({bytes, 0});
+  constexpr std::uint64_t part = 1u << 20;
+  std::string text;
+  std::uint64_t at = 0, position = 0, sum = 0;
+  for (const Span& span : left_out) {
+    for (std::uint64_t end = span.offset; at < end; at += text.size()) {
+      text.resize(std::min(part, end - at));
+      file.read(text.data(), text.size(), at);
+      sum += digest64(text, position);
+      position += (text.size() + 7) / 8;
+    }
+    at = std::max(at, span.offset + span.bytes);
+  }
+  return sum;
+}
+
 void seal(const std::string& path, const Record& record) {
   const RawFile file(path, O_RDWR);
   const std::uint64_t bytes = file.size();
@@ -120,7 +124,7 @@ Record read_record(const std::string& path) {
     for (const auto& [name, span] : record.places)
       if (span.offset > begin || span.bytes > begin - span.offset)
         throw OutputError("the record at its end is damaged");
-    if (digest_around(file, begin, record.places) != j.at("digest").get<std::uint64_t>())
+    if (digest_around(file, begin, record.places) != whole(j.at("digest")))
       throw OutputError("it is damaged: its contents are not those that were written");
     return record;
   } catch (const Json::exception&) {

@@ -9,15 +9,21 @@ namespace {
 
 using namespace analysis;
 
+void require_rows(bool hold, const char* name) {
+  if (!hold) throw OutputError(fmt::format("the dataset '{}' does not have a value for each row", name));
+}
+
 /// Sets a member of every row from the dataset named like it.
 template <class Row, class Member>
 void fill(hid_t group, const char* name, std::vector<Row>& rows, Member Row::*member) {
   if constexpr (std::is_same_v<Member, std::string>) {
     auto texts = hdf5::read_texts(group, name);
-    for (std::size_t i = 0; i < rows.size(); ++i) rows[i].*member = std::move(texts.at(i));
+    require_rows(texts.size() == rows.size(), name);
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i].*member = std::move(texts[i]);
   } else {
     const auto numbers = hdf5::read_numbers(group, name);
-    for (std::size_t i = 0; i < rows.size(); ++i) rows[i].*member = static_cast<Member>(numbers.at(i));
+    require_rows(numbers.size() == rows.size(), name);
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i].*member = static_cast<Member>(numbers[i]);
   }
 }
 
@@ -28,6 +34,9 @@ std::vector<Summary> read_summaries(hid_t file) {
              unit = hdf5::read_texts(group, "display_units"), si = hdf5::read_texts(group, "units");
   const auto diagnostic = hdf5::read_numbers(group, "diagnostic");
   std::vector<Summary> rows(name.size());
+  for (const auto& [texts, key] : {std::pair{&measurand, "measurand"}, {&unit, "display_units"}, {&si, "units"}})
+    require_rows(texts->size() == rows.size(), key);
+  require_rows(diagnostic.size() == rows.size(), "diagnostic");
   for (std::size_t i = 0; i < rows.size(); ++i)
     rows[i].output = {name[i], measurand[i], 0, unit[i], si[i], {}, diagnostic[i] != 0};
   fill(group, "estimate", rows, &Summary::estimate);
@@ -62,6 +71,7 @@ Budget read_budget(hid_t group, const propagation::Output& output) {
   fill(group, "contribution", rows, &Contribution::contribution);
   fill(group, "source", rows, &Contribution::source);
   const auto evaluation = hdf5::read_texts(group, "evaluation");
+  require_rows(evaluation.size() == rows.size(), "evaluation");
   for (std::size_t i = 0; i < rows.size(); ++i) rows[i].evaluation = evaluation[i].empty() ? 'B' : evaluation[i][0];
   return out;
 }
