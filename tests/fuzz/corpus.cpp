@@ -1,6 +1,7 @@
 /// Feeds every file of the corpus, and the same mutations of it every time, to its harness: gumshoe_corpus FOLDER
 /// [HARNESS FILE...]. Without clang, it finds what the fuzzers found once, and what is near it. An input that is a
 /// fault is kept as gumshoe_corpus_fault in the current directory.
+#include <algorithm>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>

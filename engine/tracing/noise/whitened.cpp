@@ -23,7 +23,8 @@ Whitened::Columns Whitened::columns_in_units() const {
   Columns out{std::vector<SparseRow>(rows_.size()), 0};
   const auto add = [&](const auto& column, std::size_t number) {
     for (Index i = 0; i < n; i += k) {
-      const auto rows = std::span(rows_).subspan(static_cast<std::size_t>(i), static_cast<std::size_t>(k));
+      const std::span<const Index> rows =
+          std::span(rows_).subspan(static_cast<std::size_t>(i), static_cast<std::size_t>(k));
       if (std::ranges::all_of(rows, [&](Index row) { return column[row] == 0; })) continue;
       Vector own(k);
       for (Index a = 0; a < k; ++a) own[a] = column[rows[a]];
