@@ -60,7 +60,7 @@ class Weeks(unittest.TestCase):
                 del file["campaigns/000/information"]
                 file["campaigns/000/information"] = cut
             axis.write(folder, "reversal", 3)
-            self.assertIn("a matrix of information is cut short", run("--append", "h.h5").stderr)
+            self.assertIn("changed by another program", run("--append", "h.h5").stderr)
             for content, words in ((b"no HDF5", "cannot be read as a history"), ((folder / "results/s.traced.h5").read_bytes(), "it is no history")):
                 (folder / "other.h5").write_bytes(content)
                 refused = run("--append", "other.h5")
