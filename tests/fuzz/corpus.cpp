@@ -12,6 +12,7 @@
 #include <random>
 
 #include <fcntl.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 #include "base/hash.h"
@@ -21,8 +22,8 @@ namespace {
 
 using namespace gumshoe;
 
-constexpr int mutations_a_file = 12;
-constexpr unsigned longest_seconds = 10; ///< of one input: more is an endless loop
+constexpr int mutations_a_file = 40;
+constexpr long longest_seconds = 10; ///< of the processor, for one input: more is an endless loop
 
 std::string now_input, now_name;
 
@@ -32,7 +33,7 @@ void keep_input(int signal) {
   const int file = open("gumshoe_corpus_fault", O_CREAT | O_TRUNC | O_WRONLY, 0644);
   (void)!::write(file, now_input.data(), now_input.size());
   close(file);
-  const char* const what = signal == SIGALRM ? "takes too long" : "crashes";
+  const char* const what = signal == SIGPROF ? "takes too long" : "crashes";
   say(now_name.data(), now_name.size()), say(" ", 1), say(what, std::strlen(what));
   say("; the input is gumshoe_corpus_fault\n", 36);
   _exit(1);
@@ -98,10 +99,15 @@ std::string mutated(std::string text, const std::string& other, std::mt19937_64&
   return text;
 }
 
+void limit_time(long seconds) {
+  const itimerval limit{{0, 0}, {seconds, 0}};
+  setitimer(ITIMER_PROF, &limit, nullptr);
+}
+
 bool sound(const fuzz::Row& row, const std::string& name, std::string input) {
   now_name = name;
   now_input = std::move(input);
-  alarm(longest_seconds);
+  limit_time(longest_seconds);
   try {
     fuzz::feed(row.harness, now_input);
   } catch (const std::exception& error) {
@@ -109,7 +115,7 @@ bool sound(const fuzz::Row& row, const std::string& name, std::string input) {
     std::ofstream("gumshoe_corpus_fault", std::ios::binary) << now_input;
     return false;
   }
-  alarm(0);
+  limit_time(0);
   return true;
 }
 
@@ -151,7 +157,7 @@ int main(int argc, char** argv) {
     std::cerr << "usage: gumshoe_corpus FOLDER [HARNESS FILE...]\n";
     return 2;
   }
-  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGALRM}) std::signal(signal, keep_input);
+  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGPROF}) std::signal(signal, keep_input);
   try {
     run(argc, argv);
   } catch (const std::exception& error) {

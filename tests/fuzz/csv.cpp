@@ -1,5 +1,8 @@
 /// Data files: encoding, cells, numbers and clock times, in every layout that a scenario can ask for.
 #include "base/csv.h"
+
+#include <algorithm>
+
 #include "base/clock.h"
 #include "base/encoding.h"
 #include "fuzz/harness.h"

@@ -1,5 +1,7 @@
 /// Formulas: a line `name = formula` is a measurand if it is the first, `name := formula` an indication's, and any
 /// other line an intermediate. The quantities a to e and the condition x are there to be named.
+#include <algorithm>
+
 #include "base/error.h"
 #include "formula/compile.h"
 #include "formula/finite.h"

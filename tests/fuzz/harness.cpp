@@ -1,5 +1,6 @@
 #include "fuzz/harness.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -13,10 +14,7 @@ namespace {
 struct Folder {
   std::string path;
   Folder() {
-    const std::filesystem::path memory = "/dev/shm";
-    std::error_code ignored;
-    const bool there = std::filesystem::is_directory(memory, ignored);
-    path = ((there ? memory : std::filesystem::temp_directory_path()) / "gumshoe_fuzz_XXXXXX").string();
+    path = (std::filesystem::temp_directory_path() / "gumshoe_fuzz_XXXXXX").string();
     if (!mkdtemp(path.data())) throw std::runtime_error("no folder for the inputs' files");
   }
   ~Folder() {

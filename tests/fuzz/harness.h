@@ -43,7 +43,7 @@ void require(bool holds, const char* promise);
 /// one has no name.
 std::vector<std::pair<std::string, std::string>> parts(std::string_view input);
 
-/// A folder of this process for files of inputs, on a file system in memory where there is one; removed at exit.
+/// A folder of this process for files of inputs, below TMPDIR; removed at exit.
 const std::string& folder();
 /// Writes a file there; returns its path.
 std::string write(const std::string& name, std::string_view bytes);

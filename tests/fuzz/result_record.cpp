@@ -2,6 +2,7 @@
 /// the harness puts it into a file and computes both digests, or no other input would come past them.
 #include "store/record.h"
 
+#include <algorithm>
 #include <numeric>
 
 #include <fcntl.h>

@@ -169,6 +169,7 @@ TEST_CASE("simultaneous observations: correlation and joint distribution from th
                                 catalogue());
   REQUIRE(s.correlations.size() == 1);
   CHECK(s.correlations[0].kind == quantities::Correlation::Kind::multivariate_t);
+  CHECK_THAT(scenario::explain(s, catalogue()), Catch::Contains("rod_radius, rod_length, beam_pitch (multivariate_t): 1 "));
   const auto& r = s.correlations[0].matrix;
   CHECK(std::fabs(r[1] - -0.355311) < 5e-7);
   CHECK(std::fabs(r[2] - 0.857624) < 5e-7);
@@ -258,6 +259,11 @@ TEST_CASE("correlations name their kind", "[scenario]") {
   REQUIRE(s.correlations.size() == 1);
   CHECK(s.correlations[0].kind == quantities::Correlation::Kind::spearman);
   CHECK(s.correlations[0].matrix == std::vector<double>{1, -0.5, -0.5, 1});
+  CHECK_THAT(scenario::explain(s, catalogue()), Catch::Contains("rod_radius, rod_length (spearman): 1 -0.5; -0.5 1"));
+  std::string names;
+  for (int i = 0; i < 3000; ++i) names += "\"unknown " + std::to_string(i) + "\", ";
+  CHECK_THAT(complaint(head + one_reading + "[[correlations]]\nkind = \"copula\"\ncoefficient = 0.5\nquantities = [" + names + "]\n"),
+             Catch::Contains("'unknown 0' is not a quantity here")); // and no matrix of nine million numbers
   CHECK_THAT(complaint(head + one_reading + pair + "coefficient = 0.5\n"),
              Catch::Contains("correlations[1].kind is missing"));
   CHECK_THAT(complaint(head + one_reading + pair + "kind = \"pearson\"\ncoefficient = 1.5\n"),
