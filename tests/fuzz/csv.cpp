@@ -51,6 +51,7 @@ void read(const std::string& text, const CsvLayout& layout) {
 
 void csv(std::string_view input) {
   const std::string text = as_utf8(std::string(input));
+  require(as_utf8(text) == text, "what became UTF-8 is UTF-8");
   for (const char separator : {'\0', ',', ';', '\t', ' '}) read(text, {separator});
   read(text, {'\0', 2, 4});
   const std::size_t line = std::min(text.find('\n'), text.size());
