@@ -104,7 +104,8 @@ class FromResult(Lengths):
         own = 'x = { from = "a.h5:y", same = ["reference"] }\nreference = { value = "100 mm", u = "UU um" }'
         out = self.ran("own", 'y = "x + reference"', own.replace("UU", "4"))  # back to the reading
         self.assertAlmostEqual(self.figures(out)["u"], 3e-6, delta=4 * SE * 7e-6)
-        self.refused("other_u", own.replace("UU", "5") + '\n', "one error has one uncertainty")
+        self.refused("other_u", own.replace("UU", "5") + '\n', "'reference' has u = 5e-06 here and 4e-06 in ",
+                     "one error has one uncertainty")
 
     def test_degrees_of_freedom_go_on(self):
         few = self.ran("few", 'y = "a"', 'a = { value = "1 mm", u = "1 um", degrees_of_freedom = 4 }')

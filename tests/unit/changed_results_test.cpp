@@ -83,6 +83,9 @@ TEST_CASE("a history is as it was written, or it is refused", "[store]") {
   CHECK(store::read_history(path).front().scores.front().sizes.front().unit == "um/m");
   CHECK_THROWS_WITH(store::read_identity(path), Catch::Contains("it is a history of gumshoe trace --append"));
 
+  replace(path, "campaigns/000/information", Numbers{});
+  CHECK_THROWS_WITH(store::read_history(path), Catch::Contains("a matrix of information is cut short"));
+  replace(path, "campaigns/000/information", Numbers{1});
   replace(path, "campaigns/000/variant",
           Numbers{std::nan("")}); // equal to none, not even to itself: a loop without end
   CHECK_THROWS_WITH(store::read_history(path), Catch::Contains("a variant of a candidate has no number"));

@@ -35,6 +35,11 @@ TEST_CASE("problems come all at once, each with its place", "[scenario][errors]"
         "s.toml:12:1: error: quantities: unknown key 'rod_lenght'. Did you mean 'rod_length'?");
 }
 
+TEST_CASE("a catalogue without results has none to read", "[scenario][errors]") {
+  CHECK_THAT(with("[quantities]\nrod_radius = { from = \"a.h5:y\" }\n"),
+             Contains("s.toml:6:23: error: quantities.rod_radius.from: results cannot be read here"));
+}
+
 TEST_CASE("unknown names anywhere are refused with the nearest", "[scenario][errors]") {
   CHECK_THAT(with("[runn]\n"), Contains("s.toml:5:2: error: unknown key 'runn'. Did you mean 'run'?"));
   CHECK_THAT(with("[run]\nsampels = 3\n"), Contains("run: unknown key 'sampels'. Did you mean 'samples'?"));
