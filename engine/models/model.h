@@ -24,8 +24,8 @@ struct Column {
   std::size_t stride = 0;
 };
 
-/// What is declared of the data, for evaluations that weight them: independent draws, each with its standard
-/// uncertainty and all that it moves.
+/// What is declared of the data, for evaluations that weight them: draws, each with its standard uncertainty and all
+/// that it moves, and which of them are correlated.
 struct Declared {
   struct Moved {
     std::size_t reading, column; ///< of the model's quantities, then of the indications
@@ -35,8 +35,13 @@ struct Declared {
     double u; ///< SI
     std::vector<Moved> moves;
   };
+  struct Tie {
+    std::size_t a, b;   ///< two different draws
+    double correlation; ///< Pearson's coefficient
+  };
   std::vector<double> estimates; ///< [reading][quantity of the model]
   std::vector<Draw> draws;
+  std::vector<Tie> ties;
 };
 
 /// BlockCall::first_sample of points that are not samples of the run (the estimates, an analysis).

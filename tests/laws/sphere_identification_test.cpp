@@ -4,6 +4,8 @@
 #include <cmath>
 #include <random>
 
+#include <Eigen/Dense>
+
 #include "asked.h"
 #include "laws/sphere_rows.h"
 
@@ -214,4 +216,48 @@ TEST_CASE("planes are immune to the positioning of the axis that moves", "[laws]
   CHECK(std::fabs(study.found(Row::E_X0C) - truth[Row::E_X0C]) > 1 * um);
   study.identify(truth, sphere::joint); // here equal weights are worse
   CHECK(std::fabs(study.found(Row::E_B0C) - truth[Row::E_B0C]) > 1e-4 * deg);
+}
+
+TEST_CASE("weights know which draws are correlated", "[laws][sphere_calibration][identification]") {
+  // Gauss and Markov's estimate from the model's own derivatives, without its code for weights.
+  const auto truth = published();
+  Draw draw;
+  Study study(both());
+  const auto n = static_cast<Eigen::Index>(3 * study.poses.size());
+  Eigen::MatrixXd J(n, sphere::unknowns), V = Eigen::MatrixXd::Zero(n, n);
+  for (Eigen::Index j = 0; j < J.cols(); ++j) {
+    auto up = truth, down = truth;
+    constexpr double step = 1e-6;
+    up[static_cast<std::size_t>(j)] += step, down[static_cast<std::size_t>(j)] -= step;
+    study.measure({up});
+    const auto above = study.x;
+    study.measure({down});
+    for (Eigen::Index i = 0; i < n; ++i)
+      J(i, j) = (above[static_cast<std::size_t>(i)][0] - study.x[static_cast<std::size_t>(i)][0]) / (2 * step);
+  }
+  // X and Z of a reading share most of their noise; Y is four times as good.
+  constexpr double u[] = {2 * um, 0.5 * um, 2 * um}, shared = -0.95;
+  study.declare(truth, 1);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    study.declared.draws[static_cast<std::size_t>(i)].u = u[i % 3];
+    V(i, i) = u[i % 3] * u[i % 3];
+    if (i % 3 != 0) continue;
+    V(i, i + 2) = V(i + 2, i) = shared * u[0] * u[2];
+    study.declared.ties.push_back({static_cast<std::size_t>(i + 2), static_cast<std::size_t>(i), shared});
+  }
+  study.measure({truth});
+  Eigen::VectorXd noise(n);
+  for (Eigen::Index i = 0; i < n; ++i) noise[i] = u[i % 3] * draw.normal();
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (double& x : study.x[static_cast<std::size_t>(i)]) x += noise[i];
+  const auto expected = [&](const Eigen::MatrixXd& covariance) -> Eigen::VectorXd {
+    const Eigen::MatrixXd weighted = covariance.llt().solve(J);
+    return (J.transpose() * weighted).ldlt().solve(weighted.transpose() * noise);
+  };
+  study.identify(truth, sphere::joint_weighted);
+  const Eigen::VectorXd with = expected(V), without = expected(V.diagonal().asDiagonal());
+  // Second order of changes below 1e-5 (in m, rad) with derivatives of order 1.
+  for (Eigen::Index j = 0; j < J.cols(); ++j)
+    CHECK(std::fabs(study.found(static_cast<int>(j)) - truth[static_cast<std::size_t>(j)] - with[j]) < 1e-9);
+  CHECK((with - without).cwiseAbs().maxCoeff() > 1e-7); // the case tells them apart
 }

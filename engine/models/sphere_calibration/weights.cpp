@@ -28,28 +28,52 @@ bool as_unknowns_do(const Declared::Draw& draw, std::size_t readings) {
   return q < Q::link_B_x || (q <= Q::sphere_distance && draw.moves.size() == readings);
 }
 
+/// What a draw of one standard uncertainty does to all commands; empty if no weight depends on it.
+using Effect = std::vector<std::pair<Eigen::Index, double>>;
+
+Effect effect_of(const Declared::Draw& draw, const Poses<double>& poses) {
+  Effect out;
+  if (draw.moves.empty() || as_unknowns_do(draw, poses.size())) return out;
+  for (const auto& [reading, column, by] : draw.moves) {
+    const auto first = static_cast<Eigen::Index>(3 * reading);
+    if (column >= rows_of<Quantities>) {
+      out.emplace_back(first + static_cast<Eigen::Index>(column - rows_of<Quantities>), draw.u * by);
+      continue;
+    }
+    const auto d = derivative(poses, reading, column);
+    out.emplace_back(first, draw.u * d.x);
+    out.emplace_back(first + 1, draw.u * d.y);
+    out.emplace_back(first + 2, draw.u * d.z);
+  }
+  return out;
+}
+
+/// Adds r a b'.
+void add(const Effect& a, const Effect& b, double r, Eigen::MatrixXd& V) {
+  for (const auto& [i, x] : a)
+    for (const auto& [j, y] : b) V(i, j) += r * x * y;
+}
+
+Eigen::MatrixXd covariance(const Poses<double>& poses) {
+  const auto n = static_cast<Eigen::Index>(3 * poses.size());
+  Eigen::MatrixXd V = Eigen::MatrixXd::Zero(n, n);
+  std::vector<Effect> effects;
+  for (const auto& draw : poses.declared->draws) {
+    effects.push_back(effect_of(draw, poses));
+    add(effects.back(), effects.back(), 1, V);
+  }
+  for (const auto& [a, b, correlation] : poses.declared->ties) {
+    add(effects[a], effects[b], correlation, V);
+    add(effects[b], effects[a], correlation, V);
+  }
+  return V;
+}
+
 } // namespace
 
 Whitening whitening(const Poses<double>& poses, std::string& problem) {
-  const auto n = static_cast<Eigen::Index>(3 * poses.size());
-  Eigen::MatrixXd V = Eigen::MatrixXd::Zero(n, n);
-  for (const auto& draw : poses.declared->draws) {
-    if (draw.moves.empty() || as_unknowns_do(draw, poses.size())) continue;
-    std::vector<std::pair<Eigen::Index, double>> moved;
-    for (const auto& [reading, column, by] : draw.moves) {
-      const auto first = static_cast<Eigen::Index>(3 * reading);
-      if (column >= rows_of<Quantities>) {
-        moved.emplace_back(first + static_cast<Eigen::Index>(column - rows_of<Quantities>), draw.u * by);
-        continue;
-      }
-      const auto d = derivative(poses, reading, column);
-      moved.emplace_back(first, draw.u * d.x);
-      moved.emplace_back(first + 1, draw.u * d.y);
-      moved.emplace_back(first + 2, draw.u * d.z);
-    }
-    for (const auto& [i, a] : moved)
-      for (const auto& [j, b] : moved) V(i, j) += a * b;
-  }
+  const Eigen::MatrixXd V = covariance(poses);
+  const Eigen::Index n = V.rows();
   Whitening out;
   const Eigen::LLT<Eigen::MatrixXd> factor(V);
   const Eigen::MatrixXd L = factor.matrixL();
