@@ -36,7 +36,9 @@ bool plain_grammar(const std::string& unit) {
     if (starts_number(c)) {
       const char before = i ? unit[i - 1] : '\0';
       const bool exponent = i && (letter(before) || before == '-' || before == '^' || starts_number(before));
-      if (!exponent && !(c == '1' && i == 0 && (unit.size() == 1 || unit[1] == '/'))) return false;
+      // "1", "1/min", "um/(1/min)"
+      const bool one = c == '1' && (i == 0 || before == '(') && (unit.size() == 1 || (i + 1 < unit.size() && unit[i + 1] == '/'));
+      if (!exponent && !one) return false;
     } else if (c == '-') {
       if (i == 0 || !(letter(unit[i - 1]) || unit[i - 1] == '^')) return false;
     } else if (!letter(c) && std::string_view("*/.^()%'\" ").find(c) == std::string_view::npos) {

@@ -98,5 +98,8 @@ TEST_CASE("what is no unit is refused, though udunits would take it", "[units]")
     CHECK_FALSE(units::convertible(unit, "m"));
   }
   CHECK_THROWS_WITH(units::to_si(1, "foo", "m"), Catch::Contains("'foo' is not a unit"));
+  CHECK(units::to_si(1, "um/(1/min)", "m.s") == Approx(60e-6)); // of a slope against a speed
+  for (const char* not_a_unit : {"um/(1)", "um/(1 min)", "um/(2/min)"})
+    CHECK_THROWS_WITH(units::to_si(1, not_a_unit, "m"), Catch::Contains("is not a unit"));
   CHECK_THROWS_WITH(units::to_si(1, "N", "m"), "error: 'N' is not a length (must convert to m). Use mm or um.");
 }
