@@ -4,6 +4,7 @@
 #include <fstream>
 #include <iostream>
 #include <memory>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -14,7 +15,7 @@
 #include "cli/command.h"
 #include "cli/installed.h"
 #include "scenario/made_models.h"
-#include "scenario/starter.h"
+#include "scenario/starter_parts.h"
 #include "store/draft.h"
 
 namespace gumshoe::cli {
@@ -80,11 +81,13 @@ ColumnRole role_of(const std::string& word) {
 
 /// What the options say of columns, then what a user at the terminal answers.
 void tell(RecognisedData& data, const Options& o) {
+  bool told_readings = false;
   for (const std::string& text : o.roles) {
     const auto [column, word] = assignment(text, "--role");
     const ColumnRole role = role_of(word);
-    for (auto& c : data.columns) // one column has it
-      if (c.role == role && role != ColumnRole::other) c.role = ColumnRole::other;
+    const bool further = role == ColumnRole::reading && std::exchange(told_readings, true); // there may be several
+    for (auto& c : data.columns) // else one column has it
+      if (c.role == role && role != ColumnRole::other && !further) c.role = ColumnRole::other;
     auto& c = column_of(data, column, "--role");
     c.role = role;
     c.why = "by --role";
@@ -129,6 +132,8 @@ std::string text_of(const Options& o, const RecognisedData* found, const std::st
   if (found)
     data = std::make_unique<scenario::StarterData>(scenario::StarterData{
         *found, fs::relative(fs::absolute(o.from), fs::absolute(out).parent_path()).generic_string()});
+  const auto targets = found && o.model.empty() ? scenario::target_columns(*found) : scenario::TargetColumns{};
+  if (targets.size() > 1) return scenario::starter_targets(*data, targets, out);
   if (o.model.empty())
     return found->find(scenario::ColumnRole::position) ? scenario::starter_axis(*data, out)
                                                        : scenario::starter_series(*data, out);
@@ -154,14 +159,20 @@ void write_file(const std::string& path, const std::string& text, bool force) {
   draft.publish();
 }
 
-void print_columns(const RecognisedData& found) {
-  for (const auto& c : found.columns)
-    std::cout << fmt::format("  {}: {}{}{}\n", c.name,
-                             c.role == ColumnRole::other ? "not used, unless by its name" : name(c.role),
+/// What the scenario does with each column.
+void print_columns(const RecognisedData& found, const std::string& text) {
+  for (const auto& c : found.columns) {
+    const std::string quoted = scenario::quoted(c.name);
+    const char* use = text.find(quoted) == std::string::npos                 ? "not used"
+                      : text.find("readings = " + quoted) != std::string::npos ? name(ColumnRole::reading)
+                      : c.role == ColumnRole::other                          ? "used by its name"
+                                                                             : name(c.role);
+    std::cout << fmt::format("  {}: {}{}{}\n", c.name, use,
                              c.unit == "1"   ? ""
                              : c.unit == "?" ? ", unit unknown"
                                              : ", " + c.unit,
                              c.why.empty() ? "" : fmt::format(" ({})", c.why));
+  }
 }
 
 /// Reads what was written: what is missing, or which command comes next.
@@ -223,10 +234,11 @@ ExitCode run(Options o) {
     o.from = rows;
   }
   if (found) require_different(out, o.from);
-  write_file(out, text_of(o, found.get(), out), o.force);
+  const std::string text = text_of(o, found.get(), out);
+  write_file(out, text, o.force);
   if (found) {
     std::cout << fmt::format("{}: {} rows\n", o.from, found->csv.rows.size());
-    print_columns(*found);
+    print_columns(*found, text);
   }
   print_next(o, out, found.get());
   return ExitCode::done;

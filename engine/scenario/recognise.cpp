@@ -1,6 +1,7 @@
 #include "scenario/recognise.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <functional>
@@ -56,7 +57,7 @@ const std::map<std::string, std::string>& unit_words() {
       {"h", "h"},           {"K", "K"},           {"degC", "degC"},   {"°C", "degC"},     {"C", "degC"},
       {"N", "N"},           {"mm/min", "mm/min"}, {"mm/s", "mm/s"},   {"um/m", "um/m"},   {"%", "%"},
       {"ppm", "ppm"},       {"ppb", "ppb"},       {"Hz", "Hz"},       {"kN", "kN"},       {"MN", "MN"},
-      {"Nm", "N m"},        {"V", "V"},           {"mV", "mV"},       {"mV/V", "mV/V"},   {"bar", "bar"},
+      {"Nm", "N m"},        {"V", "V"},           {"mV", "mV"},       {"mV/V", "mV/V"},   {"mVV", "mV/V"},    {"bar", "bar"},
       {"mbar", "mbar"},     {"Pa", "Pa"},         {"hPa", "hPa"},     {"kPa", "kPa"},     {"MPa", "MPa"},
       {"kg", "kg"},         {"rpm", "1/min"},     {"1/min", "1/min"}, {"U/min", "1/min"}, {"m/min", "m/min"}};
   return all;
@@ -302,10 +303,16 @@ void guess_roles(RecognisedData& data) {
     return std::ranges::find(columns, role, &RecognisedColumn::role) != columns.end();
   };
   const auto take = [&](auto first, auto end, ColumnRole role, const char* why) {
-    const auto one = std::find_if(first, end, [&](const RecognisedColumn& c) {
+    const auto fitting = [&](const RecognisedColumn& c) {
       return c.number && c.role == ColumnRole::other && !counts_rows(c) && !names_parts(c) &&
              (role != ColumnRole::position || (is_place(c) && was_set(data, c)));
-    });
+    };
+    // Numbers that recur and have no unit are names, such as those of inserts.
+    const auto likely = [&](const RecognisedColumn& c) {
+      return fitting(c) && !is_circumstance(c) && !(role == ColumnRole::reading && c.unit == "?" && was_set(data, c));
+    };
+    auto one = std::find_if(first, end, likely);
+    if (one == end) one = std::find_if(first, end, fitting);
     if (one == end) return;
     one->role = role;
     one->why = why;
@@ -342,6 +349,16 @@ void guess_roles(RecognisedData& data) {
   count->why = "as it counts the readings";
 }
 
+bool is_circumstance(const RecognisedColumn& c) {
+  static const std::set<std::string> names{"feed",     "feedrate", "vorschub",   "speed",    "drehzahl", "rpm",
+                                           "humidity", "feuchte",  "luftfeuchte", "override", "velocity", "acceleration"};
+  const auto words = words_of(c.name);
+  if (std::ranges::any_of(words, [&](const std::string& w) { return names.contains(w); })) return true;
+  return c.unit != "?" && std::ranges::any_of(std::array{"1/s", "m/s", "rad/s", "K"}, [&](const char* unit) {
+           return units::convertible(c.unit, unit);
+         });
+}
+
 bool counts_rows(const RecognisedColumn& c) {
   static const std::set<std::string> names{"nr", "no", "n", "id", "index", "number", "point", "row", "line"};
   const auto words = words_of(c.name);
@@ -358,7 +375,8 @@ bool names_parts(const RecognisedColumn& c) {
   static const std::set<std::string> names{
       "operator", "bediener", "observer", "lab",   "laboratory", "batch", "lot",      "machine", "maschine",
       "sample",   "part",     "specimen", "tool",  "artefact",   "probe", "sensor",   "day",     "tag",
-      "shift",    "wafer",    "rod",      "touch", "hit",        "shot",  "antastung"};
+      "shift",    "wafer",    "rod",      "touch", "hit",        "shot",  "antastung", "insert", "cavity", "nest",
+      "pose",     "werkzeug", "teil",     "platte", "schneide"};
   const auto words = words_of(c.name);
   return c.unit == "?" && std::ranges::any_of(words, [&](const std::string& w) { return names.contains(w); });
 }

@@ -42,11 +42,14 @@ struct RecognisedData {
 RecognisedData recognise(const std::string& text, const std::string& file);
 
 /// Position and reading, where there is none yet: the first column of numbers that is left, if it was set, and the
-/// last. Without a time, a column that counts the readings stands for it.
+/// last that is no circumstance, if there is such a one. Without a time, a column that counts the readings stands for it.
 void guess_roles(RecognisedData& data);
 
 /// Whether the numbers of a column look set, not measured: they recur, or only rise, or only fall.
 bool was_set(const RecognisedData& data, const RecognisedColumn& column);
+
+/// Whether a column says at what a reading was taken, and is none itself, by its unit or name: a feed, a humidity.
+bool is_circumstance(const RecognisedColumn& column);
 
 /// Whether a column counts rows and measures nothing, by its name.
 bool counts_rows(const RecognisedColumn& column);

@@ -1,7 +1,10 @@
 #include "scenario/starter.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
+#include "base/units.h"
 #include "scenario/starter_parts.h"
 
 namespace gumshoe::scenario {
@@ -71,12 +74,45 @@ std::string fitted(const RecognisedData& data, const NamedColumns& labels, const
   return fmt::format("{{ estimated = true, value = {} }}", zero);
 }
 
+/// The reading, and other columns of its kind that are errors at the same positions: the channels of a laser. Where the
+/// reading was guessed, those of the first such column's kind.
+std::vector<const RecognisedColumn*> channels(const RecognisedData& data, const RecognisedColumn& position,
+                                              const RecognisedColumn& reading) {
+  const auto is_error = [&](const RecognisedColumn& c) {
+    if (!c.number || c.gaps || (c.role != Role::other && c.role != Role::reading) || c.unit == "?" || c.unit == "1" ||
+        counts_rows(c) || names_parts(c) || is_circumstance(c))
+      return false;
+    const std::string si_unit = units::si_unit_of(c.unit);
+    const bool small = c.unit == "um" || c.unit == "nm" || c.unit == "arcsec" || c.unit == "urad";
+    return (si_unit == "m" || si_unit == "rad") && (small || !was_set(data, c)) && !measured_position(data, position, c);
+  };
+  if (!is_error(reading)) return {&reading};
+  std::vector<const RecognisedColumn*> out;
+  for (const RecognisedColumn& c : data.columns) {
+    const bool guessed = reading.why.starts_with("as the last");
+    const RecognisedColumn& first = guessed && !out.empty() ? *out[0] : guessed ? c : reading;
+    if (&c == &reading || is_error(c))
+      if (units::convertible(c.unit, units::si_unit_of(first.unit))) out.push_back(&c);
+  }
+  return out;
+}
+
+/// Circumstances with a known unit, which vary: a feed, a humidity.
+NamedColumns circumstances(const RecognisedData& data, const std::set<std::string>& used) {
+  NamedColumns out;
+  for (const RecognisedColumn& c : data.columns)
+    if (c.number && !c.gaps && c.role == Role::other && c.unit != "?" && is_circumstance(c) && !counts_rows(c) &&
+        !names_parts(c) && !used.contains(c.name) && different(data, c) > 1)
+      out.emplace_back(plain_name(c.name), &c);
+  return out;
+}
+
 } // namespace
 
 std::string starter_axis(const StarterData& data, const std::string& scenario) {
   const RecognisedData& found = data.found;
   const RecognisedColumn* const position = found.find(Role::position);
-  const RecognisedColumn* const reading = found.find(Role::reading);
+  const RecognisedColumn* reading = found.find(Role::reading);
   if (!position || !reading)
     throw InputError(found.csv.file + ": there is no column of readings", "numbers that were measured are needed",
                      "tell which it is: --role COLUMN=reading");
@@ -84,18 +120,29 @@ std::string starter_axis(const StarterData& data, const std::string& scenario) {
   require_numbers(found, *reading, "readings");
   const RecognisedColumn* const direction = found.find(Role::direction);
   const RecognisedColumn* const sd = found.find(Role::uncertainty);
+  const auto all = channels(found, *position, *reading);
+  if (std::ranges::find(all, reading) == all.end()) reading = all[0];
   const bool measured = measured_position(found, *position, *reading);
   const bool turns = full_turn(found, *position); // its error comes back: no gain
-  const std::string name = measured ? "measured" : "deviation";
-  const std::string pos = unit_or(*position, "mm"), read = unit_or(*reading, "um");
+  const std::string pos = unit_or(*position, "mm");
   const NamedColumns labels = labels_of(found);
   const bool eccentric = turns && found.find(Role::alignment);
   NamedColumns conditions{{"position", position}};
   if (direction) conditions.emplace_back("direction", direction);
-  std::set<std::string> used{position->name, reading->name};
+  std::set<std::string> used{position->name};
+  for (const RecognisedColumn* c : all) used.insert(c->name);
   if (direction) used.insert(direction->name);
   if (sd && sd->number) used.insert(sd->name);
-  const std::string recorded = columns_of(found, used);
+  std::string recorded = columns_of(found, used);
+  for (const auto& [own, c] : circumstances(found, used)) {
+    used.insert(c->name);
+    if (was_set(found, *c)) {
+      conditions.emplace_back(own, c);
+      continue;
+    }
+    if (recorded.find("[trace.columns]") == std::string::npos) recorded += "\n[trace.columns]\n";
+    recorded += line(own, quoted(c->name), "recorded with the readings");
+  }
 
   std::string out =
       fmt::format("# Question: which errors do the readings in {} show that {}{} do{} not explain?\n"
@@ -105,28 +152,40 @@ std::string starter_axis(const StarterData& data, const std::string& scenario) {
                   direction ? "" : "es", scenario);
   out += fmt::format("schema = 1\ntitle  = {}\n\n[model]\nname = \"expression\"\n\n[model.indications]\n",
                      quoted(data.file));
-  out += line(name,
-              fmt::format("\"{}offset{}{}\"", measured ? "position + " : "",
-                          eccentric ? " + eccentricity_x * cos(position) + eccentricity_y * sin(position)"
-                          : turns   ? ""
-                                    : " + gain * position",
-                          direction ? " + reversal * direction" : ""),
-              measured ? "guessed: the readings span what the positions span" : "guessed: the readings are errors");
+  const auto prefix = [&](const RecognisedColumn& c) { return all.size() > 1 ? plain_name(c.name) + '_' : ""; };
+  const auto name = [&](const RecognisedColumn& c) {
+    return all.size() > 1 ? plain_name(c.name) : measured ? "measured" : "deviation";
+  };
+  for (const RecognisedColumn* c : all)
+    out += line(name(*c),
+                fmt::format("\"{1}{0}offset{2}{3}\"", prefix(*c), measured ? "position + " : "",
+                            eccentric ? fmt::format(" + {0}eccentricity_x * cos(position) + {0}eccentricity_y * "
+                                                    "sin(position)", prefix(*c))
+                            : turns   ? ""
+                                      : fmt::format(" + {}gain * position", prefix(*c)),
+                            direction ? fmt::format(" + {}reversal * direction", prefix(*c)) : ""),
+                measured ? "guessed: the readings span what the positions span" : "guessed: the readings are errors");
   out += '\n' + data_section(data, labels, conditions, used);
   out += "\n[quantities]                            # fitted to the readings\n";
-  out += line("offset", fitted(found, labels, read), "");
-  if (!turns) out += line("gain", fitted(found, labels, fmt::format("({})/({})", measured ? pos : read, pos)), "");
-  for (const char* axis : {"eccentricity_x", "eccentricity_y"})
-    if (eccentric) out += line(axis, fitted(found, labels, read), "");
-  if (direction)
-    out +=
-        line("reversal", fmt::format("{{ estimated = true, value = \"0 {}\" }}", read), "half of the reversal error");
-  out +=
-      fmt::format("\n[indications.{}]\n", name) + line("readings", quoted(reading->name), "recognised " + reading->why);
-  if (sd && sd->number)
-    out += line("u", fmt::format("{{ column = {} }}", quoted(sd->name)), "recognised " + sd->why);
-  else
-    out += "# u = \"0.2 um\"                          # state the noise of a reading if you know it\n";
+  for (const RecognisedColumn* c : all) {
+    const std::string read = unit_or(*c, "um");
+    out += line(prefix(*c) + "offset", fitted(found, labels, read), "");
+    if (!turns)
+      out += line(prefix(*c) + "gain", fitted(found, labels, fmt::format("({})/({})", measured ? pos : read, pos)), "");
+    for (const char* axis : {"eccentricity_x", "eccentricity_y"})
+      if (eccentric) out += line(prefix(*c) + axis, fitted(found, labels, read), "");
+    if (direction)
+      out += line(prefix(*c) + "reversal", fmt::format("{{ estimated = true, value = \"0 {}\" }}", read),
+                  "half of the reversal error");
+  }
+  for (const RecognisedColumn* c : all) {
+    out += fmt::format("\n[indications.{}]\n", name(*c)) +
+           line("readings", quoted(c->name), c->why.empty() ? "guessed: an error at the positions" : "recognised " + c->why);
+    if (sd && sd->number && c == reading)
+      out += line("u", fmt::format("{{ column = {} }}", quoted(sd->name)), "recognised " + sd->why);
+    else
+      out += "# u = \"0.2 um\"                          # state the noise of a reading if you know it\n";
+  }
   return out + "\n[trace]\n" + blocks_of(found, labels) + recorded;
 }
 

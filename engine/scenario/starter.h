@@ -1,6 +1,7 @@
 #pragma once
 /// Texts of first scenarios, commented, for a user to go on from: `gumshoe new`.
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/card.h"
@@ -19,6 +20,14 @@ std::string starter_budget();
 
 /// What an axis, or anything else with readings at positions, does that a straight line and a reversal do not explain.
 std::string starter_axis(const StarterData& data, const std::string& scenario);
+
+/// Commanded and read coordinates of the same name: cmd_x and act_x, X_nom and X_meas.
+using TargetColumns = std::vector<std::pair<const RecognisedColumn*, const RecognisedColumn*>>;
+TargetColumns target_columns(const RecognisedData& data);
+
+/// What a robot or a machine, read in several coordinates at its targets, does that an affine map does not explain:
+/// offsets, scales and turned axes. @param columns two or more
+std::string starter_targets(const StarterData& data, const TargetColumns& columns, const std::string& scenario);
 
 /// What readings without a position depend on: time, temperatures, and whatever else was recorded with them.
 std::string starter_series(const StarterData& data, const std::string& scenario);

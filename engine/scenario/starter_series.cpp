@@ -8,12 +8,13 @@
 namespace gumshoe::scenario {
 namespace {
 
-/// Columns of numbers that were measured: of the same kind as the reading, and not set.
+/// The reading, and other columns of numbers that were measured: no circumstances, and not set.
 NamedColumns readings_of(const RecognisedData& data) {
   NamedColumns out;
   for (const RecognisedColumn& c : data.columns)
     if (c.number && !counts_rows(c) && !names_parts(c) &&
-        (c.role == ColumnRole::reading || (c.role == ColumnRole::other && !was_set(data, c))))
+        (c.role == ColumnRole::reading ||
+         (c.role == ColumnRole::other && !was_set(data, c) && !is_circumstance(c))))
       out.emplace_back(plain_name(c.name), &c);
   return out;
 }

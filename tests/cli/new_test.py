@@ -148,7 +148,7 @@ class New(InFolder):
         (self.folder / "s.csv").write_text("\n".join(rows) + "\n")
         said = self.new("--from", "s.csv")
         self.assertIn("T_spindle: temperature, degC (by its name; degC by its numbers)", said)
-        self.assertIn("rpm: not used, unless by its name, 1/min", said)
+        self.assertIn("rpm: used by its name, 1/min", said)
         self.assertIn("ready", said)
         rows = ["series,F_N,U_mV"] + [f"{k},{f},{0.002 * f}" for k in range(1, 5) for f in range(0, 600, 100)]
         (self.folder / "f.csv").write_text("\n".join(rows) + "\n")
@@ -166,6 +166,59 @@ class New(InFolder):
         (self.folder / "p.csv").write_text("\n".join(rows) + "\n")
         self.new("--from", "p.csv")
         self.assertIn("blocks = { count = 6 }", (self.folder / "p.toml").read_text())
+
+    def test_what_is_no_reading(self):
+        """A speed and the number of an insert come last, but are none; a feed is a condition, of several speeds."""
+        rows = ["t_min,X_um,Y_um,T_spindle,rpm"] + [f"{k},{k * k * 7 % 131 / 10},{k * k * 5 % 113 / 10},{21 + k / 20},{6000 * (k // 10 % 2)}" for k in range(40)]
+        (self.folder / "e.csv").write_text("\n".join(rows) + "\n")
+        said = self.new("--from", "e.csv")
+        self.assertIn("X_um: reading, um", said)
+        self.assertIn("Y_um: reading, um", said)
+        self.assertIn("rpm: used by its name, 1/min", said)
+        said = self.new("--from", "e.csv", "--force", "--role", "X_um=reading", "Y_um=reading")
+        self.assertIn("X_um: reading, um (by --role)", said)
+        self.assertIn("Y_um: reading, um (by --role)", said)
+        rows = ["time_s;d_mm;insert"] + [f"{6 * k};{30 + k * k % 97 * 0.0004:.4f};{k // 25 + 1}" for k in range(100)]
+        (self.folder / "w.csv").write_text("\n".join(rows) + "\n")
+        self.assertIn("d_mm: reading, mm (as the last column of numbers)", self.new("--from", "w.csv"))
+        rows = ["F_kN,S_mVV"] + [f"{k % 10},{k % 10 / 5 + k % 7 / 1e5:.5f}" for k in range(60)]
+        (self.folder / "c.csv").write_text("\n".join(rows) + "\n")
+        self.assertIn("S_mVV: reading, mV/V", self.new("--from", "c.csv"))
+        rows = ["repeat,angle_deg,feed_mm_min,radius_mm"] + [f"{n},{a},{f},{25 + (a * n * f % 7) / 1e4}" for n in (1, 2, 3) for f in (50, 200) for a in range(0, 360, 15)]
+        (self.folder / "r.csv").write_text("\n".join(rows) + "\n")
+        self.assertIn("ready", self.new("--from", "r.csv"))
+        self.assertIn('feed_mm_min = "feed_mm_min"', (self.folder / "r.toml").read_text().split("[data.conditions]")[1].split("[quant")[0])
+
+    def test_channels_of_a_laser(self):
+        """Errors of one kind at the same positions are read together, each with an offset and a slope of its own."""
+        rows = ["Run,Direction,Position (mm),Linear (um),Horizontal (um),Pitch (arcsec),Humidity (%)"]
+        rows += [f"{n},{'+' if way > 0 else '-'},{p},{p / 100 + p % 7 / 10},{p % 11 / 10},{p % 13 / 10},{40 + n + p / 1000}"
+                 for n in (1, 2, 3) for way in (1, -1) for p in range(0, 1001, 50)[::way]]
+        (self.folder / "l.csv").write_text("\n".join(rows) + "\n")
+        said = self.new("--from", "l.csv")
+        for part in ("Linear (um): reading, um", "Horizontal (um): reading, um", "Pitch (arcsec): not used", "Humidity (%): used by its name, %", "ready"):
+            self.assertIn(part, said)
+        self.assertIn("horizontal_um_offset + horizontal_um_gain * position + horizontal_um_reversal * direction", (self.folder / "l.toml").read_text())
+        said = self.new("--from", "l.csv", "--role", "Pitch (arcsec)=reading", "--force")
+        self.assertIn("Pitch (arcsec): reading, arcsec (by --role)", said)
+        self.assertIn("Linear (um): not used", said)
+
+    def test_coordinates_at_their_targets(self):
+        """A robot that is read in three coordinates: an affine map is fitted, and what bends beyond it is found."""
+        draw, rows = random.Random(8), ["pose,cmd_x_mm,cmd_y_mm,cmd_z_mm,act_x_mm,act_y_mm,act_z_mm"]
+        for k in range(60):
+            x, y, z = draw.uniform(600, 1200), draw.uniform(-500, 500), draw.uniform(200, 900)
+            act = (x + 0.3 + 4e-4 * x - 2e-4 * y, y - 0.1 + 2e-4 * x, z + 0.2 - 1e-6 * (x - 900) ** 2)
+            rows.append(",".join(f"{v:.3f}" for v in (k + 1, x, y, z, *(a + draw.gauss(0, 0.01) for a in act))))
+        (self.folder / "q.csv").write_text("\n".join(rows) + "\n")
+        self.assertIn("ready", self.new("--from", "q.csv"))
+        run = gumshoe("trace", "q.toml", "--draws", "199", "--format", "json", "--out", "q.h5", cwd=self.folder)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        v = json.loads(run.stdout)
+        self.assertEqual([f["depends_on"] for f in v["findings"]], [["cmd_x_mm"]])
+        self.assertIn("act_z_mm", v["findings"][0]["described_by"])
+        # 13 directions of 60 readings are fitted; the noise is 0.01 mm.
+        self.assertAlmostEqual(v["rms"]["after"], 10e-6, delta=3.5 * 10e-6 / math.sqrt(2 * 3 * 45))
 
     def test_what_is_no_position(self):
         """A pressure next to a target; a coordinate in coarse steps; runs side by side."""

@@ -1,0 +1,76 @@
+#include <algorithm>
+#include <map>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "scenario/starter_parts.h"
+
+namespace gumshoe::scenario {
+namespace {
+
+/// The words of a column's name but for those of its role: "cmd_x" as a position is x. Empty: it is named otherwise.
+std::string axis_of(const RecognisedColumn& c, const std::set<std::string>& role) {
+  std::vector<std::string> words = words_of(c.name);
+  return std::erase_if(words, [&](const std::string& w) { return role.contains(w); }) > 0
+             ? fmt::format("{}", fmt::join(words, "_"))
+             : "";
+}
+
+} // namespace
+
+TargetColumns target_columns(const RecognisedData& data) {
+  static const std::set<std::string> set{"cmd",     "command", "commanded", "target", "tgt",  "nominal", "nom",
+                                         "soll",    "set",     "setpoint",  "prog",   "theo", "planned"};
+  static const std::set<std::string> read{"act", "actual", "measured", "meas", "ist", "real", "tracker"};
+  std::map<std::string, const RecognisedColumn*> targets;
+  for (const RecognisedColumn& c : data.columns)
+    if (const std::string axis = axis_of(c, set); c.number && !axis.empty()) targets.try_emplace(axis, &c);
+  TargetColumns out;
+  for (const RecognisedColumn& c : data.columns)
+    if (const auto found = targets.find(axis_of(c, read)); c.number && found != targets.end())
+      out.emplace_back(found->second, &c), targets.erase(found);
+  return out;
+}
+
+std::string starter_targets(const StarterData& data, const TargetColumns& columns, const std::string& scenario) {
+  const RecognisedData& found = data.found;
+  const NamedColumns labels = labels_of(found);
+  NamedColumns conditions;
+  std::set<std::string> used;
+  for (const auto& [target, reading] : columns) {
+    conditions.emplace_back(plain_name(target->name), target);
+    used.insert({target->name, reading->name});
+  }
+  const std::string recorded = columns_of(found, used);
+
+  std::string out =
+      fmt::format("# Question: which errors do the readings in {} show that offsets, scales and turned axes do not "
+                  "explain?\n#     gumshoe trace {}\n"
+                  "# Written by gumshoe new. What was guessed is said in comments: correct it where it is wrong.\n\n"
+                  "schema = 1\ntitle  = {}\n\n[model]\nname = \"expression\"\n\n[model.indications]\n",
+                  data.file, scenario, quoted(data.file));
+  const auto size = [](const std::string& reading, const std::string& target) { return reading + "_by_" + target; };
+  std::string quantities;
+  for (const auto& [target, reading] : columns) {
+    const std::string name = plain_name(reading->name), unit = unit_or(*reading, "mm");
+    std::string formula = fmt::format("{} + {}_offset", plain_name(target->name), name);
+    quantities += line(name + "_offset", fmt::format("{{ estimated = true, value = \"0 {}\" }}", unit), "");
+    for (const auto& [other, column] : conditions) {
+      formula += fmt::format(" + {} * {}", size(name, other), other);
+      quantities += line(
+          size(name, other),
+          fmt::format("{{ estimated = true, value = \"0 ({})/({})\" }}", unit, unit_or(*column, "mm")), "");
+    }
+    out += line(name, quoted(formula), "guessed: read where it was commanded to");
+  }
+  out += '\n' + data_section(data, labels, conditions, used);
+  out += "\n[quantities]                            # fitted to the readings\n" + quantities;
+  for (const auto& [target, reading] : columns)
+    out += fmt::format("\n[indications.{}]\n", plain_name(reading->name)) +
+           line("readings", quoted(reading->name), "recognised by its name") +
+           "# u = \"0.02 mm\"                         # state the noise of a reading if you know it\n";
+  return out + "\n[trace]\n" + blocks_of(found, labels) + recorded;
+}
+
+} // namespace gumshoe::scenario
