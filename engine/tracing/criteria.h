@@ -19,6 +19,8 @@ struct Criteria {
   std::array<double, 5> correlations{0.0, 0.2, 0.4, 0.6, 0.8};
   /// Fewer readings than this do not distinguish serial correlation from a trend: only zero is tried. Tuned.
   std::size_t readings_for_correlation = 12;
+  /// Ratio of the noise of two indications from which it is not taken to be equal: of fifty readings, chance gives 1.3.
+  double unequal_spread = 1.5;
   /// Standard deviations of a variance component tried, in units of the typical noise: steps of about a factor two,
   /// because the likelihood is flat in the logarithm.
   std::array<double, 7> scatter_ratios{0.35, 0.7, 1.4, 2.8, 6.0, 15.0, 50.0};
@@ -172,6 +174,9 @@ struct Criteria {
   /// Growth of the hold-out's root mean square that vetoes a finding, and the standard deviations by which its
   /// predicted change must be larger than the readings show: a right finding is overstated so in one of twenty.
   double veto_growth = 1.05, overstated = 1.645;
+  /// Growth at which a drift is vetoed beyond its end, too: one that levels off there leaves at most about its range,
+  /// of which a constant leaves half; curves that cancel only where they were fitted leave any multiple.
+  double astray = 4;
   double insensitive = 1e-9;     ///< share of a signature in the hold-out blocks below which they cannot judge it
   std::size_t noise_draws = 199; ///< data sets of pure noise that "noise alone" is computed from
   /// A shape parameter is a size where its u is below this share of it, and has a distribution in the traced scenario

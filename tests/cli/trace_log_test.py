@@ -301,6 +301,66 @@ class TraceLog(InFolder):
         self.assertEqual([f["depends_on"] for f in v["findings"]], [["position"]])
         self.assertLess(v["rms"]["holdout_after"], v["rms"]["holdout_noise_interval95"][1])
 
+    def test_a_ball_bar_that_was_centred_anew(self):
+        """Four circles, each with an eccentricity of its own, that drifts and steps in order must not hide."""
+        draw, rows = random.Random(77), ["run;dir;angle_deg;dr_um"]
+        for run in range(1, 5):
+            x, y = draw.gauss(0, 3), draw.gauss(0, 3)
+            for a in (range(0, 360, 5) if run % 2 else range(355, -1, -5)):
+                t = math.radians(a)
+                rows.append(f"{run};{'CCW' if run % 2 else 'CW'};{a};{x * math.cos(t) + y * math.sin(t) + 2.5 * math.sin(2 * t) + draw.gauss(0, 0.3):.2f}")
+        (self.folder / "log.csv").write_text("\n".join(rows) + "\n")
+        for words, told in (((), True), (("--role", "run=alignment", "--force"), False)):
+            self.assertEqual(gumshoe("new", "--from", "log.csv", *words, cwd=self.folder).returncode, 0)
+            run = gumshoe("trace", "log.toml", "--loop", "3", "--draws", "199", "--format", "json", "--out", "t.h5", "--force", cwd=self.folder)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            v = json.loads(run.stdout)
+            first = v["rounds"][0]
+            said = gumshoe("trace", "log.toml", "--draws", "199", "--format", "json", "--out", "u.h5", "--force", cwd=self.folder)
+            self.assertEqual("each run has a first wave of its own against position" in said.stdout, told)
+            if not told:
+                self.assertLess(first["after"], 1.2 * 0.3e-6)
+
+    def test_a_slope_of_one_channel_goes_before_scatter_of_blocks(self):
+        """A spindle and its room: three channels, of which one follows the room's slow temperature as well."""
+        draw, spindle, rows = random.Random(3), 21.0, ["t_min,X_um,Y_um,Z_um,T_spindle,T_room,rpm"]
+        for k in range(240):
+            rpm = 6000 if k // 60 % 2 == 0 else 0
+            spindle += ((34 if rpm else 21) - spindle) / 25
+            room = 20.5 + 0.6 * math.sin(k / 240 * 2 * math.pi)
+            y = (-0.3 * (spindle - 21), 0.9 * (spindle - 21), 2.1 * (spindle - 21) + 0.6 * (room - 20.5))
+            rows.append(f"{k}," + ",".join(f"{v + draw.gauss(0, 0.35):.1f}" for v in y) + f",{spindle + draw.gauss(0, 0.05):.2f},{room + draw.gauss(0, 0.05):.2f},{rpm}")
+        v = self.trace(rows)
+        self.agree(self.sizes(v), {"polynomial:t_spindle of z_um": 2.1, "polynomial:t_spindle of y_um": 0.9,
+                                   "polynomial:t_spindle of x_um": -0.3, "polynomial:t_room of z_um": 0.6})
+
+    def test_a_slope_by_a_speed_has_a_unit(self):
+        """um per 1/min; and channels whose noises differ tenfold."""
+        draw, rows = random.Random(6), ["series;direction;n [1/min];dx [um];dy [um]"]
+        for series in range(1, 4):
+            for way in ("up", "down"):
+                for n in (range(1000, 9000, 1000) if way == "up" else range(8000, 0, -1000)):
+                    rows.append(f"{series};{way};{n};{draw.gauss(0, 1):.2f};{-0.6 * n / 8000 + draw.gauss(0, 0.1):.2f}")
+        v = self.trace(rows)
+        self.assertEqual([f["described_by"] for f in v["findings"]], ["polynomial:n_1_min of dy_um"])
+        self.assertTrue(any("um/(1/min), u = " in remark for remark in v["findings"][0]["remarks"]))
+        slope, u = re.search(r"(\S+) um/\(1/min\), u = (\S+) um", " ".join(v["findings"][0]["remarks"])).groups()
+        self.assertAlmostEqual(float(slope), -0.6 / 8000, delta=3.5 * float(u))
+
+    def test_a_curve_that_goes_astray_beyond_its_end_is_rejected(self):
+        """Creep of a load cell: 20 s apart, loaded from 200 s to 1000 s."""
+        draw, rows = random.Random(5), ["t_s,Kraft_kN,S_mVV"]
+        for t in range(0, 1800, 20):
+            load = 0 if t < 200 or t > 1000 else 50
+            creep = 0 if t < 200 else 1 - math.exp(-(t - 200) / 150) if t <= 1000 else math.exp(-(t - 1000) / 150)
+            rows.append(f"{t},{load},{0.04 * load + 6e-4 * creep + draw.gauss(0, 2e-5):.6f}")
+        (self.folder / "log.csv").write_text("\n".join(rows) + "\n")
+        self.assertEqual(gumshoe("new", "--from", "log.csv", cwd=self.folder).returncode, 0)
+        run = gumshoe("trace", "log.toml", "--loop", "5", "--draws", "199", "--format", "json", "--out", "t.h5", cwd=self.folder)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        for round in json.loads(run.stdout)["rounds"]:
+            self.assertLess(round["holdout_after"], 4.01 * round["holdout_before"])
+
     def test_a_drift_without_times_or_by_a_temperature(self):
         """An axis that grows while its temperature rises, and no time: what is found holds in the second round."""
         draw, rows = random.Random(11), ["run,dir,target_mm,measured_mm,temp"]

@@ -84,3 +84,17 @@ TEST_CASE("a column that no row moves stays at its declared value", "[tracing]")
   CHECK(e.covariance(2)(1, 1) == 1);
   CHECK(e.squares(y)[0] == Approx(1.0 / 5));
 }
+
+TEST_CASE("an entry whose square is no number counts for nothing", "[tracing]") {
+  // Rotations by angles of rounding leave such entries.
+  for (const double nothing : {1e-165, 1e-200, 1e-320}) {
+    const std::vector<SparseRow> rows{{{0, 1.0}, {1, nothing}}, {{1, nothing}}, {{0, 1.0}, {1, 2.0}}, {{1, 1.0}}};
+    const Elimination e(rows, 2, 2);
+    const Matrix y = (Matrix(4, 1) << 3, 5, 7, 1).finished();
+    // Rows 1, 3 and 4: (1 0), (1 2), (0 1) x = (3, 7, 1); the second is left alone.
+    const Matrix a = (Matrix(3, 2) << 1, 0, 1, 2, 0, 1).finished();
+    const Vector b = (Vector(3) << 3, 7, 1).finished(), x = (a.transpose() * a).inverse() * a.transpose() * b;
+    CHECK((e.solved(y) - x).norm() < 1e-12);
+    CHECK(e.squares(y)[0] == Approx(25 + (b - a * x).squaredNorm()));
+  }
+}

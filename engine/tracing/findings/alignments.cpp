@@ -1,6 +1,7 @@
 /// Groups of readings that have a line, or a first wave, of their own: passes between which something was aligned anew.
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include <Eigen/QR>
@@ -16,40 +17,54 @@ namespace {
 
 /// What each group has for itself, in addition to a mean.
 struct Own {
-  double share = 0;    ///< of the squares about the groups' means
-  double p_value = 1;  ///< were the noise independent
-  Matrix coefficients; ///< groups x columns, less what all have in common
+  double share = 0;   ///< of the squares about the groups' means and what all have in common
+  double p_value = 1; ///< were the noise independent
+  double size = 0;    ///< root mean square in the readings
 };
 
-/// Least squares of y on the columns, with a mean for each group; `apart`: coefficients for each group, too.
-Matrix fitted(const Vector& y, const Matrix& x, const std::vector<std::size_t>& group, std::size_t groups, bool apart,
-              double& squares) {
-  const Index p = x.cols(), k = index(groups);
-  Matrix a = Matrix::Zero(y.size(), k + (apart ? k * p : p));
-  for (Index i = 0; i < y.size(); ++i) {
-    const Index g = index(group[index(i)]);
-    a(i, g) = 1;
-    a.row(i).segment(k + (apart ? g * p : 0), p) = x.row(i);
-  }
-  const Vector b = a.colPivHouseholderQr().solve(y);
-  squares = (y - a * b).squaredNorm();
-  if (!apart) return {};
-  return Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(b.data() + k, k, p);
+/// Squares of y that a least-squares fit of the columns leaves; `rank` of the columns.
+double left_over(const Matrix& a, const Vector& y, Index& rank, Vector* coefficients = nullptr) {
+  const Eigen::CompleteOrthogonalDecomposition<Matrix> qr(a);
+  rank = qr.rank();
+  const Vector b = qr.solve(y);
+  if (coefficients) *coefficients = b;
+  return (y - a * b).squaredNorm();
 }
 
-Own own_of(const Vector& y, const Matrix& x, const std::vector<std::size_t>& group, std::size_t groups) {
+/// Less its mean in each cell.
+void leave_cells(Matrix& m, const std::vector<std::size_t>& cell, std::size_t cells) {
+  Matrix mean = Matrix::Zero(index(cells), m.cols());
+  Vector count = Vector::Zero(index(cells));
+  for (Index i = 0; i < m.rows(); ++i) mean.row(index(cell[index(i)])) += m.row(i), ++count[index(cell[index(i)])];
+  for (Index i = 0; i < m.rows(); ++i) m.row(i) -= mean.row(index(cell[index(i)])) / count[index(cell[index(i)])];
+}
+
+/// Means of the groups, columns that all have in common, and columns of each group.
+/// @param cell  readings of equal conditions, whose means count for nothing; empty: all count
+Own own_of(Matrix y, const Matrix& x, const std::vector<std::size_t>& group, std::size_t groups,
+           const std::vector<std::size_t>& cell) {
   Own out;
-  const auto k = static_cast<double>(groups), p = static_cast<double>(x.cols()), n = static_cast<double>(y.size());
-  const double more = (k - 1) * p, freedom = n - k * (1 + p);
-  if (freedom < 4) return out;
-  double common = 0, apart = 0;
-  fitted(y, x, group, groups, false, common);
-  out.coefficients = fitted(y, x, group, groups, true, apart);
-  if (!(common > 0) || !(apart > 0)) return out;
+  const Index p = x.cols(), k = index(groups), n = y.rows();
+  Matrix a = Matrix::Zero(n, k + p + k * p);
+  for (Index i = 0; i < n; ++i) {
+    const Index g = index(group[index(i)]);
+    a(i, g) = 1;
+    a.row(i).segment(k, p) = x.row(i);
+    a.row(i).segment(k + p + g * p, p) = x.row(i);
+  }
+  const std::size_t cells = cell.empty() ? 0 : *std::ranges::max_element(cell) + 1;
+  if (cells > 0) leave_cells(y, cell, cells), leave_cells(a, cell, cells);
+  Index fewer = 0, more = 0;
+  Vector b;
+  const double common = left_over(a.leftCols(k + p), y, fewer), apart = left_over(a, y, more, &b);
+  const double freedom = static_cast<double>(n - index(cells) - more);
+  if (freedom < 4 || more == fewer || !(common > 0) || !(apart > 0)) return out;
   out.share = 1 - apart / common;
-  const double f = (common - apart) / more / (apart / freedom);
-  out.p_value = boost::math::cdf(boost::math::complement(boost::math::fisher_f(more, freedom), std::max(f, 0.0)));
-  out.coefficients.rowwise() -= out.coefficients.colwise().mean();
+  const auto gained = static_cast<double>(more - fewer);
+  const double f = (common - apart) / gained / (apart / freedom);
+  out.p_value = boost::math::cdf(boost::math::complement(boost::math::fisher_f(gained, freedom), std::max(f, 0.0)));
+  // The part that is the groups' own, over the freedom that it takes of what does not repeat.
+  out.size = std::sqrt((common - apart) / (static_cast<double>(n - index(cells) - fewer)));
   return out;
 }
 
@@ -81,7 +96,15 @@ void describe_alignments(const TraceContext& c, const Search& s, Trace& out) {
       rows.push_back(row);
       readings.push_back(fit.design.reading[index(row)]);
     }
-  const Vector y = fit.residual(rows);
+  // What is left after everything found; and what does not repeat of that before, of which a drift or a step may have
+  // taken some.
+  const Vector left = fit.residual(rows), before = s.base.residual(rows);
+  const bool predicted = !(out.rms.holdout_after > out.rms.holdout_noise_high);
+  const Replicates& replicates = c.fitter.replicates();
+  std::map<std::size_t, std::size_t> numbers;
+  std::vector<std::size_t> cell;
+  for (const Index row : rows)
+    cell.push_back(numbers.try_emplace(replicates.cell[index(row) / o.indications], numbers.size()).first->second);
   for (const Grouping& g : o.labels) {
     std::vector<std::size_t> group, known;
     for (const std::size_t r : readings) {
@@ -93,16 +116,17 @@ void describe_alignments(const TraceContext& c, const Search& s, Trace& out) {
     for (const Covariate& v : o.covariates) {
       if (!v.commanded || v.course || v.levels.size() < criteria.levels_of_alignments) continue;
       bool turns = false;
-      const Own own = own_of(y, columns_of(v, readings, turns), group, known.size());
+      const Matrix x = columns_of(v, readings, turns);
+      Own own = own_of(left, x, group, known.size(), {});
+      if (own.p_value > criteria.p_of_alignments && predicted) continue;
+      if (own.share < criteria.share_of_alignments) own = own_of(before, x, group, known.size(), cell);
       if (own.share < criteria.share_of_alignments || own.p_value > criteria.p_of_alignments) continue;
-      const double sd = std::sqrt(own.coefficients.squaredNorm() /
-                                  static_cast<double>((known.size() - 1) * index(own.coefficients.cols())));
       out.statements.push_back(fmt::format(
-          "each {} has {} of its own against {} (standard deviation {} {}): where it was aligned anew, the model needs "
-          "{} for each, such as gumshoe new --role COLUMN=alignment writes",
+          "each {} has {} of its own against {} ({}, root mean square): where it was aligned anew, the model needs {} "
+          "for each, such as gumshoe new --role COLUMN=alignment writes",
           g.name, turns ? "a first wave" : "a slope", v.name,
-          shown_size(sd, std::string(card.unit), std::string(card.si_unit)),
-          turns ? "in cosine and sine" : "at the ends", turns ? "an eccentricity" : "a slope"));
+          shown_size(own.size, std::string(card.unit), std::string(card.si_unit)),
+          turns ? "an eccentricity" : "a slope"));
     }
   }
 }

@@ -217,6 +217,8 @@ private:
   bool confirmed_between_blocks() {
     const auto names = extrapolated();
     const Observations& o = c_.observations;
+    // Where what was found goes astray beyond its end, it is no description that goes on.
+    if (scored_after_.rms[0] > criteria.astray * scored_before_.rms[0]) return false;
     if (names.empty() || o.blocks.groups.size() < criteria.blocks_for_folds) return false;
     Blocks between;
     for (std::size_t g = 1; g + 1 < o.blocks.groups.size(); ++g) { // numbered in the order of measurement

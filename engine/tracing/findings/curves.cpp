@@ -17,10 +17,11 @@
 namespace gumshoe::tracing {
 namespace {
 
-/// The indication that a term moves: the last, if it moves several.
+/// The indication that a term moves, by more than rounding: the last, if it moves several.
 std::size_t moved_indication(const Matrix& columns, std::size_t indications) {
+  const double rounding = 1e-9 * columns.norm();
   for (std::size_t i = indications; i-- > 1;)
-    if (columns(Eigen::seq(index(i), Eigen::last, index(indications)), Eigen::all).norm() > 0) return i;
+    if (columns(Eigen::seq(index(i), Eigen::last, index(indications)), Eigen::all).norm() > rounding) return i;
   return 0;
 }
 

@@ -31,7 +31,9 @@ Fitter::Fitter(const propagation::Experiment& experiment, const Simulator& simul
         needed.insert(q);
   if (noise_declared_) need_independent_noise();
   needed_.assign(needed.begin(), needed.end());
+  spread_ = Vector::Ones(index(observations.indications));
   find_responses();
+  find_spread();
   find_covariance_models();
 }
 
@@ -150,6 +152,39 @@ void Fitter::find_responses() {
     responses_[i] = declared_response(simulator_, simulator_.estimates(), needed_[i], u, alone);
     if (!responses_[i].straight()) offset_ += responses_[i].offset;
   }
+}
+
+namespace {
+
+/// Robust standard deviation of independent numbers of median zero. Readings that are alone in their cell are zero but
+/// for rounding, and say nothing.
+double scale_of(std::vector<double> x) {
+  for (double& one : x) one = std::fabs(one);
+  const double largest = *std::ranges::max_element(x);
+  std::erase_if(x, [&](double one) { return !(one > 1e-9 * largest); });
+  if (x.empty()) return 0;
+  const auto middle = x.begin() + static_cast<std::ptrdiff_t>(x.size() / 2);
+  std::nth_element(x.begin(), middle, x.end());
+  return *middle / 0.6744897501960817;
+}
+
+} // namespace
+
+void Fitter::find_spread() {
+  const auto k = index(observations_.indications);
+  const JointFit fit = linearised(1);
+  if (noise_declared_ || k == 1 || !fit.valid || rows_.size() < 8 * index(k)) return;
+  const PureError pure(fit.design, rows_, replicates_);
+  if (!pure.known()) return; // what the model lacks would count as noise
+  const Matrix about = pure.about_cells(fit.residual(rows_));
+  Vector found(k);
+  for (Index i = 0; i < k; ++i) {
+    std::vector<double> x; // second differences: of what is smooth in time little is left
+    for (Index row = i; row + 2 * k < about.rows(); row += k)
+      x.push_back((about(row, 0) - 2 * about(row + k, 0) + about(row + 2 * k, 0)) / std::sqrt(6.0));
+    found[i] = scale_of(std::move(x));
+  }
+  if (found.minCoeff() > 0 && found.maxCoeff() > criteria.unequal_spread * found.minCoeff()) spread_ = found / found[0];
 }
 
 /// What comes back in every block is no noise, nor is a slow drift, however well a serial correlation or a variance

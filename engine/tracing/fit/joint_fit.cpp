@@ -141,7 +141,8 @@ JointFit Fitter::fit(const std::vector<Term>& terms, double noise, const JointFi
     linearise(fit);
   }
   converge(fit, noise);
-  for (int lesser = 0; lesser < criteria.most_optima && explore(fit); ++lesser) converge(fit, noise);
+  for (int lesser = 0; lesser < criteria.most_optima && fit.valid && explore(fit); ++lesser) converge(fit, noise);
+  if (!fit.valid) return fit;
   cross_jumps(fit, noise, jump_reach(terms, start));
   return fit;
 }
@@ -156,6 +157,10 @@ void Fitter::converge(JointFit& fit, double noise) const {
     const Statistics now = scan.run(chosen);
     fit.covariance_model = scan.covariance_models()[now.cautious[0]];
     fit.variance = now.variance_cautious[0];
+    if (!std::isfinite(fit.variance)) {
+      fit.valid = false;
+      return;
+    }
     const Whitened& w = scan.whitened(now.cautious[0]);
     fit.criterion = static_cast<double>(scan.degrees_of_freedom()) * std::log(fit.variance) + w.log_determinant();
     Matrix covariance;

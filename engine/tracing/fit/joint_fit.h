@@ -126,6 +126,8 @@ private:
   /// Computes the responses to declared draws of effects over their values, at the estimates.
   void find_responses();
   void find_covariance_models();
+  /// Where no noise is declared: whether one indication scatters more than another, from what does not repeat.
+  void find_spread();
 
   bool linearise(JointFit& fit) const;
   void set_fixed(const Matrix& derivative, const std::vector<std::size_t>& wanted, JointFit& fit) const;
@@ -166,6 +168,7 @@ private:
   std::vector<FreeUnknown> unknowns_;
   std::vector<Draw> draws_;
   bool noise_declared_ = false;
+  Vector spread_; ///< by indication: standard deviation of noise that is not declared, over that of the first
   std::vector<std::size_t> needed_;         ///< quantities whose derivatives are used, ascending
   std::vector<DeclaredResponse> responses_; ///< one per column of `needed_`
   Vector offset_;                           ///< shift of the readings' mean over these draws, by row of the simulator

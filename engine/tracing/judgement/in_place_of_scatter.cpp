@@ -8,16 +8,23 @@
 namespace gumshoe::tracing {
 namespace {
 
+/// "polynomial:t_room of z": without the indication.
+std::string without_indication(const std::string& name, const Observations& o) {
+  for (const std::string& indication : o.names)
+    if (o.indications > 1 && name.ends_with(" of " + indication)) return name.substr(0, name.size() - indication.size() - 4);
+  return name;
+}
+
 /// One group that differs, a straight line in what was recorded, a step or a course in time: shapes that scatter may
 /// look like.
 bool is_plain(const Candidate& a, const Grouping& group, const Observations& o) {
-  if (a.name.starts_with("step:") && std::ranges::find(group.groups, a.name.substr(5)) != group.groups.end())
-    return true;
+  const std::string name = without_indication(a.name, o);
+  if (name.starts_with("step:") && std::ranges::find(group.groups, name.substr(5)) != group.groups.end()) return true;
   if (a.physical() || a.depends_on.size() != 1) return false;
   const auto x = std::ranges::find(o.covariates, a.depends_on[0], &Covariate::name);
   if (x == o.covariates.end()) return false;
-  if (x->course) return a.family == Family::omnibus || a.name.starts_with("step:");
-  return !x->commanded && a.name == "polynomial:" + x->name && a.shape.empty();
+  if (x->course) return a.family == Family::omnibus || name.starts_with("step:");
+  return !x->commanded && name == "polynomial:" + x->name && a.shape.empty();
 }
 
 /// Whether a noise, in units of the declared one, is surely larger than that.

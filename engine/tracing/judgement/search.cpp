@@ -176,7 +176,10 @@ private:
   }
 
   /// The fit with the terms of another, its noise found anew.
-  void adopt(const JointFit& fit) { out_.found = with_tuned_forms(c_, c_.fitter.fit(fit.terms, 0, &fit)); }
+  void adopt(const JointFit& fit) {
+    JointFit again = c_.fitter.fit(fit.terms, 0, &fit);
+    out_.found = with_tuned_forms(c_, again.valid ? std::move(again) : fit);
+  }
 
   /// Candidates that could win, by the whole model, best first.
   std::vector<Trial> trials() const {

@@ -85,6 +85,7 @@ public:
     for (std::size_t i = 0; i < columns_.size(); ++i) {
       const Index slot = slot_of_[columns_[i]];
       double& own = row_[index(slot)];
+      if (std::fabs(own) < nothing) own = 0; // rotated again and again by angles of rounding; its square is none
       if (own == 0) continue;
       const double before = factor_(slot, slot), length = std::sqrt(before * before + own * own);
       const double c = before / length, s = own / length;
@@ -122,6 +123,7 @@ public:
 
 private:
   static constexpr Index none = -1;
+  static constexpr double nothing = 1e-140; ///< in units of the noise
   Elimination& to_;
   std::size_t free_columns_;
   std::vector<std::size_t> last_; ///< by column: the last row that it moves

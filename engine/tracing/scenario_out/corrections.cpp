@@ -12,11 +12,15 @@
 namespace gumshoe::tracing {
 namespace {
 
-/// The indication that a shape moves: it has one alone.
+/// The indication that a shape moves: it has one alone, and others move by rounding.
 std::size_t indication_of(const Observations& o, const Matrix& columns) {
-  for (std::size_t i = 0; i < o.indications; ++i)
-    if (columns(Eigen::seq(index(i), Eigen::last, index(o.indications)), Eigen::all).norm() > 0) return i;
-  return 0;
+  std::size_t out = 0;
+  double most = 0;
+  for (std::size_t i = 0; i < o.indications; ++i) {
+    const double moved = columns(Eigen::seq(index(i), Eigen::last, index(o.indications)), Eigen::all).norm();
+    if (moved > most) most = moved, out = i;
+  }
+  return out;
 }
 
 /// Conditions and columns that the scenario knows by name, those that the shape is named after first; among these the
