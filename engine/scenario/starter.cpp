@@ -97,12 +97,14 @@ std::vector<const RecognisedColumn*> channels(const RecognisedData& data, const 
   return out;
 }
 
-/// Circumstances with a known unit, which vary: a feed, a humidity.
+/// Circumstances with a known unit, which vary: a feed, a humidity, and what else was set to a few values, as a radius.
 NamedColumns circumstances(const RecognisedData& data, const std::set<std::string>& used) {
+  constexpr std::size_t few = 10;
   NamedColumns out;
+  const auto set = [&](const RecognisedColumn& c) { return different(data, c) <= few && was_set(data, c); };
   for (const RecognisedColumn& c : data.columns)
-    if (c.number && !c.gaps && c.role == Role::other && c.unit != "?" && is_circumstance(c) && !counts_rows(c) &&
-        !names_parts(c) && !used.contains(c.name) && different(data, c) > 1)
+    if (c.number && !c.gaps && c.role == Role::other && c.unit != "?" && (is_circumstance(c) || set(c)) &&
+        !counts_rows(c) && !names_parts(c) && !used.contains(c.name) && different(data, c) > 1)
       out.emplace_back(plain_name(c.name), &c);
   return out;
 }

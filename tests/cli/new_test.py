@@ -224,7 +224,7 @@ class New(InFolder):
         """A pressure next to a target; a coordinate in coarse steps; runs side by side."""
         rows = ["Target (mm)\tError (um)\tPressure (mbar)"] + [f"{x}\t{x % 7}\t{1013 + x % 3}" for x in range(0, 60, 5)] * 2
         (self.folder / "p.txt").write_text("\n".join(rows) + "\n")
-        self.assertIn("Pressure (mbar): not used", self.new("--from", "p.txt"))
+        self.assertIn("Pressure (mbar): used by its name", self.new("--from", "p.txt"))
         steps = [0, 1, 1, 2, 2, 2, 2, 2, 3, 3, 3, 4, 4, 5, 1, 2, 3, 2, 6, 3] * 3 + [9, 11]
         rows = ["Time_min,Sphere_Y_mm,Diameter_mm"] + [f"{i},{200 + s / 1e4:.4f},{25 + i % 5 / 1e4}" for i, s in enumerate(steps)]
         (self.folder / "s.csv").write_text("\n".join(rows) + "\n")

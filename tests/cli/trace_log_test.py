@@ -334,6 +334,19 @@ class TraceLog(InFolder):
         self.agree(self.sizes(v), {"polynomial:t_spindle of z_um": 2.1, "polynomial:t_spindle of y_um": 0.9,
                                    "polynomial:t_spindle of x_um": -0.3, "polynomial:t_room of z_um": 0.6})
 
+    def test_an_operator_before_his_slope(self):
+        """Operator B presses by 1.2 um everywhere: no slope or table of his, which describe four lengths as well."""
+        for seed in (1, 2, 3):
+            draw, rows = random.Random(seed), ["date,machine,operator,feature,nominal_mm,measured_mm,temp_c"]
+            for day in range(2, 8):
+                warm = 20 + draw.gauss(0, 0.6)
+                for machine, operator in (("M1", "A"), ("M1", "B"), ("M2", "A"), ("M2", "B")):
+                    for k, length in enumerate((25, 50, 75, 100)):
+                        y = length + 0.0012 * (operator == "B") + draw.gauss(0, 0.0006)
+                        rows.append(f"2026-02-{day:02},{machine},{operator},F{k + 1},{length},{y:.4f},{warm:.1f}")
+            v = self.trace(rows)
+            self.assertEqual([f["described_by"] for f in v["findings"]], ["step:operator B"])
+
     def test_a_slope_by_a_speed_has_a_unit(self):
         """um per 1/min; and channels whose noises differ tenfold."""
         draw, rows = random.Random(6), ["series;direction;n [1/min];dx [um];dy [um]"]

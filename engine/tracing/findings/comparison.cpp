@@ -40,7 +40,8 @@ class Comparison {
 public:
   Comparison(const TraceContext& c, const Search& s, Trace& out)
       : c_(c), rows_(c.fitter.rows()), before_(s.base), after_(s.found),
-        previous_(s.stages.size() > 1 ? s.stages[s.stages.size() - 2].fit : s.base), out_(out) {
+        previous_(s.stages.size() > 1 ? s.stages[s.stages.size() - 2].fit : s.base),
+        has_previous_(s.stages.size() > 1), out_(out) {
     // All in the units of one noise: the fit without the effect takes it for noise. Each predicts by its own covariance
     // model, as a trace of the scenario would that it stands for.
     for (JointFit* fit : {&before_, &previous_}) {
@@ -143,7 +144,8 @@ private:
     const Vector bad = excess(scored_before_, scored_after_, after_.design);
     const Scores clean_before = predict(before_, before_.residual - bad, blocks);
     Scores clean_after = predict(after_, after_.residual - bad, blocks);
-    const bool refused = judge(blocks, clean_before, clean_after) && !confirmed_between_blocks();
+    const bool refused = (judge(blocks, clean_before, clean_after) || last_spoils(blocks, bad, clean_after)) &&
+                         !confirmed_between_blocks();
     if (refused) {
       scored_after_ = scored_before_;
       clean_after = clean_before;
@@ -189,6 +191,14 @@ private:
       out_.statements.push_back("the hold-out blocks are predicted no better with what was found, but no worse than "
                                 "chance gives: they can neither confirm nor reject it");
     return says == Holdout::vetoes;
+  }
+
+  /// Whether they are predicted much worse with what the last round found than without it, though better than before.
+  bool last_spoils(const Blocks& blocks, const Vector& bad, const Scores& after) const {
+    if (c_.observations.holdout_blocks.empty() || !scored_before_.scored() || !has_previous_) return false;
+    const Scores before = predict(previous_, previous_.residual - bad, blocks);
+    return after.whitened > before.whitened && after.rms[0] > criteria.veto_growth * before.rms[0] &&
+           overstated(before, after, after_.design) > criteria.overstated_last;
   }
 
   /// Names of what was found to depend on, of which the hold-out readings lie outside the training range.
@@ -286,6 +296,7 @@ private:
   JointFit before_;
   JointFit after_;
   JointFit previous_; ///< without what the last round found
+  bool has_previous_; ///< it is not the first round
   Trace& out_;
   Matrix noise_; ///< draws of the fitted noise, all rows x sets
   Scores scored_before_, scored_after_;

@@ -315,13 +315,18 @@ private:
   }
 
   /// A form of one size, such as a drift that levels off, goes before a free curve in the same condition that does not
-  /// exclude it: it says more, and goes on beyond the readings.
+  /// exclude it: it says more, and goes on beyond the readings. And one that depends on less goes before a product or a
+  /// table: a step of one operator before a slope of his along the positions.
   void straighten(std::vector<Trial>& tried) const {
-    const Candidate& curve = candidate(tried[0].candidate);
-    if (curve.family != Family::omnibus || curve.depends_on.size() != 1) return;
+    const Candidate& best = candidate(tried[0].candidate);
+    const bool curve = best.family == Family::omnibus && best.depends_on.size() == 1,
+               of_two = best.depends_on.size() == 2;
+    if (!curve && !of_two) return;
     const auto simple = std::ranges::find_if(tried, [&](const Trial& t) {
       const Candidate& one = candidate(t.candidate);
-      return one.columns.cols() == 1 && one.depends_on == curve.depends_on;
+      if (one.columns.cols() != 1 || one.depends_on.size() != 1) return false;
+      return curve ? one.depends_on == best.depends_on
+                   : one.form == Form::fixed && std::ranges::count(best.depends_on, one.depends_on[0]) > 0;
     });
     if (simple == tried.end()) return;
     const double lead = tried[0].score - simple->score;
