@@ -37,7 +37,8 @@ bool plain_grammar(const std::string& unit) {
       const char before = i ? unit[i - 1] : '\0';
       const bool exponent = i && (letter(before) || before == '-' || before == '^' || starts_number(before));
       // "1", "1/min", "um/(1/min)"
-      const bool one = c == '1' && (i == 0 || before == '(') && (unit.size() == 1 || (i + 1 < unit.size() && unit[i + 1] == '/'));
+      const bool one =
+          c == '1' && (i == 0 || before == '(') && (unit.size() == 1 || (i + 1 < unit.size() && unit[i + 1] == '/'));
       if (!exponent && !one) return false;
     } else if (c == '-') {
       if (i == 0 || !(letter(unit[i - 1]) || unit[i - 1] == '^')) return false;
@@ -216,7 +217,8 @@ std::optional<Unit> unit_of_database(const std::string& name) {
     ut_set_error_message_handler(ut_ignore);
     system = ut_read_xml(nullptr);
     if (!system) // no error of the input: whoever tries another unit is not to go on without this one
-      throw std::runtime_error("the unit database of udunits2 cannot be read (it belongs to the package libudunits2-data)");
+      throw std::runtime_error(
+          "the unit database of udunits2 cannot be read (it belongs to the package libudunits2-data)");
   }
   if (name.empty() || !plain_grammar(name)) return std::nullopt;
   struct Free {

@@ -86,7 +86,7 @@ void tell(RecognisedData& data, const Options& o) {
     const auto [column, word] = assignment(text, "--role");
     const ColumnRole role = role_of(word);
     const bool further = role == ColumnRole::reading && std::exchange(told_readings, true); // there may be several
-    for (auto& c : data.columns) // else one column has it
+    for (auto& c : data.columns)                                                            // else one column has it
       if (c.role == role && role != ColumnRole::other && !further) c.role = ColumnRole::other;
     auto& c = column_of(data, column, "--role");
     c.role = role;
@@ -163,10 +163,10 @@ void write_file(const std::string& path, const std::string& text, bool force) {
 void print_columns(const RecognisedData& found, const std::string& text) {
   for (const auto& c : found.columns) {
     const std::string quoted = scenario::quoted(c.name);
-    const char* use = text.find(quoted) == std::string::npos                 ? "not used"
+    const char* use = text.find(quoted) == std::string::npos                   ? "not used"
                       : text.find("readings = " + quoted) != std::string::npos ? name(ColumnRole::reading)
-                      : c.role == ColumnRole::other                          ? "used by its name"
-                                                                             : name(c.role);
+                      : c.role == ColumnRole::other                            ? "used by its name"
+                                                                               : name(c.role);
     std::cout << fmt::format("  {}: {}{}{}\n", c.name, use,
                              c.unit == "1"   ? ""
                              : c.unit == "?" ? ", unit unknown"

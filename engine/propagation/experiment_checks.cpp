@@ -38,8 +38,8 @@ void Experiment::check_reading(std::size_t r) const {
   if (problem.empty()) return;
   const std::string at = reading_names_[r];
   const auto [where, section] = place_of(scenario_, *model().card, problem);
-  throw InputError({{where, section + ": " + problem + (at.empty() ? "" : " at " + reading_text(r)),
-                     "physically impossible", ""}});
+  throw InputError(
+      {{where, section + ": " + problem + (at.empty() ? "" : " at " + reading_text(r)), "physically impossible", ""}});
 }
 
 /// Draws as the model sees them.

@@ -50,16 +50,17 @@ const std::vector<RoleWords>& role_words() {
 /// Spellings of units in headers.
 const std::map<std::string, std::string>& unit_words() {
   static const std::map<std::string, std::string> all{
-      {"um", "um"},         {"µm", "um"},         {"μm", "um"},       {"micron", "um"},   {"nm", "nm"},
-      {"mm", "mm"},         {"m", "m"},           {"km", "km"},       {"inch", "inch"},   {"deg", "deg"},
-      {"°", "deg"},         {"rad", "rad"},       {"mrad", "mrad"},   {"urad", "urad"},   {"µrad", "urad"},
-      {"arcsec", "arcsec"}, {"s", "s"},           {"sec", "s"},       {"ms", "ms"},       {"min", "min"},
-      {"h", "h"},           {"K", "K"},           {"degC", "degC"},   {"°C", "degC"},     {"C", "degC"},
-      {"N", "N"},           {"mm/min", "mm/min"}, {"mm/s", "mm/s"},   {"um/m", "um/m"},   {"%", "%"},
-      {"ppm", "ppm"},       {"ppb", "ppb"},       {"Hz", "Hz"},       {"kN", "kN"},       {"MN", "MN"},
-      {"Nm", "N m"},        {"V", "V"},           {"mV", "mV"},       {"mV/V", "mV/V"},   {"mVV", "mV/V"},    {"bar", "bar"},
-      {"mbar", "mbar"},     {"Pa", "Pa"},         {"hPa", "hPa"},     {"kPa", "kPa"},     {"MPa", "MPa"},
-      {"kg", "kg"},         {"rpm", "1/min"},     {"1/min", "1/min"}, {"U/min", "1/min"}, {"m/min", "m/min"}};
+      {"um", "um"},         {"µm", "um"},         {"μm", "um"},     {"micron", "um"},   {"nm", "nm"},
+      {"mm", "mm"},         {"m", "m"},           {"km", "km"},     {"inch", "inch"},   {"deg", "deg"},
+      {"°", "deg"},         {"rad", "rad"},       {"mrad", "mrad"}, {"urad", "urad"},   {"µrad", "urad"},
+      {"arcsec", "arcsec"}, {"s", "s"},           {"sec", "s"},     {"ms", "ms"},       {"min", "min"},
+      {"h", "h"},           {"K", "K"},           {"degC", "degC"}, {"°C", "degC"},     {"C", "degC"},
+      {"N", "N"},           {"mm/min", "mm/min"}, {"mm/s", "mm/s"}, {"um/m", "um/m"},   {"%", "%"},
+      {"ppm", "ppm"},       {"ppb", "ppb"},       {"Hz", "Hz"},     {"kN", "kN"},       {"MN", "MN"},
+      {"Nm", "N m"},        {"V", "V"},           {"mV", "mV"},     {"mV/V", "mV/V"},   {"mVV", "mV/V"},
+      {"bar", "bar"},       {"mbar", "mbar"},     {"Pa", "Pa"},     {"hPa", "hPa"},     {"kPa", "kPa"},
+      {"MPa", "MPa"},       {"kg", "kg"},         {"rpm", "1/min"}, {"1/min", "1/min"}, {"U/min", "1/min"},
+      {"m/min", "m/min"}};
   return all;
 }
 
@@ -350,13 +351,13 @@ void guess_roles(RecognisedData& data) {
 }
 
 bool is_circumstance(const RecognisedColumn& c) {
-  static const std::set<std::string> names{"feed",     "feedrate", "vorschub",   "speed",    "drehzahl", "rpm",
-                                           "humidity", "feuchte",  "luftfeuchte", "override", "velocity", "acceleration"};
+  static const std::set<std::string> names{"feed",        "feedrate", "vorschub", "speed",
+                                           "drehzahl",    "rpm",      "humidity", "feuchte",
+                                           "luftfeuchte", "override", "velocity", "acceleration"};
   const auto words = words_of(c.name);
   if (std::ranges::any_of(words, [&](const std::string& w) { return names.contains(w); })) return true;
-  return c.unit != "?" && std::ranges::any_of(std::array{"1/s", "m/s", "rad/s", "K"}, [&](const char* unit) {
-           return units::convertible(c.unit, unit);
-         });
+  return c.unit != "?" && std::ranges::any_of(std::array{"1/s", "m/s", "rad/s", "K"},
+                                              [&](const char* unit) { return units::convertible(c.unit, unit); });
 }
 
 bool counts_rows(const RecognisedColumn& c) {
@@ -373,10 +374,10 @@ bool says_missing(const std::string& text) {
 
 bool names_parts(const RecognisedColumn& c) {
   static const std::set<std::string> names{
-      "operator", "bediener", "observer", "lab",   "laboratory", "batch", "lot",      "machine", "maschine",
-      "sample",   "part",     "specimen", "tool",  "artefact",   "probe", "sensor",   "day",     "tag",
-      "shift",    "wafer",    "rod",      "touch", "hit",        "shot",  "antastung", "insert", "cavity", "nest",
-      "pose",     "werkzeug", "teil",     "platte", "schneide"};
+      "operator", "bediener", "observer", "lab",   "laboratory", "batch",   "lot",       "machine", "maschine",
+      "sample",   "part",     "specimen", "tool",  "artefact",   "probe",   "sensor",    "day",     "tag",
+      "shift",    "wafer",    "rod",      "touch", "hit",        "shot",    "antastung", "insert",  "cavity",
+      "nest",     "pose",     "werkzeug", "teil",  "platte",     "schneide"};
   const auto words = words_of(c.name);
   return c.unit == "?" && std::ranges::any_of(words, [&](const std::string& w) { return names.contains(w); });
 }

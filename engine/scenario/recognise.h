@@ -37,12 +37,14 @@ struct RecognisedData {
   const RecognisedColumn* find(ColumnRole role) const; ///< the first one, or null
 };
 
-/// Reads the text of a data file; runs side by side are taken one after the other; lines before the names of columns, and a line of units below them, are found. Throws
-/// InputError: no table, no rows, or a first row of numbers instead of names.
+/// Reads the text of a data file; runs side by side are taken one after the other; lines before the names of columns,
+/// and a line of units below them, are found. Throws InputError: no table, no rows, or a first row of numbers instead
+/// of names.
 RecognisedData recognise(const std::string& text, const std::string& file);
 
 /// Position and reading, where there is none yet: the first column of numbers that is left, if it was set, and the
-/// last that is no circumstance, if there is such a one. Without a time, a column that counts the readings stands for it.
+/// last that is no circumstance, if there is such a one. Without a time, a column that counts the readings stands for
+/// it.
 void guess_roles(RecognisedData& data);
 
 /// Whether the numbers of a column look set, not measured: they recur, or only rise, or only fall.

@@ -75,7 +75,7 @@ std::string fitted(const RecognisedData& data, const NamedColumns& labels, const
 }
 
 /// The reading, and other columns of its kind that are errors at the same positions: the channels of a laser. Where the
-/// reading was guessed, those of the first such column's kind.
+/// reading was guessed, those of the first such column's kind; where the user told it, those that the user told.
 std::vector<const RecognisedColumn*> channels(const RecognisedData& data, const RecognisedColumn& position,
                                               const RecognisedColumn& reading) {
   const auto is_error = [&](const RecognisedColumn& c) {
@@ -84,15 +84,16 @@ std::vector<const RecognisedColumn*> channels(const RecognisedData& data, const 
       return false;
     const std::string si_unit = units::si_unit_of(c.unit);
     const bool small = c.unit == "um" || c.unit == "nm" || c.unit == "arcsec" || c.unit == "urad";
-    return (si_unit == "m" || si_unit == "rad") && (small || !was_set(data, c)) && !measured_position(data, position, c);
+    return (si_unit == "m" || si_unit == "rad") && (small || !was_set(data, c)) &&
+           !measured_position(data, position, c);
   };
   if (!is_error(reading)) return {&reading};
+  const bool guessed = reading.why.starts_with("as the last"), told = reading.why == "by --role";
   std::vector<const RecognisedColumn*> out;
   for (const RecognisedColumn& c : data.columns) {
-    const bool guessed = reading.why.starts_with("as the last");
-    const RecognisedColumn& first = guessed && !out.empty() ? *out[0] : guessed ? c : reading;
-    if (&c == &reading || is_error(c))
-      if (units::convertible(c.unit, units::si_unit_of(first.unit))) out.push_back(&c);
+    if (&c != &reading && (!is_error(c) || (told && c.role != Role::reading))) continue;
+    const RecognisedColumn& first = !guessed ? reading : out.empty() ? c : *out[0];
+    if (units::convertible(c.unit, units::si_unit_of(first.unit))) out.push_back(&c);
   }
   return out;
 }
@@ -162,7 +163,8 @@ std::string starter_axis(const StarterData& data, const std::string& scenario) {
     out += line(name(*c),
                 fmt::format("\"{1}{0}offset{2}{3}\"", prefix(*c), measured ? "position + " : "",
                             eccentric ? fmt::format(" + {0}eccentricity_x * cos(position) + {0}eccentricity_y * "
-                                                    "sin(position)", prefix(*c))
+                                                    "sin(position)",
+                                                    prefix(*c))
                             : turns   ? ""
                                       : fmt::format(" + {}gain * position", prefix(*c)),
                             direction ? fmt::format(" + {}reversal * direction", prefix(*c)) : ""),
@@ -182,7 +184,8 @@ std::string starter_axis(const StarterData& data, const std::string& scenario) {
   }
   for (const RecognisedColumn* c : all) {
     out += fmt::format("\n[indications.{}]\n", name(*c)) +
-           line("readings", quoted(c->name), c->why.empty() ? "guessed: an error at the positions" : "recognised " + c->why);
+           line("readings", quoted(c->name),
+                c->why.empty() ? "guessed: an error at the positions" : "recognised " + c->why);
     if (sd && sd->number && c == reading)
       out += line("u", fmt::format("{{ column = {} }}", quoted(sd->name)), "recognised " + sd->why);
     else

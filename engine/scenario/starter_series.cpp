@@ -13,8 +13,7 @@ NamedColumns readings_of(const RecognisedData& data) {
   NamedColumns out;
   for (const RecognisedColumn& c : data.columns)
     if (c.number && !counts_rows(c) && !names_parts(c) &&
-        (c.role == ColumnRole::reading ||
-         (c.role == ColumnRole::other && !was_set(data, c) && !is_circumstance(c))))
+        (c.role == ColumnRole::reading || (c.role == ColumnRole::other && !was_set(data, c) && !is_circumstance(c))))
       out.emplace_back(plain_name(c.name), &c);
   return out;
 }

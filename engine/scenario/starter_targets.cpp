@@ -20,8 +20,8 @@ std::string axis_of(const RecognisedColumn& c, const std::set<std::string>& role
 } // namespace
 
 TargetColumns target_columns(const RecognisedData& data) {
-  static const std::set<std::string> set{"cmd",     "command", "commanded", "target", "tgt",  "nominal", "nom",
-                                         "soll",    "set",     "setpoint",  "prog",   "theo", "planned"};
+  static const std::set<std::string> set{"cmd",  "command", "commanded", "target", "tgt",  "nominal", "nom",
+                                         "soll", "set",     "setpoint",  "prog",   "theo", "planned"};
   static const std::set<std::string> read{"act", "actual", "measured", "meas", "ist", "real", "tracker"};
   std::map<std::string, const RecognisedColumn*> targets;
   for (const RecognisedColumn& c : data.columns)
@@ -58,9 +58,9 @@ std::string starter_targets(const StarterData& data, const TargetColumns& column
     quantities += line(name + "_offset", fmt::format("{{ estimated = true, value = \"0 {}\" }}", unit), "");
     for (const auto& [other, column] : conditions) {
       formula += fmt::format(" + {} * {}", size(name, other), other);
-      quantities += line(
-          size(name, other),
-          fmt::format("{{ estimated = true, value = \"0 ({})/({})\" }}", unit, unit_or(*column, "mm")), "");
+      quantities +=
+          line(size(name, other),
+               fmt::format("{{ estimated = true, value = \"0 ({})/({})\" }}", unit, unit_or(*column, "mm")), "");
     }
     out += line(name, quoted(formula), "guessed: read where it was commanded to");
   }

@@ -202,6 +202,9 @@ class New(InFolder):
         said = self.new("--from", "l.csv", "--role", "Pitch (arcsec)=reading", "--force")
         self.assertIn("Pitch (arcsec): reading, arcsec (by --role)", said)
         self.assertIn("Linear (um): not used", said)
+        said = self.new("--from", "l.csv", "--role", "Horizontal (um)=reading", "--force")
+        self.assertIn("Linear (um): not used", said)
+        self.assertIn('deviation = "offset + gain * position + reversal * direction"', (self.folder / "l.toml").read_text())
 
     def test_coordinates_at_their_targets(self):
         """A robot that is read in three coordinates: an affine map is fitted, and what bends beyond it is found."""

@@ -152,7 +152,8 @@ TEST_CASE("rank and condition of the published poses", "[laws][sphere_calibratio
   study.measure({q});
   study.identify(q, sphere::joint);
   CHECK(study.results[Found::rank][0] == 11);
-  CHECK(std::fabs(study.results[Found::condition_number][0] - 34) < 0.5); // by numpy's SVD: facts of the thesis' chapter
+  CHECK(std::fabs(study.results[Found::condition_number][0] - 34) <
+        0.5); // by numpy's SVD: facts of the thesis' chapter
 }
 
 TEST_CASE("what the poses cannot see stays as declared", "[laws][sphere_calibration][identification]") {
@@ -212,7 +213,8 @@ TEST_CASE("planes are immune to the positioning of the axis that moves", "[laws]
     each[r][study.poses[r].label == 1 ? Row::E_CC : Row::E_BB] = draw(-0.04, 0.04) * deg;
   study.measure(each);
   study.identify(truth, sphere::sequential);
-  for (std::size_t j = Row::E_A0B; j <= Row::E_B0C; ++j) CHECK(std::fabs(study.found(static_cast<int>(j)) - truth[j]) < 1e-13);
+  for (std::size_t j = Row::E_A0B; j <= Row::E_B0C; ++j)
+    CHECK(std::fabs(study.found(static_cast<int>(j)) - truth[j]) < 1e-13);
   CHECK(std::fabs(study.found(Row::E_X0C) - truth[Row::E_X0C]) > 1 * um);
   study.identify(truth, sphere::joint); // here equal weights are worse
   CHECK(std::fabs(study.found(Row::E_B0C) - truth[Row::E_B0C]) > 1e-4 * deg);

@@ -40,8 +40,8 @@ class Comparison {
 public:
   Comparison(const TraceContext& c, const Search& s, Trace& out)
       : c_(c), rows_(c.fitter.rows()), before_(s.base), after_(s.found),
-        previous_(s.stages.size() > 1 ? s.stages[s.stages.size() - 2].fit : s.base),
-        has_previous_(s.stages.size() > 1), out_(out) {
+        previous_(s.stages.size() > 1 ? s.stages[s.stages.size() - 2].fit : s.base), has_previous_(s.stages.size() > 1),
+        out_(out) {
     // All in the units of one noise: the fit without the effect takes it for noise. Each predicts by its own covariance
     // model, as a trace of the scenario would that it stands for.
     for (JointFit* fit : {&before_, &previous_}) {

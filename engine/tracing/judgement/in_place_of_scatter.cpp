@@ -11,7 +11,8 @@ namespace {
 /// "polynomial:t_room of z": without the indication.
 std::string without_indication(const std::string& name, const Observations& o) {
   for (const std::string& indication : o.names)
-    if (o.indications > 1 && name.ends_with(" of " + indication)) return name.substr(0, name.size() - indication.size() - 4);
+    if (o.indications > 1 && name.ends_with(" of " + indication))
+      return name.substr(0, name.size() - indication.size() - 4);
   return name;
 }
 
