@@ -157,7 +157,7 @@ void Fitter::converge(JointFit& fit, double noise) const {
     const Statistics now = scan.run(chosen);
     fit.covariance_model = scan.covariance_models()[now.cautious[0]];
     fit.variance = now.variance_cautious[0];
-    if (!std::isfinite(fit.variance)) {
+    if (scan.degrees_of_freedom() > 0 && !std::isfinite(fit.variance)) { // of as many readings as unknowns it is none
       fit.valid = false;
       return;
     }
