@@ -112,7 +112,7 @@ void describe_alignments(const TraceContext& c, const Search& s, Trace& out) {
       group.push_back(static_cast<std::size_t>(at - known.begin()));
       if (at == known.end()) known.push_back(g.group[r]);
     }
-    if (known.size() < criteria.groups_of_alignments) continue;
+    if (g.name == "block" || known.size() < criteria.groups_of_alignments) continue; // a stretch is no act of anybody
     for (const Covariate& v : o.covariates) {
       if (!v.commanded || v.course || v.levels.size() < criteria.levels_of_alignments) continue;
       bool turns = false;
