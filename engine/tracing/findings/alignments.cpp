@@ -58,7 +58,7 @@ Own own_of(Matrix y, const Matrix& x, const std::vector<std::size_t>& group, std
   Vector b;
   const double common = left_over(a.leftCols(k + p), y, fewer), apart = left_over(a, y, more, &b);
   const double freedom = static_cast<double>(n - index(cells) - more);
-  if (freedom < 4 || more == fewer || !(common > 0) || !(apart > 0)) return out;
+  if (freedom < 4 || more <= fewer || !(common > 0) || !(apart > 0)) return out;
   out.share = 1 - apart / common;
   const auto gained = static_cast<double>(more - fewer);
   const double f = (common - apart) / gained / (apart / freedom);
