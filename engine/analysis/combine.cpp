@@ -1,54 +1,24 @@
 #include "analysis/combine.h"
 
 #include <cmath>
+#include <limits>
 #include <map>
+#include <vector>
 
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 
-#include "quantities/copula.h"
-
 namespace gumshoe::analysis {
-namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-} // namespace
-
-Correlations::Correlations(const quantities::SamplePlan& plan)
-    : plan_(plan), places_(plan.variates.size(), {plan.copulas.size(), 0}), coefficients_(plan.copulas.size()) {
-  for (std::size_t g = 0; g < plan.copulas.size(); ++g)
-    for (std::size_t i = 0; i < plan.copulas[g].variates.size(); ++i) places_[plan.copulas[g].variates[i]] = {g, i};
-}
-
-double Correlations::coefficient(std::size_t g, std::size_t i, std::size_t j) {
-  const auto& group = plan_.copulas[g];
-  const std::size_t n = group.variates.size();
-  const double stated = group.matrix[i * n + j];
-  if (i == j || stated == 0 || group.multivariate_t()) return stated;
-  if (coefficients_[g].empty()) coefficients_[g].assign(n * n, nan);
-  double& r = coefficients_[g][std::min(i, j) * n + std::max(i, j)];
-  if (std::isnan(r))
-    r = quantities::pearson_coefficient(stated, plan_.variates[group.variates[i]].distribution,
-                                        plan_.variates[group.variates[j]].distribution);
-  return r;
-}
-
-double Correlations::between(std::size_t a, std::size_t b) {
-  if (a == b) return 1;
-  const Place at = places_[a], other = places_[b];
-  return at.group == other.group && at.group < plan_.copulas.size() ? coefficient(at.group, at.member, other.member) : 0;
-}
-
-CombinedVariance Correlations::combine(std::span<const Term> terms) {
+CombinedVariance combine(std::span<const Term> terms, quantities::Correlations& correlations) {
   struct Sum { // of the terms of one variate
     double contribution = 0, degrees = 0;
   };
-  std::vector<std::map<std::size_t, Sum>> groups(plan_.copulas.size() + 1); // by variate; the last: in no group
+  std::vector<std::map<std::size_t, Sum>> groups(correlations.groups() + 1); // by variate; the last: in no group
   CombinedVariance out;
   for (const Term& t : terms) {
     if (t.contribution == 0) continue;
-    Sum& sum = groups[places_[t.variate].group][t.variate];
+    Sum& sum = groups[correlations.group_of(t.variate)][t.variate];
     out.independent += t.contribution * t.contribution;
     out.correlation += 2 * sum.contribution * t.contribution;
     sum.contribution += t.contribution;
@@ -56,7 +26,7 @@ CombinedVariance Correlations::combine(std::span<const Term> terms) {
   }
   double satterthwaite = 0;
   for (const auto& [v, sum] : groups.back()) satterthwaite += std::pow(sum.contribution, 4) / sum.degrees;
-  for (std::size_t g = 0; g < plan_.copulas.size(); ++g) {
+  for (std::size_t g = 0; g < correlations.groups(); ++g) {
     if (groups[g].empty()) continue;
     // The group has those of its members: for simultaneous observations n - 1, as for any function of them.
     const double degrees = groups[g].begin()->second.degrees;
@@ -65,13 +35,13 @@ CombinedVariance Correlations::combine(std::span<const Term> terms) {
       out.unequal |= a->second.degrees != degrees;
       own += a->second.contribution * a->second.contribution;
       for (auto b = groups[g].begin(); b != a; ++b)
-        between_members += 2 * between(a->first, b->first) * a->second.contribution * b->second.contribution;
+        between_members += 2 * correlations.between(a->first, b->first) * a->second.contribution * b->second.contribution;
     }
     out.correlation += between_members;
     satterthwaite += std::pow(own + between_members, 2) / degrees;
   }
   if (out.unequal)
-    out.effective_degrees_of_freedom = nan;
+    out.effective_degrees_of_freedom = std::numeric_limits<double>::quiet_NaN();
   else if (satterthwaite > 0)
     out.effective_degrees_of_freedom = out.total() * out.total() / satterthwaite;
   return out;

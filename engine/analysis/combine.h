@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <limits>
 #include <span>
-#include <vector>
 
-#include "quantities/sample_plan.h"
+#include "quantities/correlations.h"
 
 namespace gumshoe::analysis {
 
@@ -24,29 +23,10 @@ struct CombinedVariance {
   double total() const { return std::max(0.0, independent + correlation); }
 };
 
-/// Pearson's coefficients of a plan's variates, each computed when it is first asked for. For one thread.
-class Correlations {
-public:
-  explicit Correlations(const quantities::SamplePlan& plan);
-
-  /// Correlation coefficient of two variates; 0 if nothing ties them. For a multivariate t it is that of the scales.
-  double between(std::size_t a, std::size_t b);
-
-  /// u_c^2 with effective degrees of freedom. Correlated inputs are one term of the Welch-Satterthwaite formula: of a
-  /// multivariate t distribution with its degrees of freedom, exactly; otherwise with theirs if these are equal, as of
-  /// inputs from one evaluation. A variate may stand in several terms, which then add linearly.
-  CombinedVariance combine(std::span<const Term> terms);
-
-private:
-  struct Place {
-    std::size_t group, member;
-  };
-  double coefficient(std::size_t group, std::size_t i, std::size_t j);
-
-  const quantities::SamplePlan& plan_;
-  std::vector<Place> places_;                     ///< by variate; group: their number, if it is in none
-  std::vector<std::vector<double>> coefficients_; ///< by group, n x n; NaN: not computed
-};
+/// u_c^2 with effective degrees of freedom. Correlated inputs are one term of the Welch-Satterthwaite formula: of a
+/// multivariate t distribution with its degrees of freedom, exactly; otherwise with theirs if these are equal, as of
+/// inputs from one evaluation. A variate may stand in several terms, which then add linearly.
+CombinedVariance combine(std::span<const Term> terms, quantities::Correlations& correlations);
 
 struct Expansion {
   double effective_degrees_of_freedom = 0; ///< truncated; infinite from 1e6

@@ -171,7 +171,8 @@ Budget budget_of(const propagation::Experiment& e, std::size_t output, double co
     for (Contribution& c : b.contributions) c.share = nan;
     return b;
   }
-  const CombinedVariance combined = Correlations(e.plan()).combine(terms);
+  quantities::Correlations correlations(e.plan());
+  const CombinedVariance combined = combine(terms, correlations);
   const double total = combined.total();
   b.combined_standard_uncertainty = std::sqrt(total);
   for (Contribution& c : b.contributions) c.share = total > 0 ? c.contribution * c.contribution / total : 0;

@@ -168,7 +168,7 @@ std::vector<double> law_of_propagation(const std::vector<const Budget*>& budgets
   }
   Matrix v = Matrix::Zero(d, d);
   for (const auto& [variate, y] : of) v += y * y.transpose();
-  Correlations correlations(e.plan());
+  quantities::Correlations correlations(e.plan());
   for (const auto& group : e.plan().copulas)
     for (const std::size_t i : group.variates)
       for (const std::size_t k : group.variates)

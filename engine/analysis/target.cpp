@@ -86,7 +86,7 @@ public:
       terms.push_back(
           {variates_[i], (c.quantity == quantity ? scale : 1) * signed_contribution(i), c.degrees_of_freedom});
     }
-    return correlations_.combine(terms);
+    return combine(terms, correlations_);
   }
   double expanded_uncertainty(const std::string& quantity, double scale) {
     return expand(combined(quantity, scale), p_).expanded_uncertainty;
@@ -105,7 +105,7 @@ public:
 
 private:
   const Budget& budget_;
-  Correlations correlations_;
+  quantities::Correlations correlations_;
   double p_;
   std::vector<std::size_t> variates_;
 };

@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "calibration/priors.h"
 #include "effects/effect.h"
+#include "quantities/correlations.h"
 
 namespace gumshoe::calibration {
 namespace {
@@ -209,6 +209,7 @@ private:
     std::vector<std::size_t> variates;
     for (Eigen::Index v = 0; v < by_variate.cols(); ++v)
       if (by_variate.col(v).any()) variates.push_back(static_cast<std::size_t>(v));
+    quantities::Correlations correlations(e_.plan());
     for (const auto& [key, readings] : cells_) {
       Eigen::VectorXd slope = Eigen::VectorXd::Zero(by_variate.cols());
       double error = 0;
@@ -221,8 +222,8 @@ private:
       double variance = 0;
       for (const std::size_t a : variates)
         for (const std::size_t b : variates)
-          variance += slope[static_cast<Eigen::Index>(a)] * slope[static_cast<Eigen::Index>(b)] *
-                      declared_covariance(e_.plan(), a, b);
+          variance +=
+              slope[static_cast<Eigen::Index>(a)] * slope[static_cast<Eigen::Index>(b)] * correlations.covariance(a, b);
       out_.rows.push_back({key.first, key.second, error / n, std::sqrt(std::max(0.0, variance))});
     }
     std::ranges::stable_sort(out_.rows, [](const auto& a, const auto& b) {

@@ -1,27 +1,12 @@
 #include "calibration/priors.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include <Eigen/Cholesky>
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "quantities/correlations.h"
 
 namespace gumshoe::calibration {
-
-double declared_covariance(const quantities::SamplePlan& plan, std::size_t a, std::size_t b) {
-  const auto u = [&](std::size_t v) { return plan.variates[v].distribution.standard_uncertainty(); };
-  if (a == b) return u(a) * u(a);
-  for (const auto& group : plan.copulas) {
-    const auto at = [&](std::size_t v) { return std::find(group.variates.begin(), group.variates.end(), v); };
-    if (at(a) == group.variates.end() || at(b) == group.variates.end()) continue;
-    const auto i = at(a) - group.variates.begin(), j = at(b) - group.variates.begin();
-    return group.matrix[static_cast<std::size_t>(i) * group.variates.size() + static_cast<std::size_t>(j)] * u(a) *
-           u(b);
-  }
-  return 0;
-}
 
 Priors priors_of(const propagation::Experiment& e, const std::vector<Unknown>& unknowns) {
   std::vector<std::size_t> known;
@@ -31,14 +16,14 @@ Priors priors_of(const propagation::Experiment& e, const std::vector<Unknown>& u
   if (known.empty()) return out;
   const auto m = static_cast<Eigen::Index>(known.size());
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(m, m);
-  const auto& plan = e.plan();
+  quantities::Correlations correlations(e.plan());
   const auto draws = [&](Eigen::Index i) {
-    return plan.columns[unknowns[known[static_cast<std::size_t>(i)]].column].variates;
+    return e.plan().columns[unknowns[known[static_cast<std::size_t>(i)]].column].variates;
   };
   for (Eigen::Index i = 0; i < m; ++i)
     for (Eigen::Index j = 0; j < m; ++j)
       for (const std::size_t a : draws(i))
-        for (const std::size_t b : draws(j)) covariance(i, j) += declared_covariance(plan, a, b);
+        for (const std::size_t b : draws(j)) covariance(i, j) += correlations.covariance(a, b);
   const Eigen::MatrixXd factor = covariance.llt().matrixL();
   for (Eigen::Index i = 0; i < m; ++i)
     if (!(factor(i, i) * factor(i, i) > 1e-12 * covariance(i, i)))

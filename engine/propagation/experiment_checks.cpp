@@ -4,7 +4,7 @@
 
 #include "base/error.h"
 #include "propagation/experiment.h"
-#include "quantities/copula.h"
+#include "quantities/correlations.h"
 
 namespace gumshoe::propagation {
 
@@ -59,17 +59,13 @@ models::Declared Experiment::declared() const {
     for (std::size_t k = 0; k < noise.size(); ++k) moves(noise[k], model.size() + k, 1);
     for (const StatedSize& s : forward_.stated()) moves(s.quantity, model.size() + s.indication, -s.loading[r]);
   }
+  quantities::Correlations correlations(plan_);
   for (const auto& group : plan_.copulas) {
     const std::size_t n = group.variates.size();
     for (std::size_t i = 1; i < n; ++i)
       for (std::size_t j = 0; j < i; ++j)
-        if (const double r = group.matrix[i * n + j]; r != 0) {
-          const std::size_t a = group.variates[i], b = group.variates[j];
-          const auto pearson = [&] {
-            return quantities::pearson_coefficient(r, plan_.variates[a].distribution, plan_.variates[b].distribution);
-          };
-          out.ties.push_back({a, b, group.multivariate_t() ? r : pearson()});
-        }
+        if (const double r = correlations.between(group.variates[i], group.variates[j]); r != 0)
+          out.ties.push_back({group.variates[i], group.variates[j], r});
   }
   return out;
 }

@@ -100,6 +100,22 @@ TEST_CASE("quantities that the data cannot distinguish are named", "[calibration
   CHECK(f.correlation[1] < -0.99);
 }
 
+TEST_CASE("correlated quantities that are not normal are fitted with Pearson's coefficient", "[calibration]") {
+  const auto rectangular = [](const char* name) {
+    return fmt::format("[quantities.{}]\nestimated = true\nvalue = 0\ndistribution = \"rectangular\"\nhalf_width = 1\n",
+                       name);
+  };
+  const double r = 0.8, v = 1.0 / 3, noise = 0.25;
+  const Case c(line({0}, {0.9}, rectangular("a") + rectangular("b"), "u = 0.5\n") +
+               "[[correlations]]\nkind = \"pearson\"\ncoefficient = 0.8\nquantities = [\"a\", \"b\"]\n");
+  const auto e = calibration::estimate(c.experiment);
+  // The reading is of a alone; b follows by its regression on a. The copula's coefficient, 0.8135, is not r.
+  const double a = v / (v + noise) * 0.9;
+  CHECK(parameter(e, "a").value == Approx(a).epsilon(1e-9));
+  CHECK(parameter(e, "b").value == Approx(r * a).epsilon(1e-6)); // r -> copula -> r: 1e-7
+  CHECK(parameter(e, "b").standard_uncertainty == Approx(std::sqrt(v * (1 - r * r * v / (v + noise)))).epsilon(1e-6));
+}
+
 TEST_CASE("GUM H.3: line of a thermometer's corrections", "[calibration][references]") {
   // JCGM 100:2008, H.3, with more digits than printed (published-numbers: 9 digits, so half a unit of the last).
   const scenario::Scenario s = scenario::read(GUMSHOE_SOURCE_DIR "/scenarios/gauge/gum_h3.toml", known());

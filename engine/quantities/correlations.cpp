@@ -1,0 +1,43 @@
+#include "quantities/correlations.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "quantities/copula.h"
+
+namespace gumshoe::quantities {
+
+Correlations::Correlations(const SamplePlan& plan)
+    : plan_(plan), places_(plan.variates.size(), {plan.copulas.size(), 0}), coefficients_(plan.copulas.size()) {
+  for (std::size_t g = 0; g < plan.copulas.size(); ++g)
+    for (std::size_t i = 0; i < plan.copulas[g].variates.size(); ++i) places_[plan.copulas[g].variates[i]] = {g, i};
+}
+
+double Correlations::coefficient(std::size_t g, std::size_t i, std::size_t j) {
+  const CopulaGroup& group = plan_.copulas[g];
+  const std::size_t n = group.variates.size();
+  const double stated = group.matrix[i * n + j];
+  if (i == j || stated == 0 || group.multivariate_t()) return stated;
+  if (coefficients_[g].empty()) coefficients_[g].assign(n * n, std::numeric_limits<double>::quiet_NaN());
+  double& r = coefficients_[g][std::min(i, j) * n + std::max(i, j)];
+  if (std::isnan(r))
+    r = pearson_coefficient(stated, plan_.variates[group.variates[i]].distribution,
+                            plan_.variates[group.variates[j]].distribution);
+  return r;
+}
+
+double Correlations::between(std::size_t a, std::size_t b) {
+  if (a == b) return 1;
+  const Place at = places_[a], other = places_[b];
+  return at.group == other.group && at.group < groups() ? coefficient(at.group, at.member, other.member) : 0;
+}
+
+double Correlations::covariance(std::size_t a, std::size_t b) {
+  const double r = between(a, b);
+  if (r == 0) return 0; // also where a variance is infinite
+  return r * plan_.variates[a].distribution.standard_uncertainty() *
+         plan_.variates[b].distribution.standard_uncertainty();
+}
+
+} // namespace gumshoe::quantities

@@ -1,0 +1,36 @@
+#pragma once
+/// Pearson's coefficients of the variates of a plan, as the law of propagation of uncertainty takes them.
+#include <cstddef>
+#include <vector>
+
+#include "quantities/sample_plan.h"
+
+namespace gumshoe::quantities {
+
+/// Each coefficient is computed when it is first asked for. For one thread; the plan must outlive it.
+class Correlations {
+public:
+  explicit Correlations(const SamplePlan& plan);
+
+  /// Correlation coefficient of two variates: 1 of one with itself, 0 if nothing ties them. For a multivariate t it is
+  /// that of the scales.
+  double between(std::size_t a, std::size_t b);
+  /// That times both standard uncertainties, SI.
+  double covariance(std::size_t a, std::size_t b);
+
+  std::size_t groups() const { return plan_.copulas.size(); }
+  /// Index into the plan's copulas; groups(), if the variate is in none.
+  std::size_t group_of(std::size_t variate) const { return places_[variate].group; }
+
+private:
+  struct Place {
+    std::size_t group, member;
+  };
+  double coefficient(std::size_t group, std::size_t i, std::size_t j);
+
+  const SamplePlan& plan_;
+  std::vector<Place> places_;                     ///< by variate
+  std::vector<std::vector<double>> coefficients_; ///< by group, n x n; NaN: not computed
+};
+
+} // namespace gumshoe::quantities
