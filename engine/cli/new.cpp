@@ -87,10 +87,9 @@ void tell(RecognisedData& data, const Options& o) {
     const ColumnRole role = role_of(word);
     const bool further = role == ColumnRole::reading && std::exchange(told_readings, true); // there may be several
     for (auto& c : data.columns)                                                            // else one column has it
-      if (c.role == role && role != ColumnRole::other && !further) c.role = ColumnRole::other;
+      if (c.role == role && role != ColumnRole::other && !further) c.leave();
     auto& c = column_of(data, column, "--role");
-    c.role = role;
-    c.why = "by --role";
+    c.take(role, scenario::Basis::user, "by --role");
   }
   // A guessed reading that is named a position leaves its role to another column.
   const auto named_position = [](const std::string& text) { return assignment(text, "--role").second == "position"; };

@@ -5,15 +5,12 @@
 #include <vector>
 
 #include "base/csv.h"
+#include "scenario/column_words.h"
 
 namespace gumshoe::scenario {
 
-enum class ColumnRole { other, position, reading, direction, time, temperature, cycle, alignment, uncertainty };
-constexpr const char* name(ColumnRole r) {
-  constexpr const char* names[] = {"other",       "position", "reading",   "direction",  "time",
-                                   "temperature", "cycle",    "alignment", "uncertainty"};
-  return names[static_cast<int>(r)];
-}
+/// What a role rests on: nothing, if there is none.
+enum class Basis { nothing, name, cells, place, user };
 
 struct RecognisedColumn {
   std::string name;
@@ -21,10 +18,15 @@ struct RecognisedColumn {
   ColumnRole role = ColumnRole::other;
   bool number = false;                                    ///< all of its cells that are not empty
   bool gaps = false;                                      ///< it has empty cells
-  std::string why;                                        ///< "by its name", "as the first column of numbers"
+  bool unit_guessed = false;                              ///< from its numbers
+  Basis basis = Basis::nothing;                           ///< of the role
+  std::string why = {};                                   ///< in words: "by its name"
   std::string clock = {};                                 ///< form of its clock times (base/clock.h); empty: none
   std::string date = {};                                  ///< column of their dates; empty: they have them, or none
   std::vector<std::pair<std::string, double>> words = {}; ///< a direction's words and their signs
+
+  void take(ColumnRole taken, Basis on, std::string in_words) { role = taken, basis = on, why = std::move(in_words); }
+  void leave() { take(ColumnRole::other, Basis::nothing, ""); }
 };
 
 struct RecognisedData {
@@ -56,13 +58,7 @@ bool is_circumstance(const RecognisedColumn& column);
 /// Whether a column counts rows and measures nothing, by its name.
 bool counts_rows(const RecognisedColumn& column);
 
-/// Whether a cell among numbers says that there is none: "NaN", "-".
-bool says_missing(const std::string& text);
-
 /// Whether the numbers of a column name parts, people or places, by its name: "operator 2".
 bool names_parts(const RecognisedColumn& column);
-
-/// The words of a column's or quantity's name in lower case: "Spindle-Z [mm]" -> spindle, z.
-std::vector<std::string> words_of(const std::string& name);
 
 } // namespace gumshoe::scenario

@@ -119,9 +119,9 @@ std::string data_section(const StarterData& data, const NamedColumns& labels, co
   for (const RecognisedColumn& c : data.found.columns)
     if (c.number && c.unit != "1" && used.contains(c.name))
       out += line(quoted(c.name), quoted(c.unit),
-                  c.unit == "?"                       ? "the file does not say it: write the unit, such as \"mm\""
-                  : c.why.ends_with("by its numbers") ? "guessed: temperatures of 10 to 45"
-                                                      : "from its header");
+                  c.unit == "?"    ? "the file does not say it: write the unit, such as \"mm\""
+                  : c.unit_guessed ? "guessed: temperatures of 10 to 45"
+                                   : "from its header");
   if (!conditions.empty()) out += "\n[data.conditions]\n";
   for (const auto& [name, c] : conditions)
     out += line(name, column_text(*c), "recognised " + (c->why.empty() ? "by its name" : c->why));
@@ -209,7 +209,7 @@ std::string blocks_of(const RecognisedData& data, const NamedColumns& labels) {
 
 std::string course_name(const RecognisedColumn& time) { return counts_rows(time) ? plain_name(time.name) : "time"; }
 
-std::string columns_of(const RecognisedData& data, std::set<std::string>& used) {
+std::string columns_of(const RecognisedData& data, std::set<std::string>& used, const NamedColumns& further) {
   std::string out;
   bool ordered = false;
   for (const RecognisedColumn& c : data.columns) {
@@ -225,6 +225,7 @@ std::string columns_of(const RecognisedData& data, std::set<std::string>& used) 
       out += line(plain_name(c.name), column_text(c), "recognised " + c.why);
     }
   }
+  for (const auto& [name, c] : further) out += line(name, column_text(*c), "recorded with the readings");
   return ordered || out.empty() ? out : "\n[trace.columns]\n" + out;
 }
 

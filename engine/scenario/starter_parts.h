@@ -31,10 +31,10 @@ NamedColumns labels_of(const RecognisedData& data);
 /// Refuses a column that a scenario needs as numbers and that has a cell of another kind. @param role  "readings"
 void require_numbers(const RecognisedData& data, const RecognisedColumn& column, const std::string& role);
 
-/// Whether the readings are the positions themselves, measured, and not their errors: then they span what the positions
-/// span.
 /// Whether positions are angles that go round, but for a tenth.
 bool full_turn(const RecognisedData& data, const RecognisedColumn& position);
+/// Whether the readings are the positions themselves, measured, and not their errors: then they span what the positions
+/// span.
 bool measured_position(const RecognisedData& data, const RecognisedColumn& position, const RecognisedColumn& reading);
 
 /// An example of the model with what the card says of every quantity, and the data's columns in the place of its
@@ -48,7 +48,8 @@ std::string data_section(const StarterData& data, const NamedColumns& labels, co
 std::string blocks_of(const RecognisedData& data, const NamedColumns& labels);
 /// "time", or the name of the column that counts the readings in its place.
 std::string course_name(const RecognisedColumn& time);
-/// `order` and [trace.columns]: times, temperatures and directions that are not conditions; adds their names to `used`.
-std::string columns_of(const RecognisedData& data, std::set<std::string>& used);
+/// `order` and [trace.columns]: times, temperatures and directions that are not conditions, whose names it adds to
+/// `used`, and `further` columns.
+std::string columns_of(const RecognisedData& data, std::set<std::string>& used, const NamedColumns& further = {});
 
 } // namespace gumshoe::scenario

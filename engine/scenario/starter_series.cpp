@@ -82,14 +82,14 @@ std::string starter_series(const StarterData& data, const std::string& scenario)
     conditions.emplace_back(course_name(*time), time);
     used.insert(time->name);
   }
-  std::string recorded = columns_of(found, used);
-  if (recorded.find("[trace.columns]") == std::string::npos) recorded += "\n[trace.columns]\n";
+  NamedColumns further;
   for (const RecognisedColumn& c : found.columns)
     if (c.number && c.role == ColumnRole::other && !counts_rows(c) && !names_parts(c) && !used.contains(c.name) &&
         different(found, c) > 1) {
-      recorded += line(plain_name(c.name), quoted(c.name), "recorded with the readings");
+      further.emplace_back(plain_name(c.name), &c);
       used.insert(c.name);
     }
+  const std::string recorded = columns_of(found, used, further);
 
   std::string out =
       fmt::format("# Question: what do the readings in {} depend on?\n#     gumshoe trace {}\n"

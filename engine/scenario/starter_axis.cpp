@@ -11,51 +11,6 @@ namespace gumshoe::scenario {
 
 using Role = ColumnRole;
 
-std::string starter_budget() {
-  return R"(# Question: what is the uncertainty of a result that a formula computes from readings and stated quantities?
-#
-# Every number below is made up: replace it, its uncertainty and its source by yours. `gumshoe check` names what is wrong.
-
-schema = 1
-title  = "a length at 20 degC"
-
-[model]
-name = "expression"
-
-[model.measurands]                      # the result; names below may be chosen freely
-length = { formula = "reading * (1 - alpha * (temperature - reference)) + correction", unit = "mm" }
-
-[indications.reading]                   # what was read; or a column of a file, see [data]
-readings      = ["50.0021 mm", "50.0019 mm", "50.0022 mm", "50.0020 mm"]
-resolution    = "0.1 um"
-repeatability = "readings"              # from the scatter of these readings; or { s = "0.2 um" }
-
-[quantities.correction]                 # a certificate: expanded uncertainty U with its k
-value  = "0.3 um"
-U      = "0.4 um"
-k      = 2
-source = "assumed: certificate"
-
-[quantities.alpha]                      # limits: a rectangular distribution
-value        = "11.5 um/m/K"
-distribution = "rectangular"
-half_width   = "1 um/m/K"
-source       = "assumed: steel"
-
-[quantities.temperature]                # a standard uncertainty
-value  = "20.4 degC"
-u      = "0.3 K"
-source = "assumed: thermometer"
-
-[quantities.reference]
-value = "20 degC"
-
-[run]
-samples = 1_000_000
-seed    = 1
-)";
-}
-
 namespace {
 
 /// A quantity that is fitted: one, or one of each alignment.
@@ -88,7 +43,7 @@ std::vector<const RecognisedColumn*> channels(const RecognisedData& data, const 
            !measured_position(data, position, c);
   };
   if (!is_error(reading)) return {&reading};
-  const bool guessed = reading.why.starts_with("as the last"), told = reading.why == "by --role";
+  const bool guessed = reading.basis == Basis::place, told = reading.basis == Basis::user;
   std::vector<const RecognisedColumn*> out;
   for (const RecognisedColumn& c : data.columns) {
     if (&c != &reading && (!is_error(c) || (told && c.role != Role::reading))) continue;
@@ -136,16 +91,12 @@ std::string starter_axis(const StarterData& data, const std::string& scenario) {
   for (const RecognisedColumn* c : all) used.insert(c->name);
   if (direction) used.insert(direction->name);
   if (sd && sd->number) used.insert(sd->name);
-  std::string recorded = columns_of(found, used);
+  NamedColumns measured_too;
   for (const auto& [own, c] : circumstances(found, used)) {
     used.insert(c->name);
-    if (was_set(found, *c)) {
-      conditions.emplace_back(own, c);
-      continue;
-    }
-    if (recorded.find("[trace.columns]") == std::string::npos) recorded += "\n[trace.columns]\n";
-    recorded += line(own, quoted(c->name), "recorded with the readings");
+    (was_set(found, *c) ? conditions : measured_too).emplace_back(own, c);
   }
+  const std::string recorded = columns_of(found, used, measured_too);
 
   std::string out =
       fmt::format("# Question: which errors do the readings in {} show that {}{} do{} not explain?\n"

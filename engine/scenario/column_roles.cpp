@@ -1,0 +1,124 @@
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "base/units.h"
+#include "scenario/column_words.h"
+#include "scenario/recognise.h"
+
+namespace gumshoe::scenario {
+namespace {
+
+/// A length, an angle, a force, a torque, a mass, or a number without a unit.
+bool is_place(const RecognisedColumn& c) {
+  if (c.unit == "?" || c.unit == "1") return true;
+  static const std::set<std::string> set_units{"m", "rad", units::si_unit_of("N"), units::si_unit_of("N m"), "kg"};
+  return set_units.contains(units::si_unit_of(c.unit));
+}
+
+/// Whether a column numbers all rows in their order.
+bool numbers_rows(const RecognisedData& data, const RecognisedColumn& c) {
+  if (!c.number || c.gaps || !counts_rows(c)) return false;
+  const auto column = static_cast<std::size_t>(data.csv.find(c.name));
+  const auto value = [&](const auto& row) { return data.csv.number(row[column], data.decimal); };
+  return std::ranges::adjacent_find(data.csv.rows, std::greater_equal{}, value) == data.csv.rows.end();
+}
+
+} // namespace
+
+void guess_roles(RecognisedData& data) {
+  std::vector<RecognisedColumn>& columns = data.columns;
+  const auto has = [&](ColumnRole role) {
+    return std::ranges::find(columns, role, &RecognisedColumn::role) != columns.end();
+  };
+  const auto take = [&](auto first, auto end, ColumnRole role, const char* why) {
+    const auto fitting = [&](const RecognisedColumn& c) {
+      return c.number && c.role == ColumnRole::other && !counts_rows(c) && !names_parts(c) &&
+             (role != ColumnRole::position || (is_place(c) && was_set(data, c)));
+    };
+    // Numbers that recur and have no unit are names, such as those of inserts.
+    const auto likely = [&](const RecognisedColumn& c) {
+      return fitting(c) && !is_circumstance(c) && !(role == ColumnRole::reading && c.unit == "?" && was_set(data, c));
+    };
+    auto one = std::find_if(first, end, likely);
+    if (one == end) one = std::find_if(first, end, fitting);
+    if (one == end) return;
+    one->take(role, Basis::place, why);
+  };
+  // U_mV: a voltage, where nothing else is one that it could be the uncertainty of.
+  for (RecognisedColumn& c : columns) {
+    if (c.role != ColumnRole::uncertainty || c.unit == "?" || words_of(c.name).front() != "u") continue;
+    const auto like = [&](const RecognisedColumn& other) {
+      return &other != &c && other.number &&
+             (other.unit == "?" || units::convertible(other.unit, units::si_unit_of(c.unit)));
+    };
+    if (std::ranges::none_of(columns, like)) c.leave();
+  }
+  // A pressure next to a target is no second position.
+  for (bool known = false; RecognisedColumn & c : columns)
+    if (c.role == ColumnRole::position && std::exchange(known, true) && c.basis == Basis::name) c.leave();
+  if (!has(ColumnRole::reading))
+    take(columns.rbegin(), columns.rend(), ColumnRole::reading, "as the last column of numbers");
+  if (!has(ColumnRole::reading) && has(ColumnRole::position)) {
+    // A force may be what was set or what was read.
+    const auto last =
+        std::ranges::find(columns.rbegin(), columns.rend(), ColumnRole::position, &RecognisedColumn::role);
+    last->take(ColumnRole::reading, Basis::place, "as the last column of numbers");
+  }
+  if (!has(ColumnRole::position))
+    take(columns.begin(), columns.end(), ColumnRole::position, "as the first column of numbers");
+  if (has(ColumnRole::time)) return;
+  const auto count = std::ranges::find_if(columns, [&](const RecognisedColumn& c) { return numbers_rows(data, c); });
+  if (count == columns.end()) return;
+  count->take(ColumnRole::time, Basis::place, "as it counts the readings");
+  count->unit = "1";
+}
+
+bool is_circumstance(const RecognisedColumn& c) {
+  static const std::set<std::string> names{"feed",        "feedrate", "vorschub", "speed",
+                                           "drehzahl",    "rpm",      "humidity", "feuchte",
+                                           "luftfeuchte", "override", "velocity", "acceleration"};
+  const auto words = words_of(c.name);
+  if (std::ranges::any_of(words, [&](const std::string& w) { return names.contains(w); })) return true;
+  return c.unit != "?" && std::ranges::any_of(std::array{"1/s", "m/s", "rad/s", "K"},
+                                              [&](const char* unit) { return units::convertible(c.unit, unit); });
+}
+
+bool counts_rows(const RecognisedColumn& c) {
+  static const std::set<std::string> names{"nr", "no", "n", "id", "index", "number", "point", "row", "line"};
+  const auto words = words_of(c.name);
+  return words.size() == 1 && names.contains(words.front());
+}
+
+bool names_parts(const RecognisedColumn& c) {
+  static const std::set<std::string> names{
+      "operator", "bediener", "observer", "lab",   "laboratory", "batch",   "lot",       "machine", "maschine",
+      "sample",   "part",     "specimen", "tool",  "artefact",   "probe",   "sensor",    "day",     "tag",
+      "shift",    "wafer",    "rod",      "touch", "hit",        "shot",    "antastung", "insert",  "cavity",
+      "nest",     "pose",     "werkzeug", "teil",  "platte",     "schneide"};
+  const auto words = words_of(c.name);
+  return c.unit == "?" && std::ranges::any_of(words, [&](const std::string& w) { return names.contains(w); });
+}
+
+bool was_set(const RecognisedData& data, const RecognisedColumn& c) {
+  const auto column = static_cast<std::size_t>(data.csv.find(c.name));
+  std::map<std::string, int> texts; // how often each occurs
+  std::vector<double> values;
+  for (const auto& row : data.csv.rows) {
+    if (says_missing(row[column].text)) continue;
+    ++texts[row[column].text];
+    values.push_back(data.csv.number(row[column], data.decimal));
+  }
+  const auto in_order = [&](auto before) {
+    return std::ranges::adjacent_find(values, std::not_fn(before)) == values.end();
+  };
+  // A measured number in coarse steps recurs as well, but some of its values come once.
+  const auto once = std::ranges::count(texts, 1, [](const auto& text) { return text.second; });
+  const bool recur = 2 * texts.size() <= values.size() && 10 * static_cast<std::size_t>(once) <= texts.size();
+  return recur || in_order(std::less{}) || in_order(std::greater{});
+}
+
+} // namespace gumshoe::scenario

@@ -1,0 +1,203 @@
+#include "scenario/column_words.h"
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <regex>
+#include <string_view>
+
+#include "base/clock.h"
+#include "base/error.h"
+#include "base/units.h"
+
+namespace gumshoe::scenario {
+namespace {
+
+struct RoleWords {
+  ColumnRole role;
+  std::vector<std::string_view> words;
+};
+/// In the order in which they count: "position error" is a reading.
+const std::vector<RoleWords>& role_words() {
+  static const std::vector<RoleWords> all{
+      {ColumnRole::uncertainty, {"sd", "std", "sigma", "u", "uncertainty", "unsicherheit"}},
+      {ColumnRole::temperature, {"temp", "temperature", "temperatur"}},
+      {ColumnRole::direction, {"dir", "direction", "richtung", "approach", "sense"}},
+      {ColumnRole::cycle, {"cycle",   "run",     "repeat", "repetition", "pass",    "lauf",      "zyklus",
+                           "setup",   "series",  "reihe",  "messreihe",  "serie",   "durchgang", "trial",
+                           "round",   "runde",   "expt",   "experiment", "versuch", "replicate", "rep",
+                           "session", "sitzung", "visit",  "campaign",   "sweep",   "lap",       "umlauf"}},
+      {ColumnRole::time,
+       {"time", "zeit", "timestamp", "datetime", "date", "datum", "clock", "uhrzeit", "t", "elapsed", "seconds",
+        "sekunden", "minutes", "minuten", "hours", "stunden"}},
+      {ColumnRole::reading,
+       {"dev",      "deviation", "error",      "err",     "abweichung", "reading",    "laser",  "measured",
+        "meas",     "actual",    "act",        "ist",     "diff",       "difference", "result", "value",
+        "messwert", "wert",      "indication", "anzeige", "signal",     "output"}},
+      {ColumnRole::position,
+       {"pos", "position", "target", "tgt", "nominal", "nom", "soll", "set", "setpoint", "command", "commanded", "load",
+        "last", "force", "kraft", "pressure", "druck", "angle", "winkel"}},
+  };
+  return all;
+}
+
+/// Spellings of units in headers.
+const std::map<std::string, std::string>& unit_words() {
+  static const std::map<std::string, std::string> all{
+      {"um", "um"},         {"µm", "um"},         {"μm", "um"},     {"micron", "um"},   {"nm", "nm"},
+      {"mm", "mm"},         {"m", "m"},           {"km", "km"},     {"inch", "inch"},   {"deg", "deg"},
+      {"°", "deg"},         {"rad", "rad"},       {"mrad", "mrad"}, {"urad", "urad"},   {"µrad", "urad"},
+      {"arcsec", "arcsec"}, {"s", "s"},           {"sec", "s"},     {"ms", "ms"},       {"min", "min"},
+      {"h", "h"},           {"K", "K"},           {"degC", "degC"}, {"°C", "degC"},     {"C", "degC"},
+      {"N", "N"},           {"mm/min", "mm/min"}, {"mm/s", "mm/s"}, {"um/m", "um/m"},   {"%", "%"},
+      {"ppm", "ppm"},       {"ppb", "ppb"},       {"Hz", "Hz"},     {"kN", "kN"},       {"MN", "MN"},
+      {"Nm", "N m"},        {"V", "V"},           {"mV", "mV"},     {"mV/V", "mV/V"},   {"mVV", "mV/V"},
+      {"bar", "bar"},       {"mbar", "mbar"},     {"Pa", "Pa"},     {"hPa", "hPa"},     {"kPa", "kPa"},
+      {"MPa", "MPa"},       {"kg", "kg"},         {"rpm", "1/min"}, {"1/min", "1/min"}, {"U/min", "1/min"},
+      {"m/min", "m/min"}};
+  return all;
+}
+
+std::string lower(std::string text) {
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+/// "mm" and "min": mm/min, a speed or any other ratio that has a name; empty if they are no such pair.
+std::string ratio(const std::string& above, const std::string& below) {
+  if (const auto both = unit_words().find(above + "/" + below); both != unit_words().end()) return both->second;
+  const auto upper = unit_words().find(above), lower = unit_words().find(below);
+  if (upper == unit_words().end() || lower == unit_words().end()) return "";
+  const std::string si_unit = units::si_unit_of(upper->second);
+  const bool speed = (si_unit == "m" || si_unit == "rad") && units::si_unit_of(lower->second) == "s";
+  return speed ? upper->second + "/" + lower->second : "";
+}
+
+const std::vector<std::pair<std::vector<std::string_view>, double>>& direction_words() {
+  static const std::vector<std::pair<std::vector<std::string_view>, double>> all{
+      {{"fwd", "forward", "forwards", "up", "+", "cw", "increasing", "out", "outbound", "pos", "positive", "vor",
+        "vorwärts", "hin", "auf", "1", "+1", "p", "plus"},
+       1},
+      {{"bwd",     "backward", "backwards", "bck",  "ccw", "decreasing", "back",     "return",
+        "inbound", "rev",      "reverse",   "down", "-",   "neg",        "negative", "zurück",
+        "rück",    "rueck",    "ab",        "-1",   "n",   "minus"},
+       -1}};
+  return all;
+}
+
+/// Whether a column in this unit can be what its name says: T in degC is no time.
+bool fits(ColumnRole role, const std::string& unit) {
+  if (unit.empty() || unit == "1") return true;
+  const std::string si_unit = units::si_unit_of(unit);
+  if (role == ColumnRole::time) return si_unit == "s";
+  if (role == ColumnRole::temperature) return si_unit == "K";
+  return si_unit != "s" && (si_unit != "K" || role == ColumnRole::reading || role == ColumnRole::position ||
+                            role == ColumnRole::uncertainty);
+}
+
+} // namespace
+
+std::vector<std::string> words_of(const std::string& name) {
+  std::vector<std::string> out(1);
+  for (const char c : lower(name))
+    if (std::isalnum(static_cast<unsigned char>(c)) != 0 || (c & 0x80) != 0)
+      out.back() += c;
+    else if (!out.back().empty())
+      out.emplace_back();
+  if (out.back().empty()) out.pop_back();
+  return out;
+}
+
+ColumnRole role_by_name(const std::vector<std::string>& words, const std::string& unit) {
+  for (const RoleWords& known : role_words())
+    for (const std::string_view word : known.words)
+      if (std::ranges::find(words, word) != words.end() && fits(known.role, unit)) return known.role;
+  return ColumnRole::other;
+}
+
+bool is_temperature_symbol(const std::string& name, const std::string& unit) {
+  const auto letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
+  return fits(ColumnRole::temperature, unit) && !name.empty() && name.front() == 'T' &&
+         (name.size() == 1 || !letter(name[1]));
+}
+
+std::string unit_in(const std::string& name, std::string& rest) {
+  rest = name;
+  const std::size_t open = name.find_last_of("([<"), close = name.find_last_of(")]>");
+  if (open != std::string::npos && close != std::string::npos && close > open) {
+    rest = name.substr(0, open);
+    const std::string inside = name.substr(open + 1, close - open - 1);
+    if (const auto known = unit_words().find(inside); known != unit_words().end()) return known->second;
+    try {
+      units::si_unit_of(inside);
+      return inside == "1" || inside == "-" ? "1" : inside;
+    } catch (const InputError&) {
+      return inside == "-" ? "1" : "";
+    }
+  }
+  for (std::size_t at = name.find_last_of("_ /"); at != std::string::npos && at > 0;
+       at = name.find_last_of("_ /", at - 1)) {
+    std::string tail = name.substr(at + 1);
+    std::ranges::replace(tail, '_', '/'); // feed_mm_min
+    const auto known = unit_words().find(tail);
+    if (known == unit_words().end()) continue;
+    rest = name.substr(0, at);
+    if (const std::size_t more = rest.find_last_of("_ /"); more != std::string::npos)
+      if (const std::string both = ratio(rest.substr(more + 1), tail); !both.empty()) {
+        rest = rest.substr(0, more);
+        return both;
+      }
+    return known->second;
+  }
+  return "";
+}
+
+std::string unit_by_name(const std::vector<std::string>& words) {
+  static const std::map<std::string, std::string> all{{"seconds", "s"},   {"sekunden", "s"}, {"minutes", "min"},
+                                                      {"minuten", "min"}, {"hours", "h"},    {"stunden", "h"}};
+  for (const std::string& word : words)
+    if (const auto known = all.find(word); known != all.end()) return known->second;
+  return words == std::vector<std::string>{"rpm"} ? "1/min" : "";
+}
+
+std::string unit_below(std::string text) {
+  if (text.size() > 2 && (text.front() == '[' || text.front() == '(')) text = text.substr(1, text.size() - 2);
+  if (const auto known = unit_words().find(text); known != unit_words().end()) return known->second;
+  try {
+    units::si_unit_of(text);
+    return text;
+  } catch (const InputError&) {
+    return "";
+  }
+}
+
+std::vector<std::pair<std::string, double>> signs(const std::set<std::string>& texts) {
+  std::vector<std::pair<std::string, double>> out;
+  for (const std::string& text : texts)
+    for (const auto& [words, sign] : direction_words())
+      if (std::ranges::find(words, lower(text)) != words.end()) out.emplace_back(text, sign);
+  return texts.size() <= 4 && out.size() == texts.size() ? out : std::vector<std::pair<std::string, double>>{};
+}
+
+std::string clock_form(const std::vector<std::string>& texts) {
+  for (const char* form : {"iso", "%d.%m.%Y %H:%M:%S", "%d.%m.%Y %H:%M", "%d-%m-%Y %H:%M:%S", "%d/%m/%Y %H:%M:%S",
+                           "%Y/%m/%d %H:%M:%S", "%m/%d/%Y %I:%M:%S %p", "%m/%d/%Y %H:%M:%S", "%d.%m.%y %H:%M:%S",
+                           "%d-%b-%Y %H:%M:%S", "%I:%M:%S %p", "%H:%M:%S", "%H:%M"}) {
+    const ClockFormat format(form);
+    if (std::ranges::all_of(texts, [&](const std::string& t) { return format.parse(t).has_value(); })) return form;
+  }
+  return "";
+}
+
+bool are_dates(const std::vector<std::string>& texts) {
+  static const std::regex date(R"(\d{4}-\d{1,2}-\d{1,2}|\d{1,2}[./]\d{1,2}[./](\d{4}|\d{2}))");
+  return std::ranges::all_of(texts, [](const std::string& t) { return std::regex_match(t, date); });
+}
+
+bool says_missing(const std::string& text) {
+  static const std::set<std::string> words{"",     "nan", "na", "n/a", "#n/a", "null",
+                                           "none", "-",   "--", "---", "?",    "missing"};
+  return words.contains(lower(text));
+}
+
+} // namespace gumshoe::scenario
