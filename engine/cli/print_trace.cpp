@@ -44,6 +44,7 @@ std::string size_text(const SizedQuantity& q) {
 /// Lengths of less than a tenth of a millimetre in micrometres.
 struct Lengths {
   std::string unit, si_unit;
+  Lengths(std::string u, std::string si) : unit(std::move(u)), si_unit(std::move(si)) {}
   explicit Lengths(const Rms& r) : unit(r.unit), si_unit(r.si_unit) {
     if (unit == "mm" && !(std::max({r.before, r.after, r.noise}) >= 1e-4)) unit = "um";
   }
@@ -106,10 +107,9 @@ void print_rms(const Rms& r) {
     std::cout << fmt::format("  replicate floor: readings of equal conditions scatter by {} (95 %: {} to {})\n",
                              show(r.replicate_floor), show(r.replicate_floor_low), show(r.replicate_floor_high));
   if (std::isfinite(r.share_removed))
-    std::cout << fmt::format("  {} of the removable mean square of the hold-out residuals has been removed\n",
-                             r.share_removed > 1
-                                 ? "all"
-                                 : fmt::format("{:.0f} %", std::round(100 * r.share_removed) + 0.0)); // no "-0"
+    std::cout << fmt::format(
+        "  {} of the removable mean square of the hold-out residuals has been removed\n",
+        r.share_removed > 1 ? "all" : fmt::format("{:.0f} %", std::round(100 * r.share_removed) + 0.0)); // no "-0"
   if (!std::isfinite(r.holdout_before) && !r.holdout.empty()) std::cout << "  hold-out: " << r.holdout << '\n';
 }
 
@@ -128,7 +128,8 @@ void print_repeats(const Trace& t) {
     const Outlier& o = t.outliers[i];
     std::cout << fmt::format("outlier: {}{}, residual {}, weight {:.2f}\n", o.reading,
                              t.rows.size() > 0 && t.rows.back().indication > 0 ? ", " + o.indication : "",
-                             lengths.with_unit(o.residual), o.weight);
+                             (o.si_unit == t.rms.si_unit ? lengths : Lengths(o.unit, o.si_unit)).with_unit(o.residual),
+                             o.weight);
   }
   if (t.outliers.size() > listed)
     std::cout << fmt::format("(and {} more outliers in the result file)\n", t.outliers.size() - listed);

@@ -144,6 +144,11 @@ Trace traced(const scenario::Scenario& scenario, const Settings& settings, bool&
       scenario.trace.draws, scenario.trace.seed, settings.threads, settings.progress};
   out.rms.unit = model.card->indications[0].unit;
   out.rms.si_unit = model.card->indications[0].si_unit;
+  if (!observations.one_kind)
+    out.statements.push_back(
+        fmt::format("root mean squares are in the unit of {}: residuals of other indications count by "
+                    "their noise",
+                    observations.names[0]));
   out.alpha = c.alpha;
   out.draws = c.draws;
   state_what_design_rules_out(c, scenario, out);

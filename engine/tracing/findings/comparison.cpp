@@ -122,7 +122,11 @@ private:
   }
 
   Scores predict(const JointFit& fit, const Matrix& residual, const Blocks& blocks) const {
-    return score(fit, residual, rows_, blocks, after_.covariance_model);
+    Scores out = score(fit, residual, rows_, blocks, after_.covariance_model);
+    const auto& reference = after_.design.reference;
+    if (!c_.observations.one_kind)
+      out.in_first = Eigen::Map<const Vector>(reference.data(), index(reference.size())).cwiseInverse() * reference[0];
+    return out;
   }
 
   /// What the error cannot fall below: the replicates' scatter, else the declared noise.

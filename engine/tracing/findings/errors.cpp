@@ -32,14 +32,18 @@ Blocks predicted_blocks(const Observations& o) {
 
 bool Scores::scored() const { return !rms.empty() && std::isfinite(rms[0]); }
 
+double Scores::counts(Index row) const {
+  return std::fabs(residual[row]) * (in_first.size() == 0 ? 1 : in_first[row % in_first.size()]);
+}
+
 Index Scores::worst_row() const {
   Index worst = -1;
   for (Index i = 0; i < residual.size(); ++i)
-    if (std::isfinite(residual[i]) && (worst < 0 || std::fabs(residual[i]) > std::fabs(residual[worst]))) worst = i;
+    if (std::isfinite(residual[i]) && (worst < 0 || counts(i) > counts(worst))) worst = i;
   return worst;
 }
 
-double Scores::worst_point() const { return worst_row() < 0 ? none : std::fabs(residual[worst_row()]); }
+double Scores::worst_point() const { return worst_row() < 0 ? none : counts(worst_row()); }
 
 Scores score(const JointFit& fit, const Matrix& residual, const std::vector<Index>& training, const Blocks& blocks,
              const CovarianceModel& units) {

@@ -22,10 +22,12 @@ struct Scores {
   double worst_block = none;
   std::string worst_name;
   Vector residual; ///< of the first set, all rows; NaN where not scored
+  Vector in_first; ///< by indication: what its residual counts as, in the unit of the first one's; empty: as it is
 
   bool scored() const;
-  Index worst_row() const; ///< row of the largest residual; -1: none was scored
+  Index worst_row() const; ///< row of the residual that counts most; -1: none was scored
   double worst_point() const;
+  double counts(Index row) const; ///< its residual without sign, in the unit of the first indication's
   static constexpr double none = std::numeric_limits<double>::quiet_NaN();
 };
 
@@ -44,8 +46,8 @@ Vector excess(const Scores& before, const Scores& after, const Design& design);
 /// normal number, however unequal the noise. 0 where nothing changes.
 double overstated(const Scores& before, const Scores& after, const Design& design);
 
-/// The fit's own readings about the unknowns and declared draws, by least squares without correlation or component: more
-/// terms never leave more.
+/// The fit's own readings about the unknowns and declared draws, by least squares without correlation or component:
+/// more terms never leave more.
 struct InSample {
   Matrix left; ///< residuals, training rows x sets
   Vector rms;  ///< by set

@@ -171,25 +171,38 @@ double scale_of(std::vector<double> x) {
 } // namespace
 
 void Fitter::find_spread() {
+  if (noise_declared_ || observations_.indications == 1) return;
+  const auto found = scatter_about_cells();
+  if (!observations_.one_kind && !found)
+    throw InputError(
+        {{propagation::find_line(experiment_.scenario(), "[indications"),
+          "indications of different kinds have no noise stated",
+          "too few readings of equal conditions tell how much each of them scatters",
+          "state u of a reading under each [indications.NAME], or trace each kind in a scenario of its own"}});
+  if (found && (found->unequal || !observations_.one_kind)) spread_ = found->size / found->size[0];
+}
+
+std::optional<Fitter::Scatter> Fitter::scatter_about_cells() const {
   const auto k = index(observations_.indications);
   const JointFit fit = linearised(1);
-  if (noise_declared_ || k == 1 || !fit.valid || rows_.size() < 8 * index(k)) return;
+  if (!fit.valid || rows_.size() < 8 * index(k)) return std::nullopt;
   const PureError pure(fit.design, rows_, replicates_);
-  if (!pure.known()) return; // what the model lacks would count as noise
+  if (!pure.known()) return std::nullopt; // what the model lacks would count as noise
   const Matrix about = pure.about_cells(fit.residual(rows_));
-  Vector found(k);
+  Scatter out{Vector(k), false};
   for (Index i = 0; i < k; ++i) {
     std::vector<double> x; // second differences: of what is smooth in time little is left
     for (Index row = i; row + 2 * k < about.rows(); row += k)
       x.push_back((about(row, 0) - 2 * about(row + k, 0) + about(row + 2 * k, 0)) / std::sqrt(6.0));
-    found[i] = scale_of(std::move(x));
+    out.size[i] = scale_of(std::move(x));
   }
-  if (!(found.minCoeff() > 0)) return;
+  if (!(out.size.minCoeff() > 0)) return std::nullopt;
   // The median has 0.37 of the information of the mean square, and second differences about half of the readings'.
   const double each = pure.freedom() / static_cast<double>(k), u = std::sqrt(1 / (0.37 * 0.5 * each));
-  const double ratio = found.maxCoeff() / found.minCoeff();
-  if (constexpr double sure = 3; ratio > criteria.unequal_spread && std::log(ratio) > sure * u)
-    spread_ = found / found[0];
+  const double ratio = out.size.maxCoeff() / out.size.minCoeff();
+  constexpr double sure = 3; // standard deviations
+  out.unequal = ratio > criteria.unequal_spread && std::log(ratio) > sure * u;
+  return out;
 }
 
 /// What comes back in every block is no noise, nor is a slow drift, however well a serial correlation or a variance

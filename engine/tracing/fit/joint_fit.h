@@ -127,6 +127,12 @@ private:
   void find_responses();
   void find_covariance_models();
   /// Where no noise is declared: whether one indication scatters more than another, from what does not repeat.
+  struct Scatter {
+    Vector size;  ///< by indication, SI
+    bool unequal; ///< surely
+  };
+  /// Scatter of readings about the means of their conditions; none, if too few repeat or they do not scatter.
+  std::optional<Scatter> scatter_about_cells() const;
   void find_spread();
 
   bool linearise(JointFit& fit) const;

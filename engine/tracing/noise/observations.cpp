@@ -175,7 +175,10 @@ Observations observe(const propagation::Experiment& e) {
   Observations o;
   o.readings = s.readings.size();
   o.indications = card.indications.size();
-  for (const auto& i : card.indications) o.names.emplace_back(i.name);
+  for (const auto& i : card.indications) {
+    o.names.emplace_back(i.name);
+    o.one_kind = o.one_kind && i.si_unit == card.indications[0].si_unit;
+  }
   for (const auto& r : s.readings) {
     if (r.indications.size() != o.indications)
       calibration::refuse(s.file, "there are no readings to trace", "no indication has readings",

@@ -44,6 +44,7 @@ struct Observations {
   std::vector<double> measured;        ///< [reading][indication], SI
   std::vector<std::string> statements; ///< what the design of the data leaves undetermined
   std::vector<std::string> names;      ///< names of the indications
+  bool one_kind = true;                ///< their SI units are one: not um and arcsec
 };
 
 /// Rows of the scenario, [reading][indication], in the order of measurement.
