@@ -139,9 +139,9 @@ def wrong_names(rows):
     count = defaultdict(int)
     for r in counted(rows):
         for n in r["wrong"]:
-            count[r["family"], n] += 1
+            count[r["family"], n.replace("|", "or")] += 1
         if r["alarm"]:
-            count[r["family"], " + ".join(r["found"])] += 1
+            count[r["family"], " + ".join(r["found"]).replace("|", "or")] += 1
     return [(f, n, k) for (f, n), k in sorted(count.items(), key=lambda item: -item[1])]
 
 
@@ -154,11 +154,18 @@ def broken(rows):
             yield r["family"], r["seed"], "; ".join(what)
 
 
+def seeds_of(rows):
+    """How many seeds the families had, where some had fewer."""
+    seeds = {name: len({r["seed"] for r in group}) for name, group in by_family(rows).items()}
+    few, most = min(seeds.values()), max(seeds.values())
+    return f"{few} seeds a family." if few == most else f"{few} to {most} seeds a family."
+
+
 def page(rows, families, version, rounds, draws):
     failed = [r for r in rows if "failed" in r]
     parts = [
         f"This part is written by `scripts/tracing-study --battery`. {len(rows)} sets of {len(by_family(rows))} families (`tests/recovery/families.py`), "
-        f"{version}, {machine()}. Each set is traced in up to {rounds} rounds, {draws} bootstrap draws. "
+        f"{version}, {machine()}. {seeds_of(rows)} Each set is traced in up to {rounds} rounds, {draws} bootstrap draws. "
         + (f"{len(failed)} gave no verdict." if failed else "Every one gave a verdict."),
         "*Right*: the effect's name, or a class that an oracle cannot split either; of what is in no catalogue, that it is an unknown effect and one of the "
         "conditions on which it depends. *What is plain* has a strength of 8 or more (`tests/recovery/README.md`). *Wrong*: a cause that is not "
