@@ -64,10 +64,11 @@ Rounds trace_rounds(const scenario::Scenario& s, const tracing::Settings& settin
       last.added.clear();
       last.rms.after = last.rms.before;
       last.rms.holdout_after = last.rms.holdout_before;
-      out.first.statements.push_back(fmt::format("{} follows the order of the rows, which the traced scenario does not "
-                                                 "hold: it is part of its noise; record what "
-                                                 "it depends on, such as the direction of motion, as a condition",
-                                                 found.findings.front().described_by));
+      out.first.statements.push_back(
+          fmt::format("{} follows the order of the rows, which the traced scenario does not "
+                      "hold: it is part of its noise; record what "
+                      "it depends on as a condition, such as direction = {{ column = \"...\", sense = true }}",
+                      found.findings.front().described_by));
       break;
     }
     shapes.clear();

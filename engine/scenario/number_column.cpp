@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "base/clock.h"
+#include "math/senses.h"
 
 namespace gumshoe::scenario {
 namespace {
@@ -38,7 +39,10 @@ std::vector<Key> number_column_keys() {
           {"map", shape::map(shape::reference("measure")), "word = number: what the words in the column stand for"},
           {"clock", shape::text(),
            "the column holds clock times, which become seconds since the first: \"iso\", or a pattern such as "
-           "\"%d.%m.%Y %H:%M:%S\""}};
+           "\"%d.%m.%Y %H:%M:%S\""},
+          {"sense", shape::flag(),
+           "the way the numbers in the column go from row to row: 1 up, -1 down; for readings that a path up and down "
+           "gave, without a column for its direction"}};
 }
 
 Shape number_column_shape() { return shape::any_of({shape::text(), shape::table(number_column_keys())}); }
@@ -53,6 +57,7 @@ std::map<std::string, std::string> stated_units(const Node* data) {
 
 std::string unit_of_column(const Node& node, const std::map<std::string, std::string>& units) {
   if (member(node, "clock")) return "s";
+  if (member(node, "sense")) return "1";
   if (const Node* unit = member(node, "unit"); unit && unit->kind == Node::Kind::text) return unit->text;
   if (const Node* map = member(node, "map"))
     for (const Member& m : map->members)
@@ -80,6 +85,8 @@ std::optional<NumberColumn> NumberColumn::read(Table& parent, const std::string&
   out.unit_ = unit_of_column(stated, file.units);
   if (table->has("clock"))
     out.read_clock(*table);
+  else if (table->has("sense"))
+    out.read_sense(*table);
   else if (out.read_unit(*table) && table->has("map"))
     out.read_map(*table);
   for (const char* other : {"unit", "map"}) table->find(other);
@@ -160,6 +167,17 @@ void NumberColumn::read_clock(Table& table) {
   clock_ = *pattern;
 }
 
+void NumberColumn::read_sense(Table& table) {
+  for (const char* other : {"unit", "map"})
+    if (table.has(other)) table.refuse_key(other, "given together with sense", "a sense is 1 or -1", "leave it out");
+  unit_ = "1";
+  if (!dimension_.si_unit.empty() && dimension_.si_unit != "1")
+    table.refuse_key("sense", fmt::format("a sense is not {}", units::kind_name(dimension_.si_unit)), "it is 1 or -1");
+  dimension_.si_unit = "1";
+  sense_ = table.boolean("sense").value_or(false);
+  if (table.has("sense") && !sense_) table.refuse_key("sense", "false says nothing", "", "leave it out");
+}
+
 std::string NumberColumn::text_at(std::size_t row) const {
   std::string text;
   for (const std::size_t c : columns_) text += (text.empty() ? "" : " ") + file_.csv->rows[row][c].text;
@@ -169,6 +187,7 @@ std::string NumberColumn::text_at(std::size_t row) const {
 std::vector<std::optional<double>> NumberColumn::values(const std::vector<std::size_t>& rows,
                                                         Problems& problems) const {
   if (!clock_.empty()) return clock_values(rows, problems);
+  if (sense_) return sense_values(rows, problems);
   std::vector<std::optional<double>> out;
   std::set<std::string> told;
   for (const std::size_t row : rows) {
@@ -186,6 +205,18 @@ std::vector<std::optional<double>> NumberColumn::values(const std::vector<std::s
                   fmt::format("it has {}", fmt::join(known, ", ")), "add the word to the map"});
   }
   return out;
+}
+
+std::vector<std::optional<double>> NumberColumn::sense_values(const std::vector<std::size_t>& rows,
+                                                              Problems& problems) const {
+  std::vector<double> numbers;
+  for (const std::size_t row : rows) {
+    const auto x = read_cell(file_, file_.csv->rows[row][columns_.front()], "1", {"1"}, problems);
+    if (!x) return std::vector<std::optional<double>>(rows.size());
+    numbers.push_back(*x);
+  }
+  const auto way = senses(numbers);
+  return {way.begin(), way.end()};
 }
 
 std::vector<std::optional<double>> NumberColumn::clock_values(const std::vector<std::size_t>& rows,

@@ -4,7 +4,8 @@
 
 namespace gumshoe::scenario {
 
-/// Keys of { column, unit }, { column, map = { fwd = 1, bwd = -1 } } and { column, clock = "iso" }.
+/// Keys of { column, unit }, { column, map = { fwd = 1, bwd = -1 } }, { column, clock = "iso" } and
+/// { column, sense = true }.
 std::vector<Key> number_column_keys();
 /// Such a table, or the column's name alone.
 Shape number_column_shape();
@@ -23,7 +24,7 @@ public:
                                           const Dimension& dimension = {});
   /// The numbers of these rows in SI; nothing where a cell is wrong, with a problem at its place. Clock times are
   /// seconds since the earliest of the rows. Times without a date go on after midnight: one more than half a day below
-  /// the row before it is of the next day.
+  /// the row before it is of the next day. A sense is that from row to row of these.
   std::vector<std::optional<double>> values(const std::vector<std::size_t>& rows, Problems& problems) const;
   const std::string& unit() const { return unit_; }
   const std::string& si_unit() const { return dimension_.si_unit; }
@@ -35,12 +36,15 @@ private:
   bool read_unit(Table& table);
   void read_map(Table& table);
   void read_clock(Table& table);
+  void read_sense(Table& table);
   std::vector<std::optional<double>> clock_values(const std::vector<std::size_t>& rows, Problems& problems) const;
+  std::vector<std::optional<double>> sense_values(const std::vector<std::size_t>& rows, Problems& problems) const;
   std::string text_at(std::size_t row) const;
 
   DataFile file_;
   Dimension dimension_;
   std::string name_, unit_, clock_, path_;
+  bool sense_ = false;               ///< not the numbers, but the way they go
   std::vector<std::size_t> columns_; ///< of a clock time maybe two, date and time
   std::map<std::string, double> words_;
 };

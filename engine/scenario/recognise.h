@@ -24,6 +24,7 @@ struct RecognisedColumn {
   std::string clock = {};                                 ///< form of its clock times (base/clock.h); empty: none
   std::string date = {};                                  ///< column of their dates; empty: they have them, or none
   std::vector<std::pair<std::string, double>> words = {}; ///< a direction's words and their signs
+  bool sense = false;                                     ///< a direction that is the way the column's numbers go
 
   void take(ColumnRole taken, Basis on, std::string in_words) { role = taken, basis = on, why = std::move(in_words); }
   void leave() { take(ColumnRole::other, Basis::nothing, ""); }

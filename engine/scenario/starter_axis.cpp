@@ -1,10 +1,12 @@
 #include "scenario/starter.h"
 
 #include <algorithm>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "base/units.h"
+#include "math/senses.h"
 #include "scenario/starter_parts.h"
 
 namespace gumshoe::scenario {
@@ -53,6 +55,31 @@ std::vector<const RecognisedColumn*> channels(const RecognisedData& data, const 
   return out;
 }
 
+/// The direction of positions that go up and down, as of a load that is put on and taken off.
+std::optional<RecognisedColumn> both_ways(const RecognisedData& data, const RecognisedColumn& position) {
+  std::vector<double> x;
+  std::set<std::pair<double, double>> met;
+  for (const auto& row : data.csv.rows) {
+    const CsvCell& cell = row[static_cast<std::size_t>(data.csv.find(position.name))];
+    if (!says_missing(cell.text)) x.push_back(data.csv.number(cell, data.decimal));
+  }
+  const auto way = senses(x);
+  for (std::size_t i = 0; i < x.size(); ++i) met.emplace(x[i], way[i]);
+  const std::set<double> levels(x.begin(), x.end());
+  const auto both = std::ranges::count_if(levels, [&](double v) {
+    return met.contains({v, 1}) && met.contains({v, -1});
+  });
+  if (levels.size() < 4 || 2 * static_cast<std::size_t>(both) < levels.size()) return std::nullopt;
+  // Few turns: positions in any order turn at every other reading.
+  std::size_t turns = 0;
+  for (std::size_t i = 1; i < x.size(); ++i) turns += way[i] != way[i - 1];
+  if (3 * turns > x.size()) return std::nullopt;
+  RecognisedColumn out = position;
+  out.take(ColumnRole::direction, Basis::cells, "as the positions go up and down");
+  out.sense = true;
+  return out;
+}
+
 /// Circumstances with a known unit, which vary: a feed, a humidity, and what else was set to a few values, as a radius.
 NamedColumns circumstances(const RecognisedData& data, const std::set<std::string>& used) {
   constexpr std::size_t few = 10;
@@ -76,7 +103,8 @@ std::string starter_axis(const StarterData& data, const std::string& scenario) {
                      "tell which it is: --role COLUMN=reading");
   require_numbers(found, *position, "positions");
   require_numbers(found, *reading, "readings");
-  const RecognisedColumn* const direction = found.find(Role::direction);
+  const std::optional<RecognisedColumn> way = found.find(Role::direction) ? std::nullopt : both_ways(found, *position);
+  const RecognisedColumn* const direction = way ? &*way : found.find(Role::direction);
   const RecognisedColumn* const sd = found.find(Role::uncertainty);
   const auto all = channels(found, *position, *reading);
   if (std::ranges::find(all, reading) == all.end()) reading = all[0];

@@ -27,9 +27,10 @@ std::string plain_name(const std::string& text) {
 
 namespace {
 
-/// "pos_mm", or a table of its map or clock.
+/// "pos_mm", or a table of its map, clock or sense.
 std::string column_text(const RecognisedColumn& c) {
   const std::string column = c.date.empty() ? quoted(c.name) : fmt::format("[{}, {}]", quoted(c.date), quoted(c.name));
+  if (c.sense) return fmt::format("{{ column = {}, sense = true }}", column);
   if (!c.clock.empty()) return fmt::format("{{ column = {}, clock = {} }}", column, quoted(c.clock));
   if (c.words.empty() || c.number) return quoted(c.name);
   std::string map;

@@ -230,7 +230,7 @@ name = "expression"
 [model.indications]
 x = "g * p"
 y = "g * p * d"
-z = "g * p * s"
+z = "g * p * s * way"
 [data]
 file = "values.csv"
 delimiter = ","
@@ -241,7 +241,7 @@ decimal = "."
 labels = { w = "w" }
 units = { r = "mm" }
 where = { w = ["a", "b"] }
-conditions = { s = { column = "w", map = { a = 1, b = -1 } }, p = { column = "r", unit = "mm" }, d = { column = "w", map = { a = 1, b = -1 } }, t = { column = "c", clock = "%H:%M" } }
+conditions = { s = { column = "w", map = { a = 1, b = -1 } }, p = { column = "r", unit = "mm" }, d = { column = "w", map = { a = 1, b = -1 } }, t = { column = "c", clock = "%H:%M" }, way = { column = "r", sense = true } }
 [quantities]
 g = { value = 1, estimated = true }
 h = { distribution = "empirical", values = { file = "values.csv", column = "r", unit = "mm", delimiter = ",", header = 1, first_row = 2 } }
@@ -251,10 +251,10 @@ u = { column = "r", unit = "mm" }
 [indications.y]
 readings = { column = "r", unit = "mm", where = { w = ["a", "b"] } }
 [indications.z]
-readings = { file = "values.csv", delimiter = ",", header = 1, first_row = 2, repeats = "mean", column = "r", unit = "mm", labels = { w = "w" }, conditions = { p = { column = "r", unit = "mm" }, d = { column = "w", map = { a = 1, b = -1 } }, t = { column = "c", clock = "%H:%M" }, s = { column = "w", map = { a = 1, b = -1 } } } }
+readings = { file = "values.csv", delimiter = ",", header = 1, first_row = 2, repeats = "mean", column = "r", unit = "mm", labels = { w = "w" }, conditions = { p = { column = "r", unit = "mm" }, d = { column = "w", map = { a = 1, b = -1 } }, t = { column = "c", clock = "%H:%M" }, s = { column = "w", map = { a = 1, b = -1 } }, way = { column = "r", sense = true } } }
 [trace]
 blocks = { every = "1 min", of = "t" }
-columns = { q = { column = "v", unit = "mm" }, f = { column = "w", map = { a = 1, b = -1 } }, m = { column = "c", clock = "%H:%M" }, n = { counts = "readings" } }
+columns = { q = { column = "v", unit = "mm" }, f = { column = "w", map = { a = 1, b = -1 } }, m = { column = "c", clock = "%H:%M" }, n = { counts = "readings" }, o = { column = "v", sense = true } }
 ''',
     "logs": '''
 schema = 1

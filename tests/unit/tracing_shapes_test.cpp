@@ -203,6 +203,12 @@ TEST_CASE("a reversal that grows along a slide is a shape, and what follows from
     for (std::size_t r = 0; r < count; ++r) y[static_cast<Index>(r)] = direction[r] * (place[r] - from);
     CHECK(tracing_dense::outside(named(all, "product:x*direction", shape).columns, y).norm() < 1e-12 * y.norm());
   }
+  // Rayleigh's loop closes where the way turns back.
+  const Matrix loop = named(all, "product:x*direction", "closing at both ends").columns;
+  for (std::size_t r = 0; r < count; ++r) {
+    const double z = (place[r] - 0.17) / 0.07;
+    CHECK(loop(static_cast<Index>(r), 0) == Approx(direction[r] * (1 - z * z)).margin(1e-12));
+  }
   // The screw's angle follows from x.
   std::set<std::string> tables;
   for (const Candidate& a : all)

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "math/senses.h"
 #include "tracing/criteria.h"
 
 namespace gumshoe::tracing {
@@ -34,24 +35,6 @@ bool of_the_start(const Vector& curve) {
   if (n <= 2 * first) return false;
   const Vector x = curve.array() - curve.tail(n - first).mean();
   return x.head(first).squaredNorm() > criteria.few_share * x.squaredNorm();
-}
-
-/// The direction from which each value was approached, 1 or -1. Where motion turns at a value that is met several
-/// times, the first half of these come from one side and the others from the other.
-Vector senses(const Vector& x) {
-  Vector out = Vector::Zero(x.size());
-  double before = 0;
-  for (Index from = 0; from < x.size();) {
-    Index to = from;
-    while (to < x.size() && x[to] == x[from]) ++to;
-    const double after = to == x.size() ? before : x[to] > x[from] ? 1 : -1;
-    const Index first = before == 0 ? 0 : (to - from + 1) / 2;
-    out.segment(from, first).setConstant(before);
-    out.segment(from + first, to - from - first).setConstant(after);
-    before = after;
-    from = to;
-  }
-  return out;
 }
 
 /// Time as it is within the training readings, and at their ends beyond them: no curve says how it goes on.
@@ -167,12 +150,20 @@ private:
   }
 
   void hysteresis(const Covariate& c) {
-    const Vector sign = senses(plain(o_, c));
-    // Both ways, more than to start anew.
+    const Vector x = plain(o_, c);
+    const auto way = senses(std::span(x.data(), static_cast<std::size_t>(x.size())));
+    const Vector sign = Eigen::Map<const Vector>(way.data(), x.size());
     const auto up = (sign.array() > 0).count(), down = (sign.array() < 0).count();
-    if (8 * std::min(up, down) >= std::max(up, down) && std::min(up, down) >= 3)
-      add(Family::shape, "hysteresis:" + c.name, sign, {c.name});
+    if (8 * std::min(up, down) < std::max(up, down) || std::min(up, down) < 3) return;
+    add(Family::shape, "hysteresis:" + c.name, sign, {c.name});
+    if (c.levels.size() > 3 && c.levels.size() * criteria.least_repeats <= o_.readings && !c.angle)
+      add(Family::shape, "hysteresis:" + c.name, sign.cwiseProduct(loop(c)), {c.name}, closing);
   }
+
+  /// A parabola that is 1 in the middle of what was measured and 0 at its ends, where the way turns back: what either
+  /// way has of hysteresis by Rayleigh's law, in a spring or a load cell.
+  Vector loop(const Covariate& c) const { return 1 - scaled(o_, c).array().square(); }
+  static constexpr const char* closing = "closing at both ends";
 
   void steps(const Grouping& g) {
     if (g.groups.size() > criteria.most_label_groups) return;
@@ -272,7 +263,8 @@ private:
     if (surface.cols() > 1) add(Family::omnibus, "omnibus:" + a.name + "*" + b.name, surface, {a.name, b.name});
   }
 
-  /// An error of the direction that grows along a slide: from an end of what was measured, or from the slide's zero.
+  /// An error of the direction that grows along a slide: from an end of what was measured, or from the slide's zero; or
+  /// that closes at both ends.
   void reversals(const Covariate& direction, const Covariate& place) {
     if (direction.levels.size() != 2 || direction.levels[0] != -direction.levels[1]) return;
     if (place.angle || place.levels.size() < 3 || elapses(place)) return;
@@ -285,6 +277,9 @@ private:
     grow(low, "the lowest " + place.name);
     grow(high, "the highest " + place.name);
     if (low != 0 && high != 0) grow(0, place.name + " = 0");
+    if (place.levels.size() > 3)
+      add(Family::shape, "product:" + place.name + "*" + direction.name, sign.cwiseProduct(loop(place)),
+          {place.name, direction.name}, closing);
   }
 
   const Observations& o_;

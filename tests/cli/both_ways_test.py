@@ -1,0 +1,78 @@
+"""Loads that go up and down without a column for their direction, from the log to a hysteresis and its correction.
+
+usage: both_ways_test.py path/to/gumshoe [unittest options]
+"""
+import json
+import random
+import unittest
+
+from program import InFolder, complaint, gumshoe
+
+PATH = [0, 20, 40, 60, 80, 100, 80, 60, 40, 20, 0]
+
+
+def torque(loop, reversal=0.0, seed=77):
+    """A torque transducer in three mountings, twice each: 2 mV/V, and a loop that closes at both ends."""
+    draw = random.Random(seed)
+    yield "mounting,cycle,M_Nm,signal_mV/V"
+    for mounting in ("0 deg", "120 deg", "240 deg"):
+        for cycle in (1, 2):
+            for i, load in enumerate(PATH):
+                x, way = load / 100, 1 if i <= 5 else -1
+                yield f"{mounting},{cycle},{load},{2 * x - way * (4 * loop * x * (1 - x) + reversal) + draw.gauss(0, 3e-5):.6f}"
+
+
+class BothWays(InFolder):
+    def new(self, rows):
+        (self.folder / "log.csv").write_text("\n".join(rows) + "\n")
+        run = gumshoe("new", "--from", "log.csv", "--out", "log.toml", "--force", cwd=self.folder)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        return (self.folder / "log.toml").read_text()
+
+    def traced(self):
+        run = gumshoe("trace", "log.toml", "--loop", "4", "--draws", "199", "--json", "v.json", cwd=self.folder)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        return json.loads((self.folder / "v.json").read_text())
+
+    def test_new_takes_the_direction_from_the_path(self):
+        self.assertIn('direction = { column = "M_Nm", sense = true }', self.new(torque(6e-4)))
+
+    def test_passes_one_way_have_no_direction(self):
+        one_way = ["cycle,pos_mm,err_um"] + [f"{c},{100 * i},{i + 0.1 * c}" for c in range(1, 6) for i in range(6)]
+        self.assertNotIn("sense", self.new(one_way))
+        shuffled = random.Random(1)
+        any_order = ["cycle,pos_mm,err_um"] + [f"{c},{100 * i},{i + 0.1 * c}" for c in range(1, 9) for i in shuffled.sample(range(8), 8)]
+        self.assertNotIn("sense", self.new(any_order))
+
+    def test_a_loop_is_found_and_its_correction_holds_in_the_next_round(self):
+        self.new(torque(6e-4))
+        rounds = self.traced()["rounds"]
+        self.assertEqual(len(rounds[0]["added"]), 1, rounds)
+        # 66 readings of noise 3e-5 mV/V; what is left is known to 1 / sqrt(2 * 40) = 11 %.
+        self.assertAlmostEqual(rounds[0]["after"], 3e-8, delta=1e-8)
+        self.assertEqual(rounds[1]["added"], [])
+        for key in ("before", "after"):
+            self.assertAlmostEqual(rounds[1][key] / rounds[0]["after"], 1, delta=0.02)
+
+    def test_a_constant_reversal_is_fitted(self):
+        self.new(torque(0, reversal=4e-4))
+        self.assertEqual(self.traced()["rounds"][0]["added"], [])
+        run = gumshoe("estimate", "log.toml", cwd=self.folder)
+        # u = 3e-5 / sqrt(60) = 4e-6 mV/V
+        self.assertRegex(run.stdout, r"reversal +-0\.000(39|40|41)")
+
+    def test_a_sense_stands_alone(self):
+        text = self.new(torque(6e-4))
+        for wrong, said in (('sense = true, unit = "mm"', "given together with sense"), ("sense = false", "false says nothing")):
+            (self.folder / "wrong.toml").write_text(text.replace("sense = true", wrong))
+            run = gumshoe("check", "wrong.toml", cwd=self.folder)
+            self.assertIsNone(complaint(run))
+            self.assertIn(said, run.stderr)
+        (self.folder / "wrong.toml").write_text(text.replace('position = "M_Nm"', 'position = { column = "M_Nm", sense = true }', 1).replace(
+            '[model]\nname = "expression"', '[model]\nname = "linear_axis"', 1))
+        run = gumshoe("check", "wrong.toml", cwd=self.folder)
+        self.assertIn("a sense is not a length", run.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
