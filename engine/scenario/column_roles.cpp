@@ -12,10 +12,12 @@
 namespace gumshoe::scenario {
 namespace {
 
-/// A length, an angle, a force, a torque, a mass, or a number without a unit.
+/// A length, an angle, a force, a torque, a mass, a pressure that is not the air's, or a number without a unit.
 bool is_place(const RecognisedColumn& c) {
   if (c.unit == "?" || c.unit == "1") return true;
-  static const std::set<std::string> set_units{"m", "rad", units::si_unit_of("N"), units::si_unit_of("N m"), "kg"};
+  if (c.unit == "hPa" || c.unit == "mbar") return false;
+  static const std::set<std::string> set_units{
+      "m", "rad", units::si_unit_of("N"), units::si_unit_of("N m"), units::si_unit_of("Pa"), "kg"};
   return set_units.contains(units::si_unit_of(c.unit));
 }
 
@@ -78,9 +80,9 @@ void guess_roles(RecognisedData& data) {
 }
 
 bool is_circumstance(const RecognisedColumn& c) {
-  static const std::set<std::string> names{"feed",        "feedrate", "vorschub", "speed",
-                                           "drehzahl",    "rpm",      "humidity", "feuchte",
-                                           "luftfeuchte", "override", "velocity", "acceleration"};
+  static const std::set<std::string> names{"feed",    "feedrate",    "vorschub", "speed",     "drehzahl",
+                                           "rpm",     "humidity",    "feuchte",  "luftdruck", "barometer",
+                                           "ambient", "luftfeuchte", "override", "velocity",  "acceleration"};
   const auto words = words_of(c.name);
   if (std::ranges::any_of(words, [&](const std::string& w) { return names.contains(w); })) return true;
   return c.unit != "?" && std::ranges::any_of(std::array{"1/s", "m/s", "rad/s", "K"},

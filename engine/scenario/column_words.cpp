@@ -34,9 +34,9 @@ const std::vector<RoleWords>& role_words() {
        {"dev",      "deviation", "error",      "err",     "abweichung", "reading",    "laser",  "measured",
         "meas",     "actual",    "act",        "ist",     "diff",       "difference", "result", "value",
         "messwert", "wert",      "indication", "anzeige", "signal",     "output"}},
-      {ColumnRole::position,
-       {"pos", "position", "target", "tgt", "nominal", "nom", "soll", "set", "setpoint", "command", "commanded", "load",
-        "last", "force", "kraft", "pressure", "druck", "angle", "winkel"}},
+      {ColumnRole::position, {"pos",      "position", "target",    "tgt",   "nominal", "nom",   "soll",      "set",
+                              "setpoint", "command",  "commanded", "load",  "last",    "ref",   "reference", "referenz",
+                              "force",    "kraft",    "pressure",  "druck", "angle",   "winkel"}},
   };
   return all;
 }

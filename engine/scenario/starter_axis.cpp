@@ -64,12 +64,18 @@ std::optional<RecognisedColumn> both_ways(const RecognisedData& data, const Reco
     if (!says_missing(cell.text)) x.push_back(data.csv.number(cell, data.decimal));
   }
   const auto way = senses(x);
-  for (std::size_t i = 0; i < x.size(); ++i) met.emplace(x[i], way[i]);
-  const std::set<double> levels(x.begin(), x.end());
-  const auto both = std::ranges::count_if(levels, [&](double v) {
+  for (std::size_t from = 0, to = 0; from < x.size(); from = to) {
+    while (to < x.size() && x[to] == x[from]) ++to;
+    if (way[from] == way[to - 1]) met.emplace(x[from], way[from]); // it passed, and did not turn there
+  }
+  std::set<double> inner(x.begin(), x.end());
+  if (inner.size() < 4) return std::nullopt;
+  inner.erase(inner.begin());
+  inner.erase(std::prev(inner.end()));
+  const auto both = std::ranges::count_if(inner, [&](double v) {
     return met.contains({v, 1}) && met.contains({v, -1});
   });
-  if (levels.size() < 4 || 2 * static_cast<std::size_t>(both) < levels.size()) return std::nullopt;
+  if (2 * static_cast<std::size_t>(both) < inner.size()) return std::nullopt;
   // Few turns: positions in any order turn at every other reading.
   std::size_t turns = 0;
   for (std::size_t i = 1; i < x.size(); ++i) turns += way[i] != way[i - 1];

@@ -37,6 +37,16 @@ class BothWays(InFolder):
     def test_new_takes_the_direction_from_the_path(self):
         self.assertIn('direction = { column = "M_Nm", sense = true }', self.new(torque(6e-4)))
 
+    def test_a_reference_pressure_is_a_position_and_the_air_s_is_none(self):
+        rows = ["series;p_ref_bar;air_hPa;p_ind_bar"]
+        draw = random.Random(2)
+        for series in range(1, 4):
+            for load in PATH:
+                rows.append(f"{series};{load};{1013 + series // 2};{load + draw.gauss(0, 0.01):.3f}")
+        text = self.new(rows)
+        self.assertIn('position = "p_ref_bar"', text)
+        self.assertIn('direction = { column = "p_ref_bar", sense = true }', text)
+
     def test_passes_one_way_have_no_direction(self):
         one_way = ["cycle,pos_mm,err_um"] + [f"{c},{100 * i},{i + 0.1 * c}" for c in range(1, 6) for i in range(6)]
         self.assertNotIn("sense", self.new(one_way))
