@@ -288,8 +288,9 @@ class New(InFolder):
             self.assertIn(line, (self.folder / f"{name}.toml").read_text())
             run = gumshoe("trace", f"{name}.toml", "--draws", "99", "--format", "json", cwd=self.folder)
             self.assertEqual(run.returncode, 0, run.stderr)
-            # Repeats kept apart tell the way up from the way down.
-            self.assertEqual([f["described_by"] for f in json.loads(run.stdout)["findings"]], ["hysteresis:position"], name)
+            # The positions tell the way up from the way down: a reversal, and nothing else.
+            self.assertIn("sense = true", (self.folder / f"{name}.toml").read_text())
+            self.assertEqual(json.loads(run.stdout)["findings"], [], name)
         (self.folder / "signs.csv").write_text("pos_mm;dev_um\n" + "".join(f"{x};1,00{x % 7}.25\n" for x in range(20)))
         self.assertIn("signs.csv:2:3: error: '1,000.25' is not a number (the column 'dev_um' has the readings)", self.new("--from", "signs.csv", code=2))
 
