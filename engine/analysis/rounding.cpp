@@ -67,4 +67,11 @@ std::string probability_text(double p, double least) {
   return percent(p);
 }
 
+std::string share_text(double share) {
+  constexpr double half = 0.005;
+  if (std::fabs(share) < half) return "< 1 %";
+  if (share > 1 - half && share < 1 + half) return "> 99 %";
+  return fmt::format("{:.0f} %", 100 * share);
+}
+
 } // namespace gumshoe::analysis

@@ -17,4 +17,7 @@ std::string with_suitable_unit(double si, const std::string& unit, const std::st
 /// probability or its complement below it is not known.
 std::string probability_text(double p, double least);
 
+/// "97 %" of a whole, in whole percent; "< 1 %" and "> 99 %" for what would round to nothing or to all.
+std::string share_text(double share);
+
 } // namespace gumshoe::analysis

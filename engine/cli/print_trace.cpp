@@ -79,7 +79,7 @@ void print_finding(const Finding& f) {
   }
   if (f.removed_share > 0)
     std::cout << fmt::format("  left out alone, it brings back {} of the mean square of the residuals\n",
-                             f.removed_share < 0.995 ? fmt::format("{:.0f} %", 100 * f.removed_share) : "all");
+                             analysis::share_text(f.removed_share));
   if (!f.suggestion.empty()) std::cout << "  to split them: " << f.suggestion << '\n';
   for (const std::string& remark : f.remarks) std::cout << "  remark: " << remark << '\n';
 }
@@ -109,7 +109,7 @@ void print_rms(const Rms& r) {
   if (std::isfinite(r.share_removed))
     std::cout << fmt::format(
         "  {} of the removable mean square of the hold-out residuals has been removed\n",
-        r.share_removed > 1 ? "all" : fmt::format("{:.0f} %", std::round(100 * r.share_removed) + 0.0)); // no "-0"
+        r.share_removed > 1 ? "all" : analysis::share_text(r.share_removed));
   if (!std::isfinite(r.holdout_before) && !r.holdout.empty()) std::cout << "  hold-out: " << r.holdout << '\n';
 }
 

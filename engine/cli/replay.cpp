@@ -41,7 +41,7 @@ void print_reading(const propagation::Experiment& e, std::size_t r, const std::v
   if (virtual_experiment) {
     std::copy(simulated.begin(), simulated.end(), point.begin() + first_indication);
     for (const propagation::StatedSize& t : e.forward().stated()) // as the readout shows it
-      point[e.layout().indications[t.indication]] += estimates[t.quantity] * t.loading[r];
+      if (e.layout().indications.contains(t.target)) point[t.target] += estimates[t.quantity] * t.loading[r];
   }
   for (std::size_t q = 0; q < point.size(); ++q)
     std::cout << fmt::format("  {:<44} {:.17g} {}\n", s.quantities[q].name,

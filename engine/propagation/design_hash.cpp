@@ -71,7 +71,7 @@ std::string design_hash(const Experiment& e) {
     record.add(r.indications);
   }
   for (const StatedSize& stated : e.forward().stated()) {
-    record.add(std::uint64_t{stated.indication});
+    record.add(std::uint64_t{stated.target - e.layout().indications.begin});
     record.add(stated.loading);
   }
   return record.hash();

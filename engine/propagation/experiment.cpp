@@ -72,16 +72,18 @@ quantities::SamplePlan located_plan(const scenario::Scenario& s) {
 
 ForwardModel forward_model_of(const scenario::Scenario& s, const models::Model& model) {
   const ModelCard& card = *model.card;
+  // Quantities of the model, of effects, noise of the indications, sizes.
+  std::size_t end = s.quantities.size() - card.indications.size();
+  std::vector<std::pair<std::size_t, const scenario::StatedEffect*>> sizes;
+  for (const auto& e : s.stated_effects)
+    if (const auto size = std::ranges::find(s.quantities, e.name + ".size", &quantities::InputQuantity::name);
+        size != s.quantities.end())
+      sizes.emplace_back(size - s.quantities.begin(), &e);
+  end -= sizes.size();
   std::vector<StatedSize> stated;
-  std::size_t sizes = 0;
-  for (const auto& e : s.stated_effects) {
-    const auto size = std::ranges::find(s.quantities, e.name + ".size", &quantities::InputQuantity::name);
-    if (size == s.quantities.end()) continue;
-    ++sizes;
-    for (const auto& part : e.parts)
-      stated.push_back({static_cast<std::size_t>(size - s.quantities.begin()), part.indication, part.loading});
-  }
-  const std::size_t end = s.quantities.size() - card.indications.size() - sizes;
+  for (const auto& [size, e] : sizes)
+    for (const auto& part : e->parts)
+      stated.push_back({size, (part.on_quantity ? 0 : end) + part.target, part.loading});
   std::vector<const EffectCard*> acting;
   std::size_t at = card.quantities.size();
   for (const EffectCard* e : effects::cards())
@@ -159,6 +161,9 @@ void Experiment::find_twins() {
   const auto same = [&](std::size_t a, std::size_t b) {
     for (std::size_t q = 0; q < layout.effects.end; ++q)
       if ((layout.effects.contains(q) || model().solve_reads(q)) && plan_.gather[a][q] != plan_.gather[b][q])
+        return false;
+    for (const StatedSize& s : forward_.stated())
+      if (layout.model.contains(s.target) && model().solve_reads(s.target) && s.loading[a] != s.loading[b])
         return false;
     return forward_.active().empty() || std::ranges::equal(forward_.conditions(a), forward_.conditions(b));
   };

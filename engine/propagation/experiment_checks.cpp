@@ -57,7 +57,13 @@ models::Declared Experiment::declared() const {
       moves(model[q], q, 1);
     }
     for (std::size_t k = 0; k < noise.size(); ++k) moves(noise[k], model.size() + k, 1);
-    for (const StatedSize& s : forward_.stated()) moves(s.quantity, model.size() + s.indication, -s.loading[r]);
+    for (const StatedSize& s : forward_.stated())
+      if (noise.contains(s.target)) {
+        moves(s.quantity, model.size() + s.target - noise.begin, -s.loading[r]);
+      } else {
+        out.estimates[r * model.size() + s.target] += s.loading[r] * column_estimates_[plan_.gather[r][s.quantity]];
+        moves(s.quantity, s.target, s.loading[r]);
+      }
   }
   quantities::Correlations correlations(plan_);
   for (const auto& group : plan_.copulas) {

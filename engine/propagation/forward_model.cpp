@@ -9,6 +9,7 @@ void Block::clear(std::size_t samples_wanted) {
   for (auto* columns : {&quantities, &effects, &indications, &sizes, &conditions}) columns->clear();
   readings.clear();
   solved_as.clear();
+  moved.clear();
 }
 
 ForwardModel::ForwardModel(const models::Model& model, std::span<const EffectCard* const> acting,
@@ -60,7 +61,17 @@ void ForwardModel::add(Block& block, std::size_t reading, std::span<const models
     to.insert(to.end(), row.begin() + static_cast<std::ptrdiff_t>(part.begin),
               row.begin() + static_cast<std::ptrdiff_t>(part.end));
   };
+  const std::size_t first = block.quantities.size();
   append(block.quantities, layout_.model);
+  for (const StatedSize& s : stated_) {
+    if (!layout_.model.contains(s.target)) continue;
+    models::Column& quantity = block.quantities[first + s.target];
+    const models::Column size = row[s.quantity];
+    std::vector<double>& sum = block.moved.emplace_back(block.samples);
+    for (std::size_t i = 0; i < block.samples; ++i)
+      sum[i] = quantity.data[i * quantity.stride] + size.data[i * size.stride] * s.loading[reading];
+    quantity = {sum.data(), 1};
+  }
   append(block.effects, layout_.effects);
   append(block.indications, layout_.indications);
   append(block.sizes, layout_.sizes);
@@ -134,9 +145,9 @@ BlockValues ForwardModel::simulate(const Block& block) const {
              truth = rows_of(out.measurands, measurand_rows(*this, block), n);
   model_->kernels()->simulate(call(block, simulated.data(), truth.data(), out.status.data()));
   for (std::size_t s = 0; s < stated_.size(); ++s)
-    for (std::size_t p = 0; p < places; ++p) {
+    for (std::size_t p = 0; p < places && layout_.indications.contains(stated_[s].target); ++p) {
       const models::Column size = block.sizes[p * layout_.sizes.size() + stated_[s].quantity - layout_.sizes.begin];
-      double* x = simulated[p * layout_.indications.size() + stated_[s].indication];
+      double* x = simulated[p * layout_.indications.size() + stated_[s].target - layout_.indications.begin];
       const double loading = stated_[s].loading[block.readings[p]];
       for (std::size_t i = 0; i < n; ++i) x[i] += size.data[i * size.stride] * loading;
     }
@@ -159,9 +170,9 @@ BlockValues ForwardModel::evaluate(const Block& block) const {
       columns.push_back({&without[i * n], 1});
     }
     for (std::size_t s = 0; s < stated_.size(); ++s)
-      for (std::size_t p = 0; p < places; ++p) {
+      for (std::size_t p = 0; p < places && layout_.indications.contains(stated_[s].target); ++p) {
         const models::Column size = block.sizes[p * layout_.sizes.size() + stated_[s].quantity - layout_.sizes.begin];
-        double* x = &without[(p * k + stated_[s].indication) * n];
+        double* x = &without[(p * k + stated_[s].target - layout_.indications.begin) * n];
         const double loading = stated_[s].loading[block.readings[p]];
         for (std::size_t i = 0; i < n; ++i) x[i] -= size.data[i * size.stride] * loading;
       }
@@ -175,6 +186,7 @@ template <class T>
 models::PointOutcome ForwardModel::evaluate_point(std::size_t reading, std::vector<T> point, std::vector<T>& out,
                                                   models::PointOutcome (*function)(const models::PointCall<T>&)) const {
   subtract_stated(reading, point.data());
+  move_quantities(reading, point.data());
   out.resize(model_->card->measurands.size());
   auto call = point_call(reading, point.data());
   call.measurands = out.data();
@@ -195,21 +207,33 @@ models::PointOutcome ForwardModel::indications(std::size_t reading, const std::v
                                                std::vector<models::Gradient>& out) const {
   out.resize(layout_.indications.size());
   std::vector<models::Gradient> truth(model_->card->measurands.size());
-  auto call = point_call(reading, point.data());
+  std::vector<models::Gradient> moved(stated_.empty() ? 0 : point.size());
+  if (!stated_.empty()) {
+    std::ranges::copy(point, moved.begin());
+    move_quantities(reading, moved.data());
+  }
+  auto call = point_call(reading, stated_.empty() ? point.data() : moved.data());
   call.measurands = truth.data();
   call.simulated = out.data();
   const auto outcome = model_->simulate_gradient(call);
-  for (const StatedSize& s : stated_) out[s.indication] = out[s.indication] + point[s.quantity] * s.loading[reading];
+  for (const StatedSize& s : stated_)
+    if (layout_.indications.contains(s.target)) {
+      models::Gradient& x = out[s.target - layout_.indications.begin];
+      x = x + point[s.quantity] * s.loading[reading];
+    }
   return outcome;
 }
 
 std::string ForwardModel::check(std::size_t reading, std::vector<double> point) const {
   subtract_stated(reading, point.data());
+  move_quantities(reading, point.data());
   return model_->check(point_call<double>(reading, point.data()));
 }
 
 std::vector<models::Intermediate> ForwardModel::explain(std::size_t reading, const std::vector<double>& point) const {
-  return model_->explain(point_call<double>(reading, point.data()));
+  std::vector<double> moved = point;
+  move_quantities(reading, moved.data());
+  return model_->explain(point_call<double>(reading, moved.data()));
 }
 
 struct ForwardModel::Together {

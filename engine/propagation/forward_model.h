@@ -2,8 +2,9 @@
 /// The only interface to a model: indications and measurands at given points, with derivatives.
 ///
 /// A ForwardModel is a model, the effects that act on it, one of its evaluations, the conditions of every reading and
-/// the stated effects. A simulation adds stated effects to the indications; an evaluation first subtracts them. No
-/// model knows of them. Values are SI throughout. Thread-safe.
+/// the stated effects. A simulation adds stated effects to the indications; an evaluation first subtracts them. One
+/// that is stated on a quantity is added to it for both, so that the quantity depends on the reading. No model knows of
+/// them. Values are SI throughout. Thread-safe.
 #include <memory>
 #include <span>
 #include <string>
@@ -15,11 +16,11 @@
 
 namespace gumshoe::propagation {
 
-/// A stated effect with a size: the quantity that is its size, and an indication to which it is added. Sizes are the
-/// last quantities of a row; an effect on several indications has one size.
+/// A stated effect with a size: places in a row of its size and of what it is added to, an indication or a quantity of
+/// the model. Sizes are the last quantities of a row; an effect on several indications has one size.
 struct StatedSize {
-  std::size_t quantity = 0, indication = 0;
-  std::vector<double> loading; ///< [reading]: change of the indication by the size, SI
+  std::size_t quantity = 0, target = 0;
+  std::vector<double> loading; ///< [reading]: change of the target by the size, SI
 };
 
 class ForwardModel {
@@ -89,10 +90,14 @@ public:
 
   /// Subtracts the stated effects from the indications of a reading's point, as an evaluation does first.
   template <class T> void subtract_stated(std::size_t reading, T* point) const {
-    for (const StatedSize& s : stated_) {
-      T& indication = point[layout_.indications[s.indication]];
-      indication = indication - point[s.quantity] * s.loading[reading];
-    }
+    for (const StatedSize& s : stated_)
+      if (layout_.indications.contains(s.target))
+        point[s.target] = point[s.target] - point[s.quantity] * s.loading[reading];
+  }
+  /// Adds the effects that are stated on quantities of the model to those of a reading's point.
+  template <class T> void move_quantities(std::size_t reading, T* point) const {
+    for (const StatedSize& s : stated_)
+      if (layout_.model.contains(s.target)) point[s.target] = point[s.target] + point[s.quantity] * s.loading[reading];
   }
   /// Message if a reading's point is impossible although each quantity is within its limits; empty otherwise.
   std::string check(std::size_t reading, std::vector<double> point) const;
@@ -101,7 +106,7 @@ public:
   std::string check_together(const Points& at) const;
   std::vector<std::string> remarks(const Points& at) const;
   /// Every intermediate value of the evaluation of a reading, in the order of computation. Stated effects are
-  /// subtracted already.
+  /// subtracted from the indications already.
   std::vector<models::Intermediate> explain(std::size_t reading, const std::vector<double>& point) const;
 
 private:

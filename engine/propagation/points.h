@@ -2,6 +2,7 @@
 /// Points at which a model is evaluated, and its results there.
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <vector>
 
 #include "base/status.h"
@@ -68,6 +69,7 @@ struct Block {
   std::vector<models::Column> quantities, effects, indications, sizes, conditions; ///< [place][...]
   std::vector<std::size_t> solved_as; ///< [place]: earlier place with the same columns for the solve, or itself
   std::uint64_t first_sample = models::unnumbered;
+  std::deque<std::vector<double>> moved; ///< columns of quantities to which stated effects add
   void clear(std::size_t samples_wanted);
 };
 

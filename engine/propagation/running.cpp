@@ -178,8 +178,8 @@ void Experiment::add_noise(std::size_t n, Workspace& w) const {
       for (std::size_t i = 0; i < n; ++i) x[i] = (virtual_ ? x[i] : read) + drawn.data[i * drawn.stride];
     }
   for (const StatedSize& s : forward_.stated())
-    for (std::size_t r = 0; r < scenario_.readings.size(); ++r) {
-      double* x = &w.indications[(r * noise.size() + s.indication) * n];
+    for (std::size_t r = 0; r < scenario_.readings.size() && noise.contains(s.target); ++r) {
+      double* x = &w.indications[(r * noise.size() + s.target - noise.begin) * n];
       const models::Column size = w.drawn[plan_.gather[r][s.quantity]];
       const double held = virtual_ ? column_estimates_[plan_.gather[r][s.quantity]] : 0;
       const double loading = virtual_ ? s.loading[r] : -s.loading[r];

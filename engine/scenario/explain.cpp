@@ -83,7 +83,8 @@ void explain(const Scenario& s, std::size_t number, const ModelCard& model, Line
   for (const StatedEffect& e : s.stated_effects)
     for (const StatedPart& part : e.parts)
       fmt::format_to(out, " loading of {} {:.12g} SI;",
-                     e.parts.size() == 1 ? e.name : fmt::format("{} on {}", e.name, model.indications[part.indication].name),
+                     e.parts.size() == 1 ? e.name
+                                         : fmt::format("{} on {}", e.name, model.indications[part.target].name),
                      part.loading[number - 1]);
   fmt::format_to(out, " {}\n", r.repeats == 1 ? "one indication" : fmt::format("mean of {} indications", r.repeats));
 }
@@ -154,8 +155,9 @@ void explain(const Choose& c, const ModelCard& model, Lines out) {
 }
 
 void explain(const Plan& p, Lines out) {
-  fmt::format_to(out, "plan\n  {} readings are allowed, at most {} are taken{}; power {}, alpha {}\n", p.readings.size(), p.most,
-                 p.budget ? fmt::format(", for at most {}", *p.budget) : "", p.power, p.alpha);
+  fmt::format_to(out, "plan\n  {} readings are allowed, at most {} are taken{}; power {}, alpha {}\n",
+                 p.readings.size(), p.most, p.budget ? fmt::format(", for at most {}", *p.budget) : "", p.power,
+                 p.alpha);
   if (!p.split.empty()) fmt::format_to(out, "  split {}\n", fmt::join(p.split, " from "));
   if (!p.detect.empty()) fmt::format_to(out, "  detect {}\n", fmt::join(p.detect, ", "));
   for (const auto& [name, size] : p.sizes) fmt::format_to(out, "  size of {}: {:.12g} SI\n", name, size);
@@ -167,9 +169,9 @@ void explain(const Plan& p, Lines out) {
 void explain(const StatedEffect& e, const ModelCard& model, Lines out) {
   for (const StatedPart& part : e.parts)
     fmt::format_to(out, "  {}: size ({}) * ({}) adds to {}\n", e.name, e.unit, part.formula,
-                   model.indications[part.indication].name);
-  fmt::format_to(out, "    {}{}{}\n", e.freed ? "freed" : "at null",
-                 e.meaning.empty() ? "" : ", meaning: " + e.meaning, e.source.empty() ? "" : ", source: " + e.source);
+                   part.on_quantity ? model.quantities[part.target].name : model.indications[part.target].name);
+  fmt::format_to(out, "    {}{}{}\n", e.freed ? "freed" : "at null", e.meaning.empty() ? "" : ", meaning: " + e.meaning,
+                 e.source.empty() ? "" : ", source: " + e.source);
 }
 
 void explain(const TraceOptions& t, Lines out) {

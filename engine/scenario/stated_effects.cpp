@@ -23,13 +23,16 @@ Options<StatedEffect> stated_effect_options() {
   return {
       by_hand("indication", shape::text(),
               "indication to which the effect is added; required if there are several and one formula"),
-      by_hand("formula", R"("type": ["string", "number", "object"])",
-              "formula of conditions and columns of [trace.columns], in SI units; of an effect on several indications a "
-              "formula for each: { X = \"cos(C)\", Y = \"sin(C)\" }"),
+      by_hand("quantity", shape::text(),
+              "instead of an indication: quantity of the model to which the effect is added at each reading"),
+      by_hand(
+          "formula", R"("type": ["string", "number", "object"])",
+          "formula of conditions and columns of [trace.columns], in SI units; of an effect on several indications a "
+          "formula for each: { X = \"cos(C)\", Y = \"sin(C)\" }"),
       by_hand("table", loading_table_shape(),
               "instead of a formula: its values at levels of conditions and columns, linear "
               "between the levels of one; elsewhere there is no value"),
-      by_hand("unit", shape::text(), "unit of the size; size times formula has the dimension of the indication")
+      by_hand("unit", shape::text(), "unit of the size; size times formula has the dimension of what it adds to")
           .needed("unit = \"um\""),
       by_hand("size", shape::reference("quantity"),
               "size of the effect; default: its null value, as a candidate of "
@@ -63,7 +66,8 @@ public:
     }
     table_.refuse_unknown();
     if (problems_.size() == before && table) tabulate(*table);
-    for (std::size_t i = 0; i < formulas_.size() && problems_.size() == before; ++i) compute(out_.parts[i], *formulas_[i]);
+    for (std::size_t i = 0; i < formulas_.size() && problems_.size() == before; ++i)
+      compute(out_.parts[i], *formulas_[i]);
     return std::move(out_);
   }
 
@@ -100,20 +104,37 @@ private:
       if (of.members().empty()) table_.refuse_key("formula", "it is empty", "", "formula = \"1 / feed\"");
       return;
     }
+    const bool on_quantity = table_.has("quantity");
+    if (on_quantity && table_.has("indication"))
+      table_.refuse_key("indication", "the effect adds to a quantity", "", "leave it out");
+    const std::string key = on_quantity ? "quantity" : "indication";
     const Node* node =
-        indications.size() == 1 ? table_.find("indication") : table_.require("indication", "indication = \"...\"");
-    const auto index = node ? table_.choice("indication", indications) : std::nullopt;
+        on_quantity || indications.size() == 1 ? table_.find(key) : table_.require(key, "indication = \"...\"");
+    const auto index =
+        node ? table_.choice(key, on_quantity ? names_of(scope_.model.quantities) : indications) : std::nullopt;
     if (formula)
       add_part(index.value_or(0), table_, "formula");
     else
-      out_.parts.push_back({index.value_or(0), {}, {}, {}});
+      out_.parts.push_back({index.value_or(0), false, {}, {}, {}});
+    out_.parts.back().on_quantity = on_quantity;
+  }
+
+  /// Unit and name of what a part adds to.
+  struct Target {
+    std::string name, unit, si_unit;
+  };
+  Target target(const StatedPart& part) const {
+    const auto of = [](const auto& card) {
+      return Target{std::string(card.name), std::string(card.unit), std::string(card.si_unit)};
+    };
+    return part.on_quantity ? of(scope_.model.quantities[part.target]) : of(scope_.model.indications[part.target]);
   }
 
   void add_part(std::size_t indication, Table& table, const std::string& key) {
     const Node& node = *table.find(key);
     const bool number = node.kind == Node::Kind::integer || node.kind == Node::Kind::real;
     out_.parts.push_back(
-        {indication, number ? fmt::format("{}", node.number) : table.text(key).value_or(""), {}, {}});
+        {indication, false, number ? fmt::format("{}", node.number) : table.text(key).value_or(""), {}, {}});
     formulas_.push_back(&node);
   }
 
@@ -139,8 +160,8 @@ private:
       part.formula += (part.formula.empty() ? "table of " : ", ") +
                       (column ? scope_.columns[i - conditions].name : std::string(scope_.model.conditions[i].name));
     }
-    const VariableCard& card = scope_.model.indications[part.indication];
-    if (!gumshoe::Dimension::of(out_.unit).like(gumshoe::Dimension::of(std::string(card.si_unit))))
+    const Target card = target(part);
+    if (!gumshoe::Dimension::of(out_.unit).like(gumshoe::Dimension::of(card.si_unit)))
       table_.refuse_key("unit", fmt::format("a size in {} does not change {}", out_.unit, card.name),
                         "the loadings of a table are plain numbers", fmt::format("use {}", card.unit));
     part.loading_at = [table](const std::vector<double>& at_conditions, const std::vector<double>& columns) {
@@ -181,7 +202,7 @@ private:
       std::vector<std::string> ignored;
       const auto compiled = std::make_shared<const formula::Compiled>(formula::compile(std::move(statement), ignored));
       const formula::Compiled& e = *compiled;
-      fits(e, part.indication);
+      fits(e, target(part));
       part.loading_at = [compiled](const std::vector<double>& conditions, const std::vector<double>& columns) {
         const formula::Program& program = compiled->evaluate;
         std::vector<double> known = conditions;
@@ -224,12 +245,10 @@ private:
     if (!found.empty()) throw InputError(found);
   }
 
-  /// Size times formula is what the indication is.
-  void fits(const formula::Compiled& e, std::size_t indication) const {
-    const VariableCard& card = scope_.model.indications[indication];
+  /// Size times formula is of the dimension of what it adds to.
+  void fits(const formula::Compiled& e, const Target& card) const {
     const gumshoe::Dimension formula = gumshoe::Dimension::of(e.explained[0].unit),
-                             size = gumshoe::Dimension::of(out_.unit),
-                             wanted = gumshoe::Dimension::of(std::string(card.si_unit));
+                             size = gumshoe::Dimension::of(out_.unit), wanted = gumshoe::Dimension::of(card.si_unit);
     if ((size * formula).like(wanted)) return;
     const gumshoe::Dimension right = wanted / formula;
     throw InputError({e.formulas[0].problem(0,

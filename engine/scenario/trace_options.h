@@ -17,18 +17,20 @@ struct TraceColumn {
   std::vector<double> values;
 };
 
-/// What a stated effect does to one indication.
+/// What a stated effect adds to: an indication, or a quantity of the model that depends on a condition.
 struct StatedPart {
-  std::size_t indication = 0;  ///< by position in the model's card
+  std::size_t target = 0;      ///< indication, or quantity, by position in the model's card
+  bool on_quantity = false;    ///< it adds to a quantity
   std::string formula;         ///< as written; "table of position" of a table
   std::vector<double> loading; ///< the formula's value at each reading, SI
   /// The formula at other conditions (by position in the model's card) and columns (as TraceOptions::columns), SI.
   std::function<double(const std::vector<double>& conditions, const std::vector<double>& columns)> loading_at;
 };
 
-/// An effect that a scenario states: its size times a formula of conditions and columns adds to an indication, or to
-/// several by a formula each. Without a size it stands at its null value, zero, and is a candidate of tracing; with one
-/// it is an input quantity "NAME.size" like any other, after the indications' noise among Scenario::quantities.
+/// An effect that a scenario states: its size times a formula of conditions and columns adds to an indication, to
+/// several by a formula each, or to a quantity of the model (the error of a rotary axis, say). Without a size it stands
+/// at its null value, zero, and is a candidate of tracing; with one it is an input quantity "NAME.size" like any other,
+/// after the indications' noise among Scenario::quantities.
 struct StatedEffect {
   std::string name, meaning, source;
   std::vector<StatedPart> parts;

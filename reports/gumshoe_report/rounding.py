@@ -77,6 +77,13 @@ def percent(share):
     return fixed(100 * share, 1) + "\u202f%"
 
 
+def of_all(share):
+    """A share of a whole in whole percent; what would round to nothing or to all is a bound."""
+    if abs(share) < 0.005:
+        return "< 1\u202f%"
+    return "> 99\u202f%" if abs(share - 1) < 0.005 else fixed(100 * share, 0) + "\u202f%"
+
+
 def probability(p):
     return f"{100 * p:.10g}\u202f%"
 

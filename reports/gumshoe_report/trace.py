@@ -5,7 +5,7 @@ import types
 
 from . import compensation, names
 from .choice import SPACE, joined, with_unit
-from .rounding import COMMON, decimals, finer, fixed, percent, significant, unit_text
+from .rounding import COMMON, decimals, finer, fixed, of_all, percent, significant, unit_text
 from .tables import budget_row, point, spread
 
 LISTED = 12  # candidates and detection limits on the page; the CSV tables have all
@@ -158,7 +158,7 @@ class Trace:
     def removed(self):
         """Above 1 what is left is less than the noise expected: chance, and not more than all."""
         share = self.t.rms.share_removed
-        return "all" if share > 1 else fixed(100 * share, 0) + f"{SPACE}%"
+        return "all" if share > 1 else of_all(share)
 
     def sizes(self, f):
         """One line per size; of a class every member's. Sizes of one unit are shown in one."""
@@ -212,7 +212,7 @@ class Trace:
                 cells=f.tables, tables=[compensation.table(table) for table in f.tables],
                 p=self.p(f.p_value), depends_on=joined(f.depends_on) if f.depends_on else "",
                 suggestion=f.suggestion, remarks=[in_remark(x) for x in f.remarks if x != f"described by {f.described_by}"], sizes=self.sizes(f),
-                removed=f"{fixed(100 * f.removed_share, 0)}{SPACE}%" if f.removed_share > 0 else "", curves=f.curves)
+                removed=of_all(f.removed_share) if f.removed_share > 0 else "", curves=f.curves)
 
     def before_and_after(self):
         """The rows of the table: what, before, after, noise with its interval."""

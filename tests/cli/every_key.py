@@ -97,6 +97,10 @@ formula = "1 / feed"
 unit = "um*mm/min"
 size = { value = "1 um*mm/min", u = "1 um*mm/min" }
 source = "a guess"
+[stated_effects.stretch]
+quantity = "rod_length"
+formula = "feed"
+unit = "ms"
 ''',
     "choose": '''
 schema = 1

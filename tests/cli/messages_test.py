@@ -149,6 +149,8 @@ CHECKED = [
     (SCENARIO, None, '[stated_effects.film]\nunit = "degC"\nformula = "feed"\n', "has its own zero"),
     (SCENARIO, None, '[stated_effects.film]\nunit = "um*s"\nformula = "1 / time"\nsize = { value = "1 um*s" }\n', "the formula has no finite value at reading"),
     (SCENARIO, None, '[stated_effects.film]\nunit = "um"\nformula = "feed"\n', "multiplied by a size in um, it gives"),
+    (SCENARIO, None, '[stated_effects.film]\nunit = "ms"\nformula = "feed"\nquantity = "rod_length"\nindication = "spindle_z"\n', "the effect adds to a quantity"),
+    (SCENARIO, None, '[stated_effects.film]\nunit = "um"\nformula = "feed"\nquantity = "rod_length"\n', "rod_length is a length"),
     # formulas, programs, machines
     (FORMULA, 'y = "a + b"', "", "no formula"),
     (FORMULA, 'y = "a + b"', 'y = "(a b"', "an operator or ')' is missing before 'b'"),

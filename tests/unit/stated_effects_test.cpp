@@ -260,3 +260,80 @@ TEST_CASE("a choice computes the formula anew for its settings", "[stated][choos
   for (const double x : set.stated_effects[0].parts[0].loading) CHECK(x == Approx(-0.4 / 60).epsilon(1e-14));
   CHECK(s.stated_effects[0].parts[0].loading.size() == 1);
 }
+
+// ---- effects on a quantity of the model ----
+
+TEST_CASE("a stated error of an axis angle is the catalogue's", "[stated][sphere_calibration]") {
+  // An eccentric encoder of C: E_CC += a cos C, as an effect and as a dependence of the quantity E_CC.
+  const std::string text = read_text_file(GUMSHOE_SOURCE_DIR "/scenarios/sphere_calibration.toml", 1 << 20);
+  const std::string drawn_size = "{ value = \"5 arcsec\", u = \"2 arcsec\" }";
+  const Case a(text + "\n[effects.c_encoder_eccentricity]\ncosine = " + drawn_size + "\n"),
+      b(text + "\n[stated_effects.eccentric]\nquantity = \"E_CC\"\nformula = \"cos(C)\"\nunit = \"arcsec\"\nsize = " +
+        drawn_size + "\n"),
+      none(text);
+  const auto outputs_of = [](const Case& c, const std::string& name) {
+    const auto& e = c.experiment;
+    std::size_t q = 0;
+    while (q < c.scenario.quantities.size() && c.scenario.quantities[q].name != name) ++q;
+    std::vector<const double*> columns(e.plan().columns.size(), nullptr);
+    const std::vector<double> sizes{-2e-5, -1e-5, 0, 1e-6, 1e-5, 2e-5, 3e-5, 4e-5};
+    if (q < c.scenario.quantities.size()) columns[e.plan().gather[0][q]] = sizes.data();
+    propagation::Workspace w;
+    std::vector<double> out(e.outputs().size() * 8);
+    std::vector<std::uint8_t> status(8);
+    e.run_columns(columns, 8, w, out.data(), status.data());
+    for (const auto failed : status) REQUIRE(failed == 0);
+    return out;
+  };
+  const auto x = outputs_of(a, "c_encoder_eccentricity.cosine"), y = outputs_of(b, "eccentric.size"),
+             z = outputs_of(none, "");
+  double moved = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    CHECK(std::fabs(x[i] - y[i]) < 1e-9 * std::fabs(x[i]) + 1e-14);
+    moved = std::max(moved, std::fabs(x[i] - z[i]));
+  }
+  CHECK(moved > 1e-6); // some parameter notices 4e-5 rad
+}
+
+TEST_CASE("a quantity that depends on a condition is the quantity with a value for each", "[stated]") {
+  // rod_length grows by 2 um per 100 mm/min: by a formula, and by values of its own per set-up. Both readings are alike
+  // in all else, so that a shared solve would be wrong.
+  const std::string by_value = "[quantities]\nbeam_pitch = { value = \"0.2836 deg\", u = \"0.002 deg\" }\n"
+                               "[quantities.rod_length.by.setup]\n1 = \"160.00008 mm\"\n2 = \"160.008 mm\"\n",
+                    by_formula = "[quantities]\nbeam_pitch = { value = \"0.2836 deg\", u = \"0.002 deg\" }\n"
+                                 "rod_length = \"160 mm\"\n[stated_effects.stretch]\nquantity = \"rod_length\"\n"
+                                 "formula = \"feed\"\nunit = \"um/(mm/min)\"\nsize = \"0.02 um/(mm/min)\"\n";
+  const std::vector<double> pitches{-6e-5, -2e-5, -1e-6, 0, 1e-6, 2e-5, 4e-5, 6e-5};
+  for (const bool virtual_experiment : {false, true}) {
+    const std::string head = virtual_experiment ? virtual_head + places : propagation_head + readings;
+    const Case a(head + by_value), b(head + by_formula);
+    const auto x = outputs(a.experiment, pitches), y = outputs(b.experiment, pitches);
+    REQUIRE(x.size() == y.size());
+    for (std::size_t i = 0; i < x.size(); ++i) CHECK(std::fabs(x[i] - y[i]) < 2 * rounding);
+  }
+  const Case a(propagation_head + readings + by_value), b(propagation_head + readings + by_formula);
+  for (std::size_t o = 0; o < a.experiment.outputs().size(); ++o) {
+    const auto x = analysis::budget(a.experiment, o, 0.95), y = analysis::budget(b.experiment, o, 0.95);
+    CHECK(std::fabs(x.estimate - y.estimate) < 2 * rounding);
+    CHECK(y.combined_standard_uncertainty == Approx(x.combined_standard_uncertainty).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("derivatives by the size of an effect on a quantity", "[stated]") {
+  const Case c(propagation_head + readings +
+               "[quantities]\nrod_radius = { value = \"5 mm\", u = \"1 um\" }\n"
+               "beam_pitch = \"0.2836 deg\"\n"
+               "[stated_effects.worn]\nquantity = \"rod_radius\"\nformula = \"feed\"\nunit = \"ms\"\nsize = " +
+               drawn + "\n");
+  const auto point = c.experiment.point(1);
+  const auto exact = analysis::differentiate(c.experiment, 1, 1, point, true);
+  const auto differences = analysis::differences(c.experiment, 1, point, true)[1];
+  const std::size_t size = point.size() - 1;
+  std::size_t radius = 0;
+  while (c.scenario.quantities[radius].name != "rod_radius") ++radius;
+  CHECK(exact.value == differences.value);
+  // The chain rule: 400 mm/min of feed at the second reading.
+  CHECK(exact.first[size] == Approx(0.4 / 60 * exact.first[radius]).epsilon(1e-13));
+  CHECK(differences.first[size] == Approx(exact.first[size]).epsilon(1e-5));
+  CHECK(exact.first[radius] != 0);
+}

@@ -126,3 +126,12 @@ TEST_CASE("rounding by GUM 7.2.6", "[rounding]") {
   CHECK(analysis::fixed(1234, analysis::decimals_for(1234)) == "1200");
   CHECK(analysis::fixed(-509.86594, 4) == "-509.8659");
 }
+
+TEST_CASE("a share of a whole is never said to be nothing or all", "[rounding]") {
+  CHECK(analysis::share_text(0.974) == "97 %");
+  CHECK(analysis::share_text(0.0049) == "< 1 %");
+  CHECK(analysis::share_text(-1e-9) == "< 1 %");
+  CHECK(analysis::share_text(0.006) == "1 %");
+  CHECK(analysis::share_text(0.9951) == "> 99 %");
+  CHECK(analysis::share_text(-0.123) == "-12 %");
+}

@@ -95,7 +95,12 @@ std::vector<Candidate> stated_candidates(const CandidateMaker& make) {
     size.scenario_name = effect.name + ".size";
     Matrix column = Matrix::Zero(index(make.simulator.rows()), 1);
     for (std::size_t r = 0; r < o.readings; ++r)
-      for (const auto& part : effect.parts) column(index(r * o.indications + part.indication), 0) = part.loading[r];
+      for (const auto& part : effect.parts)
+        if (const Index row = index(r * o.indications); part.on_quantity)
+          column.block(row, 0, index(o.indications), 1) +=
+              part.loading[r] * make.moved.tangents.block(row, index(part.target), index(o.indications), 1);
+        else
+          column(row + index(part.target), 0) = part.loading[r];
     Candidate one;
     one.family = Family::stated;
     one.name = effect.name;

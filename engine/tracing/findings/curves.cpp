@@ -93,7 +93,9 @@ public:
     const bool own_zero = units::to_si(0, covariate.unit, covariate.si_unit) != 0;
     const std::string unit = ratio(small_unit(), own_zero ? covariate.si_unit : covariate.unit),
                       si_unit = ratio(empty_.indication_si_unit, covariate.si_unit);
-    return with_u(term_.size[0] * per_size, std::sqrt(covariance_(0, 0)) * std::fabs(per_size), unit, si_unit);
+    const std::string text =
+        with_u(term_.size[0] * per_size, std::sqrt(covariance_(0, 0)) * std::fabs(per_size), unit, si_unit);
+    return covariate.course && covariate.unit == "1" ? text + ", per reading" : text;
   }
 
   /// "38 min, u = 4 min; it levels off at 6.1 um, u = 0.3 um" of a drift; empty of anything else.
