@@ -107,9 +107,8 @@ void print_rms(const Rms& r) {
     std::cout << fmt::format("  replicate floor: readings of equal conditions scatter by {} (95 %: {} to {})\n",
                              show(r.replicate_floor), show(r.replicate_floor_low), show(r.replicate_floor_high));
   if (std::isfinite(r.share_removed))
-    std::cout << fmt::format(
-        "  {} of the removable mean square of the hold-out residuals has been removed\n",
-        r.share_removed > 1 ? "all" : analysis::share_text(r.share_removed));
+    std::cout << fmt::format("  {} of the removable mean square of the hold-out residuals has been removed\n",
+                             r.share_removed > 1 ? "all" : analysis::share_text(r.share_removed));
   if (!std::isfinite(r.holdout_before) && !r.holdout.empty()) std::cout << "  hold-out: " << r.holdout << '\n';
 }
 

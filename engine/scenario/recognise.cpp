@@ -109,6 +109,21 @@ RecognisedColumn column_of(const RecognisedData& data, std::size_t c, const std:
   return out;
 }
 
+/// A temperature whose unit is not told has that of the others, where these agree: one sensor of four was hotter.
+void like_the_others(std::vector<RecognisedColumn>& columns) {
+  std::set<std::string> units;
+  const auto is_one = [](const RecognisedColumn& c) { return c.number && c.role == ColumnRole::temperature; };
+  for (const RecognisedColumn& c : columns)
+    if (is_one(c) && c.unit != "?") units.insert(c.unit);
+  if (units.size() != 1) return;
+  for (RecognisedColumn& c : columns) {
+    if (!is_one(c) || c.unit != "?") continue;
+    c.unit = *units.begin();
+    c.unit_guessed = true;
+    c.why += "; " + c.unit + " as the other temperatures";
+  }
+}
+
 /// Line of the column names below other lines: the first that has as many cells as most lines have. 0: the first line,
 /// or there is no table.
 int line_of_names(const std::string& text) {
@@ -269,6 +284,7 @@ RecognisedData recognise(const std::string& text, const std::string& file) {
     const auto unit = below.find(out.csv.header[c].text);
     out.columns.push_back(column_of(out, c, unit == below.end() ? "" : unit->second));
   }
+  like_the_others(out.columns);
   find_dates(out);
   guess_roles(out);
   return out;

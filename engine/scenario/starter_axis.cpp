@@ -86,14 +86,23 @@ std::optional<RecognisedColumn> both_ways(const RecognisedData& data, const Reco
   return out;
 }
 
-/// Circumstances with a known unit, which vary: a feed, a humidity, and what else was set to a few values, as a radius.
+/// Whether a column is the place of the readings along a second axis: "Y", next to a position "X".
+bool is_coordinate(const RecognisedColumn& c) {
+  const auto words = words_of(c.name);
+  return words.size() == 1 && words[0].size() == 1 &&
+         std::string_view("xyzabcuvw").find(words[0]) != std::string_view::npos;
+}
+
+/// Circumstances with a known unit, which vary: a feed, a humidity, and what else was set to a few values, as a radius;
+/// and coordinates, whose unit the user knows.
 NamedColumns circumstances(const RecognisedData& data, const std::set<std::string>& used) {
   constexpr std::size_t few = 10;
   NamedColumns out;
   const auto set = [&](const RecognisedColumn& c) { return different(data, c) <= few && was_set(data, c); };
   for (const RecognisedColumn& c : data.columns)
-    if (c.number && !c.gaps && c.role == Role::other && c.unit != "?" && (is_circumstance(c) || set(c)) &&
-        !counts_rows(c) && !names_parts(c) && !used.contains(c.name) && different(data, c) > 1)
+    if (c.number && !c.gaps && c.role == Role::other && (c.unit != "?" || is_coordinate(c)) &&
+        (is_circumstance(c) || set(c)) && !counts_rows(c) && !names_parts(c) && !used.contains(c.name) &&
+        different(data, c) > 1)
       out.emplace_back(plain_name(c.name), &c);
   return out;
 }

@@ -18,9 +18,26 @@ std::string quoted(const std::string& text) {
   return out + '"';
 }
 
+namespace {
+
+/// Letters of European languages as one spells them without their marks: Kuehlmittel, temperature (from température).
+std::string in_ascii(std::string text) {
+  static constexpr std::pair<std::string_view, std::string_view> letters[] = {
+      {"ä", "ae"}, {"ö", "oe"}, {"ü", "ue"}, {"Ä", "Ae"}, {"Ö", "Oe"}, {"Ü", "Ue"}, {"ß", "ss"}, {"é", "e"},
+      {"è", "e"},  {"ê", "e"},  {"à", "a"},  {"â", "a"},  {"á", "a"},  {"í", "i"},  {"ó", "o"},  {"ú", "u"},
+      {"ñ", "n"},  {"ç", "c"},  {"å", "a"},  {"ø", "o"},  {"æ", "ae"}, {"É", "E"},  {"Å", "A"},  {"Ø", "O"},
+      {"Æ", "Ae"}, {"č", "c"},  {"š", "s"},  {"ž", "z"},  {"ł", "l"},  {"ř", "r"},  {"ě", "e"},  {"ý", "y"}};
+  for (const auto& [marked, plain] : letters)
+    for (std::size_t at = text.find(marked); at != std::string::npos; at = text.find(marked, at + plain.size()))
+      text.replace(at, marked.size(), plain);
+  return text;
+}
+
+} // namespace
+
 std::string plain_name(const std::string& text) {
   std::string out;
-  for (const std::string& word : words_of(text)) out += (out.empty() ? "" : "_") + word;
+  for (const std::string& word : words_of(in_ascii(text))) out += (out.empty() ? "" : "_") + word;
   std::erase_if(out, [](unsigned char c) { return c >= 0x80; });
   return out.empty() || std::isdigit(static_cast<unsigned char>(out[0])) != 0 ? "column_" + out : out;
 }
@@ -121,7 +138,7 @@ std::string data_section(const StarterData& data, const NamedColumns& labels, co
     if (c.number && c.unit != "1" && used.contains(c.name))
       out += line(quoted(c.name), quoted(c.unit),
                   c.unit == "?"    ? "the file does not say it: write the unit, such as \"mm\""
-                  : c.unit_guessed ? "guessed: temperatures of 10 to 45"
+                  : c.unit_guessed ? "guessed: temperatures of 10 to 45, or as the others"
                                    : "from its header");
   if (!conditions.empty()) out += "\n[data.conditions]\n";
   for (const auto& [name, c] : conditions)

@@ -335,6 +335,26 @@ class New(InFolder):
         (self.folder / "one.csv").write_text("force_N\n1\n2\n")
         self.assertIn("there is no column but the readings", self.new("linear", "--from", "one.csv", code=2))
 
+    def test_a_grid_of_two_coordinates(self):
+        """The second coordinate is asked for its unit like the first, and then a condition."""
+        rows = ["X,Y,rep,dX_um"] + [f"{x},{y},{r},{0.01 * y + 0.1 * (x % 3):.2f}" for r in range(4) for x in range(0, 50, 10) for y in range(0, 30, 10)]
+        (self.folder / "grid.csv").write_text("\n".join(rows) + "\n")
+        said = self.new("--from", "grid.csv", code=0)
+        self.assertIn("data.units.X: the unit of the column 'X' is still to be told", said)
+        self.assertIn("data.units.Y: the unit of the column 'Y' is still to be told", said)
+        self.assertIn("grid.toml: ready", self.new("--from", "grid.csv", "--force", "--unit", "X=mm", "--unit", "Y=mm"))
+        self.assertIn('y = "Y"', (self.folder / "grid.toml").read_text())
+
+    def test_revolutions_temperatures_and_letters_with_marks(self):
+        rows = ["Winkel [deg];Rev;T1;T2;Kühlmittel;Diff [arcsec]"]
+        rows += [f"{a};{rev};{20 + rev};{40 + 2 * rev};{'an' if a % 60 else 'aus'};{math.sin(a):.3f}" for rev in range(1, 6) for a in range(0, 360, 30)]
+        (self.folder / "turns.csv").write_text("\n".join(rows) + "\n")
+        self.assertIn("turns.toml: ready", self.new("--from", "turns.csv"))
+        text = (self.folder / "turns.toml").read_text()
+        self.assertIn('labels = { rev = "Rev", kuehlmittel = "Kühlmittel" }', text)
+        self.assertIn('blocks = "rev"', text)
+        self.assertIn('"T2" = "degC"', text)  # to 50: by itself it could be a time, or in degF
+
     def test_mistakes(self):
         self.write("axis.csv")
         for words, said in ((("rod_gaugin",), "unknown model 'rod_gaugin'. Did you mean 'rod_gauging'?"),

@@ -246,8 +246,8 @@ class TraceLog(InFolder):
         self.assertIn("by.tool", (self.folder / "log.toml").read_text())
         self.assertEqual({f["described_by"] for f in v["findings"]}, {"drift:time", "product:time*tool T3"})
         wear = next(f for f in v["findings"] if "T3" in f["described_by"])
-        slope, u = re.search(r"tool T3 alone has a straight line against time: (\S+) um/s, u = (\S+) um/s", " ".join(wear["remarks"])).groups()
-        self.assertAlmostEqual(float(slope), -6 / 3600, delta=3.5 * float(u))
+        slope, u = re.search(r"tool T3 alone has a straight line against time: (\S+) um/h, u = (\S+) um/h", " ".join(wear["remarks"])).groups()
+        self.assertAlmostEqual(float(slope), -6, delta=3.5 * float(u))
         growth = next(f for f in v["findings"] if f["described_by"] == "drift:time")
         said = re.search(r"time constant (\S+) s, u = (\S+) s; it levels off at (\S+) um, u = (\S+) um", " ".join(growth["remarks"])).groups()
         for true, value, u in ((1200, said[0], said[1]), (9, said[2], said[3])):

@@ -69,6 +69,16 @@ public:
     return out;
   }
 
+  /// Unit of a rate: of s, min, h and d the shortest in which it has a digit before the point, "um/h".
+  static std::string per_time(const std::string& above, double rate, const std::string& si_unit) {
+    std::string out;
+    for (const char* time : {"s", "min", "h", "d"}) {
+      out = fmt::format("{}/{}", above, time);
+      if (std::fabs(units::from_si(rate, out, si_unit, units::Kind::difference)) >= 1) break;
+    }
+    return out;
+  }
+
   /// "0.49 um/K, u = 0.02 um/K" of a straight line against the covariate, where the term acts; empty of anything else.
   std::string slope(const Covariate& covariate) const {
     const Matrix& columns = term_.candidate.columns;
@@ -93,8 +103,9 @@ public:
     const bool own_zero = units::to_si(0, covariate.unit, covariate.si_unit) != 0;
     const std::string unit = ratio(small_unit(), own_zero ? covariate.si_unit : covariate.unit),
                       si_unit = ratio(empty_.indication_si_unit, covariate.si_unit);
+    const double slope = term_.size[0] * per_size, u = std::sqrt(covariance_(0, 0)) * std::fabs(per_size);
     const std::string text =
-        with_u(term_.size[0] * per_size, std::sqrt(covariance_(0, 0)) * std::fabs(per_size), unit, si_unit);
+        with_u(slope, u, covariate.unit == "s" ? per_time(small_unit(), slope, si_unit) : unit, si_unit);
     return covariate.course && covariate.unit == "1" ? text + ", per reading" : text;
   }
 
