@@ -49,10 +49,10 @@ std::vector<FitCovariance> fit_covariances(const propagation::Experiment& e, con
   out.scatter = out.chi_squared = out.probability = nan;
   double scale = 1;
   if (fit->whitened) {
-    out.meaning = "of the weights, which follow from the declared uncertainties of the readings";
+    out.meaning = "from the weights, that is from the declared uncertainties of the readings";
     if (read && redundant) out.chi_squared = fit->squares, out.probability = probability_of_more(fit->squares, freedom);
   } else {
-    out.meaning = "of the residuals, as if every indication had an independent error of the same size";
+    out.meaning = "from the residuals, as if every indication had an independent error of the same size";
     std::vector<double> room;
     const double squares =
         read ? fit->squares : static_cast<double>(fit->equations) * mean_square(samples.view(fit->residual_rms, room));

@@ -121,7 +121,7 @@ constexpr Field<J> joint[] = {
 
 using F = FitCovariance;
 constexpr Field<F> fit[] = {
-    {"meaning", of<&F::meaning>, one, "what the covariance is", in_json},
+    {"meaning", of<&F::meaning>, one, "from what the covariance follows", in_json},
     {"equations", of<&F::equations>, one, "indications that were fitted", in_json},
     {"degrees_of_freedom", of<&F::degrees_of_freedom>, one, "degrees of freedom of the residuals", in_json},
     {"scatter", of<&F::scatter>, difference,

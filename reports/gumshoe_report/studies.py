@@ -131,7 +131,7 @@ def fit(study, outputs):
     tested = math.isfinite(study.chi_squared)
     unit, show = in_finer_unit(study, study.scatter) if scaled else ("", None)
     return types.SimpleNamespace(
-        meaning=study.meaning, equations=study.equations, freedom=significant(study.degrees_of_freedom, 3),
+        meaning=study.meaning, equations=study.equations, freedom=f"{study.degrees_of_freedom:.4g}",
         s=show(study.scatter) + (f"\u202f{unit}" if unit else "") if scaled else "",
         chi_squared=significant(study.chi_squared, 3) if tested else "",
         probability=chance(study.probability) if tested else "",
@@ -139,7 +139,8 @@ def fit(study, outputs):
         "The readings scatter more than the scenario declares: an uncertainty is missing, or an effect." if tested else
         "It holds if every indication has an independent error of one size. Where u of Monte Carlo differs, the declared errors "
         "differ in size or act on many readings alike, or the readings scatter more, or less, than the scenario declares." if scaled else "",
-        rows=[types.SimpleNamespace(name=row.name, unit=unit_text(row.display_units), u=size(row, row.standard_uncertainty),
+        rows=[types.SimpleNamespace(name=row.name.removeprefix("error of "), unit=unit_text(row.display_units),
+                                    u=size(row, row.standard_uncertainty),
                                     u_monte_carlo=size(row, outputs[row.name].standard_uncertainty)
                                     if row.name in outputs else NONE,
                                     correlation=[fixed(c, 2) for c in row.correlation]) for row in study.rows])

@@ -53,7 +53,7 @@ class TraceAxis(InFolder):
     def test_what_a_table_cannot_hold_is_said(self):
         """The scale that drifts is left in the readings; the table takes the rest."""
         self.trace(4)
-        run = gumshoe("compensate", "s.traced.toml", "--with", "gain", "--with", "offset", cwd=self.folder)
+        run = gumshoe("compensate", "results/s.traced.toml", "--with", "gain", "--with", "offset", cwd=self.folder)
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertIn("left out: axis_scale_drift also depends on something else than the position", run.stderr)
         table = {(float(row["position_mm"]), int(row["direction"])): float(row["error_um"])

@@ -185,7 +185,7 @@ void add_joint(Results& r) {
   fit.scatter = 2 * um;
   fit.chi_squared = fit.probability = none;
   fit.output = o[0];
-  fit.meaning = "of the residuals, as if every indication had an independent error of the same size";
+  fit.meaning = "from the residuals, as if every indication had an independent error of the same size";
   r.fits = {fit};
   r.circular = {{o[2], 171.2 * deg, 0.982, 10.9 * deg, 149 * deg, 193 * deg,
                  "14 % of the samples lie across the cut of the circle"}};
