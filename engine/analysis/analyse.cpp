@@ -10,6 +10,7 @@
 #include "analysis/comparison.h"
 #include "analysis/conformity.h"
 #include "analysis/failures.h"
+#include "analysis/fit.h"
 #include "analysis/given_data.h"
 #include "analysis/gum.h"
 #include "analysis/joint.h"
@@ -235,6 +236,7 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, int th
   study(true, "one at a time", r.one_at_a_time, [&] { return one_at_a_time(e); });
   study(true, "joint regions", r.joint,
         [&] { return joint_regions(e, samples, r.summaries, r.budgets, threads); });
+  study(true, "covariance of the fit", r.fits, [&] { return fit_covariances(e, samples); });
   study(true, "circular statistics", r.circular, [&] { return circular_summaries(e, samples.values, threads); });
   study(true, "conformity", r.conformity, [&] { return conformity(e, samples.values, r.summaries); });
   study(true, "target uncertainties", r.targets, [&] { return target_uncertainties(e, r.budgets, threads); });

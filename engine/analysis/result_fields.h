@@ -31,6 +31,7 @@ extern const Fields<Dgsm> dgsm_study_fields;
 extern const Fields<DgsmRow> dgsm_fields;
 extern const Fields<OneAtATimeRow> one_at_a_time_fields;
 extern const Fields<JointRegion> joint_fields; ///< attributes
+extern const Fields<FitCovariance> fit_fields;  ///< attributes
 extern const Fields<CircularSummary> circular_fields;
 extern const Fields<ConformityResult> conformity_fields;
 extern const Fields<TargetResult> target_study_fields;

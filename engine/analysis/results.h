@@ -160,6 +160,7 @@ struct Results {
   std::vector<Dgsm> dgsm;
   std::vector<OneAtATimeTable> one_at_a_time;
   std::vector<JointRegion> joint;
+  std::vector<FitCovariance> fits; ///< one, or none
   std::vector<CircularSummary> circular;
   std::vector<ConformityResult> conformity;
   std::vector<TargetResult> targets;

@@ -119,6 +119,16 @@ constexpr Field<J> joint[] = {
     {"k_q_se", of<&J::k_q_se>, one, "Monte Carlo standard error of k_q", in_json},
     {"remark", of<&J::remark>, one, "why there is no ellipsoid", in_json}};
 
+using F = FitCovariance;
+constexpr Field<F> fit[] = {
+    {"meaning", of<&F::meaning>, one, "from what the covariance follows", in_json},
+    {"equations", of<&F::equations>, one, "indications that were fitted", in_json},
+    {"degrees_of_freedom", of<&F::degrees_of_freedom>, one, "degrees of freedom of the residuals", in_json},
+    {"scatter", of<&F::scatter>, difference,
+     "standard deviation of an indication by the residuals, which scales the covariance; NaN of a weighted fit", in_json},
+    {"chi_squared", of<&F::chi_squared>, one, "chi-squared of a weighted fit of readings, NaN else", in_json},
+    {"probability", of<&F::probability>, one, "probability of a larger chi-squared, NaN without one", in_json}};
+
 using R = CircularSummary;
 constexpr Field<R> circular[] = {
     {"name", of<&R::output, &Output::name>, one, "output, an angle", {.csv = "output"}},
@@ -220,6 +230,7 @@ constinit const Fields<Dgsm> dgsm_study_fields{"dgsm/<k>", "", dgsm_study};
 constinit const Fields<DgsmRow> dgsm_fields{"dgsm/<k>", "input_quantity", dgsm, "dgsm"};
 constinit const Fields<OneAtATimeRow> one_at_a_time_fields{"one_at_a_time/<k>", "row", one_at_a_time};
 constinit const Fields<JointRegion> joint_fields{"joint/<k>", "", joint};
+constinit const Fields<FitCovariance> fit_fields{"fit/<k>", "", fit};
 constinit const Fields<CircularSummary> circular_fields{"circular", "output", circular, "circular"};
 constinit const Fields<ConformityResult> conformity_fields{"conformity", "test", conformity, "conformity"};
 constinit const Fields<TargetResult> target_study_fields{"target/<k>", "", target_study};

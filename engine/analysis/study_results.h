@@ -93,6 +93,21 @@ struct JointRegion {
   double k_q = 0, k_q_se = 0; ///< rectangle: |y_i - estimate_i| <= k_q u_i
   std::string remark;         ///< why there is no ellipsoid
 };
+
+/// What the least-squares fit of a joint evaluation says of its unknowns by itself, without Monte Carlo. Matrices are
+/// row-major, SI.
+struct FitCovariance {
+  std::vector<propagation::Output> outputs;
+  std::vector<double> standard_uncertainty, covariance, correlation; ///< infinite, NaN: undetermined by the readings
+  std::uint64_t equations = 0;                                       ///< indications
+  double degrees_of_freedom = 0;                                     ///< of the residuals
+  /// Standard deviation of an indication by the residuals, by which the covariance is scaled; of a virtual experiment
+  /// that of its samples. NaN of a weighted fit, whose scale is declared.
+  double scatter = 0;
+  double chi_squared = 0, probability = 0; ///< of a weighted fit of readings, and of a larger value; NaN else
+  propagation::Output output;              ///< root mean square of the residuals, in the unit of `scatter`
+  std::string meaning;                     ///< what the covariance is, in a sentence
+};
 /// Statistics of an angle on the circle (Mardia and Jupp 2000).
 struct CircularSummary {
   propagation::Output output;

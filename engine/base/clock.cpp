@@ -54,6 +54,7 @@ public:
     text_.remove_prefix(n);
     return value;
   }
+  /// A whole number, also below 0.
   std::optional<std::int64_t> seconds() {
     std::int64_t value = 0;
     const auto [stop, error] = std::from_chars(text_.data(), text_.data() + text_.size(), value);
@@ -183,10 +184,21 @@ std::optional<Moment> parse_iso(std::string_view text) {
   return moment;
 }
 
+/// Days since 30 December 1899, which Excel counts as if 1900 were a leap year.
+std::optional<Moment> parse_excel(std::string_view text) {
+  constexpr std::int64_t day = 86400, epoch = 25569, last = 2'958'465; // 1970-01-01, 9999-12-31
+  Scanner in(text);
+  const auto days = in.seconds();
+  if (!days || *days < 1 || *days > last) return std::nullopt;
+  const double rest = in.fraction() * static_cast<double>(day), whole = std::floor(rest);
+  if (!in.done()) return std::nullopt;
+  return Moment{(*days - epoch) * day + static_cast<std::int64_t>(whole), rest - whole, false};
+}
+
 } // namespace
 
 ClockFormat::ClockFormat(std::string pattern) : pattern_(std::move(pattern)) {
-  if (pattern_ == "iso") return;
+  if (pattern_ == "iso" || pattern_ == "excel") return;
   bool hours = false;
   for (std::size_t i = 0; i < pattern_.size(); ++i) {
     if (pattern_[i] != '%') continue;
@@ -203,11 +215,12 @@ ClockFormat::ClockFormat(std::string pattern) : pattern_(std::move(pattern)) {
 }
 
 bool ClockFormat::has_date() const {
-  return pattern_ == "iso" || pattern_.find("%d") != std::string::npos || pattern_.find("%s") != std::string::npos;
+  return pattern_ == "iso" || pattern_ == "excel" || pattern_.find("%d") != std::string::npos || pattern_.find("%s") != std::string::npos;
 }
 
 std::optional<Moment> ClockFormat::parse(std::string_view text) const {
   if (pattern_ == "iso") return parse_iso(text);
+  if (pattern_ == "excel") return parse_excel(text);
   Scanner in(text);
   Fields f;
   for (std::size_t i = 0; i < pattern_.size(); ++i) {
@@ -230,6 +243,7 @@ std::optional<Moment> ClockFormat::parse(std::string_view text) const {
 
 std::string ClockFormat::example() const {
   if (pattern_ == "iso") return "2026-02-03T10:00:00";
+  if (pattern_ == "excel") return "46056.416667";
   std::string out;
   for (std::size_t i = 0; i < pattern_.size(); ++i) {
     if (pattern_[i] != '%') {

@@ -169,8 +169,28 @@ std::vector<std::string> Csv::names() const {
   return out;
 }
 
+namespace {
+
+/// "1.234.567,89" and "1'234.5" without the signs between thousands. It stays as it stands where they are not
+/// unmistakable: "1.234" may be meant to be a thousand times smaller.
+std::string without_thousands(const std::string& text, char decimal) {
+  const std::size_t point = text.find(decimal), begin = text.find_first_not_of("+- ");
+  const std::size_t first = text.find_first_of(decimal == ',' ? ".'" : ",'");
+  if (point == std::string::npos || first >= point || first <= begin || first - begin > 3 || (point - first) % 4 != 0 ||
+      text[begin] == '0')
+    return text;
+  std::string out = text.substr(0, first);
+  for (std::size_t at = first; at < point; at += 4) {
+    if (text[at] != text[first]) return text;
+    out += text.substr(at + 1, 3);
+  }
+  return out + text.substr(point);
+}
+
+} // namespace
+
 double Csv::number(const CsvCell& cell, char decimal) const {
-  std::string text = cell.text;
+  std::string text = without_thousands(cell.text, decimal);
   const bool points = text.find('.') != std::string::npos, comma = std::count(text.begin(), text.end(), ',') == 1;
   if (comma) std::replace(text.begin(), text.end(), ',', '.');
   double value = 0;
@@ -208,7 +228,13 @@ Csv parse_csv(std::string_view text, const std::string& file, const CsvLayout& l
   reader.skip_to(layout.header);
   if (!reader.next(csv.header)) throw InputError({{{file, 0, 0}, "the file is empty", "", "write a header and rows"}});
   reader.skip_to(layout.rows);
+  const int below = layout.rows > 0 ? layout.rows - csv.header.front().line : 1;
   for (std::vector<CsvCell> row; problems.size() < most_problems && reader.next(row);) {
+    // A control that goes on with a log writes its head again.
+    if (csv.header.size() > 1 && std::ranges::equal(row, csv.header, {}, &CsvCell::text, &CsvCell::text)) {
+      reader.skip_to(row.front().line + below);
+      continue;
+    }
     if (row.size() != csv.header.size()) {
       problems.push_back({csv.at(row.front()),
                           fmt::format("the row has {} cells, the header {}", row.size(), csv.header.size()), "", ""});

@@ -37,12 +37,13 @@ public:
     make_cells();
     const std::vector<double> whole = indications(at_);
     std::vector<Source> kept;
-    Points without = at_;
+    Points without = at_, base = at_;
     for (const Source& source : sources()) {
       Points less = at_;
       set_null(source, less);
       const std::vector<double> change = minus(whole, indications(less));
       if (std::ranges::all_of(change, [](double x) { return x == 0; })) continue;
+      set_null(source, base);
       if (const std::string why = why_not(source, change); !why.empty()) {
         out_.left_out.push_back({source.name, why});
         continue;
@@ -53,7 +54,9 @@ public:
     }
     name_known();
     if (kept.empty()) refuse_nothing();
-    add_rows(minus(whole, indications(without)), kept);
+    const std::vector<double> held = minus(whole, indications(without));
+    say_what_is_left(whole, held, minus(whole, indications(base)));
+    add_rows(held, kept);
     join_directions();
     return std::move(out_);
   }
@@ -250,6 +253,33 @@ private:
           out(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(v)) +=
               f.derivatives[p * f.rows + r * k + indication_];
     return out;
+  }
+
+  /// @param whole  what the scenario expects  @param held  of that the table's  @param all  of that the table's and what is
+  /// left out of it
+  void say_what_is_left(const std::vector<double>& whole, const std::vector<double>& held,
+                        const std::vector<double>& all) {
+    const auto left = [&](const std::string& which, const auto& counts) {
+      double squares[3] = {}, n = 0;
+      for (std::size_t r = 0; r < s_.readings.size(); ++r) {
+        const quantities::Reading& reading = s_.readings[r];
+        if (reading.indications.empty() || !counts(reading)) continue;
+        const double rest = reading.indications[indication_] - whole[r];
+        const double deviations[] = {rest + all[r], rest + all[r] - held[r], rest};
+        const double repeats = static_cast<double>(reading.repeats);
+        for (int i = 0; i < 3; ++i) squares[i] += repeats * deviations[i] * deviations[i];
+        n += repeats;
+      }
+      if (n > 0)
+        out_.left.push_back({which, std::sqrt(squares[0] / n), std::sqrt(squares[1] / n), std::sqrt(squares[2] / n)});
+    };
+    left("these readings", [](const auto&) { return true; });
+    const auto& final = s_.trace.final_blocks;
+    if (final.empty()) return;
+    left(fmt::format("held-out readings ({} {})", s_.trace.blocks, fmt::join(final, ", ")), [&](const auto& reading) {
+      const auto label = std::ranges::find(reading.labels, s_.trace.blocks, [](const auto& l) { return l.first; });
+      return label != reading.labels.end() && std::ranges::find(final, label->second) != final.end();
+    });
   }
 
   /// One row for both directions, where they agree at every position.

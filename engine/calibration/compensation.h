@@ -31,6 +31,15 @@ struct Compensation {
     std::string name, why; ///< "also depends on ..."
   };
   std::vector<LeftOut> left_out;
+  /// Root mean squares of the deviations that effects and the quantities asked for explain, or nothing does; what the model
+  /// takes for the set-up's is none of them. SI.
+  struct Left {
+    std::string which;    ///< "these readings", "held-out readings (cycle 5)"
+    double before = 0;    ///< as they are
+    double with = 0;      ///< with the table
+    double without = 0;   ///< with the table, and if what was left out were corrected, too
+  };
+  std::vector<Left> left; ///< of all readings, and of those of [trace] final
 };
 
 /// Errors of the effects with a size, at the positions of the scenario's readings: what the simulated indication loses

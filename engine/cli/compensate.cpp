@@ -45,6 +45,22 @@ std::vector<std::string> together(const std::vector<std::string>& names) {
   return out;
 }
 
+/// How far the readings would be off with the table.
+void print_left(const calibration::Compensation& table) {
+  const bool length = table.indication_si_unit == "m", angle = table.indication_si_unit == "rad";
+  const std::string unit = length ? "um" : angle ? "arcsec" : table.indication_si_unit;
+  const auto shown = [&](double x) {
+    return fmt::format("{:.3g} {}", units::from_si(x, unit, table.indication_si_unit, units::Kind::difference), unit);
+  };
+  for (const auto& left : table.left) {
+    std::cerr << fmt::format("root mean square of {}: {}, with the table {}", left.which, shown(left.before),
+                             shown(left.with));
+    if (left.with > 1.01 * left.without)
+      std::cerr << fmt::format(", of which {} is noise and the rest what is left out", shown(left.without));
+    std::cerr << '\n';
+  }
+}
+
 ExitCode compensate(Options o) {
   scenario::Scenario s = scenario::read(o.scenario, catalogue());
   if (o.unconfirmed) s.trace.unconfirmed.clear();
@@ -62,6 +78,7 @@ ExitCode compensate(Options o) {
     write_table(o.out, text, o.force);
   std::cerr << fmt::format("holds: {}\n", fmt::join(together(table.holds), ", "));
   for (const auto& left : table.left_out) std::cerr << fmt::format("left out: {} {}\n", left.name, left.why);
+  print_left(table);
   const auto& formats = calibration::compensation_formats();
   const auto format = std::ranges::find(formats, o.choice.format, &calibration::CompensationFormat::name);
   if (!format->check.empty()) std::cerr << fmt::format("prove the sign on the machine: {}\n", format->check);

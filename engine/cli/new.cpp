@@ -14,6 +14,7 @@
 #include "base/units.h"
 #include "cli/command.h"
 #include "cli/installed.h"
+#include "scenario/log_form.h"
 #include "scenario/made_models.h"
 #include "scenario/starter_parts.h"
 #include "store/draft.h"
@@ -29,7 +30,7 @@ using scenario::RecognisedData;
 constexpr std::size_t largest_file = std::size_t{256} << 20;
 
 struct Options {
-  std::string model, from, out, machine;
+  std::string model, from, form, out, machine;
   std::vector<std::string> units, roles, terms;
   bool force = false;
 };
@@ -158,6 +159,36 @@ void write_file(const std::string& path, const std::string& text, bool force) {
   draft.publish();
 }
 
+/// A description of logs: a file of the user's, or the name of one that is shipped, which is then copied next to the
+/// scenario.
+std::string description_of(const Options& o, const fs::path& folder) {
+  const fs::path shipped = fs::path(data_folder("scenarios", GUMSHOE_SCENARIOS_DIR)) / "forms";
+  if (fs::is_regular_file(o.form)) return o.form;
+  std::vector<std::string> known;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(shipped, none))
+    if (entry.path().extension() == ".toml") known.push_back(entry.path().stem().string());
+  std::ranges::sort(known);
+  if (std::ranges::find(known, o.form) == known.end()) {
+    const std::string meant = nearest(o.form, known);
+    throw InputError(fmt::format("--form: '{}' is neither a file nor a description that is shipped", o.form), "",
+                     meant.empty() ? fmt::format("use one of {}, or a file of your own", fmt::join(known, ", "))
+                                   : fmt::format("did you mean '{}'?", meant));
+  }
+  const std::string copy = (folder / (o.form + ".toml")).string();
+  write_file(copy, read_text_file((shipped / (o.form + ".toml")).string(), largest_file), o.force);
+  return copy;
+}
+
+/// The data file as a table. @param out  the scenario
+RecognisedData table_of(const Options& o, const std::string& out) {
+  const std::string text = read_data_file(o.from, largest_file);
+  if (o.form.empty()) return scenario::recognise(text, o.from);
+  const std::string form = description_of(o, fs::path(out).parent_path());
+  return scenario::recognise(scenario::LogForm(read_text_file(form, largest_file), form).read(text, o.from),
+                             fs::relative(fs::absolute(form), fs::absolute(out).parent_path()).generic_string());
+}
+
 /// What the scenario does with each column.
 void print_columns(const RecognisedData& found, const std::string& text) {
   for (const auto& c : found.columns) {
@@ -218,13 +249,15 @@ ExitCode run(Options o) {
                      "write gumshoe new sphere_probing --from FILE --machine B,C/X,Y,Z");
   if (on_terminal() && o.model == "sphere_probing" && !o.from.empty() && o.machine.empty())
     o.machine = asked("axes from the bed to the workpiece / to the tool, such as B,C/X,Y,Z; empty: decide later:");
-  std::unique_ptr<RecognisedData> found;
-  if (!o.from.empty()) {
-    found = std::make_unique<RecognisedData>(scenario::recognise(read_data_file(o.from, largest_file), o.from));
-    tell(*found, o);
-  }
+  if (!o.form.empty() && o.from.empty())
+    throw InputError("--form: there is no log that it would describe", "", "name the log by --from");
   const std::string out =
       !o.out.empty() ? o.out : (o.model.empty() ? fs::path(o.from).stem().string() : o.model) + ".toml";
+  std::unique_ptr<RecognisedData> found;
+  if (!o.from.empty()) {
+    found = std::make_unique<RecognisedData>(table_of(o, out));
+    tell(*found, o);
+  }
   if (found && !found->rewritten.empty()) {
     const std::string rows = fs::path(out).replace_extension(".rows.csv").string();
     require_different(rows, o.from);
@@ -251,6 +284,9 @@ void add_new(CLI::App& app, Action& action) {
   command->add_option("model", o->model,
                       "a model (gumshoe models), budget, or linear; without one, --from asks what a data file shows");
   command->add_option("--from", o->from, "data file whose columns are recognised");
+  command->add_option("--form", o->form,
+                      "description of a log that is no table: a file, or the name of one that is shipped, such as "
+                      "heidenhain_q");
   command->add_option("--out", o->out, "scenario to write (default: MODEL.toml, or the name of the data file)");
   command->add_option("--unit", o->units, "COLUMN=UNIT, where the header does not say it");
   command->add_option(

@@ -56,6 +56,19 @@ void print_joint(const Results& r, std::ostream& out) {
     if (std::isfinite(j.k_q)) out << fmt::format(" rectangle k_q = {:.3f}", j.k_q);
     out << (j.remark.empty() ? "" : " (" + j.remark + ")") << '\n';
   }
+  for (const FitCovariance& f : r.fits) {
+    out << fmt::format("least squares: {} indications, {:.4g} degrees of freedom", f.equations, f.degrees_of_freedom);
+    if (std::isfinite(f.scatter)) out << ", s = " << shown(f.scatter, f.output.unit, f.output.si_unit);
+    if (std::isfinite(f.chi_squared))
+      out << fmt::format(", chi-squared {:.4g}, a larger one has a probability of {:.2g}", f.chi_squared, f.probability);
+    out << "; u by the fit itself:";
+    for (std::size_t k = 0; k < f.outputs.size(); ++k) {
+      const propagation::Output& o = f.outputs[k];
+      out << (k == 0 ? " " : ", ") << o.measurand << ' '
+          << (std::isinf(f.standard_uncertainty[k]) ? "undetermined" : shown(f.standard_uncertainty[k], o.unit, o.si_unit));
+    }
+    out << '\n';
+  }
   for (const CircularSummary& c : r.circular)
     if (!c.remark.empty())
       out << fmt::format("{} on the circle: mean direction {}, standard deviation {} ({})\n", c.output.name,
@@ -181,11 +194,23 @@ Json one_at_a_time_object(const OneAtATimeTable& table, std::size_t o) {
   return {{"title", table.title}, {"quantities", quantities}};
 }
 
+/// Correlation of one of the outputs with each, by name.
+Json correlations(const std::vector<propagation::Output>& outputs, const std::vector<double>& matrix, std::size_t row) {
+  Json object = Json::object();
+  for (std::size_t k = 0; k < outputs.size(); ++k) object[outputs[k].name] = number(matrix[row * outputs.size() + k]);
+  return object;
+}
+
 Json joint_object(const JointRegion& j, std::size_t row) {
-  Json object = json(joint_fields, j), correlations = Json::object();
-  for (std::size_t k = 0; k < j.outputs.size(); ++k)
-    correlations[j.outputs[k].name] = number(j.correlation[row * j.outputs.size() + k]);
-  object["correlation"] = correlations;
+  Json object = json(joint_fields, j);
+  object["correlation"] = correlations(j.outputs, j.correlation, row);
+  return object;
+}
+
+Json fit_object(const FitCovariance& f, std::size_t row) {
+  Json object = json(fit_fields, f);
+  object["standard_uncertainty"] = number(difference(f.outputs[row], f.standard_uncertainty[row]));
+  object["correlation"] = correlations(f.outputs, f.correlation, row);
   return object;
 }
 
@@ -227,6 +252,9 @@ void add_studies(const Results& r, const propagation::Output& output, Json& obje
   for (const JointRegion& j : r.joint)
     if (const auto at = std::ranges::find(j.outputs, output.name, &propagation::Output::name); at != j.outputs.end())
       object["joint"].push_back(joint_object(j, static_cast<std::size_t>(at - j.outputs.begin())));
+  for (const FitCovariance& f : r.fits)
+    if (const auto at = std::ranges::find(f.outputs, output.name, &propagation::Output::name); at != f.outputs.end())
+      object["fit"] = fit_object(f, static_cast<std::size_t>(at - f.outputs.begin()));
 }
 
 } // namespace gumshoe::cli

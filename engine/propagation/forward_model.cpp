@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "propagation/all_readings.h"
+
 namespace gumshoe::propagation {
 
 void Block::clear(std::size_t samples_wanted) {
@@ -236,24 +238,9 @@ std::vector<models::Intermediate> ForwardModel::explain(std::size_t reading, con
   return model_->explain(point_call<double>(reading, moved.data()));
 }
 
-struct ForwardModel::Together {
-  Points points;
-  Block block;
-};
+struct ForwardModel::Together : AllReadings {};
 
-/// All readings as one sample, stated effects subtracted.
-ForwardModel::Together ForwardModel::together(const Points& at) const {
-  Together out{at, {}};
-  out.block.clear(1);
-  std::vector<models::Column> row;
-  for (std::size_t r = 0; r < at.size(); ++r) {
-    subtract_stated(r, out.points[r].data());
-    row.clear();
-    for (const double& x : out.points[r]) row.push_back({&x, 0});
-    add(out.block, r, row);
-  }
-  return out;
-}
+ForwardModel::Together ForwardModel::together(const Points& at) const { return {all_readings(*this, at)}; }
 
 std::string ForwardModel::check_together(const Points& at) const {
   if (!model_->check_readings) return {};

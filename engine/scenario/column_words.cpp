@@ -46,7 +46,7 @@ const std::vector<RoleWords>& role_words() {
 const std::map<std::string, std::string>& unit_words() {
   static const std::map<std::string, std::string> all{
       {"um", "um"},         {"µm", "um"},         {"μm", "um"},     {"micron", "um"},   {"nm", "nm"},
-      {"mm", "mm"},         {"m", "m"},           {"km", "km"},     {"inch", "inch"},   {"deg", "deg"},
+      {"mm", "mm"},         {"m", "m"},           {"km", "km"},     {"inch", "inch"},   {"in", "inch"},     {"deg", "deg"},
       {"°", "deg"},         {"rad", "rad"},       {"mrad", "mrad"}, {"urad", "urad"},   {"µrad", "urad"},
       {"arcsec", "arcsec"}, {"s", "s"},           {"sec", "s"},     {"ms", "ms"},       {"min", "min"},
       {"h", "h"},           {"K", "K"},           {"degC", "degC"}, {"°C", "degC"},     {"C", "degC"},
@@ -84,6 +84,16 @@ const std::vector<std::pair<std::vector<std::string_view>, double>>& direction_w
         "rück",    "rueck",    "ab",        "-1",   "n",   "minus"},
        -1}};
   return all;
+}
+
+/// Whether "in" behind these words is the inch: "X_in", "dev in", but not "T_in".
+bool is_length(const std::string& name) {
+  static const std::set<std::string> lengths{"x",      "y",     "z",        "pos",    "position", "target",   "nominal",
+                                             "nom",    "dev",   "deviation", "error", "err",      "length",   "diameter",
+                                             "radius", "dia",   "actual",   "act",    "measured", "meas",     "size",
+                                             "dx",     "dy",    "dz",       "distance", "reading", "height"};
+  const auto words = words_of(name);
+  return !words.empty() && lengths.contains(words.back());
 }
 
 /// Whether a column in this unit can be what its name says: T in degC is no time.
@@ -143,6 +153,10 @@ std::string unit_in(const std::string& name, std::string& rest) {
     const auto known = unit_words().find(tail);
     if (known == unit_words().end()) continue;
     rest = name.substr(0, at);
+    if (tail == "in" && !is_length(rest)) {
+      rest = name;
+      continue;
+    }
     if (const std::size_t more = rest.find_last_of("_ /"); more != std::string::npos)
       if (const std::string both = ratio(rest.substr(more + 1), tail); !both.empty()) {
         rest = rest.substr(0, more);

@@ -110,9 +110,9 @@ Csv LogForm::read(std::string_view log, const std::string& file) const {
   out.file = file;
   for (const std::string& name : columns_) out.header.push_back({name, 1, 1});
   std::vector<CsvCell> kept(columns_.size()), cells;
-  std::vector<Problem> problems;
+  std::vector<int> numbers; // of the lines that made the rows
   int number = 0;
-  for (std::size_t at = log.starts_with("\xEF\xBB\xBF") ? 3 : 0; at < log.size() && problems.size() < most_problems;) {
+  for (std::size_t at = log.starts_with("\xEF\xBB\xBF") ? 3 : 0; at < log.size();) {
     const std::size_t end = std::min(log.find('\n', at), log.size());
     std::string_view line = log.substr(at, end - at);
     at = end + 1;
@@ -129,16 +129,23 @@ Csv LogForm::read(std::string_view log, const std::string& file) const {
       kept[known->columns[i]] = cells[i];
     }
     if (!known->row) continue;
-    const auto missing = std::ranges::find_if(kept, [](const CsvCell& c) { return c.text.empty(); });
-    if (missing != kept.end())
-      problems.push_back(
-          {{file, number, 1},
-           fmt::format("the row has no '{}'", columns_[static_cast<std::size_t>(missing - kept.begin())]),
-           fmt::format("no line before it holds one, by {}", file_),
-           "correct the log or its description"});
-    else
-      out.rows.push_back(kept);
+    out.rows.push_back(kept);
+    numbers.push_back(number);
   }
+  const auto missing = [](const CsvCell& c) { return c.text.empty(); };
+  for (std::size_t c = columns_.size(); c-- > 0;) // what no line of this log holds
+    if (missing(kept[c])) {
+      out.header.erase(out.header.begin() + static_cast<std::ptrdiff_t>(c));
+      for (auto& row : out.rows) row.erase(row.begin() + static_cast<std::ptrdiff_t>(c));
+    }
+  std::vector<Problem> problems;
+  for (std::size_t r = 0; r < out.rows.size() && problems.size() < most_problems; ++r)
+    if (const auto cell = std::ranges::find_if(out.rows[r], missing); cell != out.rows[r].end())
+      problems.push_back({{file, numbers[r], 1},
+                          fmt::format("the row has no '{}'",
+                                      out.header[static_cast<std::size_t>(cell - out.rows[r].begin())].text),
+                          fmt::format("no line before it holds one, by {}", file_),
+                          "correct the log or its description"});
   if (problems.empty() && out.rows.empty())
     problems.push_back({{file, 0, 0},
                         "no line of the log makes a row",

@@ -37,8 +37,8 @@ class LogForm {
 public:
   /// Throws InputError with every problem of the description, located.
   LogForm(const std::string& text, const std::string& file);
-  /// Lines of no form are skipped. A row lacks no cell: one before its kept lines is a problem. Throws InputError,
-  /// located.
+  /// Lines of no form are skipped, and so are columns that no line holds. A row lacks no cell: one before its kept lines
+  /// is a problem. Throws InputError, located.
   Csv read(std::string_view log, const std::string& file) const;
 
 private:

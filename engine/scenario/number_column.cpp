@@ -38,7 +38,7 @@ std::vector<Key> number_column_keys() {
           {"unit", shape::text(), "unit of the numbers in the column; default: that of [data], or a plain number"},
           {"map", shape::map(shape::reference("measure")), "word = number: what the words in the column stand for"},
           {"clock", shape::text(),
-           "the column holds clock times, which become seconds since the first: \"iso\", or a pattern such as "
+           "the column holds clock times, which become seconds since the first: \"iso\", \"excel\" (days), or a pattern such as "
            "\"%d.%m.%Y %H:%M:%S\""},
           {"sense", shape::flag(),
            "the way the numbers in the column go from row to row: 1 up, -1 down; for readings that a path up and down "

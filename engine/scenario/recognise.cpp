@@ -3,17 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
-#include <regex>
 #include <set>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "base/clock.h"
+#include "scenario/rtl_log.h"
+#include "scenario/runs_in_rows.h"
 
 namespace gumshoe::scenario {
-namespace {
 
 bool is_number(const Csv& csv, const CsvCell& cell, char decimal) {
   try {
@@ -23,6 +22,8 @@ bool is_number(const Csv& csv, const CsvCell& cell, char decimal) {
     return false;
   }
 }
+
+namespace {
 
 /// Whether the cells that are not missing are numbers, more than half of all.
 bool numbers(const Csv& csv, std::size_t column, char decimal) {
@@ -62,6 +63,19 @@ bool in_degrees_celsius(const RecognisedData& data, std::size_t column) {
   });
 }
 
+/// The form of clock times that are plain numbers, by their size: days of a spreadsheet or seconds of a computer from 1954
+/// or 2001 on; empty if they are neither.
+std::string clock_of_numbers(const RecognisedData& data, std::size_t column) {
+  const auto within = [&](double low, double high) {
+    return std::ranges::all_of(data.csv.rows, [&](const auto& row) {
+      if (says_missing(row[column].text)) return false;
+      const double x = data.csv.number(row[column], data.decimal);
+      return x >= low && x < high;
+    });
+  };
+  return within(2e4, 8e4) ? "excel" : within(1e9, 4e9) ? "%s" : "";
+}
+
 /// @param below  unit below the name; empty: none
 RecognisedColumn column_of(const RecognisedData& data, std::size_t c, const std::string& below) {
   RecognisedColumn out{data.csv.header[c].text, "1", ColumnRole::other, numbers(data.csv, c, data.decimal)};
@@ -98,9 +112,11 @@ RecognisedColumn column_of(const RecognisedData& data, std::size_t c, const std:
     if (!out.clock.empty() && out.role == ColumnRole::other)
       out.take(ColumnRole::time, Basis::cells, "by its clock times");
   }
+  if (out.number && out.role == ColumnRole::time && unit.empty())
+    if (out.clock = clock_of_numbers(data, c); !out.clock.empty()) out.why += ", from a fixed day on by its size";
   out.gaps = out.number && std::ranges::any_of(different, says_missing);
   const bool plain = out.role == ColumnRole::cycle || out.role == ColumnRole::direction;
-  if (out.number && !plain) out.unit = unit.empty() ? "?" : unit;
+  if (out.number && !plain && out.clock.empty()) out.unit = unit.empty() ? "?" : unit;
   if (out.role == ColumnRole::temperature && out.unit == "?" && in_degrees_celsius(data, c)) {
     out.unit = "degC";
     out.unit_guessed = true;
@@ -162,7 +178,8 @@ std::map<std::string, std::string> take_units(RecognisedData& data) {
   }
   if (out.empty()) return out;
   data.first_row = rows[1].front().line;
-  rows.erase(rows.begin());
+  const std::vector<CsvCell> units = rows.front(); // below a head that comes again, they come again, too
+  std::erase_if(rows, [&](const auto& row) { return std::ranges::equal(row, units, {}, &CsvCell::text, &CsvCell::text); });
   return out;
 }
 
@@ -187,60 +204,6 @@ void find_dates(RecognisedData& data) {
   }
 }
 
-/// "R1+", "Run 2 up": a run's number, and the direction's word where there is one.
-struct RunColumn {
-  std::size_t column;
-  std::string run, direction;
-};
-
-std::optional<RunColumn> run_column(const std::string& name, std::size_t column) {
-  static const std::regex form(
-      R"(\s*(r|run|lauf|cycle|zyklus|messung|reihe|trial|pass|meas|n|)[\s_.#]*(\d+)[\s_.]*([^\s_.\d]*)\s*)",
-      std::regex::icase);
-  std::smatch match;
-  if (!std::regex_match(name, match, form)) return std::nullopt;
-  if (!match[3].str().empty() && signs({match[3]}).empty()) return std::nullopt;
-  return RunColumn{column, match[2], match[3]};
-}
-
-/// Readings of several runs in one row, as a table with one row for each; empty where they are not.
-std::string below_each_other(const RecognisedData& data) {
-  const auto& header = data.csv.header;
-  std::vector<RunColumn> runs;
-  std::vector<std::size_t> others;
-  for (std::size_t c = 0; c < header.size(); ++c)
-    if (const auto run = run_column(header[c].text, c))
-      runs.push_back(*run);
-    else
-      others.push_back(c);
-  if (runs.size() < 3 || others.empty()) return "";
-  const bool ways = std::ranges::all_of(runs, [](const RunColumn& r) { return !r.direction.empty(); });
-  const auto& first = data.csv.rows.front();
-  const std::string& below = first[runs.front().column].text; // maybe a line of units
-  const bool units = !is_number(data.csv, first[runs.front().column], '.') &&
-                     !is_number(data.csv, first[runs.front().column], ',') && !says_missing(below);
-  const auto named = [&](const std::string& name, const std::string& unit) {
-    return units && !unit.empty() ? fmt::format("{} [{}]", name, unit) : name;
-  };
-  std::string out;
-  for (const std::size_t c : others) out += named(header[c].text, first[c].text) + ';';
-  out += fmt::format("run;{}{}\n", ways ? "direction;" : "", named("reading", below));
-  for (const RunColumn& run : runs) {
-    std::vector<std::string> rows;
-    for (std::size_t r = units ? 1 : 0; r < data.csv.rows.size(); ++r) {
-      const auto& row = data.csv.rows[r];
-      if (says_missing(row[run.column].text)) continue;
-      std::string text;
-      for (const std::size_t c : others) text += row[c].text + ';';
-      rows.push_back(text + fmt::format("{};{}{}\n", run.run, ways ? run.direction + ';' : "", row[run.column].text));
-    }
-    const auto sign = ways ? signs({run.direction}).front().second : 1.0;
-    if (sign < 0) std::ranges::reverse(rows); // as they were taken
-    for (const std::string& row : rows) out += row;
-  }
-  return out;
-}
-
 Csv table_of(const std::string& text, const std::string& file, RecognisedData& out) {
   try {
     return parse_csv(text, file);
@@ -260,7 +223,37 @@ const RecognisedColumn* RecognisedData::find(ColumnRole role) const {
   return it == columns.end() ? nullptr : &*it;
 }
 
+namespace {
+
+/// What each column of the table may be.
+void recognise_columns(RecognisedData& out) {
+  const auto below = out.form.empty() ? take_units(out) : std::map<std::string, std::string>{};
+  if (number_columns(out.csv, ',') > number_columns(out.csv, '.')) out.decimal = ',';
+  for (std::size_t c = 0; c < out.csv.header.size(); ++c) {
+    const auto unit = below.find(out.csv.header[c].text);
+    out.columns.push_back(column_of(out, c, unit == below.end() ? "" : unit->second));
+  }
+  like_the_others(out.columns);
+  find_dates(out);
+  guess_roles(out);
+}
+
+} // namespace
+
+RecognisedData recognise(Csv log, const std::string& form) {
+  RecognisedData out;
+  out.csv = std::move(log);
+  out.form = form;
+  recognise_columns(out);
+  return out;
+}
+
 RecognisedData recognise(const std::string& text, const std::string& file) {
+  if (std::string rows = rows_of_rtl(text); !rows.empty()) {
+    RecognisedData log = recognise(rows, file);
+    log.rewritten = std::move(rows);
+    return log;
+  }
   RecognisedData out;
   out.csv = table_of(text, file, out);
   if (out.csv.header.size() == 1 && words_of(out.csv.header[0].text).size() > 1) try { // blanks, if they make a table
@@ -273,20 +266,12 @@ RecognisedData recognise(const std::string& text, const std::string& file) {
                           [&](const CsvCell& c) { return is_number(out.csv, c, '.') || is_number(out.csv, c, ','); }))
     throw InputError({{out.csv.at(out.csv.header.front()), "the first row holds numbers, not names of columns", "",
                        "write a line with a name for each column above it"}});
-  if (std::string rows = below_each_other(out); !rows.empty()) {
+  if (std::string rows = below_each_other(out.csv); !rows.empty()) {
     RecognisedData apart = recognise(rows, file);
     apart.rewritten = std::move(rows);
     return apart;
   }
-  const auto below = take_units(out);
-  if (number_columns(out.csv, ',') > number_columns(out.csv, '.')) out.decimal = ',';
-  for (std::size_t c = 0; c < out.csv.header.size(); ++c) {
-    const auto unit = below.find(out.csv.header[c].text);
-    out.columns.push_back(column_of(out, c, unit == below.end() ? "" : unit->second));
-  }
-  like_the_others(out.columns);
-  find_dates(out);
-  guess_roles(out);
+  recognise_columns(out);
   return out;
 }
 

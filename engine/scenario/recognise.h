@@ -33,6 +33,7 @@ struct RecognisedColumn {
 struct RecognisedData {
   Csv csv;
   std::string delimiter;         ///< as [data] states it; empty: as the header shows
+  std::string form;              ///< description of the log, as [data] states it; empty: it is a table
   int header = 0, first_row = 0; ///< lines of the names and of the first row, if [data] must state them; 0: not
   char decimal = '.';
   std::string rewritten; ///< the table, where the file has several runs in a row ("R1+", "R1-"): one row a reading
@@ -44,6 +45,11 @@ struct RecognisedData {
 /// and a line of units below them, are found. Throws InputError: no table, no rows, or a first row of numbers instead
 /// of names.
 RecognisedData recognise(const std::string& text, const std::string& file);
+
+/// The same of a log that a description has read (log_form.h). `form`: its file, as [data] will state it.
+RecognisedData recognise(Csv log, const std::string& form);
+
+bool is_number(const Csv& csv, const CsvCell& cell, char decimal);
 
 /// Position and reading, where there is none yet: the first column of numbers that is left, if it was set, and the
 /// last that is no circumstance, if there is such a one. Without a time, a column that counts the readings stands for

@@ -117,6 +117,7 @@ bool recur(const RecognisedData& data, const NamedColumns& labels, const NamedCo
 std::string data_section(const StarterData& data, const NamedColumns& labels, const NamedColumns& conditions,
                          const std::set<std::string>& used) {
   std::string out = "[data]\n" + line("file", quoted(data.file), "several files as one: \"run_{run}.csv\"");
+  if (!data.found.form.empty()) out += line("form", quoted(data.found.form), "description of its lines");
   if (data.found.header > 0) out += line("header", std::to_string(data.found.header), "line of the column names");
   if (data.found.first_row > 0) out += line("first_row", std::to_string(data.found.first_row), "line of the first row");
   if (!data.found.delimiter.empty()) out += line("delimiter", quoted(data.found.delimiter), "");

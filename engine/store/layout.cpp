@@ -39,7 +39,7 @@ std::vector<TableText> tables() {
   add(equation_fields, axis_fields, input_fields, summary_fields, budget_fields, contribution_fields, validation_fields,
       comparison_fields, printed_fields, predicted_fields, sobol_study_fields, sobol_fields, pair_fields, shapley_study_fields, shapley_fields,
       given_data_study_fields, given_data_fields, delta_fields, rank_fields, morris_study_fields, morris_fields,
-      dgsm_study_fields, dgsm_fields, one_at_a_time_fields, joint_fields, circular_fields, conformity_fields,
+      dgsm_study_fields, dgsm_fields, one_at_a_time_fields, joint_fields, fit_fields, circular_fields, conformity_fields,
       target_study_fields, target_fields, stopping_fields);
   add(choice::question_fields, choice::variable_fields, choice::case_fields, choice::candidate_fields,
       choice::figure_fields, choice::asked_fields, choice::searched_fields, choice::fresh_fields, choice::neighbour_fields);

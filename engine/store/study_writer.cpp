@@ -46,23 +46,46 @@ void write_one_at_a_time(hid_t group, const OneAtATimeTable& study) {
   }
 }
 
+/// Rows that are outputs, with matrices over pairs of them.
+struct Pairs {
+  hdf5::Units units, squared;
+  // netCDF readers want the two axes of a matrix to be two dimensions.
+  Table rows;
+  const Table columns;
+
+  Pairs(hid_t group, const std::vector<propagation::Output>& outputs)
+      : units(common_units(column(outputs, &propagation::Output::si_unit))),
+        squared(units.note || units.text == "1" ? units : "(" + units.text + ")2"),
+        rows(group, "output", outputs.size()), columns(group, "other_output", outputs.size()) {
+    rows.texts("name", column(outputs, &propagation::Output::name), "output");
+    rows.units(column(outputs, &propagation::Output::si_unit), column(outputs, &propagation::Output::unit));
+  }
+  void covariance(const std::string& name, const std::vector<double>& values, const std::string& meaning) {
+    rows.matrix(name, columns, values, squared, meaning);
+  }
+  void correlation(const std::vector<double>& values, const std::string& meaning) {
+    rows.matrix("correlation", columns, values, "1", meaning);
+  }
+};
+
 void write_region(hid_t group, const JointRegion& region) {
   write_attributes(group, joint_fields, region);
-  const auto si = column(region.outputs, &propagation::Output::si_unit);
-  const hdf5::Units units = common_units(si);
-  const hdf5::Units squared = units.note || units.text == "1" ? units : "(" + units.text + ")2";
-  // netCDF readers want the two axes of a matrix to be two dimensions.
-  Table rows(group, "output", region.outputs.size());
-  const Table columns(group, "other_output", region.outputs.size());
-  rows.texts("name", column(region.outputs, &propagation::Output::name), "output");
-  rows.units(si, column(region.outputs, &propagation::Output::unit));
-  rows.numbers("estimate", region.estimate, units, "estimate: mean of the valid samples");
-  rows.matrix("covariance", columns, region.covariance, squared, "covariance of the outputs, from the samples");
-  rows.matrix("correlation", columns, region.correlation, "1",
-              "correlation coefficients, NaN where a variance is zero");
+  Pairs pairs(group, region.outputs);
+  pairs.rows.numbers("estimate", region.estimate, pairs.units, "estimate: mean of the valid samples");
+  pairs.covariance("covariance", region.covariance, "covariance of the outputs, from the samples");
+  pairs.correlation(region.correlation, "correlation coefficients, NaN where a variance is zero");
   if (!region.gum_covariance.empty())
-    rows.matrix("gum_covariance", columns, region.gum_covariance, squared,
-                "covariance by the law of propagation, JCGM 102 6.2");
+    pairs.covariance("gum_covariance", region.gum_covariance, "covariance by the law of propagation, JCGM 102 6.2");
+}
+
+void write_fit(hid_t group, const FitCovariance& fit) {
+  write_output(group, fit.output);
+  write_attributes(group, fit_fields, fit);
+  Pairs pairs(group, fit.outputs);
+  pairs.rows.numbers("standard_uncertainty", fit.standard_uncertainty, pairs.units,
+                     "standard uncertainty by the fit itself, infinite where the readings leave it undetermined");
+  pairs.covariance("covariance", fit.covariance, "covariance of the outputs, by the fit itself");
+  pairs.correlation(fit.correlation, "correlation coefficients, NaN of what the readings leave undetermined");
 }
 
 void write_stopping(hid_t file, const Results& r) {
@@ -98,6 +121,7 @@ void write_studies(hid_t file, const Results& r) {
   });
   write_numbered(file, "one_at_a_time", r.one_at_a_time, write_one_at_a_time);
   write_numbered(file, "joint", r.joint, write_region);
+  write_numbered(file, "fit", r.fits, write_fit);
   if (!r.circular.empty()) write_table(file, circular_fields, r.circular);
   if (!r.conformity.empty()) write_table(file, conformity_fields, r.conformity);
   write_numbered(file, "target", r.targets, [](hid_t group, const TargetResult& study) {

@@ -73,6 +73,9 @@ def decisions(r):
                    "covariance": a.covariance[m] * a.display_factor * b.display_factor, "unit_a": a.display_units,
                    "unit_b": b.display_units, "k_p": j.k_p, "k_q": j.k_q, "coverage_probability": j.coverage_probability}
                   for k, j in enumerate(r.joint) for a in j.rows for m, b in enumerate(j.rows)],
+        "fit": [{"a": a.name, "b": b.name, "correlation": a.correlation[m],
+                 "covariance": a.covariance[m] * a.display_factor * b.display_factor, "unit_a": a.display_units,
+                 "unit_b": b.display_units} for f in r.fit for a in f.rows for m, b in enumerate(f.rows)],
         "circular": [line("circular", c) for c in r.circular],
         "conformity": [line("conformity", c) for c in r.conformity],
         "target": [{"output": t.output, **line("target", i)} for t in r.targets for i in t.rows]}

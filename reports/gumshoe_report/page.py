@@ -14,7 +14,8 @@ HERE = pathlib.Path(__file__).parent
 def question(text):
     """The comment in which a scenario opens, '# Question: ...', to its first question mark, else its first sentence."""
     lines = itertools.takewhile(lambda line: line.startswith("#"), text.lstrip("\ufeff").splitlines())
-    lines = [line.lstrip("# ").strip() for line in lines if not line.startswith("#:")]  # "#:schema" is for editors
+    # "#:schema" is for editors; an indented line is a command, and ends the sentence
+    lines = ["" if line.startswith("#    ") else line.lstrip("# ").strip() for line in lines if not line.startswith("#:")]
     asked = next((k for k, line in enumerate(lines) if line.lower().startswith("question:")), 0)
     lines = itertools.dropwhile(lambda line: not line, lines[asked:])
     words = re.sub(r"(?i)^question:\s*", "", " ".join(itertools.takewhile(bool, lines)))

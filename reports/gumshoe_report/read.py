@@ -52,7 +52,7 @@ def studies(file, r):
     for k, study in enumerate(r.sensitivities):
         study.pairs = rows(file.get(f"sensitivity/{k:03d}/pairs"))
         study.confidence = getattr(study, "confidence", 0.95)
-    for name in ("shapley", "given_data", "morris", "dgsm", "joint"):
+    for name in ("shapley", "given_data", "morris", "dgsm", "joint", "fit"):
         setattr(r, name, numbered(file.get(name)))
     r.targets = numbered(file.get("target"))
     r.one_at_a_time = numbered(file.get("one_at_a_time"), "row")

@@ -67,6 +67,7 @@ def whole_run(r):
     return {
         "joints": [figures.with_figure(studies.joint(j), region_figures.joint(j, f"j{k}") if k < DRAWN else "")
                    for k, j in enumerate(r.joint)],
+        "fits": [studies.fit(f, outputs) for f in r.fit],
         "circulars": [studies.circular(c, outputs.get(c.name)) for c in r.circular],
         "conformities": [figures.with_figure(studies.conformity(c, outputs.get(c.name)), region_figures.conformity(
             c, outputs.get(c.name), f"c{k}") if k < DRAWN else "") for k, c in enumerate(r.conformity)],

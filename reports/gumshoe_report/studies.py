@@ -123,6 +123,29 @@ def joint(region):
               for k, row in enumerate(region.rows)])
 
 
+def fit(study, outputs):
+    """The covariance that a least-squares fit gives by itself, next to u of Monte Carlo."""
+    def size(row, value):
+        return significant(spread(row, value)) if math.isfinite(value) else "undetermined" if value > 0 else NONE
+    scaled = math.isfinite(study.scatter)
+    tested = math.isfinite(study.chi_squared)
+    unit, show = in_finer_unit(study, study.scatter) if scaled else ("", None)
+    return types.SimpleNamespace(
+        meaning=study.meaning, equations=study.equations, freedom=f"{study.degrees_of_freedom:.4g}",
+        s=show(study.scatter) + (f"\u202f{unit}" if unit else "") if scaled else "",
+        chi_squared=significant(study.chi_squared, 3) if tested else "",
+        probability=chance(study.probability) if tested else "",
+        advice="" if tested and study.probability >= 0.05 else
+        "The readings scatter more than the scenario declares: an uncertainty is missing, or an effect." if tested else
+        "It holds if every indication has an independent error of one size. Where u of Monte Carlo differs, the declared errors "
+        "differ in size or act on many readings alike, or the readings scatter more, or less, than the scenario declares." if scaled else "",
+        rows=[types.SimpleNamespace(name=row.name.removeprefix("error of "), unit=unit_text(row.display_units),
+                                    u=size(row, row.standard_uncertainty),
+                                    u_monte_carlo=size(row, outputs[row.name].standard_uncertainty)
+                                    if row.name in outputs else NONE,
+                                    correlation=[fixed(c, 2) for c in row.correlation]) for row in study.rows])
+
+
 def circular(row, output):
     """Circular statistics next to the linear ones of the same output."""
     places = decimals(spread(row, row.standard_deviation))

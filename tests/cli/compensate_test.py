@@ -148,9 +148,9 @@ class Compensation(unittest.TestCase):
     def axis(self, form):
         return () if form == "csv" or form.startswith("linuxcnc") else ("--axis", "X1" if form.startswith("sinumerik") else "X")
 
-    def left(self, table):
-        """Root mean square of the held-out readings less the table, um."""
-        rest = [d - at(table, x, way) for cycle, x, way, d in self.readings if cycle in (3, 6)]
+    def left(self, table, cycles=(3, 6)):
+        """Root mean square of readings less the table, um; by default of those held out."""
+        rest = [d - at(table, x, way) for cycle, x, way, d in self.readings if cycle in cycles]
         return math.sqrt(sum(r * r for r in rest) / len(rest))
 
 
@@ -163,6 +163,19 @@ class BothDirections(Compensation):
             fine = () if form == "csv" else ("--resolution", "1 nm")
             table = self.table(form, "--with", "gain", "--with", "offset", *fine)
             self.assertAlmostEqual(self.left(table), said, delta=2e-3, msg=form)
+
+    def test_what_the_table_leaves_is_said(self):
+        """Of all readings and of those held out, to the three digits that are written."""
+        run = self.compensate("--with", "gain", "--with", "offset", "--format", "linuxcnc", "--resolution", "1 nm")
+        table = read_back(run.stdout, "linuxcnc")
+        for which, cycles in (("these readings", range(1, 7)), (r"held-out readings \(cycle 3, 6\)", (3, 6))):
+            before, after = map(float, re.search(rf"root mean square of {which}: (\S+) um, with the table (\S+) um\n", run.stderr).groups())
+            self.assertAlmostEqual(after, self.left(table, cycles), delta=6e-3)  # and 1 nm of an entry
+            self.assertAlmostEqual(before, self.left([(0, 0, 0)], cycles), delta=6e-3)
+        self.assertAlmostEqual(after, self.rounds[-1]["holdout_after"] * 1e6, delta=6e-3)
+        # Without the quantities of the set-up the table has less to hold, and they are no error of the axis that is left.
+        less = re.search(r"these readings: (\S+) um, with the table (\S+) um\n", self.compensate().stderr).groups()
+        self.assertLess(float(less[0]), 0.9 * before)
 
     def test_every_format_has_the_same_errors(self):
         """To half a step of rounding, 0.05 um; encoder and volumetric tables hold the mean, zero at the first position."""

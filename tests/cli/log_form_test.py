@@ -14,6 +14,12 @@ SAMPLES = {
     "heidenhain_q": ("; made up\nDate: 03-02-2026\nType of dimension (0 = MM / 1 = INCH): 0\n"
                      "Q115 = 10.0012 Q116 = -3.0000 Q117 = +1.5 Q153 = 25.0042\r\nQ115 = 10.0013   Q116 = -3.0000 Q117 = 1.5 Q153 = 25.0040\n",
                      "diameter", {"at": "x", "set": "y"}, [(10.0012, -3, 25.0042), (10.0013, -3, 25.004)]),
+    "fanuc_dprnt": ("%\r\nX  10.0012 Y  -3. Z  .4187\r\nX  10.0008 Y -3.0000 Z-.4185\r\n%\r\n", "z", {"at": "x", "set": "y"},
+                    [(10.0012, -3, 0.4187), (10.0008, -3, -0.4185)]),
+    "renishaw_printout": ("-----------------\nCOMPONENT NO 1 FEATURE NO 2\nSIZE D25.0000  ACTUAL 25.0031  TOL 0.0100  DEV 0.0031\n"
+                          "POSN X10.0000  ACTUAL 9.9984  DEV -0.0016\nCOMPONENT NO 1 FEATURE NO 3\n"
+                          "SIZE D40.0000  ACTUAL 40.0150  TOL 0.0100  DEV 0.0150\n+++++OUT OF TOL+++++ ERROR 0.0050\n",
+                          "deviation", {"at": "feature", "set": "actual"}, [(2, 25.0031, 0.0031), (3, 40.015, 0.015)]),
     "fusion_inspection": ("START\nTIMESTAMP 260203 100000\nG800 N1 X10.0 Y0. Z-2. I0. J0. K1. O0. U0.02 L0.02\nG801 N1 X10.0 Y0. Z1.0012 R3.0\n"
                           "G802 N1 DEVIATION 0.0012\nG800 N2 X20.0 Y0. Z-2. I0. J0. K1. O0. U0.02 L0.02\nG801 N2 X20.0 Y.5 Z1.0008 R3.0\nEND\n",
                           "z", {"at": "point", "set": "nominal_x"}, [(1, 10, 1.0012), (2, 20, 1.0008)]),
@@ -56,6 +62,15 @@ class LogForm(InFolder):
                 found = re.findall(r": at (\S+); set (\S+); v (\S+);", run.stdout)
                 self.assertEqual([tuple(map(float, f)) for f in found], [tuple(map(float, r)) for r in rows])
 
+    def test_a_description_may_know_more_than_a_log_holds(self):
+        """Cycles that measure a circle and contacts are tables of the same description, one at a time."""
+        form, at = FORMS / "heidenhain_q.toml", {"at": "centre_1", "set": "centre_2"}
+        run = self.check(form, "Time: 10:00:00\nQ151 = 50.0001 Q152 = -30.2 Q153 = 25.0042\nQ151 = 50.0003 Q152 = -30.1 Q153 = 25.004\n", "diameter", at)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual(run.stdout.count("v 25.004"), 2)
+        run = self.check(form, "Q151 = 1 Q152 = 2 Q153 = 3\nQ115 = 4 Q116 = 5 Q117 = 6\n", "diameter", at)
+        self.assertIn("log.txt:1:1: error: the row has no 'x'", run.stderr)
+
     def test_a_description_counts_for_the_hash(self):
         form = self.folder / "own.toml"
         hashes = set()
@@ -72,7 +87,7 @@ class LogForm(InFolder):
                 ('[[lines]]\npattern = "{a}{b}"\nrow = true\n', "", "nothing stands between two cells"),
                 ('[[lines]]\npattern = "{a} {b}"\n', "", "no line makes a row"),
                 ('[[lines]]\nrow = true\n', "", "lines[1].pattern is missing"),
-                ('[[lines]]\npattern = "A {a}"\n[[lines]]\npattern = "B {b}"\nrow = true\n', "B 1\n", "log.txt:1:1: error: the row has no 'a'"),
+                ('[[lines]]\npattern = "A {a}"\n[[lines]]\npattern = "B {b}"\nrow = true\n', "B 1\nA 2\nB 3\n", "log.txt:1:1: error: the row has no 'a'"),
                 ('[[lines]]\npattern = "A {a} {b}"\nrow = true\n', "B 1\n", "no line of the log makes a row"),
                 ('[[lines]]\npattern = "A {a} {b}"\nrow = true\n', "A 1 x\n", "log.txt:1:5: error: 'x' is not a number")):
             form.write_text(text)

@@ -291,8 +291,8 @@ class New(InFolder):
             # The positions tell the way up from the way down: a reversal, and nothing else.
             self.assertIn("sense = true", (self.folder / f"{name}.toml").read_text())
             self.assertEqual(json.loads(run.stdout)["findings"], [], name)
-        (self.folder / "signs.csv").write_text("pos_mm;dev_um\n" + "".join(f"{x};1,00{x % 7}.25\n" for x in range(20)))
-        self.assertIn("signs.csv:2:3: error: '1,000.25' is not a number (the column 'dev_um' has the readings)", self.new("--from", "signs.csv", code=2))
+        (self.folder / "signs.csv").write_text("pos_mm;dev_um\n" + "".join(f"{x};1 00{x % 7}.25\n" for x in range(20)))
+        self.assertIn("signs.csv:2:3: error: '1 000.25' is not a number (the column 'dev_um' has the readings)", self.new("--from", "signs.csv", code=2))
 
     def test_a_linear_model_of_any_columns(self):
         """Three machines, of which one has another slope; coefficients within three of their u, 0.01 to 0.02 N."""

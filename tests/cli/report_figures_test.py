@@ -97,6 +97,8 @@ class EveryStudy(InOneFolder):
         self.assertAlmostEqual(float(steps["runout_x", "runout"]["up"]), 92)
         self.assertAlmostEqual(float(steps["rod_length", "height"]["down"]), -0.1)
         self.assertAlmostEqual(float(self.table("morris")[3]["mean_absolute"]), 0.0016)
+        fit = {(r["a"], r["b"]): r for r in self.table("fit")}
+        self.assertAlmostEqual(float(fit["height", "runout"]["covariance"]), -0.44 * 0.0021 * 1.7)  # mm um
         for name in ("sensitivity_pairs", "given_data", "dgsm", "circular", "target"):
             self.assertTrue(self.table(name), name)
 
@@ -104,7 +106,7 @@ class EveryStudy(InOneFolder):
         older = self.folder / "older.h5"
         shutil.copy(self.result, older)
         with changed(older) as file:
-            for name in ("shapley", "given_data", "morris", "dgsm", "one_at_a_time", "joint", "circular", "conformity",
+            for name in ("shapley", "given_data", "morris", "dgsm", "one_at_a_time", "joint", "fit", "circular", "conformity",
                          "target", "stopping"):
                 del file[name]
             study = file["sensitivity/000"]
@@ -117,7 +119,7 @@ class EveryStudy(InOneFolder):
         self.assertEqual(run.returncode, 0, run.stderr)
         text = (self.folder / "older.html").read_text(encoding="utf-8")
         self.assertIn("Tornado plot", text)
-        for absent in ("Conformity", "Several measurands", "Morris", "How many trials"):
+        for absent in ("Conformity", "Several measurands", "What the fit itself says", "Morris", "How many trials"):
             self.assertNotIn(absent, text)
         with changed(older) as file:
             del file["sensitivity"], file["budget"]
@@ -136,7 +138,7 @@ class EveryStudy(InOneFolder):
                     item.attrs[key] = float("nan")
 
         with changed(empty) as file:
-            for name in ("sensitivity", "shapley", "given_data", "morris", "dgsm", "one_at_a_time", "joint", "circular",
+            for name in ("sensitivity", "shapley", "given_data", "morris", "dgsm", "one_at_a_time", "joint", "fit", "circular",
                          "conformity", "target", "stopping"):
                 file[name].visititems(forget)
         run = subprocess.run([GUMSHOE, "report", empty], cwd=ROOT, capture_output=True, text=True)
@@ -148,7 +150,8 @@ class EveryStudy(InOneFolder):
 
     def test_printed_text_and_json_have_the_studies(self):
         text = subprocess.run([MADE, "--text"], check=True, capture_output=True, text=True).stdout
-        for words in ("ellipsoid k_p = 2.448, rectangle k_q = 2.212", "height: accepted", "runout: rejected",
+        for words in ("ellipsoid k_p = 2.448, rectangle k_q = 2.212", "height: accepted",
+                      "least squares: 24 indications, 22 degrees of freedom, s = 0.002 mm; u by the fit itself: height 0.00168 mm, runout 1.87 um", "runout: rejected",
                       "global producer's risk 15.1 %", "beam_pitch 0.576", "Shapley effects of runout",
                       "u of beam_pitch 0.11 deg", "640000 trials"):
             self.assertIn(words, text)
@@ -158,6 +161,9 @@ class EveryStudy(InOneFolder):
         self.assertAlmostEqual(made["height"]["targets"][0]["quantities"]["beam_pitch"]["allowed"], 0.11)
         self.assertEqual(made["height"]["targets"][0]["quantities"]["beam_pitch"]["allowed_gum"], "any")
         self.assertAlmostEqual(made["runout"]["joint"][0]["correlation"]["height"], -0.55)
+        self.assertAlmostEqual(made["runout"]["fit"]["standard_uncertainty"], 1.1 * 1.7)
+        self.assertAlmostEqual(made["runout"]["fit"]["correlation"]["height"], -0.5)
+        self.assertNotIn("fit", made["loss"])
         self.assertIsNone(made["runout"]["conformity"][0]["lower"])
         self.assertNotIn("sobol", made["loss"])
 

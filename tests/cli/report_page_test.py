@@ -237,6 +237,7 @@ class Question(unittest.TestCase):
                 ("# Question: how well? \n#:schema s.json\n#\n# The study of X, section 4.\nschema = 1", "How well?"),
                 ("# Question: how well do 3.5 mm rods,\n# e.g. steel ones, gauge it? The tool of Y.\n", "How well do 3.5 mm rods, e.g. steel ones, gauge it?"),
                 ("# Copyright A. B. Smith\n#\n# question: which?\n", "Which?"),
+                ("# Question: what does it show?\n#     gumshoe trace s.toml\n# Written by hand.\n", "What does it show?"),
                 ("# Two rods, compared. Nothing else.\n", "Two rods, compared."),
                 ("schema = 1\n# Question: no\n", "")):
             self.assertEqual(page.question(text), asked)

@@ -143,7 +143,8 @@ class EveryStudy(InOneFolder):
     def test_every_group_opens_in_xarray_without_complaint(self):
         groups = self.groups()
         for name in ("sensitivity/000", "sensitivity/000/pairs", "shapley/000", "given_data/000", "morris/000",
-                     "dgsm/000", "one_at_a_time/000", "joint/001", "circular", "conformity", "target/000", "stopping"):
+                     "dgsm/000", "one_at_a_time/000", "joint/001", "fit/000", "circular", "conformity", "target/000",
+                     "stopping"):
             self.assertIn(name, groups)
         with warnings.catch_warnings():
             warnings.simplefilter("error")

@@ -2,9 +2,12 @@
 
 usage: trace_axis_test.py path/to/gumshoe [unittest options]
 """
+import csv
+import io
 import json
 import math
 import random
+import re
 import unittest
 
 import plain_axis
@@ -46,6 +49,25 @@ class TraceAxis(InFolder):
         for k in ("after", "replicate_floor"):
             mean = sum(v["rms"][k] for v in verdicts) / len(verdicts)
             self.assertAlmostEqual(1e6 * mean / plain_axis.NOISE_UM, 1, delta=0.2, msg=k)
+
+    def test_what_a_table_cannot_hold_is_said(self):
+        """The scale that drifts is left in the readings; the table takes the rest."""
+        self.trace(4)
+        run = gumshoe("compensate", "results/s.traced.toml", "--with", "gain", "--with", "offset", cwd=self.folder)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn("left out: axis_scale_drift also depends on something else than the position", run.stderr)
+        table = {(float(row["position_mm"]), int(row["direction"])): float(row["error_um"])
+                 for row in csv.DictReader(line for line in io.StringIO(run.stdout) if not line.startswith("#"))}
+        with open(self.folder / "data" / "linear_axis.csv") as file:
+            readings = [(float(r["x_mm"]), int(r["direction"]), float(r["deviation_um"]))
+                        for r in csv.DictReader(line for line in file if not line.startswith("#"))]
+        root_mean_square = lambda values: math.sqrt(sum(v * v for v in values) / len(values))
+        said = re.search(r"these readings: (\S+) um, with the table (\S+) um, of which (\S+) um is noise and the rest what is left out", run.stderr)
+        before, after, noise = map(float, said.groups())
+        self.assertAlmostEqual(before / root_mean_square([d for _, _, d in readings]), 1, delta=6e-3)
+        self.assertAlmostEqual(after / root_mean_square([d - table[x, way] for x, way, d in readings]), 1, delta=6e-3)
+        self.assertAlmostEqual(noise / plain_axis.NOISE_UM, 1, delta=4 / math.sqrt(2 * 80) + 0.13)  # 20 of 80 are fitted
+        self.assertGreater(after, 3 * noise)
 
     def test_a_recorded_temperature_hides_neither_drift_nor_floor(self):
         """Readings warm up by 2 um with 2 h, a temperature near the machine rises with the time, and no two readings

@@ -175,6 +175,18 @@ void add_joint(Results& r) {
   r.joint[0].gum_covariance = r.joint[0].covariance;
   r.joint[2].k_p = r.joint[2].k_p_se = none;
   r.joint[2].remark = "no ellipsoid: the measurands are linearly dependent";
+  FitCovariance fit;
+  fit.outputs = {o[0], o[1]};
+  fit.standard_uncertainty = {0.8 * spread[0], 1.1 * spread[1]};
+  fit.covariance = {0.64 * spread[0] * spread[0], -0.44 * spread[0] * spread[1], -0.44 * spread[0] * spread[1], 1.21 * spread[1] * spread[1]};
+  fit.correlation = {1, -0.5, -0.5, 1};
+  fit.equations = 24;
+  fit.degrees_of_freedom = 22;
+  fit.scatter = 2 * um;
+  fit.chi_squared = fit.probability = none;
+  fit.output = o[0];
+  fit.meaning = "from the residuals, as if every indication had an independent error of the same size";
+  r.fits = {fit};
   r.circular = {{o[2], 171.2 * deg, 0.982, 10.9 * deg, 149 * deg, 193 * deg,
                  "14 % of the samples lie across the cut of the circle"}};
   ConformityResult c;

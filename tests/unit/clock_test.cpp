@@ -17,6 +17,18 @@ double between(const std::string& format, const std::string& from, const std::st
 
 } // namespace
 
+TEST_CASE("days of a spreadsheet", "[clock]") {
+  // 61 is 1900-03-01: after the leap day that 1900 had not. 45292 is 2024-01-01.
+  CHECK(ClockFormat("excel").parse("25569")->seconds == 0);
+  CHECK(ClockFormat("excel").parse("45292")->seconds == ClockFormat("iso").parse("2024-01-01T00:00")->seconds);
+  CHECK(between("excel", "46056.25", "46056,75") == 43200);
+  CHECK(between("excel", "46056.999988426", "46057") == Approx(1).margin(1e-4)); // nine digits of a day: 0.1 ms
+  for (const char* wrong : {"", "0.5", "-3", "1e5", "46056.5 ", "46056:30", "99999999"})
+    CHECK_FALSE(ClockFormat("excel").parse(wrong));
+  CHECK(ClockFormat("excel").has_date());
+  CHECK(ClockFormat("excel").parse(ClockFormat("excel").example()));
+}
+
 TEST_CASE("clock times of ISO 8601", "[clock]") {
   CHECK(between("iso", "2026-02-03T10:00:00", "2026-02-03T10:00:00.125") == 0.125);
   CHECK(between("iso", "2026-02-28 23:59", "2026-03-01 00:00") == 60);  // no leap year

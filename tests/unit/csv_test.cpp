@@ -37,12 +37,34 @@ TEST_CASE("comments and semicolons", "[csv]") {
   CHECK(csv.number(csv.rows[0][0], ',') == 1.5);
   CHECK(csv.number(csv.rows[0][2], ',') == 3);
   CHECK_THROWS_WITH(csv.number(csv.rows[0][0]), Catch::Contains("t.csv:4:1: error: '1,5' is not a number (the decimal sign must be a point)"));
-  // a comma in the header: semicolons are text; a thousands separator is no number in either form
+  // a comma in the header: semicolons are text
   CHECK(parse_csv("a;b,c\n1,2\n", "t.csv").header[0].text == "a;b");
-  const auto large = parse_csv("a;b\n1.234,5;1,234.5\n2.5;x\n", "t.csv");
-  for (const char decimal : {'.', ','})
-    for (const auto& cell : large.rows[0]) CHECK_THROWS_AS(large.number(cell, decimal), InputError);
+}
+
+TEST_CASE("signs between thousands", "[csv]") {
+  const auto large = parse_csv("a;b\n1.234,5;1,234.5\n2.5;x\n-1'234'567.25;+12.345.678,9\n", "t.csv");
+  CHECK(large.number(large.rows[0][0], ',') == 1234.5);
+  CHECK(large.number(large.rows[0][1], '.') == 1234.5);
+  CHECK(large.number(large.rows[2][0], '.') == -1234567.25);
+  CHECK(large.number(large.rows[2][1], ',') == 12345678.9);
+  // The sign of the other kind of numbers, no decimals, groups of another length: a thousand times too much is possible.
+  CHECK_THROWS_AS(large.number(large.rows[0][0], '.'), InputError);
+  CHECK_THROWS_AS(large.number(large.rows[0][1], ','), InputError);
   CHECK_THROWS_WITH(large.number(large.rows[1][0], ','), Catch::Contains("the decimal sign must be a comma"));
+  for (const char* text : {"1.234", "1.23,5", "1234.567,8", "1.234.56,7", ".234,5", "0.123,4", "1.2e4,5", "1.234'567,8"}) {
+    const auto one = parse_csv("a;b\n" + std::string(text) + ";1\n", "t.csv");
+    CHECK_THROWS_AS(one.number(one.rows[0][0], ','), InputError);
+  }
+}
+
+TEST_CASE("a head that comes again is no row", "[csv]") {
+  const auto plain = parse_csv("a,b\n1,2\na, b\n3,4\n", "t.csv");
+  REQUIRE(plain.rows.size() == 2);
+  CHECK(plain.rows[1][0].line == 4);
+  const auto units = parse_csv("log\na,b\nmm,um\n1,2\na,b\nmm,um\n3,4\n", "t.csv", {.header = 2, .rows = 4});
+  REQUIRE(units.rows.size() == 2);
+  CHECK(units.rows[1][1].text == "4");
+  CHECK(parse_csv("a\na\n", "t.csv").rows.size() == 1); // a word in the only column is one
 }
 
 TEST_CASE("malformed tables are refused with their place", "[csv]") {

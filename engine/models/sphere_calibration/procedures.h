@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "models/block.h"
+#include "models/fit.h"
 #include "models/sphere_calibration/identification.h"
 
 namespace gumshoe::models::sphere_calibration {
@@ -70,6 +71,8 @@ struct Identify {
   /// Directions that all commands together do not determine, among the unknowns and those quantities of links and
   /// artefact whose uncertainty all readings share.
   static std::vector<std::string> remarks(const Poses<double>& poses);
+  /// What the fit itself says of the covariance of the eleven; null if it fails.
+  static std::optional<Fit> fit(const Poses<double>& poses);
 };
 
 } // namespace gumshoe::models::sphere_calibration

@@ -1,0 +1,183 @@
+#include "scenario/runs_in_rows.h"
+
+#include <algorithm>
+#include <optional>
+#include <regex>
+#include <set>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "scenario/column_words.h"
+#include "scenario/recognise.h"
+
+namespace gumshoe::scenario {
+namespace {
+
+/// A column of readings.
+struct Part {
+  std::size_t column;
+  std::vector<std::string> said; ///< by its name, in the order of Layout::added
+  double sign = 1;               ///< below 0: taken on the way back
+};
+struct Layout {
+  std::vector<std::string> added; ///< names of the columns that tell the parts apart
+  std::vector<Part> parts;
+  std::string unit;     ///< of the readings, by the names of their columns; empty: they do not say it
+  bool by_rows = false; ///< each row is a run, else each part is one
+};
+
+/// Names of runs and targets are short; a regular expression may not be asked about a line of megabytes.
+constexpr std::size_t longest_name = 40;
+
+double sign_of(const std::string& word) {
+  const auto known = signs({word});
+  return known.empty() ? 0 : known.front().second;
+}
+
+/// "R1+", "Run 2 up".
+std::optional<Layout> runs(const Csv& csv) {
+  static const std::regex form(
+      R"(\s*(r|run|lauf|cycle|zyklus|messung|reihe|trial|pass|meas|n|)[\s_.#]*(\d+)[\s_.]*([^\s_.\d]*)\s*)",
+      std::regex::icase);
+  Layout out{{"run"}, {}, "", false};
+  bool ways = true, numbers = true;
+  for (std::size_t c = 0; c < csv.header.size(); ++c) {
+    std::smatch match;
+    if (csv.header[c].text.size() > longest_name || !std::regex_match(csv.header[c].text, match, form)) continue;
+    const std::string run = match[2], word = match[3];
+    if (!word.empty() && sign_of(word) == 0) continue;
+    ways &= !word.empty();
+    numbers &= match[1].str().empty() && word.empty() && run == std::to_string(out.parts.size() + 1);
+    if (match[1].str().empty() && word.empty() && !numbers) return std::nullopt; // targets
+    out.parts.push_back({c, {run, word}, word.empty() ? 1 : sign_of(word)});
+  }
+  if (out.parts.size() < 3) return std::nullopt;
+  if (ways) out.added.emplace_back("direction");
+  for (Part& p : out.parts) {
+    p.said.resize(out.added.size());
+    if (!ways) p.sign = 1;
+  }
+  return out;
+}
+
+/// "Forward (um)", "Backward (um)".
+std::optional<Layout> directions(const Csv& csv) {
+  Layout out{{"direction"}, {}, "", false};
+  double sum = 0;
+  for (std::size_t c = 0; c < csv.header.size(); ++c) {
+    std::string rest;
+    const std::string unit = unit_in(csv.header[c].text, rest);
+    const auto words = words_of(rest);
+    // "Pos" is a position as a rule, "rev" a revision.
+    const bool doubtful =
+        words.size() != 1 || words.front().size() < 2 || words.front() == "pos" || words.front() == "rev";
+    const double sign = doubtful ? 0 : sign_of(words.front());
+    if (sign == 0) continue;
+    out.parts.push_back({c, {words.front()}, sign});
+    out.unit = unit;
+    sum += sign;
+  }
+  if (out.parts.size() != 2 || sum != 0) return std::nullopt;
+  return out;
+}
+
+/// "0 mm", "50 mm": four or more, up or down.
+std::optional<Layout> targets(const Csv& csv) {
+  static const std::regex form(R"(([+-]?\d+([.,]\d+)?)\s*(\S*))");
+  Layout out{{}, {}, "", true};
+  std::string unit;
+  std::vector<double> at;
+  for (std::size_t c = 0; c < csv.header.size(); ++c) {
+    std::smatch match;
+    if (csv.header[c].text.size() > longest_name || !std::regex_match(csv.header[c].text, match, form)) continue;
+    if (!match[3].str().empty() && unit_below(match[3]).empty()) continue;
+    unit = match[3];
+    out.parts.push_back({c, {match[1]}});
+    std::string number = match[1];
+    std::ranges::replace(number, ',', '.');
+    at.push_back(std::stod(number));
+  }
+  const bool rise = std::ranges::is_sorted(at, std::less_equal{}),
+             fall = std::ranges::is_sorted(at, std::greater_equal{});
+  if (at.size() < 4 || !(rise || fall)) return std::nullopt;
+  out.added.push_back(unit.empty() ? "position" : fmt::format("position [{}]", unit));
+  return out;
+}
+
+/// Writes one row for each reading.
+class Rewriter {
+public:
+  Rewriter(const Csv& csv, Layout layout) : csv_(csv), layout_(std::move(layout)) {
+    for (std::size_t c = 0; c < csv.header.size(); ++c)
+      if (std::ranges::find(layout_.parts, c, &Part::column) == layout_.parts.end()) others_.push_back(c);
+    const CsvCell& below = csv.rows.front()[layout_.parts.front().column];
+    for (const std::size_t c : others_) {
+      std::set<std::string> words;
+      for (const auto& row : csv.rows) words.insert(row[c].text);
+      if (!signs(words).empty()) way_ = c;
+    }
+    units_ = !is_number(csv, below, '.') && !is_number(csv, below, ',') && !says_missing(below.text);
+    if (units_) layout_.unit = below.text;
+  }
+  bool useful() const { return !others_.empty(); }
+
+  std::string write() {
+    const auto named = [](const std::string& name, const std::string& unit) {
+      return unit.empty() ? name : fmt::format("{} [{}]", name, unit);
+    };
+    for (const std::size_t c : others_)
+      out_ += named(csv_.header[c].text, units_ ? csv_.rows.front()[c].text : "") + ';';
+    out_ += fmt::format("{};{}\n", fmt::join(layout_.added, ";"), named("reading", layout_.unit));
+    for (std::size_t from = units_ ? 1 : 0, to = from; from < csv_.rows.size(); from = to) {
+      while (to < csv_.rows.size() && same_run(from, to)) ++to;
+      layout_.by_rows ? row(from) : stretch(from, to);
+    }
+    return std::move(out_);
+  }
+
+private:
+  /// Rows of one run of all parts: of one row each, else those that agree in the column of the cycles.
+  bool same_run(std::size_t a, std::size_t b) const {
+    return layout_.by_rows ? a == b : std::ranges::all_of(others_, [&](std::size_t c) {
+      const bool cycle = role_by_name(words_of(csv_.header[c].text), "") == ColumnRole::cycle;
+      return !cycle || csv_.rows[a][c].text == csv_.rows[b][c].text;
+    });
+  }
+  void stretch(std::size_t from, std::size_t to) {
+    for (const Part& part : layout_.parts)
+      for (std::size_t i = from; i < to; ++i) add(part.sign < 0 ? from + to - 1 - i : i, part);
+  }
+  void row(std::size_t r) {
+    const bool back = way_ && sign_of(csv_.rows[r][*way_].text) < 0;
+    const std::size_t n = layout_.parts.size();
+    for (std::size_t i = 0; i < n; ++i) add(r, layout_.parts[back ? n - 1 - i : i]);
+  }
+  void add(std::size_t r, const Part& part) {
+    const auto& cells = csv_.rows[r];
+    if (says_missing(cells[part.column].text)) return;
+    for (const std::size_t c : others_) out_ += cells[c].text + ';';
+    out_ += fmt::format("{};{}\n", fmt::join(part.said, ";"), cells[part.column].text);
+  }
+
+  const Csv& csv_;
+  Layout layout_;
+  std::vector<std::size_t> others_;
+  std::optional<std::size_t> way_; ///< column of direction words
+  bool units_ = false;             ///< the first row holds them
+  std::string out_;
+};
+
+} // namespace
+
+std::string below_each_other(const Csv& csv) {
+  for (const auto kind : {runs, directions, targets})
+    if (auto layout = kind(csv)) {
+      Rewriter rewriter(csv, std::move(*layout));
+      if (rewriter.useful()) return rewriter.write();
+    }
+  return "";
+}
+
+} // namespace gumshoe::scenario
