@@ -12,7 +12,9 @@
 namespace gumshoe::models {
 
 template <class M>
-concept Prepares = M::scalar && requires { typename M::Prepared; };
+concept Prepares = M::scalar && requires {
+  typename M::Prepared;
+};
 
 namespace detail {
 
@@ -42,8 +44,9 @@ template <class M> class Ahead {
 
 public:
   Ahead(const BlockCall& call, bool simulating)
-      : readings_(call.readings), simulating_(simulating), group_(call, simulating), refusals_(call, group_.quantities()),
-        ahead_(samples), outcomes_(samples * readings_), prepared_(samples * readings_), places_(samples * readings_) {}
+      : readings_(call.readings), simulating_(simulating), group_(call, simulating),
+        refusals_(call, group_.quantities()), ahead_(samples), outcomes_(samples * readings_),
+        prepared_(samples * readings_), places_(samples * readings_) {}
 
   /// Turns to sample i, for every i in turn.
   template <class Memory> void turn(std::size_t i, Memory& memory) {

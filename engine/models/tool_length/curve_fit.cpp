@@ -7,8 +7,8 @@ namespace gumshoe::models::tool_length {
 
 namespace {
 
-/// Phase u, then for each flute a_k = u - H_k: u shifts all indications alike, and a flute's curve jumps at values of its
-/// own a_k, whatever the rest.
+/// Phase u, then for each flute a_k = u - H_k: u shifts all indications alike, and a flute's curve jumps at values of
+/// its own a_k, whatever the rest.
 using Unknowns = std::array<double, chain::most_inserts + 1>;
 
 /// Phases looked at per pitch of a flute, how many of the best are improved, and how many carried to their minimum.
@@ -32,9 +32,10 @@ class Fitter {
 public:
   explicit Fitter(const CurveReadings& d)
       : d_(d), now_(d), trial_(d), rows_(7 * d.readings * d.flutes), places_(&rows_[5 * d.readings * d.flutes]),
-        lines_(&rows_[6 * d.readings * d.flutes]),
-        points_{&rows_[0], &rows_[d.readings * d.flutes], &rows_[2 * d.readings * d.flutes],
-                &rows_[3 * d.readings * d.flutes], &rows_[4 * d.readings * d.flutes]} {
+        lines_(&rows_[6 * d.readings * d.flutes]), points_{&rows_[0], &rows_[d.readings * d.flutes],
+                                                           &rows_[2 * d.readings * d.flutes],
+                                                           &rows_[3 * d.readings * d.flutes],
+                                                           &rows_[4 * d.readings * d.flutes]} {
     for (std::size_t k = 0; k < d.flutes; ++k)
       for (std::size_t i = 0; i < d.readings; ++i) lines_[k * d.readings + i] = d.lines[i * d.flutes + k];
   }
@@ -233,7 +234,8 @@ private:
     return std::ranges::any_of(known_, [&](const auto& earlier) {
       const auto& [flutes, at] = earlier;
       bool same = flutes == active && std::fabs(at.x[0] - c.x[0]) < alike;
-      for (std::size_t k = 0; k < d_.flutes; ++k) same = same && !(active[k] && std::fabs(at.x[k + 1] - c.x[k + 1]) > alike);
+      for (std::size_t k = 0; k < d_.flutes; ++k)
+        same = same && !(active[k] && std::fabs(at.x[k + 1] - c.x[k + 1]) > alike);
       return same;
     });
   }

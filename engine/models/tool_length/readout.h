@@ -51,8 +51,7 @@ template <class T> Insert<T> insert(const Quantities<T>& q, const chain::Probing
 }
 /// Flute k with its wear and the event's deviations.
 template <class T> Flute<T> flute(const Quantities<T>& q, const Event<T>& event, int k) {
-  return deviating<T>({insert(q, event), T(2 * pi * k / num::value(q.inserts)), wear(q, k)}, event.tool,
-                      k);
+  return deviating<T>({insert(q, event), T(2 * pi * k / num::value(q.inserts)), wear(q, k)}, event.tool, k);
 }
 
 /// The true motion. The control commands the spindle height at which, according to the quantities, the tool's centre is
@@ -121,7 +120,7 @@ Trigger<T> trigger_of(const At<T>& at, Event<T>& event, const InsertMotionOf<T>&
   result.insert = solved.insert;
   if (solved.status != Status::ok) return result;
   result.turned = T(solved.turned);
-  if constexpr (num::derivative_levels<T> > 0)
+  if constexpr (num::derivative_levels < T >> 0)
     result.turned = differentiable_turned<T>(flute(at.q, event, solved.insert), laser_setter::beam(at.q), m, solved);
   result.height.value = m.height_at(result.turned);
   event.latch_delay = delay_of_latch<T>(event.tool, event.latch_delay, &result.turned);

@@ -16,8 +16,8 @@ struct Pieces {
 };
 static_assert(sizeof(Pieces) / sizeof(Lanes) == sizeof(CurvePiece) / sizeof(double));
 
-/// The pieces of some numbers y, the first that `passed(piece, following)` does not pass over: fields `first` to `last`,
-/// excluded, of them.
+/// The pieces of some numbers y, the first that `passed(piece, following)` does not pass over: fields `first` to
+/// `last`, excluded, of them.
 template <std::size_t first_field, std::size_t last_field, class Passed>
 Pieces pieces_of(const CurveTable& table, const CurveTable::Start& start, const Lanes& y, const Passed& passed) {
   double at[width], rows[last_field][width], numbers[width];
@@ -91,12 +91,13 @@ void at(const CurveTable& table, std::size_t n, const double* x, const CurvePoin
   in_groups(n, x, [&](std::size_t i, std::size_t count, const Lanes& line) {
     const Lanes turns = xsimd::floor((line - Lanes(table.by_x.from)) / period), shift = turns * period;
     const Lanes y = line - shift;
-    const Pieces p = pieces_of<2, 12>(table, table.by_x, y, [](const CurvePiece& piece, const CurvePiece&, double number) {
-      return piece.x < number;
-    });
+    const Pieces p =
+        pieces_of<2, 12>(table, table.by_x, y,
+                         [](const CurvePiece& piece, const CurvePiece&, double number) { return piece.x < number; });
     const auto wall = p.span == Lanes(0.0);
     const Lanes s = reached(p, p.x - y), least = 1e-6 * drop * p.width;
-    const Lanes slope = p.rise + s * (2.0 * p.bend + s * 3.0 * p.third), rise = num::select(slope < least, least, slope);
+    const Lanes slope = p.rise + s * (2.0 * p.bend + s * 3.0 * p.third),
+                rise = num::select(slope < least, least, slope);
     store(num::select(wall, y - drop * p.end, y - drop * (p.end - p.width * s)), count, out.height + i);
     store(num::select(wall, Lanes(1.0), (slope - drop * p.width) / rise), count, out.slope + i);
     store(p.from + shift, count, out.from + i);
@@ -109,9 +110,9 @@ void record(const CurveTable& table, std::size_t n, const double* angle, double*
   const Lanes turn(2 * std::numbers::pi);
   in_groups(n, angle, [&](std::size_t i, std::size_t count, const Lanes& turned) {
     const Lanes turns = xsimd::floor((turned - Lanes(table.by_angle.from)) / turn), psi = turned - turns * turn;
-    const Pieces p = pieces_of<0, 8>(table, table.by_angle, psi, [](const CurvePiece&, const CurvePiece& next, double number) {
-      return next.begin <= number;
-    });
+    const Pieces p =
+        pieces_of<0, 8>(table, table.by_angle, psi,
+                        [](const CurvePiece&, const CurvePiece& next, double number) { return next.begin <= number; });
     const Lanes s = (p.end - psi) / p.width;
     const Lanes on = p.x - s * (p.rise + s * (p.bend + s * p.third));
     const Lanes reach = num::select(psi >= p.end, p.x, num::select(psi < p.begin, p.low, on));

@@ -123,8 +123,7 @@ using RakeChord = RakeChordOf<double>;
 template <class V>
 RakeChordOf<V> rake_chord(const RakeViewOf<V>& v, const V& rho, const DiscShareOf<V>& disc, const V& more = V(0.0)) {
   RakeChordOf<V> chord;
-  const V beam = disc.radius, alpha = 1.0 - v.ny * v.ny, extent = rho * num::sqrt(alpha),
-          shear = -v.ny * v.nz / alpha;
+  const V beam = disc.radius, alpha = 1.0 - v.ny * v.ny, extent = rho * num::sqrt(alpha), shear = -v.ny * v.nz / alpha;
   const V c0 = beam * disc.half_chord, reach = rho * v.nx;
   // Start: as if ellipse, chord and line were small against each other.
   const V by_reach = 1.0 / reach, ratio = c0 * by_reach;
@@ -170,7 +169,8 @@ RakeChordOf<V> rake_chord(const RakeViewOf<V>& v, const V& rho, const DiscShareO
     t = t + step;
   }
   if (!num::any(chord.solved)) return chord;
-  const V c1 = num::sqrt(beam * beam - at.p * at.p), area1 = -(v.ny * v.ny1 + v.nz * v.nz1) * rho * reach / (v.nx * v.nx);
+  const V c1 = num::sqrt(beam * beam - at.p * at.p),
+          area1 = -(v.ny * v.ny1 + v.nz * v.nz1) * rho * reach / (v.nx * v.nx);
   const V drift = at.segment / (2.0 * c1), p1 = rho * rho * drift;
   chord.k = at.p * at.q + at.t * v.cy - v.cz + at.r * rho * at.g + 0.5 * at.off * at.step;
   // its own change with t over the step that is left, too

@@ -1,6 +1,6 @@
 #pragma once
-/// The first trigger of a whole tool by its inserts' windows, for doubles and for lanes: the earliest window is searched
-/// first, until no window that is left opens before the trigger found.
+/// The first trigger of a whole tool by its inserts' windows, for doubles and for lanes: the earliest window is
+/// searched first, until no window that is left opens before the trigger found.
 #include <span>
 
 #include "chain/turning_tool.h"
@@ -26,9 +26,12 @@ template <class V> struct DescentTrigger {
 template <class V>
 DescentTrigger<V> select(const Mask<V>& mask, const DescentTrigger<V>& a, const DescentTrigger<V>& b) {
   const auto either = [&](const Mask<V>& x, const Mask<V>& y) { return (mask && x) || (!mask && y); };
-  return {either(a.found, b.found),           either(a.unproved, b.unproved),
-          either(a.inside, b.inside),         num::select(mask, a.insert, b.insert),
-          num::select(mask, a.turned, b.turned), num::select(mask, a.slope, b.slope)};
+  return {either(a.found, b.found),
+          either(a.unproved, b.unproved),
+          either(a.inside, b.inside),
+          num::select(mask, a.insert, b.insert),
+          num::select(mask, a.turned, b.turned),
+          num::select(mask, a.slope, b.slope)};
 }
 
 /// @tparam Pass InsertPass, or the same for lanes (insert_walk_kernels.cpp)
@@ -94,8 +97,8 @@ public:
       const V last = smaller(next.last, least);
       const auto searched = active && next.first < last;
       if (num::any(searched)) {
-        const auto crossing = next.pass->first_crossing(searched, next.window, next.level, fall_, next.shift,
-                                                        next.first, last);
+        const auto crossing =
+            next.pass->first_crossing(searched, next.window, next.level, fall_, next.shift, next.first, last);
         result.unproved = result.unproved || (searched && crossing.unproved);
         const auto met = searched && crossing.crossed && !crossing.unproved;
         least = num::select(met, crossing.turned, least);
@@ -131,8 +134,9 @@ private:
   Next earliest() const {
     const auto of = [&](std::size_t j) {
       const Opening& o = openings_[j];
-      return Next{V(static_cast<double>(j)), V(static_cast<double>(o.flute)), o.first, o.last, o.shift,
-                  level_[o.flute], passes_[o.flute], passes_[o.flute]->window(o.window)};
+      return Next{
+          V(static_cast<double>(j)), V(static_cast<double>(o.flute)),   o.first, o.last, o.shift, level_[o.flute],
+          passes_[o.flute],          passes_[o.flute]->window(o.window)};
     };
     if constexpr (std::is_same_v<V, double>) {
       std::size_t least = 0;

@@ -1,6 +1,6 @@
 #pragma once
-/// A rigorous search in the windows of one insert (insert_windows.h) for its first trigger, with all that is tried where
-/// the plain proof does not hold: tangents, halves of stretches, bounds on what the flank may add.
+/// A rigorous search in the windows of one insert (insert_windows.h) for its first trigger, with all that is tried
+/// where the plain proof does not hold: tangents, halves of stretches, bounds on what the flank may add.
 #include <optional>
 
 #include "models/tool_length/trigger/insert_lines.h"

@@ -1,6 +1,6 @@
 #pragma once
-/// Lower limits of the windows' heights, for doubles and for lanes: with them, turns that no insert reaches are passed at
-/// once. `Pass` is a InsertWindows<V> with `first_crossing`.
+/// Lower limits of the windows' heights, for doubles and for lanes: with them, turns that no insert reaches are passed
+/// at once. `Pass` is a InsertWindows<V> with `first_crossing`.
 #include "models/tool_length/trigger/insert_windows.h"
 
 namespace gumshoe::models::tool_length {

@@ -14,12 +14,12 @@ class LanePass : public InsertWindows<Lanes> {
 public:
   using InsertWindows::InsertWindows;
   CrossingOf<Lanes> first_crossing(const Mask<Lanes>& wanted, const WindowOf<Lanes>& w, const Lanes& level,
-                                   const Lanes& fall, const Lanes& shift, const Lanes& first,
-                                   const Lanes& last) const {
+                                   const Lanes& fall, const Lanes& shift, const Lanes& first, const Lanes& last) const {
     auto found = walk(wanted, w.crest, level, fall, shift, first, last, Lanes(0.0),
                       [](Lanes&, Lanes&, const Mask<Lanes>&) { return everywhere<Lanes>(false); });
     const Lanes to = num::select(found.crossed, found.turned, last);
-    found.unproved = found.unproved || !only_edge_shows(wanted && !found.unproved, first - shift, to - shift, found.facing);
+    found.unproved =
+        found.unproved || !only_edge_shows(wanted && !found.unproved, first - shift, to - shift, found.facing);
     return found;
   }
   /// As InsertPass::sharpen; false where a search has no proof, which might have another way.
@@ -49,9 +49,9 @@ void walk_lanes(const TriggerQuestion* const* questions, std::size_t n, InsertTr
   using I = Insert<double>;
   using B = Beam<double>;
   using M = InsertMotion;
-  const Insert<Lanes> insert{of_insert(&I::tool_radius),  of_insert(&I::radius),       of_insert(&I::thickness),
-                             of_insert(&I::clearance),    of_insert(&I::radial_angle), of_insert(&I::axial_angle),
-                             of_insert(&I::axis_x),       of_insert(&I::axis_y),       of_insert(&I::seat)};
+  const Insert<Lanes> insert{of_insert(&I::tool_radius), of_insert(&I::radius),       of_insert(&I::thickness),
+                             of_insert(&I::clearance),   of_insert(&I::radial_angle), of_insert(&I::axial_angle),
+                             of_insert(&I::axis_x),      of_insert(&I::axis_y),       of_insert(&I::seat)};
   const Beam<Lanes> beam{of_beam(&B::yaw), of_beam(&B::pitch), of_beam(&B::radius), of_beam(&B::fraction)};
   DescentFlute<Lanes> flutes[most_inserts];
   for (std::size_t k = 0; k < n; ++k) {
@@ -59,10 +59,10 @@ void walk_lanes(const TriggerQuestion* const* questions, std::size_t n, InsertTr
     flutes[k].raise = each(questions, [&](const auto& q) { return q.flutes[k].raise; });
   }
   LanePass pass(insert_body(insert, beam), DiscShareOf<Lanes>(beam.radius, beam.fraction));
-  InsertDescent<Lanes, LanePass> descent({flutes, n}, num::cos(beam.pitch),
-                                         {of_motion(&M::start_angle), of_motion(&M::start_height),
-                                          of_motion(&M::drop), of_motion(&M::not_before)},
-                                         [&](std::size_t) -> const LanePass& { return pass; });
+  InsertDescent<Lanes, LanePass> descent(
+      {flutes, n}, num::cos(beam.pitch),
+      {of_motion(&M::start_angle), of_motion(&M::start_height), of_motion(&M::drop), of_motion(&M::not_before)},
+      [&](std::size_t) -> const LanePass& { return pass; });
   DescentTrigger<Lanes> t;
   auto wanted = everywhere<Lanes>(true);
   for (const double share : TriggerSolver::shares(n)) {

@@ -14,9 +14,9 @@ namespace gumshoe::models::tool_length {
 /// start values.
 template <class V> struct CrestOf {
   V angle = V(0.0);
-  V y = V(0.0);     ///< of the lowest point
-  V k = V(0.0);     ///< height k
-  V blunt = V(0.0); ///< radius of curvature
+  V y = V(0.0);                         ///< of the lowest point
+  V k = V(0.0);                         ///< height k
+  V blunt = V(0.0);                     ///< radius of curvature
   Mask<V> rises = everywhere<V>(false); ///< the lowest point comes from the side of -y
 };
 
@@ -105,8 +105,7 @@ InsertWindows<V>::InsertWindows(const InsertBody<V>& body, const DiscShareOf<V>&
   tilt_ = num::abs(body_.sin_pitch);
   nz_low_ = body_.cos_pitch * n.z - tilt_ * normal_spread_;
   nz_high_ = body_.cos_pitch * n.z + tilt_ * normal_spread_;
-  const V nz_least =
-      num::select(nz_low_ * nz_high_ > zero, smaller(num::abs(nz_low_), num::abs(nz_high_)), zero);
+  const V nz_least = num::select(nz_low_ * nz_high_ > zero, smaller(num::abs(nz_low_), num::abs(nz_high_)), zero);
   const V g_most = num::sqrt(1.0 - nz_least * nz_least);
   const V depth = disc_.radius * disc_.depth;
   // Phi at s = 0, t = 0: the level line through the lowest point
@@ -124,8 +123,8 @@ InsertWindows<V>::InsertWindows(const InsertBody<V>& body, const DiscShareOf<V>&
   amplitude_ = num::sqrt(x * x + y * y);
   phase_ = num::atan2(y, x) - body_.yaw;
   const V middle = -body_.side / amplitude_;
-  const V angle = num::select(middle >= V(1.0), V(0.5 * pi),
-                              num::select(middle <= V(-1.0), V(-0.5 * pi), arc_sine(middle)));
+  const V angle =
+      num::select(middle >= V(1.0), V(0.5 * pi), num::select(middle <= V(-1.0), V(-0.5 * pi), arc_sine(middle)));
   crest_ = {crest_at(angle - phase_, true), crest_at(pi - angle - phase_, false)};
   const V top = larger(crest_[0].k, crest_[1].k);
   slack_ = 1.05 * (highest_ - top) + 1e-7;
@@ -215,8 +214,7 @@ template <class V> ShowsOf<V> InsertWindows<V>::shows(const V& from, const V& to
     return num::select(slope * lean_most < room, zero, V(bent * length * length * length / 6.0));
   };
   const V flank = beyond(up, right, V(v.ny + ny_range)) + beyond(down, left, V(ny_range - v.ny));
-  return {num::select(proved, num::select(v.ny1 > zero, V(1.0), V(-1.0)), zero),
-          num::select(proved, flank, zero)};
+  return {num::select(proved, num::select(v.ny1 > zero, V(1.0), V(-1.0)), zero), num::select(proved, flank, zero)};
 }
 
 template <class V>
@@ -260,8 +258,8 @@ CrossingOf<V> InsertWindows<V>::walk(const Mask<V>& wanted, const CrestOf<V>& cr
     const V below = crest.k - (level - fall * s);
     const V y = num::sqrt(crest.y * crest.y + 2.0 * crest.blunt * below);
     const V sine = (num::select(crest.rises, V(-y), y) - body_.side) / amplitude_, arc = arc_sine(sine);
-    s = num::select(below > zero && num::abs(sine) < one,
-                    shift - phase_ + num::select(crest.rises, arc, V(pi - arc)), s);
+    s = num::select(below > zero && num::abs(sine) < one, shift - phase_ + num::select(crest.rises, arc, V(pi - arc)),
+                    s);
   }
   s = smaller(larger(s, first), last);
   V old_s = s, old_excess = zero, old_rate = zero;

@@ -15,8 +15,8 @@ constexpr double settled = 1e-9;
 
 /// Angles that see every pass of the insert: four while it passes, 72 in a turn at least.
 int cells(const InsertBody<double>& b) {
-  const double outermost = std::max(std::hypot(b.rake.x, b.rake.y) + b.rake_radius,
-                                    std::hypot(b.back.x, b.back.y) + b.back_radius);
+  const double outermost =
+      std::max(std::hypot(b.rake.x, b.rake.y) + b.rake_radius, std::hypot(b.back.x, b.back.y) + b.back_radius);
   return static_cast<int>(std::clamp(std::ceil(4 * turn * outermost / b.rake_radius), 72.0, 720.0));
 }
 } // namespace

@@ -33,6 +33,7 @@ public:
   /// Descent per turn.
   double period() const { return period_; }
   double highest() const { return highest_; }
+  const CurveTable& table() const { return table_; }
 
 private:
   /// G = x over [x0, x1] at angle + width t, t over [t0, t1]: Zc = c[0] + c[1] t + c[2] t^2 + c[3] t^3. A wall, where
