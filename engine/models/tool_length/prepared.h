@@ -1,5 +1,7 @@
 #pragma once
 /// Readings whose triggers are solved together, in SIMD lanes.
+#include <algorithm>
+#include <optional>
 #include <span>
 
 #include "models/tool_length/readout.h"
@@ -29,21 +31,23 @@ inline void prepare(std::span<const At<double>* const> readings, std::span<const
     waiting = 0;
   };
   for (std::size_t i = 0; i < readings.size(); ++i) {
-    const At<double>& at = *readings[i];
-    const bool with_solve = read.empty() || at.evaluation == full;
-    const At<double> begin = read.empty() ? at : as_read(at, read[i].spindle_z);
+    const bool with_solve = read.empty() || readings[i]->evaluation == full;
+    std::optional<At<double>> as_it_reads;
+    if (!read.empty()) as_it_reads = as_read(*readings[i], read[i].spindle_z);
+    const At<double>& at = as_it_reads ? *as_it_reads : *readings[i];
     Prepared& p = prepared[i];
     p.solver = &solver;
-    p.first = {with_solve ? probing_event(begin) : event_without_trigger(begin), {}};
     Readout<double>& o = p.first;
+    o.event = with_solve ? probing_event(at) : event_without_trigger(at);
+    o.trigger = {};
     auto& all = flutes[waiting];
-    const std::size_t n = plain_flutes(begin, o.event, all);
+    const std::size_t n = plain_flutes(at, o.event, all);
     o.least_raise = all[0].raise;
     for (std::size_t k = 1; k < n; ++k) o.least_raise = std::min(o.least_raise, all[k].raise);
     if (!with_solve) continue;
-    const auto m = motion(begin, o.event);
+    const auto m = motion(at, o.event);
     if (!finite(m) || m.lag != 0) {
-      o.trigger = trigger(solver, begin, o.event);
+      o.trigger = trigger(solver, at, o.event);
       continue;
     }
     motions[waiting] = m;

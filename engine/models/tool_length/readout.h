@@ -75,12 +75,13 @@ template <class T> void check_together(const At<T>& at, Outcome<T>& outcome) {
   outcome.refuse(n != std::floor(n), "inserts is not an integer");
   if (outcome.failed) return;
   const Event<T> event = probing_event(at);
+  const double flank = num::value(q.insert_thickness) * std::tan(num::value(q.clearance_angle)); // of every flute
   for (int k = 0; k < flutes(q); ++k) {
     const auto f = converted<double>(flute(q, event, k));
     const auto& i = f.insert;
     outcome.refuse(!tool_radius.limits.contain(i.tool_radius), "tool_radius including its errors is not positive");
     outcome.refuse(!insert_radius.limits.contain(i.radius), "insert_radius including its errors is not positive");
-    outcome.refuse(!(i.thickness * std::tan(i.clearance) < i.radius),
+    outcome.refuse(!(flank < i.radius),
                    "insert_thickness times tan(clearance_angle) is not below insert_radius: the flank would end in a "
                    "point");
     outcome.refuse(!insert_axial_angle.limits.contain(i.axial_angle), "insert_axial_angle including its errors is not "
@@ -170,15 +171,16 @@ template <class T> Readout<T> readout_at(TriggerSolver& solver, const At<T>& at,
 }
 
 /// The machine: indication of the control for a tool of length q.tool_length, with the trigger there.
-template <class T> Readout<T> simulate(Readout<T> o, const At<T>& at) {
+template <class T> void simulate(Readout<T>& o, const At<T>& at) {
   o.spindle_z =
       chain::reading_of<T>(at.q.laser_z + at.q.tool_length + o.event.tool_growth + o.trigger.height.value, o.event);
   o.length = at.q.tool_length;
   o.effective_length = o.length - o.least_raise;
-  return o;
 }
 template <class T> Readout<T> simulate(TriggerSolver& solver, const At<T>& at) {
-  return simulate(readout_at(solver, at, true), at);
+  Readout<T> o = readout_at(solver, at, true);
+  simulate(o, at);
+  return o;
 }
 
 /// The reading for a tool as long as the reading z says without a trigger's height: where evaluation begins.

@@ -67,8 +67,9 @@ struct ToolLength {
                       TriggerSolver& solver, Prepared* prepared) {
     tool_length::prepare(readings, read, solver, prepared);
   }
-  static Shown simulate(const At<double>& at, const Prepared& prepared, Outcome<double>& outcome) {
-    return shown(tool_length::simulate(prepared.first, at), outcome);
+  static Shown simulate(const At<double>& at, Prepared& prepared, Outcome<double>& outcome) {
+    tool_length::simulate(prepared.first, at);
+    return shown(prepared.first, outcome);
   }
   static Rows::Measurands<double> evaluate(const At<double>& at, const Prepared& prepared,
                                            const Rows::Indications<double>& read, Outcome<double>& outcome) {
