@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "models/adapter.h"
+#include "models/ahead.h"
 
 namespace gumshoe::models::detail {
 
@@ -63,29 +64,66 @@ template <class M, bool simulating> void run_single(const BlockCall& call) {
   }
 }
 
+/// The same for a model that prepares.
+template <class M, bool simulating> void run_prepared(const BlockCall& call) {
+  using Rows = typename M::Rows;
+  constexpr std::size_t shown = rows_of<Rows::template Indications>, stated = rows_of<Rows::template Measurands>;
+  typename MemoryOf<M, double>::type memory{};
+  Ahead<M> ahead(call, simulating);
+  for (std::size_t i = 0; i < call.samples; ++i) {
+    ahead.turn(i, memory);
+    const auto& all = ahead.readings();
+    for (std::size_t r = 0; r < call.readings; ++r) {
+      const auto& at = all.at[r];
+      Outcome<double> outcome = ahead.outcome(r);
+      double* const* measurands = call.measurands + r * stated;
+      if constexpr (simulating) {
+        using Shown = decltype(M::simulate(at, ahead.prepared(r), outcome));
+        const Shown x = outcome.failed ? Shown{} : M::simulate(at, ahead.prepared(r), outcome);
+        store(x.indications, shown, call.simulated + r * shown, i, outcome);
+        store(x.measurands, stated, measurands, i, outcome);
+      } else {
+        using Found = decltype(M::evaluate(at, ahead.prepared(r), all.read[r], outcome));
+        store(outcome.failed ? Found{} : M::evaluate(at, ahead.prepared(r), all.read[r], outcome), stated, measurands,
+              i, outcome);
+      }
+      store_status(call, i, outcome);
+    }
+  }
+}
+
 /// All readings of a sample together.
 template <class M, bool simulating> void run_together(const BlockCall& call) {
   using Rows = typename M::Rows;
   using T = typename ScalarOf<M>::type;
   constexpr std::size_t shown = rows_of<Rows::template Indications>;
+  constexpr bool prepares = simulating && Prepares<M>;
   with_joint<M>(call.evaluation, [&]<class J>() {
-    Group<M, T> group(call, simulating);
-    Refusals<M, T> refusals(call, group.quantities());
     typename MemoryOf<M, T>::type memory{};
+    auto readings = [&] {
+      if constexpr (prepares)
+        return Ahead<M>(call, simulating);
+      else
+        return Present<M, T>(call, simulating);
+    }();
     std::optional<typename J::template Memory<T>> together;
     if constexpr (!simulating) together.emplace(first_sample<M>(call));
-    Together<Rows, T> all;
-    using Shown = decltype(simulate<M>(all.at[0], Nothing{}, memory, std::declval<Outcome<T>&>()));
+    using Shown = decltype(simulate<M>(readings.readings().at[0], Nothing{}, memory, std::declval<Outcome<T>&>()));
     std::vector<Shown> truth(simulating ? call.readings : 0);
     for (std::size_t i = 0; i < call.samples; i += numbers_in<T>) {
-      refusals.pass(i);
-      group.together(i, all);
+      readings.turn(i, memory);
+      const Together<Rows, T>& all = readings.readings();
       Outcome<T> outcome;
       for (std::size_t l = 0; l < numbers_in<T>; ++l) outcome.fail(l, static_cast<Status>(call.status[i + l]));
       for (std::size_t r = 0; r < call.readings; ++r) {
-        refusals.check(r, all.at[r], outcome);
+        readings.check(r, outcome);
         if constexpr (simulating) {
-          if (numbers_in < T >> 1 || !outcome.failed) truth[r] = simulate<M>(all.at[r], Nothing{}, memory, outcome);
+          if (numbers_in < T >> 1 || !outcome.failed) {
+            if constexpr (prepares)
+              truth[r] = M::simulate(all.at[r], readings.prepared(r), outcome);
+            else
+              truth[r] = simulate<M>(all.at[r], Nothing{}, memory, outcome);
+          }
           store(truth[r].indications, shown, call.simulated + r * shown, i, outcome);
         }
       }
@@ -107,7 +145,10 @@ template <class M, bool simulating> void run_together(const BlockCall& call) {
 template <class M, bool simulating> void run(const BlockCall& call) {
   if constexpr (HasJoint<M>)
     if (is_joint<M>(call.evaluation)) return run_together<M, simulating>(call);
-  run_single<M, simulating>(call);
+  if constexpr (Prepares<M>)
+    run_prepared<M, simulating>(call);
+  else
+    run_single<M, simulating>(call);
 }
 
 } // namespace gumshoe::models::detail

@@ -7,8 +7,8 @@ namespace gumshoe::models::tool_length {
 
 namespace {
 
-/// Phase u, then for each flute a_k = u - H_k: u shifts all indications alike, and a flute's curve jumps at values of its
-/// own a_k, whatever the rest.
+/// Phase u, then for each flute a_k = u - H_k: u shifts all indications alike, and a flute's curve jumps at values of
+/// its own a_k, whatever the rest.
 using Unknowns = std::array<double, chain::most_inserts + 1>;
 
 /// Phases looked at per pitch of a flute, how many of the best are improved, and how many carried to their minimum.
@@ -24,11 +24,21 @@ constexpr double rounding = 2.5e-21;
 constexpr double steepest = 100;
 /// How far inside a jump is inside, m.
 constexpr double inside = 1e-14;
+/// Minima nearer than this are one, m.
+constexpr double alike = 1e-9;
 constexpr double turn = 2 * pi;
 
 class Fitter {
 public:
-  explicit Fitter(const CurveReadings& d) : d_(d), now_(d), trial_(d) {}
+  explicit Fitter(const CurveReadings& d)
+      : d_(d), now_(d), trial_(d), rows_(7 * d.readings * d.flutes), places_(&rows_[5 * d.readings * d.flutes]),
+        lines_(&rows_[6 * d.readings * d.flutes]), points_{&rows_[0], &rows_[d.readings * d.flutes],
+                                                           &rows_[2 * d.readings * d.flutes],
+                                                           &rows_[3 * d.readings * d.flutes],
+                                                           &rows_[4 * d.readings * d.flutes]} {
+    for (std::size_t k = 0; k < d.flutes; ++k)
+      for (std::size_t i = 0; i < d.readings; ++i) lines_[k * d.readings + i] = d.lines[i * d.flutes + k];
+  }
 
   struct Candidate {
     Unknowns x{};
@@ -40,13 +50,16 @@ public:
   Candidate longest(double phase, double margin) {
     Candidate c;
     c.x[0] = phase;
+    const std::size_t n = d_.readings;
+    for (std::size_t k = 0; k < d_.flutes; ++k)
+      for (std::size_t i = 0; i < n; ++i)
+        places_[k * n + i] = (lines_[k * n + i] + phase - d_.heights[i] - margin) / d_.drop;
+    each_curve([&](const TriggerCurve& curve, std::size_t from, std::size_t count) {
+      curve.record({places_ + from, count}, points_.height + from);
+    });
     for (std::size_t k = 0; k < d_.flutes; ++k) {
       double a = -1e300;
-      for (std::size_t i = 0; i < d_.readings; ++i) {
-        const std::size_t ik = i * d_.flutes + k;
-        a = std::max(a,
-                     d_.curves[ik]->record((d_.lines[ik] + phase - d_.heights[i] - margin) / d_.drop) - d_.lines[ik]);
-      }
+      for (std::size_t i = 0; i < n; ++i) a = std::max(a, points_.height[k * n + i] - lines_[k * n + i]);
       c.x[k + 1] = a;
     }
     c.squares = look(c.x, now_);
@@ -87,10 +100,13 @@ public:
     return gain < 1e-6 * c.squares; // slow, and a thousandth of a standard deviation from the minimum
   }
 
-  /// The same, then across the jumps nearby as long as that helps.
+  /// The same, then across the jumps nearby as long as that helps, or until it comes to where an earlier descent began
+  /// a round: that one has gone on from there.
   bool descend(Candidate& c) {
     bool settled = settle(c);
     for (int round = 0; round < 50; ++round) {
+      if (known(c)) return settled;
+      known_.emplace_back(active, c);
       const Candidate before = c;
       const Box box = now_.box;
       for (std::size_t k = 0; k < d_.flutes; ++k) {
@@ -124,7 +140,23 @@ private:
     Box box;
   };
 
+  /// Calls f(curve, from, count) for all flutes' readings, flute by flute, those of one curve together.
+  template <class F> void each_curve(const F& f) const {
+    const std::size_t n = d_.readings, all = n * d_.flutes;
+    const auto curve = [&](std::size_t at) { return d_.curves[at % n * d_.flutes + at / n]; };
+    for (std::size_t from = 0, to; from < all; from = to) {
+      for (to = from + 1; to < all && curve(to) == curve(from);) ++to;
+      f(*curve(from), from, to - from);
+    }
+  }
+
   double look(const Unknowns& x, Look& out) const {
+    const std::size_t n = d_.readings;
+    for (std::size_t k = 0; k < d_.flutes; ++k)
+      for (std::size_t i = 0; i < n; ++i) places_[k * n + i] = lines_[k * n + i] + x[k + 1];
+    each_curve([&](const TriggerCurve& curve, std::size_t from, std::size_t count) {
+      curve.at({places_ + from, count}, points_.from_row(from));
+    });
     out.box.low.fill(-1e300);
     out.box.high.fill(1e300);
     double sum = 0;
@@ -135,15 +167,14 @@ private:
       } rivals[chain::most_inserts];
       for (std::size_t k = 0; k < d_.flutes; ++k) {
         if (!active[k]) continue;
-        const std::size_t ik = i * d_.flutes + k;
-        const double h = x[0] - x[k + 1];
-        const auto p = d_.curves[ik]->at(d_.lines[ik] + x[k + 1]);
-        rivals[k] = {p.from - d_.lines[ik], x[0] - (p.from - d_.lines[ik]) + p.before};
-        if (h + p.height <= best) continue;
-        best = h + p.height;
-        out.slope[i] = p.slope;
+        const std::size_t ki = k * n + i;
+        const double h = x[0] - x[k + 1], low = points_.from[ki] - lines_[ki];
+        rivals[k] = {low, x[0] - low + points_.before[ki]};
+        if (h + points_.height[ki] <= best) continue;
+        best = h + points_.height[ki];
+        out.slope[i] = points_.slope[ki];
         out.flute[i] = k;
-        end = p.to - d_.lines[ik];
+        end = points_.to[ki] - lines_[ki];
       }
       double& high = out.box.high[out.flute[i]];
       high = std::min(high, end);
@@ -199,8 +230,22 @@ private:
     return promised;
   }
 
+  bool known(const Candidate& c) const {
+    return std::ranges::any_of(known_, [&](const auto& earlier) {
+      const auto& [flutes, at] = earlier;
+      bool same = flutes == active && std::fabs(at.x[0] - c.x[0]) < alike;
+      for (std::size_t k = 0; k < d_.flutes; ++k)
+        same = same && !(active[k] && std::fabs(at.x[k + 1] - c.x[k + 1]) > alike);
+      return same;
+    });
+  }
+
   const CurveReadings& d_;
   Look now_, trial_;
+  std::vector<std::pair<std::array<bool, chain::most_inserts>, Candidate>> known_; ///< where rounds began
+  std::vector<double> rows_;
+  double *places_, *lines_; ///< [flute][reading]
+  CurvePoints points_;      ///< likewise
 };
 
 using Candidate = Fitter::Candidate;
@@ -225,7 +270,7 @@ std::vector<Candidate> scan(const CurveReadings& d, Fitter& fitter) {
   std::ranges::stable_sort(best, {}, &Candidate::squares);
   // Several phases find one minimum.
   const auto twins = std::unique(best.begin(), best.end(), [](const Candidate& a, const Candidate& b) {
-    return b.squares - a.squares < 1e-3 * b.squares && std::fabs(a.x[1] - b.x[1]) < 1e-9;
+    return b.squares - a.squares < 1e-3 * b.squares && std::fabs(a.x[1] - b.x[1]) < alike;
   });
   best.erase(twins, best.end());
   if (best.size() > carried) best.resize(carried);

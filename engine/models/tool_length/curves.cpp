@@ -3,14 +3,13 @@
 namespace gumshoe::models::tool_length {
 
 void find_heights(const Together<Rows, double>& all, Heights& out, Outcome<double>& outcome) {
-  TriggerSolver unused;
   out.resize(all.size());
   for (std::size_t r = 0; r < all.size(); ++r) {
     Height& x = out[r];
     const double z = all.read[r].spindle_z;
     x.at = all.at[r];
     x.at.q.tool_length = z - x.at.q.laser_z; // what grows with the length does so by that of the reading
-    x.event = readout_at(unused, x.at, false).event;
+    x.event = event_without_trigger(x.at);
     x.height = chain::actual_of(z, x.event) - x.at.q.laser_z - x.event.tool_growth;
     outcome.refuse(x.at.q.inserts != all.at[0].q.inserts, "inserts differ between readings");
     outcome.refuse(!std::isfinite(x.height), "a reading is not finite");

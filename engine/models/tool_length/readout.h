@@ -51,8 +51,7 @@ template <class T> Insert<T> insert(const Quantities<T>& q, const chain::Probing
 }
 /// Flute k with its wear and the event's deviations.
 template <class T> Flute<T> flute(const Quantities<T>& q, const Event<T>& event, int k) {
-  return deviating<T>({insert(q, event), T(2 * pi * k / num::value(q.inserts)), wear(q, k)}, event.tool,
-                      k);
+  return deviating<T>({insert(q, event), T(2 * pi * k / num::value(q.inserts)), wear(q, k)}, event.tool, k);
 }
 
 /// The true motion. The control commands the spindle height at which, according to the quantities, the tool's centre is
@@ -76,12 +75,13 @@ template <class T> void check_together(const At<T>& at, Outcome<T>& outcome) {
   outcome.refuse(n != std::floor(n), "inserts is not an integer");
   if (outcome.failed) return;
   const Event<T> event = probing_event(at);
+  const double flank = num::value(q.insert_thickness) * std::tan(num::value(q.clearance_angle)); // of every flute
   for (int k = 0; k < flutes(q); ++k) {
     const auto f = converted<double>(flute(q, event, k));
     const auto& i = f.insert;
     outcome.refuse(!tool_radius.limits.contain(i.tool_radius), "tool_radius including its errors is not positive");
     outcome.refuse(!insert_radius.limits.contain(i.radius), "insert_radius including its errors is not positive");
-    outcome.refuse(!(i.thickness * std::tan(i.clearance) < i.radius),
+    outcome.refuse(!(flank < i.radius),
                    "insert_thickness times tan(clearance_angle) is not below insert_radius: the flank would end in a "
                    "point");
     outcome.refuse(!insert_axial_angle.limits.contain(i.axial_angle), "insert_axial_angle including its errors is not "
@@ -106,48 +106,46 @@ template <class T> struct Trigger {
   int insert = 0;
   T turned = T(0.0); ///< rad, from the feed's begin
 };
-/// Completes the event's latch delay by what depends on the trigger.
-template <class T> Trigger<T> trigger(TriggerSolver& solver, const At<T>& at, Event<T>& event) {
+/// The flutes of a reading as plain numbers; returns how many.
+template <class T> std::size_t plain_flutes(const At<T>& at, const Event<T>& event, Flute<double>* all) {
+  const auto n = static_cast<std::size_t>(flutes(at.q));
+  for (std::size_t k = 0; k < n; ++k) all[k] = converted<double>(flute(at.q, event, static_cast<int>(k)));
+  return n;
+}
+/// The trigger that was solved. Completes the event's latch delay by what depends on it.
+template <class T>
+Trigger<T> trigger_of(const At<T>& at, Event<T>& event, const InsertMotionOf<T>& m, const InsertTrigger& solved) {
   Trigger<T> result;
   result.height.value = T(std::nan(""));
-  const auto m = motion(at, event);
-  if (!finite(m)) {
-    result.height.status = Status::out_of_domain;
-    return result;
-  }
-  const auto n = static_cast<std::size_t>(flutes(at.q));
-  Flute<double> all[chain::most_inserts];
-  for (std::size_t k = 0; k < n; ++k) all[k] = converted<double>(flute(at.q, event, static_cast<int>(k)));
-  const Beam<T> beam = laser_setter::beam(at.q);
-  const auto solved =
-      lagging_trigger(solver, {all, n}, converted<double>(beam),
-                      {num::value(m.angle), num::value(m.height), num::value(m.drop)}, num::value(m.lag));
   result.height.status = solved.status;
   result.insert = solved.insert;
   if (solved.status != Status::ok) return result;
-  result.turned = differentiable_turned<T>(flute(at.q, event, solved.insert), beam, m, solved);
+  result.turned = T(solved.turned);
+  if constexpr (num::derivative_levels < T >> 0)
+    result.turned = differentiable_turned<T>(flute(at.q, event, solved.insert), laser_setter::beam(at.q), m, solved);
   result.height.value = m.height_at(result.turned);
   event.latch_delay = delay_of_latch<T>(event.tool, event.latch_delay, &result.turned);
   return result;
+}
+template <class T> Trigger<T> trigger(TriggerSolver& solver, const At<T>& at, Event<T>& event) {
+  const auto m = motion(at, event);
+  if (!finite(m)) return trigger_of<T>(at, event, m, {.status = Status::out_of_domain});
+  Flute<double> all[chain::most_inserts];
+  const std::size_t n = plain_flutes(at, event, all);
+  return trigger_of<T>(at, event, m,
+                       lagging_trigger(solver, {all, n}, converted<double>(laser_setter::beam(at.q)),
+                                       {num::value(m.angle), num::value(m.height), num::value(m.drop)},
+                                       num::value(m.lag)));
 }
 
 /// A reading with all that belongs to it.
 template <class T> struct Readout {
   Event<T> event;
   Trigger<T> trigger;
+  T least_raise = T(0.0); ///< difference in length between the unworn tool and its longest flute
   T spindle_z = T(0.0), length = T(0.0);
   T effective_length = T(0.0); ///< of the longest flute
 };
-
-/// The trigger at given values, or none if its height is assumed to be zero.
-template <class T> Readout<T> readout_at(TriggerSolver& solver, const At<T>& at, bool with_solve) {
-  Readout<T> o{probing_event(at), {}};
-  if (with_solve)
-    o.trigger = trigger(solver, at, o.event);
-  else
-    o.event.latch_delay = delay_of_latch<T>(o.event.tool, o.event.latch_delay, nullptr);
-  return o;
-}
 
 /// Difference in length between the unworn tool and its longest flute.
 template <class T> T least_raise(const Quantities<T>& q, const Event<T>& event) {
@@ -157,36 +155,62 @@ template <class T> T least_raise(const Quantities<T>& q, const Event<T>& event) 
   return least;
 }
 
-/// The machine: indication of the control for a tool of length q.tool_length.
-template <class T> Readout<T> simulate(TriggerSolver& solver, const At<T>& at) {
-  Readout<T> o = readout_at(solver, at, true);
-  o.spindle_z =
-      chain::reading_of<T>(at.q.laser_z + at.q.tool_length + o.event.tool_growth + o.trigger.height.value, o.event);
-  o.length = at.q.tool_length;
-  o.effective_length = o.length - least_raise(at.q, o.event);
+/// The event where the trigger is not solved.
+template <class T> Event<T> event_without_trigger(const At<T>& at) {
+  Event<T> event = probing_event(at);
+  event.latch_delay = delay_of_latch<T>(event.tool, event.latch_delay, nullptr);
+  return event;
+}
+
+/// The trigger at given values, or none if its height is assumed to be zero.
+template <class T> Readout<T> readout_at(TriggerSolver& solver, const At<T>& at, bool with_solve) {
+  Readout<T> o{with_solve ? probing_event(at) : event_without_trigger(at), {}};
+  if (with_solve) o.trigger = trigger(solver, at, o.event);
+  o.least_raise = least_raise(at.q, o.event);
   return o;
 }
 
-/// The measurement model: the tool's length from the reading z; the inverse of simulate. Effects that grow with the
-/// length use the resulting length, found by iteration; an expansion of 1e-4 gains four digits per pass.
-template <class T> Readout<T> evaluate(TriggerSolver& solver, At<T> at, const T& z) {
+/// The machine: indication of the control for a tool of length q.tool_length, with the trigger there.
+template <class T> void simulate(Readout<T>& o, const At<T>& at) {
+  o.spindle_z =
+      chain::reading_of<T>(at.q.laser_z + at.q.tool_length + o.event.tool_growth + o.trigger.height.value, o.event);
+  o.length = at.q.tool_length;
+  o.effective_length = o.length - o.least_raise;
+}
+template <class T> Readout<T> simulate(TriggerSolver& solver, const At<T>& at) {
+  Readout<T> o = readout_at(solver, at, true);
+  simulate(o, at);
+  return o;
+}
+
+/// The reading for a tool as long as the reading z says without a trigger's height: where evaluation begins.
+template <class T> At<T> as_read(At<T> at, const T& z) {
   at.q.tool_length = z - at.q.laser_z;
-  Readout<T> o;
+  return at;
+}
+/// The measurement model: the tool's length from the reading z; the inverse of simulate. Effects that grow with the
+/// length use the resulting length, found by iteration; an expansion of 1e-4 gains four digits per pass. `at` is
+/// as_read, and `o` the readout there.
+template <class T> Readout<T> evaluate(TriggerSolver& solver, At<T> at, const T& z, Readout<T> o) {
   for (int pass = 0, settled = 0; pass < 20; ++pass) {
-    o = readout_at(solver, at, at.evaluation == full);
+    if (pass > 0) o = readout_at(solver, at, at.evaluation == full);
     o.length = chain::actual_of<T>(z, o.event) - at.q.laser_z - o.event.tool_growth - o.trigger.height.value;
     if (!at.freed.any() || o.trigger.height.status != Status::ok) break;
     const double height = num::value(motion(at, o.event).height);
     at.q.tool_length = o.length;
-    const Event<T> next = readout_at(solver, at, false).event;
+    const Event<T> next = event_without_trigger(at);
     const bool same = num::value(next.tool_growth) == num::value(o.event.tool_growth) &&
                       num::value(motion(at, next).height) == height;
     settled = same ? settled + 1 : 0;
     if (settled > 3 * std::min(1, num::derivative_levels<T>)) break; // derivatives follow the values
   }
   o.spindle_z = z;
-  o.effective_length = o.length - least_raise(at.q, o.event);
+  o.effective_length = o.length - o.least_raise;
   return o;
+}
+template <class T> Readout<T> evaluate(TriggerSolver& solver, const At<T>& at, const T& z) {
+  const At<T> read = as_read(at, z);
+  return evaluate(solver, read, z, readout_at(solver, read, at.evaluation == full));
 }
 
 } // namespace gumshoe::models::tool_length

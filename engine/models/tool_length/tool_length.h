@@ -7,6 +7,7 @@
 /// Source: Fang 2022, chapter 3 (eqs 3.1 to 3.29), solved anew: trigger/insert_trigger.h.
 #include <tuple>
 
+#include "models/tool_length/prepared.h"
 #include "models/tool_length/procedures.h"
 
 namespace gumshoe::models::tool_length {
@@ -49,14 +50,31 @@ struct ToolLength {
     const auto o = tool_length::simulate(solver, at);
     return {{o.spindle_z}, measurands(o, outcome)};
   }
-  static Shown simulate(const At<double>& at, TriggerSolver& solver, Outcome<double>& outcome) {
-    const auto o = tool_length::simulate(solver, at);
+  static Shown shown(const Readout<double>& o, Outcome<double>& outcome) {
     return {{{o.spindle_z}, measurands(o, outcome)}, o.event, o.trigger.insert};
+  }
+  static Shown simulate(const At<double>& at, TriggerSolver& solver, Outcome<double>& outcome) {
+    return shown(tool_length::simulate(solver, at), outcome);
   }
   template <class T>
   static Rows::Measurands<T> evaluate(const At<T>& at, TriggerSolver& solver, const Rows::Indications<T>& read,
                                       Outcome<T>& outcome) {
     return measurands(tool_length::evaluate(solver, at, read.spindle_z), outcome);
+  }
+
+  using Prepared = tool_length::Prepared;
+  static void prepare(std::span<const At<double>* const> readings, std::span<const Rows::Indications<double>> read,
+                      TriggerSolver& solver, Prepared* prepared) {
+    tool_length::prepare(readings, read, solver, prepared);
+  }
+  static Shown simulate(const At<double>& at, Prepared& prepared, Outcome<double>& outcome) {
+    tool_length::simulate(prepared.first, at);
+    return shown(prepared.first, outcome);
+  }
+  static Rows::Measurands<double> evaluate(const At<double>& at, const Prepared& prepared,
+                                           const Rows::Indications<double>& read, Outcome<double>& outcome) {
+    const double z = read.spindle_z;
+    return measurands(tool_length::evaluate(*prepared.solver, as_read(at, z), z, prepared.first), outcome);
   }
 
   static std::vector<Intermediate> explain(const At<double>& at, const Rows::Indications<double>& read);

@@ -42,12 +42,21 @@ struct InsertTrigger {
   double slope = 0;  ///< dZc / d(angle) of that flute there: d(height) / d(start_height) = slope / (slope + drop)
 };
 
+/// One trigger that is wanted.
+struct TriggerQuestion {
+  std::span<const Flute<double>> flutes;
+  Beam<double> beam;
+  InsertMotion motion;
+};
+
 /// Solves triggers, and remembers what depends on the geometry alone: calls with equal inserts and beam share it. What
 /// is remembered changes no bit.
 class TriggerSolver {
 public:
   /// `already_covered`: a flute covers the share before anything moves. Absolute error of the height below 1e-12 m.
   InsertTrigger solve(std::span<const Flute<double>> flutes, const Beam<double>& beam, const InsertMotion& motion);
+  /// The same for several tools at once, in SIMD lanes: as many answers as questions, the same bits.
+  void solve(std::span<const TriggerQuestion> questions, InsertTrigger* answers);
   /// The same by the general search alone, for every insert and beam.
   InsertTrigger search(std::span<const Flute<double>> flutes, const Beam<double>& beam, const InsertMotion& motion);
   /// The same by the walk through the windows alone (insert_pass.h); nothing where it has no proof.
@@ -59,6 +68,9 @@ public:
   /// so this is what a fit of a characteristic curve needs. About a microsecond while insert, beam and drop stay the
   /// same. d(height) / d(level) = slope / (slope + drop), d(height) / d(raise) = -drop / (slope + drop).
   InsertTrigger alone(const Flute<double>& flute, const Beam<double>& beam, double level, double drop);
+  /// How deep below the highest a walk tries windows, in turns' descents: as deep as one flute alone may wait, but less
+  /// serves when others come between.
+  static std::array<double, 3> shares(std::size_t flutes) { return {1.0 / static_cast<double>(flutes), 1.0, 2.0}; }
   /// Zc of one insert; valid until the next call.
   const InsertHeight& heights(const Insert<double>& insert, const Beam<double>& beam);
 
@@ -82,7 +94,7 @@ private:
   };
   Pass& pass(std::size_t flute, const Insert<double>& insert, const Beam<double>& beam);
   std::array<Pass, most_inserts> passes_;
-  class Walk;
+  static constexpr std::size_t most_questions = 64;
 };
 
 /// Motion for derivatives. The axis may lag behind its command (lagging_feed.h).

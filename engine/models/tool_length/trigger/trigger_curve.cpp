@@ -15,8 +15,8 @@ constexpr double settled = 1e-9;
 
 /// Angles that see every pass of the insert: four while it passes, 72 in a turn at least.
 int cells(const InsertBody<double>& b) {
-  const double outermost = std::max(std::hypot(b.rake.x, b.rake.y) + b.rake_radius,
-                                    std::hypot(b.back.x, b.back.y) + b.back_radius);
+  const double outermost =
+      std::max(std::hypot(b.rake.x, b.rake.y) + b.rake_radius, std::hypot(b.back.x, b.back.y) + b.back_radius);
   return static_cast<int>(std::clamp(std::ceil(4 * turn * outermost / b.rake_radius), 72.0, 720.0));
 }
 } // namespace
@@ -43,18 +43,37 @@ TriggerCurve::TriggerCurve(const InsertHeight& heights, double drop)
   pieces_.back().x1 = first + period_;
   join_runs();
   heights_ = nullptr;
-  const auto spread = [&](Start& start, double from, double whole, auto end_of) {
+  tabulate(first);
+}
+
+void TriggerCurve::tabulate(double first) {
+  table_.drop = drop_, table_.period = period_;
+  for (std::size_t i = 0; i < pieces_.size(); ++i) {
+    const Piece& p = pieces_[i];
+    const Run& run = runs_[p.run];
+    const Run& last = runs_[p.run > 0 ? p.run - 1 : runs_.size() > 1 ? runs_.size() - 2 : 0];
+    const double end = p.angle + p.width * p.t1, begin = p.angle + p.width * p.t0;
+    CurvePiece piece{p.x0, begin, p.x1, end, p.width, 0, 0, 0, p.t1 - p.t0, run.from, run.to, last.end};
+    if (p.t0 != p.t1) {
+      piece.x = reach(p, p.t1);
+      piece.rise = p.c[1] + p.t1 * (2 * p.c[2] + p.t1 * 3 * p.c[3]) + drop_ * p.width;
+      piece.bend = -(p.c[2] + p.t1 * 3 * p.c[3]);
+      piece.third = p.c[3];
+    }
+    table_.pieces.push_back(piece);
+  }
+  const auto spread = [&](CurveTable::Start& start, double from, double whole, auto end_of) {
     start.from = from;
-    start.first.resize(2 * pieces_.size());
+    start.first.resize(8 * pieces_.size());
     start.step = whole / static_cast<double>(start.first.size());
     std::size_t p = 0;
     for (std::size_t k = 0; k < start.first.size(); ++k) {
       while (p + 1 < pieces_.size() && end_of(pieces_[p]) < from + start.step * static_cast<double>(k)) ++p;
-      start.first[k] = p;
+      start.first[k] = static_cast<std::uint32_t>(p);
     }
   };
-  spread(by_x_, first, period_, [](const Piece& p) { return p.x1; });
-  spread(by_angle_, begin_, turn, [](const Piece& p) { return p.angle + p.width * p.t1; });
+  spread(table_.by_x, first, period_, [](const Piece& p) { return p.x1; });
+  spread(table_.by_angle, begin_, turn, [](const Piece& p) { return p.angle + p.width * p.t1; });
 }
 
 /// The first run begins with the first piece and may go on from the last one, a turn before.
@@ -76,11 +95,6 @@ void TriggerCurve::join_runs() {
   runs_.front().from = runs_.back().from - period_;
   runs_.back().to = runs_.front().to + period_;
   runs_.back().end = runs_.front().end;
-}
-
-std::size_t TriggerCurve::Start::of(double x) const {
-  const double k = std::clamp((x - from) / step, 0.0, static_cast<double>(first.size() - 1));
-  return first[static_cast<std::size_t>(k)];
 }
 
 double TriggerCurve::reach(const Piece& p, double t) const {
@@ -165,29 +179,23 @@ void TriggerCurve::add(const HeightNode& a, const HeightNode& b) {
 }
 
 TriggerCurve::Point TriggerCurve::at(double x) const {
-  const double n = std::floor((x - by_x_.from) / period_);
-  const double y = x - n * period_;
-  std::size_t i = by_x_.of(y);
-  while (i + 1 < pieces_.size() && pieces_[i].x1 < y) ++i;
-  const Piece& p = pieces_[i];
-  const Run& run = runs_[p.run];
-  const Run& last = runs_[p.run > 0 ? p.run - 1 : runs_.size() > 1 ? runs_.size() - 2 : 0];
-  const double from = run.from + n * period_, to = run.to + n * period_;
-  if (p.t0 == p.t1) return {y - drop_ * p.angle, 1.0, from, to, last.end};
-  const double t = solve(p, p.t0, p.t1, y);
-  const double slope = p.c[1] + t * (2 * p.c[2] + t * 3 * p.c[3]); // times width
-  const double rise = std::max(slope + drop_ * p.width, 1e-6 * drop_ * p.width);
-  return {y - drop_ * (p.angle + p.width * t), slope / rise, from, to, last.end};
+  Point p;
+  curve_table_kernels().at(table_, 1, &x, {&p.height, &p.slope, &p.from, &p.to, &p.before});
+  return p;
+}
+
+void TriggerCurve::at(std::span<const double> x, const CurvePoints& out) const {
+  curve_table_kernels().at(table_, x.size(), x.data(), out);
+}
+
+void TriggerCurve::record(std::span<const double> angle, double* out) const {
+  curve_table_kernels().record(table_, angle.size(), angle.data(), out);
 }
 
 double TriggerCurve::record(double angle) const {
-  const double n = std::floor((angle - begin_) / turn);
-  const double psi = angle - n * turn;
-  std::size_t i = by_angle_.of(psi);
-  while (i + 1 < pieces_.size() && pieces_[i + 1].angle + pieces_[i + 1].width * pieces_[i + 1].t0 <= psi) ++i;
-  const Piece& p = pieces_[i];
-  const double t = p.width > 0 ? (psi - p.angle) / p.width : 0.0;
-  return n * period_ + (t >= p.t0 && t < p.t1 ? reach(p, t) : t < p.t0 ? p.x0 : p.x1);
+  double out;
+  record({&angle, 1}, &out);
+  return out;
 }
 
 } // namespace gumshoe::models::tool_length

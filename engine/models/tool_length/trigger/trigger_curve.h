@@ -4,8 +4,10 @@
 ///     F(x) = x - drop psi at the first psi where the line meets Zc,   F(x + 2 pi drop) = F(x).
 /// The line meets Zc first where G(psi) = Zc + drop psi reaches x: only the records of G count, so one pass over a turn
 /// tabulates F. Interpolated by cubics between exact heights and slopes.
+#include <span>
 #include <vector>
 
+#include "models/tool_length/trigger/curve_table.h"
 #include "models/tool_length/trigger/insert_height.h"
 
 namespace gumshoe::models::tool_length {
@@ -23,11 +25,15 @@ public:
     double before;   ///< limit of F at `from`, coming from below
   };
   Point at(double x) const;
-  /// The record of G up to the angle: a flute on a line of greater x has not triggered there yet.
+  /// The same for many lines, in SIMD lanes; the bits do not depend on how many there are.
+  void at(std::span<const double> x, const CurvePoints& out) const;
+  /// The record of G up to each angle: a flute on a line of greater x has not triggered there yet.
+  void record(std::span<const double> angle, double* out) const;
   double record(double angle) const;
   /// Descent per turn.
   double period() const { return period_; }
   double highest() const { return highest_; }
+  const CurveTable& table() const { return table_; }
 
 private:
   /// G = x over [x0, x1] at angle + width t, t over [t0, t1]: Zc = c[0] + c[1] t + c[2] t^2 + c[3] t^3. A wall, where
@@ -35,11 +41,6 @@ private:
   struct Piece {
     double x0, x1, t0, t1, angle, width, c[4];
     std::size_t run = 0; ///< pieces of one run join
-  };
-  struct Start {
-    std::vector<std::size_t> first; ///< piece at the beginning of each of as many equal parts
-    double from = 0, step = 1;
-    std::size_t of(double x) const;
   };
   double reach(const Piece& p, double t) const;
   double solve(const Piece& p, double t0, double t1, double x) const;
@@ -54,8 +55,9 @@ private:
   };
   void join_runs();
   std::vector<Piece> pieces_;
+  void tabulate(double first);
   std::vector<Run> runs_;
-  Start by_x_, by_angle_;
+  CurveTable table_;
 };
 
 } // namespace gumshoe::models::tool_length

@@ -1,0 +1,117 @@
+/// Compiled once per instruction set: tools side by side, a lane each, whose flutes differ in azimuth and raise alone.
+#include <algorithm>
+
+#include "models/tool_length/trigger/insert_sharpen.h"
+#include "models/tool_length/trigger/insert_walk_kernels.h"
+
+namespace gumshoe::models::tool_length {
+namespace {
+
+constexpr std::size_t width = Lanes::size;
+
+/// Windows of lanes: where the plain proof does not hold, nothing is proved.
+class LanePass : public InsertWindows<Lanes> {
+public:
+  using InsertWindows::InsertWindows;
+  CrossingOf<Lanes> first_crossing(const Mask<Lanes>& wanted, const WindowOf<Lanes>& w, const Lanes& level,
+                                   const Lanes& fall, const Lanes& shift, const Lanes& first, const Lanes& last) const {
+    auto found = walk(wanted, w.crest, level, fall, shift, first, last, Lanes(0.0),
+                      [](Lanes&, Lanes&, const Mask<Lanes>&) { return everywhere<Lanes>(false); });
+    const Lanes to = num::select(found.crossed, found.turned, last);
+    found.unproved =
+        found.unproved || !only_edge_shows(wanted && !found.unproved, first - shift, to - shift, found.facing);
+    return found;
+  }
+  /// As InsertPass::sharpen; false where a search has no proof, which might have another way.
+  Mask<Lanes> sharpen(const Mask<Lanes>& wanted, const Lanes& far, const Lanes& whole) {
+    auto unproved = lower_far<Lanes>(*this, wanted, far, [&](const Mask<Lanes>& some, const CrestOf<Lanes>& crest) {
+      return top_of<Lanes>(*this, some, crest);
+    });
+    unproved = unproved || lower<Lanes>(*this, wanted && !unproved && slack() > whole, 0.1 * whole);
+    return wanted && !unproved;
+  }
+};
+
+/// A number of each question.
+template <class F> Lanes each(const TriggerQuestion* const* questions, const F& number) {
+  double x[width];
+  for (std::size_t l = 0; l < width; ++l) x[l] = number(*questions[l]);
+  return Lanes::load_unaligned(x);
+}
+
+/// One question per lane, all of `n` flutes.
+void walk_lanes(const TriggerQuestion* const* questions, std::size_t n, InsertTrigger* answers, bool* found) {
+  const auto of_insert = [&](auto member) {
+    return each(questions, [&](const TriggerQuestion& q) { return q.flutes[0].insert.*member; });
+  };
+  const auto of_beam = [&](auto member) { return each(questions, [&](const auto& q) { return q.beam.*member; }); };
+  const auto of_motion = [&](auto member) { return each(questions, [&](const auto& q) { return q.motion.*member; }); };
+  using I = Insert<double>;
+  using B = Beam<double>;
+  using M = InsertMotion;
+  const Insert<Lanes> insert{of_insert(&I::tool_radius), of_insert(&I::radius),       of_insert(&I::thickness),
+                             of_insert(&I::clearance),   of_insert(&I::radial_angle), of_insert(&I::axial_angle),
+                             of_insert(&I::axis_x),      of_insert(&I::axis_y),       of_insert(&I::seat)};
+  const Beam<Lanes> beam{of_beam(&B::yaw), of_beam(&B::pitch), of_beam(&B::radius), of_beam(&B::fraction)};
+  DescentFlute<Lanes> flutes[most_inserts];
+  for (std::size_t k = 0; k < n; ++k) {
+    flutes[k].azimuth = each(questions, [&](const auto& q) { return q.flutes[k].azimuth; });
+    flutes[k].raise = each(questions, [&](const auto& q) { return q.flutes[k].raise; });
+  }
+  LanePass pass(insert_body(insert, beam), DiscShareOf<Lanes>(beam.radius, beam.fraction));
+  InsertDescent<Lanes, LanePass> descent(
+      {flutes, n}, num::cos(beam.pitch),
+      {of_motion(&M::start_angle), of_motion(&M::start_height), of_motion(&M::drop), of_motion(&M::not_before)},
+      [&](std::size_t) -> const LanePass& { return pass; });
+  DescentTrigger<Lanes> t;
+  auto wanted = everywhere<Lanes>(true);
+  for (const double share : TriggerSolver::shares(n)) {
+    wanted = wanted && pass.open(descent.below(0, share));
+    wanted = pass.sharpen(wanted, share * descent.whole(), descent.whole());
+    wanted = wanted && descent.begin();
+    if (!num::any(wanted)) break;
+    t = select<Lanes>(wanted, descent.down(wanted), t);
+    wanted = wanted && !t.found && !t.unproved;
+  }
+  double turned[width], slope[width], flute[width];
+  t.turned.store_unaligned(turned), t.slope.store_unaligned(slope), t.insert.store_unaligned(flute);
+  for (std::size_t l = 0; l < width; ++l) {
+    found[l] = t.found.get(l) && !t.unproved.get(l);
+    if (found[l])
+      answers[l] = trigger_of({true, false, t.inside.get(l), flute[l], turned[l], slope[l]}, questions[l]->motion);
+  }
+}
+
+bool has_lanes(const TriggerQuestion& q) {
+  return !q.flutes.empty() && q.flutes.size() <= most_inserts &&
+         std::ranges::all_of(q.flutes, [&](const auto& f) { return f.insert == q.flutes[0].insert; });
+}
+
+void walk(const TriggerQuestion* questions, std::size_t n, InsertTrigger* answers, bool* found) {
+  std::fill_n(found, n, false);
+  for (std::size_t i = 0; i < n;) {
+    // The questions that follow with as many flutes; the last one fills lanes that are left.
+    const TriggerQuestion* lanes[width];
+    std::size_t at[width], count = 0;
+    for (; i < n && count < width; ++i) {
+      if (!has_lanes(questions[i])) continue;
+      if (count > 0 && questions[i].flutes.size() != lanes[0]->flutes.size()) break;
+      lanes[count] = &questions[i];
+      at[count++] = i;
+    }
+    if (count == 0) continue;
+    std::fill(lanes + count, lanes + width, lanes[count - 1]);
+    InsertTrigger answer[width];
+    bool good[width];
+    walk_lanes(lanes, lanes[0]->flutes.size(), answer, good);
+    for (std::size_t l = 0; l < count; ++l)
+      if (good[l]) answers[at[l]] = answer[l], found[at[l]] = true;
+  }
+}
+
+} // namespace
+} // namespace gumshoe::models::tool_length
+
+extern "C" const gumshoe::models::tool_length::WalkKernels GUMSHOE_KERNEL(gumshoe_insert_walk_);
+const gumshoe::models::tool_length::WalkKernels GUMSHOE_KERNEL(gumshoe_insert_walk_) = {
+    gumshoe::models::tool_length::walk};

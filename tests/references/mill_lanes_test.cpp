@@ -1,0 +1,136 @@
+/// Triggers and trigger curves in SIMD lanes: the bits of each alone, on every instruction set.
+
+#include <algorithm>
+#include <memory>
+
+#include <catch2/catch.hpp>
+
+#include "base/instruction_set.h"
+#include "models/tool_length/trigger/curve_table.h"
+#include "models/tool_length/trigger/insert_walk_kernels.h"
+#include "models/tool_length/trigger/trigger_curve.h"
+#include "references/drawn_tools.h"
+
+using namespace gumshoe;
+using namespace gumshoe::fixture;
+using namespace gumshoe::models::tool_length;
+
+extern "C" {
+extern const WalkKernels gumshoe_insert_walk_sse2, gumshoe_insert_walk_avx2, gumshoe_insert_walk_avx512;
+extern const CurveTableKernels gumshoe_curve_table_sse2, gumshoe_curve_table_avx2, gumshoe_curve_table_avx512;
+}
+
+namespace {
+
+template <class Kernels>
+std::vector<const Kernels*> available_of(const Kernels* sse2, const Kernels* avx2, const Kernels* avx512) {
+  std::vector<const Kernels*> all{sse2};
+  if (available(InstructionSet::avx2)) all.push_back(avx2);
+  if (available(InstructionSet::avx512)) all.push_back(avx512);
+  return all;
+}
+#ifdef GUMSHOE_HAS_AVX2
+const auto walks = [] {
+  return available_of(&gumshoe_insert_walk_sse2, &gumshoe_insert_walk_avx2, &gumshoe_insert_walk_avx512);
+};
+const auto curves = [] {
+  return available_of(&gumshoe_curve_table_sse2, &gumshoe_curve_table_avx2, &gumshoe_curve_table_avx512);
+};
+#else
+const auto walks = [] { return std::vector{&gumshoe_insert_walk_sse2}; };
+const auto curves = [] { return std::vector{&gumshoe_curve_table_sse2}; };
+#endif
+
+bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+bool same_bits(const InsertTrigger& a, const InsertTrigger& b) {
+  return a.status == b.status && a.insert == b.insert && same_bits(a.turned, b.turned) &&
+         same_bits(a.height, b.height) && same_bits(a.slope, b.slope);
+}
+
+} // namespace
+
+TEST_CASE("mills that are solved together have the triggers of each alone", "[references][tool_length]") {
+  Draw draw;
+  std::vector<Tool> tools;
+  for (int n = 0; n < 900; ++n) tools.push_back(n % 3 == 2 ? leaning_mill(draw) : draw.tool(n));
+  std::vector<TriggerQuestion> questions;
+  for (const Tool& t : tools) questions.push_back({t.flutes, t.beam, t.motion});
+  const std::size_t n = tools.size();
+  for (const WalkKernels* kernels : walks()) {
+    std::vector<InsertTrigger> answers(n);
+    const auto found = std::make_unique<bool[]>(n);
+    kernels->walk(questions.data(), n, answers.data(), found.get());
+    std::size_t in_lanes = 0, inside = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (!found[i]) continue;
+      ++in_lanes, inside += answers[i].status == Status::already_covered;
+      INFO("tool " << i);
+      TriggerSolver solver;
+      const auto alone = solver.walk(tools[i].flutes, tools[i].beam, tools[i].motion);
+      REQUIRE(alone.has_value());
+      REQUIRE(same_bits(answers[i], *alone));
+    }
+    REQUIRE(in_lanes > 200); // strange tools and flutes that differ are left out
+    REQUIRE(inside > 3);
+  }
+  // What lanes leave out is solved alone, in the same order.
+  const std::size_t some = 60;
+  std::vector<InsertTrigger> all(some);
+  TriggerSolver together, alone;
+  together.solve(std::span(questions).first(some), all.data());
+  for (std::size_t i = 0; i < some; ++i)
+    REQUIRE(same_bits(all[i], alone.solve(tools[i].flutes, tools[i].beam, tools[i].motion)));
+}
+
+TEST_CASE("usual mills of one geometry each are solved in lanes", "[references][tool_length]") {
+  // The thesis' tool: a lane that is solved alone takes five times as long, so hardly any may be.
+  Draw draw;
+  std::vector<Tool> tools(400);
+  std::vector<TriggerQuestion> questions;
+  for (std::size_t n = 0; n < tools.size(); ++n) {
+    Tool& t = tools[n];
+    const Insert<double> insert{
+        10 * mm + draw(-1, 1) * 5e-6,   5 * mm + draw(-1, 1) * 5e-6,  3.2 * mm, 15 * deg + draw(-1, 1) * 2e-3,
+        -12 * deg + draw(-1, 1) * 2e-3, 6 * deg + draw(-1, 1) * 2e-3, 0,        -4.9 * mm + draw(-1, 1) * 4e-5};
+    const int size = static_cast<int>(n % 4) + 1;
+    for (int k = 0; k < size; ++k) t.flutes.push_back({insert, 2 * pi * k / size, draw(0, 4) * 1e-6});
+    t.motion = {draw(0, 6), 5 * mm, 30e-3 / 60 / (1000 * 2 * pi / 60), 0};
+    questions.push_back({t.flutes, t.beam, t.motion});
+  }
+  std::vector<InsertTrigger> answers(tools.size());
+  const auto found = std::make_unique<bool[]>(tools.size());
+  walk_kernels().walk(questions.data(), tools.size(), answers.data(), found.get());
+  REQUIRE(std::count(found.get(), found.get() + tools.size(), true) > 390);
+}
+
+TEST_CASE("trigger curves have equal bits in lanes, alone and on every instruction set", "[references][tool_length]") {
+  Draw draw;
+  int read = 0;
+  for (int n = 0; n < 24; ++n) {
+    const Tool t = draw.tool(2 * n);
+    const InsertHeight heights(t.flutes[0].insert, t.beam);
+    if (!heights.ever_covered()) continue;
+    const TriggerCurve curve(heights, t.motion.drop);
+    constexpr std::size_t size = 37; // no multiple of lanes
+    std::vector<double> x, angle;
+    for (std::size_t i = 0; i < size; ++i) x.push_back(draw(-3, 3) * curve.period()), angle.push_back(draw(-9, 9));
+    std::vector<double> rows[6];
+    for (auto& row : rows) row.resize(size);
+    for (const CurveTableKernels* kernels : curves()) {
+      kernels->at(curve.table(), size, x.data(),
+                  {rows[0].data(), rows[1].data(), rows[2].data(), rows[3].data(), rows[4].data()});
+      kernels->record(curve.table(), size, angle.data(), rows[5].data());
+      for (std::size_t i = 0; i < size; ++i) {
+        const auto alone = curve.at(x[i]);
+        REQUIRE(same_bits(rows[0][i], alone.height));
+        REQUIRE(same_bits(rows[1][i], alone.slope));
+        REQUIRE(same_bits(rows[2][i], alone.from));
+        REQUIRE(same_bits(rows[3][i], alone.to));
+        REQUIRE(same_bits(rows[4][i], alone.before));
+        REQUIRE(same_bits(rows[5][i], curve.record(angle[i])));
+        ++read;
+      }
+    }
+  }
+  REQUIRE(read > 500);
+}
