@@ -121,6 +121,7 @@ JointFit Fitter::fit(const std::vector<Term>& terms, double noise, const JointFi
   JointFit fit;
   fit.at = start ? without_terms(*start) : simulator_.estimates();
   fit.drawn = start ? start->drawn : Vector::Zero(index(draws_.size()));
+  if (!start) move_draws(fit, earlier_);
   fit.terms = terms;
   move_draws(fit, released_draws(fit));
   // The scale of a declared noise is sought from the declared one on, as when the traced scenario is traced: from a
