@@ -138,7 +138,8 @@ Trace traced(const scenario::Scenario& scenario, const Settings& settings, bool&
   const Simulator simulator(experiment, settings.threads);
   std::vector<bool> training = observations.held_out;
   training.flip();
-  const Fitter fitter(experiment, simulator, observations, rows_where(observations, training), settings.threads);
+  Fitter fitter(experiment, simulator, observations, rows_where(observations, training), settings.threads);
+  fitter.start_from(scenario);
   const TraceContext c{
       experiment,           simulator,           observations,     fitter,           scenario.trace.alpha,
       scenario.trace.draws, scenario.trace.seed, settings.threads, settings.progress};

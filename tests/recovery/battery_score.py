@@ -15,8 +15,18 @@ def names(finding):
 
 
 def allowed(effect):
-    """Names that an oracle could not refuse."""
-    return {plain(n) for n in [effect["name"], *effect.get("twins", []), *effect.get("unsplit", [])]}
+    """Names that an oracle could not refuse: by its signature, and by the exact model where readings jump with a size."""
+    return {plain(n) for key in ("twins", "unsplit", "unsplit_exact") for n in [effect["name"], *effect.get(key, [])]}
+
+
+def seen(effect):
+    """Strength: of what it changes alone and, where others may take its part by the exact model, of what they leave."""
+    return min(effect["strength"], effect.get("beside", effect["strength"]))
+
+
+def by_signature(truth):
+    """The truth as it is judged without the exact model."""
+    return {**truth, "effects": [{k: v for k, v in e.items() if k not in ("beside", "unsplit_exact")} for e in truth["effects"]]}
 
 
 def a_shape(finding):
@@ -61,13 +71,16 @@ def said(verdict):
 
 def row(verdict, truth):
     findings, effects = said(verdict), truth["effects"]
-    plain_to_see = [e for e in effects if e["strength"] >= STRENGTH]
+    plain_to_see = [e for e in effects if seen(e) >= STRENGTH]
     out = dict(found=[f["name"] for f in findings], kinds=[f["kind"] for f in findings], depends=[f["depends_on"] for f in findings], vetoed=verdict["vetoed"],
                told=len(plain_to_see), right=sum(any(right(f, e) for f in findings) for e in plain_to_see),
                wider=sum(any(plain(e["name"]) in names(f) for f in findings) and not any(right(f, e) for f in findings) for e in plain_to_see),
                wrong=[f["name"] for f in findings + later(verdict["rounds"]) if effects and wrong(f, truth)],
                alarm=not effects and any(truth["expected"] != "scatter" or f["kind"] != "scatter" for f in findings))
     out["intervals"] = [hit for e in effects for f in findings if right(f, e) and not a_shape(f) for hit in covered(f, e)]
+    if any("unsplit_exact" in e for e in effects):
+        signature = row(verdict, by_signature(truth))
+        out["by_signature"] = {k: signature[k] for k in ("told", "right", "wider", "wrong")}
     return {**out, **rounds(verdict["rounds"]), **errors(verdict, truth)}
 
 

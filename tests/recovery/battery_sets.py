@@ -15,7 +15,7 @@ def make(program, family, seed, folder):
         return apart(family, seed, folder)
     system = SYSTEMS[family.system]
     d, y, truth = sets.make(program, system, "several" if family.missing else "null", family.missing, 0, seed, family.noise,
-                            floor=family.system != "tool_length", **family.options)
+                            floor=family.system != "tool_length", exact=family.system == "tool_length", **family.options)
     return sets.write(folder, folder / "truth", "set", d, y, truth, system), truth
 
 

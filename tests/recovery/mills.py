@@ -87,9 +87,12 @@ def run_out(d, rng):
     lowest, and by how much, decides what triggers."""
     towards = rng.uniform(0, 2 * np.pi)
 
+    def tilt(size):
+        return {"tool_runout.tilt_x (mrad)": size * np.cos(towards), "tool_runout.tilt_y (mrad)": size * np.sin(towards)}
+
     def read(program, size, q):
-        tilt = {"tool_runout.tilt_x (mrad)": size * np.cos(towards), "tool_runout.tilt_y (mrad)": size * np.sin(towards)}
-        return simulate(program, d, [q], [tilt])[0]
+        return simulate(program, d, [q], [tilt(size)])[0]
+    read.tilt = tilt
     read.parts = {"tilt_x": np.cos(towards), "tilt_y": np.sin(towards)}
     return read
 

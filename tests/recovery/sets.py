@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+import jumping_rivals
 import levers
 import mills
 import positioning
@@ -45,10 +46,11 @@ def title(kind, what, strength, seed, noise_kind):
     return f"{zlib.crc32(f'{kind}/{what}/{strength}/{noise_kind}'.encode()):08x}-{seed}"
 
 
-def make(program, system, kind, what, strength, seed, noise_kind="white", floor=False, **more):
+def make(program, system, kind, what, strength, seed, noise_kind="white", floor=False, exact=False, **more):
     """One set: (design, readings um, truth).
     @param what: of kind `several`: ((name, strength), ...)
     @param floor: whether the truth says how well held-out readings can be predicted
+    @param exact: whether it says which names the exact model cannot refuse, of sizes with which readings jump
     @param more: of the design"""
     rng = stream(seed, system.MODEL, kind, what, strength, noise_kind)
     alias = system.ALIASES[what] if kind == "alias" else None
@@ -67,7 +69,7 @@ def make(program, system, kind, what, strength, seed, noise_kind="white", floor=
              "null": list, "scatter": list}[kind]()
     d0 = Oracle(system, program, d, noise_kind) if names else None
     base = system.simulate(program, d, [q])[0]
-    total, effects = base.copy(), []
+    total, effects, moves = base.copy(), [], []
     for i, name in enumerate(names):
         # Of a pair the second is the weaker, half hidden by the first.
         wanted = what[i][1] if kind == "several" else strength if i == 0 else max(0.6 * strength, 4)
@@ -77,10 +79,15 @@ def make(program, system, kind, what, strength, seed, noise_kind="white", floor=
         if sign < 0:
             size, shift = -size, one(-size, q, base)
         total = total + shift
+        moves.append(one.moves(size) if hasattr(one, "moves") else None)
         shift = size * one.smooth if hasattr(one, "smooth") else shift
         truth.update(sizes={n: size * part for n, part in getattr(one, "parts", {}).items()} or {truth["quantity"]: size})
         truth.update(size=size, strength=d0.strength(shift), depends_on=list(truth["depends_on"]), outside=name in system.OUTSIDE)
         effects.append((truth, shift))
+    if len(moves) > 1 and all(moves):  # which insert triggers depends on all of them: changes by each alone do not add up
+        steps, more = zip(*moves)
+        total = system.simulate(program, d, [q + sum(steps)], [{k: v for one in more for k, v in one.items()}])[0]
+    missing = total
     e = noise(noise_kind, rng, d.time, base.shape[1], deviations(noise_kind, d))
     if noise_kind.startswith("clamp") or kind == "scatter":
         sd = d.scatter or (strength / 8 if kind == "scatter" else 1) * 2 * d.noise
@@ -91,6 +98,10 @@ def make(program, system, kind, what, strength, seed, noise_kind="white", floor=
     truth = dict(system=system.MODEL, kind=kind, noise=noise_kind, seed=seed, nominal_strength=strength, readings=int(d.readings),
                  blocks=d.blocks, final=list(d.final), expected=expected(kind, alias, noise_kind), scatter=list(d.redone[0]), noise_um=float(d.noise))
     truth["effects"] = [judged(d0, t, shift, rng) for t, shift in effects]
+    if exact and effects:
+        at = jumping_rivals.Exact(system, program, d, q, base, d0, missing)
+        for t, more in zip(truth["effects"], jumping_rivals.judge(at, [t for t, _ in effects], stream(seed, "rivals"))):
+            t.update(more)
     if floor:
         truth["held_out_um"] = held_out(system, program, d, noise_kind, q, y, base, total, [
             by_level(d, t, shift) if name in system.OUTSIDE else shift.reshape(-1, 1) for name, (t, shift) in zip(names, effects)])
@@ -122,6 +133,10 @@ def effect(program, system, d, oracle, name, rng):
             moved[at] += (towards or 1) * size
             truth.update(absolute=float(moved[at[0]]), off=float(moved[at[0]] - cell.value))
             return system.simulate(program, d, [moved])[0] - base
+
+        def moves(size):
+            return (towards or 1) * size * np.isin(np.arange(len(d.cells)), at), {}
+        one.moves = moves
         truth = dict(name="declared:" + title, quantity=cell.name, unit=cell.unit, sign="+" if towards else "either",
                      depends_on=[cell.label] if cell.label else [])
         return one, truth
@@ -132,6 +147,8 @@ def effect(program, system, d, oracle, name, rng):
         if hasattr(shape, "smooth"):
             one.smooth = shape.smooth
         one.parts = getattr(shape, "parts", {})
+        if hasattr(shape, "tilt"):
+            one.moves = lambda size: (0.0, shape.tilt(size))
     else:
         one = lambda size, q, base: size * shape
     return one, dict(name=name.split(":")[0] if not name.startswith("stated:") else name.removeprefix("stated:"), quantity=quantity, unit=unit,

@@ -32,9 +32,12 @@ std::string part_alone(const Finding& f) {
   return f.depends_on[1] + " " + f.described_by.substr(product.size());
 }
 
-/// What may be there in place of scatter: the second member of its finding, if it has one.
+/// What may be there in place of scatter: the other members of its finding, if it has any. In place of that of single
+/// readings these are sizes with which readings jump.
 std::string in_its_place(const Finding& f) {
   if (f.members.size() < 2) return {};
+  if (f.members[0] == "scatter:reading")
+    return fmt::format("they jump with {}", fmt::join(f.members.begin() + 1, f.members.end(), " or "));
   const std::string &shape = f.members[1], on = shape.substr(shape.find(':') + 1);
   if (const std::string reading = instant_of(shape); !reading.empty()) return "something changed after " + reading;
   if (shape.starts_with("step:")) return on + " differs from the others, which agree";

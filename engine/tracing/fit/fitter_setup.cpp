@@ -20,6 +20,7 @@ Fitter::Fitter(const propagation::Experiment& experiment, const Simulator& simul
       replicates_(find_replicates(observations)), threads_(threads) {
   find_unknowns();
   find_draws();
+  earlier_ = Vector::Zero(index(draws_.size()));
   find_fitted();
   std::set<std::size_t> needed;
   for (const FreeUnknown& u : unknowns_) needed.insert(u.quantity);

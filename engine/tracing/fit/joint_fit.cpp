@@ -121,6 +121,7 @@ JointFit Fitter::fit(const std::vector<Term>& terms, double noise, const JointFi
   JointFit fit;
   fit.at = start ? without_terms(*start) : simulator_.estimates();
   fit.drawn = start ? start->drawn : Vector::Zero(index(draws_.size()));
+  if (!start) move_draws(fit, earlier_);
   fit.terms = terms;
   move_draws(fit, released_draws(fit));
   // The scale of a declared noise is sought from the declared one on, as when the traced scenario is traced: from a
@@ -207,9 +208,12 @@ void Fitter::converge(JointFit& fit, double noise) const {
       better = objective(next, next.covariance_model, scan) <= before * (1 + 1e-9);
       if (better) fit = std::move(next);
     }
-    if (!better && drawn.norm() > 0) {
+    if (better) {
+      draws_move = true; // from elsewhere it may lead somewhere: the fit ends where neither step does
+    } else if (drawn.norm() > 0) {
       draws_move = false;
-    } else if (!better) { // at the floor of what steps can do
+      --fit.iterations; // the same point is tried without
+    } else {            // at the floor of what steps can do
       fit.converged = largest < criteria.stalled;
       break;
     }

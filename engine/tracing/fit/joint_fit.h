@@ -70,6 +70,11 @@ public:
   Fitter(const propagation::Experiment& experiment, const Simulator& simulator, const Observations& observations,
          std::vector<Index> rows, int threads);
 
+  /// Starts every fit where an earlier trace of these readings ended: from what they said of declared draws, whose
+  /// quantities stand in [trace] priors as they were declared. Just these draws are fitted.
+  /// @param scenario  as it states what they said; without the extension, which holds what was declared
+  void start_from(const scenario::Scenario& scenario);
+
   /// Gauss-Newton with winsorised residuals; from `start` where it is given. `noise` 0: its scale is fitted, too.
   JointFit fit(const std::vector<Term>& terms, double noise, const JointFit* start = nullptr) const;
   /// The declared model at its estimates, not fitted.
@@ -174,7 +179,8 @@ private:
   std::vector<FreeUnknown> unknowns_;
   std::vector<Draw> draws_;
   bool noise_declared_ = false;
-  Vector spread_; ///< by indication: standard deviation of noise that is not declared, over that of the first
+  Vector earlier_; ///< by draw: what an earlier trace of these readings said of it, in standard uncertainties
+  Vector spread_;  ///< by indication: standard deviation of noise that is not declared, over that of the first
   std::vector<std::size_t> needed_;         ///< quantities whose derivatives are used, ascending
   std::vector<DeclaredResponse> responses_; ///< one per column of `needed_`
   Vector offset_;                           ///< shift of the readings' mean over these draws, by row of the simulator

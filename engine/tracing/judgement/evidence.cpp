@@ -183,10 +183,10 @@ double Evidence::chance(std::size_t a) const {
 
 double Evidence::limit(std::size_t a) const { return assessment_.null[a].quantile(assessment_.threshold); }
 
-std::vector<std::string> Evidence::jumping() const {
+std::vector<std::string> Evidence::jumping(double least) const {
   std::vector<Scored> all;
   for (std::size_t a = 0; a < candidates_.size(); ++a)
-    all.push_back({candidates_[a].name, score(a), !candidates_[a].start.empty()});
+    all.push_back({candidates_[a].name, score(a), !candidates_[a].start.empty() && score(a) > least});
   std::vector<std::string> out;
   for (const std::size_t a : best_of(all, criteria.most_jumping)) out.push_back(candidates_[a].name);
   return out;

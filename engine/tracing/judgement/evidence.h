@@ -40,7 +40,9 @@ public:
   double score(std::size_t candidate) const;  ///< its linear fit's ratio minus twice that by chance
   double chance(std::size_t candidate) const; ///< twice the ratio by chance, and what the sizes tried cost
   double limit(std::size_t candidate) const;  ///< likelihood ratio that it must exceed
-  std::vector<std::string> jumping() const;   ///< candidates with whose sizes readings jump, best first
+  /// @param least  score that they must exceed
+  std::vector<std::string>
+  jumping(double least = -1e300) const; ///< candidates with whose sizes readings jump, best first
   /// Physical candidates that the declared model does not absorb almost completely.
   bool testable(std::size_t candidate) const;
   /// The linear fit of one candidate; its sizes are the start values for the whole model.

@@ -425,6 +425,9 @@ private:
       }
       if (instead.as_well) found->finding.members.push_back(candidate(*instead.as_well).name);
     }
+    // Sizes that explain more than chance, and with which readings jump, may be all of it, though none was found.
+    if (found->component < 0)
+      for (std::string& name : evidence_->jumping(0)) found->finding.members.push_back(std::move(name));
     add(*found);
     return false;
   }

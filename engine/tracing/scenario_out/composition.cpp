@@ -322,8 +322,12 @@ private:
                            return l.unknown.quantity == v.quantity && l.unknown.entry == v.entry;
                          });
       if (!component.per.empty() || moved) continue;
-      const double u = v.distribution.standard_uncertainty(), x = given.mean[index(i)];
       const Index at = fit_.design.fixed.cols() + index(i);
+      // Where readings jump, a draw stays where the step to its mean by the linearised model is none for the better.
+      const double u = v.distribution.standard_uncertainty(), stands = fit_.drawn[index(given.draws[i])],
+                   mean = given.mean[index(i)],
+                   x = std::fabs(mean - stands) > criteria.converged * std::sqrt(given.covariance(at, at)) ? stands
+                                                                                                           : mean;
       known_at_.push_back(at);
       out_.known.push_back({q.name, q.unit, q.si_unit, entry.labels, v.component,
                             entry.components.size() > 1 ? component.name : "",

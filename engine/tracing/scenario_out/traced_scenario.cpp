@@ -91,6 +91,7 @@ public:
     finish_unconfirmed();
     for (const KnownDraw& k : t_.known) keep_prior(k.quantity);
     for (const KnownDraw& k : t_.known) known(k);
+    finish_released();
     tie();
     for (const Addition& a : t_.additions) add(a);
     return text_.text(origin_);
@@ -203,7 +204,8 @@ private:
     const auto& labels = quantity.entries[p.unknown.entry].labels;
     Node& place = text_.entry(quantity.name, labels);
     auto components = kept(place, labels, taken.labels);
-    if (taken.block_offset) free_.insert(quantity.name);
+    if (taken.block_offset && !released_earlier(quantity.name)) free_.insert(quantity.name);
+    if (!components.empty()) declared_as_well_.insert(quantity.name);
     Node own;
     const Node u = measure_node(p.standard_uncertainty, p.unknown.unit, p.unknown.si_unit, true);
     own.members = {
@@ -245,6 +247,29 @@ private:
         if (q.name == name && fitted(name) == q.entries.size())
           calibration::erase_member(text_.quantity(name), "estimated");
     }
+  }
+
+  /// A declared value that was found to be off is fitted again when these data are traced: what was declared of it is
+  /// released, and what they say of it is no prior. Other data know it as it was found.
+  void finish_released() {
+    for (std::size_t i = 0; i < t_.estimate.parameters.size(); ++i) {
+      const calibration::Parameter& p = t_.estimate.parameters[i];
+      const auto& quantity = t_.extended.quantities[p.unknown.quantity];
+      const bool whole = quantity.entries.size() == 1 && quantity.entries[0].labels.empty();
+      if (!whole || sized(quantity.name) || free_.contains(quantity.name) ||
+          declared_as_well_.contains(quantity.name) || !(p.standard_uncertainty > 0))
+        continue;
+      Node estimated;
+      estimated.kind = Node::Kind::boolean;
+      estimated.boolean = true;
+      member(member(member(text_.document(), "trace"), "priors"), quantity.name).members = {
+          {"value", 0, 0, measure_node(p.value, p.unknown.unit, p.unknown.si_unit, false)},
+          {"estimated", 0, 0, std::move(estimated)}};
+    }
+  }
+
+  bool released_earlier(const std::string& name) const {
+    return std::ranges::find(s_.trace.priors, name, &quantities::InputQuantity::name) != s_.trace.priors.end();
   }
 
   /// What the hold-out blocks could not judge is nothing to correct a machine by.
@@ -316,7 +341,8 @@ private:
   calibration::ScenarioText text_;
   std::string origin_;
   std::set<std::string> free_;
-  std::vector<std::size_t> uncertain_; ///< parameters
+  std::set<std::string> declared_as_well_; ///< quantities of which a declared uncertainty is left
+  std::vector<std::size_t> uncertain_;     ///< parameters
   std::vector<std::string> draws_;
 };
 
