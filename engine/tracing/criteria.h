@@ -15,6 +15,10 @@ struct Criteria {
   // ---- Noise ----
   /// Residuals beyond this many robust standard deviations are winsorised. Normal noise exceeds it once in 2,150.
   double winsor_limit = 3.5;
+  /// Winsorised residuals change the fit, and so all residuals: it is repeated until none changes by more than this many
+  /// robust standard deviations. A reading that pulls h of the fit towards itself needs ln(1e-2) / ln(h) steps.
+  double winsor_settled = 0.01;
+  int most_winsor_steps = 20;
   /// Serial correlations tried, from one reading to the next in the order of measurement. Tuned.
   std::array<double, 5> correlations{0.0, 0.2, 0.4, 0.6, 0.8};
   /// Fewer readings than this do not distinguish serial correlation from a trend: only zero is tried. Tuned.

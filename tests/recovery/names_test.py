@@ -15,6 +15,8 @@ import numpy as np
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent / "cli")]
 
+import battery_sets
+import families
 import rods
 import sets
 import spheres
@@ -217,6 +219,25 @@ class Names(unittest.TestCase):
     def test_correlation_does_not_take_a_drift(self):
         v = self.line(lambda x, t: 4e-3 * t, 5, stated=(("drift", "t", "um/s"),))
         self.assertEqual([f["name"] for f in v["findings"]], ["drift"], v["findings"])
+
+    def battery(self, name, seed):
+        """Names that the rounds find in one set of a family of the battery."""
+        family, = [f for f in families.FAMILIES if f.name == name]
+        scenario, _ = battery_sets.make(GUMSHOE, family, seed, self.path / f"{name}{seed}")
+        return [f["name"] for f in self.trace(scenario, "--loop", "2", "--draws", "199")["findings"]]
+
+    def test_scatter_of_passes_is_excluded_by_a_drift_that_it_would_seldom_look_like(self):
+        """Of four passes' means, scatter gives a line so straight in one of a hundred sets."""
+        for seed in (1100, 1103):
+            self.assertEqual(self.battery("lever stated:play@10+stated:drift@8 white", seed), ["play", "drift"], seed)
+
+    def test_a_curve_in_a_condition_is_not_named_after_an_effect_of_that_condition(self):
+        for seed in (1108, 1115):
+            self.assertEqual(self.battery("rod_gauging cubic@12 white", seed), ["not in the catalogue"], seed)
+
+    def test_a_bad_reading_does_not_pass_its_error_on(self):
+        """The twelve readings of a socket determine four unknowns, which take a third of what one of them is off by."""
+        self.assertEqual(self.battery("single_socket bar_drift@15 one_bad", 1102), ["bar_drift"])
 
     def test_one_bad_reading_held_out_does_not_decide(self):
         bad = lambda x, t: 3 * math.sin(x / 23) + (25 if (x, t) == (100, 650) else 0)

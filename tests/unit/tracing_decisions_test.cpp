@@ -100,6 +100,11 @@ TEST_CASE("two effects are found together if each counts given the other and no 
   CHECK_FALSE(pair_found(60, {46.1, 45}, limits, 50)); // the second adds 13.9
 }
 
+TEST_CASE("one shape is there rather than a name and a shape only if it explains more", "[tracing]") {
+  CHECK(explains_both(0.1));
+  CHECK_FALSE(explains_both(0));
+}
+
 TEST_CASE("scatter is found in the largest component, larger noise only where nothing scatters", "[tracing]") {
   Assessment a = nothing();
   CHECK_FALSE(scatter_found(a, 0.05));
@@ -130,7 +135,7 @@ TEST_CASE("effects that explain as much as scatter are tried in its place", "[tr
 }
 
 TEST_CASE("hold-out blocks veto what does not predict them better", "[tracing]") {
-    CHECK(judge_holdout({30, 2e-6}, {29, 2e-6}, 3) == Holdout::confirms);
+  CHECK(judge_holdout({30, 2e-6}, {29, 2e-6}, 3) == Holdout::confirms);
   CHECK(judge_holdout({30, 2e-6}, {30, 1e-6}, 2) == Holdout::vetoes);    // no better in units of all that is declared
   CHECK(judge_holdout({30, 2e-6}, {29, 2.11e-6}, 2) == Holdout::vetoes); // the root mean square grows by more than 5 %
   CHECK(judge_holdout({30, 2e-6}, {29, 2.09e-6}, 3) == Holdout::confirms);

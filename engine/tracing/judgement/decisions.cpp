@@ -72,6 +72,8 @@ bool counts_beside(double both, const double (&scores)[2], double added, const d
   return both > whole - criteria.equal_merit && added > limits[0] && both - scores[0] > limits[1];
 }
 
+bool explains_both(double lead) { return lead > 0; }
+
 std::optional<std::size_t> scatter_found(const Assessment& a, double alpha) {
   for (std::size_t c = 0; c < a.p_component.size(); ++c)
     if (a.data.scatter(index(c), 0) == a.data.scatter.col(0).maxCoeff() && a.p_component[c] <= alpha) return c;

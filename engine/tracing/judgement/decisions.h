@@ -72,6 +72,10 @@ bool pair_found(double pair, const double (&scores)[2], const double (&limits)[2
 /// @param whole   score of the one shape
 bool counts_beside(double both, const double (&scores)[2], double added, const double (&limits)[2], double whole);
 
+/// Whether one plain shape is there rather than a named effect and a shape that was found with it.
+/// @param lead  of the one shape over the two
+bool explains_both(double lead);
+
 /// The variance component that was found: the largest, if its p-value allows it.
 std::optional<std::size_t> scatter_found(const Assessment& assessment, double alpha);
 /// Whether the noise of single readings is larger than declared and nothing else explains that.

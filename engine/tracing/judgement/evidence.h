@@ -20,6 +20,9 @@ struct Trial {
 /// A candidate over a finite step as a term, from the sizes over which it was taken.
 Term at_start(const Candidate& candidate);
 
+/// "polynomial:feed (square about the middle)"
+std::string with_shape(const Candidate& candidate);
+
 /// Readings of equal conditions and of blocks among the training readings. Keeps a reference to the fit's design.
 Repeats repeats_of(const TraceContext& context, const JointFit& fit);
 

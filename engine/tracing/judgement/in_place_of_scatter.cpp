@@ -65,15 +65,17 @@ InPlaceOfScatter in_place_of_scatter(const TraceContext& c, const Evidence& e, c
     return is_plain(e.candidates()[a], c.observations.replicate_groups[component], c.observations);
   };
   std::vector<Scored> all;
-  std::vector<std::size_t> eligible;
+  std::vector<std::size_t> eligible, effects;
   for (std::size_t a = 0; a < e.candidates().size(); ++a) {
     const Candidate& one = e.candidates()[a];
     const bool effect = e.testable(a) && one.family != Family::declared && !one.in_part();
     all.push_back({one.name, without.score(a), effect || plain(a)});
     if (all.back().eligible) eligible.push_back(a);
+    if (effect) effects.push_back(a);
   }
-  const auto excluded_by = [&](double lead) {
-    return excludes_scatter(lead, [&] { return without.chance_of_lead(eligible, component, lead); });
+  // Scatter of few groups always looks like some shape, and seldom like one of the few effects that are known.
+  const auto excluded_by = [&](double lead, const std::vector<std::size_t>& best_of) {
+    return excludes_scatter(lead, [&] { return without.chance_of_lead(best_of, component, lead); });
   };
   InPlaceOfScatter out;
   out.effects = scatter;
@@ -86,7 +88,7 @@ InPlaceOfScatter in_place_of_scatter(const TraceContext& c, const Evidence& e, c
     const Fit linear = without.fit(a);
     if (plain(a)) {
       if (a != rivals[0]) continue;
-      if (!excluded_by(all[a].score - gain)) {
+      if (!excluded_by(all[a].score - gain, eligible)) {
         out.as_well = a;
         continue;
       }
@@ -111,7 +113,7 @@ InPlaceOfScatter in_place_of_scatter(const TraceContext& c, const Evidence& e, c
     }
   }
   if (out.effects.terms.empty()) return out;
-  if (!excluded_by(lead))
+  if (!excluded_by(lead, effects))
     out.effects.finding.members.push_back(scatter.finding.members[0]);
   else if (out.effects.finding.members.size() == 1)
     out.effects.finding.kind = Kind::named;

@@ -12,14 +12,12 @@
 #include "tracing/judgement/beside.h"
 #include "tracing/judgement/decisions.h"
 #include "tracing/judgement/evidence.h"
-#include "tracing/judgement/form_tuning.h"
 #include "tracing/judgement/in_place_of_scatter.h"
+#include "tracing/judgement/pruning.h"
 #include "tracing/judgement/ranking.h"
 
 namespace gumshoe::tracing {
 namespace {
-
-std::string with_shape(const Candidate& a) { return a.name + (a.shape.empty() ? "" : " (" + a.shape + ")"); }
 
 /// Sizes by which shapes and effects are compared. A harmonic is one wave: its phase costs it what chance gives, and no
 /// more, lest an effect of two waves to a turn take one of three to a turn of any phase.
@@ -43,7 +41,7 @@ public:
         more = round();
       }
       const bool took_one = out_.found.terms.size() > terms;
-      if (took_one) prune();
+      if (took_one) prune(c_, out_, dropped_);
       if (took_one) out_.stages.push_back({out_.found, out_.findings, out_.dropped});
     }
     if (out_.findings.size() >= criteria.most_findings) {
@@ -59,55 +57,6 @@ public:
 private:
   void report_progress(const std::string& what) const {
     if (c_.progress) c_.progress(what);
-  }
-
-  /// Drops, one after the other, what no longer counts given all that was found.
-  void prune() {
-    std::vector<double> gains;
-    do {
-      gains.clear();
-      for (const SearchFinding& f : out_.findings)
-        gains.push_back(f.terms.empty() || out_.findings.size() == 1
-                            ? std::numeric_limits<double>::infinity()
-                            : gain_of(c_, out_.found, f.terms, f.component >= 0) - f.threshold);
-    } while (drop_least(gains));
-    settle_classes();
-  }
-
-  /// A member of a class that was found by itself, too, is no longer a name for the class.
-  void settle_classes() {
-    for (SearchFinding& f : out_.findings) {
-      if (f.finding.kind != Kind::equivalence_class) continue;
-      auto& members = f.finding.members;
-      for (std::size_t i = members.size(); i-- > 1;) {
-        const bool known = std::ranges::any_of(out_.findings, [&](const SearchFinding& other) {
-          return other.finding.kind == Kind::named && other.finding.members[0] == members[i];
-        });
-        if (!known) continue;
-        if (i <= f.rivals.size()) f.rivals.erase(f.rivals.begin() + index(i) - 1);
-        members.erase(members.begin() + index(i));
-      }
-      if (members.size() == 1) f.finding.kind = Kind::named;
-    }
-  }
-
-  /// @param gains  by finding: the ratio that it adds less the one that it must exceed
-  bool drop_least(const std::vector<double>& gains) {
-    const auto least = std::ranges::min_element(gains);
-    if (least == gains.end() || still_counts(*least, 0)) return false;
-    const auto at = static_cast<std::size_t>(least - gains.begin());
-    const SearchFinding gone = out_.findings[at];
-    const std::string name = out_.found.terms[gone.terms[0]].candidate.name;
-    dropped_.insert(name);
-    out_.dropped.push_back(
-        fmt::format("{} was found and then dropped: beside the other findings it no longer counts", name));
-    const JointFit rest = without(c_, out_.found, gone.terms);
-    out_.findings.erase(out_.findings.begin() + static_cast<std::ptrdiff_t>(at));
-    for (SearchFinding& f : out_.findings)
-      for (std::size_t& t : f.terms)
-        t -= index(std::ranges::count_if(gone.terms, [&](std::size_t other) { return other < t; }));
-    adopt(rest);
-    return true;
   }
 
   /// Adds a finding; a size of an effect that is named already joins it, as does a scatter that is known.
@@ -175,11 +124,7 @@ private:
     return out;
   }
 
-  /// The fit with the terms of another, its noise found anew.
-  void adopt(const JointFit& fit) {
-    JointFit again = c_.fitter.fit(fit.terms, 0, &fit);
-    out_.found = with_tuned_forms(c_, again.valid ? std::move(again) : fit);
-  }
+  void adopt(const JointFit& fit) { out_.found = fitted_anew(c_, fit); }
 
   /// Candidates that could win, by the whole model, best first.
   std::vector<Trial> trials() const {

@@ -1,6 +1,7 @@
 /// Winsorises residuals, so that an outlier does not decide.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "tracing/criteria.h"
 #include "tracing/noise/whitened.h"
@@ -18,28 +19,62 @@ double robust_scale(std::vector<double>& sizes) {
   return large > criteria.winsor_limit * middle ? large / 1.6448536269514722 : middle;
 }
 
+namespace {
+
+/// Residuals of one data set, winsorised.
+struct Winsorised {
+  double scale = 0; ///< robust standard deviation
+  Vector data;      ///< the data with winsorised residuals
+  Vector weight;    ///< by row
+
+  bool changed() const { return (weight.array() < 1).any(); }
+};
+
+/// @param data  in units of the noise   @param left  its residuals
+Winsorised cut(const Eigen::Ref<const Vector>& data, const Eigen::Ref<const Vector>& left, double freedom) {
+  Winsorised out{0, data, Vector::Ones(data.size())};
+  std::vector<double> sizes(index(data.size()));
+  for (Index i = 0; i < data.size(); ++i) sizes[index(i)] = std::fabs(left[i]);
+  const double s = robust_scale(sizes) / std::sqrt(freedom / static_cast<double>(data.size()));
+  const double rms = std::sqrt(left.squaredNorm() / freedom);
+  // Nearly all equal: no robust scale.
+  out.scale = s > 1e-9 * rms ? s : rms;
+  const double bound = criteria.winsor_limit * out.scale;
+  for (Index i = 0; i < data.size(); ++i)
+    if (const double size = std::fabs(left[i]); size > bound) {
+      out.weight[i] = bound / size;
+      out.data[i] -= left[i] * (1 - bound / size);
+    }
+  return out;
+}
+
+} // namespace
+
 Matrix Whitened::winsorised(const Matrix& residuals, Vector* scale, Matrix* weight) const {
-  Matrix white = in_units(residuals);
-  const Matrix left = elimination_->projected(white);
+  const Matrix measured = in_units(residuals);
   const auto freedom = static_cast<double>(degrees_of_freedom());
-  const double lost = freedom / static_cast<double>(residuals.rows());
+  Matrix white = measured, left = elimination_->projected(measured);
   if (scale) scale->resize(residuals.cols());
   if (weight) *weight = Matrix::Ones(residuals.rows(), residuals.cols());
-  std::vector<double> sizes(index(residuals.rows()));
   const auto k = index(design_.indications);
-  for (Index j = 0; j < residuals.cols(); ++j) {
-    for (Index i = 0; i < residuals.rows(); ++i) sizes[index(i)] = std::fabs(left(i, j));
-    const double s = robust_scale(sizes) / std::sqrt(lost);
-    const double rms = std::sqrt(left.col(j).squaredNorm() / freedom);
-    // Nearly all equal: no robust scale.
-    const double used = s > 1e-9 * rms ? s : rms;
-    if (scale) (*scale)[j] = used;
-    for (Index i = 0; i < residuals.rows(); ++i) {
-      const double size = std::fabs(left(i, j)), bound = criteria.winsor_limit * used;
-      if (size <= bound) continue;
-      white(i, j) -= left(i, j) * (1 - bound / size);
-      if (weight) (*weight)(i, j) = bound / size;
+  std::vector<Index> open(index(residuals.cols()));
+  std::iota(open.begin(), open.end(), 0);
+  for (int step = 0;; ++step) {
+    std::vector<Index> next;
+    for (std::size_t i = 0; i < open.size(); ++i) {
+      const Index j = open[i];
+      Winsorised now = cut(measured.col(j), left.col(index(i)), freedom);
+      if (scale) (*scale)[j] = now.scale;
+      if (weight) weight->col(j) = now.weight;
+      const double moved = (now.data - white.col(j)).cwiseAbs().maxCoeff();
+      white.col(j) = now.data;
+      if (now.changed() && moved > criteria.winsor_settled * now.scale && step < criteria.most_winsor_steps)
+        next.push_back(j);
     }
+    open = std::move(next);
+    if (open.empty()) break;
+    // Residuals of what was measured from the fit of the winsorised data.
+    left = elimination_->projected(white(Eigen::all, open)) + measured(Eigen::all, open) - white(Eigen::all, open);
   }
   // Back to the readings' own units.
   Matrix out = white;
