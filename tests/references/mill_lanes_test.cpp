@@ -1,6 +1,6 @@
 /// Triggers and trigger curves in SIMD lanes: the bits of each alone, on every instruction set.
-
 #include <algorithm>
+#include <cstring>
 #include <memory>
 
 #include <catch2/catch.hpp>
@@ -15,31 +15,31 @@ using namespace gumshoe;
 using namespace gumshoe::fixture;
 using namespace gumshoe::models::tool_length;
 
+// Weak: a build may have one instruction set alone.
+#define GUMSHOE_WEAK __attribute__((weak))
 extern "C" {
-extern const WalkKernels gumshoe_insert_walk_sse2, gumshoe_insert_walk_avx2, gumshoe_insert_walk_avx512;
-extern const CurveTableKernels gumshoe_curve_table_sse2, gumshoe_curve_table_avx2, gumshoe_curve_table_avx512;
+extern const WalkKernels gumshoe_insert_walk_sse2, gumshoe_insert_walk_avx2 GUMSHOE_WEAK,
+    gumshoe_insert_walk_avx512 GUMSHOE_WEAK;
+extern const CurveTableKernels gumshoe_curve_table_sse2, gumshoe_curve_table_avx2 GUMSHOE_WEAK,
+    gumshoe_curve_table_avx512 GUMSHOE_WEAK;
 }
 
 namespace {
 
+/// Those that this build has and this processor runs.
 template <class Kernels>
 std::vector<const Kernels*> available_of(const Kernels* sse2, const Kernels* avx2, const Kernels* avx512) {
   std::vector<const Kernels*> all{sse2};
-  if (available(InstructionSet::avx2)) all.push_back(avx2);
-  if (available(InstructionSet::avx512)) all.push_back(avx512);
+  if (avx2 && available(InstructionSet::avx2)) all.push_back(avx2);
+  if (avx512 && available(InstructionSet::avx512)) all.push_back(avx512);
   return all;
 }
-#ifdef GUMSHOE_HAS_AVX2
 const auto walks = [] {
   return available_of(&gumshoe_insert_walk_sse2, &gumshoe_insert_walk_avx2, &gumshoe_insert_walk_avx512);
 };
 const auto curves = [] {
   return available_of(&gumshoe_curve_table_sse2, &gumshoe_curve_table_avx2, &gumshoe_curve_table_avx512);
 };
-#else
-const auto walks = [] { return std::vector{&gumshoe_insert_walk_sse2}; };
-const auto curves = [] { return std::vector{&gumshoe_curve_table_sse2}; };
-#endif
 
 bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 bool same_bits(const InsertTrigger& a, const InsertTrigger& b) {
