@@ -117,6 +117,37 @@ Points Fitter::without_terms(JointFit fit) const {
   return fit.at;
 }
 
+namespace {
+
+/// Columns of terms at the sizes from which they are fitted, where readings jump.
+std::vector<Index> start_columns(const JointFit& fit) {
+  std::vector<Index> out;
+  for (std::size_t t = 0; t < fit.terms.size(); ++t) {
+    const auto& [candidate, size] = fit.terms[t];
+    if (candidate.start.empty() || !std::ranges::equal(candidate.start, size)) continue;
+    for (Index j = 0; j < size.size(); ++j) out.push_back(first_column(fit, t) + j);
+  }
+  return out;
+}
+
+/// The step of all other columns. On a mill whose lowest insert triggers every reading, the tangent of its height is
+/// that of the tool's length: a step of both together leads anywhere, and is for the better while the length is off.
+Vector without_moving(const std::vector<Index>& held, const JointFit& fit, const std::vector<Index>& rows) {
+  std::vector<Index> others;
+  for (Index j = 0; j < fit.design.fixed.cols(); ++j)
+    if (std::ranges::find(held, j) == held.end()) others.push_back(j);
+  Design rest = fit.design;
+  rest.fixed = Matrix(fit.design.fixed(Eigen::all, others));
+  const auto use = independent(rest, rows);
+  const Whitened plain(rest, rows, use, {});
+  const Vector x = plain.coefficients(plain.winsorised(plain.take(fit.residual)));
+  Vector out = Vector::Zero(fit.design.fixed.cols());
+  for (std::size_t i = 0; i < use.size(); ++i) out[others[index(use[i])]] = x[index(i)];
+  return out;
+}
+
+} // namespace
+
 JointFit Fitter::fit(const std::vector<Term>& terms, double noise, const JointFit* start) const {
   JointFit fit;
   fit.at = start ? without_terms(*start) : simulator_.estimates();
@@ -140,6 +171,11 @@ JointFit Fitter::fit(const std::vector<Term>& terms, double noise, const JointFi
     const Scan scan(fit.design, rows_, {}, threads_);
     fit.noise *= scan.run(scan.whitened(scan.plain()).take(fit.residual)).scale[0];
     linearise(fit);
+  }
+  if (const auto held = start_columns(fit); !held.empty()) {
+    apply(fit, without_moving(held, fit, rows_), 1);
+    if (!linearise(fit)) fit.valid = fit.converged = false;
+    if (!fit.valid) return fit;
   }
   converge(fit, noise);
   for (int lesser = 0; lesser < criteria.most_optima && fit.valid && explore(fit); ++lesser) converge(fit, noise);
