@@ -178,6 +178,23 @@ Moments moments(std::span<const double> x, int threads) {
   return m;
 }
 
+namespace {
+
+/// Values that differ by the rounding of their own computation alone, as where a common error cancels, are one value.
+void join_rounded(Summary& s) {
+  constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
+  if (!(s.standard_uncertainty > 0 && s.standard_uncertainty <= rounding * std::fabs(s.estimate))) return;
+  s.standard_uncertainty = s.standard_uncertainty_se = s.estimate_se = s.monte_carlo_expanded = 0;
+  s.skewness = s.kurtosis = s.shortest_length_se = 0;
+  for (Interval* i : {&s.symmetric, &s.shortest}) {
+    i->low = i->high = s.estimate;
+    i->low_se = i->high_se = 0;
+    if (s.failed == 0) i->low_rank = i->high_rank = s.estimate;
+  }
+}
+
+} // namespace
+
 Summary summarise(const propagation::Output& output, std::span<const double> values, double p, int threads) {
   Summary s;
   s.output = output;
@@ -226,6 +243,7 @@ Summary summarise(const propagation::Output& output, std::span<const double> val
     s.shortest.high_rank = s.symmetric.high_rank;
   }
   histogram(s, values, ordered[0], ordered[s.valid - 1], threads);
+  join_rounded(s);
   return s;
 }
 

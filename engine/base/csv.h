@@ -30,7 +30,7 @@ struct Csv {
   /// Index of the column, or -1.
   int find(std::string_view name) const;
   std::vector<std::string> names() const; ///< column names, in order
-  /// The cell as a finite number; throws InputError with the cell's location. `decimal`: its decimal sign, '.' or ','.
+  /// The cell as a finite number, "1.234,5" as well; throws InputError with its location. `decimal`: its sign, '.' or ','.
   double number(const CsvCell& cell, char decimal = '.') const;
 };
 
@@ -43,7 +43,7 @@ struct CsvLayout {
 
 /// `separator`: ',', ';', '\t', or ' ' for any number of blanks. '\0' takes it from the header: a comma if it has one outside
 /// quotes, otherwise a semicolon or a tab. A line that begins with # is a comment. Quoted cells may contain separators,
-/// doubled quotes and line ends; rows without any text are skipped; a byte order mark and CR LF are accepted. Throws
+/// doubled quotes and line ends; empty rows and heads that come again are skipped; a BOM and CR LF are accepted. Throws
 /// InputError with every problem, located: no header, an unnamed or repeated column, a row of another length, an unclosed
 /// quote. A last column without a name and without any text is none: lines may end with a separator.
 Csv parse_csv(std::string_view text, const std::string& file, const CsvLayout& layout = {});

@@ -131,7 +131,7 @@ def fit(study, outputs):
     tested = math.isfinite(study.chi_squared)
     unit, show = in_finer_unit(study, study.scatter) if scaled else ("", None)
     return types.SimpleNamespace(
-        meaning=study.meaning, equations=study.equations, freedom=f"{study.degrees_of_freedom:.4g}",
+        meaning=study.meaning, equations=study.equations, freedom=f"{study.degrees_of_freedom:.4g}" if math.isfinite(study.degrees_of_freedom) else NONE,
         s=show(study.scatter) + (f"\u202f{unit}" if unit else "") if scaled else "",
         chi_squared=significant(study.chi_squared, 3) if tested else "",
         probability=chance(study.probability) if tested else "",
