@@ -23,7 +23,8 @@ const ProductKernels& product_kernels() {
   return gumshoe_products_sse2;
 }
 
-Eigen::MatrixXd transposed_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+Eigen::MatrixXd transposed_product(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::MatrixXd& b) {
+  eigen_assert(a.cols() <= 1 || a.outerStride() == a.rows());
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(a.cols(), b.cols());
   const auto size = [](Eigen::Index i) { return static_cast<std::size_t>(i); };
   product_kernels().transposed(size(a.rows()), size(a.cols()), size(b.cols()), a.data(), b.data(), out.data());

@@ -5,7 +5,7 @@
 
 namespace gumshoe {
 
-/// a'b.
-Eigen::MatrixXd transposed_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+/// a'b. The columns of `a` lie one after the other.
+Eigen::MatrixXd transposed_product(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::MatrixXd& b);
 
 } // namespace gumshoe

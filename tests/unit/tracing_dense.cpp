@@ -133,6 +133,15 @@ Candidate candidate(const Matrix& columns) {
 
 Vector outside(const Matrix& columns, const Vector& y) { return y - columns * columns.colPivHouseholderQr().solve(y); }
 
+Matrix left_by(const Matrix& columns, const Matrix& y) {
+  if (columns.cols() == 0) return y;
+  Eigen::ColPivHouseholderQR<Matrix> qr(columns);
+  qr.setThreshold(1e-9);
+  Matrix basis = Matrix::Identity(columns.rows(), qr.rank());
+  basis.applyOnTheLeft(qr.householderQ());
+  return y - basis * (basis.transpose() * y);
+}
+
 Index rank(const Matrix& m) { return Eigen::ColPivHouseholderQR<Matrix>(m).rank(); }
 
 Matrix solved(const Matrix& v, const Matrix& f) { return v.llt().solve(f); }

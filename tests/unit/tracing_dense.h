@@ -37,6 +37,8 @@ Matrix joined(const Matrix& a, const Matrix& b);
 Candidate candidate(const Matrix& columns);
 /// y less its projection on the columns.
 Vector outside(const Matrix& columns, const Vector& y);
+/// The same of columns of any rank, all of about one length, and of several y at once.
+Matrix left_by(const Matrix& columns, const Matrix& y);
 Index rank(const Matrix& m);
 /// v^-1 f of a positive definite matrix v.
 Matrix solved(const Matrix& v, const Matrix& f);

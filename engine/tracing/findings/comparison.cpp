@@ -104,7 +104,7 @@ private:
 
   /// Scatter of readings of equal conditions; its interval by what the fitted noise gives in draws.
   void replicate_floor() {
-    const PureError pure(after_.design, rows_, c_.fitter.replicates(), after_.covariance_model);
+    const PureError pure(after_.design, rows_, c_.fitter.replicates(), c_.threads, after_.covariance_model);
     if (!pure.known()) return;
     const double reference = after_.design.reference[0];
     Vector drawn = pure.scale(noise_(rows_, Eigen::all));

@@ -187,7 +187,7 @@ std::optional<Fitter::Scatter> Fitter::scatter_about_cells() const {
   const auto k = index(observations_.indications);
   const JointFit fit = linearised(1);
   if (!fit.valid || rows_.size() < 8 * index(k)) return std::nullopt;
-  const PureError pure(fit.design, rows_, replicates_);
+  const PureError pure(fit.design, rows_, replicates_, threads_);
   if (!pure.known()) return std::nullopt; // what the model lacks would count as noise
   const Matrix about = pure.about_cells(fit.residual(rows_));
   Scatter out{Vector(k), false};
@@ -212,7 +212,7 @@ std::optional<Fitter::Scatter> Fitter::scatter_about_cells() const {
 void Fitter::find_covariance_models() {
   const JointFit fit = linearised(1);
   if (!fit.valid) return;
-  const PureError pure(fit.design, rows_, replicates_);
+  const PureError pure(fit.design, rows_, replicates_, threads_);
   if (!pure.known() || pure.cells() * observations_.indications > criteria.most_cells_of_noise) return;
   Design d = fit.design;
   const auto fix = [&](const Matrix& columns) {
@@ -226,11 +226,10 @@ void Fitter::find_covariance_models() {
   fix(columns_by_group(rows_, d.indications, replicates_.cell, false));
   const Vector residual = fit.residual(rows_);
   const auto models = covariance_models(d, rows_.size());
-  const Vector about_cells = Scan(d, rows_, {}, threads_).criteria_of(residual);
+  const Vector about_cells = criteria_of(d, rows_, residual, threads_);
   for (const bool line : {false, true}) fix(columns_by_group(rows_, d.indications, replicates_.pass, line));
-  const Scan lines(d, rows_, {}, threads_);
-  const Vector about_lines = lines.criteria_of(residual);
-  const bool few = static_cast<double>(lines.degrees_of_freedom()) < criteria.least_pure_freedom;
+  const Vector about_lines = criteria_of(d, rows_, residual, threads_);
+  const bool few = static_cast<double>(rows_.size() - independent(d, rows_).size()) < criteria.least_pure_freedom;
   for (std::size_t i = 0; i < models.size(); ++i) {
     double least = about_cells[index(i)], least_by_lines = about_lines[index(i)];
     for (std::size_t j = 0; j < models.size(); ++j) {

@@ -86,15 +86,15 @@ Vector Fitter::released_draws(const JointFit& fit) const {
 /// of the fitted draws. What is shared but not fitted is left out by the linearised model.
 double Fitter::objective(const JointFit& fit, const CovarianceModel& model, const Scan& scan) const {
   Design others = fit.design;
-  others.random.resize(others.random.rows(), 0);
+  Index kept = 0;
   double squares = 0;
   for (std::size_t j = 0; j < fit.draw_of.size(); ++j) {
     const std::size_t v = fit.draw_of[j];
     squares += fit.drawn[index(v)] * fit.drawn[index(v)];
     if (draws_[v].fitted) continue;
-    others.random.conservativeResize(Eigen::NoChange, others.random.cols() + 1);
-    others.random.rightCols(1) = fit.design.random.col(index(j));
+    others.random.col(kept++) = fit.design.random.col(index(j));
   }
+  others.random.conservativeResize(Eigen::NoChange, kept);
   const Whitened here(others, rows_, {}, model);
   const Matrix chosen = scan.winsorised(here.take(fit.residual)) - here.take(drawn_part(fit));
   return here.squares(chosen)[0] + squares;

@@ -52,6 +52,10 @@ void Fitter::set_fixed(const Matrix& derivative, const std::vector<std::size_t>&
             derivative.col(needed(unknowns_[u].quantity)).segment(index(r) * k, k);
     d.fixed_names.push_back(unknowns_[u].name);
   }
+  Index sizes = 0, next = fixed.cols();
+  for (const Term& t : fit.terms) sizes += t.size.size();
+  fixed.conservativeResize(Eigen::NoChange, next + sizes);
+  fixed.rightCols(sizes).setZero();
   d.fixed = in_sequence(o, fixed);
   for (Term& t : fit.terms)
     for (Index j = 0; j < t.size.size(); ++j) {
@@ -65,8 +69,7 @@ void Fitter::set_fixed(const Matrix& derivative, const std::vector<std::size_t>&
       } else {
         fit.residual -= t.candidate.columns.col(j) * t.size[j];
       }
-      d.fixed.conservativeResize(Eigen::NoChange, d.fixed.cols() + 1);
-      d.fixed.rightCols(1) = t.candidate.columns.col(j);
+      d.fixed.col(next++) = t.candidate.columns.col(j);
       d.fixed_names.push_back(t.candidate.name);
     }
 }
@@ -160,7 +163,7 @@ void Fitter::set_declared(const Matrix& derivative, JointFit& fit) const {
       shared.col(index(group.variates[j])) = sum;
     }
   }
-  d.random.resize(n, 0);
+  d.random.resize(n, index(used.size()));
   d.random_names.clear();
   fit.draw_of.clear();
   d.bent.clear();
@@ -171,19 +174,20 @@ void Fitter::set_declared(const Matrix& derivative, JointFit& fit) const {
     table_of[i] = static_cast<int>(d.bends.size());
     d.bends.push_back(in_sequence(o, responses_[i].table));
   }
+  Index kept = 0;
   // By name: the numbers of draws depend on the order of rows in the file.
   std::ranges::stable_sort(used, [&](std::size_t a, std::size_t b) { return draws_[a].name < draws_[b].name; });
   for (const std::size_t v : used) {
     const Vector one = in_sequence(o, shared.col(index(v)));
     if (!(one.norm() > 1e-6 * d.reference[0]) && fit.drawn[index(v)] == 0) continue;
-    d.random.conservativeResize(n, d.random.cols() + 1);
-    d.random.rightCols(1) = one;
+    d.random.col(kept++) = one;
     d.random_names.push_back(draws_[v].name);
     fit.draw_of.push_back(v);
     const std::size_t moved = draws_[v].moves.front().second;
     const bool may_bend = std::binary_search(needed_.begin(), needed_.end(), moved);
     d.bent.push_back(may_bend ? table_of[index(needed(moved))] : -1);
   }
+  d.random.conservativeResize(Eigen::NoChange, kept);
 }
 
 Vector Fitter::drawn_part(const JointFit& fit) const {

@@ -36,7 +36,41 @@ Matrix orthonormal(const Matrix& reduced, const Vector& length) {
   return out.leftCols(kept);
 }
 
+double criterion(double left, const Whitened& w) {
+  return static_cast<double>(w.degrees_of_freedom()) * std::log(std::max(left, 1e-300)) + w.log_determinant();
+}
+
 } // namespace
+
+Vector criteria_of(const Design& design, const std::vector<Index>& rows, const Vector& residuals, int threads) {
+  const auto models = covariance_models(design, rows.size());
+  const Whitened plain(design, rows, independent(design, rows), {});
+  const Matrix data = plain.in_units(plain.winsorised(residuals));
+  Vector out(index(models.size()));
+  // Each is dropped at once: with cells and lines among the columns, their rotations would take much memory.
+  propagation::parallel_for(models.size(), threads, [&](std::size_t k) {
+    const Whitened w(plain, models[k]);
+    out[index(k)] = criterion(w.squares_units(data)[0], w);
+  });
+  return out;
+}
+
+void put(const Statistics& some, Index first, Index sets, Statistics& all) {
+  for (Matrix Statistics::*of : {&Statistics::ratio, &Statistics::scatter}) {
+    (all.*of).conservativeResize((some.*of).rows(), sets);
+    (all.*of).middleCols(first, (some.*of).cols()) = some.*of;
+  }
+  for (Vector Statistics::*of : {&Statistics::scale, &Statistics::criterion, &Statistics::variance,
+                                 &Statistics::variance_cautious, &Statistics::variance_without_scatter}) {
+    (all.*of).conservativeResize(sets);
+    (all.*of).segment(first, (some.*of).size()) = some.*of;
+  }
+  for (std::vector<std::size_t> Statistics::*of :
+       {&Statistics::covariance_model, &Statistics::cautious, &Statistics::without_scatter}) {
+    (all.*of).resize(index(sets));
+    std::ranges::copy(some.*of, (all.*of).begin() + first);
+  }
+}
 
 Scan::Scan(const Design& design, const std::vector<Index>& rows, const std::vector<const Candidate*>& candidates,
            int threads)
@@ -129,9 +163,7 @@ double Scan::squares_of(double criterion, std::size_t k) const {
   return std::exp((criterion - whitened_[k].log_determinant()) / static_cast<double>(freedom_));
 }
 
-double Scan::criterion(double left, std::size_t k) const {
-  return static_cast<double>(freedom_) * std::log(std::max(left, 1e-300)) + whitened_[k].log_determinant();
-}
+double Scan::criterion(double left, std::size_t k) const { return tracing::criterion(left, whitened_[k]); }
 
 NoiseShape Scan::noise_shape(const Vector& residuals) const {
   // Share of normal numbers that would be winsorised.
@@ -159,19 +191,21 @@ Matrix Scan::with_signatures(const Matrix& data, const Matrix& without, double r
       for (Index j = 0; j < sets; ++j)
         if (without(index(k), j) - least[j] <= reach) near.push_back(j);
       if (near.empty()) continue;
-      const Matrix left = whitened_[k].reduce_units(data(Eigen::all, near));
+      const Matrix weighted = whitened_[k].weighted_units(data(Eigen::all, near));
       by_blocks([&](std::size_t first, std::size_t last) {
-        const Matrix explained = transposed_product(signatures(first, last, k), left).array().square();
-        for (std::size_t i = 0; i < near.size(); ++i) {
-          Index from = 0;
-          for (std::size_t a = first; a < last; ++a) {
-            const Index columns = orthonormal_[k][a].cols();
-            if (columns == 0) continue;
+        const auto from = first_column_[first];
+        const Matrix products = transposed_product(units_.middleCols(from, first_column_[last] - from), weighted);
+        for (std::size_t a = first; a < last; ++a) {
+          const Matrix& factor = orthonormal_[k][a];
+          if (factor.cols() == 0) continue;
+          const Matrix own = products.middleRows(first_column_[a] - from, factor.rows()),
+                       explained = transposed_product(factor, own);
+          for (std::size_t i = 0; i < near.size(); ++i) {
             double& least_so_far = best[part](index(a), near[i]);
-            const double squares = squares_of(without(index(k), near[i]), k),
-                         rest = squares - explained.col(index(i)).segment(from, columns).sum();
-            least_so_far = std::min(least_so_far, criterion(std::max(rest, 1e-12 * squares), k));
-            from += columns;
+            const double squares = squares_of(without(index(k), near[i]), k);
+            double gone = 0;
+            for (Index j = 0; j < explained.rows(); ++j) gone += explained(j, index(i)) * explained(j, index(i));
+            least_so_far = std::min(least_so_far, criterion(std::max(squares - gone, 1e-12 * squares), k));
           }
         }
       });
@@ -179,13 +213,6 @@ Matrix Scan::with_signatures(const Matrix& data, const Matrix& without, double r
   });
   Matrix out = Matrix::Constant(candidates, sets, infinite);
   for (const Matrix& b : best) out = out.cwiseMin(b);
-  return out;
-}
-
-Vector Scan::criteria_of(const Vector& residuals) const {
-  const Matrix data = whitened_[plain_].in_units(winsorised(residuals));
-  Vector out(index(models_.size()));
-  for (std::size_t k = 0; k < models_.size(); ++k) out[index(k)] = criterion(whitened_[k].squares_units(data)[0], k);
   return out;
 }
 

@@ -23,12 +23,20 @@ struct Statistics {
   Vector variance_without_scatter;           ///< [set]: and under `without_scatter`
 };
 
+/// Writes the statistics of some sets into those of all, from set `first` on. @param all  empty, or of `sets` sets
+void put(const Statistics& some, Index first, Index sets, Statistics& all);
+
 /// One candidate in one data set.
 struct Fit {
   Vector size, u;                   ///< by column of the candidate, SI
   double ratio = 0;                 ///< 2 ln of the likelihood ratio
   std::size_t covariance_model = 0; ///< the best with the signature
 };
+
+/// Minus 2 ln likelihood of one data set under each covariance model, but for a constant.
+/// @param rows       chosen rows of the design
+/// @param residuals  of these, SI. Winsorised here.
+Vector criteria_of(const Design& design, const std::vector<Index>& rows, const Vector& residuals, int threads);
 
 /// Keeps references to the design and the candidates.
 class Scan {
@@ -41,8 +49,6 @@ public:
   /// @param reach      covariance models whose criterion is further above the best one's are not tried with a
   ///                   signature: for noise alone, where no signature makes up for so much
   Statistics run(const Matrix& residuals, double reach = std::numeric_limits<double>::infinity()) const;
-  /// Minus 2 ln likelihood of one data set under each covariance model without a signature, but for a constant.
-  Vector criteria_of(const Vector& residuals) const;
   Fit fit(std::size_t candidate, const Vector& residuals) const;
   /// Two candidates together, under a given covariance model: 2 ln of the likelihood ratio against neither.
   double pair_ratio(std::size_t a, std::size_t b, const Vector& residuals, std::size_t model) const;

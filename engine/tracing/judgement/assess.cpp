@@ -84,10 +84,12 @@ private:
 class RepeatStatistics {
 public:
   RepeatStatistics(const Repeats* repeats, const Vector& residuals) : repeats_(repeats), observed_(of(residuals)) {}
-  void match(const Matrix& draws) {
-    drawn_ = of(draws);
-    nulls_ = nulls_of(drawn_);
+  /// Takes some of the draws, from set `first` on.
+  void take(const Matrix& draws, Index first, Index sets) {
+    drawn_.conservativeResize(observed_.rows(), sets);
+    drawn_.middleCols(first, draws.cols()) = of(draws);
   }
+  void match() { nulls_ = nulls_of(drawn_); }
   double p_lack_of_fit() const { return tests_fit() ? nulls_[0].p(observed_(0, 0)) : 1; }
   std::vector<double> p_blocks() const {
     std::vector<double> out;
@@ -146,9 +148,16 @@ Assessment assess(const Scan& scan, const Vector& residuals, int draws, std::uin
   const Index sets = draws;
   RepeatStatistics repeated(repeats, residuals);
   const auto null_draws = [&](std::size_t k, double variance, std::uint64_t key) {
-    const Matrix drawn = std::sqrt(variance) * scan.whitened(k).draw(2 * index(sets), key, out.noise_shape);
-    repeated.match(drawn);
-    return scan.run(drawn, criteria.beyond_chance);
+    Statistics all;
+    constexpr Index together = 512; // so that memory does not grow with the draws
+    for (Index first = 0; first < 2 * sets; first += together) {
+      const Draws some{index(first), index(std::min(together, 2 * sets - first)), index(2 * sets)};
+      const Matrix drawn = std::sqrt(variance) * scan.whitened(k).draw(some, key, out.noise_shape);
+      repeated.take(drawn, first, 2 * sets);
+      put(scan.run(drawn, criteria.beyond_chance), first, 2 * sets, all);
+    }
+    repeated.match();
+    return all;
   };
   // Nothing at all: no variance component either.
   const Statistics nothing = null_draws(k0, out.data.variance_without_scatter[0], seed);

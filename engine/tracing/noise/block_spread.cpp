@@ -18,8 +18,9 @@ struct Means {
 std::vector<Means> means(const Vector& sizes, const std::vector<std::size_t>& block, std::size_t blocks) {
   std::vector<Means> out(blocks);
   for (Index i = 0; i < sizes.size(); ++i) out[block[index(i)]].own += sizes[i], ++out[block[index(i)]].count;
+  const double sum = sizes.sum();
   for (Means& m : out) {
-    m.others = (sizes.sum() - m.own) / std::max(1.0, static_cast<double>(sizes.size()) - m.count);
+    m.others = (sum - m.own) / std::max(1.0, static_cast<double>(sizes.size()) - m.count);
     m.own /= std::max(1.0, m.count);
   }
   return out;

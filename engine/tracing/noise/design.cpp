@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "tracing/criteria.h"
+#include "tracing/noise/sparse_columns.h"
 
 namespace gumshoe::tracing {
 
@@ -50,21 +51,22 @@ void declare_scatter(Design& d, CovarianceModel& model) {
 }
 
 std::vector<Index> independent(const Design& d, const std::vector<Index>& rows) {
-  Matrix all(index(rows.size()), d.fixed.cols());
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    all.row(index(i)) = d.fixed.row(rows[i]) / d.reference[index(rows[i]) % d.indications];
-  std::vector<Index> out;
-  Matrix basis(all.rows(), 0);
-  for (Index j = 0; j < all.cols(); ++j) {
-    const double length = all.col(j).norm();
-    if (!(length > 0)) continue;
-    Vector x = all.col(j) / length;
-    for (int pass = 0; pass < 2; ++pass) x -= basis * (basis.transpose() * x);
-    if (x.norm() < 1e-7) continue; // rounding
-    basis.conservativeResize(Eigen::NoChange, basis.cols() + 1);
-    basis.rightCols(1) = x.normalized();
-    out.push_back(j);
+  const auto columns = index(d.fixed.cols());
+  std::vector<SparseRow> sparse(rows.size());
+  for (std::size_t j = 0; j < columns; ++j) {
+    if (!d.fixed.col(index(j)).allFinite()) continue; // serves no fit
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (const double x = d.fixed(rows[i], index(j)); x != 0)
+        sparse[i].push_back({j, x / d.reference[index(rows[i]) % d.indications]});
   }
+  std::vector<Index> out;
+  auto left_out = explained_by_earlier(sparse, columns);
+  left_out.push_back(columns); // the end
+  for (std::size_t j = 0, next = 0; j < columns; ++j)
+    if (left_out[next] == j)
+      ++next;
+    else
+      out.push_back(index(j));
   return out;
 }
 

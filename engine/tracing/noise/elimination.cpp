@@ -66,7 +66,7 @@ public:
     if (free_.empty()) {
       free_.push_back(index(to_.slots_++));
       const Index size = index(to_.slots_);
-      if (factor_.rows() < size) factor_.conservativeResizeLike(Matrix::Zero(2 * size, 2 * size));
+      if (factor_.rows() < size) factor_.conservativeResizeLike(ByRow::Zero(2 * size, 2 * size));
       row_.resize(to_.slots_, 0);
     }
     const Index slot = free_.back();
@@ -82,18 +82,21 @@ public:
 
   void rotate(const SparseRow& row) {
     for (const auto& [column, value] : row) row_[index(slot_of_[column])] += value;
-    for (std::size_t i = 0; i < columns_.size(); ++i) {
-      const Index slot = slot_of_[columns_[i]];
+    slots_.clear();
+    for (const std::size_t column : columns_) slots_.push_back(slot_of_[column]);
+    for (std::size_t i = 0; i < slots_.size(); ++i) {
+      const Index slot = slots_[i];
       double& own = row_[index(slot)];
-      if (std::fabs(own) < nothing) own = 0; // rotated again and again by angles of rounding; its square is none
+      if (std::fabs(own) < to_.negligible_) own = 0; // rotated again and again by angles of rounding
       if (own == 0) continue;
       const double before = factor_(slot, slot), length = std::sqrt(before * before + own * own);
       const double c = before / length, s = own / length;
       factor_(slot, slot) = length;
       own = 0;
-      for (std::size_t j = i + 1; j < columns_.size(); ++j) {
-        const Index other = slot_of_[columns_[j]];
-        double &x = factor_(slot, other), &y = row_[index(other)];
+      double* const pivot = factor_.row(slot).data();
+      for (std::size_t j = i + 1; j < slots_.size(); ++j) {
+        const Index other = slots_[j];
+        double &x = pivot[other], &y = row_[index(other)];
         const double z = x;
         x = c * z + s * y;
         y = c * y - s * z;
@@ -123,20 +126,20 @@ public:
 
 private:
   static constexpr Index none = -1;
-  static constexpr double nothing = 1e-140; ///< in units of the noise
   Elimination& to_;
   std::size_t free_columns_;
   std::vector<std::size_t> last_; ///< by column: the last row that it moves
   std::vector<Index> slot_of_;    ///< by column
   std::vector<Index> free_;       ///< slots
   std::vector<std::size_t> columns_;
-  std::vector<double> row_; ///< by slot
-  Matrix factor_;           ///< [slot][slot]
+  std::vector<Index> slots_; ///< of these
+  std::vector<double> row_;  ///< by slot
+  ByRow factor_;             ///< [slot][slot]
 };
 
 Elimination::Elimination(const std::vector<SparseRow>& correlated, std::size_t columns, std::size_t free,
-                         const Serial& serial)
-    : serial_(serial), columns_(columns), log_pivot_(columns, 0) {
+                         const Serial& serial, double negligible)
+    : serial_(serial), negligible_(negligible), columns_(columns), log_pivot_(columns, 0) {
   const auto rows = decorrelated(correlated, serial);
   std::vector<std::size_t> last(columns, 0);
   for (std::size_t i = 0; i < rows.size(); ++i)
@@ -151,6 +154,15 @@ Elimination::Elimination(const std::vector<SparseRow>& correlated, std::size_t c
     closed_end_.push_back(static_cast<std::uint32_t>(closed_.size()));
   }
   for (const Pivot& p : pivots_) log_pivot_[index(p.column)] = std::log(std::fabs(p.value));
+}
+
+std::vector<std::size_t> Elimination::explained(double length) const {
+  std::vector<bool> own(columns_, false);
+  for (const Pivot& p : pivots_) own[index(p.column)] = std::fabs(p.value) > length;
+  std::vector<std::size_t> out;
+  for (std::size_t j = 0; j < columns_; ++j)
+    if (!own[j]) out.push_back(j);
+  return out;
 }
 
 EliminationPlan Elimination::plan() const {

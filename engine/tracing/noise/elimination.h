@@ -25,13 +25,15 @@ std::vector<SparseRow> decorrelated(const std::vector<SparseRow>& rows, const Se
 /// first have a unit row, 0 = coefficient, too.
 class Elimination {
 public:
-  Elimination(const std::vector<SparseRow>& rows, std::size_t columns, std::size_t free, const Serial& serial = {});
+  /// @param negligible  what is left of an entry below this counts as zero; by default its square is none
+  Elimination(const std::vector<SparseRow>& rows, std::size_t columns, std::size_t free, const Serial& serial = {},
+              double negligible = 1e-140);
 
   /// What is left of products: reduced(a)' reduced(b) = a'Pb.
   Matrix reduced(Matrix x) const;
   /// Sum of squares of each column of reduced(x).
   Vector squares(const Matrix& x) const;
-  /// P x: what the columns leave of each row. Rows without correlation only.
+  /// a' projected(b) = reduced(a)' reduced(b). P x, what the columns leave of each row, if rows are not correlated.
   Matrix projected(Matrix x) const;
   /// Coefficients of the columns that fit x best, columns x any; 0 where the rows do not determine one.
   Matrix solved(const Matrix& x) const;
@@ -39,6 +41,8 @@ public:
   Matrix covariance(Index count) const;
   /// ln |R[j, j]| of the triangular factor.
   double log_pivot(std::size_t column) const { return log_pivot_[column]; }
+  /// Columns of which those eliminated before leave no more than this length, ascending.
+  std::vector<std::size_t> explained(double length) const;
 
 private:
   /// A row of the triangular factor R.
@@ -57,6 +61,7 @@ private:
   void substitute_transposed(ByRow& x) const; ///< R'^-1 x in place
 
   Serial serial_;
+  double negligible_;
   std::size_t columns_ = 0, slots_ = 0;
   std::vector<double> log_pivot_;
   std::vector<Pivot> pivots_; ///< in the order of elimination

@@ -61,6 +61,20 @@ template <std::size_t lanes> void reduce_of(const EliminationPlan& plan, double*
   }
 }
 
+/// Row `y` as the transpose of what makes rows uncorrelated has it; `after` is the row a lag after it, which it
+/// replaces.
+template <std::size_t lanes>
+void correlate(double correlation, bool first, bool last, double* after, Values<lanes>& y) {
+  const Values<lanes> own = y;
+  const Lanes rho(correlation), factor(1 / std::sqrt(1 - correlation * correlation));
+  const Values<lanes> next(after);
+  for (std::size_t p = 0; p < Values<lanes>::parts; ++p) {
+    if (!first) y.part[p] = factor * y.part[p];
+    if (!last) y.part[p] = y.part[p] - rho * (factor * next.part[p]);
+  }
+  own.store(after);
+}
+
 template <std::size_t lanes> void restore_of(const EliminationPlan& plan, double* t, double* state) {
   for (std::size_t row = plan.rows; row-- > 0;) {
     const std::size_t before = row > 0 ? row - 1 : 0;
@@ -69,6 +83,9 @@ template <std::size_t lanes> void restore_of(const EliminationPlan& plan, double
     Values<lanes> y(t + lanes * row);
     for (std::uint32_t i = plan.rotation_end[row]; i-- > (row > 0 ? plan.rotation_end[before] : 0);)
       rotate<lanes>(plan.cosine[i], -plan.sine[i], state + lanes * plan.slot[i], y);
+    if (plan.correlation != 0)
+      correlate<lanes>(plan.correlation, row < plan.lag, row + plan.lag >= plan.rows,
+                       state + lanes * (plan.slots + row % plan.lag), y);
     y.store(t + lanes * row);
   }
 }

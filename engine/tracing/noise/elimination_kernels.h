@@ -22,7 +22,7 @@ struct EliminationKernels {
   /// Rows are made uncorrelated and rotated into the open slots; what is left of them stays in t. `kept` [close][lane]:
   /// what a slot holds when it closes; or null.
   void (*reduce)(const EliminationPlan& plan, std::size_t lanes, double* t, double* state, double* kept);
-  /// Rotates uncorrelated rows back, with nothing in the slots.
+  /// The transpose of what `reduce` does to rows: rotates back, with nothing in the slots, and correlates.
   void (*restore)(const EliminationPlan& plan, std::size_t lanes, double* t, double* state);
 };
 

@@ -3,28 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
+#include <set>
+#include <span>
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
-
+#include "propagation/parallel.h"
 #include "tracing/criteria.h"
 
 namespace gumshoe::tracing {
 namespace {
 
 constexpr double rounding = 1e-9;
-
-/// Orthonormal columns that span those given.
-Matrix orthonormal(Matrix columns) {
-  for (Index j = 0; j < columns.cols(); ++j)
-    if (const double length = columns.col(j).norm(); length > 0) columns.col(j) /= length;
-  if (columns.cols() == 0) return columns;
-  Eigen::ColPivHouseholderQR<Matrix> qr(columns);
-  qr.setThreshold(rounding);
-  Matrix out = Matrix::Identity(columns.rows(), std::min(columns.rows(), qr.rank()));
-  out.applyOnTheLeft(qr.householderQ());
-  return out;
-}
 
 double robust_scale(const Vector& residual, double freedom) {
   std::vector<double> sizes(index(residual.size()));
@@ -41,20 +30,6 @@ double robust_scale(const Vector& residual, double freedom) {
 
 double PureError::least_freedom() { return criteria.least_pure_freedom; }
 
-Matrix PureError::Projection::off_cells(Matrix x) const {
-  for (const auto& [rows, q] : by_cell) {
-    const Matrix own = x(rows, Eigen::all);
-    x(rows, Eigen::all) = own - q * (q.transpose() * own);
-  }
-  return x;
-}
-
-Matrix PureError::Projection::operator()(const Matrix& x) const {
-  Matrix out = off_cells(x);
-  out -= basis * (basis.transpose() * out);
-  return out;
-}
-
 Matrix PureError::whitened(const Matrix& residuals) const {
   Matrix out = residuals;
   const auto k = index(design_.indications);
@@ -63,136 +38,191 @@ Matrix PureError::whitened(const Matrix& residuals) const {
   return out;
 }
 
-PureError::Projection PureError::projection(const std::vector<std::size_t>& cell, bool lines,
-                                            const Matrix& others) const {
-  Projection out;
-  const auto k = index(design_.indications);
-  std::map<std::size_t, std::vector<Index>> places; // by cell: first rows of its readings
-  for (std::size_t i = 0; i < rows_.size() && !cell.empty(); i += index(k))
-    places[cell[index(rows_[i] / k)]].push_back(index(i));
-  double taken = 0;
-  for (const auto& [number, first] : places) {
-    const bool line = lines && first.size() >= criteria.repeats_for_line;
-    std::vector<Index> rows;
-    Matrix own = Matrix::Zero(index(first.size()) * k, line ? 2 * k : k);
-    for (std::size_t r = 0; r < first.size(); ++r) {
-      const auto at = index(r) * k;
-      const Index place = rows_[index(first[r])] / k;
-      for (Index j = 0; j < k; ++j) {
-        rows.push_back(first[r] + j);
-        own(at + j, j) = 1;
-        if (line) own(at + j, k + j) = static_cast<double>(place - rows_[index(first[first.size() / 2])] / k);
-      }
-      design_.local[index(place)].triangularView<Eigen::Lower>().solveInPlace(own.middleRows(at, k));
-    }
-    out.by_cell.emplace_back(std::move(rows), orthonormal(std::move(own)));
-    taken += static_cast<double>(out.by_cell.back().second.cols());
-  }
-  // Of a column that the cells explain only rounding is left.
-  const Vector length = others.colwise().norm();
-  Matrix left = out.off_cells(others);
-  std::vector<Index> kept;
-  for (Index j = 0; j < left.cols(); ++j)
-    if (left.col(j).norm() > 1e-7 * length[j]) kept.push_back(j);
-  out.basis = orthonormal(left(Eigen::all, kept));
-  out.freedom = static_cast<double>(rows_.size()) - taken - static_cast<double>(out.basis.cols());
-  return out;
-}
+Projection PureError::without(const SparseColumns& columns) const { return {columns.rows(), columns.count(), orders_}; }
 
-PureError::PureError(const Design& d, const std::vector<Index>& rows, const Replicates& replicates,
+PureError::PureError(const Design& d, const std::vector<Index>& rows, const Replicates& replicates, int threads,
                      const CovarianceModel& model)
-    : design_(d), rows_(rows), replicates_(replicates) {
-  const auto add = [&](Matrix& to, const std::vector<std::size_t>& group, bool line) {
-    const Matrix more = columns_by_group(rows, d.indications, group, line);
-    to.conservativeResize(Eigen::NoChange, to.cols() + more.cols());
-    to.rightCols(more.cols()) = more;
-  };
-  Matrix own(index(rows.size()), d.fixed.cols() + d.random.cols());
-  own << d.fixed(rows, Eigen::all), d.random(rows, Eigen::all);
-  if (replicates.passes_are_blocks) add(own, replicates.pass, false);
-  nuisance_ = whitened(own);
-  Matrix drifts = own;
-  if (!replicates.passes_are_blocks) add(drifts, replicates.pass, false);
-  add(drifts, replicates.pass, true);
+    : design_(d), rows_(rows), replicates_(replicates), threads_(threads), orders_(2), nuisance_(d, rows_) {
+  const auto cell_of = [&](Index i) { return replicates.cell[index(rows_[index(i)]) / d.indications]; };
+  for (auto& order : orders_) order.resize(rows.size()), std::iota(order.begin(), order.end(), Index{0});
+  std::ranges::stable_sort(orders_[1], {}, cell_of);
+  nuisance_.add(d.fixed);
+  nuisance_.add(d.random);
+  SparseColumns drifts = nuisance_;
+  if (replicates.passes_are_blocks) nuisance_.add_constants(replicates.pass);
+  drifts.add_constants(replicates.pass);
+  drifts.add_lines(replicates.pass, 0);
   if (model.scatter >= 0) {
     const Grouping& g = d.scatter[index(model.scatter)];
     std::vector<std::size_t> group;
     for (std::size_t i = 0; i < d.reading.size(); i += d.indications) group.push_back(g.group[d.reading[i]]);
-    add(drifts, group, false);
+    drifts.add_constants(group);
   }
-  drifts = whitened(drifts);
-  pure_ = projection(replicates.cell, true, drifts);
-  if (pure_.freedom < least_freedom()) pure_ = projection(replicates.cell, false, drifts);
-  without_ = projection({}, false, nuisance_);
-  with_ = known() ? projection(replicates.cell, false, nuisance_) : without_;
-  cells_ = with_.by_cell.size();
+  drifts.add_constants(replicates.cell);
+  SparseColumns lines = drifts;
+  lines.add_lines(replicates.cell, criteria.repeats_for_line);
+  pure_ = without(lines);
+  if (freedom() < least_freedom()) pure_ = without(drifts);
+  without_ = with_ = without(nuisance_);
+  if (!known()) return;
+  SparseColumns cells = nuisance_;
+  cells.add_constants(replicates.cell);
+  with_ = without(cells);
+  std::set<std::size_t> met;
+  for (Index i = 0; i < index(rows.size()); ++i) met.insert(cell_of(i));
+  cells_ = met.size();
+}
+
+void PureError::by_sets(Index sets, const std::function<void(Index, Index)>& body) const {
+  constexpr Index together = 2 * static_cast<Index>(elimination_lanes);
+  propagation::parallel_for(index((sets + together - 1) / together), threads_, [&](std::size_t i) {
+    const Index first = index(i) * together;
+    body(first, std::min(together, sets - first));
+  });
+}
+
+Vector PureError::squares(const Projection& projection, const Matrix& data) const {
+  Vector out(data.cols());
+  by_sets(data.cols(), [&](Index first, Index count) {
+    out.segment(first, count) = projection.squares(data.middleCols(first, count));
+  });
+  return out;
+}
+
+Matrix PureError::about_cells(const Matrix& residuals) const {
+  Matrix out = whitened(residuals);
+  by_sets(out.cols(),
+          [&](Index first, Index count) { out.middleCols(first, count) = with_(out.middleCols(first, count)); });
+  return out;
 }
 
 PureError::Cleaned PureError::cleaned(const Matrix& residuals) const {
-  Cleaned out{whitened(residuals), Vector::Constant(residuals.cols(), pure_.freedom)};
-  std::vector<Index> open;
-  for (Index j = 0; j < residuals.cols(); ++j) open.push_back(j);
-  std::vector<std::vector<Index>> missing(index(residuals.cols()));
+  Cleaned out{whitened(residuals), Vector(residuals.cols()), Vector(residuals.cols())};
+  by_sets(residuals.cols(), [&](Index first, Index count) {
+    Matrix data = out.data.middleCols(first, count);
+    Vector squares, freedom;
+    clean(data, squares, freedom);
+    out.data.middleCols(first, count) = data;
+    out.squares.segment(first, count) = squares;
+    out.freedom.segment(first, count) = freedom;
+  });
+  return out;
+}
+
+namespace {
+
+/// What a projection leaves of unit vectors. They are kept as long as there is room.
+class UnitVectors {
+public:
+  UnitVectors(const Projection& projection, Index rows) : projection_(projection), rows_(rows) {}
+
+  /// Calls body(i, left) for each of these rows i, in their order.
+  template <class Body> void each(const std::vector<Index>& wanted, const Body& body) {
+    for (std::size_t first = 0; first < wanted.size(); first += elimination_lanes) {
+      const auto some = std::span(wanted).subspan(first, std::min(elimination_lanes, wanted.size() - first));
+      if (index(known_.size() + some.size()) * rows_ > room) known_.clear();
+      find(some);
+      for (const Index i : some) body(i, known_.at(i));
+    }
+  }
+
+private:
+  void find(std::span<const Index> some) {
+    std::vector<Index> missing;
+    for (const Index i : some)
+      if (!known_.contains(i)) missing.push_back(i);
+    Matrix unit = Matrix::Zero(rows_, index(missing.size()));
+    for (std::size_t j = 0; j < missing.size(); ++j) unit(missing[j], index(j)) = 1;
+    const Matrix left = projection_(unit);
+    for (std::size_t j = 0; j < missing.size(); ++j) known_.emplace(missing[j], left.col(index(j)));
+  }
+
+  static constexpr Index room = Index{1} << 22; ///< numbers: 32 MiB
+  const Projection& projection_;
+  Index rows_;
+  std::map<Index, Vector> known_;
+};
+
+} // namespace
+
+/// A replaced reading changes what is left by what is left of its unit vector, so that the data are projected once.
+void PureError::clean(Matrix& data, Vector& squares, Vector& freedom) const {
+  Matrix left = pure_(data);
+  UnitVectors unit(pure_, data.rows());
+  freedom = Vector::Constant(data.cols(), this->freedom());
+  std::vector<Index> open(index(data.cols()));
+  std::iota(open.begin(), open.end(), Index{0});
+  std::vector<std::vector<Index>> missing(open.size());
   constexpr int most = 100;        // what replaces a reading converges at least by half each time
   constexpr double settled = 1e-2; // of the scale: far below what counts
   for (int pass = 0; pass < most && !open.empty(); ++pass) {
-    const Matrix left = pure_(out.data(Eigen::all, open));
     std::vector<Index> more;
-    for (std::size_t s = 0; s < open.size(); ++s) {
-      const Index j = open[s];
+    std::map<Index, std::vector<std::pair<Index, double>>> moved; // by row: data sets, and by how much
+    for (const Index j : open) {
       auto& gone = missing[index(j)];
       double change = 0;
       for (const Index i : gone) {
-        change = std::max(change, std::fabs(left(i, index(s))));
-        out.data(i, j) -= left(i, index(s));
+        change = std::max(change, std::fabs(left(i, j)));
+        data(i, j) -= left(i, j);
+        moved[i].push_back({j, left(i, j)});
       }
-      const double scale = robust_scale(left.col(index(s)), out.freedom[j]);
+      const double scale = robust_scale(left.col(j), freedom[j]);
       bool again = change > settled * scale;
       // One at a time: the others of its cell may only look outlying beside it.
       Index worst = 0;
-      if (const double size = left.col(index(s)).cwiseAbs().maxCoeff(&worst);
-          !again && size > criteria.winsor_limit * scale && out.freedom[j] > least_freedom()) {
+      if (const double size = left.col(j).cwiseAbs().maxCoeff(&worst);
+          !again && size > criteria.winsor_limit * scale && freedom[j] > least_freedom()) {
         gone.push_back(worst);
-        out.freedom[j] -= 1;
+        freedom[j] -= 1;
         again = true;
       }
       if (again) more.push_back(j);
     }
+    std::vector<Index> rows;
+    for (const auto& [row, sets] : moved) rows.push_back(row);
+    unit.each(rows, [&](Index i, const Vector& response) {
+      for (const auto& [j, by] : moved.at(i)) left.col(j) -= by * response;
+    });
     open = std::move(more);
   }
-  return out;
+  squares = Vector::Zero(data.cols());
+  for (Index i = 0; i < left.rows(); ++i) squares += left.row(i).cwiseAbs2().transpose();
 }
 
 Vector PureError::scale(const Matrix& residuals) const {
   const Cleaned clean = cleaned(residuals);
-  return (pure_.squares(clean.data).array() / clean.freedom.array()).sqrt();
+  return (clean.squares.array() / clean.freedom.array()).sqrt();
 }
 
 Vector PureError::lack_of_fit(const Matrix& residuals) const {
+  if (with_.rank() == without_.rank()) return Vector::Zero(residuals.cols()); // a table holds the cells' constants
   const Matrix clean = cleaned(residuals).data;
-  const Vector before = without_.squares(clean), after = with_.squares(clean);
+  const Vector before = squares(without_, clean), after = squares(with_, clean);
   Vector out(before.size());
   for (Index j = 0; j < out.size(); ++j)
-    out[j] = after[j] > 0 ? without_.freedom * std::max(0.0, std::log(before[j] / after[j])) : 0;
+    out[j] = after[j] > 0 ? freedom(without_) * std::max(0.0, std::log(before[j] / after[j])) : 0;
   return out;
 }
 
 double PureError::repeats(const Vector& residual) const {
+  if (with_.rank() == without_.rank()) return 0;
   const Cleaned clean = cleaned(residual);
-  const double variance = pure_.squares(clean.data)[0] / clean.freedom[0];
+  const double variance = clean.squares[0] / clean.freedom[0];
   const double square =
-      without_.squares(clean.data)[0] - with_.squares(clean.data)[0] - (without_.freedom - with_.freedom) * variance;
+      without_.squares(clean.data)[0] - with_.squares(clean.data)[0] - (freedom(without_) - freedom(with_)) * variance;
   return std::sqrt(std::max(0.0, square) / static_cast<double>(rows_.size()));
 }
 
 std::vector<std::string> PureError::depends_on(const Vector& residual) const {
-  const auto [clean, freedom] = cleaned(residual);
-  const double variance = pure_.squares(clean)[0] / freedom[0], least = with_.squares(clean)[0];
+  const Cleaned clean = cleaned(residual);
+  const double variance = clean.squares[0] / clean.freedom[0], least = with_.squares(clean.data)[0];
   std::vector<std::string> out, all;
   for (std::size_t f = 0; f < replicates_.factors.size(); ++f) {
-    const Projection merged = projection(replicates_.cells(f), false, nuisance_);
-    const double lost = merged.freedom - with_.freedom;
-    const double excess = (merged.squares(clean)[0] - least) / variance - lost;
+    SparseColumns merged_cells = nuisance_;
+    merged_cells.add_constants(replicates_.cells(f));
+    const Projection merged = without(merged_cells);
+    const double lost = freedom(merged) - freedom(with_);
+    const double excess = (merged.squares(clean.data)[0] - least) / variance - lost;
     all.push_back(replicates_.factors[f].name);
     if (lost > 0 && excess > criteria.factor_counts * std::sqrt(2 * lost)) out.push_back(all.back());
   }

@@ -7,8 +7,11 @@
 /// every pass. So neither what repeats nor a slow drift counts, even one that differs from cell to cell. Readings
 /// beyond criteria.winsor_limit robust standard deviations are left out, each with its degree of freedom. The lack of
 /// fit is what the cells' constants take.
+#include <functional>
+
+#include "tracing/noise/projection.h"
 #include "tracing/noise/replicates.h"
-#include "tracing/noise/whitened.h"
+#include "tracing/noise/sparse_columns.h"
 
 namespace gumshoe::tracing {
 
@@ -16,12 +19,12 @@ namespace gumshoe::tracing {
 class PureError {
 public:
   /// @param model  its variance component, if it has one, counts among what is projected out
-  PureError(const Design& design, const std::vector<Index>& rows, const Replicates& replicates,
+  PureError(const Design& design, const std::vector<Index>& rows, const Replicates& replicates, int threads,
             const CovarianceModel& model = {});
 
   /// False if too few readings repeat: no other function may be called.
-  bool known() const { return pure_.freedom >= least_freedom(); }
-  double freedom() const { return pure_.freedom; }
+  bool known() const { return freedom() >= least_freedom(); }
+  double freedom() const { return freedom(pure_); }
   std::size_t cells() const { return cells_; }
   /// Standard deviation of the pure error of each column (chosen rows, SI), in units of the design's noise.
   Vector scale(const Matrix& residuals) const;
@@ -30,36 +33,35 @@ public:
   /// Root mean square of what repeats in one residual, in units of the design's noise; less what the pure error gives.
   double repeats(const Vector& residual) const;
   /// Whitened residuals about the model and the constants of cells (if known) and blocks.
-  Matrix about_cells(const Matrix& residuals) const { return with_(whitened(residuals)); }
+  Matrix about_cells(const Matrix& residuals) const;
   /// Factors without which what repeats is no longer described.
   std::vector<std::string> depends_on(const Vector& residual) const;
 
 private:
-  /// What is projected out: for each cell orthonormal columns over its own rows, then others.
-  struct Projection {
-    std::vector<std::pair<std::vector<Index>, Matrix>> by_cell;
-    Matrix basis;
-    double freedom = 0;
-    Matrix off_cells(Matrix x) const;
-    Matrix operator()(const Matrix& x) const;
-    Vector squares(const Matrix& x) const { return (*this)(x).colwise().squaredNorm().transpose(); }
-  };
   static double least_freedom();
+  double freedom(const Projection& p) const { return static_cast<double>(rows_.size() - p.rank()); }
   Matrix whitened(const Matrix& residuals) const;
   struct Cleaned {
     Matrix data;    ///< whitened; outlying readings replaced by what the others of their cell and pass say
+    Vector squares; ///< by column: sum of squares of its pure error
     Vector freedom; ///< by column
   };
   Cleaned cleaned(const Matrix& residuals) const;
-  /// @param cell  by place in the sequence; empty: no cells
-  Projection projection(const std::vector<std::size_t>& cell, bool lines, const Matrix& others) const;
+  void clean(Matrix& data, Vector& squares, Vector& freedom) const;
+  /// Squares that a projection leaves of each column.
+  Vector squares(const Projection& projection, const Matrix& data) const;
+  Projection without(const SparseColumns& columns) const;
+  /// Calls body(first, count) for some of so many data sets at a time, on several threads.
+  void by_sets(Index sets, const std::function<void(Index, Index)>& body) const;
 
   const Design& design_;
   std::vector<Index> rows_;
   const Replicates& replicates_;
+  int threads_;
   std::size_t cells_ = 0;
-  Matrix nuisance_;                  ///< whitened columns of the model and, where they are blocks, constants of passes
-  Projection without_, with_, pure_; ///< without and with the cells' constants; with all that drifts, too
+  std::vector<std::vector<Index>> orders_; ///< of the chosen rows: as measured, and cell by cell
+  SparseColumns nuisance_;                 ///< the model's columns and, where they are blocks, constants of passes
+  Projection without_, with_, pure_;       ///< without and with the cells' constants; with all that drifts, too
 };
 
 } // namespace gumshoe::tracing

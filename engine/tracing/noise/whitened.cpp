@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
+
+#include "tracing/noise/sparse_columns.h"
 
 namespace gumshoe::tracing {
 Whitened::Whitened(const Design& d, std::vector<Index> rows, std::vector<Index> use, const CovarianceModel& model)
@@ -16,26 +17,12 @@ Whitened::Whitened(const Whitened& other, const CovarianceModel& model)
   eliminate();
 }
 
-/// The local factor of each reading divided out of the columns that move it.
 Whitened::Columns Whitened::columns_in_units() const {
   const Design& d = design_;
-  const auto k = index(d.indications), n = index(rows_.size());
-  Columns out{std::vector<SparseRow>(rows_.size()), 0};
-  const auto add = [&](const auto& column, std::size_t number) {
-    for (Index i = 0; i < n; i += k) {
-      const std::span<const Index> rows =
-          std::span(rows_).subspan(static_cast<std::size_t>(i), static_cast<std::size_t>(k));
-      if (std::ranges::all_of(rows, [&](Index row) { return column[row] == 0; })) continue;
-      Vector own(k);
-      for (Index a = 0; a < k; ++a) own[a] = column[rows[a]];
-      d.local[index(rows[0] / k)].triangularView<Eigen::Lower>().solveInPlace(own);
-      for (Index a = 0; a < k; ++a)
-        if (own[a] != 0) out.rows[index(i + a)].push_back({number, own[a]});
-    }
-  };
-  std::size_t number = 0;
-  for (const Index j : use_) add(d.fixed.col(j), number++);
-  for (Index j = 0; j < d.random.cols(); ++j) add(d.random.col(j), number++);
+  SparseColumns columns(d, rows_);
+  for (const Index j : use_) columns.add(d.fixed.col(j));
+  columns.add(d.random);
+  Columns out{columns.rows(), 0};
   for (const Index j : use_) {
     double square = 0;
     for (const Index row : rows_) {

@@ -22,6 +22,11 @@ struct NoiseShape {
   double core() const;
 };
 
+/// Some draws, by number, of all `of`: the same whatever else is drawn with them. `first` is even.
+struct Draws {
+  std::size_t first = 0, count = 0, of = 0;
+};
+
 /// "Chosen rows" are those given to the constructor: whole readings, in order. Keeps a reference to the design.
 class Whitened {
 public:
@@ -44,6 +49,8 @@ public:
   Matrix whiten_units(Matrix units) const;
   Matrix reduce_units(Matrix units) const { return elimination_->reduced(std::move(units)); }
   Vector squares_units(const Matrix& units) const { return elimination_->squares(units); }
+  /// WMb of chosen rows b in these units, so that a'WMb needs no a reduced under each model.
+  Matrix weighted_units(Matrix units) const { return elimination_->projected(std::move(units)); }
   /// Residuals of the chosen rows (not whitened), winsorised at criteria.winsor_limit robust standard deviations.
   /// For a covariance model without correlation or component.
   /// @param scale   robust standard deviation by column, in units of the design's
@@ -59,7 +66,10 @@ public:
   /// Squared length of each fixed and random column, and their products with others, by the noise of readings alone.
   Matrix overlap(const Matrix& whitened, Vector& squares) const;
   /// n draws of the noise (columns), declared draws included, in SI. `seed` keys the stream.
-  Matrix draw(std::size_t n, std::uint64_t seed, const NoiseShape& shape = {}) const;
+  Matrix draw(std::size_t n, std::uint64_t seed, const NoiseShape& shape = {}) const {
+    return draw(Draws{0, n, n}, seed, shape);
+  }
+  Matrix draw(const Draws& draws, std::uint64_t seed, const NoiseShape& shape = {}) const;
   const std::vector<Index>& rows() const { return rows_; }
   std::size_t degrees_of_freedom() const { return rows_.size() - use_.size(); }
 
@@ -76,8 +86,8 @@ private:
   Columns columns_in_units() const;
   std::vector<SparseRow> scatter_in_units(const std::vector<int>& group) const;
   void eliminate();
-  void add_declared(std::size_t n, std::uint64_t seed, Matrix& out) const;
-  void add_scatter(std::size_t n, std::uint64_t seed, const NoiseShape& shape, Matrix& out) const;
+  void add_declared(const Draws& draws, std::uint64_t seed, Matrix& out) const;
+  void add_scatter(const Draws& draws, std::uint64_t seed, const NoiseShape& shape, Matrix& out) const;
 
   const Design& design_;
   std::vector<Index> rows_, use_;
@@ -94,6 +104,9 @@ private:
 double robust_scale(std::vector<double>& sizes);
 
 /// Independent standard normal numbers: row i is stream (seed, i, purpose).
-Matrix normals(std::size_t rows, std::size_t columns, std::uint64_t seed, std::uint16_t purpose);
+Matrix normals(std::size_t rows, const Draws& draws, std::uint64_t seed, std::uint16_t purpose);
+inline Matrix normals(std::size_t rows, std::size_t columns, std::uint64_t seed, std::uint16_t purpose) {
+  return normals(rows, Draws{0, columns, columns}, seed, purpose);
+}
 
 } // namespace gumshoe::tracing
