@@ -44,6 +44,11 @@ class Jumps(unittest.TestCase):
         self.assertGreater(effect["size"], 0.7e-3)
         self.assertEqual(covered(finding, effect), [True], finding)
 
+    def test_an_insert_that_triggers_every_reading(self):
+        """0.92 um in 24 readings: its tangent is that of the tool's length, and a step of both would lose the size that was tried."""
+        finding, effect, _ = self.found((("declared:wear_3", 15.0),), 940, clampings=1, noise=0.1)
+        self.assertEqual(covered(finding, effect), [True], finding)
+
     def test_run_out_of_several_steps(self):
         """0.09 mrad of a tool of 20 mm: 1.7 um from one side to the other. What is left is the noise."""
         finding, effect, verdict = self.found((("tool_runout", 30.0),), 7002, noise=0.1)
