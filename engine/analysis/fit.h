@@ -8,8 +8,8 @@
 
 namespace gumshoe::analysis {
 
-/// Of a fit with equal weights s^2 Q: Q its cofactors, s^2 = sum of squares of the residuals / degrees of freedom, of a
-/// virtual experiment the mean of this over the samples. Of a weighted fit Q itself, which needs no residuals.
+/// A fit with equal weights has s^2 Q: Q its cofactors, s^2 = sum of squares of the residuals / degrees of freedom, of a
+/// virtual experiment the mean of this over the samples. A weighted fit has Q itself, which needs no residuals.
 /// Empty where the evaluation is no fit, the model does not tell its covariance, or the fit of the estimates fails.
 std::vector<FitCovariance> fit_covariances(const propagation::Experiment& experiment, const Samples& samples);
 

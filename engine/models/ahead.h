@@ -56,7 +56,7 @@ public:
   const Together<Rows, double>& readings() const { return ahead_[at_]; }
   const Outcome<double>& outcome(std::size_t r) const { return outcomes_[at_ * readings_ + r]; }
   void check(std::size_t r, Outcome<double>& outcome) const { outcome.fail(this->outcome(r).status[0]); }
-  /// Of reading r, if it is not impossible.
+  /// What was prepared for reading r, if that is not impossible.
   typename M::Prepared& prepared(std::size_t r) { return prepared_[places_[at_ * readings_ + r]]; }
 
 private:

@@ -68,7 +68,7 @@ private:
     return out.fit.valid ? std::optional(std::move(out)) : std::nullopt;
   }
 
-  /// Of one shape over the two, by the whole model.
+  /// Lead of one shape over the two, by the whole model.
   double lead_of(const InPlaceOfNames& one) const {
     const std::size_t last = one.fit.terms.size() - 1;
     return gain_of(c_, one.fit, {last}) - gain_of(c_, found_, terms_) + chance_ - chance(one.shape);

@@ -31,7 +31,7 @@ bool drop_least(const TraceContext& c, Search& s, const std::vector<double>& gai
   const std::string name = s.found.terms[gone.terms[0]].candidate.name;
   dropped.insert(name);
   s.dropped.push_back(
-      fmt::format("{} was found and then dropped: beside the other findings it no longer counts", name));
+      fmt::format("{} was found and then dropped: given the other findings, it no longer counts", name));
   s.found = fitted_anew(c, without(c, s.found, gone.terms));
   return true;
 }
