@@ -145,7 +145,7 @@ TEST_CASE("a stated effect is loaded at each reading", "[scenario][trace]") {
   const auto& film = s.stated_effects[0];
   CHECK(film.name == "film");
   CHECK(film.meaning == "film");
-  CHECK(film.parts[0].indication == 0);
+  CHECK(film.parts[0].target == 0);
   CHECK_FALSE(film.freed);
   REQUIRE(film.parts[0].loading.size() == 4);
   for (std::size_t r = 0; r < 4; ++r) CHECK(film.parts[0].loading[r] == Approx(1 / s.readings[r].conditions[0]).epsilon(1e-15));

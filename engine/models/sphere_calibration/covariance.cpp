@@ -90,11 +90,11 @@ std::optional<Fit> Identify::fit(const Poses<double>& poses) {
   out.degrees_of_freedom = static_cast<double>(out.equations - std::min<std::size_t>(out.equations, known.rank));
   if (!poses.read.empty()) out.squares = rows.col(unknowns).squaredNorm();
   out.whitened = !whitening.rows.empty();
-  Matrix Q = Eigen::Map<const Matrix>(known.matrix.data(), unknowns, unknowns);
+  Matrix cofactors = Eigen::Map<const Matrix>(known.matrix.data(), unknowns, unknowns);
   if (poses.at[0].evaluation == sequential) {
     // No least squares of all rows: its residuals keep more than those of the smallest sum would.
     const Matrix A = by_commands(poses, commands, identification);
-    Q = A * A.transpose();
+    cofactors = A * A.transpose();
     out.degrees_of_freedom = (Matrix::Identity(J.rows(), J.rows()) + J * A).squaredNorm();
   }
   std::vector<Eigen::Index> order; // of the measurands
@@ -105,7 +105,7 @@ std::optional<Fit> Identify::fit(const Poses<double>& poses) {
     out.determined.push_back(known.determined[static_cast<std::size_t>(order.back())]);
   }
   for (const Eigen::Index i : order)
-    for (const Eigen::Index j : order) out.cofactors.push_back(Q(i, j));
+    for (const Eigen::Index j : order) out.cofactors.push_back(cofactors(i, j));
   return out;
 }
 
