@@ -57,7 +57,9 @@ class AxisAngle(unittest.TestCase):
         for seed, size in ((1, 6.0), (2, -8.0)):
             path = self.sets(seed, size)
             found = self.trace(path, "s.toml")
-            self.assertEqual([f["members"] for f in found["findings"]], [["three_bearings"]], found["statements"])
+            # A shape by chance has a probability of alpha; no other name may be there.
+            self.assertEqual([f["members"] for f in found["findings"] if f["kind"] in ("named", "class")], [["three_bearings"]],
+                             found["statements"])
             row = found["findings"][0]["quantities"][0]
             # The truth lies within the interval, or 1 % of sets would not: u is that of the fit, 3.3 of it at most.
             self.assertLess(abs(row["value"] - size), 3.3 * row["u"], row)
