@@ -21,13 +21,6 @@ bool is_place(const RecognisedColumn& c) {
   return set_units.contains(units::si_unit_of(c.unit));
 }
 
-/// Whether a column has several values: what never changed is no position.
-bool varies(const RecognisedData& data, const RecognisedColumn& c) {
-  const auto column = static_cast<std::size_t>(data.csv.find(c.name));
-  return std::ranges::any_of(data.csv.rows,
-                             [&](const auto& row) { return row[column].text != data.csv.rows.front()[column].text; });
-}
-
 /// Whether a column numbers all rows in their order.
 bool numbers_rows(const RecognisedData& data, const RecognisedColumn& c) {
   if (!c.number || c.gaps || !counts_rows(c)) return false;
@@ -46,7 +39,7 @@ void guess_roles(RecognisedData& data) {
   const auto take = [&](auto first, auto end, ColumnRole role, const char* why) {
     const auto fitting = [&](const RecognisedColumn& c) {
       return c.number && c.role == ColumnRole::other && !counts_rows(c) && !names_parts(c) &&
-             (role != ColumnRole::position || (is_place(c) && varies(data, c) && was_set(data, c)));
+             (role != ColumnRole::position || (is_place(c) && different(data, c) > 1 && was_set(data, c)));
     };
     // Numbers that recur and have no unit are names, such as those of inserts.
     const auto likely = [&](const RecognisedColumn& c) {
@@ -110,6 +103,13 @@ bool names_parts(const RecognisedColumn& c) {
       "nest",     "pose",     "werkzeug", "teil",  "platte",     "schneide"};
   const auto words = words_of(c.name);
   return c.unit == "?" && std::ranges::any_of(words, [&](const std::string& w) { return names.contains(w); });
+}
+
+std::size_t different(const RecognisedData& data, const RecognisedColumn& c) {
+  std::set<std::string> texts;
+  const auto column = static_cast<std::size_t>(data.csv.find(c.name));
+  for (const auto& row : data.csv.rows) texts.insert(row[column].text);
+  return texts.size();
 }
 
 bool was_set(const RecognisedData& data, const RecognisedColumn& c) {

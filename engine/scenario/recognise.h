@@ -56,6 +56,9 @@ bool is_number(const Csv& csv, const CsvCell& cell, char decimal);
 /// it.
 void guess_roles(RecognisedData& data);
 
+/// Number of different texts in a column.
+std::size_t different(const RecognisedData& data, const RecognisedColumn& column);
+
 /// Whether the numbers of a column look set, not measured: they recur, or only rise, or only fall.
 bool was_set(const RecognisedData& data, const RecognisedColumn& column);
 

@@ -71,13 +71,6 @@ bool is_named(const RecognisedColumn& c, std::string_view name) {
   return words == wanted;
 }
 
-std::size_t different(const RecognisedData& data, const RecognisedColumn& c) {
-  std::set<std::string> texts;
-  const auto column = static_cast<std::size_t>(data.csv.find(c.name));
-  for (const auto& row : data.csv.rows) texts.insert(row[column].text);
-  return texts.size();
-}
-
 NamedColumns labels_of(const RecognisedData& data) {
   NamedColumns out;
   for (const RecognisedColumn& c : data.columns) {

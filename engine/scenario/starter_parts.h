@@ -23,8 +23,6 @@ std::string unit_or(const RecognisedColumn& c, const char* otherwise);
 
 /// Whether a column has this name, but for its unit: "X_mm" is X.
 bool is_named(const RecognisedColumn& c, std::string_view name);
-/// Number of different texts in a column.
-std::size_t different(const RecognisedData& data, const RecognisedColumn& c);
 /// Columns whose words tell readings apart: cycles, and texts that recur.
 NamedColumns labels_of(const RecognisedData& data);
 

@@ -132,7 +132,7 @@ RakeChordOf<V> rake_chord(const RakeViewOf<V>& v, const V& rho, const DiscShareO
   auto active = ratio < V(0.3) && rest > V(0.1);
   if (!num::any(active)) return chord;
   V t = shear + v.nx / alpha * start / num::sqrt(rest);
-  /// Of the pass at which a lane has settled.
+  /// Values at the pass at which a lane has settled.
   struct {
     V t = V(0.0), q = V(1.0), along = V(0.0), g = V(1.0), by_g = V(1.0), r = V(1.0), segment = V(0.0), p = V(0.0),
       normal_y = V(0.0), off = V(0.0), step = V(0.0);
