@@ -170,6 +170,7 @@ struct Taken {
   bool block_offset = false; ///< offset of a block, or another free unknown: free again in a further trace
   quantities::Labels labels; ///< readings at which the quantity is shifted; empty: all
   std::string source;
+  bool fitted = false; ///< also where it is held without an uncertainty: fitted again in a further trace
 };
 
 /// A shape that no known effect explains, as a stated effect of the traced scenario: one for each of its sizes, or one

@@ -205,7 +205,7 @@ private:
         lines_.push_back({unknown(a.quantity, 0),
                           a.held + one.size[index(j)],
                           -1,
-                          {false, {}, source + "; held, because a normal distribution would reach beyond zero"}});
+                          {false, {}, source + "; held, because a normal distribution would reach beyond zero", true}});
         continue;
       }
       if (f && f->spread > 0 && !a.is_shape) widen(*f, t, index(j), column);

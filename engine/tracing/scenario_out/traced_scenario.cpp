@@ -291,9 +291,10 @@ private:
   std::size_t fitted(const std::string& name) const {
     std::size_t count = 0;
     bool any = !sized(name);
-    for (const auto& p : t_.estimate.parameters) {
+    for (std::size_t i = 0; i < t_.estimate.parameters.size(); ++i) {
+      const calibration::Parameter& p = t_.estimate.parameters[i];
       if (t_.extended.quantities[p.unknown.quantity].name != name) continue;
-      any = any || p.standard_uncertainty > 0;
+      any = any || p.standard_uncertainty > 0 || t_.taken[i].fitted;
       ++count;
     }
     return any ? count : 0;
