@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <optional>
+#include <span>
 
 #include <boost/math/tools/minima.hpp>
 #include <fmt/format.h>
@@ -16,7 +19,8 @@ constexpr Index at_once = 64;
 
 /// "38 min"
 std::string shown(const Covariate& c, double si) {
-  return fmt::format("{:.2g} {}", units::from_si(si, c.unit, c.si_unit, units::Kind::difference), c.unit);
+  return fmt::format("{:.2g}{}", units::from_si(si, c.unit, c.si_unit, units::Kind::difference),
+                     c.unit == "1" ? "" : " " + c.unit);
 }
 
 /// The step between two successive readings of one indication.
@@ -63,14 +67,80 @@ std::vector<Index> instants(const Observations& o, const std::vector<Index>& row
   return {fitted.begin() + index(few), fitted.end() - index(few) + 1};
 }
 
+/// Time since the first reading, over the range, in the order of measurement.
+Vector since_the_first(const Observations& o, const Covariate& c) {
+  Vector out(index(o.readings));
+  for (std::size_t i = 0; i < o.readings; ++i)
+    out[index(i)] = (c.value[o.sequence[i]] - c.levels.front()) / (c.levels.back() - c.levels.front());
+  return out;
+}
+
+/// exp(-(t - middle)^2 / (2 width^2)) of one indication.
+class Pulses {
+public:
+  struct Form {
+    double middle, width; ///< over the range
+  };
+
+  Pulses(const Observations& o, const Covariate& c, std::size_t indication)
+      : every_(index(o.indications)), indication_(index(indication)), t_(since_the_first(o, c)) {}
+
+  Matrix columns(std::span<const Form> forms) const {
+    Matrix out = Matrix::Zero(t_.size() * every_, index(forms.size()));
+    for (Index j = 0; j < out.cols(); ++j) {
+      const auto [middle, width] = forms[static_cast<std::size_t>(j)];
+      out(Eigen::seq(indication_, Eigen::last, every_), j) = (-0.5 * ((t_.array() - middle) / width).square()).exp();
+    }
+    return out;
+  }
+
+  /// The one that explains most: of a grid, then by Brent's method in one after the other. None is shorter than a few
+  /// readings, or so long that it is a bend. Without a value: there is no such one.
+  std::optional<Form> best(const Gain& gain) const {
+    const double least = 2 / static_cast<double>(t_.size() - 1);
+    std::vector<Form> grid;
+    for (double width = least; width <= longest; width *= ratio)
+      for (double middle = 0; middle <= 1; middle += step * width) grid.push_back({middle, width});
+    std::optional<Form> found;
+    double height = 0;
+    for (std::size_t i = 0; i < grid.size(); i += at_once) {
+      const auto some = std::span(grid).subspan(i, std::min<std::size_t>(at_once, grid.size() - i));
+      Index highest = 0;
+      const double here = gain(columns(some), 1, criteria.own_wave).maxCoeff(&highest);
+      if (here > height) height = here, found = some[static_cast<std::size_t>(highest)];
+    }
+    if (!found) return found;
+    const auto improve = [&](double& x, double low, double high) {
+      const double before = x;
+      const auto loss = [&](double at) {
+        x = at;
+        return -gain(columns({&*found, 1}), 1, criteria.own_wave)[0];
+      };
+      constexpr int bits = 12;
+      const auto [at, least_loss] = boost::math::tools::brent_find_minima(loss, low, high, bits);
+      x = -least_loss > height ? at : before;
+      height = std::max(height, -least_loss);
+    };
+    for (int pass = 0; pass < 2; ++pass) {
+      const double w = found->width, m = found->middle;
+      improve(found->middle, std::max(0.0, m - step * w), std::min(1.0, m + step * w));
+      improve(found->width, std::max(least, w / ratio), std::min(longest, w * ratio));
+    }
+    return found;
+  }
+
+private:
+  static constexpr double longest = 1.0 / 6, ratio = 1.5, step = 0.5;
+  Index every_, indication_;
+  Vector t_;
+};
+
 /// 1 - exp(-t / tau) of one indication, t being the time since the first reading.
 class Drifts {
 public:
   Drifts(const Observations& o, const Covariate& c, std::size_t indication)
       : range_(c.levels.back() - c.levels.front()), every_(index(o.indications)), indication_(index(indication)),
-        t_(index(o.readings)) {
-    for (std::size_t i = 0; i < o.readings; ++i) t_[index(i)] = (c.value[o.sequence[i]] - c.levels.front()) / range_;
-  }
+        t_(since_the_first(o, c)) {}
 
   /// @param shares  time constants over the range
   Matrix columns(const std::vector<double>& shares) const {
@@ -104,7 +174,7 @@ private:
   static constexpr int grid = 8;
   double range_;
   Index every_, indication_;
-  Vector t_; ///< in the order of measurement, 0 to 1 over the range
+  Vector t_;
 };
 
 Candidate shape(const Observations& o, const Covariate& c, std::size_t indication, const std::string& name,
@@ -145,6 +215,15 @@ std::vector<Candidate> courses(const Observations& o, const std::vector<Index>& 
       const std::size_t reading = o.sequence[static_cast<std::size_t>(from - 1)] + 1;
       out.push_back(shape(o, c, i, fmt::format("step:{} after reading {}", c.name, reading), steps.columns({from})));
       out.back().searched = static_cast<double>(places.size());
+      const Pulses pulses(o, c, i);
+      if (const auto form = pulses.best(gain)) {
+        const double range = c.levels.back() - c.levels.front();
+        out.push_back(shape(o, c, i, "pulse:" + c.name, pulses.columns({&*form, 1})));
+        out.back().shape = fmt::format("length {}, {} after the first reading",
+                                       shown(c, 2 * std::sqrt(2 * std::numbers::ln2) * form->width * range),
+                                       shown(c, form->middle * range));
+        out.back().searched = static_cast<double>(places.size());
+      }
     }
   return out;
 }

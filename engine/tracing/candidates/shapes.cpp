@@ -155,9 +155,19 @@ private:
     const Vector sign = Eigen::Map<const Vector>(way.data(), x.size());
     const auto up = (sign.array() > 0).count(), down = (sign.array() < 0).count();
     if (8 * std::min(up, down) < std::max(up, down) || std::min(up, down) < 3) return;
-    add(Family::shape, "hysteresis:" + c.name, sign, {c.name});
+    if (!recorded(sign)) add(Family::shape, "hysteresis:" + c.name, sign, {c.name});
     if (c.levels.size() > 3 && c.levels.size() * criteria.least_repeats <= o_.readings && !c.angle)
       add(Family::shape, "hysteresis:" + c.name, sign.cwiseProduct(loop(c)), {c.name}, closing);
+  }
+
+  /// Whether a condition of two states says the same as this sign: what was recorded goes before what the order of the
+  /// readings suggests.
+  bool recorded(const Vector& sign) const {
+    return std::ranges::any_of(o_.covariates, [&](const Covariate& c) {
+      if (c.levels.size() != 2) return false;
+      const auto same = ((plain(o_, c).array() > 0.5 * (c.levels[0] + c.levels[1])) == (sign.array() > 0)).count();
+      return 10 * std::min<Index>(same, sign.size() - same) < sign.size();
+    });
   }
 
   /// A parabola that is 1 in the middle of what was measured and 0 at its ends, where the way turns back: what either

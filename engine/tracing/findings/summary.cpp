@@ -24,6 +24,12 @@ std::string instant_of(const std::string& shape) {
   return shape.starts_with("step:") && at != std::string::npos ? shape.substr(at + after.size()) : "";
 }
 
+/// " (length 5.2 min, 42 min after the first reading)" of what came and went; empty of any other shape.
+std::string pulse_of(const std::string& shape) {
+  const auto at = shape.find(" (");
+  return shape.starts_with("pulse:") && at != std::string::npos ? shape.substr(at) : "";
+}
+
 /// "tool T3", which alone changes with the first condition; empty of any other shape.
 std::string part_alone(const Finding& f) {
   if (f.depends_on.size() != 2) return {};
@@ -41,6 +47,7 @@ std::string in_its_place(const Finding& f) {
   const std::string &shape = f.members[1], on = shape.substr(shape.find(':') + 1);
   if (const std::string reading = instant_of(shape); !reading.empty()) return "something changed after " + reading;
   if (shape.starts_with("step:")) return on + " differs from the others, which agree";
+  if (shape.starts_with("pulse:")) return "something came and went" + pulse_of(shape);
   return shape == on ? on + " is there" : "the readings follow " + on;
 }
 
@@ -69,6 +76,8 @@ std::string what_was_found(const Finding& f) {
                          depends_on);
     if (const std::string reading = instant_of(f.described_by); !reading.empty())
       return fmt::format("Something changed after {}: from then on the readings differ by a constant.", reading);
+    if (const std::string pulse = pulse_of(f.described_by); !pulse.empty())
+      return fmt::format("Something came and went: for a while the readings differ{}.", pulse);
     if (const std::string part = part_alone(f); !part.empty())
       return fmt::format("An unknown effect changes the readings of {} alone with {}.", part, f.depends_on[0]);
     if (const std::string step = "step:";
@@ -93,6 +102,7 @@ std::string briefly(const Finding& f) {
                        f.members.size() < 2 ? "" : ", or " + in_its_place(f));
   case Kind::not_in_catalogue:
     if (const std::string reading = instant_of(f.described_by); !reading.empty()) return "a step after " + reading;
+    if (f.described_by.starts_with("pulse:")) return "a pulse in " + depends_on;
     if (const std::string part = part_alone(f); !part.empty())
       return fmt::format("an unknown effect of {} on {} alone", f.depends_on[0], part);
     return "an unknown effect of " + depends_on;

@@ -16,15 +16,15 @@ std::string without_indication(const std::string& name, const Observations& o) {
   return name;
 }
 
-/// One group that differs, a straight line in what was recorded, a step or a course in time: shapes that scatter may
-/// look like.
+/// One group that differs, a straight line in what was recorded, a step, a pulse or a course in time: shapes that
+/// scatter may look like.
 bool is_plain(const Candidate& a, const Grouping& group, const Observations& o) {
   const std::string name = without_indication(a.name, o);
   if (name.starts_with("step:") && std::ranges::find(group.groups, name.substr(5)) != group.groups.end()) return true;
   if (a.physical() || a.depends_on.size() != 1) return false;
   const auto x = std::ranges::find(o.covariates, a.depends_on[0], &Covariate::name);
   if (x == o.covariates.end()) return false;
-  if (x->course) return a.family == Family::omnibus || name.starts_with("step:");
+  if (x->course) return a.family == Family::omnibus || name.starts_with("step:") || name.starts_with("pulse:");
   return !x->commanded && name == "polynomial:" + x->name && a.shape.empty();
 }
 
