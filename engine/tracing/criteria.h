@@ -15,8 +15,8 @@ struct Criteria {
   // ---- Noise ----
   /// Residuals beyond this many robust standard deviations are winsorised. Normal noise exceeds it once in 2,150.
   double winsor_limit = 3.5;
-  /// Winsorised residuals change the fit, and so all residuals: it is repeated until none changes by more than this many
-  /// robust standard deviations. A reading that pulls h of the fit towards itself needs ln(1e-2) / ln(h) steps.
+  /// Winsorised residuals change the fit, and so all residuals: it is repeated until none changes by more than this
+  /// many robust standard deviations. A reading that pulls h of the fit towards itself needs ln(1e-2) / ln(h) steps.
   double winsor_settled = 0.01;
   int most_winsor_steps = 20;
   /// Serial correlations tried, from one reading to the next in the order of measurement. Tuned.
@@ -87,8 +87,8 @@ struct Criteria {
   /// Periods tried: so many to the resolution of the range (a peak's loss on the grid is about 5 % at most), and cycles
   /// over the range up to which they are, by cost.
   double wave_grid = 4, most_cycles = 500;
-  double shown_wave = 3; ///< amplitude in u from which a wave per turn is told
-  double own_wave = 0.5; ///< share of a wave that the declared model must leave
+  double shown_wave = 3;  ///< amplitude in u from which a wave per turn is told
+  double own_wave = 0.5;  ///< share of a wave that the declared model must leave
   double drift_forms = 4; ///< independent forms of a drift that levels off, between the shortest and the longest
   /// A shape of which so many successive readings hold this share is one of outliers.
   Index few_readings = 3;
@@ -111,11 +111,13 @@ struct Criteria {
   double decisive = 3.84;
   double as_good = 1e-6;           ///< 2 ln L within which covariance models are equal: far above rounding
   int most_iterations = 14;        ///< Gauss-Newton iterations: smooth models need four, others gain nothing by more
+  int most_scales = 10;            ///< scales of the noise in turn
   int most_offset_iterations = 20; ///< the same for offsets of blocks outside the fit
   int most_optima = 4;             ///< optima left for a better one where readings jump
   double converged = 1e-3;         ///< largest step of an unknown, in its standard uncertainty
   double stalled = 0.1;            ///< the same where no shorter step reduces the residuals: still a fit
   double noise_settled = 0.02;     ///< change of ln variance below which the scale of the noise is kept
+  double noise_far = 0.5;          ///< share of the variance at which noise of unknown size is far from settled
   double noise_prior = 4;          ///< weight of the declared size of the noise, as a number of readings
   /// Sizes tried where readings jump: up to so many standard uncertainties either side, in these two spacings.
   double profile_reach = 6, profile_spacing = 0.25, profile_coarse = 1.5;
@@ -138,7 +140,7 @@ struct Criteria {
 
   // ---- Judgement ----
   std::size_t most_findings = 5; ///< terms or scatter found in one trace
-  double equal_shapes = 2; ///< 2 ln L by which shapes may differ that describe readings equally well
+  double equal_shapes = 2;       ///< 2 ln L by which shapes may differ that describe readings equally well
   /// A wave in a table by position is told: of so many levels chance seldom gives a wave so large a share.
   std::size_t levels_of_waves = 15;
   double share_of_waves = 0.8;

@@ -187,6 +187,7 @@ JointFit Fitter::fit(const std::vector<Term>& terms, double noise, const JointFi
 void Fitter::converge(JointFit& fit, double noise) const {
   fit.converged = false;
   bool draws_move = true; // false where readings jump, and their tangent leads nowhere
+  int scales = 0;
   for (fit.iterations = 1; fit.iterations <= criteria.most_iterations; ++fit.iterations) {
     const Scan scan(fit.design, rows_, {}, threads_);
     const Whitened& plain = scan.whitened(scan.plain());
@@ -226,11 +227,23 @@ void Fitter::converge(JointFit& fit, double noise) const {
     if (fit.converged || fit.iterations == criteria.most_iterations) {
       if (noise > 0) break;
       const auto freedom = static_cast<double>(scan.degrees_of_freedom());
-      const double prior = noise_declared_ ? criteria.noise_prior : 0,
-                   factor = (freedom * fit.variance + prior / (fit.noise * fit.noise)) / (freedom + prior);
-      if (std::fabs(std::log(factor)) < criteria.noise_settled || fit.iterations > criteria.most_iterations - 4) break;
+      const double prior = noise_declared_ ? criteria.noise_prior : 0;
+      double factor = (freedom * fit.variance + prior / (fit.noise * fit.noise)) / (freedom + prior);
+      // Far from it, the squares are those of fitted draws: of these the noise takes nothing.
+      if (!noise_declared_ && factor < criteria.noise_far) {
+        double squares = objective(fit, fit.covariance_model, scan), left = freedom;
+        for (std::size_t j = 0; j < fit.draw_of.size(); ++j) {
+          const std::size_t v = fit.draw_of[j];
+          if (!draws_[v].fitted) continue;
+          squares -= fit.drawn[index(v)] * fit.drawn[index(v)];
+          left -= 1 - covariance(p + index(j), p + index(j));
+        }
+        if (squares > 0 && left >= 1) factor = std::min(factor, squares / left);
+      }
+      if (std::fabs(std::log(factor)) < criteria.noise_settled || ++scales > criteria.most_scales) break;
       fit.noise *= std::sqrt(factor);
       fit.converged = false;
+      fit.iterations = 0;
       linearise(fit);
       continue;
     }
