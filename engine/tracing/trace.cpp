@@ -83,7 +83,7 @@ bool enough(const TraceContext& c, Trace& out) {
 }
 
 /// Compares before and after. If the hold-out blocks veto, all that was found in the last round is dropped, and they
-/// judge the rest anew.
+/// judge the rest anew. A rejected name gives way to what the readings show without it.
 void judge_by_holdout(const TraceContext& c, Search& found, Trace& out) {
   const Trace start = out;
   std::vector<std::string> rejected;
@@ -93,8 +93,19 @@ void judge_by_holdout(const TraceContext& c, Search& found, Trace& out) {
     rejected.insert(rejected.begin(), dropped.begin(), dropped.end());
     out = start;
   }
-  for (const std::string& name : rejected)
-    out.statements.push_back(fmt::format("found after the others and rejected by the hold-out blocks: {}", name));
+  std::string name;
+  if (out.vetoed)
+    if (auto shape = described(c, found)) {
+      name = fmt::format("{}", fmt::join(found.findings[0].finding.members, " | "));
+      found = std::move(*shape);
+      out = start;
+      out.vetoed = compare(c, found, out);
+    }
+  if (!name.empty())
+    out.statements.push_back(
+        fmt::format("named first and rejected by the hold-out blocks: {}; what is there is described instead", name));
+  for (const std::string& later : rejected)
+    out.statements.push_back(fmt::format("found after the others and rejected by the hold-out blocks: {}", later));
 }
 
 /// Whether more than noise is left where readings jump with a size. Scatter of single readings is what is left, too.

@@ -23,12 +23,14 @@ namespace {
 /// more, lest an effect of two waves to a turn take one of three to a turn of any phase.
 Index sizes(const Candidate& a) { return a.name.starts_with("harmonic:") ? 1 : a.columns.cols(); }
 
+constexpr const char *alone = "named", *in_class = "in the class";
 constexpr const char* not_predicted = "refused: it does not improve the prediction of held-out blocks";
 
 /// Takes the steps that the decisions (decisions.h) ask for: fits, and keeps what was found.
 class Searcher {
 public:
-  explicit Searcher(const TraceContext& c) : c_(c) {}
+  /// @param names  whether effects and declared quantities are candidates, or shapes alone
+  explicit Searcher(const TraceContext& c, bool names = true) : c_(c), names_(names) {}
 
   Search run() {
     report_progress("fitting the declared model");
@@ -152,6 +154,7 @@ private:
   }
 
   bool take_signature() {
+    if (!names_) return take_shape();
     const auto plain = best_of([](const Candidate& a) { return a.family == Family::shape; }, criteria.rival_shapes);
     const std::vector<Trial> tried = trials();
     if (tried.empty()) return take_shape();
@@ -218,7 +221,7 @@ private:
       SearchFinding found = found_by(pair[i], Kind::named, i);
       found.finding.remarks.push_back("found together with " + candidate(pair[1 - i]).name + "; each masks the other");
       add(std::move(found));
-      outcomes_[pair[i]] = "named";
+      outcomes_[pair[i]] = alone;
     }
     adopt(fit);
     return true;
@@ -250,7 +253,7 @@ private:
       }
     }
     if (members.size() > 1) found.finding.kind = Kind::equivalence_class;
-    for (const std::size_t a : members) outcomes_[a] = members.size() > 1 ? "in the class" : "named";
+    for (const std::size_t a : members) outcomes_[a] = members.size() > 1 ? in_class : alone;
     if (as_well_) {
       found.finding.remarks.push_back(with_shape(candidate(*as_well_)) + " fits better, as chance could have it");
       outcomes_[*as_well_] = "fits better than " + winner + ", as chance could have it";
@@ -362,7 +365,7 @@ private:
         add_shape(*instead.shape, instead.fit, found->finding.p_value);
         return true;
       }
-      if (!instead.effects.terms.empty()) {
+      if (names_ && !instead.effects.terms.empty()) {
         for (const std::size_t a : instead.members) outcomes_[a] = "explains the scatter";
         add(instead.effects);
         adopt(instead.fit);
@@ -378,6 +381,7 @@ private:
   }
 
   const TraceContext& c_;
+  bool names_;
   Search out_;
   const Evidence* evidence_ = nullptr; ///< of this round
   std::size_t rounds_ = 0;
@@ -390,5 +394,23 @@ private:
 } // namespace
 
 Search search(const TraceContext& context) { return Searcher(context).run(); }
+
+std::optional<Search> described(const TraceContext& context, const Search& rejected) {
+  const auto name = [](const SearchFinding& f) {
+    return f.finding.kind == Kind::named || f.finding.kind == Kind::equivalence_class;
+  };
+  if (rejected.findings.size() != 1 || !name(rejected.findings[0])) return std::nullopt;
+  Search out = Searcher(context, false).run();
+  if (out.findings.empty() || out.findings[0].finding.kind != Kind::not_in_catalogue) return std::nullopt;
+  out.first = rejected.first;
+  out.ranking = rejected.ranking;
+  for (RankedCandidate& one : out.ranking)
+    if (std::ranges::count(rejected.findings[0].finding.members, one.name) > 0 &&
+        (one.outcome == alone || one.outcome == in_class))
+      one.outcome = "rejected by the hold-out blocks";
+  out.limits = rejected.limits;
+  out.tried = rejected.tried;
+  return out;
+}
 
 } // namespace gumshoe::tracing

@@ -42,6 +42,9 @@ Search without_findings(Search search);
 
 /// Fits the declared model, then adds terms until nothing more is found.
 Search search(const TraceContext& context);
+/// The same where the hold-out blocks rejected what was named: what the readings show, without a name. Nothing if they
+/// show no shape by themselves, or if a name was not all that was found.
+std::optional<Search> described(const TraceContext& context, const Search& rejected);
 /// Drops all that was found in the last round, and tests anew whether what is left scatters.
 /// Names of the dropped findings. At least two rounds must have taken in terms.
 std::vector<std::string> step_back(const TraceContext& context, Search& search);
