@@ -1,6 +1,7 @@
 #include "tracing/judgement/beside.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "tracing/criteria.h"
@@ -10,11 +11,19 @@ namespace gumshoe::tracing {
 
 namespace {
 
+/// Whether two shapes share the conditions of a third between them: one has the first, the other the second.
+bool share_between_them(const Candidate& one, const Candidate& other, const Candidate& both) {
+  return one.depends_on.size() == 1 && other.depends_on.size() == 1 && both.depends_on.size() == 2 &&
+         std::ranges::is_permutation(std::array{one.depends_on[0], other.depends_on[0]}, both.depends_on);
+}
+
 /// Whether a candidate may be the other of two. A declared value would take the bend of any table, as would a second
 /// shape of the same condition.
-bool is_another(const Evidence& e, const Observations& o, std::size_t a, const Candidate& simpler) {
+bool is_another(const Evidence& e, const Observations& o, std::size_t a, const Candidate& simpler,
+                const Candidate& shape) {
   const Candidate& c = e.candidates()[a];
   if (c.physical()) return e.testable(a) && c.family != Family::declared && !c.in_part();
+  if (share_between_them(simpler, c, shape)) return true;
   // Commanded conditions form one plan: a table by positions is not a chance sum of curves.
   const auto recorded = [&](const std::string& name) {
     const auto known = std::ranges::find(o.covariates, name, &Covariate::name);
@@ -60,7 +69,7 @@ std::optional<std::size_t> simpler_beside_another(const Evidence& e, const Obser
     const std::size_t model = e.scan().fit(s, e.residuals()).covariance_model;
     const double alone = e.scan().pair_ratio(s, s, e.residuals(), model);
     for (std::size_t a = 0; a < e.candidates().size(); ++a) {
-      if (!is_another(e, o, a, e.candidates()[s])) continue;
+      if (!is_another(e, o, a, e.candidates()[s], e.candidates()[shape])) continue;
       const double added = e.scan().pair_ratio(s, a, e.residuals(), model) - alone;
       const double both = simpler[s].score + added - 2 * e.assessment().null[a].mean;
       const std::pair order{e.candidates()[s].columns.cols(), -both};
