@@ -100,14 +100,13 @@ TEST_CASE("what came and went is found with its place and length", "[tracing]") 
       pulse[static_cast<Index>(i)] = std::exp(-0.5 * from_middle * from_middle);
     }
     const auto found = courses_of(o, pulse);
-    const Candidate& one = named(found, "pulse:time");
+    const auto reading = o.sequence[static_cast<std::size_t>(std::lround(middle))] + 1;
+    const Candidate& one = named(found, "pulse:time about reading " + std::to_string(reading));
     // What it explains is a ten-thousandth short: the column is a hundredth off.
     CHECK((one.columns - pulse).norm() < 1e-2 * pulse.norm());
     CHECK(one.depends_on == std::vector<std::string>{"time"});
     CHECK(one.searched > 40);
   }
-  CHECK(named(courses_of(o, Vector::LinSpaced(static_cast<Index>(count), 0, 1).array().exp()), "pulse:time")
-            .shape.ends_with("after the first reading"));
 }
 
 TEST_CASE("shapes span what they say", "[tracing]") {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <span>
 
@@ -83,7 +82,14 @@ public:
   };
 
   Pulses(const Observations& o, const Covariate& c, std::size_t indication)
-      : every_(index(o.indications)), indication_(index(indication)), t_(since_the_first(o, c)) {}
+      : o_(o), every_(index(o.indications)), indication_(index(indication)), t_(since_the_first(o, c)) {}
+
+  /// The reading nearest to its middle.
+  std::size_t nearest(const Form& form) const {
+    Index at = 0;
+    (t_.array() - form.middle).abs().minCoeff(&at);
+    return o_.sequence[static_cast<std::size_t>(at)];
+  }
 
   Matrix columns(std::span<const Form> forms) const {
     Matrix out = Matrix::Zero(t_.size() * every_, index(forms.size()));
@@ -131,6 +137,7 @@ public:
 
 private:
   static constexpr double longest = 1.0 / 6, ratio = 1.5, step = 0.5;
+  const Observations& o_;
   Index every_, indication_;
   Vector t_;
 };
@@ -218,10 +225,10 @@ std::vector<Candidate> courses(const Observations& o, const std::vector<Index>& 
       const Pulses pulses(o, c, i);
       if (const auto form = pulses.best(gain)) {
         const double range = c.levels.back() - c.levels.front();
-        out.push_back(shape(o, c, i, "pulse:" + c.name, pulses.columns({&*form, 1})));
-        out.back().shape = fmt::format("length {}, {} after the first reading",
-                                       shown(c, 2 * std::sqrt(2 * std::numbers::ln2) * form->width * range),
-                                       shown(c, form->middle * range));
+        out.push_back(shape(o, c, i, fmt::format("pulse:{} about reading {}", c.name, pulses.nearest(*form) + 1),
+                            pulses.columns({&*form, 1})));
+        constexpr double length_of_width = 2.3548; // at half of its height: 2 sqrt(2 ln 2)
+        out.back().shape = "length " + shown(c, length_of_width * form->width * range);
         out.back().searched = static_cast<double>(places.size());
       }
     }

@@ -17,18 +17,15 @@ std::string size_of(const Finding& f) {
   return fmt::format(" ({} {})", q.name, shown_size(q.value, q.unit, q.si_unit));
 }
 
-/// "reading 27", after which the readings differ by a constant; empty of any other shape.
-std::string instant_of(const std::string& shape) {
-  const std::string after = " after ";
-  const auto at = shape.find(after);
-  return shape.starts_with("step:") && at != std::string::npos ? shape.substr(at + after.size()) : "";
+/// "reading 27" of "step:time after reading 27", asked for as "step:" and " after "; empty of any other shape.
+std::string reading_of(const std::string& shape, const std::string& kind, const std::string& where) {
+  const auto at = shape.find(where);
+  return shape.starts_with(kind) && at != std::string::npos ? shape.substr(at + where.size()) : "";
 }
-
-/// " (length 5.2 min, 42 min after the first reading)" of what came and went; empty of any other shape.
-std::string pulse_of(const std::string& shape) {
-  const auto at = shape.find(" (");
-  return shape.starts_with("pulse:") && at != std::string::npos ? shape.substr(at) : "";
-}
+/// The reading after which the readings differ by a constant.
+std::string instant_of(const std::string& shape) { return reading_of(shape, "step:", " after "); }
+/// The reading about which something came and went.
+std::string pulse_of(const std::string& shape) { return reading_of(shape, "pulse:", " about "); }
 
 /// "tool T3", which alone changes with the first condition; empty of any other shape.
 std::string part_alone(const Finding& f) {
@@ -47,7 +44,7 @@ std::string in_its_place(const Finding& f) {
   const std::string &shape = f.members[1], on = shape.substr(shape.find(':') + 1);
   if (const std::string reading = instant_of(shape); !reading.empty()) return "something changed after " + reading;
   if (shape.starts_with("step:")) return on + " differs from the others, which agree";
-  if (shape.starts_with("pulse:")) return "something came and went" + pulse_of(shape);
+  if (const std::string reading = pulse_of(shape); !reading.empty()) return "something came and went about " + reading;
   return shape == on ? on + " is there" : "the readings follow " + on;
 }
 
@@ -77,7 +74,7 @@ std::string what_was_found(const Finding& f) {
     if (const std::string reading = instant_of(f.described_by); !reading.empty())
       return fmt::format("Something changed after {}: from then on the readings differ by a constant.", reading);
     if (const std::string pulse = pulse_of(f.described_by); !pulse.empty())
-      return fmt::format("Something came and went: for a while the readings differ{}.", pulse);
+      return fmt::format("Something came and went about {}: for a while the readings differ.", pulse);
     if (const std::string part = part_alone(f); !part.empty())
       return fmt::format("An unknown effect changes the readings of {} alone with {}.", part, f.depends_on[0]);
     if (const std::string step = "step:";
@@ -102,7 +99,7 @@ std::string briefly(const Finding& f) {
                        f.members.size() < 2 ? "" : ", or " + in_its_place(f));
   case Kind::not_in_catalogue:
     if (const std::string reading = instant_of(f.described_by); !reading.empty()) return "a step after " + reading;
-    if (f.described_by.starts_with("pulse:")) return "a pulse in " + depends_on;
+    if (const std::string reading = pulse_of(f.described_by); !reading.empty()) return "a pulse about " + reading;
     if (const std::string part = part_alone(f); !part.empty())
       return fmt::format("an unknown effect of {} on {} alone", f.depends_on[0], part);
     return "an unknown effect of " + depends_on;
