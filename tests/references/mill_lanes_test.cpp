@@ -134,3 +134,57 @@ TEST_CASE("trigger curves have equal bits in lanes, alone and on every instructi
   }
   REQUIRE(read > 500);
 }
+
+TEST_CASE("a scan of the phase has the bits of curves read one by one, on every instruction set",
+          "[references][tool_length]") {
+  Draw draw;
+  int compared = 0;
+  for (int n = 0; n < 24; ++n) {
+    const Tool t = draw.tool(2 * n);
+    const std::size_t flutes = std::min<std::size_t>(t.flutes.size(), 4), readings = flutes + 3;
+    std::vector<TriggerCurve> curves_of;
+    curves_of.reserve(flutes);
+    for (std::size_t k = 0; k < flutes; ++k) {
+      const InsertHeight heights(t.flutes[k].insert, t.beam);
+      if (heights.ever_covered()) curves_of.emplace_back(heights, t.motion.drop);
+    }
+    if (curves_of.size() < flutes) continue;
+    const double period = curves_of[0].period(), margin = 0.01 * period;
+    std::vector<const CurveTable*> tables;
+    std::vector<double> lines, heights, phases;
+    for (std::size_t k = 0; k < flutes; ++k)
+      for (std::size_t i = 0; i < readings; ++i)
+        tables.push_back(&curves_of[k].table()), lines.push_back(draw(-1, 1) * period);
+    for (std::size_t i = 0; i < readings; ++i) heights.push_back(curves_of[0].highest() - draw(0, 1) * period);
+    constexpr std::size_t size = 21; // no multiple of lanes
+    for (std::size_t s = 0; s < size; ++s) phases.push_back(draw(0, 1) * period);
+    const CurveScan scan{readings, flutes, t.motion.drop, tables.data(), lines.data(), heights.data()};
+    for (const CurveTableKernels* kernels : curves()) {
+      std::vector<double> begins(flutes * size), squares(size);
+      kernels->longest(scan, margin, size, phases.data(), begins.data(), squares.data());
+      for (std::size_t s = 0; s < size; ++s) {
+        double sum = 0;
+        for (std::size_t k = 0; k < flutes; ++k) {
+          double begin = -1e300;
+          for (std::size_t i = 0; i < readings; ++i) {
+            const double line = lines[k * readings + i];
+            const double angle = (line + phases[s] - heights[i] - margin) / t.motion.drop;
+            begin = std::max(begin, curves_of[k].record(angle) - line);
+          }
+          REQUIRE(same_bits(begins[k * size + s], begin));
+        }
+        for (std::size_t i = 0; i < readings; ++i) {
+          double highest = -1e300;
+          for (std::size_t k = 0; k < flutes; ++k) {
+            const double begin = begins[k * size + s], line = lines[k * readings + i];
+            highest = std::max(highest, (phases[s] - begin) + curves_of[k].at(line + begin).height);
+          }
+          sum += (highest - heights[i]) * (highest - heights[i]);
+        }
+        REQUIRE(same_bits(squares[s], sum));
+        ++compared;
+      }
+    }
+  }
+  REQUIRE(compared > 500);
+}
