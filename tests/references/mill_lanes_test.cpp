@@ -5,41 +5,20 @@
 
 #include <catch2/catch.hpp>
 
-#include "base/instruction_set.h"
+#include "kernel_variants.h"
 #include "models/tool_length/trigger/curve_table.h"
 #include "models/tool_length/trigger/insert_walk_kernels.h"
 #include "models/tool_length/trigger/trigger_curve.h"
 #include "references/drawn_tools.h"
 
+GUMSHOE_VARIANTS(gumshoe::models::tool_length::WalkKernels, insert_walk)
+GUMSHOE_VARIANTS(gumshoe::models::tool_length::CurveTableKernels, curve_table)
+
 using namespace gumshoe;
 using namespace gumshoe::fixture;
 using namespace gumshoe::models::tool_length;
 
-// Weak: a build may have one instruction set alone.
-#define GUMSHOE_WEAK __attribute__((weak))
-extern "C" {
-extern const WalkKernels gumshoe_insert_walk_sse2, gumshoe_insert_walk_avx2 GUMSHOE_WEAK,
-    gumshoe_insert_walk_avx512 GUMSHOE_WEAK;
-extern const CurveTableKernels gumshoe_curve_table_sse2, gumshoe_curve_table_avx2 GUMSHOE_WEAK,
-    gumshoe_curve_table_avx512 GUMSHOE_WEAK;
-}
-
 namespace {
-
-/// Those that this build has and this processor runs.
-template <class Kernels>
-std::vector<const Kernels*> available_of(const Kernels* sse2, const Kernels* avx2, const Kernels* avx512) {
-  std::vector<const Kernels*> all{sse2};
-  if (avx2 && available(InstructionSet::avx2)) all.push_back(avx2);
-  if (avx512 && available(InstructionSet::avx512)) all.push_back(avx512);
-  return all;
-}
-const auto walks = [] {
-  return available_of(&gumshoe_insert_walk_sse2, &gumshoe_insert_walk_avx2, &gumshoe_insert_walk_avx512);
-};
-const auto curves = [] {
-  return available_of(&gumshoe_curve_table_sse2, &gumshoe_curve_table_avx2, &gumshoe_curve_table_avx512);
-};
 
 bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 bool same_bits(const InsertTrigger& a, const InsertTrigger& b) {
@@ -56,7 +35,8 @@ TEST_CASE("mills that are solved together have the triggers of each alone", "[re
   std::vector<TriggerQuestion> questions;
   for (const Tool& t : tools) questions.push_back({t.flutes, t.beam, t.motion});
   const std::size_t n = tools.size();
-  for (const WalkKernels* kernels : walks()) {
+  for (const auto& [set, kernels] : insert_walk_variants()) {
+    INFO(name(set));
     std::vector<InsertTrigger> answers(n);
     const auto found = std::make_unique<bool[]>(n);
     kernels->walk(questions.data(), n, answers.data(), found.get());
@@ -116,7 +96,8 @@ TEST_CASE("trigger curves have equal bits in lanes, alone and on every instructi
     for (std::size_t i = 0; i < size; ++i) x.push_back(draw(-3, 3) * curve.period()), angle.push_back(draw(-9, 9));
     std::vector<double> rows[6];
     for (auto& row : rows) row.resize(size);
-    for (const CurveTableKernels* kernels : curves()) {
+    for (const auto& [set, kernels] : curve_table_variants()) {
+      INFO(name(set));
       kernels->at(curve.table(), size, x.data(),
                   {rows[0].data(), rows[1].data(), rows[2].data(), rows[3].data(), rows[4].data()});
       kernels->record(curve.table(), size, angle.data(), rows[5].data());
@@ -159,7 +140,8 @@ TEST_CASE("a scan of the phase has the bits of curves read one by one, on every 
     constexpr std::size_t size = 21; // no multiple of lanes
     for (std::size_t s = 0; s < size; ++s) phases.push_back(draw(0, 1) * period);
     const CurveScan scan{readings, flutes, t.motion.drop, tables.data(), lines.data(), heights.data()};
-    for (const CurveTableKernels* kernels : curves()) {
+    for (const auto& [set, kernels] : curve_table_variants()) {
+      INFO(name(set));
       std::vector<double> begins(flutes * size), squares(size);
       kernels->longest(scan, margin, size, phases.data(), begins.data(), squares.data());
       for (std::size_t s = 0; s < size; ++s) {
