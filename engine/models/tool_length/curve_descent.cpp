@@ -273,9 +273,9 @@ double CurveDescents::best_step(const Candidate& c, const Look& at, Unknowns& st
 bool CurveDescents::known(const Candidate& c) const {
   return std::ranges::any_of(known_, [&](const auto& earlier) {
     const auto& [flutes, at] = earlier;
-    bool same = flutes == active && std::fabs(at.x[0] - c.x[0]) < alike;
+    bool same = flutes == active && std::fabs(at.x[0] - c.x[0]) < one_minimum;
     for (std::size_t k = 0; k < d_.flutes; ++k)
-      same = same && !(active[k] && std::fabs(at.x[k + 1] - c.x[k + 1]) > alike);
+      same = same && !(active[k] && std::fabs(at.x[k + 1] - c.x[k + 1]) > one_minimum);
     return same;
   });
 }

@@ -12,7 +12,7 @@ namespace gumshoe::models::tool_length {
 /// Error of the tabulated curves, squared.
 inline constexpr double curve_rounding = 2.5e-21;
 /// Minima nearer than this are one, m.
-inline constexpr double alike = 1e-9;
+inline constexpr double one_minimum = 1e-9;
 
 using Flutes = std::array<bool, chain::most_inserts>;
 

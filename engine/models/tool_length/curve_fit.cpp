@@ -39,7 +39,7 @@ std::vector<Candidate> scan(const CurveReadings& d, CurveDescents& fitter) {
   std::ranges::stable_sort(best, {}, &Candidate::squares);
   // Several phases find one minimum.
   const auto twins = std::unique(best.begin(), best.end(), [](const Candidate& a, const Candidate& b) {
-    return b.squares - a.squares < 1e-3 * b.squares && std::fabs(a.x[1] - b.x[1]) < alike;
+    return b.squares - a.squares < 1e-3 * b.squares && std::fabs(a.x[1] - b.x[1]) < one_minimum;
   });
   best.erase(twins, best.end());
   if (best.size() > carried) best.resize(carried);
