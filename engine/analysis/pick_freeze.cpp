@@ -94,23 +94,23 @@ public:
     sampler_.draw(first, rows, Purpose::pick_freeze, b_.data(), rows);
   }
 
-  /// Outputs [output * rows + i] of the unchanged row.
-  void run(bool from_a, std::vector<double>& y) {
+  /// Outputs [output * rows + i] of the unchanged row; `freezing`: run_frozen follows.
+  void run(bool from_a, std::vector<double>& y, bool freezing) {
     y.resize(outputs_ * rows_);
     for (std::size_t v = 0; v < d_; ++v) pointers_[v] = &(from_a ? a_ : b_)[v * rows_];
-    model(y.data(), nullptr);
+    const auto run = freezing ? &propagation::Experiment::run_and_keep : &propagation::Experiment::run;
+    (e_.*run)(pointers_, rows_, workspace_, y.data(), status_.data());
+    note_failed();
   }
 
-  /// After run(): outputs [(f * outputs + output) * rows + i] of the rows with factor f from the other draw.
+  /// After run() for it: outputs [(f * outputs + output) * rows + i] of the rows with factor f from the other draw.
   void run_frozen(bool from_a, std::vector<double>& y) {
     y.resize(factors_.size() * outputs_ * rows_);
     const std::vector<double>&x = from_a ? a_ : b_, &other = from_a ? b_ : a_;
-    std::vector<std::size_t> changed;
     for (std::size_t f = 0; f < factors_.size(); ++f) {
       for (const std::size_t v : factors_[f].variates) pointers_[v] = &other[v * rows_];
-      changed = columns_of_[f];
-      if (f > 0) changed.insert(changed.end(), columns_of_[f - 1].begin(), columns_of_[f - 1].end());
-      model(&y[f * outputs_ * rows_], &changed);
+      e_.run_changed(pointers_, columns_of_[f], rows_, workspace_, &y[f * outputs_ * rows_], status_.data());
+      note_failed();
       for (const std::size_t v : factors_[f].variates) pointers_[v] = &x[v * rows_];
     }
   }
@@ -129,8 +129,7 @@ public:
   const std::vector<std::uint8_t>& failed() const { return failed_; }
 
 private:
-  void model(double* y, const std::vector<std::size_t>* changed) {
-    e_.run(pointers_, rows_, workspace_, y, status_.data(), changed);
+  void note_failed() {
     const std::uint8_t* __restrict status = status_.data();
     std::uint8_t* __restrict failed = failed_.data();
     const std::size_t n = rows_; // a byte may alias a member
@@ -161,7 +160,7 @@ std::vector<double> origins(const propagation::Experiment& e, const quantities::
   std::vector<double> y, origin(outputs);
   Block block(e, sampler, factors);
   block.draw(0, n);
-  block.run(true, y);
+  block.run(true, y, false);
   for (std::size_t o = 0; o < outputs; ++o) {
     double sum = 0, valid = 0;
     for (std::size_t i = 0; i < n; ++i)
@@ -191,9 +190,9 @@ PickFreezeSums run_pick_freeze(const propagation::Experiment& e, const std::vect
   const auto run_block = [&](Block& block, Outputs& y, std::uint64_t first, std::size_t rows) {
     const std::size_t group = first / per_group, groups = (rows + per_group - 1) / per_group;
     block.draw(first, rows);
-    block.run(false, y.b);
+    block.run(false, y.b, mirrored);
     if (mirrored) block.run_frozen(false, y.d);
-    block.run(true, y.a);
+    block.run(true, y.a, true);
     block.run_frozen(true, y.c);
     if (block.any_failed())
       for (auto* values : {&y.a, &y.b, &y.c, &y.d}) block.silence_failed(*values, origin);

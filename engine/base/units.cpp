@@ -211,6 +211,7 @@ double over(double x, double factor) {
 } // namespace
 
 std::optional<Unit> unit_of_database(const std::string& name) {
+  if (name.empty() || !plain_grammar(name)) return std::nullopt;
   static ut_system* system = nullptr;
   require_memory(std::size_t{1} << (system ? 20 : 23)); // its parser ends the process where it gets none
   if (!system) {
@@ -220,7 +221,6 @@ std::optional<Unit> unit_of_database(const std::string& name) {
       throw std::runtime_error(
           "the unit database of udunits2 cannot be read (it belongs to the package libudunits2-data)");
   }
-  if (name.empty() || !plain_grammar(name)) return std::nullopt;
   struct Free {
     void operator()(ut_unit* u) const { ut_free(u); }
   };

@@ -5,6 +5,7 @@
 
 #include "base/hash.h"
 #include "propagation/experiment.h"
+#include "random/latin_hypercube.h"
 
 namespace gumshoe::propagation {
 
@@ -46,7 +47,9 @@ std::string design_hash(const Experiment& e) {
                                       std::string_view(s.evaluation), std::string_view(scenario::name(s.run.design))})
     record.add(text);
   record.add(s.run.seed);
-  record.add(s.run.design == scenario::Design::latin_hypercube ? s.run.samples : 0);
+  const bool latin = s.run.design == scenario::Design::latin_hypercube;
+  record.add(latin ? s.run.samples : 0);
+  if (latin) record.add(random::latin_generation);
   record.add(std::uint64_t{plan.variates.size()});
   for (const auto& v : plan.variates) {
     record.add(v.key);

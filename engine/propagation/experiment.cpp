@@ -133,6 +133,7 @@ Experiment::Experiment(const scenario::Scenario& s)
   }
   for (std::size_t r = 0; r < (joint_ ? 1 : s.readings.size()); ++r) add_outputs(r);
   find_twins();
+  keeping_ = models::keeping_kernels(this->model());
   if (prediction_ && !s.trace.priors.empty()) linearise_prediction();
 }
 

@@ -2,6 +2,7 @@
 /// A scenario prepared for a run: its forward model, its plan of variates and columns, and the links between them.
 #include <memory>
 
+#include "models/kept.h"
 #include "propagation/forward_model.h"
 #include "propagation/run.h"
 #include "quantities/sample_plan.h"
@@ -15,6 +16,10 @@ struct Workspace {
   std::vector<double> indications;        ///< [reading][indication][sample] as the last block's evaluation read them
   std::vector<double> single;             ///< outputs of the single readings, where their mean is wanted
   std::vector<models::Column> drawn, row; ///< one per column of the plan; one per value of a reading
+  /// Of a run of changed columns: those columns, by place in `changed`.
+  std::vector<double> changed;
+  models::Kept kept; ///< of the last run that kept its values
+  enum class Keeping { nothing, keep, go_on } keeping = Keeping::nothing;
   Block block;
   std::vector<double*> simulated, measurands, true_measurands;
   std::uint64_t first_sample = models::unnumbered; ///< number in the run, for messages
@@ -58,9 +63,15 @@ public:
   /// Outputs for given variates (variates[v] points to n values, n a multiple of 8):
   /// outputs[row * n + i], SI, NaN where status[i] is not ok. Virtual experiment: errors, evaluated minus true;
   /// prediction: readings.
-  /// `changed`: the only columns that differ from the last call with this workspace and this n; null: all.
-  void run(std::span<const double* const> variates, std::size_t n, Workspace& w, double* outputs, std::uint8_t* status,
-           const std::vector<std::size_t>* changed = nullptr) const;
+  void run(std::span<const double* const> variates, std::size_t n, Workspace& w, double* outputs,
+           std::uint8_t* status) const;
+  /// The same, and keeps in the workspace what the model can go on from.
+  void run_and_keep(std::span<const double* const> variates, std::size_t n, Workspace& w, double* outputs,
+                    std::uint8_t* status) const;
+  /// The same for variates that differ from those of the last run_and_keep with this workspace and this n in columns
+  /// `changed` of the plan alone: what depends on no other is not computed again. The same bits.
+  void run_changed(std::span<const double* const> variates, const std::vector<std::size_t>& changed, std::size_t n,
+                   Workspace& w, double* outputs, std::uint8_t* status) const;
 
   /// The same for given values of the plan's columns: columns[c] points to n values, null for the estimate. Values that
   /// differ from the estimates are true values in a virtual experiment and inputs in a propagation.
@@ -100,6 +111,7 @@ private:
   void check_together();
   void find_twins();
   void wire(Workspace& w, std::size_t n, bool estimates) const;
+  void evaluate(Workspace& w, std::uint8_t* status) const;
   void run_drawn(std::size_t n, Workspace& w, double* outputs, std::uint8_t* status) const;
   void run_model(std::size_t n, Workspace& w, double* outputs, std::uint8_t* status) const;
   void predict(std::size_t n, Workspace& w, double* outputs, std::uint8_t* status) const;
@@ -122,6 +134,7 @@ private:
   /// model linearised at the estimates. Empty: the prediction is of the whole model.
   Linearisation linear_;
   std::vector<Partial> partials_; ///< of the quantities that are drawn
+  const models::KeepingKernels* keeping_ = nullptr;
   std::vector<std::size_t> solved_as_, every_column_;
   std::vector<double> column_estimates_;
   std::vector<std::string> remarks_, reading_names_;

@@ -50,17 +50,34 @@ void point_at_rows(std::vector<double*>& rows, std::size_t count, double* values
 } // namespace
 
 void Experiment::run(std::span<const double* const> variates, std::size_t n, Workspace& w, double* outputs,
-                     std::uint8_t* status, const std::vector<std::size_t>* changed) const {
+                     std::uint8_t* status) const {
   w.columns.resize(plan_.columns.size() * n);
-  if (changed)
-    for (const std::size_t c : *changed) plan_.assemble_column(c, variates, n, &w.columns[c * n]);
-  else
-    plan_.assemble(variates, n, w.columns.data(), n); // constant columns are read with stride 0
+  plan_.assemble(variates, n, w.columns.data(), n); // constant columns are read with stride 0
   w.drawn.clear();
   for (std::size_t c = 0; c < plan_.columns.size(); ++c)
     w.drawn.push_back(plan_.columns[c].variates.empty() ? models::Column{&column_estimates_[c], 0}
                                                         : models::Column{&w.columns[c * n], 1});
   run_drawn(n, w, outputs, status);
+}
+
+void Experiment::run_and_keep(std::span<const double* const> variates, std::size_t n, Workspace& w, double* outputs,
+                              std::uint8_t* status) const {
+  w.keeping = Workspace::Keeping::keep;
+  run(variates, n, w, outputs, status);
+  w.keeping = Workspace::Keeping::nothing;
+}
+
+void Experiment::run_changed(std::span<const double* const> variates, const std::vector<std::size_t>& changed,
+                             std::size_t n, Workspace& w, double* outputs, std::uint8_t* status) const {
+  w.changed.resize(changed.size() * n);
+  for (std::size_t k = 0; k < changed.size(); ++k) {
+    plan_.assemble_column(changed[k], variates, n, &w.changed[k * n]);
+    w.drawn[changed[k]].data = &w.changed[k * n];
+  }
+  w.keeping = Workspace::Keeping::go_on;
+  run_drawn(n, w, outputs, status);
+  w.keeping = Workspace::Keeping::nothing;
+  for (const std::size_t c : changed) w.drawn[c].data = &w.columns[c * n];
 }
 
 void Experiment::run_columns(std::span<const double* const> columns, std::size_t n, Workspace& w, double* outputs,
@@ -222,6 +239,18 @@ void Experiment::predict(std::size_t n, Workspace& w, double* outputs, std::uint
   mark_failed(outputs_.size(), n, outputs, status);
 }
 
+void Experiment::evaluate(Workspace& w, std::uint8_t* status) const {
+  const auto call = forward_.call(w.block, nullptr, w.measurands.data(), status);
+  // Columns to which stated effects add are made anew for each block, perhaps where others were.
+  const bool keeps = keeping_ && !virtual_ && w.block.moved.empty();
+  if (keeps && w.keeping == Workspace::Keeping::keep)
+    keeping_->keep(call, w.kept);
+  else if (keeps && w.keeping == Workspace::Keeping::go_on)
+    keeping_->go_on(call, w.kept);
+  else
+    model().kernels()->evaluate(call);
+}
+
 void Experiment::run_model(std::size_t n, Workspace& w, double* outputs, std::uint8_t* status) const {
   const std::size_t readings = scenario_.readings.size(), rows = outputs_.size() * (mean_ ? readings : 1);
   w.indications.resize(readings * layout().indications.size() * n);
@@ -236,7 +265,7 @@ void Experiment::run_model(std::size_t n, Workspace& w, double* outputs, std::ui
     add_noise(n, w);
   }
   point_at_rows(w.measurands, rows, outputs, n);
-  model().kernels()->evaluate(forward_.call(w.block, nullptr, w.measurands.data(), status));
+  evaluate(w, status);
   if (virtual_)
     for (std::size_t row = 0; row < rows; ++row)
       if (!measurands_[row % measurands_.size()].diagnostic)

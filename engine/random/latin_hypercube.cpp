@@ -9,19 +9,24 @@
 namespace gumshoe::random {
 
 Permutation::Permutation(std::uint64_t size, std::uint64_t key)
-    : size_(std::max<std::uint64_t>(size, 1)), key_(key),
-      half_(std::max(1u, (static_cast<unsigned>(std::bit_width(size_ - 1)) + 1) / 2)) {}
+    : size_(std::max<std::uint64_t>(size, 1)),
+      columns_(static_cast<std::uint64_t>(std::ceil(std::sqrt(static_cast<double>(size_))))),
+      rows_((size_ + columns_ - 1) / columns_) {
+  for (std::uint64_t round = 0; round < rounds; ++round) keys_[round] = mix64(key + round * 0x9e3779b97f4a7c15u);
+}
 
 std::uint64_t Permutation::operator()(std::uint64_t i) const {
-  const std::uint64_t mask = (std::uint64_t{1} << half_) - 1;
   do {
-    std::uint64_t left = i >> half_, right = i & mask;
+    std::uint64_t cell[2] = {i / columns_, i % columns_}; // row and column
+    const std::uint64_t sides[2] = {rows_, columns_};
     for (std::uint64_t round = 0; round < rounds; ++round) {
-      const std::uint64_t next = left ^ (mix64(round_key(round) ^ right) & mask);
-      left = right;
-      right = next;
+      const std::uint64_t low = 0xffffffffu, key = keys_[round], moved = round % 2, side = sides[moved];
+      const std::uint64_t product = ((cell[1 - moved] ^ key) & low) * first_multiplier;
+      const std::uint64_t hash = (((product >> 32) ^ product ^ (key >> 32)) & low) * second_multiplier >> 32;
+      cell[moved] += hash * side >> 32;
+      if (cell[moved] >= side) cell[moved] -= side;
     }
-    i = left << half_ | right;
+    i = cell[0] * columns_ + cell[1];
   } while (i >= size_);
   return i;
 }

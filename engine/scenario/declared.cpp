@@ -33,8 +33,9 @@ std::string first_unit(const Node& node) {
   for (const Member& m : node.members) {
     if (std::ranges::find(worded, m.key) != worded.end()) continue;
     const auto unit = first_unit(m.value);
+    if (unit.empty()) continue;
     const bool relative = std::ranges::find(widths, m.key) != widths.end() && units::convertible(unit, "1");
-    if (!unit.empty() && !relative) return unit;
+    if (!relative) return unit;
   }
   for (const Node& item : node.items)
     if (auto unit = first_unit(item); !unit.empty()) return unit;

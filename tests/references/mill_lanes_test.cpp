@@ -5,41 +5,20 @@
 
 #include <catch2/catch.hpp>
 
-#include "base/instruction_set.h"
+#include "kernel_variants.h"
 #include "models/tool_length/trigger/curve_table.h"
 #include "models/tool_length/trigger/insert_walk_kernels.h"
 #include "models/tool_length/trigger/trigger_curve.h"
 #include "references/drawn_tools.h"
 
+GUMSHOE_VARIANTS(gumshoe::models::tool_length::WalkKernels, insert_walk)
+GUMSHOE_VARIANTS(gumshoe::models::tool_length::CurveTableKernels, curve_table)
+
 using namespace gumshoe;
 using namespace gumshoe::fixture;
 using namespace gumshoe::models::tool_length;
 
-// Weak: a build may have one instruction set alone.
-#define GUMSHOE_WEAK __attribute__((weak))
-extern "C" {
-extern const WalkKernels gumshoe_insert_walk_sse2, gumshoe_insert_walk_avx2 GUMSHOE_WEAK,
-    gumshoe_insert_walk_avx512 GUMSHOE_WEAK;
-extern const CurveTableKernels gumshoe_curve_table_sse2, gumshoe_curve_table_avx2 GUMSHOE_WEAK,
-    gumshoe_curve_table_avx512 GUMSHOE_WEAK;
-}
-
 namespace {
-
-/// Those that this build has and this processor runs.
-template <class Kernels>
-std::vector<const Kernels*> available_of(const Kernels* sse2, const Kernels* avx2, const Kernels* avx512) {
-  std::vector<const Kernels*> all{sse2};
-  if (avx2 && available(InstructionSet::avx2)) all.push_back(avx2);
-  if (avx512 && available(InstructionSet::avx512)) all.push_back(avx512);
-  return all;
-}
-const auto walks = [] {
-  return available_of(&gumshoe_insert_walk_sse2, &gumshoe_insert_walk_avx2, &gumshoe_insert_walk_avx512);
-};
-const auto curves = [] {
-  return available_of(&gumshoe_curve_table_sse2, &gumshoe_curve_table_avx2, &gumshoe_curve_table_avx512);
-};
 
 bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 bool same_bits(const InsertTrigger& a, const InsertTrigger& b) {
@@ -56,7 +35,8 @@ TEST_CASE("mills that are solved together have the triggers of each alone", "[re
   std::vector<TriggerQuestion> questions;
   for (const Tool& t : tools) questions.push_back({t.flutes, t.beam, t.motion});
   const std::size_t n = tools.size();
-  for (const WalkKernels* kernels : walks()) {
+  for (const auto& [set, kernels] : insert_walk_variants()) {
+    INFO(name(set));
     std::vector<InsertTrigger> answers(n);
     const auto found = std::make_unique<bool[]>(n);
     kernels->walk(questions.data(), n, answers.data(), found.get());
@@ -116,7 +96,8 @@ TEST_CASE("trigger curves have equal bits in lanes, alone and on every instructi
     for (std::size_t i = 0; i < size; ++i) x.push_back(draw(-3, 3) * curve.period()), angle.push_back(draw(-9, 9));
     std::vector<double> rows[6];
     for (auto& row : rows) row.resize(size);
-    for (const CurveTableKernels* kernels : curves()) {
+    for (const auto& [set, kernels] : curve_table_variants()) {
+      INFO(name(set));
       kernels->at(curve.table(), size, x.data(),
                   {rows[0].data(), rows[1].data(), rows[2].data(), rows[3].data(), rows[4].data()});
       kernels->record(curve.table(), size, angle.data(), rows[5].data());
@@ -133,4 +114,59 @@ TEST_CASE("trigger curves have equal bits in lanes, alone and on every instructi
     }
   }
   REQUIRE(read > 500);
+}
+
+TEST_CASE("a scan of the phase has the bits of curves read one by one, on every instruction set",
+          "[references][tool_length]") {
+  Draw draw;
+  int compared = 0;
+  for (int n = 0; n < 24; ++n) {
+    const Tool t = draw.tool(2 * n);
+    const std::size_t flutes = std::min<std::size_t>(t.flutes.size(), 4), readings = flutes + 3;
+    std::vector<TriggerCurve> curves_of;
+    curves_of.reserve(flutes);
+    for (std::size_t k = 0; k < flutes; ++k) {
+      const InsertHeight heights(t.flutes[k].insert, t.beam);
+      if (heights.ever_covered()) curves_of.emplace_back(heights, t.motion.drop);
+    }
+    if (curves_of.size() < flutes) continue;
+    const double period = curves_of[0].period(), margin = 0.01 * period;
+    std::vector<const CurveTable*> tables;
+    std::vector<double> lines, heights, phases;
+    for (std::size_t k = 0; k < flutes; ++k)
+      for (std::size_t i = 0; i < readings; ++i)
+        tables.push_back(&curves_of[k].table()), lines.push_back(draw(-1, 1) * period);
+    for (std::size_t i = 0; i < readings; ++i) heights.push_back(curves_of[0].highest() - draw(0, 1) * period);
+    constexpr std::size_t size = 21; // no multiple of lanes
+    for (std::size_t s = 0; s < size; ++s) phases.push_back(draw(0, 1) * period);
+    const CurveScan scan{readings, flutes, t.motion.drop, tables.data(), lines.data(), heights.data()};
+    for (const auto& [set, kernels] : curve_table_variants()) {
+      INFO(name(set));
+      std::vector<double> begins(flutes * size), squares(size);
+      kernels->longest(scan, margin, size, phases.data(), begins.data(), squares.data());
+      for (std::size_t s = 0; s < size; ++s) {
+        double sum = 0;
+        for (std::size_t k = 0; k < flutes; ++k) {
+          double begin = -1e300;
+          for (std::size_t i = 0; i < readings; ++i) {
+            const double line = lines[k * readings + i];
+            const double angle = (line + phases[s] - heights[i] - margin) / t.motion.drop;
+            begin = std::max(begin, curves_of[k].record(angle) - line);
+          }
+          REQUIRE(same_bits(begins[k * size + s], begin));
+        }
+        for (std::size_t i = 0; i < readings; ++i) {
+          double highest = -1e300;
+          for (std::size_t k = 0; k < flutes; ++k) {
+            const double begin = begins[k * size + s], line = lines[k * readings + i];
+            highest = std::max(highest, (phases[s] - begin) + curves_of[k].at(line + begin).height);
+          }
+          sum += (highest - heights[i]) * (highest - heights[i]);
+        }
+        REQUIRE(same_bits(squares[s], sum));
+        ++compared;
+      }
+    }
+  }
+  REQUIRE(compared > 500);
 }

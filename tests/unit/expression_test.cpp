@@ -1,16 +1,19 @@
 /// Formulas of a scenario: what is refused and where, dimensions, values, derivatives, equal bits.
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <bit>
+#include <cstring>
 #include <random>
 
 #include "asked.h"
-#include "base/instruction_set.h"
+#include "kernel_variants.h"
 #include "models/expression/expression.h"
-#include "models/kernel_choice.h"
+#include "propagation/experiment.h"
 #include "unit/scenario_fixture.h"
 
-GUMSHOE_DECLARE_KERNELS(expression)
+GUMSHOE_VARIANTS(gumshoe::models::Kernels, expression)
+GUMSHOE_VARIANTS(gumshoe::models::KeepingKernels, expression_keeping)
 
 using namespace gumshoe;
 using namespace gumshoe::models;
@@ -121,7 +124,8 @@ TEST_CASE("names mean one thing and formulas do not go round in a circle", "[exp
                              "[model.intermediates]\nu = \"v + n\"\nv = \"w * 2\"\nw = \"u\"\n[model.measurands]\ny "
                              "= \"u\"\n" +
                              inputs;
-  CHECK(complaint(circle).starts_with("s.toml:7:6: error: model.intermediates.w: 'u' depends on itself (u -> v -> w -> u)"));
+  CHECK(complaint(circle).starts_with(
+      "s.toml:7:6: error: model.intermediates.w: 'u' depends on itself (u -> v -> w -> u)"));
   const std::string twice = start + "[model.intermediates]\nn = \"t\"\n[model.measurands]\ny = \"n\"\n" + inputs;
   CHECK(complaint(twice).starts_with("s.toml:5:6: error: model.intermediates.n: 'n' is already a quantity"));
   // In any order, and a chain longer than the program's stack would hold.
@@ -133,7 +137,8 @@ TEST_CASE("names mean one thing and formulas do not go round in a circle", "[exp
 TEST_CASE("dimensions must fit, and are named where they do not", "[expression][dimensions]") {
   CHECK(about("L + phi") == at(8, "a length plus an angle (the terms of a sum must have the same dimension)."));
   CHECK(about("n * (L - t)") == at(13, "a length minus a time (the terms of a sum must have the same dimension)."));
-  CHECK(about("exp(L / t)") == at(10, "exp of a speed (it takes a plain number). Divide it by another quantity of its kind."));
+  CHECK(about("exp(L / t)") ==
+        at(10, "exp of a speed (it takes a plain number). Divide it by another quantity of its kind."));
   CHECK(about("sin(L)").starts_with(at(10, "sin of a length (it takes an angle or a plain number)")));
   CHECK(about("n^L").starts_with(at(8, "the exponent is a length")));
   CHECK(about("L^n").starts_with(at(8, "the exponent of a length varies")));
@@ -188,7 +193,6 @@ TEST_CASE("derivatives are exact", "[expression][dual]") {
   CHECK(y[0].d[2].d[2] == Approx(2 * a * a * a * s / (c * c * c)).epsilon(1e-13));
 }
 
-#ifdef GUMSHOE_HAS_AVX2
 TEST_CASE("every instruction set gives the same bits, equal to those of a point", "[expression]") {
   const std::vector<std::string> formulas{"a * b + c",
                                           "sin(a) * cos(1e3 * b) + tan(c)",
@@ -223,15 +227,14 @@ TEST_CASE("every instruction set gives the same bits, equal to those of a point"
     return out;
   };
   std::vector<std::uint8_t> status, other_status;
-  const auto plain = run(gumshoe_expression_sse2, status);
+  const auto plain = run(*expression_variants()[0].kernels, status);
   const auto same = [](double a, double b) {
     return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b) || (std::isnan(a) && std::isnan(b));
   };
   for (std::size_t i = 0; i < n; ++i) CHECK(status[i] == code(Status::not_finite)); // 1 / (b - b)
-  for (const InstructionSet set : {InstructionSet::avx2, InstructionSet::avx512}) {
-    if (best_instruction_set() < set) continue;
-    const auto other =
-        run(set == InstructionSet::avx2 ? gumshoe_expression_avx2 : gumshoe_expression_avx512, other_status);
+  for (const auto& [set, kernels] : expression_variants()) {
+    INFO(name(set));
+    const auto other = run(*kernels, other_status);
     CHECK(other_status == status);
     for (std::size_t i = 0; i < m * n; ++i)
       if (!same(plain[i], other[i])) FAIL_CHECK(formulas[i / n] << ": " << plain[i] << " and " << other[i]);
@@ -244,13 +247,116 @@ TEST_CASE("every instruction set gives the same bits, equal to those of a point"
         FAIL_CHECK(formulas[j] << " at a point: " << y[j].v << " and " << plain[j * n + i]);
   }
 }
-#endif
+
+TEST_CASE("an evaluation that goes on from kept values has the bits of a whole one", "[expression]") {
+  // Every kind of step: shared by outputs, an output itself, uniform, of an unchanged and of a changed column, a kink.
+  const std::vector<std::string> formulas{"a * b + sin(c)", "a * b",      "sin(c) / (b - b)", "k * sin(k)", "c",
+                                          "exp(a) + k",     "log(b) * a", "sqrt(c) + k^0.3",  "1"};
+  const auto model = model_of({"a", "b", "c", "k"}, formulas);
+  const std::size_t m = formulas.size();
+  const propagation::ForwardModel forward(*model);
+  std::mt19937_64 engine(5);
+  std::uniform_real_distribution<double> wide(-4, 4);
+  const auto drawn = [&](std::size_t n) {
+    std::vector<double> column(n);
+    for (double& v : column) v = wide(engine);
+    return column;
+  };
+  const auto bits = [](const std::vector<double>& a, const std::vector<double>& b) {
+    return std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+  };
+  for (const std::size_t n : {std::size_t{8}, std::size_t{600}, std::size_t{60'000}}) // kept, or too many to be kept
+    for (const auto& [set, keeping] : expression_keeping_variants()) {
+      INFO(n << " samples, " << name(set));
+      std::vector<std::vector<double>> x{drawn(n), drawn(n), drawn(n), {1.234}};
+      auto block = tests::block_of(forward, n, x);
+      std::vector<double> rows(m * n), whole(m * n);
+      std::vector<std::uint8_t> status, whole_status;
+      std::vector<double*> to;
+      const auto call = [&](std::vector<double>& out, std::vector<std::uint8_t>& s) {
+        to.clear();
+        for (std::size_t i = 0; i < m; ++i) to.push_back(&out[i * n]);
+        s.assign(n, 0);
+        return forward.call(block, nullptr, to.data(), s.data());
+      };
+      Kept kept;
+      keeping->keep(call(rows, status), kept);
+      model->kernels()->evaluate(call(whole, whole_status));
+      CHECK((kept.samples == n) == (n < 60'000));
+      CHECK(bits(rows, whole));
+      CHECK(status == whole_status);
+      for (const auto& changed : std::vector<std::vector<std::size_t>>{{}, {0}, {1}, {2}, {3}, {0, 2}, {0, 1, 2, 3}}) {
+        const auto before = block.quantities;
+        std::vector<std::vector<double>> other;
+        other.reserve(changed.size());
+        for (const std::size_t q : changed) {
+          other.push_back(drawn(x[q].size()));
+          block.quantities[q].data = other.back().data();
+        }
+        keeping->go_on(call(rows, status), kept);
+        model->kernels()->evaluate(call(whole, whole_status));
+        CHECK(bits(rows, whole));
+        CHECK(status == whole_status);
+        block.quantities = before;
+      }
+    }
+}
+
+TEST_CASE("a run of changed columns has the bits of a whole run", "[expression]") {
+  const std::string given =
+      "[quantities]\na = { value = 1, u = 0.1 }\nb = { value = 2, u = 0.1 }\nc = { value = 3, u = "
+      "0.1 }\n";
+  const std::string conditions = "[conditions]\nx = 0\n";
+  for (const auto& text : {
+           start + "[model.measurands]\ny = \"sin(a) * b + c\"\nz = \"b / c\"\n" + given,
+           start + "[model.measurands]\ny = \"sin(a) * b + c * r + x * b\"\n" + conditions +
+               "[indications.r]\nrows = [ { x = 1, values = [4] }, { x = 2, values = [5] } ]\nrepeatability = { s = "
+               "0.1 "
+               "}\n" +
+               given,
+           start +
+               "method = \"virtual_experiment\"\n[model.measurands]\ny = \"r / a + b\"\n[model.indications]\nr = "
+               "\"(c - b) * a\"\n[indications.r]\nrepeatability = { s = 0.1 }\n" +
+               given,
+       }) {
+    INFO(text);
+    const scenario::Scenario s = read_text(text);
+    const propagation::Experiment e(s);
+    const std::size_t n = 64, d = e.plan().variates.size(), rows = e.outputs().size();
+    std::mt19937_64 engine(6);
+    std::normal_distribution<double> normal(2, 0.3);
+    std::vector<double> a(d * n), b(d * n);
+    for (auto* values : {&a, &b})
+      for (double& x : *values) x = normal(engine);
+    std::vector<const double*> variates;
+    for (std::size_t v = 0; v < d; ++v) variates.push_back(&a[v * n]);
+    propagation::Workspace going_on, fresh;
+    std::vector<double> kept(rows * n), y(rows * n), whole(rows * n);
+    std::vector<std::uint8_t> status(n), whole_status(n);
+    e.run_and_keep(variates, n, going_on, kept.data(), status.data());
+    e.run(variates, n, fresh, whole.data(), whole_status.data());
+    CHECK(kept == whole);
+    for (std::size_t v = 0; v < d; ++v) {
+      std::vector<std::size_t> changed;
+      for (std::size_t c = 0; c < e.plan().columns.size(); ++c)
+        if (std::ranges::count(e.plan().columns[c].variates, v)) changed.push_back(c);
+      variates[v] = &b[v * n];
+      e.run_changed(variates, changed, n, going_on, y.data(), status.data());
+      e.run(variates, n, fresh, whole.data(), whole_status.data());
+      CHECK(y == whole);
+      CHECK(status == whole_status);
+      variates[v] = &a[v * n];
+    }
+  }
+}
 
 TEST_CASE("a sample without a finite value is marked, the others are not", "[expression]") {
   const auto model = model_of({"a"}, {"log(a)"});
   const std::vector<std::vector<double>> a{{1, 0, -1, 2, 3, 4, 5, HUGE_VAL}};
   const propagation::ForwardModel forward(*model);
-  CHECK(forward.evaluate(tests::block_of(forward, 8, a)).status == std::vector<std::uint8_t>{0, code(Status::not_finite), code(Status::not_finite), 0, 0, 0, 0, code(Status::not_finite)});
+  CHECK(forward.evaluate(tests::block_of(forward, 8, a)).status ==
+        std::vector<std::uint8_t>{0, code(Status::not_finite), code(Status::not_finite), 0, 0, 0, 0,
+                                  code(Status::not_finite)});
 }
 
 TEST_CASE("readouts simulated from conditions, with exact derivatives, and no measurand", "[expression]") {
@@ -261,7 +367,8 @@ TEST_CASE("readouts simulated from conditions, with exact derivatives, and no me
   const double x = 2, b1 = 240, b2 = 5e-4;
   const propagation::ForwardModel forward(*s.made, {}, 0, {{x}});
   std::vector<Gradient> found;
-  CHECK(forward.indications(0, {Gradient::variable(b1, 0), Gradient::variable(b2, 1), Gradient(0.0)}, found).status == 0);
+  CHECK(forward.indications(0, {Gradient::variable(b1, 0), Gradient::variable(b2, 1), Gradient(0.0)}, found).status ==
+        0);
   const Gradient& y = found[0];
   CHECK(y.v == Approx(b1 * -std::expm1(-b2 * x)).epsilon(1e-12)); // 1 - exp cancels three digits
   CHECK(y.d[0] == Approx(-std::expm1(-b2 * x)).epsilon(1e-12));

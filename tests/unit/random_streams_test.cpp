@@ -1,7 +1,9 @@
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "base/hash.h"
@@ -95,8 +97,8 @@ TEST_CASE("Latin hypercube hits each stratum once, whatever the blocks", "[rando
 }
 
 TEST_CASE("Latin hypercubes have equal bits on every instruction set and for every block", "[random]") {
-  // Sizes just above and below a power of four: hardly any or three of four strata are walked more than once.
-  for (const std::uint64_t total : {1u, 2u, 7u, 1000u, 1023u, 1025u, 65536u, 65537u, 300'000'000u}) {
+  // Sizes that fill their table, and others that leave nearly a row of it.
+  for (const std::uint64_t total : {1u, 2u, 7u, 1000u, 1023u, 1024u, 1025u, 65536u, 65537u, 300'000'000u}) {
     const Stream stream{hash64("latin", total), 0, 0, 0};
     const random::Permutation strata = random::strata(stream, total);
     std::vector<double> whole(4096);
@@ -110,6 +112,39 @@ TEST_CASE("Latin hypercubes have equal bits on every instruction set and for eve
           quantities::kernels(set).latin_hypercube(&stream, &strata, 64 + i, block, parts.data() + i);
         CHECK((parts == whole));
       }
+    }
+  }
+}
+
+TEST_CASE("over all keys, two samples of a Latin hypercube lie in any two strata alike", "[random]") {
+  // Chi-squared of the cells of two samples' strata, over 20,000 keys. A network of six rounds fails for small sizes.
+  constexpr int keys = 20'000;
+  for (const std::uint64_t n : {7u, 16u, 64u, 100u, 1000u, 65537u}) {
+    const std::uint64_t parts = std::min<std::uint64_t>(n, 10),
+                        across = static_cast<std::uint64_t>(std::sqrt(double(n)));
+    std::vector<double> width(parts);
+    for (std::uint64_t i = 0; i < n; ++i) ++width[i * parts / n];
+    for (const auto& [a, b] :
+         {std::pair<std::uint64_t, std::uint64_t>{0, 1}, {0, across}, {1, n - 1}, {n / 2, n - 2}}) {
+      INFO(n << " strata, samples " << a << " and " << b);
+      std::vector<double> counts(parts * parts);
+      for (int k = 0; k < keys; ++k) {
+        const random::Permutation p(n, mix64(static_cast<std::uint64_t>(k)));
+        ++counts[p(a) * parts / n * parts + p(b) * parts / n];
+      }
+      double chi_squared = 0, freedom = -1;
+      for (std::uint64_t i = 0; i < parts; ++i)
+        for (std::uint64_t j = 0; j < parts; ++j) {
+          const double expected = keys * width[i] * (width[j] - (i == j)) / (double(n) * double(n - 1));
+          const double found = counts[i * parts + j];
+          if (expected == 0) {
+            CHECK(found == 0);
+            continue;
+          }
+          chi_squared += (found - expected) * (found - expected) / expected;
+          ++freedom;
+        }
+      CHECK(std::fabs(chi_squared - freedom) < 5 * std::sqrt(2 * freedom));
     }
   }
 }

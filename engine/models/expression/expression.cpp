@@ -11,6 +11,10 @@
 
 GUMSHOE_DECLARE_KERNELS(expression)
 GUMSHOE_DECLARE_KERNELS(expression_evaluating)
+extern "C" {
+extern const gumshoe::models::KeepingKernels gumshoe_expression_keeping_sse2, gumshoe_expression_keeping_avx2,
+    gumshoe_expression_keeping_avx512;
+}
 
 namespace gumshoe::models::expression {
 
@@ -50,7 +54,8 @@ std::vector<Intermediate> explain(const PointCall<double>& call) {
   std::vector<Intermediate> out;
   for (std::size_t i = 0; i < expression.formulas.explained.size(); ++i) {
     const Symbol& s = expression.formulas.explained[i];
-    out.push_back({s.name, s.unit, units::from_si(values.steps[expression.formulas.explain.outputs[i]], s.unit, s.si_unit)});
+    out.push_back(
+        {s.name, s.unit, units::from_si(values.steps[expression.formulas.explain.outputs[i]], s.unit, s.si_unit)});
   }
   return out;
 }
@@ -101,6 +106,11 @@ MadeModel make(formula::Statement statement, std::vector<std::string>& notes, bo
   model.solve_reads = &solve_reads;
   model.context = e.get();
   return {e, &e->model};
+}
+
+const KeepingKernels* keeping_kernels(const Model& model) {
+  const bool stated = model.kernels == &kernels || model.kernels == &evaluating_kernels;
+  return stated ? GUMSHOE_BEST_KERNELS(expression_keeping) : nullptr;
 }
 
 } // namespace gumshoe::models::expression

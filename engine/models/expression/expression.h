@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "formula/compile.h"
+#include "models/kept.h"
 #include "models/made_card.h"
 #include "models/model.h"
 
@@ -22,5 +23,8 @@ struct Expression {
 /// Makes a model of a statement. Throws InputError with every problem, each at its character. `notes` receives what a
 /// reader of the scenario should know.
 MadeModel make(formula::Statement statement, std::vector<std::string>& notes, bool virtual_experiment = false);
+
+/// Null for a model of another kind.
+const KeepingKernels* keeping_kernels(const Model& model);
 
 } // namespace gumshoe::models::expression

@@ -11,7 +11,8 @@ namespace {
 using formula::Program, formula::Source, formula::Step;
 
 constexpr std::size_t width = Lanes::size, widest = 8;
-constexpr std::size_t first_cache = 24 * 1024; ///< bytes for registers, leaving room for columns
+constexpr std::size_t first_cache = 24 * 1024;     ///< bytes for registers, leaving room for columns
+constexpr std::size_t most_kept = 4 * 1024 * 1024; ///< bytes of kept values: the third cache, shared by all threads
 
 /// Where a step's values lie: stride 1 over the samples, or stride 0 and one value repeated for a group of lanes.
 struct Place {
@@ -21,8 +22,17 @@ struct Place {
   bool follows_block = false; ///< data is a column of the whole block, not of a chunk
 };
 
+/// Inputs [step] and values [operation][sample] of a reading: those that a run keeps, or those that it goes on from.
+struct Shelf {
+  Column* inputs = nullptr;
+  double* values = nullptr;
+  const Column* kept_inputs = nullptr;
+  const double* kept_values = nullptr;
+};
+
 struct Buffers {
   std::vector<Place> places;
+  std::vector<std::uint8_t> changed; ///< steps whose values are others than those kept
   std::vector<double> registers, uniform;
   std::vector<std::uint32_t> varying; ///< steps to compute for every sample
   std::vector<double*> rows;          ///< of a simulation's outputs
@@ -55,23 +65,35 @@ Column column_of(const BlockCall& call, const ModelCard& card, std::size_t readi
   }
 }
 
+bool same(const Column& a, const Column& b) { return a.data == b.data && a.stride == b.stride; }
+
 /// Places of all steps; what is the same for all samples is computed here, once.
 void prepare(const Program& program, const BlockCall& call, const ModelCard& card, std::size_t reading,
-             double* const* rows, std::size_t chunk, Buffers& b) {
+             double* const* rows, std::size_t chunk, const Shelf& shelf, Buffers& b) {
   const std::size_t steps = program.steps.size();
   b.places.assign(steps, {});
+  b.changed.assign(steps, 0);
   b.uniform.resize(steps * widest);
   b.registers.resize(program.registers * chunk);
   b.varying.clear();
+  std::size_t operation = 0;
   for (std::size_t i = 0; i < steps; ++i) {
     const Step& s = program.steps[i];
     Place& place = b.places[i];
     double* const repeated = &b.uniform[i * widest];
     if (s.source == Source::step) {
       const Place &x = b.places[s.a], &y = b.places[s.b];
+      b.changed[i] = b.changed[s.a] | b.changed[s.b];
+      const std::size_t row = operation++ * call.samples;
       if (x.stride == 0 && y.stride == 0) {
         compute(s, repeated, x, y, 0, width);
         place.data = repeated;
+      } else if (shelf.kept_values && !b.changed[i]) {
+        place = {shelf.kept_values + row, nullptr, 1, true};
+      } else if (shelf.values) {
+        double* const kept = shelf.values + row;
+        place = {kept, kept, 1, true};
+        b.varying.push_back(static_cast<std::uint32_t>(i));
       } else {
         place = {&b.registers[s.home * chunk], &b.registers[s.home * chunk], 1, false};
         b.varying.push_back(static_cast<std::uint32_t>(i));
@@ -79,6 +101,9 @@ void prepare(const Program& program, const BlockCall& call, const ModelCard& car
       continue;
     }
     const Column c = s.source == Source::constant ? Column{&s.value, 0} : column_of(call, card, reading, s);
+    if (shelf.inputs) shelf.inputs[i] = c;
+    if (shelf.kept_inputs && s.source != Source::constant)
+      b.changed[i] = s.source == Source::indication || !same(c, shelf.kept_inputs[i]);
     if (c.stride != 0) {
       place = {c.data, nullptr, 1, true};
     } else {
@@ -107,12 +132,12 @@ void finish_output(const Place& place, double* row, std::size_t at, std::size_t 
     if (!(std::fabs(row[at + i]) <= std::numeric_limits<double>::max())) status[at + i] = code(Status::not_finite);
 }
 
-void run(const Program& program, const BlockCall& call, const ModelCard& card, std::size_t reading,
-         double* const* rows) {
+void run(const Program& program, const BlockCall& call, const ModelCard& card, std::size_t reading, double* const* rows,
+         const Shelf& shelf = {}) {
   Buffers& b = buffers();
   std::size_t chunk = 256;
   while (chunk > 32 && chunk * sizeof(double) * program.registers > first_cache) chunk /= 2;
-  prepare(program, call, card, reading, rows, chunk, b);
+  prepare(program, call, card, reading, rows, chunk, shelf, b);
   for (std::size_t at = 0; at < call.samples; at += chunk) {
     const std::size_t n = std::min(chunk, call.samples - at);
     for (const std::uint32_t i : b.varying) {
@@ -125,11 +150,45 @@ void run(const Program& program, const BlockCall& call, const ModelCard& card, s
   }
 }
 
-void evaluate(const BlockCall& call) {
+/// `shelf(reading)`: what is kept of it.
+template <class ShelfOf> void evaluate_readings(const BlockCall& call, const ShelfOf& shelf) {
   const auto& expression = *static_cast<const Expression*>(call.context);
   const ModelCard& card = *expression.model.card;
   for (std::size_t r = 0; r < call.readings; ++r)
-    run(expression.formulas.evaluate, call, card, r, call.measurands + r * card.measurands.size());
+    run(expression.formulas.evaluate, call, card, r, call.measurands + r * card.measurands.size(), shelf(r));
+}
+
+void evaluate(const BlockCall& call) {
+  evaluate_readings(call, [](std::size_t) { return Shelf{}; });
+}
+
+const std::vector<Step>& steps_of(const BlockCall& call) {
+  return static_cast<const Expression*>(call.context)->formulas.evaluate.steps;
+}
+/// Values that are kept of a reading.
+std::size_t values_of(const BlockCall& call) {
+  const auto operations = std::ranges::count(steps_of(call), Source::step, &Step::source);
+  return static_cast<std::size_t>(operations) * call.samples;
+}
+
+void keep(const BlockCall& call, Kept& kept) {
+  const std::size_t steps = steps_of(call).size(), values = values_of(call);
+  kept.samples = call.readings * values * sizeof(double) > most_kept ? 0 : call.samples;
+  if (kept.samples == 0) return evaluate(call);
+  kept.readings = call.readings;
+  kept.inputs.resize(call.readings * steps);
+  kept.values.resize(call.readings * values);
+  evaluate_readings(call, [&](std::size_t r) {
+    return Shelf{&kept.inputs[r * steps], kept.values.data() + r * values, nullptr, nullptr};
+  });
+}
+
+void go_on(const BlockCall& call, const Kept& kept) {
+  if (kept.samples != call.samples || kept.readings != call.readings) return evaluate(call);
+  const std::size_t steps = steps_of(call).size(), values = values_of(call);
+  evaluate_readings(call, [&](std::size_t r) {
+    return Shelf{nullptr, nullptr, &kept.inputs[r * steps], kept.values.data() + r * values};
+  });
 }
 
 void simulate(const BlockCall& call) {
@@ -151,9 +210,12 @@ void simulate(const BlockCall& call) {
 extern "C" {
 extern const gumshoe::models::Kernels GUMSHOE_KERNEL(gumshoe_expression_),
     GUMSHOE_KERNEL(gumshoe_expression_evaluating_);
+extern const gumshoe::models::KeepingKernels GUMSHOE_KERNEL(gumshoe_expression_keeping_);
 const gumshoe::models::Kernels GUMSHOE_KERNEL(gumshoe_expression_){&gumshoe::models::expression::simulate,
                                                                    &gumshoe::models::expression::evaluate};
 /// Kernels of a statement without [model.indications], which cannot simulate.
 const gumshoe::models::Kernels GUMSHOE_KERNEL(gumshoe_expression_evaluating_){nullptr,
                                                                               &gumshoe::models::expression::evaluate};
+const gumshoe::models::KeepingKernels GUMSHOE_KERNEL(gumshoe_expression_keeping_){&gumshoe::models::expression::keep,
+                                                                                  &gumshoe::models::expression::go_on};
 }

@@ -47,7 +47,7 @@ TriggerCurve::TriggerCurve(const InsertHeight& heights, double drop)
 }
 
 void TriggerCurve::tabulate(double first) {
-  table_.drop = drop_, table_.period = period_;
+  table_.drop = drop_, table_.period = period_, table_.per_period = 1 / period_;
   for (std::size_t i = 0; i < pieces_.size(); ++i) {
     const Piece& p = pieces_[i];
     const Run& run = runs_[p.run];
@@ -65,10 +65,11 @@ void TriggerCurve::tabulate(double first) {
   const auto spread = [&](CurveTable::Start& start, double from, double whole, auto end_of) {
     start.from = from;
     start.first.resize(8 * pieces_.size());
-    start.step = whole / static_cast<double>(start.first.size());
+    const double step = whole / static_cast<double>(start.first.size());
+    start.per_unit = 1 / step;
     std::size_t p = 0;
     for (std::size_t k = 0; k < start.first.size(); ++k) {
-      while (p + 1 < pieces_.size() && end_of(pieces_[p]) < from + start.step * static_cast<double>(k)) ++p;
+      while (p + 1 < pieces_.size() && end_of(pieces_[p]) < from + step * static_cast<double>(k)) ++p;
       start.first[k] = static_cast<std::uint32_t>(p);
     }
   };
