@@ -1,6 +1,7 @@
 #pragma once
 /// Exact order statistics of a column of any length in bounded memory, by passes over it.
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -70,6 +71,7 @@ public:
   std::size_t size = 0; ///< values in all, NaN not counted
 
 private:
+  [[noreturn]] static void changed(); ///< between two passes
   struct Cell {
     std::int64_t first, last; ///< keys, both included
     std::uint64_t rank, count;
@@ -85,10 +87,11 @@ private:
   };
 
   std::unique_ptr<Pass> bracketing(std::span<const RankRange> expected, std::size_t valid) const;
-  template <class Shift>
-  std::unique_ptr<Pass> pass_over(const std::vector<std::size_t>& chosen, const Shift& shift) const;
+  std::unique_ptr<Pass> pass_over(const std::vector<std::size_t>& chosen,
+                                  const std::function<int(const Cell&)>& shift) const;
   void make(Pass& pass) const;
   std::size_t cell_of(std::size_t rank) const;
+  /// Bounds of the value of a rank in the cell.
   double least(const Cell& cell, std::size_t rank) const;
   double most(const Cell& cell, std::size_t rank) const;
   /// Intervals that begin in one cell and end in one.

@@ -30,8 +30,8 @@ inline Samples view_of(const propagation::MemoryStore& store) {
           }};
 }
 
-/// Few values are read once and held; more are read anew by every pass.
-inline constexpr std::size_t held_values = std::size_t{1} << 20;
+/// So many values at the most are read once and held, 16 MiB; more are read anew by every pass.
+inline constexpr std::size_t held_values = std::size_t{1} << 21;
 inline Column held(const Column& column, Room& room, std::size_t columns = 1) {
   return column.in_memory() || columns * column.size() > held_values ? column
                                                                      : Column(column.read(0, column.size(), room));
@@ -40,7 +40,7 @@ inline Column held(const Column& column, Room& room, std::size_t columns = 1) {
 /// How many tasks of so many values each run at the same time, in bounded memory: passes over many values are long
 /// enough to take all threads one after the other. 0: as many as there are processors.
 inline int side_by_side(std::size_t values, int threads) {
-  const std::size_t most = std::max<std::size_t>(1, 2 * held_values / std::max<std::size_t>(1, values));
+  const std::size_t most = std::max<std::size_t>(1, held_values / std::max<std::size_t>(1, values));
   const std::size_t all = threads > 0 ? static_cast<std::size_t>(threads) : std::thread::hardware_concurrency();
   return most >= all ? threads : static_cast<int>(most);
 }

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "analysis/leaves.h"
+#include "analysis/moments.h"
 #include "analysis/ordered_tails.h"
 #include "analysis/tails.h"
 
@@ -25,7 +26,7 @@ std::pair<std::size_t, std::size_t> symmetric_ranks(std::size_t m, double p) {
   return {r - 1, std::min(m, r + q) - 1};
 }
 
-/// KeptOrder statistics that both intervals of n values need: (1 - p) n on either side, and a margin for their errors.
+/// Order statistics that both intervals of n values need: (1 - p) n on either side, and a margin for their errors.
 std::size_t tail_size(std::size_t n, std::size_t failed, double p) {
   const double m = static_cast<double>(n);
   return std::min(n, static_cast<std::size_t>((1 - p) * m + 5 * std::sqrt(m) + 2 * static_cast<double>(failed) + 10));
@@ -130,36 +131,6 @@ void histogram(Summary& s, const Column& values, double least, double most, int 
   for (double& d : s.density) d /= static_cast<double>(s.valid) * (high - low) / bins;
 }
 
-/// Sums of eight interleaved series, which do not wait for each other.
-using Lanes = std::array<double, 8>;
-double total(const Lanes& s) { return ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7])); }
-
-template <class Add> void each_lane(std::span<const double> x, const Add& add) {
-  std::size_t i = 0;
-  for (; i + 8 <= x.size(); i += 8)
-    for (std::size_t l = 0; l < 8; ++l) add(l, x[i + l]);
-  for (; i < x.size(); ++i) add(i % 8, x[i]);
-}
-
-struct First {
-  double sum = 0, valid = 0;
-  void operator+=(const First& other) { sum += other.sum, valid += other.valid; }
-};
-
-/// The first that is not NaN; NaN if there is none.
-double first_value(const Column& x) {
-  Room room;
-  for (std::size_t at = 0; at < x.size(); at += piece_values)
-    for (const double v : x.read(at, std::min(piece_values, x.size() - at), room))
-      if (!std::isnan(v)) return v;
-  return nan;
-}
-
-struct Central {
-  double second = 0, third = 0, fourth = 0;
-  void operator+=(const Central& o) { second += o.second, third += o.third, fourth += o.fourth; }
-};
-
 } // namespace
 
 std::size_t covered_ranks(std::size_t m, double p) {
@@ -172,62 +143,6 @@ Ends symmetric_ends(std::vector<double>& x, double p) {
   if (high > low)
     std::nth_element(x.begin() + static_cast<long>(low) + 1, x.begin() + static_cast<long>(high), x.end());
   return {x[low], x[high]};
-}
-
-namespace {
-
-/// Sees every leaf of a pass.
-using Also = OrderedColumn::Pass*;
-void show(Also also, std::span<const double> leaf) {
-  if (also) also->sieve.take(leaf);
-}
-
-/// The mean and the number of values.
-Moments first_moments(const Column& x, int threads, Also also) {
-  const double origin = first_value(x); // keeps the sum small against its rounding
-  if (std::isnan(origin)) return {nan, nan, nan, nan, 0};
-  const First sums = leaf_sum<First>(x, threads, [&](std::span<const double> leaf) {
-    Lanes sum{}, valid{};
-    each_lane(leaf, [&](std::size_t l, double v) {
-      sum[l] += v == v ? v - origin : 0.0;
-      valid[l] += v == v ? 1.0 : 0.0;
-    });
-    show(also, leaf);
-    return First{total(sum), total(valid)};
-  });
-  Moments m;
-  m.valid = static_cast<std::size_t>(sums.valid);
-  m.mean = origin + sums.sum / sums.valid;
-  return m;
-}
-
-/// The others.
-void add_central_moments(Moments& m, const Column& x, int threads, Also also) {
-  if (m.valid == 0) return;
-  const double n = static_cast<double>(m.valid);
-  const Central central = leaf_sum<Central>(x, threads, [&](std::span<const double> leaf) {
-    Lanes second{}, third{}, fourth{};
-    each_lane(leaf, [&](std::size_t l, double v) {
-      const double d = v == v ? v - m.mean : 0.0, square = d * d;
-      second[l] += square;
-      third[l] += square * d;
-      fourth[l] += square * square;
-    });
-    show(also, leaf);
-    return Central{total(second), total(third), total(fourth)};
-  });
-  const double m2 = central.second / n, m3 = central.third / n, m4 = central.fourth / n;
-  m.variance = n > 1 ? m2 * n / (n - 1) : nan;
-  m.skewness = m2 > 0 ? m3 / std::pow(m2, 1.5) : 0;
-  m.kurtosis = m2 > 0 ? m4 / (m2 * m2) : 0;
-}
-
-} // namespace
-
-Moments moments(const Column& x, int threads) {
-  Moments m = first_moments(x, threads, nullptr);
-  add_central_moments(m, x, threads, nullptr);
-  return m;
 }
 
 namespace {
@@ -321,7 +236,7 @@ Summary summarise(const propagation::Output& output, const Column& values, doubl
     const auto ends = both_tails(ordered->about_valid(), p);
     pass = ordered->first_pass(ends);
   }
-  Moments m = first_moments(values, threads, pass.get());
+  Moments m = first_moments(values, threads, pass ? &pass->sieve : nullptr);
   if (ordered) ordered->finish_first(std::move(pass), m.valid);
   s.valid = m.valid;
   s.failed = values.size() - m.valid;
@@ -334,7 +249,7 @@ Summary summarise(const propagation::Output& output, const Column& values, doubl
     if (order) add_tail_ranks(s.valid, wanted.ranks);
     pass = ordered->next_pass(wanted);
   }
-  add_central_moments(m, values, threads, pass.get());
+  add_central_moments(m, values, threads, pass ? &pass->sieve : nullptr);
   if (pass) ordered->finish(std::move(pass));
 
   if (s.valid < 2) {

@@ -16,7 +16,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double inf = std::numeric_limits<double>::infinity();
 constexpr std::size_t least = 1000;
 
-/// KeptOrder statistics to go by: a share of the sample that shrinks, in a number that grows.
+/// Order statistics to go by: a share of the sample that shrinks, in a number that grows.
 std::size_t tail_size(std::size_t n) { return static_cast<std::size_t>(std::pow(static_cast<double>(n), 0.6)); }
 
 /// The k + 1 largest of side * (x - origin), in falling order.

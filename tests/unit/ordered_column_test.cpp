@@ -49,6 +49,8 @@ struct Shape {
 /// What makes bins, brackets or comparisons go wrong.
 const Shape shapes[] = {
     {"uniform", [](double u, std::size_t) { return u; }},
+    {"evenly spread",
+     [](double, std::size_t i) { return std::fmod(0.6180339887498949 * static_cast<double>(i), 1.0); }},
     {"one mode about zero", [](double u, std::size_t) { return std::log(u / (1 - u)); }},
     {"close values", [](double u, std::size_t) { return 0.1 + 1e-9 * std::log(u / (1 - u)); }},
     {"heavy tails", [](double u, std::size_t) { return std::tan(std::numbers::pi * (u - 0.5)); }},
@@ -183,7 +185,7 @@ TEST_CASE("a summary in bounded memory has the bits of one in memory", "[summary
 
 TEST_CASE("a summary with failed samples bounds its ends in bounded memory", "[summary][bounded]") {
   for (const std::size_t every : {20, 50, 333, 40'000}) {
-    Values x = values_of(shapes[1], 2000 + every, 90'000);
+    Values x = values_of(shapes[2], 2000 + every, 90'000);
     for (std::size_t i = 7; i < x.size(); i += every) x[i] = missing;
     const Column column = read_in_parts(x);
     KeptOrder order;
@@ -193,7 +195,7 @@ TEST_CASE("a summary with failed samples bounds its ends in bounded memory", "[s
 
 TEST_CASE("sums of a column that is read have the bits of one in memory", "[summary][bounded]") {
   for (const std::size_t n : {1, 1'023, 1'024, 1'025, 8'193, 65'536, 65'537, 300'001}) {
-    const Values x = values_of(shapes[3], n, n);
+    const Values x = values_of(shapes[4], n, n);
     const Moments in_memory = moments(x), read = moments(read_in_parts(x), 2);
     CHECK(same(in_memory.mean, read.mean));
     CHECK(same(in_memory.variance, read.variance));
@@ -236,7 +238,7 @@ TEST_CASE("a joint region of columns that are read is that of copies", "[joint][
     const std::size_t n = 80'000;
     std::vector<Values> all, kept(3);
     std::vector<Column> columns;
-    for (std::uint64_t a = 0; a < 3; ++a) all.push_back(values_of(shapes[1], 300 + a, n));
+    for (std::uint64_t a = 0; a < 3; ++a) all.push_back(values_of(shapes[2], 300 + a, n));
     for (std::size_t i = 0; i < n; ++i) {
       all[2][i] += all[0][i];
       if (failed && i % 7 == 3) all[i % 3][i] = missing;
