@@ -90,15 +90,16 @@ const quantities::Variate* without_variance(const propagation::Experiment& e, co
 }
 
 /// Withholds the moments that do not exist, for a reason in the inputs or in the tails of the values.
-void withhold(Summary& s, const quantities::Variate* without, std::span<const double> values, int threads) {
-  if (!without) return check_tails(values, s, threads);
+void withhold(Summary& s, const quantities::Variate* without, const Column& values, const KeptOrder& order,
+              int threads) {
+  if (!without) return check_tails(values, s, threads, &order);
   s.standard_uncertainty = s.standard_uncertainty_se = s.estimate_se = std::nan("");
   const double freedom = without->distribution.parameters[2];
   s.warning = (s.warning.empty() ? "" : s.warning + "; ") +
               fmt::format("no standard uncertainty: {} is a t with {:.3g} degree{} of freedom", without->name, freedom,
                           freedom == 1 ? "" : "s") +
               (s.warning.empty() ? "; the ends of the interval are quantiles and remain valid" : "");
-  if (freedom <= 1) use_median(values, s);
+  if (freedom <= 1) use_median(values, s, threads);
 }
 
 void describe(Results& r, const propagation::Experiment& e) {
@@ -169,13 +170,12 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, int th
   Results r;
   const auto& s = e.scenario();
   describe(r, e);
-  Failures failures = failures_of(e, samples.status());
+  Failures failures = failures_of(e, samples);
   r.failed = failures.samples;
   r.failures = std::move(failures.reasons);
   const bool virtual_experiment = s.method == scenario::Method::virtual_experiment;
   const std::size_t outputs = e.outputs().size();
   progress::stage("summary and uncertainty budget");
-  std::vector<std::vector<double>> kept(outputs);
   r.summaries.resize(outputs);
   r.budgets.resize(outputs);
   r.validations.resize(outputs);
@@ -184,21 +184,19 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, int th
     std::ranges::move(budgets(e, reading * measurands, s.analysis.coverage_probability),
                       r.budgets.begin() + static_cast<std::ptrdiff_t>(reading * measurands));
   });
-  propagation::parallel_for(outputs, threads, [&](std::size_t o) {
-    std::vector<double> room;
-    const std::span<const double> values = samples.view(o, room);
+  propagation::parallel_for(outputs, side_by_side(samples.size, threads), [&](std::size_t o) {
+    Room room;
+    const Column values = held(samples.values(o), room);
     const auto& output = e.outputs()[o];
     const double p = s.analysis.coverage_probability;
-    Summary& summary = r.summaries[o] = summarise(output, values, p, threads);
+    KeptOrder order;
+    Summary& summary = r.summaries[o] = summarise(output, values, p, threads, &order);
     const Budget& b = r.budgets[o];
-    withhold(summary, without_variance(e, b), values, threads);
+    withhold(summary, without_variance(e, b), values, order, threads);
     if (s.run.design != scenario::Design::monte_carlo) drop_standard_errors(summary);
     r.validations[o] = validate(b, summary, p, s.analysis.validation_digits);
     summary.statement = statement(summary, b, r.validations[o], p, virtual_experiment);
     certify(summary, b, r.validations[o], p, virtual_experiment);
-    const bool compared =
-        std::ranges::any_of(s.analysis.comparisons, [&](const auto& c) { return c.measurand == output.measurand; });
-    if (compared) kept[o].assign(values.begin(), values.end());
   });
   if (!e.has_gradient() && !virtual_experiment)
     r.notes.push_back("sensitivity coefficients are differences over a standard uncertainty, because the model "
@@ -211,12 +209,12 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, int th
   if (!virtual_experiment)
     for (const std::string& note : scale_point_notes(e)) r.notes.push_back(note);
   if (const double least = 1 / (1 - s.analysis.coverage_probability), enough = 1e4 * least,
-      trials = static_cast<double>(samples.status().size());
+      trials = static_cast<double>(samples.size);
       s.run.adaptive.rule == scenario::StoppingRule::fixed && trials >= least && trials < enough)
     r.notes.push_back(
         fmt::format("{} trials are fewer than the 10^4 / (1 - p) = {:.0f} of JCGM 101, 7.2.2: the coverage "
                     "intervals are known to their Monte Carlo standard errors only",
-                    samples.status().size(), enough));
+                    samples.size, enough));
   if (s.run.design != scenario::Design::monte_carlo)
     r.notes.push_back(fmt::format(
         "design {}: its points are not independent, so that no Monte Carlo standard errors are given", r.design));
@@ -234,14 +232,13 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, int th
   study(wanted.dgsm > 0, "derivative-based measures", r.dgsm,
         [&] { return derivative_measures(e, wanted.dgsm, r.summaries, threads); });
   study(true, "one at a time", r.one_at_a_time, [&] { return one_at_a_time(e); });
-  study(true, "joint regions", r.joint,
-        [&] { return joint_regions(e, samples, r.summaries, r.budgets, threads); });
+  study(true, "joint regions", r.joint, [&] { return joint_regions(e, samples, r.summaries, r.budgets, threads); });
   study(true, "covariance of the fit", r.fits, [&] { return fit_covariances(e, samples); });
   study(true, "circular statistics", r.circular, [&] { return circular_summaries(e, samples.values, threads); });
-  study(true, "conformity", r.conformity, [&] { return conformity(e, samples.values, r.summaries); });
+  study(true, "conformity", r.conformity, [&] { return conformity(e, samples.values, r.summaries, threads); });
   study(true, "target uncertainties", r.targets, [&] { return target_uncertainties(e, r.budgets, threads); });
   if (s.run.store_inputs) r.draws = input_draws(e);
-  r.comparisons = compare(e, kept, r.summaries);
+  r.comparisons = compare(e, samples.values, r.summaries, threads);
   r.printed = beside_printed(e, r.summaries);
   r.predicted = predicted_readings(e, r.summaries);
   return r;

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <type_traits>
 
 #include <fmt/format.h>
 
-#include "analysis/ordered_sum.h"
+#include "analysis/complete.h"
+#include "analysis/leaves.h"
+#include "analysis/ordered_column.h"
 #include "analysis/summary.h"
 #include "propagation/propagate.h"
 
@@ -27,11 +30,11 @@ double wrapped(double angle) {
 
 } // namespace
 
-CircularSummary circular_summary(std::span<const double> angles, double p) {
+CircularSummary circular_summary(const Column& angles, double p, int threads) {
   CircularSummary c;
-  std::vector<double> valid;
-  for (const double a : angles)
-    if (std::isfinite(a)) valid.push_back(a);
+  const Complete finite(
+      {angles}, [](double a) { return std::isfinite(a); }, threads);
+  const Column valid = finite.column(0);
   const std::size_t m = valid.size();
   if (m < 2) {
     c.mean_direction = c.resultant_length = c.standard_deviation = c.low = c.high = nan;
@@ -39,50 +42,49 @@ CircularSummary circular_summary(std::span<const double> angles, double p) {
     c.remark = "too few valid samples";
     return c;
   }
+  const auto sum = [&]<class Term>(const Term& term) {
+    return leaf_sum<std::invoke_result_t<Term, double>>(valid, threads, [&](std::span<const double> leaf) {
+      std::invoke_result_t<Term, double> some{};
+      for (const double a : leaf) some += term(a);
+      return some;
+    });
+  };
   const double n = static_cast<double>(m);
-  const double x = ordered_sum(m, [&](std::size_t i) { return std::cos(valid[i]); }) / n;
-  const double y = ordered_sum(m, [&](std::size_t i) { return std::sin(valid[i]); }) / n;
+  const double x = sum([](double a) { return std::cos(a); }) / n;
+  const double y = sum([](double a) { return std::sin(a); }) / n;
   c.mean_direction = std::atan2(y, x);
   c.resultant_length = std::min(1.0, std::hypot(x, y));
   // For close angles 1 - R loses its digits; R is therefore computed from the deviations.
-  const double versed = ordered_sum(m,
-                                    [&](std::size_t i) {
-                                      const double half = std::sin(0.5 * (valid[i] - c.mean_direction));
-                                      return 2 * half * half;
-                                    }) /
-                        n;
+  const auto versed_sine = [&](double a) {
+    const double half = std::sin(0.5 * (a - c.mean_direction));
+    return 2 * half * half;
+  };
+  const double versed = sum(versed_sine) / n;
   c.standard_deviation = std::sqrt(std::max(0.0, -2 * std::log1p(-std::min(versed, 1.0))));
   // To first order the direction errs by mean sin d / R, R by the error of mean cos d, d the deviations.
-  const double across =
-      ordered_sum(m, [&](std::size_t i) { return square(std::sin(valid[i] - c.mean_direction)); }) / n;
-  const double along = ordered_sum(m,
-                                   [&](std::size_t i) {
-                                     const double half = std::sin(0.5 * (valid[i] - c.mean_direction));
-                                     return square(2 * half * half - versed);
-                                   }) /
-                       n;
+  const double across = sum([&](double a) { return square(std::sin(a - c.mean_direction)); }) / n;
+  const double along = sum([&](double a) { return square(versed_sine(a) - versed); }) / n;
   c.mean_direction_se = std::sqrt(across / n) / c.resultant_length;
   c.resultant_length_se = std::sqrt(along / n);
   c.standard_deviation_se =
       c.standard_deviation > 0 ? c.resultant_length_se / (c.resultant_length * c.standard_deviation) : 0;
 
-  std::vector<double> around(m);
-  std::size_t crossed = 0;
   const double home = std::round((valid[0] - c.mean_direction) / turn);
-  for (std::size_t i = 0; i < m; ++i) {
-    around[i] = wrapped(valid[i] - c.mean_direction);
-    if (std::round((valid[i] - c.mean_direction) / turn) != home) ++crossed;
-  }
+  std::size_t crossed =
+      sum([&](double a) -> std::size_t { return std::round((a - c.mean_direction) / turn) != home ? 1 : 0; });
   crossed = std::min(crossed, m - crossed);
-  std::ranges::sort(around);
-  const std::size_t q = covered_ranks(m, p);
+  const Column around(m, [&](std::size_t first, std::span<double> out) {
+    valid.copy(first, out);
+    for (double& a : out) a = wrapped(a - c.mean_direction);
+  });
+  const std::size_t q = covered_ranks(m, p), near = std::min(m / 2, m - q);
+  const RankRange ends[] = {{0, near}, {m - 1 - near, m - 1}};
+  const OrderedColumn ordered(around, m, ends, threads);
+  const std::size_t r = ordered.shortest(q, turn);
   double best = turn;
-  for (std::size_t r = 0; r < m; ++r) {
-    const double end = r + q < m ? around[r + q] : around[r + q - m] + turn;
-    if (end - around[r] < best) {
-      best = end - around[r];
-      c.low = wrapped(around[r] + c.mean_direction);
-    }
+  if (const double length = (r + q < m ? ordered[r + q] : ordered[r + q - m] + turn) - ordered[r]; length < best) {
+    best = length;
+    c.low = wrapped(ordered[r] + c.mean_direction);
   }
   c.high = c.low + best;
 
@@ -102,8 +104,10 @@ std::vector<CircularSummary> circular_summaries(const propagation::Experiment& e
   for (std::size_t o = 0; o < e.outputs().size(); ++o)
     if (e.outputs()[o].si_unit == "rad") angles.push_back(o);
   std::vector<CircularSummary> summaries(angles.size());
-  propagation::parallel_for(angles.size(), threads, [&](std::size_t i) {
-    summaries[i] = circular_summary(values(angles[i]), e.scenario().analysis.coverage_probability);
+  const int beside = side_by_side(e.scenario().run.samples, threads);
+  propagation::parallel_for(angles.size(), beside, [&](std::size_t i) {
+    Room room;
+    summaries[i] = circular_summary(held(values(angles[i]), room), e.scenario().analysis.coverage_probability, threads);
     summaries[i].output = e.outputs()[angles[i]];
   });
   return summaries;

@@ -1,7 +1,5 @@
 #pragma once
 /// Statistics of angles on the circle (Mardia and Jupp 2000): JCGM 102 asks for care where a measurand is an angle.
-#include <span>
-
 #include "analysis/results.h"
 #include "analysis/samples.h"
 #include "propagation/experiment.h"
@@ -12,7 +10,7 @@ namespace gumshoe::analysis {
 /// `high`. The shortest arc is exact: ranks as in JCGM 101 7.7.4, around the circle. The remark says when mean and
 /// interval on the line mislead: samples on both sides of the cut at +-pi (or of a whole turn), or an arc of more than
 /// half a turn.
-CircularSummary circular_summary(std::span<const double> angles, double coverage_probability);
+CircularSummary circular_summary(const Column& angles, double coverage_probability, int threads = 1);
 
 /// One for every output that is an angle.
 std::vector<CircularSummary> circular_summaries(const propagation::Experiment& experiment, const ValuesOf& values,

@@ -19,10 +19,22 @@ bool matches(const quantities::Labels& labels, const quantities::Labels& wanted)
   return std::ranges::all_of(wanted, [&](const auto& w) { return label_value(labels, w.first) == w.second; });
 }
 
+/// a - b, sample by sample.
+Column difference(const Column& a, const Column& b) {
+  return {a.size(),
+          [&](std::size_t first, std::span<double> out) {
+            Room room;
+            a.copy(first, out);
+            const auto subtracted = b.read(first, out.size(), room);
+            for (std::size_t k = 0; k < out.size(); ++k) out[k] -= subtracted[k];
+          },
+          a.phase()};
+}
+
 } // namespace
 
-std::vector<ComparisonResult> compare(const propagation::Experiment& e, const std::vector<std::vector<double>>& values,
-                                      const std::vector<Summary>& summaries) {
+std::vector<ComparisonResult> compare(const propagation::Experiment& e, const ValuesOf& values,
+                                      const std::vector<Summary>& summaries, int threads) {
   std::vector<ComparisonResult> results;
   for (const auto& c : e.scenario().analysis.comparisons)
     for (std::size_t i = 0; i < e.outputs().size(); ++i)
@@ -32,9 +44,9 @@ std::vector<ComparisonResult> compare(const propagation::Experiment& e, const st
         if (a.measurand != c.measurand || b.measurand != c.measurand) continue;
         if (label_value(la, c.between) == label_value(lb, c.between)) continue;
         if (!c.within.empty() && label_value(la, c.within) != label_value(lb, c.within)) continue;
-        std::vector<double> difference(values[i].size());
-        for (std::size_t k = 0; k < difference.size(); ++k) difference[k] = values[i][k] - values[j][k];
-        const Summary s = summarise(a, difference, e.scenario().analysis.coverage_probability);
+        Room rooms[2];
+        const Column first = held(values(i), rooms[0], 2), second = held(values(j), rooms[1], 2);
+        const Summary s = summarise(a, difference(first, second), e.scenario().analysis.coverage_probability, threads);
         ComparisonResult r;
         r.a = label_value(la, c.between);
         r.b = label_value(lb, c.between);
@@ -57,16 +69,15 @@ std::vector<PrintedResult> beside_printed(const propagation::Experiment& e, cons
   for (const auto& printed : e.scenario().analysis.printed)
     for (std::size_t o = 0; o < e.outputs().size(); ++o) {
       const auto& output = e.outputs()[o];
-      if (output.measurand != printed.measurand ||
-          !matches(output.labels, printed.labels))
-        continue;
+      if (output.measurand != printed.measurand || !matches(output.labels, printed.labels)) continue;
       results.push_back({output.name, printed.source, output.unit, output.si_unit, printed.value, summaries[o].estimate,
                          0.5 * (summaries[o].shortest.high - summaries[o].shortest.low)});
     }
   return results;
 }
 
-std::vector<PredictedReading> predicted_readings(const propagation::Experiment& e, const std::vector<Summary>& summaries) {
+std::vector<PredictedReading> predicted_readings(const propagation::Experiment& e,
+                                                 const std::vector<Summary>& summaries) {
   std::vector<PredictedReading> results;
   if (e.scenario().method != scenario::Method::prediction) return results;
   for (std::size_t o = 0; o < e.outputs().size(); ++o) {

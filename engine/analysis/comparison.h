@@ -3,18 +3,18 @@
 #include <vector>
 
 #include "analysis/results.h"
+#include "analysis/samples.h"
 #include "propagation/experiment.h"
 
 namespace gumshoe::analysis {
 
-/// Compares every pair of readings whose labels differ in `between` and agree in `within` ([analysis] comparisons of the
-/// scenario): difference, its standard uncertainty from the joint samples, E_n.
+/// Compares every pair of readings whose labels differ in `between` and agree in `within` ([analysis] comparisons of
+/// the scenario): difference, its standard uncertainty from the joint samples, E_n.
 ///
-/// @param values [output][sample], SI, NaN where a sample failed; may be empty for outputs that no comparison needs
+/// @param threads 0: all processors
 /// Source of E_n: ISO 13528, 9.7.
-std::vector<ComparisonResult> compare(const propagation::Experiment& experiment,
-                                      const std::vector<std::vector<double>>& values,
-                                      const std::vector<Summary>& summaries);
+std::vector<ComparisonResult> compare(const propagation::Experiment& experiment, const ValuesOf& values,
+                                      const std::vector<Summary>& summaries, int threads);
 
 /// Each reading that was taken, next to its prediction, SI. Empty unless the method is prediction.
 std::vector<PredictedReading> predicted_readings(const propagation::Experiment& experiment,

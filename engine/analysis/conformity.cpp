@@ -6,6 +6,8 @@
 #include <boost/math/distributions/binomial.hpp>
 #include <fmt/format.h>
 
+#include "analysis/complete.h"
+#include "analysis/leaves.h"
 #include "analysis/ordered_sum.h"
 #include "analysis/outputs.h"
 #include "analysis/rounding.h"
@@ -54,31 +56,45 @@ Mean mean_of(const std::vector<double>& x) {
   return {mean, std::sqrt(square / (n - 1) / n)};
 }
 
+/// Sums of the samples' weights.
+struct Weights {
+  double total = 0, squares = 0, within = 0;
+  void operator+=(const Weights& o) { total += o.total, squares += o.squares, within += o.within; }
+};
+
 /// Samples weighted by the prior's density: self-normalised, standard error by the delta method.
-void posterior(ConformityResult& r, const std::vector<double>& y, const Prior& prior, Range tolerance) {
-  std::vector<double> weight(y.size());
-  for (std::size_t i = 0; i < y.size(); ++i) weight[i] = prior.density(y[i]);
-  const auto sum = [&](const auto& f) { return ordered_sum(y.size(), f); };
-  const double total = sum([&](std::size_t i) { return weight[i]; });
-  const double squares = sum([&](std::size_t i) { return weight[i] * weight[i]; });
+void posterior(ConformityResult& r, const Column& y, const Prior& prior, Range tolerance, int threads) {
+  const Weights sums = leaf_sum<Weights>(y, threads, [&](std::span<const double> leaf) {
+    Weights some;
+    for (const double v : leaf) {
+      const double weight = prior.density(v);
+      some += {weight, weight * weight, tolerance.contains(v) ? weight : 0};
+    }
+    return some;
+  });
+  const double total = sums.total;
   constexpr double least = 100; // effective samples
-  if (!(total > 0) || !std::isfinite(total) || total * total < least * squares) {
+  if (!(total > 0) || !std::isfinite(total) || total * total < least * sums.squares) {
     r.posterior_conformance = r.posterior_conformance_se = nan;
     return;
   }
-  const double p = sum([&](std::size_t i) { return tolerance.contains(y[i]) ? weight[i] : 0; }) / total;
+  const double p = sums.within / total;
+  const double spread = leaf_sum<double>(y, threads, [&](std::span<const double> leaf) {
+    double some = 0;
+    for (const double v : leaf) {
+      const double d = prior.density(v) * ((tolerance.contains(v) ? 1.0 : 0.0) - p);
+      some += d * d;
+    }
+    return some;
+  });
   r.posterior_conformance = p;
-  r.posterior_conformance_se = std::sqrt(sum([&](std::size_t i) {
-                                 const double d = weight[i] * ((tolerance.contains(y[i]) ? 1.0 : 0.0) - p);
-                                 return d * d;
-                               })) /
-                               total;
+  r.posterior_conformance_se = std::sqrt(spread) / total;
 }
 
 /// Over the deviations d: the prior's share that is (not) within tolerance while eta - d is (not) accepted.
-void global_risks(ConformityResult& r, const std::vector<double>& y, double estimate, const Prior& prior,
-                  Range tolerance, Range acceptance) {
-  const std::size_t n = std::min(most_deviations, y.size());
+void global_risks(ConformityResult& r, std::span<const double> y, double estimate, const Prior& prior, Range tolerance,
+                  Range acceptance) {
+  const std::size_t n = y.size();
   const double conforming = prior.within(tolerance);
   std::vector<double> consumer(n), producer(n);
   for (std::size_t i = 0; i < n; ++i) {
@@ -147,11 +163,11 @@ std::string words(const ConformityResult& r, double expanded_uncertainty, std::s
                   "hardly overlap, or the process has no density."
                 : fmt::format(" With the process as prior knowledge the conformance probability is {}.",
                               percent(r.posterior_conformance));
-    text +=
-        fmt::format(" Of items that the process makes, {} conform; global consumer's risk (that an item does not "
-                    "conform and is accepted): {}; global producer's risk (that an item conforms and is "
-                    "rejected): {}.",
-                    probability_text(r.process_conformance, 1e-6), percent(r.global_consumer_risk), percent(r.global_producer_risk));
+    text += fmt::format(" Of items that the process makes, {} conform; global consumer's risk (that an item does not "
+                        "conform and is accepted): {}; global producer's risk (that an item conforms and is "
+                        "rejected): {}.",
+                        probability_text(r.process_conformance, 1e-6), percent(r.global_consumer_risk),
+                        percent(r.global_producer_risk));
   }
   if (failed > 0)
     text += fmt::format(" {} failed samples are left out; they could move the conformance probability by {} at most.",
@@ -161,13 +177,12 @@ std::string words(const ConformityResult& r, double expanded_uncertainty, std::s
 
 } // namespace
 
-ConformityResult assess(std::span<const double> samples, const Known& known,
-                        const scenario::ConformityTest& test) {
+ConformityResult assess(const Column& samples, const Known& known, const scenario::ConformityTest& test, int threads) {
   const auto& [estimate, standard_uncertainty, expanded_uncertainty] = known;
   ConformityResult r;
-  std::vector<double> y;
-  for (const double v : samples)
-    if (!std::isnan(v)) y.push_back(v);
+  const Complete valid(
+      {samples}, [](double v) { return !std::isnan(v); }, threads);
+  const Column y = valid.column(0);
   r.estimate = estimate;
   r.lower = test.lower.value_or(nan);
   r.upper = test.upper.value_or(nan);
@@ -182,13 +197,15 @@ ConformityResult assess(std::span<const double> samples, const Known& known,
   r.specific_consumer_risk = r.specific_producer_risk = r.process_mean = r.process_u = r.process_conformance =
       r.posterior_conformance = r.posterior_conformance_se = r.global_consumer_risk = r.global_consumer_risk_se =
           r.global_producer_risk = r.global_producer_risk_se = nan;
-  if (y.empty()) {
+  if (y.size() == 0) {
     r.conformance_probability = r.conformance_probability_se = nan;
     r.least_risk = 1;
     return r;
   }
   const double n = static_cast<double>(y.size());
-  const double inside = static_cast<double>(std::ranges::count_if(y, [&](double v) { return tolerance.contains(v); }));
+  const auto inside = static_cast<double>(leaf_sum<std::ptrdiff_t>(y, threads, [&](std::span<const double> leaf) {
+    return std::ranges::count_if(leaf, [&](double v) { return tolerance.contains(v); });
+  }));
   r.conformance_probability = inside / n;
   // One sample more on either side: none is not a proof that there is none.
   const double p = (inside + 1) / (n + 2);
@@ -202,20 +219,22 @@ ConformityResult assess(std::span<const double> samples, const Known& known,
       r.accepted ? 1 - r.conformance_probability : r.conformance_probability;
   if (test.process && y.size() > 1) {
     const Prior prior(test);
-    posterior(r, y, prior, tolerance);
-    global_risks(r, y, estimate, prior, tolerance, acceptance);
+    posterior(r, y, prior, tolerance, threads);
+    Room room;
+    global_risks(r, y.read(0, std::min(most_deviations, y.size()), room), estimate, prior, tolerance, acceptance);
   }
   return r;
 }
 
 std::vector<ConformityResult> conformity(const propagation::Experiment& e, const ValuesOf& values,
-                                         const std::vector<Summary>& summaries) {
+                                         const std::vector<Summary>& summaries, int threads) {
   std::vector<ConformityResult> results;
   for (const auto& test : e.scenario().analysis.conformity)
     for (const std::size_t o : outputs_named(e, test.measurand, test.labels)) {
       const Summary& s = summaries[o];
       const double expanded = 0.5 * (s.symmetric.high - s.symmetric.low);
-      ConformityResult r = assess(values(o), {s.estimate, s.standard_uncertainty, expanded}, test);
+      Room room;
+      ConformityResult r = assess(held(values(o), room), {s.estimate, s.standard_uncertainty, expanded}, test, threads);
       r.output = e.outputs()[o];
       if (e.scenario().run.design != scenario::Design::monte_carlo)
         r.conformance_probability_se = r.posterior_conformance_se = r.global_consumer_risk_se =

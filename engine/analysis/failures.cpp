@@ -95,19 +95,24 @@ std::string where(const propagation::Experiment& e, const Draws& draws, const Dr
 
 } // namespace
 
-Failures failures_of(const propagation::Experiment& e, std::span<const std::uint8_t> status) {
+Failures failures_of(const propagation::Experiment& e, const Samples& samples) {
   Failures failures;
   std::map<std::uint8_t, std::uint64_t> counts;
   std::map<std::uint8_t, std::vector<std::uint64_t>> failed; // the first of each reason
-  for (std::size_t i = 0; i < status.size(); ++i) {
-    if (status[i] == 0) continue;
-    ++counts[status[i]];
-    if (auto& some = failed[status[i]]; some.size() < most_failed) some.push_back(i);
+  std::vector<std::uint8_t> room(std::min(samples.size, std::size_t{1} << 16));
+  for (std::size_t first = 0; first < samples.size; first += room.size()) {
+    const auto status = std::span(room).first(std::min(room.size(), samples.size - first));
+    samples.status(first, status);
+    for (std::size_t i = 0; i < status.size(); ++i) {
+      if (status[i] == 0) continue;
+      ++counts[status[i]];
+      if (auto& some = failed[status[i]]; some.size() < most_failed) some.push_back(first + i);
+    }
   }
   if (counts.empty()) return failures;
   const Draws draws(e);
   Drawn all;
-  draws.add(0, std::min(most_drawn, status.size()), all);
+  draws.add(0, std::min(most_drawn, samples.size), all);
   for (const auto& [reason, count] : counts) {
     failures.samples += count;
     const std::uint64_t first = failed[reason].front();

@@ -1,10 +1,10 @@
 #pragma once
 /// Samples without a value: how many, why, and where among the inputs they lie.
 #include <cstdint>
-#include <span>
 #include <string>
 #include <vector>
 
+#include "analysis/samples.h"
 #include "propagation/experiment.h"
 
 namespace gumshoe::analysis {
@@ -17,7 +17,6 @@ struct Failures {
   std::vector<std::string> reasons;
 };
 
-/// `status` of every sample of the run.
-Failures failures_of(const propagation::Experiment& experiment, std::span<const std::uint8_t> status);
+Failures failures_of(const propagation::Experiment& experiment, const Samples& samples);
 
 } // namespace gumshoe::analysis

@@ -5,6 +5,7 @@
 
 #include <boost/math/distributions/chi_squared.hpp>
 
+#include "analysis/leaves.h"
 #include "models/fit.h"
 #include "propagation/all_readings.h"
 
@@ -23,10 +24,13 @@ std::optional<models::Fit> fit_of(const propagation::Experiment& e) {
 }
 
 /// Mean over the samples of the residuals' mean square, which each fit gives as their root mean square.
-double mean_square(std::span<const double> rms) {
+double mean_square(const Column& rms) {
   double sum = 0, count = 0;
-  for (const double x : rms)
-    if (!std::isnan(x)) sum += x * x, ++count;
+  Room room;
+  for_pieces(rms, 0, rms.size(), room, [&](std::span<const double> some) {
+    for (const double x : some)
+      if (!std::isnan(x)) sum += x * x, ++count;
+  });
   return sum / count;
 }
 
@@ -53,9 +57,8 @@ std::vector<FitCovariance> fit_covariances(const propagation::Experiment& e, con
     if (read && redundant) out.chi_squared = fit->squares, out.probability = probability_of_more(fit->squares, freedom);
   } else {
     out.meaning = "from the residuals, as if every indication had an independent error of the same size";
-    std::vector<double> room;
     const double squares =
-        read ? fit->squares : static_cast<double>(fit->equations) * mean_square(samples.view(fit->residual_rms, room));
+        read ? fit->squares : static_cast<double>(fit->equations) * mean_square(samples.values(fit->residual_rms));
     scale = redundant ? squares / freedom : nan;
     out.scatter = std::sqrt(scale);
   }

@@ -121,8 +121,8 @@ Index delta_index(const Order& x_order, const std::vector<double>& x, const Orde
     gain = size > 8 ? e.value - best.value : 0;
     best = e;
   }
-  // Classes blur the densities. Finer ones would bring 0.3 to 0.6 of what the last refinement brought (normal sums, shares
-  // of 4 to 98 %, by integration), and what is left of the bias by chance takes some of it back.
+  // Classes blur the densities. Finer ones would bring 0.3 to 0.6 of what the last refinement brought (normal sums,
+  // shares of 4 to 98 %, by integration), and what is left of the bias by chance takes some of it back.
   const double value = best.value + gain / 3, half = std::hypot(normal_95 * best.se, gain / 3);
   return make_index(value, value - half, value + half);
 }
@@ -143,9 +143,9 @@ std::vector<GivenData> given_data_indices(const propagation::Experiment& e, cons
   std::vector<std::vector<double>> y(outputs);
   std::vector<bool> valid(n, true);
   for (std::size_t o = 0; o < outputs; ++o) {
-    const auto all = values(o);
-    y[o].assign(all.begin(), all.begin() + static_cast<long>(std::min<std::uint64_t>(n, all.size())));
-    y[o].resize(n, nan);
+    const Column all = values(o);
+    y[o].assign(n, nan);
+    all.copy(0, std::span(y[o]).first(std::min<std::uint64_t>(n, all.size())));
     for (std::size_t i = 0; i < n; ++i)
       if (!std::isfinite(y[o][i])) valid[i] = false;
   }

@@ -1,14 +1,15 @@
 #include "analysis/joint.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include <Eigen/Dense>
 #include <fmt/format.h>
 
 #include "analysis/combine.h"
+#include "analysis/complete.h"
 #include "analysis/leaves.h"
 #include "analysis/ranked.h"
 #include "analysis/reach.h"
@@ -37,7 +38,7 @@ Factor factor(std::size_t n, const Fill& fill, double p, int threads) {
   return {std::sqrt(square[1]), 0.5 * (std::sqrt(square[2]) - std::sqrt(square[0]))};
 }
 
-using Values = std::vector<std::span<const double>>; ///< [measurand][sample]
+using Values = std::vector<Column>; ///< of each measurand
 
 /// The samples of which every measurand has a value, if some have none: then `mean` is NaN.
 class Valid {
@@ -45,30 +46,32 @@ public:
   Valid(const Values& all, int threads) : values_(all) {
     find_means(threads);
     if (std::ranges::none_of(means_, [](double m) { return std::isnan(m); })) return;
-    copies_.resize(all.size());
-    for (std::size_t i = 0; i < all[0].size(); ++i)
-      if (std::ranges::none_of(all, [&](const auto& y) { return std::isnan(y[i]); }))
-        for (std::size_t a = 0; a < all.size(); ++a) copies_[a].push_back(all[a][i]);
-    for (std::size_t a = 0; a < all.size(); ++a) values_[a] = copies_[a];
+    complete_.emplace(
+        all, [](double v) { return !std::isnan(v); }, threads);
+    for (std::size_t a = 0; a < all.size(); ++a) values_[a] = complete_->column(a);
     find_means(threads);
   }
+  Valid(const Valid&) = delete; // values_ refers to complete_
+  Valid& operator=(const Valid&) = delete;
   const Values& values() const { return values_; }
   const std::vector<double>& means() const { return means_; }
 
 private:
   void find_means(int threads) {
     means_.clear();
-    for (const auto& y : values_) {
+    for (const Column& y : values_) {
+      const double origin = y.size() > 0 ? y[0] : nan;
       const auto leaf = [&](std::span<const double> some) {
         double sum = 0;
-        for (const double v : some) sum += v - y[0];
+        for (const double v : some) sum += v - origin;
         return sum;
       };
-      means_.push_back(y.empty() ? nan : y[0] + leaf_sum<double>(y, threads, leaf) / static_cast<double>(y.size()));
+      means_.push_back(y.size() == 0 ? nan
+                                     : origin + leaf_sum<double>(y, threads, leaf) / static_cast<double>(y.size()));
     }
   }
   Values values_;
-  std::vector<std::vector<double>> copies_;
+  std::optional<Complete> complete_;
   std::vector<double> means_;
 };
 
@@ -96,53 +99,72 @@ struct Scaled {
   }
   std::size_t size() const { return values[0].size(); }
 
-  /// Values [first, first + out.size()) of measurand a.
-  void operator()(std::size_t a, std::size_t first, std::span<double> out) const {
-    const double* y = values[a].data() + first;
-    if (u[a] > 0)
-      for (std::size_t i = 0; i < out.size(); ++i) out[i] = (y[i] - mean[a]) / u[a];
-    else
-      std::ranges::fill(out, 0.0);
+  /// Calls body(a, values) for samples [first, first + count) of every measurand in turn.
+  template <class Body> void each(std::size_t first, std::size_t count, const Body& body) const {
+    Room room;
+    std::vector<double> z(count);
+    for (std::size_t a = 0; a < values.size(); ++a) {
+      if (u[a] > 0) {
+        const auto y = values[a].read(first, count, room);
+        for (std::size_t i = 0; i < count; ++i) z[i] = (y[i] - mean[a]) / u[a];
+      } else {
+        std::ranges::fill(z, 0.0);
+      }
+      body(a, std::span<const double>(z));
+    }
   }
 
-  double correlation(std::size_t a, std::size_t b, int threads) const {
-    const double sum = leaf_sum<double>(size(), threads, [&](std::size_t first, std::size_t count) {
-      std::array<double, leaf_values> x, y;
-      (*this)(a, first, std::span(x).first(count));
-      (*this)(b, first, std::span(y).first(count));
-      double products = 0;
-      for (std::size_t k = 0; k < count; ++k) products += x[k] * y[k];
-      return products;
+  /// Products of the measurands, one below the diagonal after the other, summed over samples.
+  struct Products : std::vector<double> {
+    void operator+=(const Products& other) {
+      for (std::size_t i = 0; i < size(); ++i) (*this)[i] += other[i];
+    }
+  };
+
+  /// Correlations of measurands b < a, in the order (1, 0), (2, 0), (2, 1), ...
+  std::vector<double> correlations(int threads) const {
+    const std::size_t d = values.size();
+    Products sums = leaf_sum<Products>(size(), threads, [&](std::size_t first, std::size_t count) {
+      Products some;
+      std::vector<double> all(d * count);
+      each(first, count, [&](std::size_t a, std::span<const double> x) {
+        std::ranges::copy(x, &all[a * count]);
+        for (std::size_t b = 0; b < a; ++b) {
+          double products = 0;
+          for (std::size_t k = 0; k < count; ++k) products += all[b * count + k] * x[k];
+          some.push_back(products);
+        }
+      });
+      return some;
     });
-    return sum / (static_cast<double>(size()) - 1);
+    for (double& sum : sums) sum /= static_cast<double>(size()) - 1;
+    return sums;
   }
 
   /// The square of the largest deviation, either way.
   void largest(std::size_t first, std::span<double> out) const {
-    std::array<double, leaf_values> z;
     std::ranges::fill(out, 0.0);
-    for (std::size_t a = 0; a < values.size(); ++a) {
-      (*this)(a, first, std::span(z).first(out.size()));
+    each(first, out.size(), [&](std::size_t, std::span<const double> z) {
       for (std::size_t k = 0; k < out.size(); ++k) out[k] = std::max(out[k], z[k] * z[k]);
-    }
+    });
   }
 
   /// The square of the Mahalanobis distance: of L^-1 z, row by row of the correlation matrix' Cholesky factor L.
   void mahalanobis(const Matrix& lower, std::size_t first, std::span<double> out) const {
-    const std::size_t d = values.size(), n = out.size();
-    std::vector<double> z(d * n);
+    const std::size_t n = out.size();
+    std::vector<double> all(values.size() * n);
     std::ranges::fill(out, 0.0);
-    for (std::size_t a = 0; a < d; ++a) {
-      const auto row = std::span(z).subspan(a * n, n);
-      (*this)(a, first, row);
+    each(first, n, [&](std::size_t a, std::span<const double> z) {
+      const auto row = std::span(all).subspan(a * n, n);
+      std::ranges::copy(z, row.begin());
       const auto i = static_cast<Eigen::Index>(a);
       for (std::size_t b = 0; b < a; ++b) {
-        const double factor = lower(i, static_cast<Eigen::Index>(b)), *other = &z[b * n];
+        const double factor = lower(i, static_cast<Eigen::Index>(b)), *other = &all[b * n];
         for (std::size_t k = 0; k < n; ++k) row[k] -= other[k] * factor;
       }
       for (std::size_t k = 0; k < n; ++k) row[k] /= lower(i, i);
       for (std::size_t k = 0; k < n; ++k) out[k] += row[k] * row[k];
-    }
+    });
   }
 };
 
@@ -225,10 +247,15 @@ JointRegion joint_region(const Values& all, double p, int threads) {
   region.estimate = s.mean;
   const auto size = static_cast<Eigen::Index>(d);
   Matrix r(size, size), covariance(size, size);
+  const std::vector<double> correlations = s.correlations(threads);
+  for (std::size_t a = 0, k = 0; a < d; ++a) {
+    const auto i = static_cast<Eigen::Index>(a);
+    r(i, i) = 1;
+    for (Eigen::Index j = 0; j < i; ++j) r(i, j) = r(j, i) = correlations[k++];
+  }
   for (std::size_t a = 0; a < d; ++a)
     for (std::size_t b = 0; b < d; ++b) {
       const auto i = static_cast<Eigen::Index>(a), j = static_cast<Eigen::Index>(b);
-      r(i, j) = a == b ? 1 : a > b ? r(j, i) : s.correlation(a, b, threads);
       covariance(i, j) = r(i, j) * s.u[a] * s.u[b];
     }
 
@@ -272,13 +299,15 @@ std::vector<JointRegion> joint_regions(const propagation::Experiment& e, const S
                                        int threads) {
   const auto wanted = groups(e);
   std::vector<JointRegion> regions(wanted.size());
-  propagation::parallel_for(wanted.size(), threads, [&](std::size_t g) {
+  std::size_t most = 1;
+  for (const Group& group : wanted) most = std::max(most, group.outputs.size());
+  propagation::parallel_for(wanted.size(), side_by_side(most * samples.size, threads), [&](std::size_t g) {
     const Group& group = wanted[g];
-    std::vector<std::vector<double>> room(group.outputs.size());
+    std::vector<Room> rooms(group.outputs.size());
     Values values;
     std::vector<const Budget*> laws;
     for (const std::size_t o : group.outputs) {
-      values.push_back(samples.view(o, room[values.size()]));
+      values.push_back(held(samples.values(o), rooms[values.size()], group.outputs.size()));
       laws.push_back(&budgets[o]);
     }
     JointRegion& region = regions[g] = joint_region(values, e.scenario().analysis.coverage_probability, threads);

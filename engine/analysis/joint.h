@@ -1,6 +1,5 @@
 #pragma once
 /// Several measurands at once: JCGM 102:2011, clause 7.
-#include <span>
 #include <vector>
 
 #include "analysis/results.h"
@@ -9,13 +8,12 @@
 
 namespace gumshoe::analysis {
 
-/// Covariance and joint coverage regions of samples of several measurands, values[measurand][sample] in SI, NaN where
-/// failed. The ellipsoid's k_p is the p-quantile of the Mahalanobis distance (7.7.2), the rectangle's k_q that of the
-/// largest |y_i - estimate_i| / u_i (7.7.3); their standard errors are those of an order statistic, for the covariance
-/// as it stands. k_p is NaN, with a remark, if the correlation matrix is singular to within the samples' rounding.
-/// The values are read in passes and not copied, unless samples failed.
-JointRegion joint_region(const std::vector<std::span<const double>>& values, double coverage_probability,
-                         int threads = 1);
+/// Covariance and joint coverage regions of samples of several measurands, one column each, in SI, NaN where failed.
+/// The ellipsoid's k_p is the p-quantile of the Mahalanobis distance (7.7.2), the rectangle's k_q that of the largest
+/// |y_i - estimate_i| / u_i (7.7.3); their standard errors are those of an order statistic, for the covariance as it
+/// stands. k_p is NaN, with a remark, if the correlation matrix is singular to within the samples' rounding. The values
+/// are read in passes and not copied.
+JointRegion joint_region(const std::vector<Column>& values, double coverage_probability, int threads = 1);
 
 /// Joint regions of the scenario's groups (AnalysisOptions::joint), at each reading. A group with a measurand without
 /// standard uncertainty has no region, and a remark says so.

@@ -38,17 +38,17 @@ std::vector<double> joined(const std::vector<std::vector<double>>& pieces) {
 
 } // namespace
 
-std::vector<double> pilot_sample(std::span<const double> x, std::size_t most) {
+std::vector<double> pilot_sample(const Column& x, std::size_t most) {
   const std::size_t step = (x.size() + most - 1) / most;
   std::vector<double> some;
   some.reserve(most);
   for (std::size_t i = 0; i < x.size(); i += step)
-    if (!std::isnan(x[i])) some.push_back(x[i]);
+    if (const double v = x[i]; !std::isnan(v)) some.push_back(v);
   boost::sort::pdqsort_branchless(some.begin(), some.end());
   return some;
 }
 
-OrderedTails ordered_tails(std::span<const double> x, std::size_t valid, std::size_t tail, int threads) {
+OrderedTails ordered_tails(const Column& x, std::size_t valid, std::size_t tail, int threads) {
   OrderedTails t;
   t.size = valid;
   double low = inf, high = inf; // everything is low

@@ -1,12 +1,17 @@
 #pragma once
 /// Exact order statistics of the tails, without sorting or copying the body.
 #include <cstddef>
-#include <span>
 #include <vector>
 
 #include "analysis/binned.h"
+#include "analysis/column.h"
 
 namespace gumshoe::analysis {
+
+/// Ranks [first, last], from 0.
+struct RankRange {
+  std::size_t first, last;
+};
 
 /// What lies at and beyond a bracket on either side; the bracket comes from a sample of the values and is widened to
 /// all of them where it misses. For one thread at a time.
@@ -20,15 +25,19 @@ struct OrderedTails {
   /// The first rank r < size - span at which value r + span less value r is smallest. Sorts only where it may be.
   std::size_t shortest(std::size_t span) const;
 
+  /// As OrderedColumn has it.
+  RankRange bracket_middle(double, std::size_t spare) const { return {0, spare}; }
+
 private:
   const Binned& holds(std::size_t rank) const { return rank < low.size() ? low : high; }
   std::size_t before(std::size_t rank) const { return rank < low.size() ? 0 : size - high.size(); }
 };
 
 /// `valid`: how many of the values are not NaN. `tail`: how many order statistics are wanted on either side.
-OrderedTails ordered_tails(std::span<const double> values, std::size_t valid, std::size_t tail, int threads);
+OrderedTails ordered_tails(const Column& values, std::size_t valid, std::size_t tail, int threads);
 
+inline constexpr std::size_t most_pilots = 16384;
 /// Every so-maniest value, in order, NaN left out: `most` at the most.
-std::vector<double> pilot_sample(std::span<const double> values, std::size_t most = 16384);
+std::vector<double> pilot_sample(const Column& values, std::size_t most = most_pilots);
 
 } // namespace gumshoe::analysis

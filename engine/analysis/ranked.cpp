@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "analysis/leaves.h"
+#include "analysis/ordered_column.h"
 
 namespace gumshoe::analysis {
 
@@ -71,7 +72,11 @@ Inside inside(std::size_t n, const Fill& fill, const Bracket& b, int threads) {
 } // namespace
 
 std::vector<double> ranked(std::size_t n, const Fill& fill, std::span<const std::size_t> ranks, int threads) {
-  Inside some = inside(n, fill, bracket(n, fill, ranks.front(), ranks.back()), threads);
+  constexpr std::size_t few = std::size_t{1} << 19; // then what lies inside the bracket, or all, is soon kept
+  Inside some;
+  if (n <= 16 * few) some = inside(n, fill, bracket(n, fill, ranks.front(), ranks.back()), threads);
+  if (n > few && (some.below > ranks.front() || some.below + some.values.size() <= ranks.back()))
+    return values_of_ranks(Column(n, fill), n, ranks, threads);
   if (some.below > ranks.front() || some.below + some.values.size() <= ranks.back())
     some = inside(n, fill, {}, threads);
   std::vector<double> found;

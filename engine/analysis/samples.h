@@ -1,27 +1,48 @@
 #pragma once
 /// The samples of a run, wherever they are kept.
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <span>
-#include <vector>
+#include <thread>
+
+#include "analysis/column.h"
+#include "propagation/memory_store.h"
 
 namespace gumshoe::analysis {
 
-using ValuesOf = std::function<std::vector<double>(std::size_t output)>;
+/// The values of an output: SI, in sample order, NaN where a sample failed.
+using ValuesOf = std::function<Column(std::size_t output)>;
 
-/// Values are SI, in sample order, NaN where a sample failed.
+/// Read part by part, on several threads at the same time.
 struct Samples {
   ValuesOf values;
-  std::function<std::vector<std::uint8_t>()> status;
-  /// The values of an output without a copy, if they are in memory; unset or empty otherwise.
-  std::function<std::span<const double>(std::size_t output)> in_memory = {};
-
-  /// The values of an output: as they lie in memory, or copied into `room`.
-  std::span<const double> view(std::size_t output, std::vector<double>& room) const {
-    std::span<const double> found;
-    if (in_memory) found = in_memory(output);
-    return found.empty() ? room = values(output) : found;
-  }
+  std::size_t size = 0; ///< of every output
+  /// Writes the status of samples [first, first + out.size()).
+  std::function<void(std::size_t first, std::span<std::uint8_t> out)> status;
 };
+
+/// Samples in memory, where they lie.
+inline Samples view_of(const propagation::MemoryStore& store) {
+  return {[&store](std::size_t output) { return Column(store.values(output)); }, store.status().size(),
+          [&store](std::size_t first, std::span<std::uint8_t> out) {
+            std::ranges::copy(store.status().subspan(first, out.size()), out.begin());
+          }};
+}
+
+/// So many values at the most are read once and held, 16 MiB; more are read anew by every pass.
+inline constexpr std::size_t held_values = std::size_t{1} << 21;
+inline Column held(const Column& column, Room& room, std::size_t columns = 1) {
+  return column.in_memory() || columns * column.size() > held_values ? column
+                                                                     : Column(column.read(0, column.size(), room));
+}
+
+/// How many tasks of so many values each run at the same time, in bounded memory: passes over many values are long
+/// enough to take all threads one after the other. 0: as many as there are processors.
+inline int side_by_side(std::size_t values, int threads) {
+  const std::size_t most = std::max<std::size_t>(1, held_values / std::max<std::size_t>(1, values));
+  const std::size_t all = threads > 0 ? static_cast<std::size_t>(threads) : std::thread::hardware_concurrency();
+  return most >= all ? threads : static_cast<int>(most);
+}
 
 } // namespace gumshoe::analysis

@@ -1,8 +1,10 @@
 #pragma once
 /// Statistics of Monte Carlo values: JCGM 101 clauses 7.6 and 7.7.
-#include <span>
+#include <optional>
 #include <vector>
 
+#include "analysis/column.h"
+#include "analysis/ordered_column.h"
 #include "analysis/results.h"
 
 namespace gumshoe::analysis {
@@ -16,7 +18,7 @@ struct Moments {
 };
 /// NaN without values; the variance also of a single one. Skewness and kurtosis are 0 without variance.
 /// @param threads 0: all processors
-Moments moments(std::span<const double> values, int threads = 1);
+Moments moments(const Column& values, int threads = 1);
 
 /// JCGM 101 7.7.2: q = pM rounded to an integer; an interval runs from rank r to rank r + q of the M ordered values.
 std::size_t covered_ranks(std::size_t values, double coverage_probability);
@@ -27,10 +29,20 @@ struct Ends {
 };
 Ends symmetric_ends(std::vector<double>& values, double coverage_probability);
 
+/// What bounds the memory of a summary. The figures do not depend on it.
+struct Limits {
+  std::size_t sorted = std::size_t{1} << 20; ///< of so many values the tails are copied and sorted
+  OrderedColumn::Limits ordered;             ///< of more
+};
+/// The order of a column that was too long to sort its tails, for those who ask for more of it.
+using KeptOrder = std::optional<OrderedColumn>;
+
 /// Estimate, u, both coverage intervals and their Monte Carlo standard errors. NaN counts as failed;
 /// the rank bounds hold whatever values the failed samples had. `values` is in sample order, SI.
-/// Passes over the values in parallel (threads 0: all); only the tails are copied and sorted.
-Summary summarise(const propagation::Output& output, std::span<const double> values, double coverage_probability,
-                  int threads = 1);
+/// Passes over the values in parallel (threads 0: all), three or four of them. Only the tails of few values are copied
+/// and sorted; order statistics of many are found in bounded memory, most of them by the way.
+/// @param order  keeps what was found, with the ranks that check_tails() will ask for; refers to `values`
+Summary summarise(const propagation::Output& output, const Column& values, double coverage_probability, int threads = 1,
+                  KeptOrder* order = nullptr, Limits limits = Limits());
 
 } // namespace gumshoe::analysis

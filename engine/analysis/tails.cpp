@@ -20,7 +20,7 @@ constexpr std::size_t least = 1000;
 std::size_t tail_size(std::size_t n) { return static_cast<std::size_t>(std::pow(static_cast<double>(n), 0.6)); }
 
 /// The k + 1 largest of side * (x - origin), in falling order.
-std::vector<double> largest(const OrderedTails& x, double origin, double side, std::size_t k) {
+template <class Ordered> std::vector<double> largest(const Ordered& x, double origin, double side, std::size_t k) {
   std::vector<double> tail;
   for (std::size_t i = 0; i <= k; ++i) tail.push_back(side * (x[side > 0 ? x.size - 1 - i : i] - origin));
   return tail;
@@ -36,36 +36,41 @@ double hill(std::span<const double> falling) {
 
 } // namespace
 
-void use_median(std::span<const double> values, Summary& s) {
-  std::vector<double> x;
-  std::ranges::copy_if(values, std::back_inserter(x), [](double v) { return !std::isnan(v); });
-  if (x.size() < 2) return;
-  const double n = static_cast<double>(x.size());
-  const auto at = [&](double rank) {
-    const auto place = x.begin() + static_cast<long>(std::clamp(rank, 0.0, n - 1));
-    std::nth_element(x.begin(), place, x.end());
-    return *place;
-  };
-  s.estimate = at(std::floor(0.5 * n));
-  s.estimate_se = 0.5 * (at(0.5 * n + 0.5 * std::sqrt(n)) - at(0.5 * n - 0.5 * std::sqrt(n)));
+void use_median(const Column& values, Summary& s, int threads) {
+  if (s.valid < 2) return;
+  const double n = static_cast<double>(s.valid);
+  const auto rank = [&](double r) { return static_cast<std::size_t>(std::clamp(r, 0.0, n - 1)); };
+  const std::size_t middle = rank(std::floor(0.5 * n));
+  const std::size_t ranks[] = {rank(0.5 * n - 0.5 * std::sqrt(n)), middle, rank(0.5 * n + 0.5 * std::sqrt(n))};
+  const auto found = values_of_ranks(values, s.valid, ranks, threads);
+  s.estimate = found[1];
+  s.estimate_se = 0.5 * (found[2] - found[0]);
   s.estimate_is_median = true;
   s.warning = "no expectation exists, and the estimate is the median; " + s.warning;
 }
 
-void check_tails(std::span<const double> values, Summary& s, int threads) {
+void add_tail_ranks(std::size_t valid, std::vector<RankRange>& ranks) {
+  if (valid < least) return;
+  const std::size_t k = tail_size(valid);
+  ranks.push_back({0, k});
+  ranks.push_back({valid - 1 - k, valid - 1});
+}
+
+void check_tails(const Column& values, Summary& s, int threads, const KeptOrder* order) {
   s.hill_index = nan;
   if (s.valid < least || !(s.standard_uncertainty > 0)) return;
-  const auto some = pilot_sample(values);
+  const bool known = order && order->has_value();
+  const auto some = known && !(*order)->pilot().empty() ? (*order)->pilot() : pilot_sample(values);
   if (some.size() < least) return;
   const std::size_t k = tail_size(s.valid);
   const double median = some[some.size() / 2];
-  const OrderedTails ordered = ordered_tails(values, s.valid, k + 1, threads);
+  const OrderedTails own = known ? OrderedTails() : ordered_tails(values, s.valid, k + 1, threads);
   bool heavy = false, no_expectation = false;
   const auto below = [](double index, std::size_t used, double errors, double limit) {
     return index * (1 + errors / std::sqrt(static_cast<double>(used))) < limit;
   };
   for (const double side : {1.0, -1.0}) {
-    const auto tail = largest(ordered, median, side, k);
+    const auto tail = known ? largest(**order, median, side, k) : largest(own, median, side, k);
     const double index = hill(tail);
     // A power law is one further out, too; outliers in a bounded cluster, or a few discrete values, are not.
     const std::size_t out_there = k / 10;
@@ -86,7 +91,7 @@ void check_tails(std::span<const double> values, Summary& s, int threads) {
         "tail index is {:.2g}, and below 2 it does not exist; the ends of the interval are quantiles and remain valid",
         s.hill_index);
     s.standard_uncertainty = s.standard_uncertainty_se = s.estimate_se = nan;
-    if (no_expectation) use_median(values, s);
+    if (no_expectation) use_median(values, s, threads);
   } else if (below(s.hill_index, k, 2, 4) && unsettled > 1e-2) {
     s.tail_remark = fmt::format("heavy tails, Hill's tail index {:.2g}: below 4 the standard uncertainty has no Monte "
                                 "Carlo standard error; the one stated is too small",

@@ -1,8 +1,10 @@
 #pragma once
 /// Heavy tails: when a standard uncertainty would say nothing.
-#include <span>
+#include <vector>
 
+#include "analysis/column.h"
 #include "analysis/results.h"
+#include "analysis/summary.h"
 
 namespace gumshoe::analysis {
 
@@ -15,11 +17,16 @@ namespace gumshoe::analysis {
 /// variance has not settled, its relative standard error sqrt(kurtosis / n) being above 3 %. An index below 4 and one
 /// above 10 %: `tail_remark`. A mixture with a much wider law in less than a per cent of the samples may look alike.
 /// Where the index cannot be told from one of 1 or less, by 2 standard errors in the tail and far out, the expectation
-/// does not exist either: use_median(). Call after summarise(); `values` is in sample order, NaN where failed. Linear in their number.
-void check_tails(std::span<const double> values, Summary& summary, int threads = 1);
+/// does not exist either: use_median(). Call after summarise(); `values` is in sample order, NaN where failed. Linear
+/// in their number.
+/// @param order  what summarise() left of the values, if it did
+void check_tails(const Column& values, Summary& summary, int threads = 1, const KeptOrder* order = nullptr);
 
-/// Replaces the estimate by the median of the valid values, with its standard error, and says so in `warning`, which holds
-/// the reason already.
-void use_median(std::span<const double> values, Summary& summary);
+/// Adds the ranks that check_tails() asks for, of so many values that are not NaN.
+void add_tail_ranks(std::size_t valid, std::vector<RankRange>& ranks);
+
+/// Replaces the estimate by the median of the valid values, with its standard error, and says so in `warning`, which
+/// holds the reason already.
+void use_median(const Column& values, Summary& summary, int threads = 1);
 
 } // namespace gumshoe::analysis

@@ -108,12 +108,9 @@ ExitCode analyse(const Options& o) {
   store::ResultFile file(out, identity, experiment.outputs(), experiment.place_names(), o.force);
   store::append_samples(file, source, experiment.outputs().size(), 0, samples);
   s.notes.push_back("analysed again from the samples of " + o.file);
-  const analysis::Samples kept{[&](std::size_t output) { return file.read(output, 0, samples); },
-                               [&] { return file.read_status(0, samples); },
-                               [&](std::size_t output) { return file.in_memory(output); }};
   ProgressLine line;
   const StudyProgress studies(line);
-  analysis::Results results = analysis::analyse(experiment, kept, o.threads);
+  analysis::Results results = analysis::analyse(experiment, file.view(), o.threads);
   results.stopping = source.read_stopping();
   analysis::keep_measurands(results, s.analysis.measurands);
   file.finish(results);

@@ -139,11 +139,7 @@ std::vector<Line> run_example(const std::string& file, int threads) {
   } else {
     propagation::propagate(experiment, store, settings);
   }
-  const analysis::Results results =
-      analysis::analyse(experiment,
-                        {[&](std::size_t output) { return store.read(output, 0, s.run.samples); },
-                         [&] { return store.read_status(0, s.run.samples); }},
-                        threads);
+  const analysis::Results results = analysis::analyse(experiment, analysis::view_of(store), threads);
   return compare_all(s, example,
                      [&](const auto& e) { return analysis::figure(results, output_of(e, results), e.figure); });
 }
@@ -159,7 +155,8 @@ std::vector<std::string> examples(const std::vector<std::string>& asked) {
   std::vector<std::string> files;
   const char* folder = std::getenv("GUMSHOE_SCENARIOS");
   std::vector<std::string> from = asked;
-  if (from.empty()) from = {(fs::path(folder ? folder : data_folder("scenarios", GUMSHOE_SCENARIOS_DIR)) / "gauge").string()};
+  if (from.empty())
+    from = {(fs::path(folder ? folder : data_folder("scenarios", GUMSHOE_SCENARIOS_DIR)) / "gauge").string()};
   for (const std::string& name : from) {
     if (!fs::is_directory(name)) {
       files.push_back(name);

@@ -99,12 +99,7 @@ ExitCode complete_run(const propagation::Experiment& experiment, store::ResultFi
                       const analysis::StoppingRecord& stopping, const Begun& begun, const std::string& out, int threads,
                       PrintOptions print, ProgressLine& line) {
   const StudyProgress studies(line);
-  const std::uint64_t samples = file.samples();
-  analysis::Results results = analysis::analyse(experiment,
-                                                {[&](std::size_t output) { return file.read(output, 0, samples); },
-                                                 [&] { return file.read_status(0, samples); },
-                                                 [&](std::size_t output) { return file.in_memory(output); }},
-                                                threads);
+  analysis::Results results = analysis::analyse(experiment, file.view(), threads);
   results.stopping = stopping;
   stamp(results, begun);
   analysis::keep_measurands(results, experiment.scenario().analysis.measurands);

@@ -278,8 +278,20 @@ std::vector<std::uint8_t> ResultFile::read_status(std::uint64_t first, std::uint
   return status;
 }
 
-std::span<const double> ResultFile::in_memory(std::size_t output) const {
-  return impl_->early ? impl_->early->values(output) : std::span<const double>();
+analysis::Samples ResultFile::view() const {
+  const Impl& f = *impl_;
+  if (f.early) return analysis::view_of(*f.early);
+  const auto column = [&f](std::size_t output) {
+    return analysis::Column(
+        f.done,
+        [&f, output](std::size_t first, std::span<double> out) {
+          naming(f.claim.path(), [&] { f.samples.read(output, first, out.size(), out.data()); });
+        },
+        f.samples.place(output, 0));
+  };
+  return {column, f.done, [&f](std::size_t first, std::span<std::uint8_t> out) {
+            naming(f.claim.path(), [&] { f.samples.read_status(first, out.size(), out.data()); });
+          }};
 }
 
 void ResultFile::settle() {

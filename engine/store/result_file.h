@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analysis/results.h"
+#include "analysis/samples.h"
 #include "propagation/run.h"
 #include "scenario/scenario.h"
 #include "store/draft.h"
@@ -18,14 +19,14 @@ struct Identity {
   std::string adaptive; ///< the stopping rule; then `samples` is only how many there is room for
   std::uint64_t seed = 0, samples = 0;
   bool store_samples = true;
-  std::string design_hash; ///< propagation::design_hash; empty in files older than it
+  std::string design_hash;     ///< propagation::design_hash; empty in files older than it
   std::string command = "run"; ///< that made it
   /// Whether the file holds results of outputs, and no choice, trace or map.
   bool has_outputs() const { return command == "run" || command == "analyse"; }
-  std::string scenario_place;  ///< place_of(scenario_file)
-  std::string external;        ///< Scenario::external
-  std::string shard;           ///< "3/16": the file holds this part of a run, `samples` of them; empty: a whole run
-  std::string options;         ///< of a shard: the options of `run` that determine the whole run's numbers
+  std::string scenario_place; ///< place_of(scenario_file)
+  std::string external;       ///< Scenario::external
+  std::string shard;          ///< "3/16": the file holds this part of a run, `samples` of them; empty: a whole run
+  std::string options;        ///< of a shard: the options of `run` that determine the whole run's numbers
 };
 
 /// What a scenario says of it and this program adds: all but `adaptive`, `design_hash` and `command`.
@@ -53,8 +54,8 @@ public:
   void write(const propagation::ResultBlock& block) override;
   std::vector<double> read(std::size_t output, std::uint64_t first, std::uint64_t count) const override;
   std::vector<std::uint8_t> read_status(std::uint64_t first, std::uint64_t count) const override;
-  /// The samples so far of an output, if they are in memory: valid until the next change; else empty.
-  std::span<const double> in_memory(std::size_t output) const;
+  /// The samples so far, where they lie in memory or read from the file part by part: valid until the next change.
+  analysis::Samples view() const;
   /// Returns once the samples so far are on the disk and counted. A shard ends so.
   void settle();
   /// A new file with the samples and everything else, complete, takes the place of the old one.
@@ -68,8 +69,8 @@ private:
   std::unique_ptr<Impl> impl_;
 };
 
-/// What the record of an existing result says. Throws InputError if the path is no result of ours (a directory, garbage,
-/// another program's HDF5), or one that is damaged anywhere but in its samples.
+/// What the record of an existing result says. Throws InputError if the path is no result of ours (a directory,
+/// garbage, another program's HDF5), or one that is damaged anywhere but in its samples.
 struct Stored {
   Identity identity;
   std::uint64_t samples_done = 0;

@@ -59,14 +59,12 @@ SampleFile::SampleFile(RawFile file, const Record& record) : file_(std::move(fil
   }
   require(digests.bytes == 8 * digest_blocks(samples_) * (rows_.size() + 1));
   status_ = status.offset, digests_at_ = digests.offset, marker_ = marker.offset;
-  digests_.resize(digests.bytes / 8);
-  reset_digests(0);
   file_.read(&marked_, 8, marker_);
 }
 
-void SampleFile::reset_digests(std::uint64_t from_block) {
-  for (std::uint64_t block = from_block; block < digest_blocks(samples_); ++block)
-    std::fill_n(&digest(block, 0), rows_.size() + 1, empty_digest(block));
+void SampleFile::hold(std::uint64_t blocks) {
+  for (std::uint64_t block = held_ + digests_.size() / width(); block < blocks; ++block)
+    digests_.insert(digests_.end(), width(), empty_digest(block));
 }
 
 void SampleFile::read(std::size_t row, std::uint64_t first, std::uint64_t count, double* values) const {
@@ -86,6 +84,7 @@ void SampleFile::write(const propagation::ResultBlock& b) {
 void SampleFile::write(std::uint64_t begin, const std::vector<const double*>& rows,
                        std::span<const std::uint8_t> status) {
   const std::uint64_t samples = status.size();
+  hold(digest_blocks(begin + samples));
   for (std::size_t row = 0; row < rows_.size(); ++row) {
     file_.write(rows[row], 8 * samples, place(row, begin));
     by_block(begin, samples, [&](std::uint64_t block, std::uint64_t first, std::uint64_t count) {
@@ -100,11 +99,14 @@ void SampleFile::write(std::uint64_t begin, const std::vector<const double*>& ro
 
 void SampleFile::mark(std::uint64_t done, bool durable) {
   if (done <= marked_) return;
-  const std::uint64_t first = marked_ / digest_samples, end = digest_blocks(done), width = 8 * (rows_.size() + 1);
-  if (end > first) file_.write(&digest(first, 0), (end - first) * width, digests_at_ + first * width);
+  const std::uint64_t counted = std::min<std::uint64_t>((digest_blocks(done) - held_) * width(), digests_.size());
+  file_.write(digests_.data(), 8 * counted, digests_at_ + 8 * width() * held_);
   if (durable) file_.sync();
   file_.write(&done, 8, marker_);
   marked_ = done;
+  const std::uint64_t whole = done / digest_samples - held_; // those blocks do not change any more
+  digests_.erase(digests_.begin(), digests_.begin() + static_cast<std::ptrdiff_t>(whole * width()));
+  held_ += whole;
 }
 
 void SampleFile::settle(std::uint64_t done) {
@@ -114,23 +116,29 @@ void SampleFile::settle(std::uint64_t done) {
 
 std::uint64_t SampleFile::sound() {
   std::uint64_t sound = std::min(marked_, samples_);
-  constexpr std::uint64_t part = 64 * digest_samples;
+  constexpr std::uint64_t blocks = 64, part = blocks * digest_samples;
   std::vector<double> values(part);
   std::vector<std::uint8_t> status(part);
-  file_.read(digests_.data(), 8 * digests_.size(), digests_at_);
-  for (std::size_t row = 0; row <= rows_.size(); ++row)
-    for (std::uint64_t begin = 0; begin < sound; begin += part) {
-      const std::uint64_t n = std::min(part, sound - begin);
+  std::vector<std::uint64_t> written(blocks * width());
+  for (std::uint64_t begin = 0; begin < sound; begin += part) {
+    const std::uint64_t n = std::min(part, sound - begin), from = begin / digest_samples;
+    file_.read(written.data(), 8 * width() * digest_blocks(n), digests_at_ + 8 * width() * from);
+    for (std::size_t row = 0; row <= rows_.size(); ++row) {
       row < rows_.size() ? read(row, begin, n, values.data()) : read_status(begin, n, status.data());
       by_block(begin, n, [&](std::uint64_t block, std::uint64_t first, std::uint64_t count) {
         const std::uint64_t found =
             empty_digest(block) + (row < rows_.size() ? digest64(&values[first - begin], count, first)
                                                       : digest_of_status(&status[first - begin], count, first));
-        if (found != digest(block, row)) sound = std::min(sound, first);
+        if (found != written[(block - from) * width() + row]) sound = std::min(sound, first);
       });
     }
+  }
   marked_ = sound;
-  reset_digests(digest_blocks(sound));
+  held_ = sound / digest_samples;
+  digests_.clear();
+  if (sound % digest_samples == 0) return sound;
+  digests_.resize(width());
+  file_.read(digests_.data(), 8 * width(), digests_at_ + 8 * width() * held_);
   return sound;
 }
 
@@ -145,8 +153,11 @@ void SampleFile::copy_to(SampleFile& other, std::uint64_t count) const {
   };
   for (std::size_t row = 0; row < rows_.size(); ++row) copy(place(row, 0), other.place(row, 0), 8 * count);
   copy(status_, other.status_, count);
-  const std::uint64_t whole = count / digest_samples * (rows_.size() + 1);
-  std::copy_n(digests_.begin(), whole, other.digests_.begin());
+  const std::uint64_t whole = count / digest_samples, there = std::min(whole, held_);
+  copy(digests_at_, other.digests_at_, 8 * width() * there);
+  other.file_.write(digests_.data(), 8 * width() * (whole - there), other.digests_at_ + 8 * width() * there);
+  other.held_ = whole;
+  other.digests_.clear();
   const std::uint64_t first = count / digest_samples * digest_samples, rest = count - first;
   if (rest == 0) return;
   propagation::ResultBlock last{first, rest, std::vector<double>(rows_.size() * rest), std::vector<std::uint8_t>(rest)};

@@ -27,6 +27,8 @@ public:
 
   std::size_t rows() const { return rows_.size(); }
   std::uint64_t samples() const { return samples_; }
+  /// Where in the file a value lies.
+  std::uint64_t place(std::size_t row, std::uint64_t sample) const { return rows_[row] + 8 * sample; }
   /// Samples [first, first + count) of a row, or their status.
   void read(std::size_t row, std::uint64_t first, std::uint64_t count, double* values) const;
   void read_status(std::uint64_t first, std::uint64_t count, std::uint8_t* status) const;
@@ -48,15 +50,17 @@ public:
   void copy_to(SampleFile& other, std::uint64_t count) const;
 
 private:
-  std::uint64_t place(std::size_t row, std::uint64_t sample) const { return rows_[row] + 8 * sample; }
-  std::uint64_t& digest(std::uint64_t block, std::size_t row) { return digests_[block * (rows_.size() + 1) + row]; }
-  void reset_digests(std::uint64_t from_block);
+  std::uint64_t width() const { return rows_.size() + 1; } ///< digests of a block
+  std::uint64_t& digest(std::uint64_t block, std::size_t row) { return digests_[(block - held_) * width() + row]; }
+  /// Has digests for so many blocks, in the file or in memory.
+  void hold(std::uint64_t blocks);
 
   RawFile file_;
   std::uint64_t samples_ = 0, marked_ = 0;
   std::vector<std::uint64_t> rows_; ///< where each row begins
   std::uint64_t status_ = 0, digests_at_ = 0, marker_ = 0;
-  std::vector<std::uint64_t> digests_; ///< [block][row], the status last
+  std::uint64_t held_ = 0;             ///< the first block whose digests are in memory; the marker counts those before
+  std::vector<std::uint64_t> digests_; ///< [block from held_][row], the status last
 };
 
 } // namespace gumshoe::store

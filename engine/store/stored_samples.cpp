@@ -51,7 +51,7 @@ std::vector<std::uint8_t> StoredSamples::read_status(std::uint64_t first, std::u
 void append_samples(ResultFile& to, const StoredSamples& from, std::size_t outputs, std::uint64_t first,
                     std::uint64_t last) {
   const std::uint64_t part =
-      std::max<std::uint64_t>(digest_samples, (std::uint64_t{1} << 22) / std::max<std::size_t>(1, outputs)); // 32 MiB
+      std::max<std::uint64_t>(digest_samples, (std::uint64_t{1} << 18) / std::max<std::size_t>(1, outputs)); // 2 MiB
   while (to.samples_done() < last) {
     stop_if_interrupted();
     const std::uint64_t at = to.samples_done(), count = std::min(part, last - at);

@@ -1,5 +1,6 @@
-/// From values to intervals: a whole summary, the two coverage intervals alone, two order statistics by std::nth_element
-/// (goal: 3 ns a value, at most 0.4 of nth_element), joint regions. Items are values, of joint regions samples.
+/// From values to intervals: a whole summary, the two coverage intervals alone, two order statistics by
+/// std::nth_element (goal: 3 ns a value, at most 0.4 of nth_element), joint regions. Items are values, of joint regions
+/// samples.
 #include <algorithm>
 #include <vector>
 
@@ -58,9 +59,9 @@ BENCHMARK(nth_element);
 
 void joint_region(benchmark::State& state) {
   std::vector<std::vector<double>> x;
-  std::vector<std::span<const double>> values;
+  std::vector<analysis::Column> values;
   for (int i = 0; i < state.range(0); ++i) x.push_back(normals(std::string(1, static_cast<char>('a' + i))));
-  for (const auto& one : x) values.push_back(one);
+  for (const auto& one : x) values.emplace_back(one);
   for (auto _ : state) benchmark::DoNotOptimize(analysis::joint_region(values, 0.95));
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(n));
 }

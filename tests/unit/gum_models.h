@@ -111,7 +111,11 @@ inline analysis::Results analysed(const scenario::Scenario& s) {
   const propagation::Experiment e(s);
   Memory memory(e.outputs().size());
   propagation::propagate(e, memory, {});
-  return analysis::analyse(e, {[&](std::size_t o) { return memory.rows[o]; }, [&] { return memory.status; }}, 2);
+  const auto status = [&](std::size_t first, std::span<std::uint8_t> out) {
+    std::copy_n(memory.status.begin() + static_cast<std::ptrdiff_t>(first), out.size(), out.begin());
+  };
+  return analysis::analyse(
+      e, {[&](std::size_t o) { return analysis::Column(memory.rows[o]); }, memory.status.size(), status}, 2);
 }
 
 /// 4 standard errors of u from M samples of that kurtosis, relative.
