@@ -184,7 +184,7 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, int th
     std::ranges::move(budgets(e, reading * measurands, s.analysis.coverage_probability),
                       r.budgets.begin() + static_cast<std::ptrdiff_t>(reading * measurands));
   });
-  propagation::parallel_for(outputs, side_by_side(samples.size, threads), [&](std::size_t o) {
+  side_by_side(outputs, samples.size, threads, [&](std::size_t o) {
     Room room;
     const Column values = held(samples.values(o), room);
     const auto& output = e.outputs()[o];

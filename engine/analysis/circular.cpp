@@ -104,8 +104,7 @@ std::vector<CircularSummary> circular_summaries(const propagation::Experiment& e
   for (std::size_t o = 0; o < e.outputs().size(); ++o)
     if (e.outputs()[o].si_unit == "rad") angles.push_back(o);
   std::vector<CircularSummary> summaries(angles.size());
-  const int beside = side_by_side(e.scenario().run.samples, threads);
-  propagation::parallel_for(angles.size(), beside, [&](std::size_t i) {
+  side_by_side(angles.size(), e.scenario().run.samples, threads, [&](std::size_t i) {
     Room room;
     summaries[i] = circular_summary(held(values(angles[i]), room), e.scenario().analysis.coverage_probability, threads);
     summaries[i].output = e.outputs()[angles[i]];

@@ -301,7 +301,7 @@ std::vector<JointRegion> joint_regions(const propagation::Experiment& e, const S
   std::vector<JointRegion> regions(wanted.size());
   std::size_t most = 1;
   for (const Group& group : wanted) most = std::max(most, group.outputs.size());
-  propagation::parallel_for(wanted.size(), side_by_side(most * samples.size, threads), [&](std::size_t g) {
+  side_by_side(wanted.size(), most * samples.size, threads, [&](std::size_t g) {
     const Group& group = wanted[g];
     std::vector<Room> rooms(group.outputs.size());
     Values values;

@@ -4,10 +4,11 @@
 #include <cstdint>
 #include <functional>
 #include <span>
-#include <thread>
 
 #include "analysis/column.h"
+#include "base/progress.h"
 #include "propagation/memory_store.h"
+#include "propagation/parallel.h"
 
 namespace gumshoe::analysis {
 
@@ -37,12 +38,17 @@ inline Column held(const Column& column, Room& room, std::size_t columns = 1) {
                                                                      : Column(column.read(0, column.size(), room));
 }
 
-/// How many tasks of so many values each run at the same time, in bounded memory: passes over many values are long
-/// enough to take all threads one after the other. 0: as many as there are processors.
-inline int side_by_side(std::size_t values, int threads) {
+/// Calls body(i) for i in [0, n), which passes over so many values: as many at the same time as is held in bounded
+/// memory, because passes over many values are long enough to take all threads one after the other. 0 threads: all
+/// processors.
+inline void side_by_side(std::size_t n, std::size_t values, int threads, const std::function<void(std::size_t)>& body) {
   const std::size_t most = std::max<std::size_t>(1, held_values / std::max<std::size_t>(1, values));
-  const std::size_t all = threads > 0 ? static_cast<std::size_t>(threads) : std::thread::hardware_concurrency();
-  return most >= all ? threads : static_cast<int>(most);
+  progress::Loop loop(n);
+  for (std::size_t first = 0; first < n; first += most)
+    propagation::parallel_for(std::min(most, n - first), threads, [&](std::size_t i) {
+      body(first + i);
+      loop.step();
+    });
 }
 
 } // namespace gumshoe::analysis

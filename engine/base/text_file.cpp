@@ -32,7 +32,7 @@ template <class Convert> std::string read(const std::string& path, std::size_t l
       refuse("the file is too large", fmt::format("more than {} bytes", limit), "is it the right file?");
     }
   }
-  if (!in.is_open() || in.bad()) refuse("the file cannot be read", std::strerror(errno));
+  if (!in.is_open() || in.bad()) refuse(unreadable_file, std::strerror(errno));
   text = convert(std::move(text));
   if (text.find('\0') != std::string::npos) {
     refuse("the file is not text", "it contains NUL bytes", "is it the right file?");

@@ -5,6 +5,9 @@
 
 namespace gumshoe {
 
+/// What an error says of a file that is there and whose bytes cannot be read: a broken disk, and not a fault of its text.
+inline constexpr const char* unreadable_file = "the file cannot be read";
+
 /// The file's bytes. Throws InputError: missing, a directory, unreadable, larger than `limit` bytes,
 /// or binary (it contains a NUL byte).
 std::string read_text_file(const std::string& path, std::size_t limit);

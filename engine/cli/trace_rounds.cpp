@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/text_file.h"
 #include "cli/command.h"
 #include "tracing/findings/sizes.h"
 #include "tracing/scenario_out/traced_scenario.h"
@@ -40,6 +41,9 @@ std::optional<scenario::Scenario> readable(const std::string& text, const store:
     s.file = place.path();
     return s;
   } catch (const InputError& error) {
+    // A disk that fails says nothing of the text.
+    if (std::ranges::any_of(error.problems(), [](const Problem& p) { return p.what.ends_with(unreadable_file); }))
+      throw;
     for (const Problem& p : error.problems())
       statements.push_back("no traced scenario is written, because it could not be read: " + p.what +
                            (p.why.empty() ? "" : " (" + p.why + ")"));

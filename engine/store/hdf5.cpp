@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <exception>
 #include <limits>
+#include <new>
 
 #include <fmt/format.h>
 #include <hdf5_hl.h>
@@ -18,6 +19,9 @@ std::recursive_mutex& library() {
   // At exit the library would try again to flush a file on a full disk, and fail loudly: our handles
   // have closed everything by then.
   static const bool quiet = [] {
+    // Without memory for its first tables the library would read through a null pointer.
+    constexpr std::size_t first_tables = std::size_t{4} << 20;
+    ::operator delete(::operator new(first_tables));
     H5dont_atexit();
     H5open();
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
