@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -92,13 +93,12 @@ std::string nearest(const std::string& word, const std::vector<std::string>& can
   if (word.size() > 100) return {}; // no misspelling
   std::string best;
   // Two edits of a word of two letters leave nothing of it.
-  std::size_t best_distance = word.size() <= 2 ? 2 : std::max<std::size_t>(2, word.size() / 2) + 1;
+  const std::size_t too_far = word.size() <= 2 ? 2 : std::max<std::size_t>(2, word.size() / 2) + 1;
+  std::pair best_order{too_far, false};
   for (const std::string& candidate : candidates) {
-    const std::size_t d = edit_distance(word, candidate);
-    if (d < best_distance) {
-      best = candidate;
-      best_distance = d;
-    }
+    // Of two as near the one that begins like the word: the first letter is seldom the wrong one.
+    const std::pair order{edit_distance(word, candidate), candidate.substr(0, 1) != word.substr(0, 1)};
+    if (order < best_order) best = candidate, best_order = order;
   }
   return best;
 }

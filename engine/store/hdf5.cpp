@@ -5,12 +5,12 @@
 #include <cstddef>
 #include <exception>
 #include <limits>
-#include <new>
 
 #include <fmt/format.h>
 #include <hdf5_hl.h>
 
 #include "base/error.h"
+#include "base/memory.h"
 
 namespace gumshoe::store::hdf5 {
 
@@ -20,8 +20,7 @@ std::recursive_mutex& library() {
   // have closed everything by then.
   static const bool quiet = [] {
     // Without memory for its first tables the library would read through a null pointer.
-    constexpr std::size_t first_tables = std::size_t{4} << 20;
-    ::operator delete(::operator new(first_tables));
+    require_memory(std::size_t{4} << 20);
     H5dont_atexit();
     H5open();
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);

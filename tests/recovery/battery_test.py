@@ -143,7 +143,7 @@ class Selection(unittest.TestCase):
             self.assertTrue(lawful(r), r)
 
     def test_noise_of_unknown_size_is_found_from_priors_of_millimetres(self):
-        """Of a micrometre, beside a length known within 5 mm: at 30 times the noise, the search takes the priors for an error."""
+        """The noise is 1 um, a length is known within 5 mm. Where the fit stops at 30 times the noise, the priors pass for an error."""
         for f in chosen("lever - white undeclared"):
             for seed in (1349, 1364, 1372, 1389):
                 r = battery.one((GUMSHOE, f, seed))

@@ -43,6 +43,7 @@ TEST_CASE("a catalogue without results has none to read", "[scenario][errors]") 
 TEST_CASE("unknown names anywhere are refused with the nearest", "[scenario][errors]") {
   CHECK_THAT(with("[runn]\n"), Contains("s.toml:5:2: error: unknown key 'runn'. Did you mean 'run'?"));
   CHECK_THAT(with("[run]\nsampels = 3\n"), Contains("run: unknown key 'sampels'. Did you mean 'samples'?"));
+  CHECK_THAT(with("[quantities.rod_radius]\nvalue = \"5 mm\"\nuu = \"1 um\"\n"), Contains("unknown key 'uu'. Did you mean 'u'?"));
   CHECK_THAT(with("[effects.trigger_latncy]\ndelay = \"1 ms\"\n"), Contains("Did you mean 'trigger_latency'?"));
   CHECK_THAT(with("[effects.trigger_latency]\ndelya = \"1 ms\"\n"), Contains("Did you mean 'delay'?"));
   CHECK_THAT(with("[effects.orientation]\ndelay = \"1 ms\"\n"), Contains("rod cannot carry it (it has no stage 'spindle')"));
