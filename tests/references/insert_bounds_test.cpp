@@ -28,7 +28,7 @@ TEST_CASE("no height is above its bound over an interval", "[laws][tool_length]"
       if (most == -HUGE_VAL) continue;
       // Heights are good to 1e-13 m.
       REQUIRE_FALSE(heights.bound().below(from, to, fall, most - 1e-13));
-      REQUIRE_FALSE(heights.bound().lines().below(from, to, fall, most - 1e-13));
+      REQUIRE_FALSE(heights.bound().lines().below(true, from, to, fall, most - 1e-13));
       sharp += heights.bound().below(from, to, fall, most + 0.5e-6);
     }
     REQUIRE(heights.bound().highest() >= heights.highest().height * cosine - 1e-13);
@@ -62,7 +62,7 @@ TEST_CASE("no height is above its bound where the flank shows", "[laws][tool_len
       INFO("mill " << n << " window " << i << " from " << from << " width " << 2 * half);
       REQUIRE_FALSE(pass.below(from, from + 2 * half, fall, most - 1e-13));
       sharp += pass.below(from, from + 2 * half, fall, most + 0.5e-6) &&
-               !pass.lines().below(from, from + 2 * half, fall, most + 0.5e-6);
+               !pass.lines().below(true, from, from + 2 * half, fall, most + 0.5e-6);
     }
   }
   REQUIRE(shown > 200);
@@ -77,8 +77,8 @@ TEST_CASE("no height in a window is above the highest said of it", "[laws][tool_
     InsertPass pass(insert_body(t.flutes[0].insert, t.beam), DiscShare(t.beam.radius, t.beam.fraction));
     if (!pass.open(draw(0.5, 2) * pass.slack())) continue;
     const double cosine = std::cos(t.beam.pitch);
-    pass.lower_far(0);
-    if (n % 2) pass.lower(0.1e-6);
+    pass.lower_far(true, 0);
+    if (n % 2) lower<double>(pass, true, 0.1e-6);
     const InsertHeight heights(t.flutes[0].insert, t.beam);
     for (int i = 0; i < pass.size(); ++i) {
       const InsertPass::Window& w = pass.window(i);

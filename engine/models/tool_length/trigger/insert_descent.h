@@ -34,7 +34,7 @@ DescentTrigger<V> select(const Mask<V>& mask, const DescentTrigger<V>& a, const 
           num::select(mask, a.slope, b.slope)};
 }
 
-/// @tparam Pass InsertPass, or the same for lanes (insert_walk_kernels.cpp)
+/// @tparam Pass InsertPassOf<V>
 template <class V, class Pass> class InsertDescent {
   static constexpr double turn = 2 * pi;
   static constexpr int most_windows = 100;

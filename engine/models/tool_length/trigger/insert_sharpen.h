@@ -1,29 +1,26 @@
 #pragma once
 /// Lower limits of the windows' heights, for doubles and for lanes: with them, turns that no insert reaches are passed
-/// at once. `Pass` is a InsertWindows<V> with `first_crossing`.
+/// at once. `Pass` is an InsertWindows<V> with `first_crossing`.
 #include "models/tool_length/trigger/insert_windows.h"
 
 namespace gumshoe::models::tool_length {
 
 /// No height k from `from` to `to` is above `highest`.
-template <class V> struct TopOf {
-  V from = V(0.0), to = V(-1.0), highest = V(0.0);
-  Mask<V> unproved = everywhere<V>(false); ///< a search that might have said more had no proof
-};
+template <class V> struct TopOf { V from = V(0.0), to = V(-1.0), highest = V(0.0); };
 
-/// Lowers the windows' own `highest` to about `margin` above their crests where that can be proved. Returns where a
-/// search had no proof.
-template <class V, class Pass> Mask<V> lower(Pass& pass, const Mask<V>& wanted, const V& margin) {
-  auto unproved = everywhere<V>(false);
+template <class V> TopOf<V> select(const Mask<V>& mask, const TopOf<V>& a, const TopOf<V>& b) {
+  return {num::select(mask, a.from, b.from), num::select(mask, a.to, b.to), num::select(mask, a.highest, b.highest)};
+}
+
+/// Lowers the windows' own `highest` to about `margin` above their crests where that can be proved.
+template <class V, class Pass> void lower(Pass& pass, const Mask<V>& wanted, const V& margin) {
   for (WindowOf<V>& w : pass.windows()) {
     const V to = w.crest.k + 0.05 * (w.highest - w.crest.k) + margin;
     const auto tried = wanted && w.exists && to < w.highest;
     if (!num::any(tried)) continue;
     const auto at = pass.first_crossing(tried, w, to, V(0.0), V(0.0), w.from, w.to);
     w.highest = num::select(tried && !at.crossed && !at.unproved, to, w.highest);
-    unproved = unproved || (tried && at.unproved);
   }
-  return unproved;
 }
 
 /// How high the pass stands about a crest that lies far below its highest(): of the geometry alone.
@@ -41,24 +38,20 @@ template <class V, class Pass> TopOf<V> top_of(const Pass& pass, const Mask<V>& 
     top.from = num::select(none, w.from, top.from);
     top.to = num::select(none, w.to, top.to);
     top.highest = num::select(none, to, top.highest);
-    top.unproved = top.unproved || (tried && at.unproved);
   }
   return top;
 }
 
 /// Lowers windows whose crests lie further than `far` below `highest()` to near their crests where that is proved.
-/// `top(wanted, crest)` is top_of. Returns where a search had no proof.
+/// `top(wanted, crest)` is top_of.
 template <class V, class Pass, class Top>
-Mask<V> lower_far(Pass& pass, const Mask<V>& wanted, const V& far, const Top& top) {
-  auto unproved = everywhere<V>(false);
+void lower_far(Pass& pass, const Mask<V>& wanted, const V& far, const Top& top) {
   for (WindowOf<V>& w : pass.windows()) {
     const auto lies_far = wanted && w.exists && w.crest.k < pass.highest() - far;
     if (!num::any(lies_far)) continue;
     const TopOf<V> t = top(lies_far, w.crest);
     w.highest = num::select(lies_far && t.from <= w.from && w.to <= t.to, smaller(w.highest, t.highest), w.highest);
-    unproved = unproved || (lies_far && t.unproved);
   }
-  return unproved;
 }
 
 } // namespace gumshoe::models::tool_length

@@ -52,7 +52,8 @@ std::optional<InsertTrigger> TriggerSolver::walk(std::span<const Flute<double>> 
       Pass& p = passes_[k];
       if (const double below = descent.below(k, share); p.below != below || p.whole != whole) {
         p.below = below, p.whole = whole;
-        p.open = p.pass->open(below) && p.pass->sharpen(share * whole, whole);
+        p.open = p.pass->open(below);
+        if (p.open) p.pass->sharpen(true, share * whole, whole);
       }
       if (!p.open) return std::nullopt;
     }

@@ -1,36 +1,13 @@
 /// Compiled once per instruction set: tools side by side, a lane each, whose flutes differ in azimuth and raise alone.
 #include <algorithm>
 
-#include "models/tool_length/trigger/insert_sharpen.h"
+#include "models/tool_length/trigger/insert_pass.h"
 #include "models/tool_length/trigger/insert_walk_kernels.h"
 
 namespace gumshoe::models::tool_length {
 namespace {
 
 constexpr std::size_t width = Lanes::size;
-
-/// Windows of lanes: where the plain proof does not hold, nothing is proved.
-class LanePass : public InsertWindows<Lanes> {
-public:
-  using InsertWindows::InsertWindows;
-  CrossingOf<Lanes> first_crossing(const Mask<Lanes>& wanted, const WindowOf<Lanes>& w, const Lanes& level,
-                                   const Lanes& fall, const Lanes& shift, const Lanes& first, const Lanes& last) const {
-    auto found = walk(wanted, w.crest, level, fall, shift, first, last, Lanes(0.0),
-                      [](Lanes&, Lanes&, const Mask<Lanes>&) { return everywhere<Lanes>(false); });
-    const Lanes to = num::select(found.crossed, found.turned, last);
-    found.unproved =
-        found.unproved || !only_edge_shows(wanted && !found.unproved, first - shift, to - shift, found.facing);
-    return found;
-  }
-  /// As InsertPass::sharpen; false where a search has no proof, which might have another way.
-  Mask<Lanes> sharpen(const Mask<Lanes>& wanted, const Lanes& far, const Lanes& whole) {
-    auto unproved = lower_far<Lanes>(*this, wanted, far, [&](const Mask<Lanes>& some, const CrestOf<Lanes>& crest) {
-      return top_of<Lanes>(*this, some, crest);
-    });
-    unproved = unproved || lower<Lanes>(*this, wanted && !unproved && slack() > whole, 0.1 * whole);
-    return wanted && !unproved;
-  }
-};
 
 /// A number of each question.
 template <class F> Lanes each(const TriggerQuestion* const* questions, const F& number) {
@@ -58,16 +35,17 @@ void walk_lanes(const TriggerQuestion* const* questions, std::size_t n, InsertTr
     flutes[k].azimuth = each(questions, [&](const auto& q) { return q.flutes[k].azimuth; });
     flutes[k].raise = each(questions, [&](const auto& q) { return q.flutes[k].raise; });
   }
-  LanePass pass(insert_body(insert, beam), DiscShareOf<Lanes>(beam.radius, beam.fraction));
-  InsertDescent<Lanes, LanePass> descent(
+  using Pass = InsertPassOf<Lanes>;
+  Pass pass(insert_body(insert, beam), DiscShareOf<Lanes>(beam.radius, beam.fraction));
+  InsertDescent<Lanes, Pass> descent(
       {flutes, n}, num::cos(beam.pitch),
       {of_motion(&M::start_angle), of_motion(&M::start_height), of_motion(&M::drop), of_motion(&M::not_before)},
-      [&](std::size_t) -> const LanePass& { return pass; });
+      [&](std::size_t) -> const Pass& { return pass; });
   DescentTrigger<Lanes> t;
   auto wanted = everywhere<Lanes>(true);
   for (const double share : TriggerSolver::shares(n)) {
     wanted = wanted && pass.open(descent.below(0, share));
-    wanted = pass.sharpen(wanted, share * descent.whole(), descent.whole());
+    pass.sharpen(wanted, share * descent.whole(), descent.whole());
     wanted = wanted && descent.begin();
     if (!num::any(wanted)) break;
     t = select<Lanes>(wanted, descent.down(wanted), t);
