@@ -2,20 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "tracing/criteria.h"
 #include "tracing/judgement/holdout.h"
 
 namespace gumshoe::tracing {
-
-namespace {
-
-double noise_of_row(const Design& design, Index row) {
-  const auto k = index(design.indications);
-  return design.local[index(row / k)].row(row % k).norm();
-}
-
-} // namespace
 
 Blocks predicted_blocks(const Observations& o) {
   const bool any = std::ranges::find(o.held_out, true) != o.held_out.end();
@@ -76,7 +68,10 @@ Vector excess(const Scores& before, const Scores& after, const Design& design) {
   for (Index i = 0; i < after.residual.size(); ++i)
     if (std::isfinite(after.residual[i])) sizes.push_back(std::fabs(after.residual[i]) / noise(i));
   Vector out = Vector::Zero(after.residual.size());
-  const double bound = sizes.empty() ? 0 : criteria.winsor_limit * robust_scale(sizes);
+  std::vector<Index> rows(index(after.residual.size()));
+  std::iota(rows.begin(), rows.end(), Index{0});
+  const double bound =
+      sizes.empty() ? 0 : criteria.winsor_limit * std::max(robust_scale(sizes), least_scale(design, rows));
   if (!(bound > 0)) return out; // nearly all equal
   for (Index i = 0; i < out.size(); ++i) {
     const double a = before.residual[i], b = after.residual[i];

@@ -25,6 +25,7 @@ bool Fitter::linearise(JointFit& fit) const {
   Design& d = fit.design;
   d.indications = o.indications;
   d.scatter = o.replicate_groups;
+  d.step = o.step;
   d.covariance_models = covariance_models_;
   d.reading.clear();
   for (const std::size_t r : o.sequence) d.reading.insert(d.reading.end(), o.indications, r);

@@ -1,6 +1,7 @@
 #include "tracing/noise/design.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "tracing/criteria.h"
 #include "tracing/noise/sparse_columns.h"
@@ -22,6 +23,18 @@ std::vector<CovarianceModel> covariance_models(const Design& d, std::size_t rows
         for (int i = 0; i < static_cast<int>(d.indications); ++i) out.push_back({r, c, ratio, i});
       }
   return out;
+}
+
+double noise_of_row(const Design& design, Index row) {
+  const auto k = index(design.indications);
+  return design.local[index(row / k)].row(row % k).norm();
+}
+
+double least_scale(const Design& d, const std::vector<Index>& rows) {
+  if (d.step.empty() || rows.empty()) return 0;
+  double squares = 0;
+  for (const Index row : rows) squares += std::pow(d.step[index(row) % d.indications] / noise_of_row(d, row), 2);
+  return std::sqrt(squares / 12 / static_cast<double>(rows.size()));
 }
 
 std::vector<Index> insensitive(const Design& d, const std::vector<Index>& rows) {

@@ -30,9 +30,18 @@ struct Design {
   std::vector<Matrix> bends;     ///< rows x nodes: response to a draw of bend_node(j) in addition to U
   std::vector<int> bent;         ///< by column of U: its table of `bends`, or -1
   std::vector<double> reference; ///< by indication: typical standard uncertainty of its noise
+  std::vector<double> step;      ///< by indication: in which its readings were recorded; empty: not known
   std::vector<Grouping> scatter; ///< possible variance components; group by reading of the scenario
   std::vector<CovarianceModel> covariance_models; ///< those that are tried; empty: all
 };
+
+/// Standard uncertainty of the noise of a row, SI.
+double noise_of_row(const Design& design, Index row);
+
+/// What the steps in which readings were recorded give at least as the standard deviation of the chosen rows, in units
+/// of their noise: their root mean square. No robust scale may be less, or most residuals could be equal and the others
+/// outliers.
+double least_scale(const Design& design, const std::vector<Index>& rows);
 
 /// Columns of Design::fixed that the chosen rows can distinguish, in the order in which they are declared: a column
 /// that earlier ones explain is left out.

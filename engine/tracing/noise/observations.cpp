@@ -10,6 +10,7 @@
 #include "calibration/data.h"
 #include "quantities/cells.h"
 #include "tracing/criteria.h"
+#include "tracing/noise/step.h"
 
 namespace gumshoe::tracing {
 namespace {
@@ -185,10 +186,14 @@ Observations observe(const propagation::Experiment& e) {
                           "add [indications.NAME] with readings, or use --data");
     o.measured.insert(o.measured.end(), r.indications.begin(), r.indications.end());
   }
+  std::vector<double> one(o.readings);
+  for (std::size_t i = 0; i < o.indications; ++i) {
+    for (std::size_t r = 0; r < o.readings; ++r) one[r] = s.readings[r].indications[i];
+    o.step.push_back(recorded_step(one));
+  }
   o.sequence = sequence_of(s);
   for (std::size_t r = 0; r < o.readings; ++r)
     o.order.push_back(s.trace.order.empty() ? static_cast<double>(r + 1) : s.trace.order[r]);
-  std::vector<double> one(o.readings);
   for (std::size_t c = 0; c < card.conditions.size(); ++c) {
     for (std::size_t r = 0; r < o.readings; ++r) one[r] = s.readings[r].conditions[c];
     add_covariate(o, std::string(card.conditions[c].name), std::string(card.conditions[c].unit),

@@ -15,13 +15,13 @@ namespace {
 
 constexpr double rounding = 1e-9;
 
-double robust_scale(const Vector& residual, double freedom) {
+double robust_scale(const Vector& residual, double freedom, double least) {
   std::vector<double> sizes(index(residual.size()));
   for (std::size_t i = 0; i < sizes.size(); ++i) sizes[i] = std::fabs(residual[index(i)]);
   const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
   std::nth_element(sizes.begin(), middle, sizes.end());
   const double lost = freedom / static_cast<double>(sizes.size());
-  const double robust = *middle / 0.6744897501960817 / std::sqrt(lost);
+  const double robust = std::max(least, *middle / 0.6744897501960817 / std::sqrt(lost));
   const double rms = residual.norm() / std::sqrt(freedom);
   return robust > rounding * rms ? robust : rms;
 }
@@ -148,6 +148,7 @@ private:
 /// A replaced reading changes what is left by what is left of its unit vector, so that the data are projected once.
 void PureError::clean(Matrix& data, Vector& squares, Vector& freedom) const {
   Matrix left = pure_(data);
+  const double least = least_scale(design_, rows_);
   UnitVectors unit(pure_, data.rows());
   freedom = Vector::Constant(data.cols(), this->freedom());
   std::vector<Index> open(index(data.cols()));
@@ -166,7 +167,7 @@ void PureError::clean(Matrix& data, Vector& squares, Vector& freedom) const {
         data(i, j) -= left(i, j);
         moved[i].push_back({j, left(i, j)});
       }
-      const double scale = robust_scale(left.col(j), freedom[j]);
+      const double scale = robust_scale(left.col(j), freedom[j], least);
       bool again = change > settled * scale;
       // One at a time: the others of its cell may only look outlying beside it.
       Index worst = 0;

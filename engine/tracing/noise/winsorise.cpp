@@ -30,12 +30,13 @@ struct Winsorised {
   bool changed() const { return (weight.array() < 1).any(); }
 };
 
-/// @param data  in units of the noise   @param left  its residuals
-Winsorised cut(const Eigen::Ref<const Vector>& data, const Eigen::Ref<const Vector>& left, double freedom) {
+/// @param data  in units of the noise   @param left  its residuals   @param least  least_scale()
+Winsorised cut(const Eigen::Ref<const Vector>& data, const Eigen::Ref<const Vector>& left, double freedom,
+               double least) {
   Winsorised out{0, data, Vector::Ones(data.size())};
   std::vector<double> sizes(index(data.size()));
   for (Index i = 0; i < data.size(); ++i) sizes[index(i)] = std::fabs(left[i]);
-  const double s = robust_scale(sizes) / std::sqrt(freedom / static_cast<double>(data.size()));
+  const double s = std::max(least, robust_scale(sizes) / std::sqrt(freedom / static_cast<double>(data.size())));
   const double rms = std::sqrt(left.squaredNorm() / freedom);
   // Nearly all equal: no robust scale.
   out.scale = s > 1e-9 * rms ? s : rms;
@@ -53,6 +54,7 @@ Winsorised cut(const Eigen::Ref<const Vector>& data, const Eigen::Ref<const Vect
 Matrix Whitened::winsorised(const Matrix& residuals, Vector* scale, Matrix* weight) const {
   const Matrix measured = in_units(residuals);
   const auto freedom = static_cast<double>(degrees_of_freedom());
+  const double least = least_scale(design_, rows_);
   Matrix white = measured, left = elimination_->projected(measured);
   if (scale) scale->resize(residuals.cols());
   if (weight) *weight = Matrix::Ones(residuals.rows(), residuals.cols());
@@ -63,7 +65,7 @@ Matrix Whitened::winsorised(const Matrix& residuals, Vector* scale, Matrix* weig
     std::vector<Index> next;
     for (std::size_t i = 0; i < open.size(); ++i) {
       const Index j = open[i];
-      Winsorised now = cut(measured.col(j), left.col(index(i)), freedom);
+      Winsorised now = cut(measured.col(j), left.col(index(i)), freedom, least);
       if (scale) (*scale)[j] = now.scale;
       if (weight) weight->col(j) = now.weight;
       const double moved = (now.data - white.col(j)).cwiseAbs().maxCoeff();
