@@ -25,6 +25,14 @@ struct Criteria {
   std::size_t readings_for_correlation = 12;
   /// Ratio of the noise of two indications from which it is not taken to be equal: of fifty readings, chance gives 1.3.
   double unequal_spread = 1.5;
+  /// Noise that is not declared grows with a condition if 2 ln of the likelihood says so by this much: of one condition
+  /// in normal noise it exceeds it once in 10,000.
+  double noise_grows = 16;
+  /// Fewer readings than this do not tell how noise grows. Tuned.
+  std::size_t readings_for_growth = 24;
+  /// Ratios tried, of the part that grows at the largest value met to the part that does not: steps of a factor that
+  /// the likelihood hardly sees.
+  std::array<double, 9> growth_ratios{1, 2, 4, 8, 16, 32, 64, 128, 256};
   /// Standard deviations of a variance component tried, in units of the typical noise: steps of about a factor two,
   /// because the likelihood is flat in the logarithm.
   std::array<double, 7> scatter_ratios{0.35, 0.7, 1.4, 2.8, 6.0, 15.0, 50.0};

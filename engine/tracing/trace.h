@@ -237,6 +237,7 @@ struct Trace {
   std::vector<double> correlation; ///< of the estimate's parameters, then of `known`, row-major; empty without these
   std::vector<Addition> additions;
   std::vector<Correction> corrections;
+  std::vector<Correction> growing_noise; ///< its sizes are among the additions
   Campaign campaign; ///< where Settings::scores
 };
 

@@ -35,6 +35,7 @@ Fitter::Fitter(const propagation::Experiment& experiment, const Simulator& simul
   spread_ = Vector::Ones(index(observations.indications));
   find_responses();
   find_spread();
+  find_growth();
   find_covariance_models();
 }
 
@@ -181,6 +182,15 @@ void Fitter::find_spread() {
           "too few readings of equal conditions tell how much each of them scatters",
           "state u of a reading under each [indications.NAME], or trace each kind in a scenario of its own"}});
   if (found && (found->unequal || !observations_.one_kind)) spread_ = found->size / found->size[0];
+}
+
+void Fitter::find_growth() {
+  if (noise_declared_) return;
+  const JointFit fit = linearised(1);
+  if (!fit.valid || rows_.size() < criteria.readings_for_growth) return;
+  const PureError pure(fit.design, rows_, replicates_, threads_);
+  if (!pure.known()) return; // what the model lacks would count as noise
+  growth_ = tracing::noise_growth(observations_, replicates_, rows_, pure.about_cells(fit.residual(rows_)).col(0));
 }
 
 std::optional<Fitter::Scatter> Fitter::scatter_about_cells() const {

@@ -7,6 +7,7 @@
 #include "tracing/candidates/candidates.h"
 #include "tracing/fit/scan.h"
 #include "tracing/noise/declared_response.h"
+#include "tracing/noise/growth.h"
 #include "tracing/noise/replicates.h"
 
 namespace gumshoe::tracing {
@@ -95,6 +96,7 @@ public:
   Points without_draws(JointFit fit) const;
   const std::vector<FreeUnknown>& unknowns() const { return unknowns_; }
   bool noise_declared() const { return noise_declared_; }
+  const std::optional<NoiseGrowth>& noise_growth() const { return growth_; }
   const std::vector<Index>& rows() const { return rows_; }
   const Replicates& replicates() const { return replicates_; }
 
@@ -139,6 +141,8 @@ private:
   /// Scatter of readings about the means of their conditions; none, if too few repeat or they do not scatter.
   std::optional<Scatter> scatter_about_cells() const;
   void find_spread();
+  /// Where no noise is declared: whether it grows with a condition.
+  void find_growth();
 
   bool linearise(JointFit& fit) const;
   void set_fixed(const Matrix& derivative, const std::vector<std::size_t>& wanted, JointFit& fit) const;
@@ -181,6 +185,7 @@ private:
   bool noise_declared_ = false;
   Vector earlier_; ///< by draw: what an earlier trace of these readings said of it, in standard uncertainties
   Vector spread_;  ///< by indication: standard deviation of noise that is not declared, over that of the first
+  std::optional<NoiseGrowth> growth_;       ///< of noise that is not declared
   std::vector<std::size_t> needed_;         ///< quantities whose derivatives are used, ascending
   std::vector<DeclaredResponse> responses_; ///< one per column of `needed_`
   Vector offset_;                           ///< shift of the readings' mean over these draws, by row of the simulator

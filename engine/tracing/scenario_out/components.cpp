@@ -22,8 +22,29 @@ public:
         per = {"reading"};
         source += "; drawn for each reading, since their declared noise differs";
       }
-    out_.additions.push_back({std::string(card.name), card.si_unit == "m" ? "um" : std::string(card.unit),
-                              std::string(card.si_unit), u, std::move(per), std::move(source)});
+    out_.additions.push_back(
+        {std::string(card.name), unit_of(card), std::string(card.si_unit), u, std::move(per), std::move(source)});
+  }
+
+  /// The part of an indication's noise that grows with a condition: u at its largest value.
+  void growing(std::size_t indication, double u, const NoiseGrowth& grows, const std::string& source) {
+    const auto& card = c_.experiment.model().card->indications[indication];
+    const Covariate& x = c_.observations.covariates[grows.covariate];
+    Correction effect;
+    effect.name = fmt::format("noise_of_{}_by_{}", card.name, x.name);
+    effect.indication = card.name;
+    effect.si_unit = card.si_unit;
+    effect.unit = unit_of(card);
+    effect.meaning = fmt::format("noise of {} that grows with {}", card.name, x.name);
+    effect.source = source;
+    effect.keys = {{x.name, x.unit, x.si_unit, x.levels}};
+    for (const double level : x.levels) effect.loading.push_back(level / grows.largest);
+    out_.additions.push_back({effect.name + ".size", effect.unit, effect.si_unit, u, {"reading"}, source});
+    out_.statements.push_back(
+        fmt::format("the noise of {} grows with {}: of its variance the part that grows is {:.2g} times "
+                    "the other at the largest {} met; readings are weighted so",
+                    card.name, x.name, grows.ratio * grows.ratio, x.name));
+    out_.growing_noise.push_back(std::move(effect));
   }
 
   void scatter(const SearchFinding& found, const Finding& f) {
@@ -76,6 +97,8 @@ public:
   }
 
 private:
+  static std::string unit_of(const VariableCard& card) { return card.si_unit == "m" ? "um" : std::string(card.unit); }
+
   /// Change of the indication with a quantity, root mean square; 0 if the model has no derivative there.
   double loading_of(std::size_t quantity) const {
     Vector f;
@@ -94,9 +117,15 @@ private:
 void add_estimated_noise(const TraceContext& c, const Search& s, Trace& out) {
   if (c.fitter.noise_declared()) return;
   Components components(c, s, out);
-  for (std::size_t i = 0; i < s.found.design.indications; ++i)
-    components.of_noise(i, s.found.design.reference[i] * std::sqrt(s.found.variance), {"reading"},
-                        "noise, estimated from the residuals of these readings");
+  const std::string source = "noise, estimated from the residuals of these readings";
+  for (std::size_t i = 0; i < s.found.design.indications; ++i) {
+    double u = s.found.design.reference[i] * std::sqrt(s.found.variance);
+    if (const auto& grows = c.fitter.noise_growth()) {
+      u /= std::sqrt(grows->variance.mean());
+      components.growing(i, u * grows->ratio, *grows, source);
+    }
+    components.of_noise(i, u, {"reading"}, source);
+  }
 }
 
 void add_components(const TraceContext& c, const Search& s, const std::vector<Vector>& left, Trace& out) {

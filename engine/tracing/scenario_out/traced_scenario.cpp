@@ -86,6 +86,7 @@ public:
   std::string write() {
     start_earlier();
     for (const Correction& c : t_.corrections) correct(c);
+    for (const Correction& c : t_.growing_noise) correct(c);
     for (std::size_t i = 0; i < t_.estimate.parameters.size(); ++i) parameter(i);
     finish_free();
     finish_unconfirmed();
