@@ -84,6 +84,8 @@ public:
 
   /// Gauss-Newton with winsorised residuals; from `start` where it is given. `noise` 0: its scale is fitted, too.
   JointFit fit(const std::vector<Term>& terms, double noise, const JointFit* start = nullptr) const;
+  /// The same without some of the rows.
+  Fitter without_rows(const std::vector<Index>& rows) const;
   /// A fit as it is of a scenario that declares more noise.
   JointFit with_noise(const JointFit& found, const std::vector<MoreNoise>& more) const;
   /// The declared model at its estimates, not fitted.
