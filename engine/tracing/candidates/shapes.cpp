@@ -154,10 +154,11 @@ private:
       const double shift = x[0] - plain(o_, c)[0];
       return (x - plain(o_, c)).isConstant(shift, 1e-9) || (x + plain(o_, c)).isConstant(x[0] + plain(o_, c)[0], 1e-9);
     };
-    std::vector<std::int64_t> turned;
-    for (const double angle : x) turned.push_back(std::llround(1e6 * std::remainder(angle, 2 * std::numbers::pi)));
-    const std::set<std::int64_t> levels(turned.begin(), turned.end());
     if (std::ranges::any_of(o_.covariates, [&](const Covariate& c) { return c.angle && alone(c); })) return;
+    std::vector<std::pair<std::int64_t, std::int64_t>> turned;
+    for (const double angle : x)
+      turned.emplace_back(std::llround(1e6 * std::cos(angle - x[0])), std::llround(1e6 * std::sin(angle - x[0])));
+    const std::set<std::pair<std::int64_t, std::int64_t>> levels(turned.begin(), turned.end());
     if (!turned_.insert(std::move(turned)).second) return;
     waves(x, levels.size(), a.name + "-" + b.name, {a.name, b.name});
   }
@@ -318,8 +319,9 @@ private:
   const Observations& o_;
   std::size_t most_cells_;
   std::vector<Candidate> out_;
-  std::set<std::vector<Index>> tabulated_;      ///< cells of the tables, by reading
-  std::set<std::vector<std::int64_t>> turned_; ///< angles between two, by reading, urad
+  std::set<std::vector<Index>> tabulated_; ///< cells of the tables, by reading
+  /// Angles between two since the first reading, by reading: cosine and sine, 1e-6.
+  std::set<std::vector<std::pair<std::int64_t, std::int64_t>>> turned_;
 };
 
 } // namespace

@@ -44,10 +44,11 @@ public:
       : c_(c), rows_(c.fitter.rows()), base_(s.base), before_(s.base), after_(s.found),
         previous_(s.stages.size() > 1 ? s.stages[s.stages.size() - 2].fit : s.base), has_previous_(s.stages.size() > 1),
         out_(out) {
-    // Scatter that was found is declared from now on, with the size that the traced scenario states: what is an outlier,
-    // and how large the noise is, are judged given its draws, as a trace of that scenario does.
+    // Scatter that was found is declared from now on, with the size that the traced scenario states: what is an
+    // outlier, and how large the noise is, are judged given its draws, as a trace of that scenario does.
     std::vector<MoreNoise> declared;
-    for (const SearchFinding& f : s.findings) std::ranges::copy(noise_found(c, s.found, f), std::back_inserter(declared));
+    for (const SearchFinding& f : s.findings)
+      std::ranges::copy(noise_found(c, s.found, f), std::back_inserter(declared));
     if (!declared.empty())
       if (JointFit fit = c.fitter.with_noise(s.found, declared); fit.valid) after_ = std::move(fit);
     // Judged in the units of one noise: the fit without the effect takes it for noise. Each predicts by its own
@@ -62,8 +63,7 @@ public:
   }
 
   bool compare() {
-    const InSample before = in_sample(base_, rows_, base_.residual),
-                   after = in_sample(after_, rows_, after_.residual);
+    const InSample before = in_sample(base_, rows_, base_.residual), after = in_sample(after_, rows_, after_.residual);
     out_.rms.before = before.rms[0];
     out_.rms.after = after.rms[0];
     const Vector noise = in_sample(after_, rows_, noise_).rms;

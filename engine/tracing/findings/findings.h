@@ -15,7 +15,7 @@ void describe_noise(const TraceContext& context, const Search& search, Trace& ou
 /// Standard deviation of a variance component, in units of Design::reference.
 struct ScatterSize {
   double best = 0, low = 0, high = 0; ///< the most likely, and where 2 ln L falls by criteria.decisive
-  int indication = -1;                 ///< the only one that it moves; -1: each by itself
+  int indication = -1;                ///< the only one that it moves; -1: each by itself
 };
 ScatterSize size_of_scatter(const TraceContext& context, const JointFit& fit, int component);
 /// Scatter that was found, as noise of the indications that it moves; none of effects and shapes.

@@ -39,8 +39,8 @@ ScatterSize size_of_scatter(const TraceContext& c, const JointFit& fit, int comp
   const auto found = std::ranges::min_element(profile);
   auto best = *found;
   if (found != profile.begin() && found + 1 != profile.end())
-    if (const auto between = at(static_cast<double>(found - profile.begin()) +
-                                lowest((*(found - 1))[0], best[0], (*(found + 1))[0]));
+    if (const auto between =
+            at(static_cast<double>(found - profile.begin()) + lowest((*(found - 1))[0], best[0], (*(found + 1))[0]));
         between[0] < best[0])
       best = between;
   ScatterSize out{best[1], best[1], best[1], indication};
@@ -91,8 +91,7 @@ void describe_scatter(const TraceContext& c, const JointFit& fit, int component,
   }
   const ScatterSize size = size_of_scatter(c, fit, component);
   const double reference = fit.design.reference[index(std::max(0, size.indication))];
-  if (size.indication >= 0)
-    finding.remarks.push_back("of " + c.observations.names[index(size.indication)] + " alone");
+  if (size.indication >= 0) finding.remarks.push_back("of " + c.observations.names[index(size.indication)] + " alone");
   q.value = size.best * reference;
   q.low95 = size.low * reference;
   q.high95 = size.high * reference;
