@@ -158,6 +158,10 @@ private:
     std::vector<std::pair<std::int64_t, std::int64_t>> turned;
     for (const double angle : x)
       turned.emplace_back(std::llround(1e6 * std::cos(angle - x[0])), std::llround(1e6 * std::sin(angle - x[0])));
+    // Whichever of the two is taken from the other.
+    const auto first = std::ranges::find_if(turned, [](const auto& one) { return one.second != 0; });
+    if (first != turned.end() && first->second < 0)
+      for (auto& one : turned) one.second = -one.second;
     const std::set<std::pair<std::int64_t, std::int64_t>> levels(turned.begin(), turned.end());
     if (!turned_.insert(std::move(turned)).second) return;
     waves(x, levels.size(), a.name + "-" + b.name, {a.name, b.name});
