@@ -19,6 +19,10 @@ struct Criteria {
   /// many robust standard deviations. A reading that pulls h of the fit towards itself needs ln(1e-2) / ln(h) steps.
   double winsor_settled = 0.01;
   int most_winsor_steps = 20;
+  /// One outlying reading in so many, and one in any case, does not stand for the noise of all: they are set aside
+  /// before noise is called larger than declared. Of noise with so many beyond 3.5 robust standard deviations, these
+  /// are its shape.
+  std::size_t readings_for_outlier = 20;
   /// Serial correlations tried, from one reading to the next in the order of measurement. Tuned.
   std::array<double, 5> correlations{0.0, 0.2, 0.4, 0.6, 0.8};
   /// Fewer readings than this do not distinguish serial correlation from a trend: only zero is tried. Tuned.

@@ -6,6 +6,8 @@
 #include <numeric>
 #include <set>
 
+#include <Eigen/QR>
+
 #include "base/units.h"
 #include "tracing/candidates/courses.h"
 #include "unit/tracing_case.h"
@@ -107,6 +109,30 @@ TEST_CASE("what came and went is found with its place and length", "[tracing]") 
     CHECK(one.depends_on == std::vector<std::string>{"time"});
     CHECK(one.searched > 40);
   }
+}
+
+TEST_CASE("two angles that were commanded apart have waves of the angle between them", "[tracing]") {
+  Observations o = made();
+  std::vector<double> turned, along;
+  for (std::size_t r = 0; r < count; ++r) {
+    turned.push_back(static_cast<double>(r / 12) * 0.9);
+    along.push_back(o.covariates[1].value[r] + 0.3);
+  }
+  o.covariates[1].commanded = true;
+  o.covariates.push_back(covariate("part", "rad", turned));
+  o.covariates.back().commanded = true;
+  o.covariates.push_back(covariate("along", "rad", along)); // goes along with the first: nothing is between them
+  o.covariates.back().commanded = true;
+  const auto all = shapes(o, 60);
+  const Matrix five = with_constant(named(all, "harmonic:5xangle-part").columns);
+  Vector y(static_cast<Index>(count));
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t r = o.sequence[i];
+    y[static_cast<Index>(i)] = std::cos(5 * (o.covariates[1].value[r] - turned[r]) + 0.7);
+  }
+  CHECK((y - five * five.colPivHouseholderQr().solve(y)).norm() < 1e-12 * y.norm());
+  CHECK_THROWS(named(all, "harmonic:1xangle-along"));
+  CHECK_THROWS(named(all, "harmonic:1xpart-along")); // the same once more
 }
 
 TEST_CASE("shapes span what they say", "[tracing]") {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <numbers>
 #include <set>
@@ -56,6 +57,8 @@ public:
       c.angle ? harmonics(c) : polynomials(c);
       if (c.levels.size() > 2 && !c.course) hysteresis(c);
     }
+    for (std::size_t i = 0; i < o_.covariates.size(); ++i)
+      for (std::size_t j = i + 1; j < o_.covariates.size(); ++j) harmonics(o_.covariates[i], o_.covariates[j]);
     for (const Grouping& g : o_.labels) steps(g);
     for (const Grouping* g : part_labels(o_))
       for (const Covariate& c : o_.covariates)
@@ -137,16 +140,41 @@ private:
   }
 
   void harmonics(const Covariate& c) {
-    const Vector x = plain(o_, c);
-    const auto most = std::min(criteria.most_harmonics, (c.levels.size() - 1) / 2);
-    for (std::size_t h = 1; h <= most; ++h) {
-      Matrix pair(x.size(), 2);
-      pair << (x.array() * static_cast<double>(h)).cos(), (x.array() * static_cast<double>(h)).sin();
-      add(Family::shape, fmt::format("harmonic:{}x{}", h, c.name), pair, {c.name});
-    }
+    waves(plain(o_, c), c.levels.size(), c.name, {c.name});
     add(Family::shape, "polynomial:" + c.name, scaled(o_, c), {c.name});
     if (c.levels.size() > 2)
       add(Family::shape, "polynomial:" + c.name + "^2", scaled(o_, c).array().square(), {c.name});
+  }
+
+  /// The angle between two that were set apart: a part turned on its table has its own azimuth.
+  void harmonics(const Covariate& a, const Covariate& b) {
+    if (!a.angle || !b.angle || !a.commanded || !b.commanded) return;
+    const Vector x = plain(o_, a) - plain(o_, b);
+    const auto alone = [&](const Covariate& c) {
+      const double shift = x[0] - plain(o_, c)[0];
+      return (x - plain(o_, c)).isConstant(shift, 1e-9) || (x + plain(o_, c)).isConstant(x[0] + plain(o_, c)[0], 1e-9);
+    };
+    if (std::ranges::any_of(o_.covariates, [&](const Covariate& c) { return c.angle && alone(c); })) return;
+    std::vector<std::pair<std::int64_t, std::int64_t>> turned;
+    for (const double angle : x)
+      turned.emplace_back(std::llround(1e6 * std::cos(angle - x[0])), std::llround(1e6 * std::sin(angle - x[0])));
+    // Whichever of the two is taken from the other.
+    const auto first = std::ranges::find_if(turned, [](const auto& one) { return one.second != 0; });
+    if (first != turned.end() && first->second < 0)
+      for (auto& one : turned) one.second = -one.second;
+    const std::set<std::pair<std::int64_t, std::int64_t>> levels(turned.begin(), turned.end());
+    if (!turned_.insert(std::move(turned)).second) return;
+    waves(x, levels.size(), a.name + "-" + b.name, {a.name, b.name});
+  }
+
+  /// Harmonics of an angle, by reading, as far as its levels distinguish them.
+  void waves(const Vector& x, std::size_t levels, const std::string& name, const std::vector<std::string>& depends_on) {
+    const auto most = std::min(criteria.most_harmonics, (levels - 1) / 2);
+    for (std::size_t h = 1; h <= most; ++h) {
+      Matrix pair(x.size(), 2);
+      pair << (x.array() * static_cast<double>(h)).cos(), (x.array() * static_cast<double>(h)).sin();
+      add(Family::shape, fmt::format("harmonic:{}x{}", h, name), pair, depends_on);
+    }
   }
 
   void hysteresis(const Covariate& c) {
@@ -296,6 +324,8 @@ private:
   std::size_t most_cells_;
   std::vector<Candidate> out_;
   std::set<std::vector<Index>> tabulated_; ///< cells of the tables, by reading
+  /// Angles between two since the first reading, by reading: cosine and sine, 1e-6.
+  std::set<std::vector<std::pair<std::int64_t, std::int64_t>>> turned_;
 };
 
 } // namespace

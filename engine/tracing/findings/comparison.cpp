@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 #include "propagation/experiment.h"
 #include "tracing/criteria.h"
 #include "tracing/findings/errors.h"
+#include "tracing/findings/findings.h"
 #include "tracing/judgement/decisions.h"
 #include "tracing/judgement/holdout.h"
 #include "tracing/noise/pure_error.h"
@@ -39,28 +41,29 @@ constexpr std::uint16_t scale_of_noise = 5; ///< stream of random numbers, after
 class Comparison {
 public:
   Comparison(const TraceContext& c, const Search& s, Trace& out)
-      : c_(c), rows_(c.fitter.rows()), before_(s.base), after_(s.found),
+      : c_(c), rows_(c.fitter.rows()), base_(s.base), before_(s.base), after_(s.found),
         previous_(s.stages.size() > 1 ? s.stages[s.stages.size() - 2].fit : s.base), has_previous_(s.stages.size() > 1),
         out_(out) {
-    // All in the units of one noise: the fit without the effect takes it for noise. Each predicts by its own covariance
-    // model, as a trace of the scenario would that it stands for.
+    // Scatter that was found is declared from now on, with the size that the traced scenario states: what is an
+    // outlier, and how large the noise is, are judged given its draws, as a trace of that scenario does.
+    std::vector<MoreNoise> declared;
+    for (const SearchFinding& f : s.findings)
+      std::ranges::copy(noise_found(c, s.found, f), std::back_inserter(declared));
+    if (!declared.empty())
+      if (JointFit fit = c.fitter.with_noise(s.found, declared); fit.valid) after_ = std::move(fit);
+    // Judged in the units of one noise: the fit without the effect takes it for noise. Each predicts by its own
+    // covariance model, as a trace of the scenario would that it stands for.
     for (JointFit* fit : {&before_, &previous_}) {
       fit->design.local = after_.design.local;
       fit->design.reference = after_.design.reference;
     }
-    // Scatter that was found is declared from now on, as in the traced scenario.
-    if (std::ranges::any_of(s.findings, [&](const SearchFinding& f) {
-          return f.finding.kind == Kind::scatter && f.component >= 0 && f.component == after_.covariance_model.scatter;
-        }))
-      declare_scatter(after_.design, after_.covariance_model);
     std::vector<Index> every(index(after_.residual.size()));
     std::iota(every.begin(), every.end(), 0);
     noise_ = noise_of_readings(every);
   }
 
   bool compare() {
-    const InSample before = in_sample(before_, rows_, before_.residual),
-                   after = in_sample(after_, rows_, after_.residual);
+    const InSample before = in_sample(base_, rows_, base_.residual), after = in_sample(after_, rows_, after_.residual);
     out_.rms.before = before.rms[0];
     out_.rms.after = after.rms[0];
     const Vector noise = in_sample(after_, rows_, noise_).rms;
@@ -73,7 +76,7 @@ public:
                        : held_out          ? fmt::format("{}", fmt::join(blocks.names, ", "))
                                            : "each block left out in turn; the search has used these data";
     const bool refused = !blocks.rows.empty() && hold_out_blocks(blocks);
-    fill_rows(before.left, refused ? before.left : after.left, refused ? before_ : after_);
+    fill_rows(before.left, refused ? before.left : after.left, refused ? base_ : after_);
     return refused;
   }
 
@@ -138,7 +141,7 @@ private:
   /// True if they veto.
   bool hold_out_blocks(const Blocks& blocks) {
     Rms& rms = out_.rms;
-    scored_before_ = predict(before_, before_.residual, blocks);
+    scored_before_ = predict(base_, base_.residual, blocks);
     scored_after_ = predict(after_, after_.residual, blocks);
     if (scored_before_.scored())
       set_noise_alone(predict(after_, of_unknown_scale(noise_), blocks).rms, rms.holdout_noise, rms.holdout_noise_low,
@@ -146,9 +149,10 @@ private:
     else
       rms.holdout += "; not scored, because it has no more readings than block offsets";
     const Vector bad = excess(scored_before_, scored_after_, after_.design);
-    const Scores clean_before = predict(before_, before_.residual - bad, blocks);
+    const Scores clean_before = predict(base_, base_.residual - bad, blocks);
     Scores clean_after = predict(after_, after_.residual - bad, blocks);
-    const bool refused = (judge(blocks, clean_before, clean_after) || last_spoils(blocks, bad, clean_after)) &&
+    const bool refused = (judge(blocks, predict(before_, before_.residual - bad, blocks), clean_after) ||
+                          last_spoils(blocks, bad, clean_after)) &&
                          !confirmed_between_blocks();
     if (refused) {
       scored_after_ = scored_before_;
@@ -297,7 +301,8 @@ private:
 
   const TraceContext& c_;
   const std::vector<Index>& rows_;
-  JointFit before_;
+  JointFit base_;   ///< the declared model with its own noise: where the round before ended
+  JointFit before_; ///< the same in units of the noise of `after_`
   JointFit after_;
   JointFit previous_; ///< without what the last round found
   bool has_previous_; ///< it is not the first round

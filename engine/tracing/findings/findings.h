@@ -11,6 +11,16 @@ void describe_repeats(const TraceContext& context, const Search& search, Trace& 
 /// Says where groups of readings have a slope or a first wave of their own.
 void describe_alignments(const TraceContext& context, const Search& search, Trace& out);
 void describe_noise(const TraceContext& context, const Search& search, Trace& out);
+
+/// Standard deviation of a variance component, in units of Design::reference.
+struct ScatterSize {
+  double best = 0, low = 0, high = 0; ///< the most likely, and where 2 ln L falls by criteria.decisive
+  int indication = -1;                ///< the only one that it moves; -1: each by itself
+};
+ScatterSize size_of_scatter(const TraceContext& context, const JointFit& fit, int component);
+/// Scatter that was found, as noise of the indications that it moves; none of effects and shapes.
+std::vector<MoreNoise> noise_found(const TraceContext& context, const JointFit& fit, const SearchFinding& found);
+
 /// Size of a variance component, with the interval of its profile likelihood; with none, size of the noise.
 void describe_scatter(const TraceContext& context, const JointFit& fit, int component, Finding& finding);
 /// Writes the two sentences for a machinist: what was found, how large, how sure, what to do.

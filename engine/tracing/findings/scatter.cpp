@@ -10,6 +10,65 @@
 
 namespace gumshoe::tracing {
 
+namespace {
+
+/// Where a parabola through three points at -1, 0 and 1 is lowest, of which the middle one is.
+double lowest(double left, double middle, double right) {
+  const double bend = left - 2 * middle + right;
+  return bend > 0 ? 0.5 * (left - right) / bend : 0;
+}
+
+} // namespace
+
+ScatterSize size_of_scatter(const TraceContext& c, const JointFit& fit, int component) {
+  // Profile likelihood over the ratio, the other structure as fitted.
+  const auto& rows = c.fitter.rows();
+  const int indication = fit.covariance_model.scatter == component ? fit.covariance_model.indication : -1;
+  const auto use = independent(fit.design, rows);
+  const Whitened plain(fit.design, rows, use, {});
+  const Matrix data = plain.winsorised(plain.take(fit.residual));
+  const double freedom = static_cast<double>(rows.size() - use.size());
+  const auto at = [&](double step) { // criterion, size
+    const double ratio = criteria.scatter_low * std::pow(criteria.scatter_span, step / criteria.scatter_steps);
+    const Whitened w(plain, {fit.covariance_model.correlation, component, ratio, indication});
+    const double left = w.squares(data)[0];
+    return std::array{freedom * std::log(left) + w.log_determinant(), ratio * std::sqrt(left / freedom)};
+  };
+  std::vector<std::array<double, 2>> profile;
+  for (int i = 0; i <= criteria.scatter_steps; ++i) profile.push_back(at(i));
+  const auto found = std::ranges::min_element(profile);
+  auto best = *found;
+  if (found != profile.begin() && found + 1 != profile.end())
+    if (const auto between =
+            at(static_cast<double>(found - profile.begin()) + lowest((*(found - 1))[0], best[0], (*(found + 1))[0]));
+        between[0] < best[0])
+      best = between;
+  ScatterSize out{best[1], best[1], best[1], indication};
+  for (const auto& [criterion, size] : profile)
+    if (criterion < best[0] + criteria.decisive) {
+      out.low = std::min(out.low, size);
+      out.high = std::max(out.high, size);
+    }
+  return out;
+}
+
+std::vector<MoreNoise> noise_found(const TraceContext& c, const JointFit& fit, const SearchFinding& found) {
+  std::vector<MoreNoise> out;
+  if (found.finding.kind != Kind::scatter) return out;
+  const auto& reference = fit.design.reference;
+  if (found.component < 0) { // the noise is larger than declared: what is missing in its square
+    const double scale = fit.noise * std::sqrt(fit.variance);
+    for (std::size_t i = 0; i < reference.size(); ++i)
+      out.push_back({i, reference[i] / fit.noise * std::sqrt(std::max(0.0, scale * scale - 1))});
+    return out;
+  }
+  const ScatterSize size = size_of_scatter(c, fit, found.component);
+  for (std::size_t i = 0; i < reference.size(); ++i)
+    if (size.indication < 0 || i == index(size.indication))
+      out.push_back({i, size.best * reference[i], &c.observations.replicate_groups[index(found.component)]});
+  return out;
+}
+
 void describe_scatter(const TraceContext& c, const JointFit& fit, int component, Finding& finding) {
   const auto& card = c.experiment.model().card->indications[0];
   SizedQuantity q;
@@ -30,32 +89,12 @@ void describe_scatter(const TraceContext& c, const JointFit& fit, int component,
     finding.quantities = {q};
     return;
   }
-  // Profile likelihood over the ratio, the other structure as fitted.
-  const auto& rows = c.fitter.rows();
-  const int indication = fit.covariance_model.scatter == component ? fit.covariance_model.indication : -1;
-  const auto use = independent(fit.design, rows);
-  const Whitened plain(fit.design, rows, use, {});
-  const Matrix data = plain.winsorised(plain.take(fit.residual));
-  std::vector<std::array<double, 3>> profile; // ratio, criterion, s
-  const double freedom = static_cast<double>(rows.size() - use.size());
-  for (int i = 0; i <= criteria.scatter_steps; ++i) {
-    const double ratio =
-        criteria.scatter_low * std::pow(criteria.scatter_span, i / static_cast<double>(criteria.scatter_steps));
-    const Whitened w(plain, {fit.covariance_model.correlation, component, ratio, indication});
-    const double left = w.squares(data)[0];
-    profile.push_back({ratio, freedom * std::log(left) + w.log_determinant(), std::sqrt(left / freedom)});
-  }
-  const auto best = std::ranges::min_element(profile, [](const auto& a, const auto& b) { return a[1] < b[1]; });
-  const double reference = fit.design.reference[indication < 0 ? 0 : index(indication)];
-  const auto size = [&](const auto& p) { return p[0] * p[2] * reference; };
-  if (indication >= 0) finding.remarks.push_back("of " + c.observations.names[index(indication)] + " alone");
-  q.value = size(*best);
-  q.low95 = q.high95 = q.value;
-  for (const auto& p : profile)
-    if (p[1] < (*best)[1] + criteria.decisive) {
-      q.low95 = std::min(q.low95, size(p));
-      q.high95 = std::max(q.high95, size(p));
-    }
+  const ScatterSize size = size_of_scatter(c, fit, component);
+  const double reference = fit.design.reference[index(std::max(0, size.indication))];
+  if (size.indication >= 0) finding.remarks.push_back("of " + c.observations.names[index(size.indication)] + " alone");
+  q.value = size.best * reference;
+  q.low95 = size.low * reference;
+  q.high95 = size.high * reference;
   q.u = (q.high95 - q.low95) / 3.92;
   finding.quantities = {q};
 }

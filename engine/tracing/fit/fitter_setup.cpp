@@ -255,4 +255,12 @@ void Fitter::find_covariance_models() {
   }
 }
 
+Fitter Fitter::without_rows(const std::vector<Index>& rows) const {
+  Fitter out = *this;
+  std::erase_if(out.rows_, [&](Index row) { return std::ranges::binary_search(rows, row); });
+  out.covariance_models_.clear();
+  out.find_covariance_models();
+  return out;
+}
+
 } // namespace gumshoe::tracing

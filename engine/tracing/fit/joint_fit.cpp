@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 
 #include "quantities/cells.h"
@@ -182,6 +183,26 @@ JointFit Fitter::fit(const std::vector<Term>& terms, double noise, const JointFi
   if (!fit.valid) return fit;
   cross_jumps(fit, noise, jump_reach(terms, start));
   return fit;
+}
+
+JointFit Fitter::with_noise(const JointFit& found, const std::vector<MoreNoise>& more) const {
+  Fitter with = *this;
+  const propagation::Range noise = experiment_.layout().indications;
+  for (const MoreNoise& one : more) {
+    std::map<std::size_t, Draw> draws;
+    for (std::size_t r = 0; r < observations_.readings; ++r) {
+      Draw& d = draws[one.group ? one.group->group[r] : r];
+      if (one.group) d.name = one.group->groups[one.group->group[r]];
+      d.u = one.u;
+      d.moves.emplace_back(r, noise[one.indication]);
+      d.local = d.moves.size() == 1;
+    }
+    for (auto& [of, d] : draws) with.draws_.push_back(std::move(d));
+  }
+  JointFit start = found;
+  start.drawn.conservativeResizeLike(Vector::Zero(index(with.draws_.size())));
+  with.earlier_.conservativeResizeLike(start.drawn);
+  return with.fit(found.terms, 0, &start);
 }
 
 void Fitter::converge(JointFit& fit, double noise) const {

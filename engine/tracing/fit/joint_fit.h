@@ -63,6 +63,13 @@ struct DrawsGivenReadings {
   double largest_correlation = 0; ///< of a fixed column and a draw: a length that was measured against a reference
 };
 
+/// A component of an indication's noise that is not declared.
+struct MoreNoise {
+  std::size_t indication = 0;
+  double u = 0;                    ///< SI
+  const Grouping* group = nullptr; ///< readings that share a draw; none: each has its own
+};
+
 /// Fits the declared model and terms to some of the readings, with the whole non-linear model.
 class Fitter {
 public:
@@ -78,6 +85,10 @@ public:
 
   /// Gauss-Newton with winsorised residuals; from `start` where it is given. `noise` 0: its scale is fitted, too.
   JointFit fit(const std::vector<Term>& terms, double noise, const JointFit* start = nullptr) const;
+  /// The same without some of the rows.
+  Fitter without_rows(const std::vector<Index>& rows) const;
+  /// A fit as it is of a scenario that declares more noise.
+  JointFit with_noise(const JointFit& found, const std::vector<MoreNoise>& more) const;
   /// The declared model at its estimates, not fitted.
   JointFit linearised(double noise) const;
   /// Fits unknowns to which only readings outside the fit are sensitive, such as the offset of a held-out block, with

@@ -15,6 +15,7 @@
 #include "tracing/judgement/in_place_of_scatter.h"
 #include "tracing/judgement/pruning.h"
 #include "tracing/judgement/ranking.h"
+#include "tracing/judgement/set_aside.h"
 
 namespace gumshoe::tracing {
 namespace {
@@ -393,7 +394,28 @@ private:
 
 } // namespace
 
-Search search(const TraceContext& context) { return Searcher(context).run(); }
+namespace {
+
+/// Whether all that was found is that single readings scatter more than declared.
+bool larger_noise_alone(const Search& s) {
+  return s.findings.size() == 1 && s.findings[0].finding.kind == Kind::scatter && s.findings[0].component < 0;
+}
+
+} // namespace
+
+Search search(const TraceContext& c) {
+  Search all = Searcher(c).run();
+  if (!larger_noise_alone(all)) return all;
+  // A few readings that are off make noise look larger, and hide what else is there.
+  const std::vector<Index> rows = outlying_rows(c, all.found);
+  if (rows.empty()) return all;
+  const Fitter others = c.fitter.without_rows(rows);
+  const TraceContext without{c.experiment, c.simulator, c.observations, others,    c.alpha,
+                             c.draws,      c.seed,      c.threads,      c.progress};
+  Search found = Searcher(without).run();
+  if (!found.found.valid || larger_noise_alone(found)) return all;
+  return with_all_readings(c, all, std::move(found), rows.size() / c.observations.indications);
+}
 
 std::optional<Search> described(const TraceContext& context, const Search& rejected) {
   const auto name = [](const SearchFinding& f) {

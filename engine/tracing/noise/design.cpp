@@ -44,25 +44,6 @@ std::vector<Index> insensitive(const Design& d, const std::vector<Index>& rows) 
   return out;
 }
 
-void declare_scatter(Design& d, CovarianceModel& model) {
-  if (model.scatter < 0) return;
-  const Grouping& g = d.scatter[index(model.scatter)];
-  const auto first = d.random.cols(), rows = d.random.rows();
-  const std::size_t k = d.indications;
-  d.random.conservativeResize(rows, first + index(g.groups.size() * k));
-  d.random.rightCols(d.random.cols() - first).setZero();
-  for (Index i = 0; i < rows; ++i) {
-    const std::size_t indication = index(i) % k;
-    if (model.indication >= 0 && indication != index(model.indication)) continue;
-    const std::size_t column = g.group[d.reading[index(i)]] * k + indication;
-    d.random(i, first + index(column)) = model.ratio * d.reference[indication];
-  }
-  for (const std::string& name : g.groups) d.random_names.insert(d.random_names.end(), k, name);
-  d.bent.resize(index(d.random.cols()), -1);
-  model.scatter = model.indication = -1;
-  model.ratio = 0;
-}
-
 std::vector<Index> independent(const Design& d, const std::vector<Index>& rows) {
   const auto columns = index(d.fixed.cols());
   std::vector<SparseRow> sparse(rows.size());

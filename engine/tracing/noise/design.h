@@ -50,9 +50,6 @@ std::vector<Index> independent(const Design& design, const std::vector<Index>& r
 /// Columns of Design::fixed to which none of the chosen rows is sensitive.
 std::vector<Index> insensitive(const Design& design, const std::vector<Index>& rows);
 
-/// Turns the variance component of a model into declared draws, one of each group and indication that it moves.
-void declare_scatter(Design& design, CovarianceModel& model);
-
 /// The models that are tried; all are correlations alone, and with each variance component at each ratio (criteria.h).
 std::vector<CovarianceModel> covariance_models(const Design& design, std::size_t rows);
 

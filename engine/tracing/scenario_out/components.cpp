@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "tracing/findings/findings.h"
 #include "tracing/scenario_out/composition.h"
 
 namespace gumshoe::tracing {
@@ -50,11 +51,9 @@ public:
   void scatter(const SearchFinding& found, const Finding& f) {
     const auto& d = fit_.design;
     std::string source = fmt::format("scatter by {}, p = {:.2g}", fmt::join(f.depends_on, " and "), f.p_value);
+    const auto more = noise_found(c_, fit_, found);
     if (found.component < 0) {
-      // The noise is larger than declared: what is missing in its square.
-      const double scale = fit_.noise * std::sqrt(fit_.variance);
-      for (std::size_t i = 0; i < d.indications; ++i)
-        of_noise(i, d.reference[i] / fit_.noise * std::sqrt(std::max(0.0, scale * scale - 1)), {"reading"}, source);
+      for (const MoreNoise& one : more) of_noise(one.indication, one.u, {"reading"}, source);
       return;
     }
     if (f.quantities.empty()) return;
@@ -68,10 +67,7 @@ public:
       out_.additions.push_back({q.name, q.unit, q.si_unit, u / loading, f.depends_on, source});
       return;
     }
-    const bool one = fit_.covariance_model.scatter == found.component && fit_.covariance_model.indication >= 0;
-    const auto only = one ? index(fit_.covariance_model.indication) : 0;
-    for (std::size_t i = 0; i < d.indications; ++i)
-      if (!one || i == only) of_noise(i, u * d.reference[i] / d.reference[only], f.depends_on, source);
+    for (const MoreNoise& one : more) of_noise(one.indication, one.u, f.depends_on, source);
   }
 
   void not_in_catalogue(const SearchFinding& found, const Finding& f, const std::vector<Vector>& left) {
