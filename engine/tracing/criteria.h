@@ -32,8 +32,8 @@ struct Criteria {
   /// Noise that is not declared grows with a condition if 2 ln of the likelihood says so by this much: of one condition
   /// in normal noise it exceeds it once in 10,000.
   double noise_grows = 16;
-  /// Fewer readings than this do not tell how noise grows. Tuned.
-  std::size_t readings_for_growth = 24;
+  /// Fewer degrees of freedom than this do not tell how noise grows. Tuned.
+  std::ptrdiff_t freedom_for_growth = 20;
   /// Ratios tried, of the part that grows at the largest value met to the part that does not: steps of a factor that
   /// the likelihood hardly sees.
   std::array<double, 9> growth_ratios{1, 2, 4, 8, 16, 32, 64, 128, 256};

@@ -97,7 +97,7 @@ public:
     if (!((dy - per_size * dx).norm() <= rounding * dy.norm())) return "";
     const auto ratio = [](const std::string& above, const std::string& below) {
       if (below == "1") return above;
-      return fmt::format("{}/{}", above, below.find('/') == std::string::npos ? below : "(" + below + ")");
+      return fmt::format("{}/{}", above, below.find_first_of("/. *") == std::string::npos ? below : "(" + below + ")");
     };
     // A difference of temperatures has the unit K.
     const bool own_zero = units::to_si(0, covariate.unit, covariate.si_unit) != 0;

@@ -187,7 +187,7 @@ void Fitter::find_spread() {
 void Fitter::find_growth() {
   if (noise_declared_) return;
   const JointFit fit = linearised(1);
-  if (!fit.valid || rows_.size() < criteria.readings_for_growth) return;
+  if (!fit.valid) return;
   const PureError pure(fit.design, rows_, replicates_, threads_);
   if (!pure.known()) return; // what the model lacks would count as noise
   growth_ = tracing::noise_growth(observations_, replicates_, rows_, pure.about_cells(fit.residual(rows_)).col(0));

@@ -11,47 +11,42 @@
 namespace gumshoe::tracing {
 namespace {
 
-/// Readings whose noise is judged.
-struct Left {
-  std::vector<double> residual, size; ///< size: |x| over the largest
+/// What the readings of one pass leave about the model, and columns that are no noise.
+struct Pass {
+  Matrix columns;
+  Vector left, size; ///< size: |x| over the largest
 };
 
-/// Adds what columns leave of the residuals of one pass, each with the variance that it had.
-void add_left(const Matrix& columns, const Vector& residual, const Vector& size, Left& out) {
-  const Eigen::ColPivHouseholderQR<Matrix> qr(columns);
-  const Index rank = qr.rank(), n = columns.rows();
-  if (n < 2 * rank) return;
-  const Matrix q = qr.householderQ() * Matrix::Identity(n, rank);
-  const Vector left = residual - q * (q.transpose() * residual);
-  for (Index i = 0; i < n; ++i) {
-    const double share = 1 - q.row(i).squaredNorm(); // of the variance
-    if (share < 0.1) continue;
-    out.residual.push_back(left[i] / std::sqrt(share));
-    out.size.push_back(size[i]);
-  }
-}
-
-/// Twice the logarithm of the likelihood of Student's t, its scale fitted.
-double likelihood(const Left& left, double ratio) {
+/// Twice the logarithm of the restricted likelihood of Student's t, its scale fitted. A residual counts by the share of
+/// its variance that the columns leave.
+double likelihood(const std::vector<Pass>& passes, double ratio) {
   constexpr double nu = 5;
-  const std::size_t n = left.residual.size();
-  std::vector<double> square(n);
-  double logarithms = 0, scale = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const double variance = 1 + std::pow(ratio * left.size[i], 2);
-    square[i] = left.residual[i] * left.residual[i] / variance;
-    logarithms += std::log(variance);
-    scale += square[i] / static_cast<double>(n);
+  std::vector<double> share, square;
+  double out = 0, all = 0, scale = 0;
+  for (const Pass& pass : passes) {
+    const Vector u = (1 + (ratio * pass.size.array()).square()).sqrt();
+    const Eigen::ColPivHouseholderQR<Matrix> qr(u.cwiseInverse().asDiagonal() * pass.columns);
+    const Matrix q = qr.householderQ() * Matrix::Identity(u.size(), qr.rank());
+    const Vector left = pass.left.cwiseQuotient(u), residual = left - q * (q.transpose() * left);
+    out -= 2 * u.array().log().sum() + 2 * qr.matrixR().diagonal().head(qr.rank()).array().abs().log().sum();
+    for (Index i = 0; i < u.size(); ++i) {
+      share.push_back(std::max(1e-6, 1 - q.row(i).squaredNorm()));
+      square.push_back(residual[i] * residual[i] / share.back());
+      scale += share.back() * square.back();
+      all += share.back();
+    }
   }
+  if (!(all > 0 && scale > 0)) return -HUGE_VAL;
+  scale /= all;
   constexpr int steps = 40; // each comes closer by half at least
-  for (int step = 0; step < steps && scale > 0; ++step) {
+  for (int step = 0; step < steps; ++step) {
     double sum = 0;
-    for (const double s : square) sum += (nu + 1) / (nu + s / scale) * s;
-    scale = sum / static_cast<double>(n);
+    for (std::size_t i = 0; i < share.size(); ++i) sum += share[i] * (nu + 1) / (nu + square[i] / scale) * square[i];
+    scale = sum / all;
   }
-  double tails = 0;
-  for (const double s : square) tails += std::log1p(s / scale / nu);
-  return -logarithms - static_cast<double>(n) * std::log(scale) - (nu + 1) * tails;
+  for (std::size_t i = 0; i < share.size(); ++i)
+    out -= share[i] * (std::log(scale) + (nu + 1) * std::log1p(square[i] / scale / nu));
+  return out;
 }
 
 /// Whether the readings at one level differ at all: where each pass begins with a zero they do not.
@@ -85,24 +80,27 @@ std::optional<NoiseGrowth> noise_growth(const Observations& o, const Replicates&
       const std::size_t place = index(rows[i]) / o.indications;
       if (counts[o.sequence[place]]) passes[replicates.pass[place]].push_back(i);
     }
-    Left left;
+    std::vector<Pass> judged;
+    Index freedom = 0;
     for (const auto& [pass, places] : passes) {
       const auto n = index(places.size());
-      Matrix columns(n, 4);
-      Vector residual(n), size(n);
+      const Index used = n < 8 ? 2 : 4; // a drift within few readings counts as noise
+      if (n < 2 * used) continue;
+      Pass one{Matrix(n, used), Vector(n), Vector(n)};
       for (Index i = 0; i < n; ++i) {
         const std::size_t place = places[index(i)];
-        residual[i] = about[index(place)];
-        size[i] = size_of(o.sequence[index(rows[place]) / o.indications]);
+        one.left[i] = about[index(place)];
+        one.size[i] = size_of(o.sequence[index(rows[place]) / o.indications]);
         const double t = static_cast<double>(2 * i) / static_cast<double>(n) - 1;
-        columns.row(i) << 1, t, size[i], size[i] * t;
+        one.columns.row(i) = Eigen::RowVector4d(1, one.size[i], t, one.size[i] * t).head(used);
       }
-      add_left(columns, residual, size, left);
+      freedom += n - used;
+      judged.push_back(std::move(one));
     }
-    if (left.residual.size() < criteria.readings_for_growth) continue;
-    const double equal = likelihood(left, 0);
+    if (freedom < criteria.freedom_for_growth) continue;
+    const double equal = likelihood(judged, 0);
     for (const double ratio : criteria.growth_ratios)
-      if (const double gain = likelihood(left, ratio) - equal; gain > most) {
+      if (const double gain = likelihood(judged, ratio) - equal; gain > most) {
         most = gain;
         best = {c, ratio, largest, Vector(index(o.readings))};
       }

@@ -38,8 +38,8 @@ public:
     effect.unit = unit_of(card);
     effect.meaning = fmt::format("noise of {} that grows with {}", card.name, x.name);
     effect.source = source;
-    effect.keys = {{x.name, x.unit, x.si_unit, x.levels}};
-    for (const double level : x.levels) effect.loading.push_back(level / grows.largest);
+    effect.keys = {{x.name, x.unit, x.si_unit, {std::min(0.0, x.levels.front()), std::max(0.0, x.levels.back())}}};
+    for (const double level : effect.keys[0].levels) effect.loading.push_back(level / grows.largest);
     out_.additions.push_back({effect.name + ".size", effect.unit, effect.si_unit, u, {"reading"}, source});
     out_.statements.push_back(
         fmt::format("the noise of {} grows with {}: of its variance the part that grows is {:.2g} times "
