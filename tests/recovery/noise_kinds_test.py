@@ -132,7 +132,7 @@ class RelativeNoise(Noise):
         self.assertGreaterEqual(right, 5)
 
     def test_a_slope_against_a_condition_of_composite_unit_is_told(self):
-        self.meter(400, scenario=METER.replace("gain = { estimated = true, value = 1 }", "gain = 1"))
+        self.meter(400, noise=lambda q: 0.0002 * q, scenario=METER.replace("gain * flow", "flow").replace("gain = { estimated = true, value = 1 }\n", ""))
         remarks = [r for f in self.trace("s.toml")["findings"] for r in f["remarks"]]
         self.assertTrue(any("l/min/(l/min)" in r for r in remarks), remarks)
 
