@@ -127,8 +127,12 @@ void Gathering::refuse_others() {
 }
 
 std::string Gathering::why_useless(const Found& found) const {
-  const auto& [identity, done, complete] = found.stored;
-  if (done < identity.samples) return fmt::format("it is not finished: {} of {} samples", done, identity.samples);
+  const store::Stored& there = found.stored;
+  const store::Identity& shard = there.identity;
+  if (there.samples_done < shard.samples)
+    return fmt::format("it is not finished: {} of {} samples", there.samples_done, shard.samples);
+  if (there.study_values_done < shard.study_values)
+    return fmt::format("it is not finished: {} of {} values of studies", there.study_values_done, shard.study_values);
   try {
     store::require_sound_samples(found.file);
     return "";

@@ -34,25 +34,29 @@ scenario::Scenario scenario_of(const store::Identity& shard, const std::string& 
 }
 
 /// What the record of the shards says of the model and of their samples must hold for the run.
-void require_same_design(const store::Identity& run, const ShardSet& shards) {
+void require_same_design(const propagation::Experiment& experiment, const store::Identity& run,
+                         const ShardSet& shards) {
   if (run.design_hash != shards.identity.design_hash)
     throw InputError("the shards have another design than " + run.scenario_file,
                      "design hash " + shards.identity.design_hash + ", the scenario has " + run.design_hash,
                      "make the shards again");
-  for (std::size_t k = 0; k < shards.files.size(); ++k)
-    if (store::read_identity(shards.files[k]).identity.samples !=
-        propagation::Shard{k + 1, shards.of}.samples(run.samples).size())
+  for (std::size_t k = 0; k < shards.files.size(); ++k) {
+    const ShardPart part(experiment, {k + 1, shards.of});
+    const store::Identity there = store::read_identity(shards.files[k]).identity;
+    if (there.samples != part.samples.size() ||
+        there.study_values != propagation::values_of(part.portions, part.studies))
       throw InputError(shards.files[k] + ": the shard has another number of samples than its part of the run", "",
                        "make the shard again");
+  }
 }
 
 ExitCode merge(const Options& o) {
   const Begun begun;
   const ShardSet shards = gather_shards(o.files);
   const scenario::Scenario s = scenario_of(shards.identity, o.scenario);
-  const propagation::Experiment experiment(s);
+  const propagation::Experiment experiment(s, propagation::Trial::made_elsewhere);
   const store::Identity identity = identity_of_run(experiment);
-  require_same_design(identity, shards);
+  require_same_design(experiment, identity, shards);
   const std::string out = !o.out.empty() ? o.out : default_output(s.file, ".h5");
   for (const std::string& file : o.files) require_different(out, file);
 
@@ -66,7 +70,7 @@ ExitCode merge(const Options& o) {
     store::append_samples(file, store::StoredSamples(shards.files[k - 1], experiment.outputs()),
                           experiment.outputs().size(), part.first, part.last);
   }
-  return complete_run(experiment, file, {}, begun, out, o.threads, o.print, line);
+  return complete_run(experiment, file, {}, begun, out, workers_of(experiment, shards, o.threads), o.print, line);
 }
 
 } // namespace

@@ -17,6 +17,7 @@ import unittest
 
 import h5py
 
+from counted_model import CORRELATED, COUNTED_PROGRAM, STUDIES, starts
 from program import FORMULA, GUMSHOE, ROOT, SCENARIO, InFolder, complaint, gumshoe
 from sealed import record, reseal, samples_done
 from slow_model import SLOW, SLOW_PROGRAM
@@ -116,6 +117,72 @@ class Shards(InFolder):
                         self.assertEqual(failed, (file["outputs/status"][:] != 0).sum())
                 shutil.rmtree(self.shards)
                 self.shards.mkdir()
+
+    def test_studies_are_divided_and_merge_runs_the_model_not_once(self):
+        (self.folder / "counted.py").write_text(COUNTED_PROGRAM)
+        for name, text in (("independent", STUDIES), ("correlated", CORRELATED)):
+            with self.subTest(name):
+                scenario = self.scenario(text)
+                whole = self.single(scenario)
+                points = sum(starts(self.folder))
+                (self.folder / "starts").unlink()
+                files, said = self.make(scenario, 3)
+                runs = [int(re.search(r"about (\d+) model runs of studies", s)[1]) for s in said.values()]
+                self.assertLess(max(runs) - min(runs), 0.2 * max(runs))
+                # Each shard tries the scenario (2 starts) and, of Sobol' indices, runs 64 rows for their origin.
+                self.assertLess(sum(starts(self.folder)), points + 3 * (2 + 64) + 64)
+                (self.folder / "starts").unlink()
+                for threads in (1, 2):
+                    (self.folder / "whole.h5").unlink(missing_ok=True)
+                    self.assertEqual(self.merged(files.values(), "--threads", threads), whole)
+                    self.assertEqual(starts(self.folder), [])
+                shutil.rmtree(self.shards)
+                self.shards.mkdir()
+
+    def test_studies_that_are_lost_or_damaged(self):
+        (self.folder / "counted.py").write_text(COUNTED_PROGRAM)
+        scenario = self.scenario(STUDIES)
+        whole = self.single(scenario)
+        files, _ = self.make(scenario, 3)
+        with open(files[2], "r+b") as file:  # one bit of one value
+            file.seek(record(files[2])["places"]["studies/values"][0] + 8 * 100)
+            byte = file.read(1)[0]
+            file.seek(-1, os.SEEK_CUR)
+            file.write(bytes([byte ^ 1]))
+        with open(files[3], "r+b") as file:  # as if it had been killed in its studies
+            file.seek(record(files[3])["places"]["studies/values_done"][0])
+            file.write(struct.pack("<Q", 1000))
+        run = self.refused("2-of-3.h5: shard 2/3 cannot be used (it is damaged: its values of studies are damaged from number "
+                           "0 on)", "merge", *files.values(), "--out", "whole.h5")
+        self.assertIn("3-of-3.h5: shard 3/3 cannot be used (it is not finished: 1000 of ", run.stderr)
+        self.assertIn(" values of studies)", run.stderr)
+        (self.folder / "starts").unlink()
+        for command in run.stdout.splitlines():
+            self.done(*shlex.split(command)[1:])
+        self.assertLess(sum(starts(self.folder)), 8000)  # the samples are not drawn again, nor the first values
+        self.assertEqual(self.merged(files.values()), whole)
+        reseal(files[1], study_values=7)
+        self.refused("the record of its samples contradicts itself", "merge", *files.values())
+
+    def test_a_shard_whose_studies_are_stopped_goes_on(self):
+        (self.folder / "counted.py").write_text(COUNTED_PROGRAM.replace("import", "import time,", 1) + "time.sleep(0.02)\n")
+        scenario = self.scenario(STUDIES)
+        files, _ = self.make(scenario, 2, numbers=[2])
+        command = [GUMSHOE, "run", scenario, "--shard", "1/2", "--out", files[1], "--threads", "1"]
+        stopped = subprocess.Popen(command, cwd=self.folder, env=SAME_DATE, stderr=subprocess.PIPE, text=True)
+        done = 0
+        while not done and stopped.poll() is None:
+            time.sleep(0.02)
+            if files[1].exists():
+                with open(files[1], "rb") as file:
+                    file.seek(record(files[1])["places"]["studies/values_done"][0])
+                    done = struct.unpack("<Q", file.read(8))[0]
+        stopped.send_signal(signal.SIGTERM)
+        said = stopped.communicate(timeout=30)[1]
+        self.assertEqual(stopped.returncode, 130, said)
+        self.assertRegex(said, r"interrupted after 1536 of 1536 samples and \d+ of \d+ values of studies\.")
+        self.assertIn("resuming after 1536 samples", self.done(*command[1:]).stderr)
+        self.assertEqual(self.merged(files.values()), self.single(scenario))
 
     def test_a_merge_goes_on_in_a_run_that_was_begun(self):
         scenario = self.scenario(FORMULA)
