@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <span>
 
 #include "analysis/gum.h"
@@ -160,7 +161,8 @@ std::vector<Derivatives> of_responses(const propagation::Responses& all, const P
   return out;
 }
 
-/// Whether the budget at a reading has terms of second order: for few and independent inputs.
+/// Whether a budget at a reading may have terms of second order: for few and independent inputs. Correlated inputs may
+/// move only one of several measurands.
 bool needs_second(const propagation::Experiment& e, std::size_t reading) {
   std::vector<double> u(e.columns_at(reading).size(), 0.0);
   std::vector<bool> reaches(e.plan().variates.size(), false);
@@ -169,7 +171,9 @@ bool needs_second(const propagation::Experiment& e, std::size_t reading) {
     reaches[v] = true;
   }
   for (const auto& group : e.plan().copulas)
-    if (std::ranges::count_if(group.variates, [&](std::size_t v) { return reaches[v]; }) > 1) return false;
+    if (e.measurands().size() == 1 &&
+        std::ranges::count_if(group.variates, [&](std::size_t v) { return reaches[v]; }) > 1)
+      return false;
   return has_second_order(u);
 }
 
@@ -187,15 +191,16 @@ bool stencils_at_estimates(const propagation::Experiment& e) {
 }
 
 propagation::Work stencil_work(const propagation::Experiment& e, std::size_t reading) {
-  const auto points = places(steps(e, reading, e.point(reading)), needs_second(e, reading)).stencil.points;
+  const auto places_there =
+      std::make_shared<const Places>(places(steps(e, reading, e.point(reading)), needs_second(e, reading)));
   const std::size_t rows = e.measurands().size(), liked = e.model().block;
   constexpr std::size_t few = 256;
   return {.name = "derivatives " + std::to_string(reading),
-          .units = points.size(),
+          .units = places_there->stencil.points.size(),
           .values = rows + 1,
           .together = liked > 0 ? liked : few,
-          .compute = [&e, reading, points, rows](std::uint64_t first, std::uint64_t last, double* out) {
-            const auto some = std::span(points).subspan(first, last - first);
+          .compute = [&e, reading, places_there, rows](std::uint64_t first, std::uint64_t last, double* out) {
+            const auto some = std::span(places_there->stencil.points).subspan(first, last - first);
             const propagation::Responses r = e.outputs_at(reading, e.point(reading), some);
             for (std::size_t i = 0; i < some.size(); ++i) {
               out[i * (rows + 1)] = static_cast<double>(r.status[i]);

@@ -9,10 +9,10 @@
 #include "analysis/studies.h"
 #include "base/interrupt.h"
 #include "cli/command.h"
+#include "cli/ranks.h"
 #include "cli/requested_run.h"
 #include "cli/shards.h"
 #include "propagation/propagate.h"
-#include "propagation/ranks.h"
 
 namespace gumshoe::cli {
 
@@ -61,25 +61,21 @@ std::string same_run(const store::Identity& i) {
                      i.samples, i.version);
 }
 
-/// A rank other than the first works for it, and says nothing.
-ExitCode help_first_rank(propagation::Ranks& ranks, const Options& o) {
-  const std::optional<std::string> wanted = ranks.awaited();
-  if (!wanted) return ExitCode::done;
-  try {
-    const scenario::Scenario s = scenario_of_run(o.file, o.request);
-    const propagation::Experiment experiment(s);
-    if (const std::string own = same_run(identity_of_run(experiment)); own != *wanted)
-      throw InputError("the ranks have different runs", "one has " + own + ", the first " + *wanted,
-                       "give all machines the same files and options");
-    const std::vector<propagation::Work> studies = analysis::studies_of(experiment);
-    const auto study = [&](const std::string& name) {
-      return *std::ranges::find(studies, name, &propagation::Work::name);
-    };
-    ranks.serve({propagation::block_maker(experiment), study}, ranks.threads(o.threads));
-  } catch (const std::exception& failure) {
-    ranks.report(failure);
-  }
-  return ExitCode::done;
+/// The run of a rank other than the first.
+struct RankRun {
+  scenario::Scenario scenario;
+  propagation::Experiment experiment;
+  std::vector<propagation::Work> studies;
+  explicit RankRun(const Options& o)
+      : scenario(scenario_of_run(o.file, o.request)), experiment(scenario), studies(analysis::studies_of(experiment)) {}
+};
+
+Offer offer(const Options& o) {
+  const auto run = std::make_shared<const RankRun>(o);
+  return {same_run(identity_of_run(run->experiment)),
+          {propagation::block_maker(run->experiment), [run](const std::string& name) {
+             return *std::ranges::find(run->studies, name, &propagation::Work::name);
+           }}};
 }
 
 /// How far the file has come, in words.
@@ -93,7 +89,7 @@ std::string progress_of(const store::ResultFile& file, const store::Identity& id
 ExitCode run(const Options& o) {
   const Begun begun;
   auto ranks = o.shard.empty() ? propagation::Ranks::join() : nullptr; // shards share nothing
-  if (ranks && !ranks->first()) return help_first_rank(*ranks, o);
+  if (ranks && !ranks->first()) return help_first_rank(*ranks, o.threads, [&] { return offer(o); });
   scenario::Scenario s = scenario_of_run(o.file, o.request);
   const propagation::Experiment experiment(s);
   store::Identity identity = identity_of_run(experiment);

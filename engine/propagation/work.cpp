@@ -13,10 +13,11 @@ using Values = std::vector<double>;
 
 } // namespace
 
+std::size_t Workers::size() const { return static_cast<std::size_t>(thread_count(threads)) + elsewhere.size(); }
+
 void Workers::run(const Work& work, std::uint64_t first, std::uint64_t last, const TakeUnits& take) const {
   if (known && known(work, take)) return;
-  const auto workers = static_cast<std::uint64_t>(thread_count(threads)) + elsewhere.size();
-  const std::uint64_t fair = (last - first + workers - 1) / workers;
+  const std::uint64_t fair = (last - first + size() - 1) / size();
   const Blocks blocks{first, last, std::clamp<std::uint64_t>(fair, 1, work.together)};
   std::vector<std::function<Values(std::uint64_t, std::uint64_t)>> others;
   for (const DoUnits& other : elsewhere)

@@ -32,6 +32,7 @@ struct Workers {
   /// Hands over what is known already. False: nothing of this work is.
   std::function<bool(const Work& work, const TakeUnits& take)> known;
 
+  std::size_t size() const; ///< threads and other processes
   /// Calls take for units [first, last) of the work: in order, from one thread at a time, a few units per call. Throws
   /// Interrupted after a signal, and what the model throws.
   void run(const Work& work, std::uint64_t first, std::uint64_t last, const TakeUnits& take) const;
