@@ -49,6 +49,13 @@ ResultBlock run_block(const Experiment& e, const quantities::Sampler& sampler, s
   return block;
 }
 
+/// As many samples as the model likes in a call, or in four if these are few: then each is costly, and blocks are
+/// shared among processes. In multiples of 64, at which every design can begin.
+std::uint64_t samples_per_block(std::size_t liked) {
+  if (liked >= block_samples) return liked / block_samples * block_samples;
+  return liked == 0 ? block_samples : std::clamp<std::uint64_t>(4 * liked / 64 * 64, 64, block_samples);
+}
+
 } // namespace
 
 MakeBlock block_maker(const Experiment& e) {
@@ -61,7 +68,7 @@ MakeBlock block_maker(const Experiment& e) {
 std::uint64_t propagate(const Experiment& e, Sink& sink, const RunSettings& settings) {
   const auto sampler = make_sampler(e);
   const std::uint64_t total = settings.last > 0 ? settings.last : e.scenario().run.samples;
-  const std::uint64_t per_block = std::max<std::uint64_t>(1, e.model().block / block_samples) * block_samples;
+  const std::uint64_t per_block = samples_per_block(e.model().block);
   return in_order<ThreadBuffers>(
       {settings.first, total, per_block}, settings.threads, settings.elsewhere, settings.stop,
       [&](std::uint64_t first, std::uint64_t last, ThreadBuffers& own) {

@@ -95,7 +95,7 @@ class Ranks(InFolder):
                     self.assertEqual(run.returncode, single.returncode, run.stderr)
                     self.assertEqual(run.stdout.replace("ranks.h5", "single.h5"), single.stdout)
                     self.assertEqual((self.folder / "ranks.h5").read_bytes(), expected)
-                    if command == "run":  # 640 samples are one block, which one process makes
+                    if command == "run":
                         self.assertEqual(len(starters(self.folder)), ranks)
 
     def test_a_model_that_fails_in_a_study_on_another_rank(self):
