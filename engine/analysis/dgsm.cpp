@@ -15,7 +15,7 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-constexpr std::size_t points_per_unit = 64; // draws begin at multiples of it
+constexpr std::size_t points_per_unit = 8; // what a model runs at once
 
 /// Derivatives of the outputs by the variates that reach them, at points drawn at random. Thread-safe.
 class Slopes {
@@ -43,8 +43,11 @@ public:
     const std::uint64_t from = first * points_per_unit, to = std::min(points_, last * points_per_unit);
     const auto rows = static_cast<std::size_t>(to - from), n = (rows + 7) / 8 * 8;
     std::fill_n(out, (last - first) * points_per_unit * numbers_, nan);
-    std::vector<double> x(d_ * n);
-    sampler_.draw(from, n, quantities::Purpose::fresh, x.data(), n);
+    const Aligned at(from);
+    const std::size_t stride = at.offset + n;
+    std::vector<double> drawn(d_ * stride), x(d_ * n);
+    sampler_.draw(at.begin, stride, quantities::Purpose::fresh, drawn.data(), stride);
+    for (std::size_t v = 0; v < d_; ++v) std::copy_n(&drawn[v * stride + at.offset], n, &x[v * n]);
     by_differences_ ? differences(x, n, rows, out) : exact_slopes(x, n, rows, out);
   }
 

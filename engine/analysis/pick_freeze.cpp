@@ -81,19 +81,22 @@ public:
   }
 
   void draw(std::uint64_t first, std::size_t rows) {
+    const Aligned at(first);
     rows_ = rows;
-    a_.resize(d_ * rows);
-    b_.resize(d_ * rows);
+    offset_ = at.offset;
+    stride_ = at.offset + rows;
+    a_.resize(d_ * stride_);
+    b_.resize(d_ * stride_);
     status_.resize(rows);
     failed_.assign(rows, 0);
-    sampler_.draw(first, rows, Purpose::sampling, a_.data(), rows);
-    sampler_.draw(first, rows, Purpose::pick_freeze, b_.data(), rows);
+    sampler_.draw(at.begin, stride_, Purpose::sampling, a_.data(), stride_);
+    sampler_.draw(at.begin, stride_, Purpose::pick_freeze, b_.data(), stride_);
   }
 
   /// Outputs [output * rows + i] of the unchanged row; `freezing`: run_frozen follows.
   void run(bool from_a, std::vector<double>& y, bool freezing) {
     y.resize(outputs_ * rows_);
-    for (std::size_t v = 0; v < d_; ++v) pointers_[v] = &(from_a ? a_ : b_)[v * rows_];
+    for (std::size_t v = 0; v < d_; ++v) pointers_[v] = column(from_a ? a_ : b_, v);
     const auto run = freezing ? &propagation::Experiment::run_and_keep : &propagation::Experiment::run;
     (e_.*run)(pointers_, rows_, workspace_, y.data(), status_.data());
     note_failed();
@@ -104,10 +107,10 @@ public:
     y.resize(factors_.size() * outputs_ * rows_);
     const std::vector<double>&x = from_a ? a_ : b_, &other = from_a ? b_ : a_;
     for (std::size_t f = 0; f < factors_.size(); ++f) {
-      for (const std::size_t v : factors_[f].variates) pointers_[v] = &other[v * rows_];
+      for (const std::size_t v : factors_[f].variates) pointers_[v] = column(other, v);
       e_.run_changed(pointers_, columns_of_[f], rows_, workspace_, &y[f * outputs_ * rows_], status_.data());
       note_failed();
-      for (const std::size_t v : factors_[f].variates) pointers_[v] = &x[v * rows_];
+      for (const std::size_t v : factors_[f].variates) pointers_[v] = column(x, v);
     }
   }
 
@@ -125,6 +128,8 @@ public:
   const std::vector<std::uint8_t>& failed() const { return failed_; }
 
 private:
+  const double* column(const std::vector<double>& x, std::size_t v) const { return &x[v * stride_ + offset_]; }
+
   void note_failed() {
     const std::uint8_t* __restrict status = status_.data();
     std::uint8_t* __restrict failed = failed_.data();
@@ -135,7 +140,7 @@ private:
   const propagation::Experiment& e_;
   const quantities::Sampler& sampler_;
   const std::vector<Factor>& factors_;
-  std::size_t d_, outputs_, rows_ = 0;
+  std::size_t d_, outputs_, rows_ = 0, offset_ = 0, stride_ = 0;
   std::vector<double> a_, b_;
   std::vector<const double*> pointers_;
   std::vector<std::vector<std::size_t>> columns_of_;
@@ -246,9 +251,9 @@ propagation::Work pick_freeze_work(const propagation::Experiment& e, std::uint64
   const RowUnits units = design->units();
   const std::size_t sums = design->no_sums(0).sums(), d = factors(e).size();
   return {.name = "sobol",
-          .units = units.units,
-          .values = sums * units.groups,
-          .runs = units.rows_per_unit * (mirrored ? 2 * d + 2 : d + 2),
+          .units = units.groups,
+          .values = sums,
+          .runs = units.per_group * (mirrored ? 2 * d + 2 : d + 2),
           .together = units.together(e.model().block),
           .compute = [design, units, sums](std::uint64_t first, std::uint64_t last, double* out) {
             const PickFreezeSums s = design->sums(units.row(first), units.row(last));
@@ -259,7 +264,7 @@ propagation::Work pick_freeze_work(const propagation::Experiment& e, std::uint64
 PickFreezeSums run_pick_freeze(const propagation::Experiment& e, std::uint64_t n, bool mirrored,
                                const propagation::Workers& workers) {
   const RowUnits units = units_of_rows(n);
-  PickFreezeSums s(units.rows, e.outputs().size(), factors(e).size(), units.all_groups(), mirrored);
+  PickFreezeSums s(units.rows, e.outputs().size(), factors(e).size(), units.groups, mirrored);
   workers.run(pick_freeze_work(e, n, mirrored), [&](std::uint64_t first, std::uint64_t last, const double* values) {
     units.by_sum(values, s.sums(), first, last, s.values);
   });

@@ -55,7 +55,7 @@ private:
 };
 
 /// The design's model runs: n rows, rounded up to a multiple of 64, take n (d + 2) runs for d factors, n (2 d + 2) if
-/// mirrored. A unit is one group of rows, or as many as 64 rows hold, and gives their sums.
+/// mirrored. A unit is one group of rows and gives its sums.
 /// @param mirrored with the rows BA_i, which second-order indices need
 propagation::Work pick_freeze_work(const propagation::Experiment& experiment, std::uint64_t n, bool mirrored);
 

@@ -26,7 +26,7 @@ propagation::Work morris_work(const propagation::Experiment& experiment, std::ui
 /// Intervals: 95 %, from the standard errors of nu and V. A point without value or derivative is dropped and counted.
 std::vector<Dgsm> derivative_measures(const propagation::Experiment& experiment, std::uint64_t points,
                                       const std::vector<Summary>& summaries, const propagation::Workers& workers);
-/// Its model runs; a unit is 64 points, at which draws can begin.
+/// Its model runs; a unit is eight points.
 propagation::Work dgsm_work(const propagation::Experiment& experiment, std::uint64_t points);
 
 /// The scenario's tables: changes of all outputs when one quantity moves up or down by its step, at every reading at

@@ -48,9 +48,11 @@ public:
   BlockOfRows(const propagation::Experiment& e, const ConditionalDraws& draws, const Game& game, std::uint64_t first,
               std::size_t rows)
       : whole(game.outputs.size() * rows), added(game.outputs.size() * game.players.size() * rows), failed(rows, 0),
-        e_(e), draws_(draws), game_(game), first_(first), rows_(rows), block_(draws.draw(first, rows)),
-        y_(e.outputs().size() * rows), other_(y_.size()), status_(rows) {
-    for (std::size_t v = 0; v < e.plan().variates.size(); ++v) pointers_.push_back(&block_.mixed[v * rows]);
+        e_(e), draws_(draws), game_(game), first_(first), offset_(Aligned(first).offset), rows_(rows),
+        block_(draws.draw(Aligned(first).begin, offset_ + rows)), y_(e.outputs().size() * rows), other_(y_.size()),
+        status_(rows) {
+    for (std::size_t v = 0; v < e.plan().variates.size(); ++v)
+      pointers_.push_back(&block_.mixed[v * block_.rows + offset_]);
     run(y_); // mixed is A as drawn
   }
 
@@ -63,7 +65,7 @@ public:
       std::size_t size = 0;
       for (std::size_t i = 0; i < d; ++i)
         if (set >> i & 1) frozen[game_.players[i]] = true, ++size;
-      draws_.mix(block_, frozen, 0, rows_);
+      draws_.mix(block_, frozen, offset_, rows_);
       run(other_);
       for (std::size_t k = 0; k < game_.outputs.size(); ++k) {
         const std::vector<double> w = unexplained(k);
@@ -88,7 +90,7 @@ public:
         const auto player = [&](std::size_t s) { return order[s][backwards ? d - step : step - 1]; };
         for (std::size_t s = 0; s < strips; ++s) {
           if (step > 0) frozen[s][game_.players[player(s)]] = true;
-          draws_.mix(block_, frozen[s], s * rows_per_order, rows_per_order);
+          draws_.mix(block_, frozen[s], offset_ + s * rows_per_order, rows_per_order);
         }
         if (step < d) run(other_);
         for (std::size_t k = 0; k < game_.outputs.size(); ++k) {
@@ -135,7 +137,7 @@ private:
   const ConditionalDraws& draws_;
   const Game& game_;
   std::uint64_t first_;
-  std::size_t rows_;
+  std::size_t offset_, rows_;
   ConditionalDraws::Block block_;
   std::vector<double> y_, other_;
   std::vector<std::uint8_t> status_;
@@ -184,12 +186,12 @@ propagation::Work work_of(const propagation::Experiment& e, const Game& game,
                           std::shared_ptr<const ConditionalDraws> draws, const RowUnits& units, std::size_t number) {
   const std::size_t d = game.players.size(), sums = Sums(game, 0).sums();
   return {.name = "shapley " + std::to_string(number),
-          .units = units.units,
-          .values = sums * units.groups,
-          .runs = units.rows_per_unit * (d <= most_for_all_subsets ? std::uint64_t{1} << d : 2 * d),
+          .units = units.groups,
+          .values = sums,
+          .runs = units.per_group * (d <= most_for_all_subsets ? std::uint64_t{1} << d : 2 * d),
           .together = units.together(std::max<std::size_t>(e.model().block, most_rows / 4)),
           .compute = [&e, game, draws, units, sums](std::uint64_t first, std::uint64_t last, double* out) {
-            Sums s(game, static_cast<std::size_t>(last - first) * units.groups);
+            Sums s(game, static_cast<std::size_t>(last - first));
             play(e, *draws, game, units, units.row(first), units.row(last), s);
             units.by_unit(s.values, sums, last - first, out);
           }};
@@ -236,7 +238,7 @@ std::vector<Shapley> shapley_effects(const propagation::Experiment& e, std::uint
   std::vector<Shapley> results;
   for (const auto& output : e.outputs()) results.push_back({output, units.rows, 0, {}});
   for_games(e, units, [&](const Game& game, const propagation::Work& work) {
-    Sums sums(game, units.all_groups());
+    Sums sums(game, units.groups);
     workers.run(work, [&](std::uint64_t first, std::uint64_t last, const double* values) {
       units.by_sum(values, sums.sums(), first, last, sums.values);
     });

@@ -23,8 +23,7 @@ inline constexpr std::size_t most_for_all_subsets = 8;
 /// Intervals (95 %) and verdicts as for Sobol' indices. A row in which any run failed is dropped whole and counted.
 std::vector<Shapley> shapley_effects(const propagation::Experiment& experiment, std::uint64_t rows,
                                      const propagation::Workers& workers);
-/// Its model runs: one work for each set of outputs that the same variates reach. A unit is one group of rows, or as
-/// many as 64 rows hold.
+/// Its model runs: one work for each set of outputs that the same variates reach. A unit is one group of rows.
 std::vector<propagation::Work> shapley_work(const propagation::Experiment& experiment, std::uint64_t rows);
 
 } // namespace gumshoe::analysis

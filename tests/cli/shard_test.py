@@ -129,8 +129,8 @@ class Shards(InFolder):
                 (self.folder / "starts").unlink()
                 files, said = self.make(scenario, 3)
                 runs = [int(re.search(r"about (\d+) model runs of studies", s)[1]) for s in said.values()]
-                # Units are not divided; the largest take 64 rows of 8 runs.
-                self.assertLess(max(runs) - min(runs), 2 * 512)
+                # Units are not divided; the largest take 8 rows of 8 runs.
+                self.assertLess(max(runs) - min(runs), 2 * 64)
                 # Each shard tries the scenario (2 starts) and, of Sobol' indices, runs 64 rows for their origin.
                 self.assertLess(sum(starts(self.folder)), points + 3 * (2 + 64) + 64)
                 (self.folder / "starts").unlink()
