@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/studies.h"
 #include "base/interrupt.h"
 #include "cli/command.h"
 #include "cli/requested_choice.h"
@@ -40,11 +41,12 @@ void require_same_design(const propagation::Experiment& experiment, const store:
     throw InputError("the shards have another design than " + run.scenario_file,
                      "design hash " + shards.identity.design_hash + ", the scenario has " + run.design_hash,
                      "make the shards again");
+  const std::vector<propagation::Work> studies = analysis::studies_of(experiment);
   for (std::size_t k = 0; k < shards.files.size(); ++k) {
-    const ShardPart part(experiment, {k + 1, shards.of});
+    const propagation::Shard shard{k + 1, shards.of};
     const store::Identity there = store::read_identity(shards.files[k]).identity;
-    if (there.samples != part.samples.size() ||
-        there.study_values != propagation::values_of(part.portions, part.studies))
+    if (there.samples != shard.samples(run.samples).size() ||
+        there.study_values != propagation::values_of(shard.portions(studies), studies))
       throw InputError(shards.files[k] + ": the shard has another number of samples than its part of the run", "",
                        "make the shard again");
   }

@@ -103,39 +103,35 @@ void print_shard(const store::Identity& identity, const ShardPart& part, std::ui
 propagation::Workers workers_of(const propagation::Experiment& experiment, const ShardSet& shards, int threads) {
   /// Units [first, last) of a work stand in a file from number `at` on.
   struct Place {
-    std::size_t file;
+    std::string file;
     std::uint64_t first, last, at;
   };
-  struct Kept {
-    std::vector<store::StoredStudyValues> files;
-    std::map<std::string, std::vector<Place>> places; ///< by work, in the order of its units
-  };
-  const auto kept = std::make_shared<Kept>();
+  const auto kept = std::make_shared<std::map<std::string, std::vector<Place>>>(); // by work, in the order of its units
+  const std::vector<propagation::Work> studies = analysis::studies_of(experiment);
   for (std::uint64_t k = 1; k <= shards.of; ++k) {
-    const ShardPart part(experiment, {k, shards.of});
-    if (part.portions.empty()) continue;
     std::uint64_t at = 0;
-    for (const auto& [work, first, last] : part.portions) {
-      kept->places[part.studies[work].name].push_back({kept->files.size(), first, last, at});
-      at += (last - first) * part.studies[work].values;
+    for (const auto& [work, first, last] : propagation::Shard{k, shards.of}.portions(studies)) {
+      (*kept)[studies[work].name].push_back({shards.files[k - 1], first, last, at});
+      at += (last - first) * studies[work].values;
     }
-    kept->files.emplace_back(shards.files[k - 1]);
   }
   propagation::Workers workers(threads);
   workers.known = [kept](const propagation::Work& work, const propagation::TakeUnits& take) {
-    const auto found = kept->places.find(work.name);
-    if (found == kept->places.end()) return false;
+    const auto found = kept->find(work.name);
+    if (found == kept->end()) return false;
     constexpr std::uint64_t most = std::uint64_t{1} << 18; // 2 MiB
     const std::uint64_t step = std::max<std::uint64_t>(1, most / work.values);
     std::vector<double> values;
-    for (const Place& place : found->second)
+    for (const Place& place : found->second) {
+      const store::StoredStudyValues file(place.file); // one open at a time: there may be thousands
       for (std::uint64_t first = place.first; first < place.last; first += step) {
         stop_if_interrupted();
         const std::uint64_t last = std::min(place.last, first + step);
         values.resize((last - first) * work.values);
-        kept->files[place.file].read(place.at + (first - place.first) * work.values, values.size(), values.data());
+        file.read(place.at + (first - place.first) * work.values, values.size(), values.data());
         take(first, last, values.data());
       }
+    }
     return true;
   };
   return workers;

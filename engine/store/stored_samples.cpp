@@ -61,7 +61,6 @@ StoredStudyValues::StoredStudyValues(const std::string& path) : impl_(std::make_
 }
 
 StoredStudyValues::~StoredStudyValues() = default;
-StoredStudyValues::StoredStudyValues(StoredStudyValues&&) noexcept = default;
 
 void StoredStudyValues::read(std::uint64_t first, std::uint64_t count, double* values) const {
   impl_->values.read(0, first, count, values);

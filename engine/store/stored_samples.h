@@ -33,7 +33,6 @@ public:
   /// Throws InputError if the file has none. require_sound_samples() checks them.
   explicit StoredStudyValues(const std::string& path);
   ~StoredStudyValues();
-  StoredStudyValues(StoredStudyValues&&) noexcept;
   void read(std::uint64_t first, std::uint64_t count, double* values) const;
 
 private:
