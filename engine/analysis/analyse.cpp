@@ -9,6 +9,7 @@
 #include "analysis/circular.h"
 #include "analysis/comparison.h"
 #include "analysis/conformity.h"
+#include "analysis/differences.h"
 #include "analysis/failures.h"
 #include "analysis/fit.h"
 #include "analysis/given_data.h"
@@ -166,7 +167,8 @@ InputDraws input_draws(const propagation::Experiment& e) {
 
 } // namespace
 
-Results analyse(const propagation::Experiment& e, const Samples& samples, int threads) {
+Results analyse(const propagation::Experiment& e, const Samples& samples, const propagation::Workers& workers) {
+  const int threads = workers.threads;
   Results r;
   const auto& s = e.scenario();
   describe(r, e);
@@ -180,10 +182,14 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, int th
   r.budgets.resize(outputs);
   r.validations.resize(outputs);
   const std::size_t measurands = e.measurands().size();
-  propagation::parallel_for(outputs / measurands, threads, [&](std::size_t reading) {
-    std::ranges::move(budgets(e, reading * measurands, s.analysis.coverage_probability),
+  const auto budgets_at = [&](std::size_t reading, const propagation::Workers& who) {
+    std::ranges::move(budgets(e, reading * measurands, s.analysis.coverage_probability, who),
                       r.budgets.begin() + static_cast<std::ptrdiff_t>(reading * measurands));
-  });
+  };
+  if (stencils_at_estimates(e)) // model runs, which all workers share
+    for (std::size_t reading = 0; reading < outputs / measurands; ++reading) budgets_at(reading, workers);
+  else
+    propagation::parallel_for(outputs / measurands, threads, [&](std::size_t reading) { budgets_at(reading, 1); });
   side_by_side(outputs, samples.size, threads, [&](std::size_t o) {
     Room room;
     const Column values = held(samples.values(o), room);
@@ -203,11 +209,11 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, int th
                       "provides no derivatives");
   if (s.analysis.sensitivity.sobol > 0) {
     progress::stage("Sobol' indices");
-    r.sensitivities = sobol_indices(e, s.analysis.sensitivity.sobol, threads);
+    r.sensitivities = sobol_indices(e, s.analysis.sensitivity.sobol, workers);
     add_monte_carlo_column(r);
   }
   if (!virtual_experiment)
-    for (const std::string& note : scale_point_notes(e)) r.notes.push_back(note);
+    for (const std::string& note : scale_point_notes(e, workers)) r.notes.push_back(note);
   if (const double least = 1 / (1 - s.analysis.coverage_probability), enough = 1e4 * least,
       trials = static_cast<double>(samples.size);
       s.run.adaptive.rule == scenario::StoppingRule::fixed && trials >= least && trials < enough)
@@ -224,14 +230,14 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, int th
     progress::stage(name);
     result = compute();
   };
-  study(wanted.shapley > 0, "Shapley effects", r.shapley, [&] { return shapley_effects(e, wanted.shapley, threads); });
+  study(wanted.shapley > 0, "Shapley effects", r.shapley, [&] { return shapley_effects(e, wanted.shapley, workers); });
   study(wanted.given_data > 0, "indices from given data", r.given_data,
         [&] { return given_data_indices(e, samples.values, wanted.given_data, threads); });
   study(wanted.morris > 0, "screening by elementary effects", r.morris,
-        [&] { return morris_screening(e, wanted.morris, threads); });
+        [&] { return morris_screening(e, wanted.morris, workers); });
   study(wanted.dgsm > 0, "derivative-based measures", r.dgsm,
-        [&] { return derivative_measures(e, wanted.dgsm, r.summaries, threads); });
-  study(true, "one at a time", r.one_at_a_time, [&] { return one_at_a_time(e); });
+        [&] { return derivative_measures(e, wanted.dgsm, r.summaries, workers); });
+  study(true, "one at a time", r.one_at_a_time, [&] { return one_at_a_time(e, workers); });
   study(true, "joint regions", r.joint, [&] { return joint_regions(e, samples, r.summaries, r.budgets, threads); });
   study(true, "covariance of the fit", r.fits, [&] { return fit_covariances(e, samples); });
   study(true, "circular statistics", r.circular, [&] { return circular_summaries(e, samples.values, threads); });

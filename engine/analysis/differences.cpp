@@ -3,6 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <span>
+
+#include "analysis/gum.h"
+#include "analysis/reach.h"
 
 namespace gumshoe::analysis {
 namespace {
@@ -144,21 +149,85 @@ Derivatives of_values(const Value& f, const Places& at, const std::vector<double
   return d;
 }
 
-} // namespace
-
-std::vector<Derivatives> differences(const propagation::Experiment& e, std::size_t reading, const Point& point,
-                                     bool second) {
-  const std::vector<double> h = steps(e, reading, point);
-  const Places at = places(h, second);
-  const propagation::Responses all = e.outputs_at(reading, point, at.stencil.points);
+std::vector<Derivatives> of_responses(const propagation::Responses& all, const Places& at, const std::vector<double>& h,
+                                      std::size_t measurands, bool second) {
   std::vector<Derivatives> out;
-  for (std::size_t m = 0; m < e.measurands().size(); ++m) {
+  for (std::size_t m = 0; m < measurands; ++m) {
     const auto f = [&](std::size_t i) {
       return all.status[i] == Status::ok ? all.at(i, m) : std::numeric_limits<double>::quiet_NaN();
     };
     out.push_back(of_values(f, at, h, second));
   }
   return out;
+}
+
+/// Whether a budget at a reading may have terms of second order: for few and independent inputs. Correlated inputs may
+/// move only one of several measurands.
+bool needs_second(const propagation::Experiment& e, std::size_t reading) {
+  std::vector<double> u(e.columns_at(reading).size(), 0.0);
+  std::vector<bool> reaches(e.plan().variates.size(), false);
+  for (const auto& [v, q] : variates_reaching(e, reading)) {
+    u[q] = std::hypot(u[q], e.plan().variates[v].distribution.standard_uncertainty());
+    reaches[v] = true;
+  }
+  for (const auto& group : e.plan().copulas)
+    if (e.measurands().size() == 1 &&
+        std::ranges::count_if(group.variates, [&](std::size_t v) { return reaches[v]; }) > 1)
+      return false;
+  return has_second_order(u);
+}
+
+} // namespace
+
+std::vector<Derivatives> differences(const propagation::Experiment& e, std::size_t reading, const Point& point,
+                                     bool second) {
+  const std::vector<double> h = steps(e, reading, point);
+  const Places at = places(h, second);
+  return of_responses(e.outputs_at(reading, point, at.stencil.points), at, h, e.measurands().size(), second);
+}
+
+bool stencils_at_estimates(const propagation::Experiment& e) {
+  return !e.has_gradient() && e.scenario().method != scenario::Method::virtual_experiment;
+}
+
+propagation::Work stencil_work(const propagation::Experiment& e, std::size_t reading) {
+  const auto places_there =
+      std::make_shared<const Places>(places(steps(e, reading, e.point(reading)), needs_second(e, reading)));
+  const std::size_t rows = e.measurands().size(), liked = e.model().block;
+  constexpr std::size_t few = 256;
+  return {.name = "derivatives " + std::to_string(reading),
+          .units = places_there->stencil.points.size(),
+          .values = rows + 1,
+          .together = liked > 0 ? liked : few,
+          .compute = [&e, reading, places_there, rows](std::uint64_t first, std::uint64_t last, double* out) {
+            const auto some = std::span(places_there->stencil.points).subspan(first, last - first);
+            const propagation::Responses r = e.outputs_at(reading, e.point(reading), some);
+            for (std::size_t i = 0; i < some.size(); ++i) {
+              out[i * (rows + 1)] = static_cast<double>(r.status[i]);
+              std::copy_n(&r.values[i * rows], rows, &out[i * (rows + 1) + 1]);
+            }
+          }};
+}
+
+propagation::Responses stencil_values(const propagation::Experiment& e, std::size_t reading,
+                                      const propagation::Workers& workers) {
+  propagation::Responses all{e.measurands().size(), {}, {}};
+  workers.run(stencil_work(e, reading), [&](std::uint64_t first, std::uint64_t last, const double* values) {
+    for (std::uint64_t i = first; i < last; ++i, values += all.rows + 1) {
+      all.status.push_back(static_cast<Status>(values[0]));
+      all.values.insert(all.values.end(), values + 1, values + 1 + all.rows);
+    }
+  });
+  return all;
+}
+
+std::vector<Derivatives> differences_from(const propagation::Responses& values, const propagation::Experiment& e,
+                                          std::size_t reading, bool second) {
+  const Point point = e.point(reading);
+  const std::vector<double> h = steps(e, reading, point);
+  const Places at = places(h, second);
+  if (values.status.size() < at.stencil.points.size()) return differences(e, reading, point, second);
+  return of_responses(values, at, h, e.measurands().size(), second);
 }
 
 } // namespace gumshoe::analysis

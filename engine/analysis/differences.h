@@ -1,6 +1,7 @@
 #pragma once
 /// Derivatives by differences, for models that have none of their own (a plugin, a command).
 #include "analysis/derivatives.h"
+#include "propagation/work.h"
 
 namespace gumshoe::analysis {
 
@@ -11,5 +12,18 @@ namespace gumshoe::analysis {
 /// @return by measurand
 std::vector<Derivatives> differences(const propagation::Experiment& experiment, std::size_t reading,
                                      const std::vector<double>& point, bool second);
+
+/// True if the derivatives at the estimates are differences: the budgets take stencils of model runs.
+bool stencils_at_estimates(const propagation::Experiment& experiment);
+/// The runs of the stencil at the estimates of a reading (Output::reading), with the points of second derivatives if a
+/// budget needs them. A unit is one point.
+propagation::Work stencil_work(const propagation::Experiment& experiment, std::size_t reading);
+/// What they give. The stencil of first derivatives comes first.
+propagation::Responses stencil_values(const propagation::Experiment& experiment, std::size_t reading,
+                                      const propagation::Workers& workers);
+/// The same as differences() at the estimates, from these values. Where they have no points of second derivatives, the
+/// model runs.
+std::vector<Derivatives> differences_from(const propagation::Responses& values,
+                                          const propagation::Experiment& experiment, std::size_t reading, bool second);
 
 } // namespace gumshoe::analysis

@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "analysis/combine.h"
-#include "analysis/derivatives.h"
+#include "analysis/differences.h"
 #include "analysis/reach.h"
 #include "analysis/tolerance.h"
 
@@ -32,17 +33,20 @@ std::string family_name(quantities::Family family) {
 }
 
 /// The second derivatives are as many as the square of that, each at the cost of the model.
-constexpr std::size_t most_second_order = 100;
+constexpr std::ptrdiff_t most_second_order = 100;
 
 /// Derivatives of all measurands of one reading at the estimates; the higher ones are found when first asked for.
 class Slopes {
 public:
-  Slopes(const propagation::Experiment& e, std::size_t reading) : e_(e), reading_(reading), point_(e.point(reading)) {}
+  Slopes(const propagation::Experiment& e, std::size_t reading, const propagation::Workers& workers)
+      : e_(e), reading_(reading), point_(e.point(reading)) {
+    if (stencils_at_estimates(e)) stencil_ = stencil_values(e, reading, workers);
+  }
 
   const std::vector<double>& point() const { return point_; }
   std::size_t reading() const { return reading_; }
-  const Derivatives& first(std::size_t measurand) { return of(first_, point_, false)[measurand]; }
-  const Derivatives& second(std::size_t measurand) { return of(second_, point_, true)[measurand]; }
+  const Derivatives& first(std::size_t measurand) { return at_estimates(first_, false)[measurand]; }
+  const Derivatives& second(std::size_t measurand) { return at_estimates(second_, true)[measurand]; }
   /// First derivatives where quantity q is shifted by that much, which is always the same.
   const Derivatives& shifted(std::size_t measurand, std::size_t q, double by) {
     std::vector<double> at = point_;
@@ -52,6 +56,10 @@ public:
 
 private:
   using All = std::vector<Derivatives>;
+  const All& at_estimates(All& known, bool second) {
+    if (known.empty() && stencil_) known = differences_from(*stencil_, e_, reading_, second);
+    return of(known, point_, second);
+  }
   const All& of(All& known, const std::vector<double>& at, bool second) {
     if (known.empty()) known = differentiate(e_, reading_, at, second);
     return known;
@@ -60,6 +68,7 @@ private:
   const propagation::Experiment& e_;
   std::size_t reading_;
   std::vector<double> point_;
+  std::optional<propagation::Responses> stencil_; ///< where derivatives are differences
   All first_, second_;
   std::map<std::pair<std::size_t, bool>, All> shifted_;
 };
@@ -70,9 +79,8 @@ private:
 /// c_i.
 void second_order(Budget& b, Slopes& slopes, std::size_t measurand, const std::vector<double>& u) {
   const std::size_t n = u.size();
-  const auto uncertain = static_cast<std::size_t>(std::ranges::count_if(u, [](double x) { return x > 0; }));
   Derivatives at;
-  if (uncertain <= most_second_order) at = slopes.second(measurand);
+  if (has_second_order(u)) at = slopes.second(measurand);
   if (at.second.empty()) { // a kink by some quantity that is exact here: first order holds, second does not
     b.second_order_uncertainty = b.second_order_bias = nan;
     return;
@@ -194,13 +202,18 @@ Budget budget_of(const propagation::Experiment& e, std::size_t output, double co
 
 } // namespace
 
+bool has_second_order(const std::vector<double>& u) {
+  return std::ranges::count_if(u, [](double x) { return x > 0; }) <= most_second_order;
+}
+
 Budget budget(const propagation::Experiment& e, std::size_t output, double coverage_probability) {
-  Slopes slopes(e, e.outputs()[output].reading);
+  Slopes slopes(e, e.outputs()[output].reading, 1);
   return budget_of(e, output, coverage_probability, slopes);
 }
 
-std::vector<Budget> budgets(const propagation::Experiment& e, std::size_t first, double coverage_probability) {
-  Slopes slopes(e, e.outputs()[first].reading);
+std::vector<Budget> budgets(const propagation::Experiment& e, std::size_t first, double coverage_probability,
+                            const propagation::Workers& workers) {
+  Slopes slopes(e, e.outputs()[first].reading, workers);
   std::vector<Budget> out;
   for (std::size_t m = 0; m < e.measurands().size(); ++m)
     out.push_back(budget_of(e, first + m, coverage_probability, slopes));

@@ -2,6 +2,7 @@
 /// The GUM uncertainty framework: JCGM 100 clause 5 and Annex G, with exact derivatives.
 #include "analysis/results.h"
 #include "propagation/experiment.h"
+#include "propagation/work.h"
 
 namespace gumshoe::analysis {
 
@@ -13,7 +14,10 @@ namespace gumshoe::analysis {
 Budget budget(const propagation::Experiment& experiment, std::size_t output, double coverage_probability);
 /// The budgets of all measurands of one reading, whose derivatives are found together.
 /// @param first  the first of its outputs: a multiple of the number of measurands
-std::vector<Budget> budgets(const propagation::Experiment& experiment, std::size_t first, double coverage_probability);
+std::vector<Budget> budgets(const propagation::Experiment& experiment, std::size_t first, double coverage_probability,
+                            const propagation::Workers& workers = 1);
+/// Whether terms of second order are found for quantities with these standard uncertainties: for at most 100 of them.
+bool has_second_order(const std::vector<double>& standard_uncertainties);
 
 /// JCGM 101 clause 8: compares d_low and d_high with the numerical tolerance delta of u at `digits`. The Monte Carlo
 /// tolerance is two standard errors of an end. The result is undecided below 100 / (1 - p) trials, if that tolerance

@@ -1,10 +1,12 @@
+#include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "analysis/reach.h"
 #include "analysis/screening.h"
+#include "analysis/units.h"
 #include "base/error.h"
 #include "base/hash.h"
-#include "propagation/propagate.h"
 #include "random/streams.h"
 
 namespace gumshoe::analysis {
@@ -42,70 +44,98 @@ MorrisRow row_of(const std::string& input, const std::vector<double>& effects) {
   return row;
 }
 
+constexpr std::size_t points_per_unit = 8; // what a model runs at once
+
+/// Steps of the variates, and their effects. Thread-safe.
+class Steps {
+public:
+  explicit Steps(const propagation::Experiment& e) : e_(e), d_(e.plan().variates.size()), outputs_(e.outputs().size()) {
+    for (const auto& v : e.plan().variates) {
+      quantile_.emplace_back(v.distribution);
+      scale_.push_back(scale_of(v.distribution));
+    }
+  }
+
+  /// Numbers of a point: the status, then the effect of every variate on every output, [output][variate]; NaN where it
+  /// did not move.
+  std::size_t numbers() const { return 1 + outputs_ * d_; }
+
+  /// n points, a multiple of 8, from `first` on: out[point * numbers() + k].
+  void effects(std::uint64_t first, std::size_t n, double* out) const {
+    const auto& variates = e_.plan().variates;
+    propagation::Workspace w;
+    std::vector<double> u(n), base(d_ * n), moved(d_ * n), y(outputs_ * n), z(outputs_ * n);
+    std::vector<std::uint8_t> status(n), failed(n, 0);
+    std::vector<const double*> pointers(d_);
+    for (std::size_t v = 0; v < d_; ++v) {
+      random::Stream stream{hash64("morris", variates[v].key), 0, 0, 0};
+      random::uniforms(stream, first, n, u.data());
+      quantile_[v](u.data(), &base[v * n], n);
+      for (double& x : u) x += x < 0.5 ? 0.5 : -0.5;
+      quantile_[v](u.data(), &moved[v * n], n);
+      pointers[v] = &base[v * n];
+    }
+    const auto model = [&](double* values) {
+      e_.run(pointers, n, w, values, status.data());
+      for (std::size_t i = 0; i < n; ++i) failed[i] |= status[i];
+    };
+    model(y.data());
+    for (std::size_t v = 0; v < d_; ++v) {
+      pointers[v] = &moved[v * n];
+      model(z.data());
+      pointers[v] = &base[v * n];
+      for (std::size_t i = 0; i < n; ++i) {
+        const double step = (moved[v * n + i] - base[v * n + i]) / scale_[v];
+        const bool moves = step != 0 && !std::isnan(step);
+        for (std::size_t o = 0; o < outputs_; ++o)
+          out[i * numbers() + 1 + o * d_ + v] = moves ? (z[o * n + i] - y[o * n + i]) / step : nan;
+      }
+    }
+    for (std::size_t i = 0; i < n; ++i) out[i * numbers()] = failed[i];
+  }
+
+private:
+  const propagation::Experiment& e_;
+  std::size_t d_, outputs_;
+  std::vector<quantities::QuantileFunction> quantile_;
+  std::vector<double> scale_;
+};
+
 } // namespace
 
-std::size_t screening_block(const propagation::Experiment& e, std::uint64_t points) {
-  const std::uint64_t dear = std::clamp<std::uint64_t>(e.model().block / 8 * 8, 64, 8192);
-  return static_cast<std::size_t>(std::min(dear, (points + 7) / 8 * 8));
+propagation::Work morris_work(const propagation::Experiment& e, std::uint64_t trajectories) {
+  const auto steps = std::make_shared<const Steps>(e);
+  const std::size_t unit = points_per_unit * steps->numbers();
+  return {.name = "morris",
+          .units = (trajectories + points_per_unit - 1) / points_per_unit,
+          .values = unit,
+          .runs = points_per_unit * (1 + e.plan().variates.size()),
+          .together = points_in_a_call(e) / points_per_unit,
+          .compute = [steps](std::uint64_t first, std::uint64_t last, double* out) {
+            steps->effects(first * points_per_unit, static_cast<std::size_t>(last - first) * points_per_unit, out);
+          }};
 }
 
-std::vector<Morris> morris_screening(const propagation::Experiment& e, std::uint64_t trajectories, int threads) {
+std::vector<Morris> morris_screening(const propagation::Experiment& e, std::uint64_t trajectories,
+                                     const propagation::Workers& workers) {
   const auto& plan = e.plan();
   if (!plan.copulas.empty())
     throw InputError("analysis.sensitivity.morris: the inputs are correlated",
                      "an elementary effect moves one input alone",
                      "remove the correlation, or use given_data or shapley");
-  const std::size_t d = plan.variates.size(), outputs = e.outputs().size(), block = screening_block(e, trajectories);
-  std::vector<quantities::QuantileFunction> quantile;
-  std::vector<double> scale;
-  for (const auto& v : plan.variates) {
-    quantile.emplace_back(v.distribution);
-    scale.push_back(scale_of(v.distribution));
-  }
-  std::vector<std::vector<double>> effects(outputs * d, std::vector<double>(trajectories, nan));
-  std::vector<std::uint8_t> failed(trajectories, 0);
-  propagation::parallel_for((trajectories + block - 1) / block, threads, [&](std::size_t b) {
-    const std::size_t first = b * block, rows = std::min<std::size_t>(block, trajectories - first);
-    propagation::Workspace w;
-    std::vector<double> u(block), base(d * block), moved(d * block), y(outputs * block), z(outputs * block);
-    std::vector<std::uint8_t> status(block);
-    std::vector<const double*> pointers(d);
-    for (std::size_t v = 0; v < d; ++v) {
-      random::Stream stream{hash64("morris", plan.variates[v].key), 0, 0, 0};
-      random::uniforms(stream, first, block, u.data());
-      quantile[v](u.data(), &base[v * block], block);
-      for (double& x : u) x += x < 0.5 ? 0.5 : -0.5;
-      quantile[v](u.data(), &moved[v * block], block);
-      pointers[v] = &base[v * block];
-    }
-    const auto model = [&](double* out) {
-      e.run(pointers, block, w, out, status.data());
-      for (std::size_t i = 0; i < rows; ++i) failed[first + i] |= status[i];
-    };
-    model(y.data());
-    for (std::size_t v = 0; v < d; ++v) {
-      pointers[v] = &moved[v * block];
-      model(z.data());
-      pointers[v] = &base[v * block];
-      for (std::size_t i = 0; i < rows; ++i) {
-        const double step = (moved[v * block + i] - base[v * block + i]) / scale[v];
-        if (step == 0 || std::isnan(step)) continue;
-        for (std::size_t o = 0; o < outputs; ++o)
-          effects[o * d + v][first + i] = (z[o * block + i] - y[o * block + i]) / step;
-      }
-    }
-  });
-
+  const std::size_t d = plan.variates.size(), outputs = e.outputs().size(), numbers = 1 + outputs * d;
+  const std::vector<double> values = workers.values(morris_work(e, trajectories));
+  const auto failed = [&](std::size_t i) { return values[i * numbers] != 0; };
   std::vector<Morris> results;
   for (std::size_t o = 0; o < outputs; ++o) {
     Morris m;
     m.output = e.outputs()[o];
     m.trajectories = trajectories;
-    for (const std::uint8_t f : failed) m.dropped += f != 0;
+    for (std::size_t i = 0; i < trajectories; ++i) m.dropped += failed(i);
     for (const Reach& reach : variates_reaching(e, m.output.reading)) {
-      auto& of_one = effects[o * d + reach.variate];
+      std::vector<double> of_one(trajectories);
       for (std::size_t i = 0; i < trajectories; ++i)
-        if (failed[i]) of_one[i] = nan;
+        of_one[i] = failed(i) ? nan : values[i * numbers + 1 + o * d + reach.variate];
       m.rows.push_back(row_of(plan.variates[reach.variate].name, of_one));
     }
     results.push_back(m);

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <bit>
+#include <memory>
+#include <mutex>
 
+#include "analysis/units.h"
 #include "base/instruction_set.h"
-#include "propagation/propagate.h"
 
 extern "C" {
 extern const gumshoe::analysis::PickFreezeKernels gumshoe_pick_freeze_sse2, gumshoe_pick_freeze_avx2,
@@ -27,10 +29,6 @@ const PickFreezeKernels& pick_freeze_kernels() {
   }
 #endif
   return gumshoe_pick_freeze_sse2;
-}
-
-std::size_t rows_per_group(std::uint64_t rows) {
-  return std::clamp<std::size_t>(std::bit_ceil((rows + 1023) / 1024), 8, 1024);
 }
 
 std::vector<std::vector<bool>> reaching_variates(const propagation::Experiment& e) {
@@ -66,8 +64,6 @@ bool reaches(const std::vector<bool>& variates, const Factor& factor) {
 
 namespace {
 
-constexpr std::size_t rows_per_block = 1024; // a multiple of every group's rows
-
 /// One block of rows: its draws, its outputs, and which rows failed. Its buffers serve one block after the other.
 class Block {
 public:
@@ -85,19 +81,22 @@ public:
   }
 
   void draw(std::uint64_t first, std::size_t rows) {
+    const Aligned at(first);
     rows_ = rows;
-    a_.resize(d_ * rows);
-    b_.resize(d_ * rows);
+    offset_ = at.offset;
+    stride_ = at.offset + rows;
+    a_.resize(d_ * stride_);
+    b_.resize(d_ * stride_);
     status_.resize(rows);
     failed_.assign(rows, 0);
-    sampler_.draw(first, rows, Purpose::sampling, a_.data(), rows);
-    sampler_.draw(first, rows, Purpose::pick_freeze, b_.data(), rows);
+    sampler_.draw(at.begin, stride_, Purpose::sampling, a_.data(), stride_);
+    sampler_.draw(at.begin, stride_, Purpose::pick_freeze, b_.data(), stride_);
   }
 
   /// Outputs [output * rows + i] of the unchanged row; `freezing`: run_frozen follows.
   void run(bool from_a, std::vector<double>& y, bool freezing) {
     y.resize(outputs_ * rows_);
-    for (std::size_t v = 0; v < d_; ++v) pointers_[v] = &(from_a ? a_ : b_)[v * rows_];
+    for (std::size_t v = 0; v < d_; ++v) pointers_[v] = column(from_a ? a_ : b_, v);
     const auto run = freezing ? &propagation::Experiment::run_and_keep : &propagation::Experiment::run;
     (e_.*run)(pointers_, rows_, workspace_, y.data(), status_.data());
     note_failed();
@@ -108,10 +107,10 @@ public:
     y.resize(factors_.size() * outputs_ * rows_);
     const std::vector<double>&x = from_a ? a_ : b_, &other = from_a ? b_ : a_;
     for (std::size_t f = 0; f < factors_.size(); ++f) {
-      for (const std::size_t v : factors_[f].variates) pointers_[v] = &other[v * rows_];
+      for (const std::size_t v : factors_[f].variates) pointers_[v] = column(other, v);
       e_.run_changed(pointers_, columns_of_[f], rows_, workspace_, &y[f * outputs_ * rows_], status_.data());
       note_failed();
-      for (const std::size_t v : factors_[f].variates) pointers_[v] = &x[v * rows_];
+      for (const std::size_t v : factors_[f].variates) pointers_[v] = column(x, v);
     }
   }
 
@@ -129,6 +128,8 @@ public:
   const std::vector<std::uint8_t>& failed() const { return failed_; }
 
 private:
+  const double* column(const std::vector<double>& x, std::size_t v) const { return &x[v * stride_ + offset_]; }
+
   void note_failed() {
     const std::uint8_t* __restrict status = status_.data();
     std::uint8_t* __restrict failed = failed_.data();
@@ -139,7 +140,7 @@ private:
   const propagation::Experiment& e_;
   const quantities::Sampler& sampler_;
   const std::vector<Factor>& factors_;
-  std::size_t d_, outputs_, rows_ = 0;
+  std::size_t d_, outputs_, rows_ = 0, offset_ = 0, stride_ = 0;
   std::vector<double> a_, b_;
   std::vector<const double*> pointers_;
   std::vector<std::vector<std::size_t>> columns_of_;
@@ -152,82 +153,120 @@ struct Outputs {
   std::vector<double> a, b, c, d;
 };
 
-/// Means of the outputs over the first 64 rows: from there, squares do not drown the variance.
-std::vector<double> origins(const propagation::Experiment& e, const quantities::Sampler& sampler,
-                            const std::vector<Factor>& factors) {
-  constexpr std::size_t n = 64;
-  const std::size_t outputs = e.outputs().size();
-  std::vector<double> y, origin(outputs);
-  Block block(e, sampler, factors);
-  block.draw(0, n);
-  block.run(true, y, false);
-  for (std::size_t o = 0; o < outputs; ++o) {
-    double sum = 0, valid = 0;
-    for (std::size_t i = 0; i < n; ++i)
-      if (block.failed()[i] == 0) sum += y[o * n + i], ++valid;
-    if (valid > 0) origin[o] = sum / valid;
+/// The design of one experiment. Thread-safe.
+class Design {
+public:
+  Design(const propagation::Experiment& e, std::uint64_t n, bool mirrored)
+      : e_(e), units_(units_of_rows(n)), mirrored_(mirrored), factors_(factors(e)), reaching_(reaching_variates(e)),
+        sampler_(e.plan(), quantities::PointSet::monte_carlo, units_.rows) {}
+
+  const RowUnits& units() const { return units_; }
+  PickFreezeSums no_sums(std::uint64_t rows) const {
+    return {rows, e_.outputs().size(), factors_.size(), (rows + units_.per_group - 1) / units_.per_group, mirrored_};
   }
-  return origin;
-}
 
-} // namespace
+  /// Sums of the rows [first, last).
+  PickFreezeSums sums(std::uint64_t first, std::uint64_t last) const {
+    std::call_once(once_, [&] { origin_ = origins(); });
+    PickFreezeSums s = no_sums(last - first);
+    Block block(e_, sampler_, factors_);
+    Outputs y;
+    for (std::uint64_t at = first; at < last; at += most_rows)
+      add(s, block, y, at, std::min<std::uint64_t>(most_rows, last - at), (at - first) / units_.per_group);
+    return s;
+  }
 
-PickFreezeSums run_pick_freeze(const propagation::Experiment& e, const std::vector<Factor>& factors, std::uint64_t n,
-                               bool mirrored, int threads) {
-  const auto& plan = e.plan();
-  n = (n + 63) / 64 * 64;
-  const std::size_t d = factors.size(), outputs = e.outputs().size(), per_group = rows_per_group(n);
-  PickFreezeSums s{n, outputs, d, (n + per_group - 1) / per_group, mirrored, {}, {}, {}};
-  s.base_values.resize(outputs * base_sums * s.groups);
-  s.frozen_values.resize(outputs * d * s.kept() * s.groups);
-  if (mirrored) s.pair_values.resize(outputs * s.pairs() * s.groups);
+private:
+  /// Means of the outputs over the first 64 rows: from there, squares do not drown the variance.
+  std::vector<double> origins() const {
+    constexpr std::size_t n = 64;
+    const std::size_t outputs = e_.outputs().size();
+    std::vector<double> y, origin(outputs);
+    Block block(e_, sampler_, factors_);
+    block.draw(0, n);
+    block.run(true, y, false);
+    for (std::size_t o = 0; o < outputs; ++o) {
+      double sum = 0, valid = 0;
+      for (std::size_t i = 0; i < n; ++i)
+        if (block.failed()[i] == 0) sum += y[o * n + i], ++valid;
+      if (valid > 0) origin[o] = sum / valid;
+    }
+    return origin;
+  }
 
-  const auto reaching = reaching_variates(e);
-  const quantities::Sampler sampler(plan, quantities::PointSet::monte_carlo, n);
-  const std::vector<double> origin = origins(e, sampler, factors);
-  const PickFreezeKernels& kernels = pick_freeze_kernels();
-
-  const auto run_block = [&](Block& block, Outputs& y, std::uint64_t first, std::size_t rows) {
-    const std::size_t group = first / per_group, groups = (rows + per_group - 1) / per_group;
+  /// Rows [first, first + rows) into the sums of the groups from `group` on.
+  void add(PickFreezeSums& s, Block& block, Outputs& y, std::uint64_t first, std::size_t rows,
+           std::size_t group) const {
+    const std::size_t outputs = e_.outputs().size(), per_group = units_.per_group,
+                      groups = (rows + per_group - 1) / per_group;
     block.draw(first, rows);
-    block.run(false, y.b, mirrored);
-    if (mirrored) block.run_frozen(false, y.d);
+    block.run(false, y.b, mirrored_);
+    if (mirrored_) block.run_frozen(false, y.d);
     block.run(true, y.a, true);
     block.run_frozen(true, y.c);
     if (block.any_failed())
-      for (auto* values : {&y.a, &y.b, &y.c, &y.d}) block.silence_failed(*values, origin);
+      for (auto* values : {&y.a, &y.b, &y.c, &y.d}) block.silence_failed(*values, origin_);
     for (std::size_t o = 0; o < outputs; ++o) {
-      const double *a = &y.a[o * rows], *b = &y.b[o * rows], from = origin[o];
+      const double *a = &y.a[o * rows], *b = &y.b[o * rows], from = origin_[o];
       const auto c = [&](std::size_t v) { return &y.c[(v * outputs + o) * rows]; };
       const auto mirror = [&](std::size_t v) { return &y.d[(v * outputs + o) * rows]; };
-      kernels.base(a, b, from, rows, per_group, s.base(o, 0) + group, s.groups);
+      kernels_.base(a, b, from, rows, per_group, s.base(o, 0) + group, s.groups);
       for (std::size_t g = 0; g < groups; ++g) {
         const auto begin = block.failed().begin() + static_cast<std::ptrdiff_t>(g * per_group);
         const auto end = block.failed().begin() + static_cast<std::ptrdiff_t>(std::min(rows, (g + 1) * per_group));
         s.base(o, base_n)[group + g] = static_cast<double>(std::count(begin, end, std::uint8_t{0}));
       }
-      for (std::size_t v = 0; v < d; ++v) {
-        if (!reaches(reaching[o], factors[v])) continue;
-        kernels.frozen(a, b, c(v), from, rows, per_group, s.frozen(o, v, 0) + group, s.groups);
-        if (!mirrored) continue;
-        kernels.mirrored(a, b, c(v), mirror(v), from, rows, per_group, s.frozen(o, v, 0) + group, s.groups);
+      for (std::size_t v = 0; v < factors_.size(); ++v) {
+        if (!reaches(reaching_[o], factors_[v])) continue;
+        kernels_.frozen(a, b, c(v), from, rows, per_group, s.frozen(o, v, 0) + group, s.groups);
+        if (!mirrored_) continue;
+        kernels_.mirrored(a, b, c(v), mirror(v), from, rows, per_group, s.frozen(o, v, 0) + group, s.groups);
         for (std::size_t i = 0; i < v; ++i)
-          if (reaches(reaching[o], factors[i]))
-            kernels.pair(a, b, c(i), mirror(i), c(v), mirror(v), rows, per_group, s.pair(o, i, v) + group);
+          if (reaches(reaching_[o], factors_[i]))
+            kernels_.pair(a, b, c(i), mirror(i), c(v), mirror(v), rows, per_group, s.pair(o, i, v) + group);
       }
     }
-  };
+  }
 
-  // A task is a run of blocks, so that buffers are used again; fixed blocks, so that tasks change no bits.
-  const std::size_t blocks = (n + rows_per_block - 1) / rows_per_block;
-  const std::size_t tasks = std::max(std::min<std::size_t>(blocks, 16), blocks / 8);
-  propagation::parallel_for(tasks, threads, [&](std::size_t task) {
-    Block block(e, sampler, factors);
-    Outputs y;
-    for (std::size_t at = task * blocks / tasks; at < (task + 1) * blocks / tasks; ++at) {
-      const std::uint64_t first = at * rows_per_block;
-      run_block(block, y, first, std::min<std::uint64_t>(rows_per_block, n - first));
-    }
+  const propagation::Experiment& e_;
+  RowUnits units_;
+  bool mirrored_;
+  std::vector<Factor> factors_;
+  std::vector<std::vector<bool>> reaching_;
+  quantities::Sampler sampler_;
+  const PickFreezeKernels& kernels_ = pick_freeze_kernels();
+  mutable std::once_flag once_; ///< processes that are given all sums need no origin
+  mutable std::vector<double> origin_;
+};
+
+} // namespace
+
+PickFreezeSums::PickFreezeSums(std::uint64_t rows_, std::size_t outputs_, std::size_t factors_, std::size_t groups_,
+                               bool mirrored_)
+    : rows(rows_), outputs(outputs_), factors(factors_), groups(groups_), mirrored(mirrored_),
+      values(sums() * groups_) {}
+
+propagation::Work pick_freeze_work(const propagation::Experiment& e, std::uint64_t n, bool mirrored) {
+  const auto design = std::make_shared<const Design>(e, n, mirrored);
+  const RowUnits units = design->units();
+  const std::size_t sums = design->no_sums(0).sums(), d = factors(e).size();
+  return {.name = "sobol",
+          .units = units.groups,
+          .values = sums,
+          .runs = units.per_group * (mirrored ? 2 * d + 2 : d + 2),
+          .together = units.together(e.model().block),
+          .compute = [design, units, sums](std::uint64_t first, std::uint64_t last, double* out) {
+            const PickFreezeSums s = design->sums(units.row(first), units.row(last));
+            units.by_unit(s.values, sums, last - first, out);
+          }};
+}
+
+PickFreezeSums run_pick_freeze(const propagation::Experiment& e, std::uint64_t n, bool mirrored,
+                               const propagation::Workers& workers) {
+  const RowUnits units = units_of_rows(n);
+  PickFreezeSums s(units.rows, e.outputs().size(), factors(e).size(), units.groups, mirrored);
+  workers.run(pick_freeze_work(e, n, mirrored), [&](std::uint64_t first, std::uint64_t last, const double* values) {
+    units.by_sum(values, s.sums(), first, last, s.values);
   });
   return s;
 }

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/derivatives.h"
+#include "analysis/differences.h"
 #include "base/units.h"
 
 namespace gumshoe::analysis {
@@ -14,15 +14,20 @@ bool has_own_zero(const std::string& unit, const std::string& si_unit) { return 
 
 } // namespace
 
-std::vector<std::string> scale_point_notes(const propagation::Experiment& e) {
+std::vector<std::string> scale_point_notes(const propagation::Experiment& e, const propagation::Workers& workers) {
   std::vector<std::string> notes;
   const auto& quantities = e.scenario().quantities;
   const std::size_t measurands = e.measurands().size();
+  std::vector<Derivatives> all;
   for (std::size_t m = 0; m < measurands && m < e.outputs().size(); ++m) {
     const auto& output = e.outputs()[m];
     if (!has_own_zero(output.unit, output.si_unit)) continue;
     const auto point = e.point(output.reading);
-    const Derivatives d = differentiate(e, output.reading, m, point, false);
+    if (all.empty())
+      all = stencils_at_estimates(e)
+                ? differences_from(stencil_values(e, output.reading, workers), e, output.reading, false)
+                : differentiate(e, output.reading, point, false);
+    const Derivatives& d = all[m];
     const auto& columns = e.columns_at(output.reading);
     double weight = 0;
     bool any = false;
@@ -33,9 +38,10 @@ std::vector<std::string> scale_point_notes(const propagation::Experiment& e) {
       any = true;
     }
     if (!any || std::isnan(weight) || std::fabs(weight - 1) < 1e-6) continue;
-    notes.push_back(fmt::format("{}: its inputs in {} enter with weights that add up to {:.4g}, not to 1, so that it is no "
-                                "point on this scale; state a difference of temperatures in K",
-                                output.measurand, output.unit, weight));
+    notes.push_back(
+        fmt::format("{}: its inputs in {} enter with weights that add up to {:.4g}, not to 1, so that it is no "
+                    "point on this scale; state a difference of temperatures in K",
+                    output.measurand, output.unit, weight));
   }
   return notes;
 }

@@ -2,12 +2,9 @@
 /// Cheap studies of many inputs: Morris' elementary effects, derivative-based measures, one at a time.
 #include "analysis/results.h"
 #include "propagation/experiment.h"
+#include "propagation/work.h"
 
 namespace gumshoe::analysis {
-
-/// Points that a study gives to the model in one call: many where a call is dear (a program), never many more than the
-/// study has. The results do not depend on it.
-std::size_t screening_block(const propagation::Experiment& experiment, std::uint64_t points);
 
 /// Elementary effects (Morris 1991) of every variate on every output it reaches, in a radial design (Campolongo,
 /// Saltelli, Cariboni 2011): from each of `trajectories` random base points every variate in turn is moved by half of
@@ -18,7 +15,9 @@ std::size_t screening_block(const propagation::Experiment& experiment, std::uint
 /// A base point at which any run failed is dropped whole and counted. NaN where a variate never moves.
 /// Throws InputError for correlated inputs: one cannot be moved alone.
 std::vector<Morris> morris_screening(const propagation::Experiment& experiment, std::uint64_t trajectories,
-                                     int threads);
+                                     const propagation::Workers& workers);
+/// Its model runs; a unit is eight base points.
+propagation::Work morris_work(const propagation::Experiment& experiment, std::uint64_t trajectories);
 
 /// nu_i = E[(df/dx_i)^2] at `points` independent draws of all inputs, by exact derivatives where the model has them; a
 /// model without any, or a virtual experiment as a whole, by central differences over a thousandth of a standard
@@ -26,11 +25,16 @@ std::vector<Morris> morris_screening(const propagation::Experiment& experiment, 
 /// of poincare_constant(), V the variance of the run's summary; NaN for correlated inputs, where it does not hold.
 /// Intervals: 95 %, from the standard errors of nu and V. A point without value or derivative is dropped and counted.
 std::vector<Dgsm> derivative_measures(const propagation::Experiment& experiment, std::uint64_t points,
-                                      const std::vector<Summary>& summaries, int threads);
+                                      const std::vector<Summary>& summaries, const propagation::Workers& workers);
+/// Its model runs; a unit is eight points.
+propagation::Work dgsm_work(const propagation::Experiment& experiment, std::uint64_t points);
 
 /// The scenario's tables: changes of all outputs when one quantity moves up or down by its step, at every reading at
 /// once, the others at their estimates. In a virtual experiment the true value moves, not what the evaluation
 /// believes: changes of the error.
-std::vector<OneAtATimeTable> one_at_a_time(const propagation::Experiment& experiment);
+std::vector<OneAtATimeTable> one_at_a_time(const propagation::Experiment& experiment,
+                                           const propagation::Workers& workers = 1);
+/// Their model runs, a work for each table; a unit is one point.
+std::vector<propagation::Work> one_at_a_time_work(const propagation::Experiment& experiment);
 
 } // namespace gumshoe::analysis

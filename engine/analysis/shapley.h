@@ -2,6 +2,7 @@
 /// Shapley effects: shares of the variance for dependent inputs.
 #include "analysis/results.h"
 #include "propagation/experiment.h"
+#include "propagation/work.h"
 
 namespace gumshoe::analysis {
 
@@ -20,6 +21,9 @@ inline constexpr std::size_t most_for_all_subsets = 8;
 /// rows one random order, taken forwards and backwards; 2 n d model runs. Outputs that the same variates reach share
 /// their runs.
 /// Intervals (95 %) and verdicts as for Sobol' indices. A row in which any run failed is dropped whole and counted.
-std::vector<Shapley> shapley_effects(const propagation::Experiment& experiment, std::uint64_t rows, int threads);
+std::vector<Shapley> shapley_effects(const propagation::Experiment& experiment, std::uint64_t rows,
+                                     const propagation::Workers& workers);
+/// Its model runs: one work for each set of outputs that the same variates reach. A unit is one group of rows.
+std::vector<propagation::Work> shapley_work(const propagation::Experiment& experiment, std::uint64_t rows);
 
 } // namespace gumshoe::analysis

@@ -128,7 +128,8 @@ private:
 
 } // namespace
 
-std::vector<Sensitivity> sobol_indices(const propagation::Experiment& e, std::uint64_t n, int threads) {
+std::vector<Sensitivity> sobol_indices(const propagation::Experiment& e, std::uint64_t n,
+                                       const propagation::Workers& workers) {
   const auto& plan = e.plan();
   if (!plan.copulas.empty())
     throw InputError("analysis.sensitivity: the inputs are correlated",
@@ -136,7 +137,7 @@ std::vector<Sensitivity> sobol_indices(const propagation::Experiment& e, std::ui
                      "sensitivity = { shapley = 4096 }");
   const bool second_order = e.scenario().analysis.sensitivity.second_order;
   const auto groups = factors(e);
-  PickFreezeSums sums = run_pick_freeze(e, groups, n, second_order, threads);
+  PickFreezeSums sums = run_pick_freeze(e, n, second_order, workers);
   const auto reaching = reaching_variates(e);
   std::vector<Sensitivity> results;
   for (std::size_t o = 0; o < sums.outputs; ++o) {

@@ -4,11 +4,13 @@
 
 #include "analysis/results.h"
 #include "propagation/experiment.h"
+#include "propagation/work.h"
 
 namespace gumshoe::analysis {
 
-/// Indices of every output by every factor (pick_freeze.h) that reaches it, from n rows (rounded up to a multiple of 64) of the
-/// design of pick_freeze.h; n (d + 2) model runs, or n (2 d + 2) with `second_order`. V is the variance of y.
+/// Indices of every output by every factor (pick_freeze.h) that reaches it, from n rows (rounded up to a multiple of
+/// 64) of the design of pick_freeze.h; n (d + 2) model runs, or n (2 d + 2) with `second_order`. V is the variance of
+/// y.
 ///   total:        Jansen 1999, mean (y_A - y_AB_i)^2 / 2 V.
 ///   first order:  correlation of y_B and y_AB_i, which share only x_i (Martinez 2011; Janon 2014), with
 ///                 (1 - total) corr(y_A, y_B), which is zero in the mean, subtracted as a control variate.
@@ -22,6 +24,7 @@ namespace gumshoe::analysis {
 /// Verdicts: index_verdict.h. An output that does not vary has no indices: NaN, "not converged".
 /// A row in which any run failed is dropped whole and counted.
 /// Throws InputError for correlated inputs: the indices are defined for independent ones.
-std::vector<Sensitivity> sobol_indices(const propagation::Experiment& experiment, std::uint64_t n, int threads);
+std::vector<Sensitivity> sobol_indices(const propagation::Experiment& experiment, std::uint64_t n,
+                                       const propagation::Workers& workers);
 
 } // namespace gumshoe::analysis

@@ -9,6 +9,7 @@
 #include "analysis/shapley.h"
 #include "analysis/sobol.h"
 #include "base/units.h"
+#include "choice/candidates.h"
 #include "choice/figures.h"
 #include "choice/setup.h"
 
@@ -53,15 +54,15 @@ private:
   const Figures& asked(const Candidate& c) const { return choice::asked(c, choose_.worst_case); }
 
   void report(const char* what) const {
-    if (settings_.progress) settings_.progress({what, 0, 0});
+    if (settings_.progress) settings_.progress(what);
   }
 
   Candidate afresh(const Setup& setup, Candidate c) {
     report("fresh run");
     c.time = setup.seconds();
     c.readings = setup.experiment().scenario().readings.size();
-    return search_.judged(std::move(c),
-                          errors({&setup}, choose_.confirm_samples, quantities::Purpose::fresh, settings_.threads)[0]);
+    const Errors e = errors({&setup}, choose_.confirm_samples, quantities::Purpose::fresh, settings_.workers.threads);
+    return search_.judged(std::move(c), figures_of(s_, e[0]));
   }
   Candidate afresh(std::size_t candidate) {
     ++r_.tried;
@@ -146,9 +147,9 @@ private:
     if (choose_.sobol == 0 || e.plan().variates.empty()) return;
     report("budget at the optimum");
     if (e.plan().copulas.empty())
-      r_.sensitivity = analysis::sobol_indices(e, choose_.sobol, settings_.threads).at(setup.output());
+      r_.sensitivity = analysis::sobol_indices(e, choose_.sobol, settings_.workers.threads).at(setup.output());
     else
-      r_.shapley = analysis::shapley_effects(e, choose_.sobol, settings_.threads).at(setup.output());
+      r_.shapley = analysis::shapley_effects(e, choose_.sobol, settings_.workers.threads).at(setup.output());
   }
 
   void compare() {

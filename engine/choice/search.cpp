@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
-#include "choice/figures.h"
+#include "choice/candidates.h"
 #include "choice/setup.h"
-#include "propagation/propagate.h"
 
 namespace gumshoe::choice {
 
@@ -15,7 +15,6 @@ namespace {
 
 using scenario::Knob;
 constexpr std::size_t most_centres = 8, most_moves = 16;
-constexpr std::uint64_t values_at_once = 1u << 24; ///< errors kept in memory
 
 } // namespace
 
@@ -35,13 +34,9 @@ std::vector<double> Search::resolution() const {
   return out;
 }
 
-Candidate Search::judged(Candidate c, const std::vector<std::vector<double>>& errors) const {
-  const double p = scenario_.analysis.coverage_probability;
-  const bool corrected = choose_.definition == scenario::Choose::Definition::corrected;
-  c.average = average_figures(errors[0], p, choose_.definition);
-  c.cases.clear();
-  for (std::size_t k = 1; k < errors.size(); ++k)
-    c.cases.push_back(case_figures(errors[k], p, corrected ? c.average.mean : 0));
+Candidate Search::judged(Candidate c, std::vector<Figures> figures) const {
+  c.average = figures[0];
+  c.cases.assign(figures.begin() + 1, figures.end());
   c.worst = 0; // NaN, no value at all, is the worst
   for (std::size_t k = 1; k < c.cases.size(); ++k)
     if (!(c.cases[k].expanded <= c.cases[c.worst].expanded)) c.worst = k;
@@ -62,50 +57,52 @@ bool Search::usable(const Candidate& c) const {
   return good(c.average) && (!choose_.worst_case || std::ranges::all_of(c.cases, good));
 }
 
-void Search::attempt(const std::vector<Place>& places) {
-  std::vector<std::unique_ptr<Setup>> setups;
-  std::vector<Candidate> fresh;
-  const auto run = [&] {
-    std::vector<const Setup*> pointers;
-    for (const auto& s : setups) pointers.push_back(s.get());
-    const Errors e = errors(pointers, choose_.samples, quantities::Purpose::sampling, settings_.threads);
-    const std::size_t first = candidates_.size();
-    candidates_.resize(first + fresh.size());
-    propagation::parallel_for(fresh.size(), settings_.threads,
-                              [&](std::size_t i) { candidates_[first + i] = judged(std::move(fresh[i]), e[i]); });
-    setups.clear();
-    fresh.clear();
-  };
-  const std::uint64_t each = choose_.samples * (1 + choose_.cases.size());
-  std::uint64_t done = 0;
-  for (const Place& place : places) {
-    ++done;
-    std::vector<double> values;
-    for (std::size_t v = 0; v < place.size(); ++v) values.push_back(grid_.value(v, place[v]));
-    const auto [it, unknown] = known_.try_emplace(values);
-    if (!unknown) continue;
-    try {
-      setups.push_back(std::make_unique<Setup>(scenario_, settings_of(values)));
-    } catch (const InputError& error) {
-      ++skipped_;
-      const Problem& p = error.problems().front();
-      const std::string why = p.what + (p.why.empty() ? "" : " (" + p.why + ")");
-      if (std::ranges::find(skipped_why_, why) == skipped_why_.end()) skipped_why_.push_back(why);
-      continue;
-    }
-    it->second = candidates_.size() + fresh.size();
-    Candidate c;
-    c.values = std::move(values);
-    c.time = setups.back()->seconds();
-    c.readings = setups.back()->experiment().scenario().readings.size();
-    c.round = round_;
-    fresh.push_back(std::move(c));
-    places_.push_back(place);
-    if (fresh.size() * each < values_at_once && fresh.size() < 64) continue;
-    run();
-    if (settings_.progress) settings_.progress({fmt::format("round {}", round_), done, places.size()});
+std::vector<double> Search::values_at(const Place& place) const {
+  std::vector<double> values;
+  for (std::size_t v = 0; v < place.size(); ++v) values.push_back(grid_.value(v, place[v]));
+  return values;
+}
+
+/// Says why a place cannot be.
+void Search::skip(const Place& place) {
+  ++skipped_;
+  try {
+    Setup(scenario_, settings_at(choose_, place));
+  } catch (const InputError& error) {
+    const Problem& p = error.problems().front();
+    const std::string why = p.what + (p.why.empty() ? "" : " (" + p.why + ")");
+    if (std::ranges::find(skipped_why_, why) == skipped_why_.end()) skipped_why_.push_back(why);
   }
-  run();
+}
+
+void Search::attempt(const std::vector<Place>& places) {
+  std::vector<Place> fresh;
+  for (const Place& place : places)
+    if (known_.try_emplace(values_at(place)).second) fresh.push_back(place);
+  if (fresh.empty()) return;
+  if (settings_.progress) settings_.progress(fmt::format("round {}", round_));
+  // Few candidates keep all threads busy only if these share each of them.
+  propagation::Workers workers = settings_.workers;
+  const bool few = fresh.size() < 2 * workers.size() && workers.elsewhere.empty();
+  const int inside = std::exchange(workers.threads, few ? 1 : workers.threads);
+  workers.run(assessment_work(scenario_, fresh, few ? inside : 1),
+              [&](std::uint64_t first, std::uint64_t last, const double* values) {
+                for (std::uint64_t i = first; i < last; ++i) {
+                  Assessment a = assessment(scenario_, values + (i - first) * assessment_values(scenario_));
+                  if (!a.possible) {
+                    skip(fresh[i]);
+                    continue;
+                  }
+                  Candidate c;
+                  c.values = values_at(fresh[i]);
+                  c.time = a.time;
+                  c.readings = a.readings;
+                  c.round = round_;
+                  known_[c.values] = candidates_.size();
+                  candidates_.push_back(judged(std::move(c), std::move(a.figures)));
+                  places_.push_back(fresh[i]);
+                }
+              });
 }
 
 std::vector<std::size_t> Search::meeting() const {
@@ -151,7 +148,7 @@ std::vector<Place> Search::centres() const {
 }
 
 void Search::run() {
-  attempt(grid_.coarse());
+  attempt(coarse_places(scenario_));
   if (candidates_.empty())
     throw InputError("choose: no combination of the variables is possible",
                      skipped_why_.empty() ? "" : skipped_why_[0]);

@@ -6,17 +6,14 @@
 
 #include "choice/places.h"
 #include "choice/results.h"
+#include "propagation/work.h"
 #include "scenario/scenario.h"
 
 namespace gumshoe::choice {
 
-struct Progress {
-  std::string what;
-  std::uint64_t done = 0, total = 0;
-};
 struct Settings {
-  int threads = 0;
-  std::function<void(const Progress&)> progress;
+  propagation::Workers workers = 0;
+  std::function<void(const std::string& stage)> progress;
 };
 
 /// All candidates tried so far, each once, with common random numbers: their differences are due to the settings.
@@ -44,11 +41,13 @@ public:
   const std::vector<std::string>& skipped_why() const { return skipped_why_; }
   std::vector<double> resolution() const;
   std::vector<scenario::Setting> settings_of(const std::vector<double>& values) const;
-  /// Figures of a candidate from its errors.
-  Candidate judged(Candidate candidate, const std::vector<std::vector<double>>& errors) const;
+  /// A candidate with these figures (figures_of).
+  Candidate judged(Candidate candidate, std::vector<Figures> figures) const;
 
 private:
   void attempt(const std::vector<Place>& places);
+  void skip(const Place& place);
+  std::vector<double> values_at(const Place& place) const;
   std::vector<Place> centres() const;
   bool usable(const Candidate& c) const;
   const Figures& asked(const Candidate& c) const { return choice::asked(c, choose_.worst_case); }

@@ -1,53 +1,48 @@
 /// `gumshoe choose`: which settings measure within a target expanded uncertainty in the least time?
-#include <iostream>
 #include <memory>
-#include <optional>
 
 #include <fmt/format.h>
 
-#include "base/progress.h"
-#include "choice/choose.h"
+#include "base/version.h"
+#include "choice/candidates.h"
 #include "cli/command.h"
-#include "cli/print_choice.h"
-#include "cli/progress_line.h"
-#include "store/choice_file.h"
-#include "store/origin.h"
+#include "cli/ranks.h"
+#include "cli/requested_choice.h"
 
 namespace gumshoe::cli {
 
 namespace {
 
 struct Options {
-  std::string file, out, format = "text";
-  std::optional<std::string> samples, seed;
+  std::string file, out, shard, format = "text";
+  RunRequest request;
   int threads = 0;
   bool force = false;
 };
 
+/// What fixes the figures of the candidates, for ranks to compare.
+std::string same_choice(const scenario::Scenario& s) {
+  return fmt::format("scenario {}, seed {}, {} samples, version {}", s.hash, s.run.seed, s.choose->samples, version);
+}
+
+/// What a rank other than the first does: it assesses candidates.
+Offer offer(const Options& o) {
+  const auto s = std::make_shared<const scenario::Scenario>(scenario_of_choice(o.file, o.request));
+  const propagation::Work grid = choice::assessment_work(*s, choice::coarse_places(*s));
+  return {same_choice(*s), {{}, [s, grid](const std::string& name) {
+                              return name == grid.name ? grid : choice::assessment_work(*s, name);
+                            }}};
+}
+
 ExitCode choose(const Options& o) {
-  scenario::Scenario s = scenario::read(o.file, catalogue());
-  if (!s.choose)
-    throw InputError(
-        {{{s.file}, "[choose] is missing", "it defines the variables and the target", "[choose] target = \"...\""}});
-  if (o.samples) s.choose->samples = whole_number(*o.samples, "--samples", 200, "1e6");
-  if (o.seed) s.run.seed = whole_number(*o.seed, "--seed", 0, "1");
-  const std::string out = !o.out.empty() ? o.out : default_output(o.file, ".choose.h5");
-  require_different(out, o.file);
-  const store::Claim claim = store::claim_result(out, store::origin_of(s, "choose", o.force)); // before the work
-  if (!claim.remark.empty()) std::cerr << claim.remark << '\n';
-  ProgressLine line;
-  const StudyProgress studies(line);
-  const choice::Result result =
-      choice::choose(s, {o.threads, [](const choice::Progress& p) {
-                           progress::stage(p.total > 0 ? fmt::format("{}, {} of {} candidates", p.what, p.done, p.total)
-                                                       : p.what);
-                         }});
-  line.clear();
-  store::Draft draft;
-  store::write_choice(draft, claim, s, result);
-  draft.publish();
-  print_choice(result, out, o.format);
-  return ExitCode::done;
+  auto ranks = o.shard.empty() ? propagation::Ranks::join() : nullptr; // shards share nothing
+  if (ranks && !ranks->first()) return help_first_rank(*ranks, o.threads, [&] { return offer(o); });
+  const scenario::Scenario s = scenario_of_choice(o.file, o.request);
+  const std::string out = choice_output(o.out, o.file, o.shard);
+  if (!o.shard.empty()) return choose_shard(s, o.shard, o.request, out, o.threads, o.force);
+  propagation::Workers workers(ranks ? ranks->threads(o.threads) : o.threads);
+  if (ranks) workers.elsewhere = ranks->begin(same_choice(s)).units;
+  return complete_choice(s, workers, out, o.format, o.force);
 }
 
 } // namespace
@@ -57,13 +52,16 @@ void add_choose(CLI::App& app, Action& action) {
       app.add_subcommand("choose", "finds the fastest settings that reach a target expanded uncertainty ([choose])");
   const auto o = std::make_shared<Options>();
   command->add_option("scenario", o->file, "scenario file (TOML) with [choose]")->required();
-  command->add_option("--samples", o->samples, "samples per candidate, instead of the scenario's, e.g. 1e4");
-  command->add_option("--seed", o->seed, "instead of the scenario's");
+  command->add_option("--samples", o->request.samples, "samples per candidate, instead of the scenario's, e.g. 1e4");
+  command->add_option("--seed", o->request.seed, "instead of the scenario's");
   command->add_option("--threads", o->threads, "0: all processors")->check(CLI::Range(0, 1024));
+  auto* shard = command->add_option("--shard", o->shard,
+                                    "3/16: the third of sixteen parts of the coarse grid, for gumshoe merge");
   command->add_option("--out", o->out, "result file (default: results/SCENARIO.choose.h5)");
   add_force(*command, o->force);
   add_external(*command);
   command->add_option("--format", o->format, "text, csv or json")->check(CLI::IsMember({"text", "csv", "json"}));
+  shard->excludes("--format"); // it has no result to print
   command->callback([=, &action] { action = [=] { return choose(*o); }; });
 }
 

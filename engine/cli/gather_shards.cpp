@@ -9,7 +9,7 @@
 
 #include "base/version.h"
 #include "cli/command.h"
-#include "cli/shards.h"
+#include "cli/requested_choice.h"
 
 namespace gumshoe::cli {
 
@@ -21,6 +21,7 @@ struct Common {
   std::string (*of)(const store::Identity&);
 };
 constexpr Common common[] = {
+    {"command", [](const store::Identity& i) { return i.command; }},
     {"scenario", [](const store::Identity& i) { return i.scenario_file + ", hash " + i.scenario_hash; }},
     {"version", [](const store::Identity& i) { return i.version; }},
     {"seed", [](const store::Identity& i) { return std::to_string(i.seed); }},
@@ -34,7 +35,7 @@ std::vector<std::string> common_of(const store::Identity& i) {
   std::vector<std::string> all;
   for (const Common& c : common) all.push_back(c.of(i));
   // The same scenario may lie elsewhere on another machine.
-  all[0] = i.scenario_hash;
+  all[1] = i.scenario_hash;
   return all;
 }
 
@@ -56,8 +57,8 @@ std::string quoted(const std::string& word) {
 
 /// The command that makes a shard, or finishes it.
 std::string command_of(const store::Identity& run, const std::string& shard, const std::string& out) {
-  return fmt::format("gumshoe run {}{}{} --shard {} --out {}\n", quoted(run.scenario_file),
-                     run.options.empty() ? "" : " ", run.options, shard, quoted(out));
+  return fmt::format("gumshoe {} {}{}{} --shard {} --out {}\n", run.command.substr(0, run.command.find(' ')),
+                     quoted(run.scenario_file), run.options.empty() ? "" : " ", run.options, shard, quoted(out));
 }
 
 class Gathering {
@@ -127,8 +128,13 @@ void Gathering::refuse_others() {
 }
 
 std::string Gathering::why_useless(const Found& found) const {
-  const auto& [identity, done, complete] = found.stored;
-  if (done < identity.samples) return fmt::format("it is not finished: {} of {} samples", done, identity.samples);
+  const store::Stored& there = found.stored;
+  const store::Identity& shard = there.identity;
+  if (there.samples_done < shard.samples)
+    return fmt::format("it is not finished: {} of {} {}", there.samples_done, shard.samples,
+                       shard.command == choice_shard_command ? "candidates" : "samples");
+  if (there.study_values_done < shard.study_values)
+    return fmt::format("it is not finished: {} of {} values of studies", there.study_values_done, shard.study_values);
   try {
     store::require_sound_samples(found.file);
     return "";

@@ -51,7 +51,7 @@ int main(int argc, char** argv) {
   cli::add_help(app, action);
   try {
     app.parse(argc, argv);
-    if (launch && !app.got_subcommand("run")) {
+    if (launch && !app.got_subcommand("run") && !app.got_subcommand("choose")) {
       if (silent) return 0;
       throw InputError("gumshoe " + app.get_subcommands().front()->get_name() + " is the work of one process",
                        "a launcher of MPI started several", "start it without the launcher");

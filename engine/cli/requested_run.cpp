@@ -96,10 +96,10 @@ store::Identity identity_of_run(const propagation::Experiment& experiment) {
 }
 
 ExitCode complete_run(const propagation::Experiment& experiment, store::ResultFile& file,
-                      const analysis::StoppingRecord& stopping, const Begun& begun, const std::string& out, int threads,
-                      PrintOptions print, ProgressLine& line) {
+                      const analysis::StoppingRecord& stopping, const Begun& begun, const std::string& out,
+                      const propagation::Workers& workers, PrintOptions print, ProgressLine& line) {
   const StudyProgress studies(line);
-  analysis::Results results = analysis::analyse(experiment, file.view(), threads);
+  analysis::Results results = analysis::analyse(experiment, file.view(), workers);
   results.stopping = stopping;
   stamp(results, begun);
   analysis::keep_measurands(results, experiment.scenario().analysis.measurands);

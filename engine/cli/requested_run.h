@@ -9,6 +9,7 @@
 #include "cli/print.h"
 #include "cli/progress_line.h"
 #include "propagation/experiment.h"
+#include "propagation/work.h"
 #include "scenario/scenario.h"
 #include "store/result_file.h"
 
@@ -38,7 +39,7 @@ struct Begun {
 
 /// Analyses the samples of the file, which are all there, completes it and prints the result.
 ExitCode complete_run(const propagation::Experiment& experiment, store::ResultFile& file,
-                      const analysis::StoppingRecord& stopping, const Begun& begun, const std::string& out, int threads,
-                      PrintOptions print, ProgressLine& line);
+                      const analysis::StoppingRecord& stopping, const Begun& begun, const std::string& out,
+                      const propagation::Workers& workers, PrintOptions print, ProgressLine& line);
 
 } // namespace gumshoe::cli

@@ -1,16 +1,18 @@
 /// `gumshoe run`: samples, analysis, result file; or one shard of the samples.
+#include <algorithm>
 #include <iostream>
 #include <memory>
 
 #include <fmt/format.h>
 
 #include "analysis/stopping.h"
+#include "analysis/studies.h"
 #include "base/interrupt.h"
 #include "cli/command.h"
+#include "cli/ranks.h"
 #include "cli/requested_run.h"
 #include "cli/shards.h"
 #include "propagation/propagate.h"
-#include "propagation/ranks.h"
 
 namespace gumshoe::cli {
 
@@ -59,64 +61,78 @@ std::string same_run(const store::Identity& i) {
                      i.samples, i.version);
 }
 
-/// A rank other than the first makes samples for it, and says nothing.
-ExitCode help_first_rank(propagation::Ranks& ranks, const Options& o) {
-  const std::optional<std::string> wanted = ranks.awaited();
-  if (!wanted) return ExitCode::done;
-  try {
-    const scenario::Scenario s = scenario_of_run(o.file, o.request);
-    const propagation::Experiment experiment(s);
-    if (const std::string own = same_run(identity_of_run(experiment)); own != *wanted)
-      throw InputError("the ranks have different runs", "one has " + own + ", the first " + *wanted,
-                       "give all machines the same files and options");
-    ranks.serve(experiment, ranks.threads(o.threads));
-  } catch (const std::exception& failure) {
-    ranks.report(failure);
-  }
-  return ExitCode::done;
+/// The run of a rank other than the first.
+struct RankRun {
+  scenario::Scenario scenario;
+  propagation::Experiment experiment;
+  std::vector<propagation::Work> studies;
+  explicit RankRun(const Options& o)
+      : scenario(scenario_of_run(o.file, o.request)), experiment(scenario), studies(analysis::studies_of(experiment)) {}
+};
+
+Offer offer(const Options& o) {
+  const auto run = std::make_shared<const RankRun>(o);
+  return {same_run(identity_of_run(run->experiment)),
+          {propagation::block_maker(run->experiment), [run](const std::string& name) {
+             return *std::ranges::find(run->studies, name, &propagation::Work::name);
+           }}};
+}
+
+/// How far the file has come, in words.
+std::string progress_of(const store::ResultFile& file, const store::Identity& identity) {
+  std::string text = fmt::format("{} of {} samples", file.samples_done(), file.samples());
+  if (file.study_values_done() > 0)
+    text += fmt::format(" and {} of {} values of studies", file.study_values_done(), identity.study_values);
+  return text;
 }
 
 ExitCode run(const Options& o) {
   const Begun begun;
   auto ranks = o.shard.empty() ? propagation::Ranks::join() : nullptr; // shards share nothing
-  if (ranks && !ranks->first()) return help_first_rank(*ranks, o);
+  if (ranks && !ranks->first()) return help_first_rank(*ranks, o.threads, [&] { return offer(o); });
   scenario::Scenario s = scenario_of_run(o.file, o.request);
   const propagation::Experiment experiment(s);
   store::Identity identity = identity_of_run(experiment);
   propagation::RunSettings settings;
-  if (ranks) settings.elsewhere = ranks->begin(same_run(identity));
-  propagation::SampleRange part{0, s.run.samples};
-  if (!o.shard.empty()) part = make_shard(identity, o.shard, o.request);
+  settings.threads = ranks ? ranks->threads(o.threads) : o.threads;
+  propagation::Workers workers(settings.threads);
+  if (ranks) {
+    propagation::Help help = ranks->begin(same_run(identity));
+    settings.elsewhere = std::move(help.blocks);
+    workers.elsewhere = std::move(help.units);
+  }
+  std::optional<ShardPart> part;
+  if (!o.shard.empty()) part = make_shard(experiment, identity, o.shard, o.request);
   const std::string out = !o.out.empty() ? o.out : default_output(o.file, ending_of(identity.shard));
   store::ResultFile file(out, identity, experiment.outputs(), experiment.place_names(), o.force);
   if (!file.remark().empty()) std::cerr << file.remark() << '\n';
 
-  settings.threads = ranks ? ranks->threads(o.threads) : o.threads;
-  settings.first = part.first + file.samples_done();
+  const std::uint64_t begin = part ? part->samples.first : 0;
+  settings.first = begin + file.samples_done();
   settings.stop = &interrupted();
   ProgressLine line;
   settings.progress = [&](const propagation::Progress& p) {
-    line.show("sampling", p.done - part.first, p.total - part.first, "samples/s");
+    line.show("sampling", p.done - begin, p.total - begin, "samples/s");
   };
-  const bool finished = !o.shard.empty() && file.samples_done() == file.samples();
+  const bool finished =
+      part && file.samples_done() == file.samples() && file.study_values_done() == identity.study_values;
   if (file.samples_done() > 0 && !finished)
     std::cerr << fmt::format("resuming after {} samples\n", file.samples_done());
   when_interrupted("The samples so far are kept. Repeat the command to resume.");
   analysis::StoppingRecord stopping;
   const bool whole = keeping(file, out, [&] {
-    return o.shard.empty() ? sample(s, experiment, file, settings, stopping)
-                           : sample_shard(experiment, part, file, settings);
+    if (!part) return sample(s, experiment, file, settings, stopping);
+    const StudyProgress studies(line);
+    return compute_shard(experiment, *part, file, settings);
   });
-  ranks.reset();
   if (!whole) {
     line.clear();
-    std::cerr << fmt::format("interrupted after {} of {} samples. Repeat the command to resume.\n", file.samples_done(),
-                             file.samples());
+    std::cerr << fmt::format("interrupted after {}. Repeat the command to resume.\n", progress_of(file, identity));
     return ExitCode::interrupted;
   }
-  if (o.shard.empty()) return complete_run(experiment, file, stopping, begun, out, o.threads, o.print, line);
+  if (!part) return complete_run(experiment, file, stopping, begun, out, workers, o.print, line);
   line.clear();
-  print_shard(identity, part, s.run.samples, file, out);
+  print_shard(identity, *part, s.run.samples, file, out);
   return ExitCode::done;
 }
 
@@ -130,7 +146,7 @@ void add_run(CLI::App& app, Action& action) {
   command->add_option("--seed", o->request.seed, "instead of the scenario's");
   command->add_option("--threads", o->threads, "0: all processors")->check(CLI::Range(0, 1024));
   auto* shard =
-      command->add_option("--shard", o->shard, "3/16: the third of sixteen parts of the samples, for gumshoe merge");
+      command->add_option("--shard", o->shard, "3/16: the third of sixteen parts of the work, for gumshoe merge");
   command->add_option("--out", o->out, "result file (default: results/SCENARIO.h5)");
   add_force(*command, o->force);
   add_external(*command);

@@ -104,7 +104,7 @@ ForwardModel forward_model_of(const scenario::Scenario& s, const models::Model& 
 
 } // namespace
 
-Experiment::Experiment(const scenario::Scenario& s)
+Experiment::Experiment(const scenario::Scenario& s, Trial trial)
     : scenario_(s), made_(s.made), virtual_(s.method == scenario::Method::virtual_experiment),
       prediction_(s.method == scenario::Method::prediction) {
   const models::Model* model = made_ ? made_.get() : models::find(s.model);
@@ -124,7 +124,7 @@ Experiment::Experiment(const scenario::Scenario& s)
     column_estimates_.push_back(plan_.estimate(c));
     if (joint_) every_column_.push_back(c);
   }
-  for (std::size_t r = 0; r < s.readings.size(); ++r) check_reading(r);
+  for (std::size_t r = 0; r < s.readings.size() && trial == Trial::now; ++r) check_reading(r);
   measurands_ = prediction_ ? model->card->indications : model->card->measurands;
   if (forward_.joint() && !prediction_) {
     measurands_ = forward_.measurands(reading_point(0).data());

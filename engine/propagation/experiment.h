@@ -25,10 +25,13 @@ struct Workspace {
   std::uint64_t first_sample = models::unnumbered; ///< number in the run, for messages
 };
 
+/// Whether a scenario is tried on its model: a program that a user wrote runs for it.
+enum class Trial { now, made_elsewhere };
+
 class Experiment {
 public:
   /// Throws InputError: an unknown model, labels that do not match, values that exclude each other.
-  explicit Experiment(const scenario::Scenario& scenario);
+  explicit Experiment(const scenario::Scenario& scenario, Trial trial = Trial::now);
 
   const scenario::Scenario& scenario() const { return scenario_; }
   const models::Model& model() const { return forward_.model(); }

@@ -24,8 +24,8 @@ struct RunSettings {
   std::vector<MakeBlock> elsewhere; ///< other processes, each of which makes a block at a time besides these threads
 };
 
-/// Samples per block: blocks start at multiples of this, or of Model::block rounded down to a multiple of it. Numbers
-/// do not depend on it.
+/// Samples per block of a model that does not say how many it likes in a call (Model::block). Numbers do not depend on
+/// it.
 inline constexpr std::size_t block_samples = 2048;
 
 /// Draws and evaluates samples [first, last) and hands them to the sink in order.

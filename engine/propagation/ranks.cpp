@@ -52,12 +52,12 @@ std::unique_ptr<Transport> open_transport(const Launch& launch) {
   return transport;
 }
 
-// A reply is a block or a failure, and its first letter says which.
-constexpr char block_reply = 'b', failure_reply = 'f', part_end = '\0';
-constexpr int control_tag = 0, first_block_tag = 1;
+// A reply is what was asked for or a failure, and its first letter says which.
+constexpr char good_reply = 'g', failure_reply = 'f', part_end = '\0';
+constexpr int control_tag = 0, first_thread_tag = 1;
 
 std::string packed(const ResultBlock& block) {
-  std::string bytes(1, block_reply);
+  std::string bytes(1, good_reply);
   bytes.append(reinterpret_cast<const char*>(block.status.data()), block.status.size());
   bytes.append(reinterpret_cast<const char*>(block.outputs.data()), block.outputs.size() * sizeof(double));
   return bytes;
@@ -70,6 +70,17 @@ ResultBlock unpacked_block(const std::string& bytes, std::uint64_t first, std::u
   std::memcpy(block.status.data(), bytes.data() + 1, samples);
   std::memcpy(block.outputs.data(), bytes.data() + 1 + samples, block.outputs.size() * sizeof(double));
   return block;
+}
+
+std::string packed(const std::vector<double>& values) {
+  std::string bytes(1, good_reply);
+  return bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double));
+}
+
+std::vector<double> unpacked_values(const std::string& bytes) {
+  std::vector<double> values((bytes.size() - 1) / sizeof(double));
+  std::memcpy(values.data(), bytes.data() + 1, values.size() * sizeof(double));
+  return values;
 }
 
 std::string packed(const std::exception& failure) {
@@ -135,11 +146,11 @@ std::string Ranks::receive(int from, int tag) {
   }
 }
 
-std::vector<MakeBlock> Ranks::begin(const std::string& run) {
+Help Ranks::begin(const std::string& run) {
   begun_ = true;
   for (int rank = 1; rank < transport_->size(); ++rank) transport_->send(rank, control_tag, run);
   std::vector<Problem> problems;
-  std::vector<MakeBlock> makers;
+  Help help;
   for (int rank = 1; rank < transport_->size(); ++rank) {
     const std::string reply = receive(rank, control_tag);
     if (reply[0] == failure_reply) {
@@ -147,22 +158,25 @@ std::vector<MakeBlock> Ranks::begin(const std::string& run) {
       continue;
     }
     const int threads = std::stoi(reply.substr(1));
-    for (int tag = first_block_tag; tag < first_block_tag + threads; ++tag) {
-      places_.push_back({rank, tag});
-      makers.push_back([this, place = places_.back()](std::uint64_t first, std::uint64_t last) {
-        return fetch(place, first, last);
+    for (int tag = first_thread_tag; tag < first_thread_tag + threads; ++tag) {
+      const Place place = places_.emplace_back(Place{rank, tag});
+      help.blocks.push_back([this, place](std::uint64_t first, std::uint64_t last) {
+        return unpacked_block(ask(place, first, last, ""), first, last);
+      });
+      help.units.push_back([this, place](const Work& work, std::uint64_t first, std::uint64_t last) {
+        return unpacked_values(ask(place, first, last, work.name));
       });
     }
   }
   if (!problems.empty()) throw InputError(problems);
-  return makers;
+  return help;
 }
 
-ResultBlock Ranks::fetch(const Place& place, std::uint64_t first, std::uint64_t last) {
-  transport_->send(place.rank, place.tag, fmt::format("{} {}", first, last));
-  const std::string reply = receive(place.rank, place.tag);
+std::string Ranks::ask(const Place& place, std::uint64_t first, std::uint64_t last, const std::string& work) {
+  transport_->send(place.rank, place.tag, fmt::format("{} {} {}", first, last, work));
+  std::string reply = receive(place.rank, place.tag);
   if (reply[0] == failure_reply) throw InputError(unpacked_problems(reply));
-  return unpacked_block(reply, first, last);
+  return reply;
 }
 
 std::optional<std::string> Ranks::awaited() {
@@ -171,20 +185,26 @@ std::optional<std::string> Ranks::awaited() {
   return run;
 }
 
-void Ranks::serve(const Experiment& experiment, int threads) {
-  const MakeBlock make = block_maker(experiment);
-  transport_->send(0, control_tag, block_reply + std::to_string(threads));
+void Ranks::serve(const Service& service, int threads) {
+  transport_->send(0, control_tag, good_reply + std::to_string(threads));
   std::vector<std::jthread> workers;
-  for (int t = 0; t < threads; ++t) workers.emplace_back([&, t] { make_blocks(make, first_block_tag + t); });
+  for (int t = 0; t < threads; ++t) workers.emplace_back([&, t] { answer(service, first_thread_tag + t); });
 }
 
-void Ranks::make_blocks(const MakeBlock& make, int tag) {
+void Ranks::answer(const Service& service, int tag) {
   for (std::string wanted; !(wanted = receive(0, tag)).empty();) {
     std::string reply;
     try {
       char* rest = nullptr;
-      const std::uint64_t first = std::strtoull(wanted.c_str(), &rest, 10);
-      reply = packed(make(first, std::strtoull(rest, nullptr, 10)));
+      const std::uint64_t first = std::strtoull(wanted.c_str(), &rest, 10), last = std::strtoull(rest, &rest, 10);
+      if (const std::string name = rest + 1; !name.empty()) {
+        const Work work = service.work(name);
+        std::vector<double> values((last - first) * work.values);
+        work.compute(first, last, values.data());
+        reply = packed(values);
+      } else {
+        reply = packed(service.block(first, last));
+      }
     } catch (const std::exception& failure) {
       reply = packed(failure);
     }

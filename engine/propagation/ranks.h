@@ -1,6 +1,6 @@
 #pragma once
 /// Ranks: the processes that a launcher of MPI (mpirun) starts for one run. Rank 0 runs the scenario as ever; the
-/// others compute blocks of samples for it.
+/// others compute blocks of samples and units of studies for it.
 #include <exception>
 #include <memory>
 #include <optional>
@@ -9,6 +9,7 @@
 
 #include "propagation/propagate.h"
 #include "propagation/transport.h"
+#include "propagation/work.h"
 
 namespace gumshoe::propagation {
 
@@ -21,6 +22,18 @@ struct Launch {
 /// From the environment. None: a process of its own, or the only one.
 std::optional<Launch> launched();
 
+/// What other ranks do for the first, a piece of it at a time for each of these.
+struct Help {
+  std::vector<MakeBlock> blocks;
+  std::vector<DoUnits> units;
+};
+
+/// How a rank does it. Thread-safe.
+struct Service {
+  MakeBlock block;                                   ///< of samples
+  std::function<Work(const std::string& name)> work; ///< of a study
+};
+
 class Ranks {
 public:
   /// Joins the other ranks through the module that knows MPI. Null: a process of its own. Programs that this process
@@ -32,14 +45,14 @@ public:
   /// Number of threads of this rank; 0 asks for its share of the processors.
   int threads(int asked) const { return asked > 0 ? asked : transport_->processors(); }
 
-  /// Rank 0: the blocks that other ranks make, one at a time by each of these. `run` says which run this is. Throws
-  /// InputError with what any rank reports; Interrupted.
-  std::vector<MakeBlock> begin(const std::string& run);
+  /// Rank 0: what other ranks do. `run` says which run this is. Throws InputError with what any rank reports;
+  /// Interrupted.
+  Help begin(const std::string& run);
 
   /// Other ranks: waits for rank 0 to begin. Returns its run; none: rank 0 had an error and needs no help.
   std::optional<std::string> awaited();
-  /// Makes blocks for rank 0 on so many threads, until it has all.
-  void serve(const Experiment& experiment, int threads);
+  /// Serves rank 0 on so many threads, until it has all.
+  void serve(const Service& service, int threads);
   /// Tells rank 0 why this rank cannot serve.
   void report(const std::exception& failure);
 
@@ -50,8 +63,10 @@ private:
 
   explicit Ranks(std::unique_ptr<Transport> transport) : transport_(std::move(transport)) {}
   std::string receive(int from, int tag);
-  ResultBlock fetch(const Place& place, std::uint64_t first, std::uint64_t last);
-  void make_blocks(const MakeBlock& make, int tag);
+  /// The reply of a thread of another rank to "do units [first, last) of this work", or make a block of samples if it
+  /// has no name.
+  std::string ask(const Place& place, std::uint64_t first, std::uint64_t last, const std::string& work);
+  void answer(const Service& service, int tag);
 
   std::unique_ptr<Transport> transport_;
   std::vector<Place> places_;

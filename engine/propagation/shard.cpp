@@ -28,6 +28,29 @@ SampleRange Shard::samples(std::uint64_t total) const {
   return {start(number - 1), start(number)};
 }
 
+std::vector<Portion> Shard::portions(const std::vector<Work>& works) const {
+  std::uint64_t total = 0, before = 0;
+  for (const Work& work : works) total += work.units * work.runs;
+  const auto start = [&](std::uint64_t parts) { return total / of * parts + total % of * parts / of; };
+  std::vector<Portion> out;
+  for (std::size_t w = 0; w < works.size(); ++w) {
+    const Work& work = works[w];
+    const auto unit = [&](std::uint64_t run) { // the first that begins there or later
+      return run <= before ? 0 : std::min(work.units, (run - before + work.runs - 1) / work.runs);
+    };
+    const Portion part{w, unit(start(number - 1)), unit(start(number))};
+    if (part.first < part.last) out.push_back(part);
+    before += work.units * work.runs;
+  }
+  return out;
+}
+
+std::uint64_t values_of(const std::vector<Portion>& portions, const std::vector<Work>& works) {
+  std::uint64_t values = 0;
+  for (const Portion& part : portions) values += (part.last - part.first) * works[part.work].values;
+  return values;
+}
+
 Shard shard_of(const std::string& text, const std::string& option) {
   Shard shard;
   const std::size_t slash = text.find('/');

@@ -20,7 +20,7 @@ namespace {
 
 auto fields(const Identity& i) {
   return std::tie(i.adaptive, i.scenario_hash, i.scenario_text, i.model, i.method, i.evaluation, i.design, i.version,
-                  i.instruction_set, i.seed, i.store_samples, i.design_hash, i.shard, i.options);
+                  i.instruction_set, i.seed, i.store_samples, i.design_hash, i.shard, i.options, i.study_values);
 }
 
 } // namespace
@@ -48,7 +48,8 @@ Identity identity_of(const scenario::Scenario& s) {
           .scenario_place = place_of(s.file),
           .external = s.external,
           .shard = "",
-          .options = ""};
+          .options = "",
+          .study_values = 0};
 }
 
 Record write_identity(hid_t file, const Identity& i, bool complete) {
@@ -62,19 +63,15 @@ Record write_identity(hid_t file, const Identity& i, bool complete) {
   hdf5::write_attribute(file, "samples", i.samples);
   hdf5::write_attribute(file, "store_samples", i.store_samples ? 1 : 0);
   hdf5::write_attribute(file, "complete", complete ? 1 : 0);
-  const std::uint64_t none = 0;
-  const hdf5::Handle marker =
-      hdf5::create_dataset(file, "samples_done", H5T_STD_U64LE, {1}, "1", "samples written so far");
-  hdf5::make_scale(marker, "samples_done");
-  hdf5::require(H5Dwrite(marker, H5T_NATIVE_UINT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, &none), "write the marker");
+  create_marker(file, "samples_done", "samples written so far");
   return {i, complete, {{"samples_done", place_of_dataset(file, "samples_done")}}, {}};
 }
 
 hdf5::Handle open_file(const std::string& path, unsigned flags) {
   require_memory(std::size_t{4} << 20); // the cache of a file has 1 MB
   const hdf5::Handle access = hdf5::own(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "open");
-  H5Pset_sieve_buf_size(access, 0);               // blocks are large: no second copy
-  H5Pset_fclose_degree(access, H5F_CLOSE_STRONG); // after an error nothing stays open
+  H5Pset_sieve_buf_size(access, 0);                                    // blocks are large: no second copy
+  H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);                      // after an error nothing stays open
   if (flags & H5F_ACC_TRUNC) H5Pset_file_locking(access, false, true); // a draft is locked already
   if (flags & H5F_ACC_TRUNC)
     return hdf5::own(H5Fcreate(path.c_str(), flags, H5P_DEFAULT, access), H5Fclose, "create the file");
@@ -101,34 +98,44 @@ Stored read_identity(const std::string& path) {
     if (!std::filesystem::exists(path)) throw NoResult("the file does not exist");
     Record record = read_record(path);
     if (record.identity.command == history_command) throw NoResult("it is a history of gumshoe trace --append");
-    Stored stored{std::move(record.identity), 0, record.complete};
-    const auto marker = record.places.find("samples_done");
-    if (marker == record.places.end()) throw OutputError("it has no progress marker");
-    RawFile(path, O_RDONLY).read(&stored.samples_done, sizeof stored.samples_done, marker->second.offset);
+    Stored stored{std::move(record.identity), 0, 0, record.complete};
+    const auto read_marker = [&](const char* name, std::uint64_t& done) {
+      const auto marker = record.places.find(name);
+      if (marker == record.places.end()) throw OutputError("it has no progress marker");
+      RawFile(path, O_RDONLY).read(&done, sizeof done, marker->second.offset);
+    };
+    read_marker("samples_done", stored.samples_done);
+    if (stored.identity.study_values > 0) read_marker("studies/values_done", stored.study_values_done);
     const std::uint64_t done = stored.samples_done, samples = stored.identity.samples;
     const bool none = record.rows.empty() && done == 0; // a result without samples
-    if (done > samples || (stored.complete && done < samples && !none)) throw OutputError("the progress marker is damaged");
+    if (done > samples || stored.study_values_done > stored.identity.study_values ||
+        (stored.complete && done < samples && !none))
+      throw OutputError("the progress marker is damaged");
     return stored;
   } catch (const NoResult& error) {
     throw InputError("'" + path + "' is not a Gumshoe result", error.problems().front().what);
   } catch (const OutputError& error) {
     const Problem& p = error.problems().front();
-    throw InputError("'" + path + "' is not a Gumshoe result that can be read", p.what + (p.why.empty() ? "" : ": " + p.why),
-                     "run the scenario again");
+    throw InputError("'" + path + "' is not a Gumshoe result that can be read",
+                     p.what + (p.why.empty() ? "" : ": " + p.why), "run the scenario again");
   }
 }
 
 void require_sound_samples(const std::string& path) {
   try {
     const Record record = read_record(path);
-    if (record.rows.empty()) return;
-    SampleFile file(RawFile(path, O_RDONLY), record);
-    const std::uint64_t marked = file.marked();
-    if (const std::uint64_t sound = file.sound(); sound < marked)
-      throw OutputError(fmt::format("its samples are damaged from number {} on", sound));
+    const auto require_sound = [](SampleFile file, const char* what) {
+      const std::uint64_t marked = file.marked();
+      if (const std::uint64_t sound = file.sound(); sound < marked)
+        throw OutputError(fmt::format("its {} are damaged from number {} on", what, sound));
+    };
+    if (!record.rows.empty()) require_sound(SampleFile(RawFile(path, O_RDONLY), record), "samples");
+    if (record.identity.study_values > 0)
+      require_sound(SampleFile::of_studies(RawFile(path, O_RDONLY), record), "values of studies");
   } catch (const OutputError& error) {
     const Problem& p = error.problems().front();
-    throw InputError("'" + path + "' is damaged", p.what + (p.why.empty() ? "" : ": " + p.why), "run the scenario again");
+    throw InputError("'" + path + "' is damaged", p.what + (p.why.empty() ? "" : ": " + p.why),
+                     "run the scenario again");
   }
 }
 

@@ -28,6 +28,7 @@ Json to_json(const Record& r) {
   for (const auto& [name, member] : identity_texts) j[name] = r.identity.*member;
   for (const auto& [name, member] : shard_texts)
     if (!(r.identity.*member).empty()) j[name] = r.identity.*member;
+  if (r.identity.study_values > 0) j["study_values"] = r.identity.study_values;
   j["places"] = Json::object();
   for (const auto& [name, span] : r.places) j["places"][name] = {span.offset, span.bytes};
   return j;
@@ -48,6 +49,7 @@ Record from_json(const Json& j) {
   for (const Json& row : j.at("rows")) r.rows.emplace_back(row.at(0).get<std::string>(), whole(row.at(1)));
   for (const auto& [name, member] : identity_texts) j.at(name).get_to(r.identity.*member);
   for (const auto& [name, member] : shard_texts) r.identity.*member = j.value(name, "");
+  if (j.contains("study_values")) r.identity.study_values = whole(j.at("study_values"));
   for (const auto& [name, span] : j.at("places").items()) r.places[name] = {whole(span.at(0)), whole(span.at(1))};
   return r;
 }

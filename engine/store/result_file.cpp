@@ -46,6 +46,8 @@ struct ResultFile::Impl {
   std::vector<std::string> labels;
   std::optional<propagation::MemoryStore> early; ///< the samples, before there is a file
   SampleFile samples;                            ///< without rows in a complete file that does not keep them
+  SampleFile studies;                            ///< of a shard that has a part of studies
+  std::uint64_t study_done = 0;
   std::uint64_t done = 0;
   Clock::time_point begun = Clock::now(), marked_at = begun, synced_at = begun;
   Clock::duration sync_took{};
@@ -83,6 +85,7 @@ Record ResultFile::Impl::build(const std::string& name, const analysis::Results*
   Record record = write_identity(file, identity, results != nullptr);
   if (!results || identity.store_samples)
     create_samples(file, outputs, identity.samples, labels, identity.method == "virtual_experiment", record);
+  if (identity.study_values > 0) create_study_values(file, identity.study_values, record);
   if (results) write_results(file, *results);
   close_file(file);
   seal(name, record);
@@ -100,6 +103,7 @@ void ResultFile::Impl::spill() {
   auto next = successor(identity.samples);
   next->create(this);
   samples = std::move(next->samples);
+  studies = std::move(next->studies);
   early.reset();
   marked_at = Clock::now();
 }
@@ -131,6 +135,7 @@ void ResultFile::Impl::create(Impl* before, const analysis::Results* results) {
     samples = SampleFile(std::move(file), record);
     if (before) before->copy_to(samples, done);
     samples.mark(done, false);
+    if (identity.study_values > 0) studies = SampleFile::of_studies(RawFile(name, O_RDWR), record);
   } else {
     file.write(&done, sizeof done, record.places.at("samples_done").offset);
   }
@@ -154,6 +159,10 @@ bool ResultFile::Impl::resume() {
   samples = std::move(old);
   identity.samples = record.identity.samples;
   done = samples.sound();
+  if (identity.study_values > 0) {
+    studies = SampleFile::of_studies(RawFile(claim.target(), O_RDWR), record);
+    study_done = studies.sound();
+  }
   if (done < marked / digest_samples * digest_samples) // the last block may have been cut by the interruption
     remark = fmt::format(
         "'{}' is damaged: of {} samples only the first {} are as they were written; the run goes on from there",
@@ -212,6 +221,7 @@ ResultFile::~ResultFile() {
       impl_->spill();
     }
     impl_->mark();
+    impl_->studies.mark(impl_->study_done, false);
   } catch (...) { // the marker stays where it was: the file is good up to there
   }
 }
@@ -258,6 +268,23 @@ void ResultFile::write(const propagation::ResultBlock& block) {
   });
 }
 
+void ResultFile::write_study_values(std::uint64_t first, std::span<const double> values) {
+  Impl& f = *impl_;
+  if (f.early || first > f.study_done || first + values.size() > f.identity.study_values)
+    throw std::logic_error("values of studies must come in order");
+  const auto fresh = values.subspan(std::min<std::size_t>(f.study_done - first, values.size()));
+  if (fresh.empty()) return;
+  naming(f.claim.path(), [&] {
+    f.studies.write(f.study_done, {fresh.data()}, std::vector<std::uint8_t>(fresh.size()));
+    f.study_done += fresh.size();
+    if (Clock::now() - f.marked_at < unmarked) return;
+    f.studies.mark(f.study_done, false);
+    f.marked_at = Clock::now();
+  });
+}
+
+std::uint64_t ResultFile::study_values_done() const { return impl_->study_done; }
+
 std::vector<double> ResultFile::read(std::size_t output, std::uint64_t first, std::uint64_t count) const {
   const Impl& f = *impl_;
   if (f.early) return f.early->read(output, first, count);
@@ -299,6 +326,7 @@ void ResultFile::settle() {
   naming(impl_->claim.path(), [&] {
     impl_->spill();
     impl_->samples.settle(impl_->done);
+    if (impl_->study_done > 0) impl_->studies.settle(impl_->study_done);
   });
 }
 

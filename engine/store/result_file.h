@@ -2,6 +2,7 @@
 /// The result file (layout: README.md in this folder).
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,10 +24,11 @@ struct Identity {
   std::string command = "run"; ///< that made it
   /// Whether the file holds results of outputs, and no choice, trace or map.
   bool has_outputs() const { return command == "run" || command == "analyse"; }
-  std::string scenario_place; ///< place_of(scenario_file)
-  std::string external;       ///< Scenario::external
-  std::string shard;          ///< "3/16": the file holds this part of a run, `samples` of them; empty: a whole run
-  std::string options;        ///< of a shard: the options of `run` that determine the whole run's numbers
+  std::string scenario_place;     ///< place_of(scenario_file)
+  std::string external;           ///< Scenario::external
+  std::string shard;              ///< "3/16": the file holds this part of a run, `samples` of them; empty: a whole run
+  std::string options;            ///< of a shard: the options of `run` that determine the whole run's numbers
+  std::uint64_t study_values = 0; ///< of a shard: numbers that its part of the studies' model runs gives
 };
 
 /// What a scenario says of it and this program adds: all but `adaptive`, `design_hash` and `command`.
@@ -52,11 +54,15 @@ public:
   /// Where there is no room for so many: a new file with the samples so far takes the place of the old one.
   void resize(std::uint64_t samples) override;
   void write(const propagation::ResultBlock& block) override;
+  /// A shard keeps what studies gave, one number after the other, once it is settled. `first`: where these stand; those
+  /// that are there already stay.
+  void write_study_values(std::uint64_t first, std::span<const double> values);
+  std::uint64_t study_values_done() const;
   std::vector<double> read(std::size_t output, std::uint64_t first, std::uint64_t count) const override;
   std::vector<std::uint8_t> read_status(std::uint64_t first, std::uint64_t count) const override;
   /// The samples so far, where they lie in memory or read from the file part by part: valid until the next change.
   analysis::Samples view() const;
-  /// Returns once the samples so far are on the disk and counted. A shard ends so.
+  /// Returns once the samples and values so far are on the disk and counted. A shard ends so.
   void settle();
   /// A new file with the samples and everything else, complete, takes the place of the old one.
   void finish(const analysis::Results& results);
@@ -73,13 +79,13 @@ private:
 /// garbage, another program's HDF5), or one that is damaged anywhere but in its samples.
 struct Stored {
   Identity identity;
-  std::uint64_t samples_done = 0;
+  std::uint64_t samples_done = 0, study_values_done = 0;
   bool complete = false;
   /// The command that made it; results of "choose" and "trace" hold no samples.
   const std::string& command() const { return identity.command; }
 };
 Stored read_identity(const std::string& path);
-/// Throws InputError if stored samples are not those that were written.
+/// Throws InputError if stored samples, or a shard's values of studies, are not those that were written.
 void require_sound_samples(const std::string& path);
 
 } // namespace gumshoe::store

@@ -36,6 +36,25 @@ void create_digests(hid_t file, std::uint64_t blocks, std::size_t rows) {
 
 } // namespace
 
+void create_study_values(hid_t file, std::uint64_t values, Record& record) {
+  const hdf5::Handle group = hdf5::create_group(file, "studies");
+  const hdf5::Scale value = hdf5::create_dimension(group, "value", values);
+  hdf5::attach(hdf5::create_dataset(group, "values", H5T_IEEE_F64LE, {values}, "1",
+                                    "what the model runs of studies gave, for gumshoe merge"),
+               {&value});
+  create_digests(group, digest_blocks(values), 2);
+  create_marker(group, "values_done", "values written so far");
+  for (const char* name : {"studies/values", "studies/digests", "studies/values_done"})
+    record.places[name] = place_of_dataset(file, name);
+}
+
+void create_marker(hid_t parent, const std::string& name, const std::string& meaning) {
+  const std::uint64_t none = 0;
+  const hdf5::Handle marker = hdf5::create_dataset(parent, name, H5T_STD_U64LE, {1}, "1", meaning);
+  hdf5::make_scale(marker, name);
+  hdf5::require(H5Dwrite(marker, H5T_NATIVE_UINT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, &none), "write the marker");
+}
+
 Span place_of_dataset(hid_t file, const std::string& path) {
   const hdf5::Handle dataset = hdf5::own(H5Dopen2(file, path.c_str(), H5P_DEFAULT), H5Dclose, "open a dataset");
   const haddr_t offset = H5Dget_offset(dataset);

@@ -23,6 +23,16 @@ std::uint64_t digest_of_status(const std::uint8_t* status, std::uint64_t count, 
 /// Digest term of a block itself: a place that was never written then has no valid digest.
 std::uint64_t empty_digest(std::uint64_t block) { return mix64(~block); }
 
+Span place_of(const Record& record, const std::string& name) {
+  const auto at = record.places.find(name);
+  if (at == record.places.end()) throw OutputError("it holds no samples");
+  return at->second;
+}
+
+void require(bool holds) {
+  if (!holds) throw OutputError("the record of its samples contradicts itself");
+}
+
 /// Calls action(block, first, count) for the parts of [first, first + count) in each digest's block.
 template <class Action> void by_block(std::uint64_t first, std::uint64_t count, Action action) {
   for (const std::uint64_t end = first + count; first < end;) {
@@ -41,23 +51,30 @@ std::vector<std::pair<std::string, std::uint64_t>> rows_of(const std::vector<pro
 }
 
 SampleFile::SampleFile(RawFile file, const Record& record) : file_(std::move(file)), samples_(record.identity.samples) {
-  const auto place = [&](const std::string& name) {
-    const auto at = record.places.find(name);
-    if (at == record.places.end()) throw OutputError("it holds no samples");
-    return at->second;
-  };
-  const auto require = [](bool holds) {
-    if (!holds) throw OutputError("the record of its samples contradicts itself");
-  };
-  const Span status = place("outputs/status"), digests = place("digests"), marker = place("samples_done");
-  require(samples_ > 0 && status.bytes == samples_ && marker.bytes == 8);
   for (const auto& [measurand, reading] : record.rows) {
-    const Span values = place("outputs/" + measurand);
+    const Span values = place_of(record, "outputs/" + measurand);
     const std::uint64_t row = 8 * samples_;
-    require(values.bytes % row == 0 && reading < values.bytes / row);
+    require(samples_ > 0 && values.bytes % row == 0 && reading < values.bytes / row);
     rows_.push_back(values.offset + reading * row);
   }
-  require(digests.bytes == 8 * digest_blocks(samples_) * (rows_.size() + 1));
+  require_whole(place_of(record, "outputs/status"), place_of(record, "digests"), place_of(record, "samples_done"));
+}
+
+SampleFile SampleFile::of_studies(RawFile file, const Record& record) {
+  SampleFile out;
+  out.file_ = std::move(file);
+  out.samples_ = record.identity.study_values;
+  out.has_status_ = false;
+  const Span values = place_of(record, "studies/values");
+  require(values.bytes == 8 * out.samples_);
+  out.rows_.push_back(values.offset);
+  out.require_whole({}, place_of(record, "studies/digests"), place_of(record, "studies/values_done"));
+  return out;
+}
+
+void SampleFile::require_whole(const Span& status, const Span& digests, const Span& marker) {
+  require(samples_ > 0 && status.bytes == (has_status_ ? samples_ : 0) && marker.bytes == 8);
+  require(digests.bytes == 8 * digest_blocks(samples_) * width());
   status_ = status.offset, digests_at_ = digests.offset, marker_ = marker.offset;
   file_.read(&marked_, 8, marker_);
 }
@@ -72,7 +89,7 @@ void SampleFile::read(std::size_t row, std::uint64_t first, std::uint64_t count,
 }
 
 void SampleFile::read_status(std::uint64_t first, std::uint64_t count, std::uint8_t* status) const {
-  file_.read(status, count, status_ + first);
+  has_status_ ? file_.read(status, count, status_ + first) : void(std::fill_n(status, count, std::uint8_t{0}));
 }
 
 void SampleFile::write(const propagation::ResultBlock& b) {
@@ -91,7 +108,7 @@ void SampleFile::write(std::uint64_t begin, const std::vector<const double*>& ro
       digest(block, row) += digest64(rows[row] + (first - begin), count, first);
     });
   }
-  file_.write(status.data(), samples, status_ + begin);
+  if (has_status_) file_.write(status.data(), samples, status_ + begin);
   by_block(begin, samples, [&](std::uint64_t block, std::uint64_t first, std::uint64_t count) {
     digest(block, rows_.size()) += digest_of_status(status.data() + (first - begin), count, first);
   });

@@ -1,6 +1,6 @@
 #pragma once
 /// The samples of a result, read and written at their places in the file, without HDF5. Each block of each row has a
-/// digest. Private to this folder.
+/// digest. The numbers that a shard keeps of studies are one row without status. Private to this folder.
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -24,6 +24,8 @@ public:
   SampleFile() = default;
   /// Throws OutputError if the record's places do not hold its samples.
   SampleFile(RawFile file, const Record& record);
+  /// The same of a shard's values of studies, "samples" of one row.
+  static SampleFile of_studies(RawFile file, const Record& record);
 
   std::size_t rows() const { return rows_.size(); }
   std::uint64_t samples() const { return samples_; }
@@ -50,6 +52,7 @@ public:
   void copy_to(SampleFile& other, std::uint64_t count) const;
 
 private:
+  void require_whole(const Span& status, const Span& digests, const Span& marker);
   std::uint64_t width() const { return rows_.size() + 1; } ///< digests of a block
   std::uint64_t& digest(std::uint64_t block, std::size_t row) { return digests_[(block - held_) * width() + row]; }
   /// Has digests for so many blocks, in the file or in memory.
@@ -59,6 +62,7 @@ private:
   std::uint64_t samples_ = 0, marked_ = 0;
   std::vector<std::uint64_t> rows_; ///< where each row begins
   std::uint64_t status_ = 0, digests_at_ = 0, marker_ = 0;
+  bool has_status_ = true;
   std::uint64_t held_ = 0;             ///< the first block whose digests are in memory; the marker counts those before
   std::vector<std::uint64_t> digests_; ///< [block from held_][row], the status last
 };

@@ -48,6 +48,24 @@ std::vector<std::uint8_t> StoredSamples::read_status(std::uint64_t first, std::u
   return status;
 }
 
+struct StoredStudyValues::Impl {
+  SampleFile values;
+};
+
+StoredStudyValues::StoredStudyValues(const std::string& path) : impl_(std::make_unique<Impl>()) {
+  try {
+    impl_->values = SampleFile::of_studies(RawFile(path, O_RDONLY), read_record(path));
+  } catch (const OutputError& error) {
+    throw InputError(path + ": holds no values of studies", error.problems().front().what);
+  }
+}
+
+StoredStudyValues::~StoredStudyValues() = default;
+
+void StoredStudyValues::read(std::uint64_t first, std::uint64_t count, double* values) const {
+  impl_->values.read(0, first, count, values);
+}
+
 void append_samples(ResultFile& to, const StoredSamples& from, std::size_t outputs, std::uint64_t first,
                     std::uint64_t last) {
   const std::uint64_t part =

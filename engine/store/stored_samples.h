@@ -27,6 +27,19 @@ private:
   std::unique_ptr<Impl> impl_;
 };
 
+/// The values that a finished shard keeps of studies.
+class StoredStudyValues {
+public:
+  /// Throws InputError if the file has none. require_sound_samples() checks them.
+  explicit StoredStudyValues(const std::string& path);
+  ~StoredStudyValues();
+  void read(std::uint64_t first, std::uint64_t count, double* values) const;
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
 /// Appends the samples of `from`, which are [first, last) of the run, to the file of that run, from where that stands.
 /// Stops between parts where interrupted; Interrupted is thrown.
 void append_samples(ResultFile& to, const StoredSamples& from, std::size_t outputs, std::uint64_t first,

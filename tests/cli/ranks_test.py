@@ -10,6 +10,8 @@ import subprocess
 import time
 import unittest
 
+from choose_test import TEXT as CHOICE
+from counted_model import COUNTED_PROGRAM, CORRELATED, STUDIES, starters
 from program import FORMULA, GUMSHOE, MESSAGE, SCENARIO, InFolder, gumshoe, ill_formed
 from sealed import samples_done
 from slow_model import SAMPLES, SLOW, SLOW_PROGRAM
@@ -58,8 +60,8 @@ class Ranks(InFolder):
         while (not file.exists() or not samples_done(file)) and process.poll() is None:
             time.sleep(0.02)
 
-    def single(self, *words):
-        run = gumshoe("run", *words, "--out", "single.h5", cwd=self.folder, env=ENVIRONMENT)
+    def single(self, *words, command="run"):
+        run = gumshoe(command, *words, "--out", "single.h5", "--force", cwd=self.folder, env=ENVIRONMENT)
         self.assertIn(run.returncode, (0, 3), run.stderr)
         return run, (self.folder / "single.h5").read_bytes()
 
@@ -79,6 +81,37 @@ class Ranks(InFolder):
                     self.assertEqual(run.returncode, single.returncode, run.stderr)
                     self.assertEqual(run.stdout.replace("ranks.h5", "single.h5"), single.stdout)  # one rank prints
                     self.assertEqual((self.folder / "ranks.h5").read_bytes(), expected)
+
+    def test_studies_and_choices_are_shared(self):
+        (self.folder / "counted.py").write_text(COUNTED_PROGRAM)
+        for name, command, text in (("studies", "run", STUDIES), ("of correlated inputs", "run", CORRELATED),
+                                    ("a choice", "choose", CHOICE)):
+            (self.folder / "s.toml").write_text(text)
+            single, expected = self.single("s.toml", command=command)
+            for ranks in (1, 2, 4):
+                with self.subTest(name, ranks=ranks):
+                    (self.folder / "starts").write_text("")
+                    run = self.mpirun(ranks, GUMSHOE, command, "s.toml", "--threads", "1", "--out", "ranks.h5", "--force")
+                    self.assertEqual(run.returncode, single.returncode, run.stderr)
+                    self.assertEqual(run.stdout.replace("ranks.h5", "single.h5"), single.stdout)
+                    self.assertEqual((self.folder / "ranks.h5").read_bytes(), expected)
+                    if command == "run":
+                        self.assertEqual(len(starters(self.folder)), ranks)
+
+    def test_a_model_that_fails_in_a_study_on_another_rank(self):
+        (self.folder / "counted.py").write_text(COUNTED_PROGRAM + "if os.path.exists('dead'): sys.exit('no licence')\n")
+        (self.folder / "s.toml").write_text(STUDIES)
+        process = self.start(3, GUMSHOE, "run", "s.toml", "--threads", "1", "--out", "ranks.h5")
+        while process.poll() is None and not (self.folder / "starts").exists():
+            time.sleep(0.01)
+        while process.poll() is None and len((self.folder / "starts").read_text().splitlines()) < 3 * 2 + 10 + 10:
+            time.sleep(0.01)
+        (self.folder / "dead").touch()
+        run = self.ended(process)
+        self.assertEqual(run.returncode, 2, run.stderr)
+        said = complaints(run)
+        self.assertEqual(len(said), 1, run.stderr)
+        self.assertIn("no licence", said[0])
 
     def test_a_rank_is_killed_and_the_run_goes_on(self):
         words = [GUMSHOE, "run", "s.toml", "--threads", "1", "--out", "ranks.h5"]

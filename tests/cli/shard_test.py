@@ -17,6 +17,8 @@ import unittest
 
 import h5py
 
+from choose_test import TEXT as CHOICE
+from counted_model import CORRELATED, COUNTED_PROGRAM, STUDIES, starts
 from program import FORMULA, GUMSHOE, ROOT, SCENARIO, InFolder, complaint, gumshoe
 from sealed import record, reseal, samples_done
 from slow_model import SLOW, SLOW_PROGRAM
@@ -42,10 +44,10 @@ class Shards(InFolder):
         (self.folder / name).write_text(text)
         return name
 
-    def make(self, scenario, of, *options, numbers=None):
+    def make(self, scenario, of, *options, numbers=None, command="run"):
         """The files of shards, by number."""
         files = {k: self.shards / f"{pathlib.Path(scenario).stem}.{k}-of-{of}.h5" for k in range(1, of + 1)}
-        said = {k: self.done("run", scenario, *options, "--shard", f"{k}/{of}", "--out", files[k]).stdout
+        said = {k: self.done(command, scenario, *options, "--shard", f"{k}/{of}", "--out", files[k]).stdout
                 for k in numbers or files}
         return files, said
 
@@ -53,8 +55,8 @@ class Shards(InFolder):
         self.done("merge", *files, "--out", "whole.h5", *options)
         return (self.folder / "whole.h5").read_bytes()
 
-    def single(self, scenario, *options):
-        self.done("run", scenario, *options, "--out", "single.h5")
+    def single(self, scenario, *options, command="run"):
+        self.done(command, scenario, *options, "--out", "single.h5")
         return (self.folder / "single.h5").read_bytes()
 
     def refused(self, words, *command):
@@ -117,6 +119,72 @@ class Shards(InFolder):
                 shutil.rmtree(self.shards)
                 self.shards.mkdir()
 
+    def test_studies_are_divided_and_merge_runs_the_model_not_once(self):
+        (self.folder / "counted.py").write_text(COUNTED_PROGRAM)
+        for name, text in (("independent", STUDIES), ("correlated", CORRELATED)):
+            with self.subTest(name):
+                scenario = self.scenario(text)
+                whole = self.single(scenario)
+                points = sum(starts(self.folder))
+                (self.folder / "starts").unlink()
+                files, said = self.make(scenario, 3)
+                runs = [int(re.search(r"about (\d+) model runs of studies", s)[1]) for s in said.values()]
+                # Units are not divided; the largest take 8 rows of 8 runs.
+                self.assertLess(max(runs) - min(runs), 2 * 64)
+                # Each shard tries the scenario (2 starts) and, of Sobol' indices, runs 64 rows for their origin.
+                self.assertLess(sum(starts(self.folder)), points + 3 * (2 + 64) + 64)
+                (self.folder / "starts").unlink()
+                for threads in (1, 2):
+                    (self.folder / "whole.h5").unlink(missing_ok=True)
+                    self.assertEqual(self.merged(files.values(), "--threads", threads), whole)
+                    self.assertEqual(starts(self.folder), [])
+                shutil.rmtree(self.shards)
+                self.shards.mkdir()
+
+    def test_studies_that_are_lost_or_damaged(self):
+        (self.folder / "counted.py").write_text(COUNTED_PROGRAM)
+        scenario = self.scenario(STUDIES)
+        whole = self.single(scenario)
+        points = sum(starts(self.folder))
+        files, _ = self.make(scenario, 3)
+        with open(files[2], "r+b") as file:  # one bit of one value
+            file.seek(record(files[2])["places"]["studies/values"][0] + 8 * 100)
+            byte = file.read(1)[0]
+            file.seek(-1, os.SEEK_CUR)
+            file.write(bytes([byte ^ 1]))
+        with open(files[3], "r+b") as file:  # as if it had been killed in its studies
+            file.seek(record(files[3])["places"]["studies/values_done"][0])
+            file.write(struct.pack("<Q", 100))
+        run = self.refused("2-of-3.h5: shard 2/3 cannot be used (it is damaged: its values of studies are damaged from number "
+                           "0 on)", "merge", *files.values(), "--out", "whole.h5")
+        self.assertIn("3-of-3.h5: shard 3/3 cannot be used (it is not finished: 100 of ", run.stderr)
+        self.assertIn(" values of studies)", run.stderr)
+        (self.folder / "starts").unlink()
+        for command in run.stdout.splitlines():
+            self.done(*shlex.split(command)[1:])
+        self.assertLess(sum(starts(self.folder)), points * 2 // 3 + 64)  # the samples are not drawn again, nor the first values
+        self.assertEqual(self.merged(files.values()), whole)
+
+    def test_a_shard_whose_studies_are_stopped_goes_on(self):
+        (self.folder / "counted.py").write_text(COUNTED_PROGRAM.replace("import", "import time,", 1) + "time.sleep(0.02)\n")
+        scenario = self.scenario(STUDIES)
+        files, _ = self.make(scenario, 2, numbers=[2])
+        command = [GUMSHOE, "run", scenario, "--shard", "1/2", "--out", files[1], "--threads", "1"]
+        stopped = subprocess.Popen(command, cwd=self.folder, env=SAME_DATE, stderr=subprocess.PIPE, text=True)
+        done = 0
+        while not done and stopped.poll() is None:
+            time.sleep(0.02)
+            if files[1].exists():
+                with open(files[1], "rb") as file:
+                    file.seek(record(files[1])["places"]["studies/values_done"][0])
+                    done = struct.unpack("<Q", file.read(8))[0]
+        stopped.send_signal(signal.SIGTERM)
+        said = stopped.communicate(timeout=30)[1]
+        self.assertEqual(stopped.returncode, 130, said)
+        self.assertRegex(said, r"interrupted after 320 of 320 samples and \d+ of \d+ values of studies\.")
+        self.assertIn("resuming after 320 samples", self.done(*command[1:]).stderr)
+        self.assertEqual(self.merged(files.values()), self.single(scenario))
+
     def test_a_merge_goes_on_in_a_run_that_was_begun(self):
         scenario = self.scenario(FORMULA)
         files, _ = self.make(scenario, 3)
@@ -124,6 +192,48 @@ class Shards(InFolder):
         self.done("run", scenario, "--out", "whole.h5")
         reseal(self.folder / "whole.h5", complete=False)
         self.assertEqual(self.merged(files.values()), whole)
+
+    def test_a_choice_is_divided(self):
+        scenario = self.scenario(CHOICE + '[run]\nseed = 3\n')
+        files, said = self.make(scenario, 4, command="choose")
+        self.assertIn("candidates 0 to 3 of 15 of the coarse grid", said[1])
+        single = self.single(scenario, command="choose")
+        for threads in (1, 2):
+            (self.folder / "whole.h5").unlink(missing_ok=True)
+            self.assertEqual(self.merged(files.values(), "--threads", threads), single)
+        with h5py.File(files[1]) as file:  # what a shard knows can be read
+            self.assertTrue((file["outputs/time"][0] > 5).all())
+        files[2].unlink()
+        with open(files[3], "r+b") as file:  # as if it had been killed
+            file.seek(record(files[3])["places"]["samples_done"][0])
+            file.write(struct.pack("<Q", 1))
+        self.done("choose", scenario, "--seed", "4", "--shard", "4/4", "--out", "other.h5")
+        self.done("run", self.scenario(FORMULA, "f.toml"), "--shard", "4/4", "--out", "run.h5")
+        run = self.refused("1 of 4 shards are missing (2/4)", "merge", *self.shards.iterdir(), "other.h5", "run.h5")
+        for words in ("3-of-4.h5: shard 3/4 cannot be used (it is not finished: 1 of 4 candidates)",
+                      "other.h5: the shard belongs to another run (its seed is 4, that of the others 3)",
+                      "run.h5: the shard belongs to another run (its command is run --shard, that of the others choose --shard)"):
+            self.assertIn(words, run.stderr)
+        for command in run.stdout.splitlines():
+            self.assertTrue(command.startswith("gumshoe choose s.toml --shard"))
+            self.done(*shlex.split(command)[1:])
+        self.assertEqual(self.merged(sorted(self.shards.iterdir())), single)
+        self.refused("15 candidates are too few for 16 shards", "choose", scenario, "--shard", "1/16")
+        self.refused("--shard excludes --format", "choose", scenario, "--shard", "1/4", "--format", "json")
+        self.refused("the file holds a part of a run (shard 1/4)", "report", files[1])
+
+    def test_a_grid_that_is_not_that_of_the_shards(self):
+        scenario = self.scenario(CHOICE)
+        files, _ = self.make(scenario, 2, command="choose")
+        content = CHOICE.replace("steps = 5", "steps = 6")
+        self.scenario(content)
+        other, _ = self.make(scenario, 2, "--force", command="choose")
+        said = record(other[1])
+        files, _ = self.make(self.scenario(CHOICE), 2, "--force", command="choose")
+        for file in files.values():
+            reseal(file, scenario_hash=said["scenario_hash"])
+        self.scenario(content)
+        self.refused("the shard has another number of candidates than its part of the grid", "merge", *files.values())
 
     def test_refusals_of_files(self):
         scenario = self.scenario(FORMULA)
@@ -208,28 +318,61 @@ class Shards(InFolder):
         self.assertEqual(run.returncode, 2)
         self.merged(files.values(), "--scenario", "moved.toml")
 
+    def tools(self):
+        """The environment with the program, and a loop in place of GNU parallel."""
+        tools = self.folder / "tools"
+        tools.mkdir()
+        os.symlink(GUMSHOE, tools / "gumshoe")
+        (tools / "parallel").write_text('#!/bin/bash\nall=$*\ncommand=${all%%:::*}\nfor k in ${all##*:::}; do name=$(basename "${k%.*}")\n'
+                                        'one=${command//\\{\\}/$k}; eval "${one//\\{\\/.\\}/$name}" || exit; done\n')
+        (tools / "parallel").chmod(0o755)
+        return {**SAME_DATE, "PATH": f"{tools}:{os.environ['PATH']}", "SLURM_CPUS_PER_TASK": "2"}
+
+    def bash(self, line, environment):
+        subprocess.run(["bash", "-c", line], cwd=self.folder, check=True, capture_output=True, env=environment)
+
+    def array(self, script, tasks, *words, **environment):
+        """A Slurm array, replaced by a loop."""
+        for k in range(1, tasks + 1):
+            subprocess.run([ROOT / "scenarios" / script, *words], cwd=self.folder, check=True, capture_output=True,
+                           env={**environment, "SLURM_ARRAY_TASK_ID": str(k)})
+
     def test_the_scripts_that_are_shipped(self):
         """The Slurm array and the line for GNU parallel; both programs are replaced by loops."""
         scenario = self.scenario(FORMULA)
         single = self.single(scenario)
-        tools = self.folder / "tools"
-        tools.mkdir()
-        os.symlink(GUMSHOE, tools / "gumshoe")
-        (tools / "parallel").write_text('#!/bin/bash\nall=$*\ncommand=${all%%:::*}\nfor k in ${all##*:::}; do eval "${command//\\{\\}/$k}" '
-                                        "|| exit; done\n")
-        (tools / "parallel").chmod(0o755)
-        environment = {**SAME_DATE, "PATH": f"{tools}:{os.environ['PATH']}", "SLURM_CPUS_PER_TASK": "2"}
-        for k in range(1, 17):
-            subprocess.run([ROOT / "scenarios/shards.sbatch", scenario], cwd=self.folder, check=True, capture_output=True,
-                           env={**environment, "SLURM_ARRAY_TASK_ID": str(k)})
+        environment = self.tools()
+        self.array("shards.sbatch", 16, scenario, **environment)
         self.assertEqual(self.merged(self.shards.iterdir()), single)
-        lines = re.search(r"^parallel gumshoe run.*\n", (ROOT / "scenarios/README.md").read_text(), re.M)[0]
+        line = re.search(r"^parallel gumshoe run.*\n", (ROOT / "scenarios/README.md").read_text(), re.M)[0]
         shutil.rmtree(self.shards)
         self.shards.mkdir()
-        line = lines.replace("scenarios/rod_gauging.toml", scenario)
-        subprocess.run(["bash", "-c", line], cwd=self.folder, check=True, capture_output=True, env=environment)
+        self.bash(line.replace("scenarios/rod_gauging.toml", scenario), environment)
         (self.folder / "whole.h5").unlink()
         self.assertEqual(self.merged(self.shards.iterdir()), single)
+
+    def test_the_script_on_a_choice(self):
+        scenario = self.scenario(CHOICE)
+        self.array("shards.sbatch", 4, scenario, **self.tools(), COMMAND="choose", SHARDS="4")
+        self.assertEqual(self.merged(self.shards.iterdir()), self.single(scenario, command="choose"))
+
+    def test_traces_are_dealt_out_by_their_data(self):
+        environment = self.tools()
+        shutil.copytree(ROOT / "scenarios/data", self.folder / "scenarios/data")
+        shutil.copy(ROOT / "scenarios/trace_rods.toml", self.folder / "scenarios")
+        (self.folder / "data").mkdir()
+        rows = (self.folder / "scenarios/data/rods.csv").read_text().splitlines(keepends=True)
+        for name, some in (("all", rows), ("fewer", rows[:-4])):
+            (self.folder / f"data/{name}.csv").write_text("".join(some))
+        line = re.search(r"^parallel '.*gumshoe trace.*\n", (ROOT / "scenarios/README.md").read_text(), re.M)[0]
+        self.bash(line, environment)
+        by_line = {name: (self.folder / f"traces/{name}/traced.h5").read_bytes() for name in ("all", "fewer")}
+        self.assertNotEqual(by_line["all"], by_line["fewer"])
+        shutil.rmtree(self.folder / "traces")
+        self.array("traces.sbatch", 3, "scenarios/trace_rods.toml", "data/all.csv", "data/fewer.csv", **environment)
+        for name, content in by_line.items():
+            self.assertEqual((self.folder / f"traces/{name}/traced.h5").read_bytes(), content)
+            self.assertTrue((self.folder / f"traces/{name}/verdict.json").exists())
 
 
 if __name__ == "__main__":
