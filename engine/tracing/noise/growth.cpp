@@ -49,6 +49,16 @@ double likelihood(const std::vector<Pass>& passes, double ratio) {
   return out;
 }
 
+/// Whether the others still say so without any one pass: a bad reading decides for its own.
+bool in_every_pass(const std::vector<Pass>& passes, double ratio) {
+  for (std::size_t without = 0; without < passes.size(); ++without) {
+    std::vector<Pass> others = passes;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(without));
+    if (others.empty() || likelihood(others, ratio) - likelihood(others, 0) < 0.5 * criteria.noise_grows) return false;
+  }
+  return true;
+}
+
 /// Whether the readings at one level differ at all: where each pass begins with a zero they do not.
 std::vector<bool> scatters(const Observations& o, const Covariate& x) {
   std::map<double, std::pair<double, double>> range;
@@ -100,7 +110,7 @@ std::optional<NoiseGrowth> noise_growth(const Observations& o, const Replicates&
     if (freedom < criteria.freedom_for_growth) continue;
     const double equal = likelihood(judged, 0);
     for (const double ratio : criteria.growth_ratios)
-      if (const double gain = likelihood(judged, ratio) - equal; gain > most) {
+      if (const double gain = likelihood(judged, ratio) - equal; gain > most && in_every_pass(judged, ratio)) {
         most = gain;
         best = {c, ratio, largest, Vector(index(o.readings))};
       }
