@@ -29,9 +29,9 @@ struct Criteria {
   std::size_t readings_for_correlation = 12;
   /// Ratio of the noise of two indications from which it is not taken to be equal: of fifty readings, chance gives 1.3.
   double unequal_spread = 1.5;
-  /// Noise that is not declared grows with a condition if 2 ln of the likelihood says so by this much: of one condition
-  /// in normal noise it exceeds it once in 10,000.
-  double noise_grows = 16;
+  /// Noise that is not declared grows with a condition if 2 ln of the likelihood says so by this much: of one condition,
+  /// equal normal noise exceeds it less than once in a thousand.
+  double noise_grows = 12;
   /// Fewer degrees of freedom than this do not tell how noise grows. Tuned.
   std::ptrdiff_t freedom_for_growth = 20;
   /// Ratios tried, of the part that grows at the largest value met to the part that does not: steps of a factor that
