@@ -49,12 +49,14 @@ double likelihood(const std::vector<Pass>& passes, double ratio) {
   return out;
 }
 
-/// Whether the others still say so without any one pass: a bad reading decides for its own.
-bool in_every_pass(const std::vector<Pass>& passes, double ratio) {
+/// Whether the others still say so, by their share, without any one pass: a bad reading decides for its own.
+bool without_any(const std::vector<Pass>& passes, double ratio) {
+  const auto n = static_cast<double>(passes.size());
   for (std::size_t without = 0; without < passes.size(); ++without) {
     std::vector<Pass> others = passes;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(without));
-    if (others.empty() || likelihood(others, ratio) - likelihood(others, 0) < 0.5 * criteria.noise_grows) return false;
+    if (others.empty() || likelihood(others, ratio) - likelihood(others, 0) < criteria.noise_grows * (n - 1) / n)
+      return false;
   }
   return true;
 }
@@ -110,7 +112,7 @@ std::optional<NoiseGrowth> noise_growth(const Observations& o, const Replicates&
     if (freedom < criteria.freedom_for_growth) continue;
     const double equal = likelihood(judged, 0);
     for (const double ratio : criteria.growth_ratios)
-      if (const double gain = likelihood(judged, ratio) - equal; gain > most && in_every_pass(judged, ratio)) {
+      if (const double gain = likelihood(judged, ratio) - equal; gain > most && without_any(judged, ratio)) {
         most = gain;
         best = {c, ratio, largest, Vector(index(o.readings))};
       }
