@@ -66,7 +66,8 @@ class AxisAngle(unittest.TestCase):
             self.assertLess(row["u"], 0.2 * abs(size))
             # Round 2 starts where this one ended.
             again = self.trace(path, "s.traced.toml")
-            self.assertEqual(again["verdict"], "nothing_found", again["statements"])
+            # A shape by chance, which held-out blocks reject, has a probability of alpha here as well.
+            self.assertTrue(again["findings"] == [] or again["vetoed"], again["statements"])
             self.assertAlmostEqual(again["rms"]["before"] / found["rms"]["after"], 1, delta=0.02)
             self.assertAlmostEqual(again["rms"]["holdout_before"] / found["rms"]["holdout_after"], 1, delta=0.02)
 

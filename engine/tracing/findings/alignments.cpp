@@ -113,12 +113,16 @@ void describe_alignments(const TraceContext& c, const Search& s, Trace& out) {
       if (at == known.end()) known.push_back(g.group[r]);
     }
     if (g.name == "block" || known.size() < criteria.groups_of_alignments) continue; // a stretch is no act of anybody
+    // Its draws are part of the noise by which held-out readings are judged then, whatever their slopes.
+    const bool scatters = std::ranges::any_of(s.findings, [&](const SearchFinding& f) {
+      return f.component >= 0 && o.replicate_groups[index(f.component)].group == g.group;
+    });
     for (const Covariate& v : o.covariates) {
       if (!v.commanded || v.course || v.levels.size() < criteria.levels_of_alignments) continue;
       bool turns = false;
       const Matrix x = columns_of(v, readings, turns);
       Own own = own_of(left, x, group, known.size(), {});
-      if (own.p_value > criteria.p_of_alignments && predicted) continue;
+      if (own.p_value > criteria.p_of_alignments && predicted && !scatters) continue;
       if (own.share < criteria.share_of_alignments) own = own_of(before, x, group, known.size(), cell);
       if (own.share < criteria.share_of_alignments || own.p_value > criteria.p_of_alignments) continue;
       out.statements.push_back(fmt::format(
