@@ -100,7 +100,7 @@ std::size_t OrderedColumn::search(std::size_t span, double turn, std::size_t fro
   if (values_of != found.kept.data() + found.kept.size()) changed();
   for (const Segment& s : some) {
     const Cell &start = cells_[s.start], &end = cells_[s.end];
-    // Of the intervals that begin with equal values, none is shorter than the first.
+    // No interval that begins with an equal value is shorter than the first such one.
     for (std::size_t k = 0; k < (start.values ? s.count : 1); ++k)
       if (const double length = least(end, s.to + k) + s.add - least(start, s.from + k); length < best.length)
         best.length = length, best.rank = s.from + k;

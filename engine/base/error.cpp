@@ -96,7 +96,7 @@ std::string nearest(const std::string& word, const std::vector<std::string>& can
   const std::size_t too_far = word.size() <= 2 ? 2 : std::max<std::size_t>(2, word.size() / 2) + 1;
   std::pair best_order{too_far, false};
   for (const std::string& candidate : candidates) {
-    // Of two as near the one that begins like the word: the first letter is seldom the wrong one.
+    // If two names are equally near, take the one with the word's first letter, which is seldom the wrong one.
     const std::pair order{edit_distance(word, candidate), candidate.substr(0, 1) != word.substr(0, 1)};
     if (order < best_order) best = candidate, best_order = order;
   }

@@ -136,6 +136,19 @@ class RelativeNoise(Noise):
         remarks = [r for f in self.trace("s.toml")["findings"] for r in f["remarks"]]
         self.assertTrue(any("l/min/(l/min)" in r for r in remarks), remarks)
 
+    def test_noise_of_a_temperature_grows_by_differences(self):
+        """A size of noise in degC would be a temperature: zero of it 273 K."""
+        rng = np.random.default_rng([3, 1])
+        flow = np.tile([1.0, 2, 5, 10, 20, 50, 30, 3], 12)
+        n = len(flow)
+        d = 20 + 0.002 * flow * rng.standard_normal(n)
+        self.write(METER.replace("gain * flow + zero", "zero").replace("gain = { estimated = true, value = 1 }\n", "")
+                   .replace('"0 l/min"', '"20 degC"').replace('column = "d", unit = "l/min"', 'column = "d", unit = "degC"'),
+                   run=np.arange(n) // 8 + 1, flow=flow, t=60 * np.arange(n), warm=0.01 * np.arange(n), d=d.round(5))
+        self.assertTrue(any("grows with flow" in s for s in self.trace("s.toml")["statements"]))
+        self.assertIn('size = { value = "0 K"', (self.folder / "s.traced.toml").read_text())
+        self.assertEqual(self.trace("s.traced.toml")["findings"], [])
+
     def test_the_next_round_starts_where_this_one_ended(self):
         self.meter(300, warming=0.002)
         first = self.trace("s.toml")

@@ -78,8 +78,8 @@ TEST_CASE("noise that grows with a condition is told from noise that does not", 
     if (const auto grows = Passes([](double x) { return std::hypot(0.05, 0.1 * x); }, seed).grows()) {
       ++found;
       CHECK(grows->largest == 10);
-      // Of the last level over the first; a ratio of 9 in truth, known to half of its logarithm with 48 degrees of
-      // freedom.
+      // The noise at the last level is nine times that at the first. Each has seven degrees of freedom, so that the
+      // logarithm of their ratio is known to about 0.4; a factor of three is 2.7 of these.
       const double ratio = std::sqrt(grows->variance[9] / grows->variance[0]);
       CHECK(ratio > 9 / 3.0);
       CHECK(ratio < 9 * 3.0);

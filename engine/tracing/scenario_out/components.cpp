@@ -6,6 +6,7 @@
 
 #include "tracing/findings/findings.h"
 #include "tracing/scenario_out/composition.h"
+#include "tracing/scenario_out/corrections.h"
 
 namespace gumshoe::tracing {
 namespace {
@@ -35,7 +36,7 @@ public:
     effect.name = fmt::format("noise_of_{}_by_{}", card.name, x.name);
     effect.indication = card.name;
     effect.si_unit = card.si_unit;
-    effect.unit = unit_of(card);
+    effect.unit = unit_of_size(card);
     effect.meaning = fmt::format("noise of {} that grows with {}", card.name, x.name);
     effect.source = source;
     effect.keys = {{x.name, x.unit, x.si_unit, {std::min(0.0, x.levels.front()), std::max(0.0, x.levels.back())}}};

@@ -64,8 +64,7 @@ Correction common(const TraceContext& c, const Candidate& shape, const std::stri
   out.meaning = fmt::format("unknown: {}{}", shape.name, shape.shape.empty() ? "" : ", " + shape.shape);
   out.indication = card.name;
   out.si_unit = card.si_unit;
-  const std::string unit = card.si_unit == "m" ? "um" : std::string(card.unit);
-  out.unit = units::to_si(0, unit, out.si_unit) == 0 ? unit : out.si_unit; // a size is a difference
+  out.unit = unit_of_size(card);
   return out;
 }
 
@@ -108,6 +107,11 @@ std::optional<Correction> in_a_group(const TraceContext& c, const Vector& loadin
 }
 
 } // namespace
+
+std::string unit_of_size(const VariableCard& card) {
+  const std::string unit = card.si_unit == "m" ? "um" : std::string(card.unit), si_unit(card.si_unit);
+  return units::to_si(0, unit, si_unit) == 0 ? unit : si_unit;
+}
 
 std::optional<WrittenShape> written_shape(const TraceContext& c, const Term& term, const std::string& name) {
   const Observations& o = c.observations;

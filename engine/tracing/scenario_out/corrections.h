@@ -6,6 +6,9 @@
 
 namespace gumshoe::tracing {
 
+/// Unit in which a size that adds to an indication is written: a difference has no zero of its own (K, not degC).
+std::string unit_of_size(const VariableCard& indication);
+
 struct WrittenShape {
   std::vector<Correction> effects; ///< one per size of the term; one alone if it depends on nothing but a label
   const Grouping* label = nullptr; ///< the size then takes a value for each of its groups

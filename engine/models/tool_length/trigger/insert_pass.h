@@ -41,7 +41,7 @@ private:
   Mask<V> cleared(const Mask<V>& wanted, const Crest& crest, const V& from, const V& to, const V& facing, const V& fall,
                   const V& limit) const;
   InsertLines<V> lines_;
-  /// Of the geometry alone: of crests that rise, and of the others.
+  /// For crests that rise, and for the others; depends on the geometry alone.
   std::array<TopOf<V>, 2> top_;
   std::array<Mask<V>, 2> top_known_{everywhere<V>(false), everywhere<V>(false)};
 };
