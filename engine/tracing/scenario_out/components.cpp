@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include "tracing/findings/findings.h"
+#include "tracing/findings/sizes.h"
 #include "tracing/scenario_out/composition.h"
 #include "tracing/scenario_out/corrections.h"
 
@@ -43,9 +44,9 @@ public:
     for (const double level : effect.keys[0].levels) effect.loading.push_back(level / grows.largest);
     out_.additions.push_back({effect.name + ".size", effect.unit, effect.si_unit, u, {"reading"}, source});
     out_.statements.push_back(
-        fmt::format("the noise of {} grows with {}: of its variance the part that grows is {:.2g} times "
-                    "the other at the largest {} met; readings are weighted so",
-                    card.name, x.name, grows.ratio * grows.ratio, x.name));
+        fmt::format("the noise of {} grows with {}: u = {} at 0 and {} at {}; readings are weighted so", card.name,
+                    x.name, shown_size(u / grows.ratio, effect.unit, effect.si_unit),
+                    shown_size(u, effect.unit, effect.si_unit), shown_size(grows.largest, x.unit, x.si_unit)));
     out_.growing_noise.push_back(std::move(effect));
   }
 
