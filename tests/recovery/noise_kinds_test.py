@@ -94,6 +94,26 @@ class CoarseDisplay(Noise):
             self.assertLess(found["noise"]["scale"], 0.74 * 2, seed)
 
 
+class MoreNoiseThanDeclared(Noise):
+    """A display of 1 um is all that is declared of readings that scatter by 1.04 um, and a reversal of +-3 um is not."""
+
+    def test_it_is_found_beside_an_effect(self):
+        scenario = AXIS.replace(', { u = "0.3 um", per = "reading" }', "")
+        x = np.tile(np.concatenate([np.arange(0, 501, 50), np.arange(500, -1, -50)]), 5)
+        n = len(x)
+        direction = np.where(np.arange(n) % 22 < 11, 1, -1)
+        for seed in range(4):
+            rng = np.random.default_rng([4, seed])
+            d = np.rint(0.02 * x + 3 * direction + rng.standard_normal(n))
+            self.write(scenario, run=np.arange(n) // 22 + 1, direction=direction, x=x, t=20 * np.arange(n), d=d)
+            found = self.trace("s.toml")["findings"]
+            self.assertEqual([f["depends_on"] for f in found], [["direction"], ["reading"]], seed)
+            [size] = found[1]["quantities"]
+            # 88 readings tell a standard deviation to 8 %.
+            self.assertAlmostEqual(size["value"], 1.04, delta=3 * 0.08 * 1.04)
+            self.assertEqual(self.trace("s.traced.toml")["findings"], [], seed)
+
+
 class RelativeNoise(Noise):
     """0.2 % of the flow, over a range of 50: with equal weights, 14 of 60 nulls had a finding."""
 

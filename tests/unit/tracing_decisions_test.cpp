@@ -118,13 +118,12 @@ TEST_CASE("scatter is found in the largest component, larger noise only where no
 
   a = nothing();
   a.p_noise_overall = 0.01;
-  CHECK(larger_noise_found(a, 0.05, 0));
-  CHECK_FALSE(larger_noise_found(a, 0.05, 1));
+  CHECK(larger_noise_found(a, 0.05));
   a.p_component[1] = 0.05;
-  CHECK_FALSE(larger_noise_found(a, 0.05, 0));
+  CHECK_FALSE(larger_noise_found(a, 0.05));
   a = nothing();
   a.p_noise_overall = a.p_signature = 0.01; // a signature explains it
-  CHECK_FALSE(larger_noise_found(a, 0.05, 0));
+  CHECK_FALSE(larger_noise_found(a, 0.05));
 }
 
 TEST_CASE("effects that explain as much as scatter are tried in its place", "[tracing]") {

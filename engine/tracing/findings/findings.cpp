@@ -40,7 +40,7 @@ bool survives_veto(const TraceContext& c, const Search& s, SearchFinding& found)
   Finding& f = found.finding;
   // Scatter was found given what is rejected: it counts only if the declared model shows it, too.
   if (f.kind == Kind::scatter) {
-    const auto shown = scatter_shown(c, s.base, s.first, 0);
+    const auto shown = scatter_shown(c, s.base, s.first);
     return shown && shown->component == found.component && look_for_scatter(s.first, c.alpha);
   }
   const bool alone = std::ranges::any_of(s.findings, [&](const SearchFinding& other) {

@@ -80,8 +80,8 @@ std::optional<std::size_t> scatter_found(const Assessment& a, double alpha) {
   return std::nullopt;
 }
 
-bool larger_noise_found(const Assessment& a, double alpha, std::size_t findings) {
-  return findings == 0 && a.p_noise_overall <= alpha && a.p_signature > alpha && a.p_lack_of_fit > alpha &&
+bool larger_noise_found(const Assessment& a, double alpha) {
+  return a.p_noise_overall <= alpha && a.p_signature > alpha && a.p_lack_of_fit > alpha &&
          std::ranges::none_of(a.p_block, [&](double p) { return p <= alpha; }) &&
          std::ranges::none_of(a.p_component, [&](double p) { return p <= alpha; });
 }

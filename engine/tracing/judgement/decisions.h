@@ -79,7 +79,7 @@ bool explains_both(double lead);
 /// The variance component that was found: the largest, if its p-value allows it.
 std::optional<std::size_t> scatter_found(const Assessment& assessment, double alpha);
 /// Whether the noise of single readings is larger than declared and nothing else explains that.
-bool larger_noise_found(const Assessment& assessment, double alpha, std::size_t findings);
+bool larger_noise_found(const Assessment& assessment, double alpha);
 
 /// Errors of the hold-out blocks: sum of squares in units of all that is declared, and root mean square.
 struct HoldoutError {

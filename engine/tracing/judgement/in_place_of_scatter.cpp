@@ -36,8 +36,7 @@ bool larger_than_declared(const TraceContext& c, const JointFit& fit, double noi
 
 } // namespace
 
-std::optional<SearchFinding> scatter_shown(const TraceContext& c, const JointFit& fit, const Assessment& a,
-                                           std::size_t findings) {
+std::optional<SearchFinding> scatter_shown(const TraceContext& c, const JointFit& fit, const Assessment& a) {
   SearchFinding found;
   found.finding.kind = Kind::scatter;
   if (const auto component = scatter_found(a, c.alpha)) {
@@ -50,7 +49,7 @@ std::optional<SearchFinding> scatter_shown(const TraceContext& c, const JointFit
   }
   // Noise of single readings, correlation and components apart: that is what would be declared.
   if (!larger_than_declared(c, fit, fit.noise * std::sqrt(a.data.variance[0])) ||
-      !larger_noise_found(a, c.alpha, findings))
+      !larger_noise_found(a, c.alpha))
     return std::nullopt;
   found.finding.p_value = a.p_noise_overall;
   found.finding.depends_on = {"reading"};

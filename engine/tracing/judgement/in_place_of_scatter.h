@@ -8,7 +8,7 @@ namespace gumshoe::tracing {
 /// The variance component or the larger noise that an assessment shows; none: neither.
 /// @param fit  the fit that was assessed
 std::optional<SearchFinding> scatter_shown(const TraceContext& context, const JointFit& fit,
-                                           const Assessment& assessment, std::size_t findings);
+                                           const Assessment& assessment);
 
 struct InPlaceOfScatter {
   std::optional<std::size_t> shape;   ///< candidate: a plain shape is there, and no scatter

@@ -358,7 +358,7 @@ private:
 
   /// A variance component, or an effect that these data cannot distinguish from it. True if an effect was taken in.
   bool take_component() {
-    auto found = scatter_shown(c_, out_.found, evidence_->assessment(), out_.findings.size());
+    auto found = scatter_shown(c_, out_.found, evidence_->assessment());
     if (!found) return false;
     if (found->component >= 0) {
       const InPlaceOfScatter instead = in_place_of_scatter(c_, *evidence_, *found);
@@ -396,16 +396,18 @@ private:
 
 namespace {
 
-/// Whether all that was found is that single readings scatter more than declared.
-bool larger_noise_alone(const Search& s) {
-  return s.findings.size() == 1 && s.findings[0].finding.kind == Kind::scatter && s.findings[0].component < 0;
+/// Whether single readings scatter more than declared, with all else that was found.
+bool larger_noise(const Search& s) {
+  return std::ranges::any_of(s.findings, [](const SearchFinding& f) {
+    return f.finding.kind == Kind::scatter && f.component < 0;
+  });
 }
 
 } // namespace
 
 Search search(const TraceContext& c) {
   Search all = Searcher(c).run();
-  if (!larger_noise_alone(all)) return all;
+  if (!larger_noise(all)) return all;
   // A few readings that are off make noise look larger, and hide what else is there.
   const std::vector<Index> rows = outlying_rows(c, all.found);
   if (rows.empty()) return all;
@@ -413,7 +415,7 @@ Search search(const TraceContext& c) {
   const TraceContext without{c.experiment, c.simulator, c.observations, others,    c.alpha,
                              c.draws,      c.seed,      c.threads,      c.progress};
   Search found = Searcher(without).run();
-  if (!found.found.valid || larger_noise_alone(found)) return all;
+  if (!found.found.valid || larger_noise(found)) return all;
   return with_all_readings(c, all, std::move(found), rows.size() / c.observations.indications);
 }
 

@@ -30,7 +30,7 @@ std::vector<Index> outlying_rows(const TraceContext& c, const JointFit& fit) {
   std::vector<Index> out = winsorised_rows(fit, c.fitter.rows());
   for (std::vector<Index> more = out; !more.empty() && out.size() <= most;) {
     const Fitter others = c.fitter.without_rows(out);
-    const JointFit left = others.fit({}, 0);
+    const JointFit left = others.fit(fit.terms, 0);
     if (!left.valid) return {};
     more = winsorised_rows(left, others.rows());
     out.insert(out.end(), more.begin(), more.end());

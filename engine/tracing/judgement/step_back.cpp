@@ -35,7 +35,7 @@ std::vector<std::string> step_back(const TraceContext& c, Search& s) {
   s.capped = false;
   s.last = Evidence(c, s.found, s.findings.size(), {}).assessment();
   if (look_for_scatter(s.last, c.alpha))
-    if (const auto scatter = scatter_shown(c, s.found, s.last, s.findings.size())) s.findings.push_back(*scatter);
+    if (const auto scatter = scatter_shown(c, s.found, s.last)) s.findings.push_back(*scatter);
   c.fitter.widen_jumping(s.found);
   return dropped;
 }
