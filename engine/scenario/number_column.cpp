@@ -9,6 +9,7 @@
 
 #include "base/clock.h"
 #include "math/senses.h"
+#include "scenario/column_words.h"
 
 namespace gumshoe::scenario {
 namespace {
@@ -188,6 +189,7 @@ std::vector<std::optional<double>> NumberColumn::values(const std::vector<std::s
                                                         Problems& problems) const {
   if (!clock_.empty()) return clock_values(rows, problems);
   if (sense_) return sense_values(rows, problems);
+  if (words_.empty() && no_numbers(rows, problems)) return std::vector<std::optional<double>>(rows.size());
   std::vector<std::optional<double>> out;
   std::set<std::string> told;
   for (const std::size_t row : rows) {
@@ -205,6 +207,25 @@ std::vector<std::optional<double>> NumberColumn::values(const std::vector<std::s
                   fmt::format("it has {}", fmt::join(known, ", ")), "add the word to the map"});
   }
   return out;
+}
+
+bool NumberColumn::no_numbers(const std::vector<std::size_t>& rows, Problems& problems) const {
+  if (rows.empty()) return false;
+  std::vector<std::string> texts;
+  for (const std::size_t row : rows) texts.push_back(file_.csv->rows[row][columns_.front()].text);
+  const CsvCell& first = file_.csv->rows[rows.front()][columns_.front()];
+  if (const std::string form = clock_form(texts); !form.empty()) {
+    problems.add({file_.csv->at(first), fmt::format("'{}' is a clock time, and {} is read as numbers", first.text, path_), "",
+                  fmt::format("clock = \"{}\" in {}: seconds since the first", form, path_)});
+    return true;
+  }
+  const auto words = signs({texts.begin(), texts.end()});
+  if (words.empty() || std::ranges::any_of(words, [](const auto& w) { return w.first.ends_with('1'); })) return false;
+  std::vector<std::string> map;
+  for (const auto& [text, sign] : words) map.push_back(fmt::format("\"{}\" = {}", text, sign));
+  problems.add({file_.csv->at(first), fmt::format("'{}' is a word, and {} is read as numbers", first.text, path_), "",
+                fmt::format("map = {{ {} }} in {}", fmt::join(map, ", "), path_)});
+  return true;
 }
 
 std::vector<std::optional<double>> NumberColumn::sense_values(const std::vector<std::size_t>& rows,

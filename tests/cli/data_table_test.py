@@ -187,6 +187,18 @@ c = { value = "0 um/s", estimated = true }
         if written.exists():
             self.assertIn('file = "../new.csv"', written.read_text())
 
+    def test_clock_times_and_words_that_are_read_as_numbers_get_the_key_they_need(self):
+        (self.folder / "log.csv").write_text("when,dir,pos_mm,x_um,y_um\n2026-02-03T10:00:00,up,0,0.4,0.5\n2026-02-03T10:00:30,down,5,0.6,0.7\n")
+        plain = re.sub(r"\nu = .*", "", SCENARIO).replace('"run_{run}.csv"', '"log.csv"').replace('decimal = ","\n', "").replace('labels = { run = "run" }\n', "")
+        plain = plain.replace('column = "dir", map = { fwd = 1, bwd = -1 }', 'column = "dir"')
+        plain = plain.replace('column = ["date", "clock"], clock = "%d.%m.%Y %H:%M:%S"', 'column = "when"')
+        self.refused(("", ""), "log.csv:2:1: error: '2026-02-03T10:00:00' is a clock time, and data.conditions.time is read as numbers. "
+                     "Try: clock = \"iso\" in data.conditions.time: seconds since the first",
+                     "log.csv:2:21: error: 'up' is a word, and data.conditions.direction is read as numbers. "
+                     "Try: map = { \"down\" = -1, \"up\" = 1 } in data.conditions.direction", scenario=plain)
+        mended = plain.replace('column = "when"', 'column = "when", clock = "iso"').replace('column = "dir"', 'column = "dir", map = { "down" = -1, "up" = 1 }')
+        self.explained(mended)
+
     def test_mistakes_are_named_at_their_place(self):
         bad = self.folder / "run_4.csv"
         for change, said in ((("fwd", "forward"), "run_4.csv:2:23: error: 'forward' has no number in data.conditions.direction.map "
