@@ -39,7 +39,8 @@ std::vector<Key> number_column_keys() {
           {"unit", shape::text(), "unit of the numbers in the column; default: that of [data], or a plain number"},
           {"map", shape::map(shape::reference("measure")), "word = number: what the words in the column stand for"},
           {"clock", shape::text(),
-           "the column holds clock times, which become seconds since the first: \"iso\", \"excel\" (days), or a pattern such as "
+           "the column holds clock times, which become seconds since the first: \"iso\", \"excel\" (days), or a "
+           "pattern such as "
            "\"%d.%m.%Y %H:%M:%S\""},
           {"sense", shape::flag(),
            "the way the numbers in the column go from row to row: 1 up, -1 down; for readings that a path up and down "
@@ -215,7 +216,8 @@ bool NumberColumn::no_numbers(const std::vector<std::size_t>& rows, Problems& pr
   for (const std::size_t row : rows) texts.push_back(file_.csv->rows[row][columns_.front()].text);
   const CsvCell& first = file_.csv->rows[rows.front()][columns_.front()];
   if (const std::string form = clock_form(texts); !form.empty()) {
-    problems.add({file_.csv->at(first), fmt::format("'{}' is a clock time, and {} is read as numbers", first.text, path_), "",
+    problems.add({file_.csv->at(first),
+                  fmt::format("'{}' is a clock time, and {} is read as numbers", first.text, path_), "",
                   fmt::format("clock = \"{}\" in {}: seconds since the first", form, path_)});
     return true;
   }

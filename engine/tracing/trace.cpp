@@ -28,6 +28,20 @@ bool speaks_of(const scenario::Node& node, std::string_view name) {
          std::ranges::any_of(node.members, [&](const auto& m) { return m.key == name || speaks_of(m.value, name); });
 }
 
+/// Readings that were recorded each with its time, or its temperature, and are judged by their means.
+void state_what_means_hide(const Observations& o, const scenario::Scenario& s, Trace& out) {
+  std::size_t rows = 0;
+  for (const auto& r : s.readings) rows += static_cast<std::size_t>(r.repeats);
+  std::vector<std::string> recorded;
+  for (const Covariate& x : o.covariates)
+    if (!x.commanded && x.name != "order") recorded.push_back(x.name);
+  if (rows == s.readings.size() || recorded.empty()) return;
+  out.statements.push_back(
+      fmt::format("{} readings of equal labels and conditions are judged as {}, their means, whatever {} "
+                  "did meanwhile; repeats = \"apart\" keeps them apart",
+                  rows, s.readings.size(), fmt::join(recorded, " and ")));
+}
+
 /// Says what the design of the data rules out, whatever the readings are.
 void state_what_design_rules_out(const TraceContext& c, const scenario::Scenario& s, Trace& out) {
   const ModelCard& card = *c.experiment.model().card;
@@ -45,6 +59,7 @@ void state_what_design_rules_out(const TraceContext& c, const scenario::Scenario
                     card.conditions[i].name, units::from_si(first, unit, std::string(card.conditions[i].si_unit)),
                     unit == "1" ? "" : " " + unit));
   }
+  state_what_means_hide(c.observations, s, out);
 }
 
 /// Whether the readings suffice to judge residuals; says why not.

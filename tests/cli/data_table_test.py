@@ -199,6 +199,31 @@ c = { value = "0 um/s", estimated = true }
         mended = plain.replace('column = "when"', 'column = "when", clock = "iso"').replace('column = "dir"', 'column = "dir", map = { "down" = -1, "up" = 1 }')
         self.explained(mended)
 
+    def test_trace_says_what_means_of_recorded_readings_hide(self):
+        """A sensor is exchanged within a day of twenty readings: the days' means are five, and say little."""
+        values = [100 + 0.01 * ((7 * k) % 13 - 6) + (0.5 if k > 61 else 0) for k in range(120)]
+        rows = [f"{1 + k // 20},{600 * k},{y:.3f}" for k, y in enumerate(values)]
+        (self.folder / "log.csv").write_text("day,t,y\n" + "\n".join(rows) + "\n")
+        text = """schema = 1
+[model]
+name = "expression"
+indications = { y = "level" }
+[quantities]
+level = { estimated = true, value = "100 um" }
+[indications.y]
+readings = { file = "log.csv", column = "y", unit = "um", labels = { day = "day" } }
+[trace]
+blocks = "day"
+columns.t = { column = "t", unit = "s" }
+"""
+        said = "120 readings of equal labels and conditions are judged as 6, their means, whatever t did meanwhile; repeats = \"apart\" keeps them apart"
+        self.file.write_text(text)
+        self.assertIn(said, gumshoe("trace", self.file, cwd=self.folder).stdout)
+        self.file.write_text(text.replace('"um", labels', '"um", repeats = "apart", labels'))
+        run = gumshoe("trace", self.file, "--force", cwd=self.folder)
+        self.assertNotIn(said, run.stdout)
+        self.assertIn("Something changed after reading 62", run.stdout)
+
     def test_mistakes_are_named_at_their_place(self):
         bad = self.folder / "run_4.csv"
         for change, said in ((("fwd", "forward"), "run_4.csv:2:23: error: 'forward' has no number in data.conditions.direction.map "
