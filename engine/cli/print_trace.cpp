@@ -9,6 +9,7 @@
 
 #include "analysis/rounding.h"
 #include "base/units.h"
+#include "tracing/findings/sizes.h"
 #include "tracing/findings/verdict_json.h"
 
 namespace gumshoe::cli {
@@ -41,13 +42,11 @@ std::string size_text(const SizedQuantity& q) {
   return text;
 }
 
-/// Lengths of less than a tenth of a millimetre in micrometres.
+/// Figures in the unit of the root mean squares, or in another.
 struct Lengths {
   std::string unit, si_unit;
   Lengths(std::string u, std::string si) : unit(std::move(u)), si_unit(std::move(si)) {}
-  explicit Lengths(const Rms& r) : unit(r.unit), si_unit(r.si_unit) {
-    if (unit == "mm" && !(std::max({r.before, r.after, r.noise}) >= 1e-4)) unit = "um";
-  }
+  explicit Lengths(const Rms& r) : unit(unit_of(r)), si_unit(r.si_unit) {}
   std::string show(double si) const {
     return std::isfinite(si) ? two_digits(units::from_si(si, unit, si_unit, units::Kind::difference)) : "-";
   }

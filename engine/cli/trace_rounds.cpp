@@ -97,7 +97,9 @@ std::string table(const std::vector<Round>& rounds) {
                                 "after", "held out", "after", "noise", "floor");
   for (std::size_t k = 0; k < rounds.size(); ++k) {
     const tracing::Rms& r = rounds[k].rms;
-    const auto show = [&](double si) { return std::isfinite(si) ? tracing::shown_rms(si, r) : "-"; };
+    const auto show = [&](double si) { // all in one unit
+      return std::isfinite(si) ? tracing::shown_rms(si, rounds.front().rms) : "-";
+    };
     const std::string added = rounds[k].vetoed          ? "nothing: the held-out readings are not predicted better"
                               : rounds[k].added.empty() ? "nothing"
                                                         : fmt::format("{}", fmt::join(rounds[k].added, "; "));

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/rounding.h"
 #include "base/units.h"
 #include "quantities/cells.h"
 #include "tracing/criteria.h"
@@ -17,8 +18,19 @@ std::string shown_size(double si, const std::string& unit, const std::string& si
                      unit == "1" ? "" : " " + unit);
 }
 
+std::string unit_of(const Rms& rms) {
+  if (rms.si_unit != "m") return rms.unit;
+  double largest = 0;
+  for (const double x : {rms.before, rms.after, rms.noise})
+    if (std::isfinite(x)) largest = std::max(largest, x);
+  return largest < 1e-3 ? "um" : largest < 1 ? "mm" : "m";
+}
+
 std::string shown_rms(double si, const Rms& rms) {
-  return rms.si_unit == "m" ? fmt::format("{:.2g} um", si * 1e6) : shown_size(si, rms.unit, rms.si_unit);
+  if (rms.si_unit != "m") return shown_size(si, rms.unit, rms.si_unit);
+  const std::string unit = unit_of(rms);
+  const double x = units::from_si(si, unit, rms.si_unit, units::Kind::difference), size = std::fabs(x);
+  return (size < 100 ? fmt::format("{:.2g}", x) : analysis::fixed(x, analysis::decimals_for(size))) + " " + unit;
 }
 
 std::vector<SizedQuantity> sizes(const TraceContext& c, const JointFit& fit, std::size_t term, double limit) {

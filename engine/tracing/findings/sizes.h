@@ -4,8 +4,11 @@
 
 namespace gumshoe::tracing {
 
-/// A length change in its own unit, "12.3 um"; two digits of a root mean square, lengths in um.
+/// A length change in its own unit, "12.3 um".
 std::string shown_size(double si, const std::string& unit, const std::string& si_unit);
+/// Unit in which these figures are shown: their own; of lengths um, mm or m, as suits the largest.
+std::string unit_of(const Rms& rms);
+/// Two digits and that unit.
 std::string shown_rms(double si, const Rms& rms);
 
 /// Sizes of a term with u and the interval after selection. A shape has none.
