@@ -47,11 +47,18 @@ def limits(values):
     return 1.12 * (top or 1)
 
 
-def band(axes, rows, factor):
-    """Two standard uncertainties of the noise."""
-    u = [r.noise_u * r.display_factor for r in rows if math.isfinite(r.noise_u) and r.noise_u > 0]
-    if u:
-        axes.axhspan(-2 * factor * float(np.median(u)), 2 * factor * float(np.median(u)), color=BAND, linewidth=0, zorder=0)
+def band(axes, rows, factor, x):
+    """Two standard uncertainties of the noise; along x where readings differ in it."""
+    u = np.array([r.noise_u * r.display_factor for r in rows])
+    known = np.isfinite(u) & (u > 0) & np.isfinite(x)
+    if known.any():
+        u, x = 2 * factor * u[known], np.asarray(x)[known]
+        if np.ptp(u) < 0.05 * u.max():
+            axes.axhspan(-np.median(u), np.median(u), color=BAND, linewidth=0, zorder=0)
+        else:
+            places = np.unique(x)
+            wide = np.array([np.median(u[x == place]) for place in places])
+            axes.fill_between(places, -wide, wide, color=BAND, linewidth=0, zorder=0)
     axes.axhline(0, color=GREY, linewidth=0.6, zorder=0.5)
 
 
@@ -74,7 +81,7 @@ def in_order(rows, name):
     size = 2.6 if len(rows) > 300 else 3.6
     top = limits(values)
     for axes, (side, colour) in zip(grid, shown):
-        band(axes, rows, factor)
+        band(axes, rows, factor, x)
         for first, last in zip(edges, edges[1:]):
             if rows[first].final:
                 axes.axvspan(first + 0.5, last + 0.5, color=PALE, alpha=0.55, linewidth=0, zorder=0.2)
@@ -154,8 +161,9 @@ def against(rows, columns, name):
     final = np.array([bool(r.final) for r in rows])
     panels = [(column, side) for column in columns for side in shown]
     for axes, ((title, x_unit, by_reading, chosen), (side, colour)) in zip(grid.flat, panels):
-        band(axes, rows, factor)
-        points(axes, abscissa(rows, by_reading), values[side] * factor, final, colour)
+        x = abscissa(rows, by_reading)
+        band(axes, rows, factor, x.values)
+        points(axes, x, values[side] * factor, final, colour)
         axes.set_ylim(-top, top)
         axes.set_xlabel(axis_label(title, x_unit), fontweight="bold" if chosen else "normal")
     for axes in grid.flat[len(panels):]:
