@@ -28,6 +28,14 @@ bool is_plain(const Candidate& a, const Grouping& group, const Observations& o) 
   return !x->commanded && name == "polynomial:" + x->name && a.shape.empty();
 }
 
+/// Size of what a fit leaves, in units of the declared noise, as if no reading resembled another.
+double independent_noise(const TraceContext& c, const JointFit& fit) {
+  const auto use = independent(fit.design, c.fitter.rows());
+  const Whitened plain(fit.design, c.fitter.rows(), use, {});
+  const Matrix left = plain.left_over(plain.winsorised(plain.take(fit.residual)));
+  return fit.noise * std::sqrt(left.squaredNorm() / static_cast<double>(plain.degrees_of_freedom()));
+}
+
 /// Whether a noise, in units of the declared one, is surely larger than that.
 bool larger_than_declared(const TraceContext& c, const JointFit& fit, double noise) {
   const double freedom = static_cast<double>(c.fitter.rows().size()) - static_cast<double>(fit.design.fixed.cols());
@@ -48,8 +56,7 @@ std::optional<SearchFinding> scatter_shown(const TraceContext& c, const JointFit
     return found;
   }
   // Noise of single readings, correlation and components apart: that is what would be declared.
-  if (!larger_than_declared(c, fit, fit.noise * std::sqrt(a.data.variance[0])) ||
-      !larger_noise_found(a, c.alpha))
+  if (!larger_than_declared(c, fit, fit.noise * std::sqrt(a.data.variance[0])) || !larger_noise_found(a, c.alpha))
     return std::nullopt;
   found.finding.p_value = a.p_noise_overall;
   found.finding.depends_on = {"reading"};
@@ -119,15 +126,17 @@ InPlaceOfScatter in_place_of_scatter(const TraceContext& c, const Evidence& e, c
   return out;
 }
 
-std::optional<std::size_t> in_place_of_larger_noise(const TraceContext& c, const Evidence& e) {
+std::optional<Trial> in_place_of_larger_noise(const TraceContext& c, const Evidence& e) {
   std::vector<Scored> all;
   for (std::size_t a = 0; a < e.candidates().size(); ++a)
-    all.push_back({e.candidates()[a].name, e.score(a), !e.candidates()[a].physical() || e.testable(a)});
+    all.push_back(
+        {e.candidates()[a].name, e.score(a), !e.candidates()[a].physical() && e.assessment().p[a] <= c.alpha});
+  std::optional<Trial> out;
   for (const std::size_t a : best_of(all, criteria.most_shapes))
-    if (const JointFit fit = e.trial(a).fit; e.score(a) > criteria.decisive && fit.valid &&
-                                             !larger_than_declared(c, fit, fit.noise * std::sqrt(fit.variance)))
-      return a;
-  return std::nullopt;
+    if (Trial one = e.trial(a); one.fit.valid && !larger_than_declared(c, one.fit, independent_noise(c, one.fit)) &&
+                                !e.of_few(one.fit) && (!out || one.score > out->score))
+      out = std::move(one);
+  return out;
 }
 
 } // namespace gumshoe::tracing

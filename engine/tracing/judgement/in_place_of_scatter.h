@@ -27,7 +27,8 @@ struct InPlaceOfScatter {
 InPlaceOfScatter in_place_of_scatter(const TraceContext& context, const Evidence& evidence,
                                      const SearchFinding& scatter);
 
-/// The best candidate with which readings scatter as declared; none: with each of the best they scatter more.
-std::optional<std::size_t> in_place_of_larger_noise(const TraceContext& context, const Evidence& evidence);
+/// The best shape with which readings scatter as declared, and none resembles the one before; none: with each of the best
+/// they scatter more. Noise that is larger than declared and correlated passes for a jump, and hides it from the search.
+std::optional<Trial> in_place_of_larger_noise(const TraceContext& context, const Evidence& evidence);
 
 } // namespace gumshoe::tracing

@@ -374,9 +374,14 @@ private:
       }
       if (instead.as_well) found->finding.members.push_back(candidate(*instead.as_well).name);
     }
-    // Sizes that explain more than chance, and with which readings jump, may be all of it, though none was found.
-    if (found->component < 0)
+    if (found->component < 0) {
+      if (const auto instead = in_place_of_larger_noise(c_, *evidence_)) {
+        add_shape(instead->candidate, instead->fit, found->finding.p_value);
+        return true;
+      }
+      // Sizes that explain more than chance, and with which readings jump, may be all of it, though none was found.
       for (std::string& name : evidence_->jumping(0)) found->finding.members.push_back(std::move(name));
+    }
     add(*found);
     return false;
   }
@@ -398,9 +403,8 @@ namespace {
 
 /// Whether single readings scatter more than declared, with all else that was found.
 bool larger_noise(const Search& s) {
-  return std::ranges::any_of(s.findings, [](const SearchFinding& f) {
-    return f.finding.kind == Kind::scatter && f.component < 0;
-  });
+  return std::ranges::any_of(s.findings,
+                             [](const SearchFinding& f) { return f.finding.kind == Kind::scatter && f.component < 0; });
 }
 
 } // namespace
