@@ -54,6 +54,8 @@ def readable(name, shape=""):
     family, colon, rest = name.partition(":")
     if family == "step" and " after " in rest:
         return f"step after {rest.partition(' after ')[2]}"
+    if family in ("pulse", "shift") and " about " in rest:
+        return f"{'pulse' if family == 'pulse' else 'gradual step'} about {rest.partition(' about ')[2]}"
     if family == "polynomial" and shape.startswith("square"):
         return f"square of {plain(rest)}"
     return FORMS[family](rest) if colon and family in FORMS else plain(name)

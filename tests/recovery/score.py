@@ -9,7 +9,7 @@ import sys
 
 from units import factor
 
-SHAPES = ("polynomial:", "harmonic:", "step:", "pulse:", "hysteresis:", "drift:", "product:", "omnibus:", "table:", "wave:")
+SHAPES = ("polynomial:", "harmonic:", "step:", "pulse:", "shift:", "hysteresis:", "drift:", "product:", "omnibus:", "table:", "wave:")
 
 
 def plain(name):

@@ -85,7 +85,7 @@ TEST_CASE("a step is found between the readings between which it was made", "[tr
     Vector step = Vector::Zero(static_cast<Index>(count));
     step.tail(step.size() - from).setOnes();
     const auto found = courses_of(o, step);
-    REQUIRE(found.size() == 3); // time is the only course; a drift comes first
+    REQUIRE(found.size() == 4); // time is the only course; a drift comes first
     step.array() -= step.mean();
     CHECK(found[1].name ==
           "step:time after reading " + std::to_string(o.sequence[static_cast<std::size_t>(from - 1)] + 1));
@@ -107,6 +107,20 @@ TEST_CASE("what came and went is found with its place and length", "[tracing]") 
     // What it explains is a ten-thousandth short: the column is a hundredth off.
     CHECK((one.columns - pulse).norm() < 1e-2 * pulse.norm());
     CHECK(one.depends_on == std::vector<std::string>{"time"});
+    CHECK(one.searched > 40);
+  }
+}
+
+TEST_CASE("what came and stayed is found with its place and length", "[tracing]") {
+  const Observations o = made();
+  for (const auto [middle, width] : {std::pair{20.3, 2.6}, {15.9, 4.1}, {33.2, 6.0}}) {
+    Vector shift(static_cast<Index>(count));
+    for (std::size_t i = 0; i < count; ++i)
+      shift[static_cast<Index>(i)] = 0.5 * std::erfc(-(static_cast<double>(i) - middle) / width / std::sqrt(2.0));
+    const auto found = courses_of(o, shift);
+    const auto reading = o.sequence[static_cast<std::size_t>(std::lround(middle))] + 1;
+    const Candidate& one = named(found, "shift:time about reading " + std::to_string(reading));
+    CHECK((one.columns - shift).norm() < 1e-2 * shift.norm());
     CHECK(one.searched > 40);
   }
 }

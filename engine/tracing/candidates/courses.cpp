@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <span>
 
@@ -74,15 +75,19 @@ Vector since_the_first(const Observations& o, const Covariate& c) {
   return out;
 }
 
-/// exp(-(t - middle)^2 / (2 width^2)) of one indication.
-class Pulses {
+double bell(double z) { return std::exp(-0.5 * z * z); }
+/// The integral of a bell, from 0 to 1.
+double gradual(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
+
+/// A form in (t - middle) / width of one indication: a bell, or a gradual step.
+class Placed {
 public:
   struct Form {
     double middle, width; ///< over the range
   };
 
-  Pulses(const Observations& o, const Covariate& c, std::size_t indication)
-      : o_(o), every_(index(o.indications)), indication_(index(indication)), t_(since_the_first(o, c)) {}
+  Placed(const Observations& o, const Covariate& c, std::size_t indication, double (*form)(double))
+      : o_(o), every_(index(o.indications)), indication_(index(indication)), t_(since_the_first(o, c)), form_(form) {}
 
   /// The reading nearest to its middle.
   std::size_t nearest(const Form& form) const {
@@ -95,7 +100,7 @@ public:
     Matrix out = Matrix::Zero(t_.size() * every_, index(forms.size()));
     for (Index j = 0; j < out.cols(); ++j) {
       const auto [middle, width] = forms[static_cast<std::size_t>(j)];
-      out(Eigen::seq(indication_, Eigen::last, every_), j) = (-0.5 * ((t_.array() - middle) / width).square()).exp();
+      out(Eigen::seq(indication_, Eigen::last, every_), j) = ((t_.array() - middle) / width).unaryExpr(form_);
     }
     return out;
   }
@@ -140,6 +145,7 @@ private:
   const Observations& o_;
   Index every_, indication_;
   Vector t_;
+  double (*form_)(double);
 };
 
 /// 1 - exp(-t / tau) of one indication, t being the time since the first reading.
@@ -222,15 +228,18 @@ std::vector<Candidate> courses(const Observations& o, const std::vector<Index>& 
       const std::size_t reading = o.sequence[static_cast<std::size_t>(from - 1)] + 1;
       out.push_back(shape(o, c, i, fmt::format("step:{} after reading {}", c.name, reading), steps.columns({from})));
       out.back().searched = static_cast<double>(places.size());
-      const Pulses pulses(o, c, i);
-      if (const auto form = pulses.best(gain)) {
-        const double range = c.levels.back() - c.levels.front();
-        out.push_back(shape(o, c, i, fmt::format("pulse:{} about reading {}", c.name, pulses.nearest(*form) + 1),
-                            pulses.columns({&*form, 1})));
-        constexpr double length_of_width = 2.3548; // at half of its height: 2 sqrt(2 ln 2)
+      const double range = c.levels.back() - c.levels.front();
+      const auto place = [&](const char* kind, double (*profile)(double), double length_of_width) {
+        const Placed all(o, c, i, profile);
+        const auto form = all.best(gain);
+        if (!form) return;
+        out.push_back(shape(o, c, i, fmt::format("{}:{} about reading {}", kind, c.name, all.nearest(*form) + 1),
+                            all.columns({&*form, 1})));
         out.back().shape = "length " + shown(c, length_of_width * form->width * range);
         out.back().searched = static_cast<double>(places.size());
-      }
+      };
+      place("pulse", bell, 2.3548);    // at half of its height: 2 sqrt(2 ln 2)
+      place("shift", gradual, 2.5631); // from a tenth of it to nine: twice the 0.9 quantile
     }
   return out;
 }

@@ -172,7 +172,8 @@ public:
     if (columns.cols() != 1) return "";
     const Vector y = columns(Eigen::seq(index(indication_), Eigen::last, index(o_.indications)), 0);
     const double low = y.minCoeff(), high = y.maxCoeff();
-    if (((y.array() - low) * (y.array() - high)).abs().maxCoeff() > 0) return "";
+    const bool gradual = term_.candidate.name.starts_with("shift:");
+    if (!gradual && ((y.array() - low) * (y.array() - high)).abs().maxCoeff() > 0) return "";
     return with_u(term_.size[0] * (high - low), std::sqrt(covariance_(0, 0)) * (high - low), small_unit(),
                   empty_.indication_si_unit);
   }

@@ -26,6 +26,8 @@ std::string reading_of(const std::string& shape, const std::string& kind, const 
 std::string instant_of(const std::string& shape) { return reading_of(shape, "step:", " after "); }
 /// The reading about which something came and went.
 std::string pulse_of(const std::string& shape) { return reading_of(shape, "pulse:", " about "); }
+/// The reading about which they went over to other values.
+std::string shift_of(const std::string& shape) { return reading_of(shape, "shift:", " about "); }
 
 /// "tool T3", which alone changes with the first condition; empty of any other shape.
 std::string part_alone(const Finding& f) {
@@ -45,6 +47,7 @@ std::string in_its_place(const Finding& f) {
   if (const std::string reading = instant_of(shape); !reading.empty()) return "something changed after " + reading;
   if (shape.starts_with("step:")) return on + " differs from the others, which agree";
   if (const std::string reading = pulse_of(shape); !reading.empty()) return "something came and went about " + reading;
+  if (const std::string reading = shift_of(shape); !reading.empty()) return "something changed about " + reading;
   return shape == on ? on + " is there" : "the readings follow " + on;
 }
 
@@ -75,6 +78,9 @@ std::string what_was_found(const Finding& f) {
       return fmt::format("Something changed after {}: from then on the readings differ by a constant.", reading);
     if (const std::string pulse = pulse_of(f.described_by); !pulse.empty())
       return fmt::format("Something came and went about {}: for a while the readings differ.", pulse);
+    if (const std::string reading = shift_of(f.described_by); !reading.empty())
+      return fmt::format("Something changed about {}, not at once: after that the readings differ by a constant.",
+                         reading);
     if (const std::string part = part_alone(f); !part.empty())
       return fmt::format("An unknown effect changes the readings of {} alone with {}.", part, f.depends_on[0]);
     if (const std::string step = "step:";
@@ -100,6 +106,8 @@ std::string briefly(const Finding& f) {
   case Kind::not_in_catalogue:
     if (const std::string reading = instant_of(f.described_by); !reading.empty()) return "a step after " + reading;
     if (const std::string reading = pulse_of(f.described_by); !reading.empty()) return "a pulse about " + reading;
+    if (const std::string reading = shift_of(f.described_by); !reading.empty())
+      return "a gradual step about " + reading;
     if (const std::string part = part_alone(f); !part.empty())
       return fmt::format("an unknown effect of {} on {} alone", f.depends_on[0], part);
     return "an unknown effect of " + depends_on;

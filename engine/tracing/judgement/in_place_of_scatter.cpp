@@ -1,6 +1,7 @@
 #include "tracing/judgement/in_place_of_scatter.h"
 
 #include <algorithm>
+#include <array>
 
 #include "tracing/criteria.h"
 #include "tracing/judgement/decisions.h"
@@ -24,7 +25,9 @@ bool is_plain(const Candidate& a, const Grouping& group, const Observations& o) 
   if (a.physical() || a.depends_on.size() != 1) return false;
   const auto x = std::ranges::find(o.covariates, a.depends_on[0], &Covariate::name);
   if (x == o.covariates.end()) return false;
-  if (x->course) return a.family == Family::omnibus || name.starts_with("step:") || name.starts_with("pulse:");
+  if (x->course)
+    return a.family == Family::omnibus || std::ranges::any_of(std::array{"step:", "pulse:", "shift:"},
+                                                              [&](const char* kind) { return name.starts_with(kind); });
   return !x->commanded && name == "polynomial:" + x->name && a.shape.empty();
 }
 
@@ -43,6 +46,10 @@ bool larger_than_declared(const TraceContext& c, const JointFit& fit, double noi
 }
 
 } // namespace
+
+bool scatters_as_declared(const TraceContext& c, const JointFit& fit) {
+  return !larger_than_declared(c, fit, independent_noise(c, fit));
+}
 
 std::optional<SearchFinding> scatter_shown(const TraceContext& c, const JointFit& fit, const Assessment& a) {
   SearchFinding found;
@@ -133,8 +140,8 @@ std::optional<Trial> in_place_of_larger_noise(const TraceContext& c, const Evide
         {e.candidates()[a].name, e.score(a), !e.candidates()[a].physical() && e.assessment().p[a] <= c.alpha});
   std::optional<Trial> out;
   for (const std::size_t a : best_of(all, criteria.most_shapes))
-    if (Trial one = e.trial(a); one.fit.valid && !larger_than_declared(c, one.fit, independent_noise(c, one.fit)) &&
-                                !e.of_few(one.fit) && (!out || one.score > out->score))
+    if (Trial one = e.trial(a);
+        one.fit.valid && scatters_as_declared(c, one.fit) && !e.of_few(one.fit) && (!out || one.score > out->score))
       out = std::move(one);
   return out;
 }

@@ -283,6 +283,16 @@ private:
       std::rotate(tried.begin(), simple, simple + 1);
   }
 
+  /// Correlated and larger noise makes up for what a wrong shape leaves. Where a shape of one size leaves noise as it
+  /// was declared, it goes before one that leaves more: a jump before a cubic in time.
+  void leave_declared_noise(std::vector<Trial>& tried) const {
+    if (!c_.fitter.noise_declared() || scatters_as_declared(c_, tried[0].fit)) return;
+    const auto simple = std::ranges::find_if(tried, [&](const Trial& t) {
+      return candidate(t.candidate).columns.cols() == 1 && scatters_as_declared(c_, t.fit) && !evidence_->of_few(t.fit);
+    });
+    if (simple != tried.end()) std::rotate(tried.begin(), simple, simple + 1);
+  }
+
   /// Shapes of one size that depend on something else and describe the readings as well: a drift with the order, or
   /// with a temperature that rose meanwhile. Empty: none.
   std::string rivals_of(std::size_t a, const std::vector<Trial>& tried) const {
@@ -313,6 +323,7 @@ private:
     std::ranges::sort(tried, std::ranges::less{}, place);
     if (tried.empty()) return false;
     straighten(tried);
+    leave_declared_noise(tried);
     if (const auto simpler = simpler_beside_another(*evidence_, c_.observations, tried[0].candidate))
       if (Trial one = evidence_->trial(*simpler); one.fit.valid) tried.insert(tried.begin(), std::move(one));
     std::vector<std::pair<std::size_t, JointFit>> described;
