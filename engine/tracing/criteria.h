@@ -37,6 +37,9 @@ struct Criteria {
   /// Ratios tried, of the part that grows at the largest value met to the part that does not: steps of a factor that
   /// the likelihood hardly sees.
   std::array<double, 9> growth_ratios{1, 2, 4, 8, 16, 32, 64, 128, 256};
+  /// 2 ln L within which a lesser ratio does as well: a standard deviation. Where only readings at zero tell more from
+  /// less, a large one would weight these as if they had no noise; 3.84 would weight purely relative noise too little.
+  double as_well_grown = 1;
   /// Standard deviations of a variance component tried, in units of the typical noise: steps of about a factor two,
   /// because the likelihood is flat in the logarithm.
   std::array<double, 7> scatter_ratios{0.35, 0.7, 1.4, 2.8, 6.0, 15.0, 50.0};

@@ -95,7 +95,7 @@ TEST_CASE("a step is found between the readings between which it was made", "[tr
 
 TEST_CASE("what came and went is found with its place and length", "[tracing]") {
   const Observations o = made(); // a reading a second, from 53 s on
-  for (const auto [middle, width] : {std::pair{20.3, 2.6}, {7.9, 4.1}, {40.2, 7.3}, {23.0, 6.0}}) {
+  for (const auto& [middle, width] : {std::pair{20.3, 2.6}, {7.9, 4.1}, {40.2, 7.3}, {23.0, 6.0}}) {
     Vector pulse(static_cast<Index>(count));
     for (std::size_t i = 0; i < count; ++i) {
       const double from_middle = (static_cast<double>(i) - middle) / width;
@@ -113,7 +113,7 @@ TEST_CASE("what came and went is found with its place and length", "[tracing]") 
 
 TEST_CASE("what came and stayed is found with its place and length", "[tracing]") {
   const Observations o = made();
-  for (const auto [middle, width] : {std::pair{20.3, 2.6}, {15.9, 4.1}, {33.2, 6.0}}) {
+  for (const auto& [middle, width] : {std::pair{20.3, 2.6}, {15.9, 4.1}, {33.2, 6.0}}) {
     Vector shift(static_cast<Index>(count));
     for (std::size_t i = 0; i < count; ++i)
       shift[static_cast<Index>(i)] = 0.5 * std::erfc(-(static_cast<double>(i) - middle) / width / std::sqrt(2.0));

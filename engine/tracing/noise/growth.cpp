@@ -1,6 +1,7 @@
 #include "tracing/noise/growth.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -111,11 +112,17 @@ std::optional<NoiseGrowth> noise_growth(const Observations& o, const Replicates&
     }
     if (freedom < criteria.freedom_for_growth) continue;
     const double equal = likelihood(judged, 0);
-    for (const double ratio : criteria.growth_ratios)
-      if (const double gain = likelihood(judged, ratio) - equal; gain > most && without_any(judged, ratio)) {
-        most = gain;
-        best = {c, ratio, largest, Vector(index(o.readings))};
-      }
+    std::array<double, criteria.growth_ratios.size()> gains;
+    std::ranges::transform(criteria.growth_ratios, gains.begin(),
+                           [&](double ratio) { return likelihood(judged, ratio) - equal; });
+    // The least that the readings do not contradict: they say little of the noise where it is smallest.
+    const double high = *std::ranges::max_element(gains);
+    const auto least = std::ranges::find_if(gains, [&](double gain) { return gain > high - criteria.as_well_grown; });
+    const double ratio = criteria.growth_ratios[index(least - gains.begin())];
+    if (high > most && without_any(judged, ratio)) {
+      most = high;
+      best = {c, ratio, largest, Vector(index(o.readings))};
+    }
   }
   if (!best) return best;
   for (std::size_t r = 0; r < o.readings; ++r)
