@@ -125,7 +125,8 @@ void judge_by_holdout(const TraceContext& c, Search& found, Trace& out) {
 
 /// Whether more than noise is left where readings jump with a size. Scatter of single readings is what is left, too.
 bool jumps_not_crossed(const TraceContext& c, const Search& found, bool vetoed) {
-  if (found.jumping.empty() || vetoed || found.last.p_anything > c.alpha) return false;
+  if (found.jumping.empty() || vetoed || found.last.p_anything > (found.findings.empty() ? c.alpha : c.alpha_further))
+    return false;
   return std::ranges::none_of(found.findings, [](const SearchFinding& f) {
     return f.finding.kind == Kind::scatter && f.finding.depends_on != std::vector<std::string>{"reading"};
   });
@@ -149,6 +150,13 @@ const char* name(Kind kind) {
 
 namespace {
 
+/// Whether the scenario is what a trace of these readings found: this search is one after it.
+bool found_before(const scenario::Scenario& s) {
+  const auto size = [](const std::string& name) { return name.find('.') != std::string::npos; };
+  return s.data.empty() && (std::ranges::any_of(s.trace.free, size) ||
+                            std::ranges::any_of(s.trace.priors, &quantities::InputQuantity::estimated));
+}
+
 /// @param converged whether the fit of the declared model did
 Trace traced(const scenario::Scenario& scenario, const Settings& settings, bool& converged) {
   Trace out;
@@ -166,9 +174,17 @@ Trace traced(const scenario::Scenario& scenario, const Settings& settings, bool&
   training.flip();
   Fitter fitter(experiment, simulator, observations, rows_where(observations, training), settings.threads);
   fitter.start_from(scenario);
-  const TraceContext c{
-      experiment,           simulator,           observations,     fitter,           scenario.trace.alpha,
-      scenario.trace.draws, scenario.trace.seed, settings.threads, settings.progress};
+  const double further_alpha = criteria.further_share * scenario.trace.alpha;
+  const TraceContext c{experiment,
+                       simulator,
+                       observations,
+                       fitter,
+                       found_before(scenario) ? further_alpha : scenario.trace.alpha,
+                       further_alpha,
+                       scenario.trace.draws,
+                       scenario.trace.seed,
+                       settings.threads,
+                       settings.progress};
   out.rms.unit = model.card->indications[0].unit;
   out.rms.si_unit = model.card->indications[0].si_unit;
   if (!observations.one_kind)

@@ -11,10 +11,17 @@ struct TraceContext {
   const Observations& observations;
   const Fitter& fitter; ///< fits the training readings
   double alpha;         ///< probability of any finding if there is nothing to find
+  double alpha_further; ///< of any further one, given what was found
   int draws;
   std::uint64_t seed;
   int threads;
   std::function<void(const std::string&)> progress;
 };
+
+/// The same, once something was found.
+inline TraceContext further(TraceContext c) {
+  c.alpha = c.alpha_further;
+  return c;
+}
 
 } // namespace gumshoe::tracing

@@ -31,7 +31,7 @@ constexpr const char* not_predicted = "refused: it does not improve the predicti
 class Searcher {
 public:
   /// @param names  whether effects and declared quantities are candidates, or shapes alone
-  explicit Searcher(const TraceContext& c, bool names = true) : c_(c), names_(names) {}
+  explicit Searcher(const TraceContext& c, bool names = true) : c_(c), further_(further(c)), names_(names) {}
 
   Search run() {
     report_progress("fitting the declared model");
@@ -39,7 +39,7 @@ public:
     for (bool more = true; search_goes_on(more, out_.findings.size());) {
       const std::size_t terms = out_.found.terms.size();
       more = round();
-      if (!more && !wide_ && out_.last.p_lack_of_fit <= c_.alpha) {
+      if (!more && !wide_ && out_.last.p_lack_of_fit <= now().alpha) {
         wide_ = true; // what repeats is a correction, however many values it has
         more = round();
       }
@@ -48,16 +48,18 @@ public:
       if (took_one) out_.stages.push_back({out_.found, out_.findings, out_.dropped});
     }
     if (out_.findings.size() >= criteria.most_findings) {
-      const Evidence evidence(c_, out_.found, rounds_, dropped_);
+      const Evidence evidence(now(), out_.found, rounds_, dropped_);
       out_.last = evidence.assessment();
       out_.jumping = evidence.jumping();
-      out_.capped = out_.last.p_anything <= c_.alpha;
+      out_.capped = out_.last.p_anything <= now().alpha;
     }
     c_.fitter.widen_jumping(out_.found);
     return std::move(out_);
   }
 
 private:
+  const TraceContext& now() const { return out_.findings.empty() ? c_ : further_; }
+
   void report_progress(const std::string& what) const {
     if (c_.progress) c_.progress(what);
   }
@@ -82,7 +84,7 @@ private:
                                           : "searching for "
                                             "more");
     const bool first = out_.findings.empty() && out_.first.p.empty();
-    const Evidence evidence(c_, out_.found, rounds_++, dropped_, wide_);
+    const Evidence evidence(now(), out_.found, rounds_++, dropped_, wide_);
     evidence_ = &evidence;
     out_.last = evidence.assessment();
     out_.jumping = evidence.jumping();
@@ -91,8 +93,8 @@ private:
       out_.tried = static_cast<int>(evidence.candidates().size() + c_.observations.replicate_groups.size());
       out_.limits = detection_limits(evidence.scan(), evidence.assessment(), evidence.candidates());
     }
-    bool more = look_for_signature(evidence.assessment(), c_.alpha) && take_signature();
-    if (!more && look_for_scatter(evidence.assessment(), c_.alpha)) more = take_component();
+    bool more = look_for_signature(evidence.assessment(), now().alpha) && take_signature();
+    if (!more && look_for_scatter(evidence.assessment(), now().alpha)) more = take_component();
     if (first)
       out_.ranking =
           ranking(evidence.scan(), evidence.assessment(), evidence.candidates(), out_.base.design, outcomes_);
@@ -369,7 +371,7 @@ private:
 
   /// A variance component, or an effect that these data cannot distinguish from it. True if an effect was taken in.
   bool take_component() {
-    auto found = scatter_shown(c_, out_.found, evidence_->assessment());
+    auto found = scatter_shown(now(), out_.found, evidence_->assessment());
     if (!found) return false;
     if (found->component >= 0) {
       const InPlaceOfScatter instead = in_place_of_scatter(c_, *evidence_, *found);
@@ -386,7 +388,7 @@ private:
       if (instead.as_well) found->finding.members.push_back(candidate(*instead.as_well).name);
     }
     if (found->component < 0) {
-      if (const auto instead = in_place_of_larger_noise(c_, *evidence_)) {
+      if (const auto instead = in_place_of_larger_noise(now(), *evidence_)) {
         add_shape(instead->candidate, instead->fit, found->finding.p_value);
         return true;
       }
@@ -398,6 +400,7 @@ private:
   }
 
   const TraceContext& c_;
+  TraceContext further_; ///< once something was found
   bool names_;
   Search out_;
   const Evidence* evidence_ = nullptr; ///< of this round
@@ -427,8 +430,8 @@ Search search(const TraceContext& c) {
   const std::vector<Index> rows = outlying_rows(c, all.found);
   if (rows.empty()) return all;
   const Fitter others = c.fitter.without_rows(rows);
-  const TraceContext without{c.experiment, c.simulator, c.observations, others,    c.alpha,
-                             c.draws,      c.seed,      c.threads,      c.progress};
+  const TraceContext without{c.experiment,    c.simulator, c.observations, others,    c.alpha,
+                             c.alpha_further, c.draws,     c.seed,         c.threads, c.progress};
   Search found = Searcher(without).run();
   if (!found.found.valid || larger_noise(found)) return all;
   return with_all_readings(c, all, std::move(found), rows.size() / c.observations.indications);

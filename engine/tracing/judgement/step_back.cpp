@@ -33,9 +33,10 @@ std::vector<std::string> step_back(const TraceContext& c, Search& s) {
   s.dropped = left.dropped;
   s.found = s.stages.back().fit;
   s.capped = false;
-  s.last = Evidence(c, s.found, s.findings.size(), {}).assessment();
-  if (look_for_scatter(s.last, c.alpha))
-    if (const auto scatter = scatter_shown(c, s.found, s.last)) s.findings.push_back(*scatter);
+  const TraceContext more = further(c);
+  s.last = Evidence(more, s.found, s.findings.size(), {}).assessment();
+  if (look_for_scatter(s.last, more.alpha))
+    if (const auto scatter = scatter_shown(more, s.found, s.last)) s.findings.push_back(*scatter);
   c.fitter.widen_jumping(s.found);
   return dropped;
 }
