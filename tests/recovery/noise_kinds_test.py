@@ -111,7 +111,9 @@ class MoreNoiseThanDeclared(Noise):
             [size] = found[1]["quantities"]
             # 88 readings tell a standard deviation to 8 %.
             self.assertAlmostEqual(size["value"], 1.04, delta=3 * 0.08 * 1.04)
-            self.assertEqual(self.trace("s.traced.toml")["findings"], [], seed)
+            after = self.trace("s.traced.toml")
+            self.assertEqual(after["findings"], [], seed)
+            self.assertEqual(after["alpha"], 0.025)  # what is found after something else must pass half of it
 
 
 class RelativeNoise(Noise):
