@@ -27,13 +27,13 @@ struct Criteria {
   std::array<double, 5> correlations{0.0, 0.2, 0.4, 0.6, 0.8};
   /// Fewer readings than this do not distinguish serial correlation from a trend: only zero is tried. Tuned.
   std::size_t readings_for_correlation = 12;
-  /// Share of alpha for each finding after the first. Every finding is followed by a search that may err, and what it adds
-  /// by chance is a wrong name beside the right one.
+  /// Share of alpha for each finding after the first. Every finding is followed by a search that may err, and what it
+  /// adds by chance is a wrong name beside the right one.
   double further_share = 0.5;
   /// Ratio of the noise of two indications from which it is not taken to be equal: of fifty readings, chance gives 1.3.
   double unequal_spread = 1.5;
-  /// Noise that is not declared grows with a condition if 2 ln of the likelihood says so by this much: of one condition,
-  /// equal normal noise exceeds it less than once in a thousand.
+  /// Noise that is not declared grows with a condition if 2 ln of the likelihood says so by this much: of one
+  /// condition, equal normal noise exceeds it less than once in a thousand.
   double noise_grows = 12;
   /// Fewer degrees of freedom than this do not tell how noise grows. Tuned.
   std::ptrdiff_t freedom_for_growth = 20;

@@ -30,8 +30,9 @@ InPlaceOfScatter in_place_of_scatter(const TraceContext& context, const Evidence
 /// Whether what a fit leaves is no larger than declared, as if no reading resembled another.
 bool scatters_as_declared(const TraceContext& context, const JointFit& fit);
 
-/// The best shape with which readings scatter as declared, and none resembles the one before; none: with each of the best
-/// they scatter more. Noise that is larger than declared and correlated passes for a jump, and hides it from the search.
+/// The best shape with which readings scatter as declared, and none resembles the one before; none: with each of the
+/// best they scatter more. Noise that is larger than declared and correlated passes for a jump, and hides it from the
+/// search.
 std::optional<Trial> in_place_of_larger_noise(const TraceContext& context, const Evidence& evidence);
 
 } // namespace gumshoe::tracing
