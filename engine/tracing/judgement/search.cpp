@@ -31,7 +31,9 @@ constexpr const char* not_predicted = "refused: it does not improve the predicti
 class Searcher {
 public:
   /// @param names  whether effects and declared quantities are candidates, or shapes alone
-  explicit Searcher(const TraceContext& c, bool names = true) : c_(c), further_(further(c)), names_(names) {}
+  /// @param shapes_for_noise  whether a shape may be there in place of larger noise
+  explicit Searcher(const TraceContext& c, bool names = true, bool shapes_for_noise = true)
+      : c_(c), further_(further(c)), names_(names), shapes_for_noise_(shapes_for_noise) {}
 
   Search run() {
     report_progress("fitting the declared model");
@@ -388,10 +390,11 @@ private:
       if (instead.as_well) found->finding.members.push_back(candidate(*instead.as_well).name);
     }
     if (found->component < 0) {
-      if (const auto instead = in_place_of_larger_noise(now(), *evidence_)) {
-        add_shape(instead->candidate, instead->fit, found->finding.p_value);
-        return true;
-      }
+      if (shapes_for_noise_)
+        if (const auto instead = in_place_of_larger_noise(now(), *evidence_)) {
+          add_shape(instead->candidate, instead->fit, found->finding.p_value);
+          return true;
+        }
       // Sizes that explain more than chance, and with which readings jump, may be all of it, though none was found.
       for (std::string& name : evidence_->jumping(0)) found->finding.members.push_back(std::move(name));
     }
@@ -401,7 +404,7 @@ private:
 
   const TraceContext& c_;
   TraceContext further_; ///< once something was found
-  bool names_;
+  bool names_, shapes_for_noise_;
   Search out_;
   const Evidence* evidence_ = nullptr; ///< of this round
   std::size_t rounds_ = 0;
@@ -421,20 +424,25 @@ bool larger_noise(const Search& s) {
                              [](const SearchFinding& f) { return f.finding.kind == Kind::scatter && f.component < 0; });
 }
 
-} // namespace
-
-Search search(const TraceContext& c) {
-  Search all = Searcher(c).run();
-  if (!larger_noise(all)) return all;
-  // A few readings that are off make noise look larger, and hide what else is there.
+/// The search without a few outlying readings, if these make noise look larger, and hide what else is there.
+std::optional<Search> with_some_set_aside(const TraceContext& c, const Search& all) {
   const std::vector<Index> rows = outlying_rows(c, all.found);
-  if (rows.empty()) return all;
+  if (rows.empty()) return std::nullopt;
   const Fitter others = c.fitter.without_rows(rows);
   const TraceContext without{c.experiment,    c.simulator, c.observations, others,    c.alpha,
                              c.alpha_further, c.draws,     c.seed,         c.threads, c.progress};
   Search found = Searcher(without).run();
-  if (!found.found.valid || larger_noise(found)) return all;
+  if (!found.found.valid || larger_noise(found)) return std::nullopt;
   return with_all_readings(c, all, std::move(found), rows.size() / c.observations.indications);
+}
+
+} // namespace
+
+Search search(const TraceContext& c) {
+  Search all = Searcher(c, true, false).run();
+  if (!larger_noise(all)) return all;
+  if (auto without = with_some_set_aside(c, all)) return std::move(*without);
+  return Searcher(c).run();
 }
 
 std::optional<Search> described(const TraceContext& context, const Search& rejected) {
