@@ -14,8 +14,7 @@ namespace gumshoe::tracing {
 void describe_repeats(const TraceContext& c, const Search& s, Trace& out) {
   const JointFit& fit = out.vetoed ? s.base : s.found;
   const Assessment& assessment = out.vetoed ? s.first : s.last;
-  const double alpha = out.vetoed || s.findings.empty() ? c.alpha : c.alpha_further,
-               reference = fit.design.reference[0];
+  const double alpha = c.alpha_given(!out.vetoed && !s.findings.empty()), reference = fit.design.reference[0];
   const Repeats repeats = repeats_of(c, fit);
   const Vector residual = fit.residual(c.fitter.rows());
   LackOfFit& lack = out.lack_of_fit;

@@ -16,6 +16,8 @@ struct TraceContext {
   std::uint64_t seed;
   int threads;
   std::function<void(const std::string&)> progress;
+
+  double alpha_given(bool found) const { return found ? alpha_further : alpha; }
 };
 
 /// The same, once something was found.

@@ -16,6 +16,7 @@
 #include "tracing/judgement/pruning.h"
 #include "tracing/judgement/ranking.h"
 #include "tracing/judgement/set_aside.h"
+#include "tracing/judgement/shape_order.h"
 
 namespace gumshoe::tracing {
 namespace {
@@ -27,13 +28,15 @@ Index sizes(const Candidate& a) { return a.name.starts_with("harmonic:") ? 1 : a
 constexpr const char *alone = "named", *in_class = "in the class";
 constexpr const char* not_predicted = "refused: it does not improve the prediction of held-out blocks";
 
+struct Sought {
+  bool names = true;            ///< effects and declared quantities are candidates, and not shapes alone
+  bool shapes_for_noise = true; ///< a shape may be there in place of larger noise
+};
+
 /// Takes the steps that the decisions (decisions.h) ask for: fits, and keeps what was found.
 class Searcher {
 public:
-  /// @param names  whether effects and declared quantities are candidates, or shapes alone
-  /// @param shapes_for_noise  whether a shape may be there in place of larger noise
-  explicit Searcher(const TraceContext& c, bool names = true, bool shapes_for_noise = true)
-      : c_(c), further_(further(c)), names_(names), shapes_for_noise_(shapes_for_noise) {}
+  explicit Searcher(const TraceContext& c, Sought sought = {}) : c_(c), further_(further(c)), sought_(sought) {}
 
   Search run() {
     report_progress("fitting the declared model");
@@ -159,7 +162,7 @@ private:
   }
 
   bool take_signature() {
-    if (!names_) return take_shape();
+    if (!sought_.names) return take_shape();
     const auto plain = best_of([](const Candidate& a) { return a.family == Family::shape; }, criteria.rival_shapes);
     const std::vector<Trial> tried = trials();
     if (tried.empty()) return take_shape();
@@ -267,50 +270,6 @@ private:
     adopt(best.fit);
   }
 
-  /// A form of one size, such as a drift that levels off, goes before a free curve in the same condition that does not
-  /// exclude it: it says more, and goes on beyond the readings. And one that depends on less goes before a product or a
-  /// table: a step of one operator before a slope of his along the positions.
-  void straighten(std::vector<Trial>& tried) const {
-    const Candidate& best = candidate(tried[0].candidate);
-    const bool curve = best.family == Family::omnibus && best.depends_on.size() == 1,
-               of_two = best.depends_on.size() == 2;
-    if (!curve && !of_two) return;
-    const auto simple = std::ranges::find_if(tried, [&](const Trial& t) {
-      const Candidate& one = candidate(t.candidate);
-      if (one.columns.cols() != 1 || one.depends_on.size() != 1) return false;
-      return curve ? one.depends_on == best.depends_on
-                   : one.form == Form::fixed && std::ranges::count(best.depends_on, one.depends_on[0]) > 0;
-    });
-    if (simple == tried.end()) return;
-    const double lead = tried[0].score - simple->score;
-    if (!shape_excludes(lead, [&] { return evidence_->chance_of_lead(tried[0].candidate, simple->candidate, lead); }))
-      std::rotate(tried.begin(), simple, simple + 1);
-  }
-
-  /// Correlated and larger noise makes up for what a wrong shape leaves. Where a shape of one size leaves noise as it
-  /// was declared, it goes before one that leaves more: a jump before a cubic in time.
-  void leave_declared_noise(std::vector<Trial>& tried) const {
-    if (!c_.fitter.noise_declared() || scatters_as_declared(c_, tried[0].fit)) return;
-    const auto simple = std::ranges::find_if(tried, [&](const Trial& t) {
-      return candidate(t.candidate).columns.cols() == 1 && scatters_as_declared(c_, t.fit) && !evidence_->of_few(t.fit);
-    });
-    if (simple != tried.end()) std::rotate(tried.begin(), simple, simple + 1);
-  }
-
-  /// Shapes of one size that depend on something else and describe the readings as well: a drift with the order, or
-  /// with a temperature that rose meanwhile. Empty: none.
-  std::string rivals_of(std::size_t a, const std::vector<Trial>& tried) const {
-    const auto ratio = std::ranges::find(tried, a, &Trial::candidate)->ratio;
-    std::vector<std::string> out;
-    for (const Trial& t : tried) {
-      const Candidate &other = candidate(t.candidate), &own = candidate(a);
-      if (t.candidate != a && own.columns.cols() == 1 && other.columns.cols() == 1 &&
-          other.depends_on != own.depends_on && std::fabs(t.ratio - ratio) <= criteria.equal_shapes)
-        out.push_back(with_shape(other));
-    }
-    return out.empty() ? "" : fmt::format("these data cannot distinguish it from {}", fmt::join(out, ", "));
-  }
-
   /// No known effect: the dependence itself, as smooth as the data ask for.
   bool take_shape() {
     const auto& assessment = evidence_->assessment();
@@ -326,8 +285,7 @@ private:
     const auto place = [](const Trial& t) { return std::pair{-std::round(t.score * 1e3), t.candidate}; };
     std::ranges::sort(tried, std::ranges::less{}, place);
     if (tried.empty()) return false;
-    straighten(tried);
-    leave_declared_noise(tried);
+    order_shapes(c_, *evidence_, tried);
     if (const auto simpler = simpler_beside_another(*evidence_, c_.observations, tried[0].candidate))
       if (Trial one = evidence_->trial(*simpler); one.fit.valid) tried.insert(tried.begin(), std::move(one));
     std::vector<std::pair<std::size_t, JointFit>> described;
@@ -337,7 +295,7 @@ private:
         continue;
       }
       if (evidence_->predicts_better(fit, Judged::as_declared)) {
-        add_shape(a, fit, assessment.p_signature, rivals_of(a, tried));
+        add_shape(a, fit, assessment.p_signature, rivals_of(*evidence_, a, tried));
         return true;
       }
       described.emplace_back(a, std::move(fit));
@@ -345,7 +303,7 @@ private:
     // A term that predicts other blocks goes before one that describes them, such as a curve in time.
     for (auto& [a, fit] : described) {
       if (evidence_->predicts_better(fit, Judged::given_the_others)) {
-        add_shape(a, fit, assessment.p_signature, rivals_of(a, tried));
+        add_shape(a, fit, assessment.p_signature, rivals_of(*evidence_, a, tried));
         return true;
       }
       outcomes_[a] = not_predicted;
@@ -381,7 +339,7 @@ private:
         add_shape(*instead.shape, instead.fit, found->finding.p_value);
         return true;
       }
-      if (names_ && !instead.effects.terms.empty()) {
+      if (sought_.names && !instead.effects.terms.empty()) {
         for (const std::size_t a : instead.members) outcomes_[a] = "explains the scatter";
         add(instead.effects);
         adopt(instead.fit);
@@ -390,7 +348,7 @@ private:
       if (instead.as_well) found->finding.members.push_back(candidate(*instead.as_well).name);
     }
     if (found->component < 0) {
-      if (shapes_for_noise_)
+      if (sought_.shapes_for_noise)
         if (const auto instead = in_place_of_larger_noise(now(), *evidence_)) {
           add_shape(instead->candidate, instead->fit, found->finding.p_value);
           return true;
@@ -404,7 +362,7 @@ private:
 
   const TraceContext& c_;
   TraceContext further_; ///< once something was found
-  bool names_, shapes_for_noise_;
+  Sought sought_;
   Search out_;
   const Evidence* evidence_ = nullptr; ///< of this round
   std::size_t rounds_ = 0;
@@ -439,7 +397,7 @@ std::optional<Search> with_some_set_aside(const TraceContext& c, const Search& a
 } // namespace
 
 Search search(const TraceContext& c) {
-  Search all = Searcher(c, true, false).run();
+  Search all = Searcher(c, {.shapes_for_noise = false}).run();
   if (!larger_noise(all)) return all;
   if (auto without = with_some_set_aside(c, all)) return std::move(*without);
   return Searcher(c).run();
@@ -450,7 +408,7 @@ std::optional<Search> described(const TraceContext& context, const Search& rejec
     return f.finding.kind == Kind::named || f.finding.kind == Kind::equivalence_class;
   };
   if (rejected.findings.size() != 1 || !name(rejected.findings[0])) return std::nullopt;
-  Search out = Searcher(context, false).run();
+  Search out = Searcher(context, {.names = false}).run();
   if (out.findings.empty() || out.findings[0].finding.kind != Kind::not_in_catalogue) return std::nullopt;
   out.first = rejected.first;
   out.ranking = rejected.ranking;

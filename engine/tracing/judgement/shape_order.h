@@ -1,0 +1,20 @@
+#pragma once
+/// Which of several shapes without a cause is there, and which others these data cannot tell from it.
+#include "tracing/judgement/evidence.h"
+
+namespace gumshoe::tracing {
+
+/// Puts first what says more than the shape of the highest score, which stands first.
+/// A form of one size, such as a drift that levels off, goes before a free curve in the same condition that does not
+/// exclude it: it goes on beyond the readings. One that depends on less goes before a product or a table: a step of one
+/// operator before a slope of his along the positions. Then, where noise is declared, a shape of one size that leaves
+/// noise as it was declared goes before one that leaves more, for which correlated noise would have to make up: a jump
+/// before a cubic in time.
+/// @param tried  best first, at least one
+void order_shapes(const TraceContext& context, const Evidence& evidence, std::vector<Trial>& tried);
+
+/// "these data cannot distinguish it from ...": shapes of one size that depend on something else and describe the
+/// readings as well as `a` does: a drift with the order, or with a temperature that rose meanwhile. Empty: none.
+std::string rivals_of(const Evidence& evidence, std::size_t a, const std::vector<Trial>& tried);
+
+} // namespace gumshoe::tracing
