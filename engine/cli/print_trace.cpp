@@ -43,10 +43,10 @@ std::string size_text(const SizedQuantity& q) {
 }
 
 /// Figures in the unit of the root mean squares, or in another.
-struct Lengths {
+struct Figures {
   std::string unit, si_unit;
-  Lengths(std::string u, std::string si) : unit(std::move(u)), si_unit(std::move(si)) {}
-  explicit Lengths(const Rms& r) : unit(unit_of(r)), si_unit(r.si_unit) {}
+  Figures(std::string u, std::string si) : unit(std::move(u)), si_unit(std::move(si)) {}
+  explicit Figures(const Rms& r) : unit(unit_of(r)), si_unit(r.si_unit) {}
   std::string show(double si) const {
     return std::isfinite(si) ? two_digits(units::from_si(si, unit, si_unit, units::Kind::difference)) : "-";
   }
@@ -84,8 +84,8 @@ void print_finding(const Finding& f) {
 }
 
 void print_rms(const Rms& r) {
-  const Lengths lengths(r);
-  const auto show = [&](double si) { return lengths.show(si); };
+  const Figures figures(r);
+  const auto show = [&](double si) { return figures.show(si); };
   const auto line = [&](const std::string& what, double before, double after, const std::string& noise) {
     if (std::isfinite(before) || std::isfinite(after))
       std::cout << fmt::format("{:<44}{:>10}{:>10}   {}\n", what, show(before), show(after), noise);
@@ -96,7 +96,7 @@ void print_rms(const Rms& r) {
                : show(middle);
   };
   std::cout << fmt::format("{:<44}{:>10}{:>10}   noise alone\n",
-                           with_unit("residuals, root mean square,", lengths.unit), "before", "after");
+                           with_unit("residuals, root mean square,", figures.unit), "before", "after");
   line("  in sample (training data)", r.before, r.after, noise(r.noise, r.noise_low, r.noise_high));
   line("  hold-out: " + r.holdout, r.holdout_before, r.holdout_after,
        noise(r.holdout_noise, r.holdout_noise_low, r.holdout_noise_high));
@@ -112,21 +112,21 @@ void print_rms(const Rms& r) {
 }
 
 void print_repeats(const Trace& t) {
-  const Lengths lengths(t.rms);
+  const Figures figures(t.rms);
   if (const LackOfFit& l = t.lack_of_fit; std::isfinite(l.p_value))
     std::cout << fmt::format("lack of fit: {}, p = {} ({} sets of equal conditions)\n",
                              l.found ? fmt::format("what repeats and is not explained is {}, by {}",
-                                                   lengths.with_unit(l.size), fmt::join(l.depends_on, ", "))
+                                                   figures.with_unit(l.size), fmt::join(l.depends_on, ", "))
                                      : "what repeats is no more than chance gives",
                              probability(l.p_value), l.cells);
   for (const AnomalousBlock& b : t.anomalous_blocks)
     std::cout << fmt::format("{} differs: scatter {}, of the other blocks {}, p = {}\n", b.name,
-                             lengths.with_unit(b.spread), lengths.with_unit(b.others), probability(b.p_value));
+                             figures.with_unit(b.spread), figures.with_unit(b.others), probability(b.p_value));
   for (std::size_t i = 0; i < std::min(listed, t.outliers.size()); ++i) {
     const Outlier& o = t.outliers[i];
     std::cout << fmt::format("outlier: {}{}, residual {}, weight {:.2f}\n", o.reading,
                              t.rows.size() > 0 && t.rows.back().indication > 0 ? ", " + o.indication : "",
-                             (o.si_unit == t.rms.si_unit ? lengths : Lengths(o.unit, o.si_unit)).with_unit(o.residual),
+                             (o.si_unit == t.rms.si_unit ? figures : Figures(o.unit, o.si_unit)).with_unit(o.residual),
                              o.weight);
   }
   if (t.outliers.size() > listed)
@@ -162,11 +162,11 @@ void print_limits(const std::vector<DetectionLimit>& limits) {
 }
 
 void print_noise(const Noise& n, const Rms& r) {
-  const Lengths lengths(r);
+  const Figures figures(r);
   std::string text = n.declared ? n.scale == 1 ? "as declared" : fmt::format("{:.3g} times as declared", n.scale)
-                                : lengths.with_unit(n.scale) + " of a reading, from the residuals";
+                                : figures.with_unit(n.scale) + " of a reading, from the residuals";
   if (n.correlation != 0) text += fmt::format(", correlation from reading to reading {:.2f}", n.correlation);
-  if (!n.scatter.empty()) text += fmt::format(", scatter by {} {}", n.scatter, lengths.with_unit(n.scatter_u));
+  if (!n.scatter.empty()) text += fmt::format(", scatter by {} {}", n.scatter, figures.with_unit(n.scatter_u));
   if (n.outliers > 0) text += fmt::format(", {} outlier{} with reduced weight", n.outliers, n.outliers == 1 ? "" : "s");
   std::cout << "noise: " << text << '\n';
 }
