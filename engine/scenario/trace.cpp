@@ -242,18 +242,21 @@ Options<TraceOptions> trace_options() {
           "was redone. Left out: every set of one or two labels with at least six combinations"),
       option::texts("free", &TraceOptions::free, "",
                     "quantities whose stated values come from these data: fitted again, as if marked estimated"),
-      option::by_hand<TraceOptions>("priors", shape::map(shape::reference("quantity")),
-                                    "quantities of the model as known before these data, where [quantities] says what is "
-                                    "known with them; written by gumshoe trace"),
-      option::texts("unconfirmed", &TraceOptions::unconfirmed, "",
-                    "effects that held-out readings could neither confirm nor reject; written by gumshoe trace, and left "
-                    "out by gumshoe compensate"),
+      option::by_hand<TraceOptions>(
+          "priors", shape::map(shape::reference("quantity")),
+          "quantities of the model as known before these data, where [quantities] says what is "
+          "known with them; written by gumshoe trace"),
+      option::texts(
+          "unconfirmed", &TraceOptions::unconfirmed, "",
+          "effects that held-out readings could neither confirm nor reject; written by gumshoe trace, and left "
+          "out by gumshoe compensate"),
       option::share("alpha", &TraceOptions::alpha, true,
-                    "false-alarm rate: probability of any finding if there is "
-                    "nothing to find"),
+                    "false-alarm rate: probability of any finding if there is nothing to find; each finding after the "
+                    "first must pass half of it"),
       option::whole("draws", &TraceOptions::draws, 99, 1'000'000, "number of draws of the parametric bootstrap"),
       option::whole("seed", &TraceOptions::seed, 0, most_seed, "seed of the bootstrap"),
-      option::by_hand<TraceOptions>("columns", shape::map(shape::any_of({number_column_shape(), shape::table(counting_keys())})),
+      option::by_hand<TraceOptions>("columns",
+                                    shape::map(shape::any_of({number_column_shape(), shape::table(counting_keys())})),
                                     "quantities recorded with the readings, in the same data file, such as a "
                                     "temperature; or the number of each reading"),
   };

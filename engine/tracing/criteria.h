@@ -27,8 +27,7 @@ struct Criteria {
   std::array<double, 5> correlations{0.0, 0.2, 0.4, 0.6, 0.8};
   /// Fewer readings than this do not distinguish serial correlation from a trend: only zero is tried. Tuned.
   std::size_t readings_for_correlation = 12;
-  /// Share of alpha for each finding after the first. Every finding is followed by a search that may err, and what it
-  /// adds by chance is a wrong name beside the right one.
+  /// Share of alpha for each finding after the first: a search after a finding may add a wrong name by chance.
   double further_share = 0.5;
   /// Ratio of the noise of two indications from which it is not taken to be equal: of fifty readings, chance gives 1.3.
   double unequal_spread = 1.5;
