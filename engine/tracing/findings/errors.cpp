@@ -48,7 +48,8 @@ Scores score(const JointFit& fit, const Matrix& residual, const std::vector<Inde
     std::vector<Index> train;
     std::set_difference(training.begin(), training.end(), blocks.rows[b].begin(), blocks.rows[b].end(),
                         std::back_inserter(train));
-    const HeldOut held = hold_out(fit.design, residual, train, blocks.rows[b], fit.covariance_model, units);
+    const HeldOut held = hold_out(fit.design, winsorised_in(fit.design, train, residual), train, blocks.rows[b],
+                                  fit.covariance_model, units);
     if (held.count <= 0) continue;
     squares += held.squares;
     out.whitened += held.whitened[0];
@@ -97,7 +98,7 @@ InSample in_sample(const JointFit& fit, const std::vector<Index>& rows, const Ma
   const auto use = independent(fit.design, rows);
   const Whitened w(fit.design, rows, use, {});
   Matrix covariance;
-  const Matrix x = w.coefficients(w.take(residual), &covariance);
+  const Matrix x = w.coefficients(w.winsorised(w.take(residual)), &covariance);
   const auto p = index(use.size()), q = fit.design.random.cols();
   InSample out{w.take(residual), {}};
   out.left -= fit.design.fixed(rows, use) * x.topRows(p) + fit.design.random(rows, Eigen::all) * x.bottomRows(q);

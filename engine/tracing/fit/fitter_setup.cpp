@@ -1,6 +1,7 @@
 /// What a fit needs to know of the scenario: its free unknowns, its declared draws, and how readings respond to those.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
 
@@ -184,13 +185,41 @@ void Fitter::find_spread() {
   if (found && (found->unequal || !observations_.one_kind)) spread_ = found->size / found->size[0];
 }
 
+std::optional<NoiseGrowth> Fitter::growth_without(const std::vector<Index>& bad) const {
+  std::vector<Index> rows;
+  std::ranges::set_difference(rows_, bad, std::back_inserter(rows));
+  const JointFit fit = linearised(1);
+  if (!fit.valid) return std::nullopt;
+  const PureError pure(fit.design, rows, replicates_, threads_);
+  if (!pure.known()) return std::nullopt; // what the model lacks would count as noise
+  return tracing::noise_growth(observations_, replicates_, rows, pure.about_cells(fit.residual(rows)).col(0));
+}
+
+std::vector<Index> Fitter::outlying_in_cells() const {
+  const JointFit fit = linearised(1);
+  std::vector<Index> out;
+  if (!fit.valid) return out;
+  const auto k = index(observations_.indications);
+  for (const Index i : PureError(fit.design, rows_, replicates_, threads_).outlying(fit.residual(rows_)))
+    for (Index j = i / k * k; j < i / k * k + k; ++j) out.push_back(rows_[index(j)]);
+  std::ranges::sort(out);
+  out.erase(std::ranges::unique(out).begin(), out.end());
+  return out;
+}
+
+/// A reading that stands out, whether noise grows or not, moves the mean of its cell, so that in every pass one reading
+/// there seems to scatter more: growth must be there without it.
 void Fitter::find_growth() {
   if (noise_declared_) return;
-  const JointFit fit = linearised(1);
-  if (!fit.valid) return;
-  const PureError pure(fit.design, rows_, replicates_, threads_);
-  if (!pure.known()) return; // what the model lacks would count as noise
-  growth_ = tracing::noise_growth(observations_, replicates_, rows_, pure.about_cells(fit.residual(rows_)).col(0));
+  const auto grows = growth_without({});
+  if (!grows) return;
+  const std::vector<Index> with_equal = outlying_in_cells();
+  growth_ = grows;
+  std::vector<Index> bad;
+  std::ranges::set_intersection(with_equal, outlying_in_cells(), std::back_inserter(bad));
+  if (bad.empty()) return;
+  growth_.reset();
+  growth_ = growth_without(bad);
 }
 
 std::optional<Fitter::Scatter> Fitter::scatter_about_cells() const {

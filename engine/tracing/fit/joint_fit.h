@@ -154,6 +154,10 @@ private:
   void find_spread();
   /// Where no noise is declared: whether it grows with a condition.
   void find_growth();
+  /// How noise grows by the training rows without these.
+  std::optional<NoiseGrowth> growth_without(const std::vector<Index>& bad) const;
+  /// Training rows of readings that stand out among those of equal conditions.
+  std::vector<Index> outlying_in_cells() const;
 
   bool linearise(JointFit& fit) const;
   void set_fixed(const Matrix& derivative, const std::vector<std::size_t>& wanted, JointFit& fit) const;

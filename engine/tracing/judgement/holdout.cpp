@@ -77,6 +77,12 @@ double minus_log_density(const Design& d, const Matrix& residual, const std::vec
   return given.squares(given.take(residual - columns * x))[0] + given.log_determinant();
 }
 
+Matrix winsorised_in(const Design& d, const std::vector<Index>& rows, Matrix residual) {
+  const Whitened plain(d, rows, independent(d, rows), {});
+  residual(rows, Eigen::all) = plain.winsorised(plain.take(residual));
+  return residual;
+}
+
 std::vector<Index> rows_where(const Observations& o, const std::vector<bool>& chosen) {
   std::vector<Index> out;
   for (std::size_t i = 0; i < o.sequence.size(); ++i)
@@ -104,10 +110,7 @@ std::vector<std::vector<Index>> folds(const Observations& o, const std::vector<I
 double cross_validated(const Observations& o, const std::vector<Index>& rows, const JointFit& fit,
                        const CovarianceModel& model, Judged judged) {
   double sum = 0;
-  const Whitened plain(fit.design, rows, independent(fit.design, rows), {});
-  Matrix clean = fit.residual;
-  const Vector chosen = plain.winsorised(plain.take(fit.residual));
-  for (std::size_t i = 0; i < rows.size(); ++i) clean(rows[i], 0) = chosen[index(i)];
+  const Matrix clean = winsorised_in(fit.design, rows, fit.residual);
   for (const auto& fold : folds(o, rows)) {
     std::vector<Index> train;
     std::set_difference(rows.begin(), rows.end(), fold.begin(), fold.end(), std::back_inserter(train));

@@ -30,6 +30,10 @@ HeldOut hold_out(const Design& design, const Matrix& residual, const std::vector
 double minus_log_density(const Design& design, const Matrix& residual, const std::vector<Index>& train,
                          const std::vector<Index>& test, const CovarianceModel& model);
 
+/// The same residuals (one set or more) with those of `rows` winsorised, as every fit of these rows sees them: what is
+/// predicted from them, or left of them, is that fit's.
+Matrix winsorised_in(const Design& design, const std::vector<Index>& rows, Matrix residual);
+
 /// Rows of all readings for which `chosen` holds.
 std::vector<Index> rows_where(const Observations& observations, const std::vector<bool>& chosen);
 

@@ -34,6 +34,8 @@ public:
   double repeats(const Vector& residual) const;
   /// Whitened residuals about the model and the constants of cells (if known) and blocks.
   Matrix about_cells(const Matrix& residuals) const;
+  /// Places, among the chosen rows, of readings that stand out from the others of their cell and pass.
+  std::vector<Index> outlying(const Vector& residual) const;
   /// Factors without which what repeats is no longer described.
   std::vector<std::string> depends_on(const Vector& residual) const;
 
@@ -47,6 +49,8 @@ private:
     Vector freedom; ///< by column
   };
   Cleaned cleaned(const Matrix& residuals) const;
+  /// Places of all readings of one's cell, in their order.
+  std::vector<Index> cell_mates(Index row) const;
   void clean(Matrix& data, Vector& squares, Vector& freedom) const;
   /// Squares that a projection leaves of each column.
   Vector squares(const Projection& projection, const Matrix& data) const;
