@@ -180,10 +180,7 @@ std::string starter_axis(const StarterData& data, const std::string& scenario) {
     out += fmt::format("\n[indications.{}]\n", name(*c)) +
            line("readings", quoted(c->name),
                 c->why.empty() ? "guessed: an error at the positions" : "recognised " + c->why);
-    if (sd && sd->number && c == reading)
-      out += line("u", fmt::format("{{ column = {} }}", quoted(sd->name)), "recognised " + sd->why);
-    else
-      out += "# u = \"0.2 um\"                          # state the noise of a reading if you know it\n";
+    out += noise_line(*c, c == reading ? sd : nullptr);
   }
   return out + "\n[trace]\n" + blocks_of(found, labels) + recorded;
 }

@@ -181,8 +181,7 @@ std::string starter_linear(const StarterData& data, const std::vector<std::strin
   out += model.coefficients();
   out +=
       fmt::format("\n[indications.{}]\n", name) + line("readings", quoted(reading->name), "recognised " + reading->why);
-  out += sd && sd->number ? line("u", fmt::format("{{ column = {} }}", quoted(sd->name)), "recognised " + sd->why)
-                          : "# u = \"0.2 um\"                          # state the noise of a reading if you know it\n";
+  out += noise_line(*reading, sd);
   return out + "\n[trace]\n" + blocks_of(found, labels) + order + recorded;
 }
 

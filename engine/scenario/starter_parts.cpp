@@ -188,6 +188,12 @@ void require_numbers(const RecognisedData& data, const RecognisedColumn& c, cons
 
 std::string unit_or(const RecognisedColumn& c, const char* otherwise) { return c.unit == "?" ? otherwise : c.unit; }
 
+std::string noise_line(const RecognisedColumn& reading, const RecognisedColumn* uncertainty) {
+  if (uncertainty && uncertainty->number)
+    return line("u", fmt::format("{{ column = {} }}", quoted(uncertainty->name)), "recognised " + uncertainty->why);
+  return line("# u", quoted("0.2 " + unit_or(reading, "um")), "state the noise of a reading if you know it");
+}
+
 namespace {
 
 /// Whether the words of a column alternate: each part was measured again after others.

@@ -20,6 +20,8 @@ std::string plain_name(const std::string& text);
 /// "key = value", and a comment if it is not empty.
 std::string line(const std::string& key, const std::string& value, const std::string& comment);
 std::string unit_or(const RecognisedColumn& c, const char* otherwise);
+/// `u` of a reading: a column of the data that was recognised as it, or a comment that shows how it is stated.
+std::string noise_line(const RecognisedColumn& reading, const RecognisedColumn* uncertainty);
 
 /// Whether a column has this name, but for its unit: "X_mm" is X.
 bool is_named(const RecognisedColumn& c, std::string_view name);

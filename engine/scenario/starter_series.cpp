@@ -106,7 +106,7 @@ std::string starter_series(const StarterData& data, const std::string& scenario)
     out += fmt::format("\n[indications.{}]\n", name) +
            line("readings", quoted(c->name),
                 c->why.empty() ? "guessed: numbers that were measured" : "recognised " + c->why) +
-           "# u = \"0.2 um\"                          # state the noise of a reading if you know it\n";
+           noise_line(*c, nullptr);
   return out + "\n[trace]\n" + blocks_of(found, labels) +
          (conditions.empty() ? "" : line("order", quoted(conditions[0].first), "")) + recorded;
 }

