@@ -1,7 +1,9 @@
 #include "analysis/ordered_tails.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include <boost/sort/pdqsort/pdqsort.hpp>
@@ -41,9 +43,11 @@ std::vector<double> joined(const std::vector<std::vector<double>>& pieces) {
 std::vector<double> pilot_sample(const Column& x, std::size_t most) {
   const std::size_t step = (x.size() + most - 1) / most;
   std::vector<double> some;
-  some.reserve(most);
-  for (std::size_t i = 0; i < x.size(); i += step)
-    if (const double v = x[i]; !std::isnan(v)) some.push_back(v);
+  some.reserve(most + pilot_run);
+  Room room;
+  for (std::size_t i = 0; i < x.size(); i += step * pilot_run)
+    std::ranges::copy_if(x.read(i, std::min(pilot_run, x.size() - i), room), std::back_inserter(some),
+                         [](double v) { return !std::isnan(v); });
   boost::sort::pdqsort_branchless(some.begin(), some.end());
   return some;
 }

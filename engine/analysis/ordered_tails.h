@@ -37,7 +37,9 @@ private:
 OrderedTails ordered_tails(const Column& values, std::size_t valid, std::size_t tail, int threads);
 
 inline constexpr std::size_t most_pilots = 16384;
-/// Every so-maniest value, in order, NaN left out: `most` at the most.
+/// Values are taken in runs of so many neighbours: each run is one read from the file.
+inline constexpr std::size_t pilot_run = 16;
+/// Runs at even distances, in order of size, NaN left out: about `most` values at the most.
 std::vector<double> pilot_sample(const Column& values, std::size_t most = most_pilots);
 
 } // namespace gumshoe::analysis

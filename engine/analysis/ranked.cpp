@@ -23,7 +23,7 @@ Bracket bracket(std::size_t n, const Fill& fill, std::size_t first_rank, std::si
   constexpr std::size_t pilots = 8192;
   if (n < 8 * pilots) return {};
   std::vector<double> pilot(pilots);
-  for (std::size_t i = 0; i < pilots; ++i) fill(i * (n / pilots), std::span(&pilot[i], 1));
+  for (std::size_t i = 0; i < pilots; i += pilot_run) fill(i * (n / pilots), std::span(&pilot[i], pilot_run));
   if (std::ranges::any_of(pilot, [](double v) { return std::isnan(v); })) return {};
   std::ranges::sort(pilot);
   constexpr double m = pilots;
@@ -41,24 +41,29 @@ struct Inside {
   std::vector<double> values;
 };
 
+void add(std::span<const double> leaf, const Bracket& b, Inside& to) {
+  const bool all = b.low == -inf && b.high == inf;
+  std::array<double, leaf_values> kept;
+  std::size_t within = 0;
+  for (const double v : leaf) { // without branches, which could not be foretold
+    to.below += v < b.low ? 1 : 0;
+    kept[within] = v;
+    within += all || (v >= b.low && v <= b.high) ? 1 : 0;
+  }
+  to.values.insert(to.values.end(), kept.begin(), kept.begin() + static_cast<long>(within));
+}
+
 /// What of the values lies inside the bracket, and how many lie below it; a NaN lies inside if all do.
 Inside inside(std::size_t n, const Fill& fill, const Bracket& b, int threads) {
-  const bool all = b.low == -inf && b.high == inf;
   std::vector<Inside> found(parts(n));
   for_ranges(n, threads, [&](std::size_t part, std::size_t first, std::size_t count) {
-    std::array<double, leaf_values> some, kept;
+    std::vector<double> piece(std::min(count, piece_values));
     Inside& here = found[part];
-    for (std::size_t at = 0; at < count; at += leaf_values) {
-      const auto leaf = std::span(some).first(std::min(leaf_values, count - at));
-      fill(first + at, leaf);
-      std::size_t below = 0, within = 0;
-      for (const double v : leaf) { // without branches, which could not be foretold
-        below += v < b.low ? 1 : 0;
-        kept[within] = v;
-        within += all || (v >= b.low && v <= b.high) ? 1 : 0;
-      }
-      here.below += below;
-      here.values.insert(here.values.end(), kept.begin(), kept.begin() + static_cast<long>(within));
+    for (std::size_t at = 0; at < count; at += piece_values) {
+      const auto some = std::span(piece).first(std::min(piece_values, count - at));
+      fill(first + at, some);
+      for (std::size_t from = 0; from < some.size(); from += leaf_values)
+        add(some.subspan(from, std::min(leaf_values, some.size() - from)), b, here);
     }
   });
   Inside joined;

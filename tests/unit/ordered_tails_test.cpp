@@ -50,10 +50,11 @@ TEST_CASE("tails are those of the sorted values", "[summary]") {
   auto holes = x;
   for (std::size_t i = 0; i < holes.size(); i += 3) holes[i] = std::numeric_limits<double>::quiet_NaN();
   check_tails_of(holes, 10'000);
-  // A bracket that must miss: the pilot takes every so-maniest value, and just those are large.
+  // A bracket that must miss: the pilot takes runs at even distances, and just those are large.
   auto trap = x;
   const std::size_t step = (trap.size() + 16383) / 16384;
-  for (std::size_t i = 0; i < trap.size(); i += step) trap[i] += 10;
+  for (std::size_t i = 0; i < trap.size(); ++i)
+    if (i % (step * pilot_run) < pilot_run) trap[i] += 10;
   check_tails_of(trap, 15'000);
 }
 
@@ -90,7 +91,8 @@ TEST_CASE("ranks of values that are not kept are those of the sorted values", "[
   };
   check();
   // A bracket that must miss: just what the pilot takes is large.
-  for (std::size_t i = 0; i < x.size(); i += x.size() / 8192) x[i] += 10;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (i % (x.size() / 8192 * pilot_run) < pilot_run) x[i] += 10;
   check();
   x.resize(100); // too few for a pilot
   check();
