@@ -71,7 +71,8 @@ const Shape shapes[] = {
                                                                  : u; }},
     {"denormal", [](double u, std::size_t) { return 1e-310 * (u - 0.4); }},
     {"rising", [](double u, std::size_t) { return u * u; }, true},
-    {"what the pilot takes is large", [](double u, std::size_t i) { return u + (i % (13 * pilot_run) < pilot_run ? 10 : 0); }},
+    {"what the pilot takes is large",
+     [](double u, std::size_t i) { return u + (i % (13 * pilot_run) < pilot_run ? 10 : 0); }},
 };
 
 Values values_of(const Shape& shape, std::uint64_t key, std::size_t n) {
