@@ -41,6 +41,7 @@ struct Inside {
   std::vector<double> values;
 };
 
+/// Adds what of a leaf lies inside the bracket, and counts what lies below it.
 void add(std::span<const double> leaf, const Bracket& b, Inside& to) {
   const bool all = b.low == -inf && b.high == inf;
   std::array<double, leaf_values> kept;

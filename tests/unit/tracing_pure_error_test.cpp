@@ -121,14 +121,14 @@ TEST_CASE("outlying readings are left out of the pure error, each with its degre
   CHECK(pure.scale(y)[0] == Approx(scale).epsilon(1e-3));
 }
 
-TEST_CASE("the outlying reading is found, and not one that looks outlying beside it", "[tracing]") {
+TEST_CASE("of the readings of a cell the bad one is left out, and not that with the largest residual", "[tracing]") {
   // Four or five readings of a cell with a straight line: the others take up most of what is wrong with the first.
   const Setups s(1, 5, 40, 21);
   const PureError pure(s.design, s.rows, s.replicates, 1);
   const Matrix columns = s.with_lines(), local = local_factor(s.design, s.rows);
   const Matrix left = left_by(columns, Matrix::Identity(columns.rows(), columns.rows()));
   int masked = 0;
-  std::size_t others = 0;
+  std::size_t others = 0, readings = 0;
   for (Index row = 0; row < index(s.rows.size()); ++row) {
     if (left(row, row) < 0.1) continue; // nothing but this reading itself says what it should be
     bool twin = false;                  // nothing tells it from another
@@ -141,9 +141,11 @@ TEST_CASE("the outlying reading is found, and not one that looks outlying beside
     const auto found = pure.outlying(y);
     CHECK(std::ranges::count(found, row) == 1);
     others += found.size() - 1;
+    readings += s.rows.size();
   }
   CHECK(masked > 0);
-  CHECK(others <= 2); // where one of few is left out, another may be beyond the limit by chance
+  // One normal reading in 2,150 is beyond the limit by chance.
+  CHECK(others <= readings / 2150);
 }
 
 TEST_CASE("pure error has the same bits on any number of threads and among any data sets", "[tracing]") {

@@ -134,6 +134,9 @@ public:
     return *std::ranges::max_element(rows, {}, [&](Index i) { return left[i] * left[i] / share_[i]; });
   }
 
+  /// Share of its own variance that is left of a row that was found most unlikely.
+  double share(Index row) const { return share_[row]; }
+
   /// Calls body(i, left) for each of these rows i, in their order.
   template <class Body> void each(const std::vector<Index>& wanted, const Body& body) {
     for (std::size_t first = 0; first < wanted.size(); first += elimination_lanes) {
@@ -179,8 +182,9 @@ void PureError::clean(Matrix& data, Vector& squares, Vector& freedom) const {
   std::vector<Index> open(index(data.cols()));
   std::iota(open.begin(), open.end(), Index{0});
   std::vector<std::vector<Index>> missing(open.size());
-  constexpr int most = 100;        // what replaces a reading converges at least by half each time
-  constexpr double settled = 1e-2; // of the scale: far below what counts
+  std::vector<bool> fresh(open.size()); // whether the last reading was left out just now
+  constexpr int most = 1000;            // what replaces several readings converges by their share each time
+  constexpr double settled = 1e-2;      // of the scale: far below what counts
   for (int pass = 0; pass < most && !open.empty(); ++pass) {
     std::vector<Index> more;
     std::map<Index, std::vector<std::pair<Index, double>>> moved; // by row: data sets, and by how much
@@ -188,21 +192,26 @@ void PureError::clean(Matrix& data, Vector& squares, Vector& freedom) const {
       auto& gone = missing[index(j)];
       double change = 0;
       for (const Index i : gone) {
-        change = std::max(change, std::fabs(left(i, j)));
-        data(i, j) -= left(i, j);
-        moved[i].push_back({j, left(i, j)});
+        // The others stand: what replaces a new one is known at once.
+        const double by = fresh[index(j)] && i == gone.back() ? left(i, j) / unit.share(i) : left(i, j);
+        change = std::max(change, std::fabs(by));
+        data(i, j) -= by;
+        moved[i].push_back({j, by});
       }
+      fresh[index(j)] = false;
       const double scale = robust_scale(left.col(j), freedom[j], least);
       bool again = change > settled * scale;
       // One at a time: the others of its cell may only look outlying beside it.
       Index worst = 0;
       if (const double size = left.col(j).cwiseAbs().maxCoeff(&worst);
           !again && size > criteria.winsor_limit * scale && freedom[j] > least_freedom()) {
-        // Of four readings of a cell with a straight line, the first leaves 0.3 of what is wrong with it and the second
-        // -0.4.
-        gone.push_back(unit.most_unlikely(left.col(j), cell_mates(worst)));
+        // The largest residual need not be that of the bad reading: where a straight line is fitted to four readings,
+        // an error of the first leaves 0.3 of itself there, and -0.4 at the second.
+        std::vector<Index> mates = cell_mates(worst);
+        std::erase_if(mates, [&](Index i) { return std::ranges::find(gone, i) != gone.end(); });
+        gone.push_back(unit.most_unlikely(left.col(j), mates));
         freedom[j] -= 1;
-        again = true;
+        fresh[index(j)] = again = true;
       }
       if (again) more.push_back(j);
     }
