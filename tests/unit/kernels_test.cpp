@@ -56,9 +56,9 @@ TEST_CASE("sums of a pick-freeze design have the same bits on every instruction 
   std::vector<double> first;
   for (const auto& [set, kernels] : pick_freeze_variants()) {
     INFO(name(set));
-    std::vector<double> sums((base_sums + frozen_sums + 1) * groups, 0.0);
+    std::vector<double> sums((std::size_t{base_sums} + frozen_sums + 1) * groups, 0.0);
     double* const frozen = &sums[base_sums * groups];
-    double* const pairs = &sums[(base_sums + frozen_sums) * groups];
+    double* const pairs = &sums[(std::size_t{base_sums} + frozen_sums) * groups];
     kernels->base(a.data(), b.data(), 0.7, rows, per_group, sums.data(), groups);
     kernels->frozen(a.data(), b.data(), c.data(), 0.7, rows, per_group, frozen, groups);
     kernels->mirrored(a.data(), b.data(), c.data(), d.data(), 0.7, rows, per_group, frozen, groups);

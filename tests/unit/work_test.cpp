@@ -17,6 +17,8 @@ using propagation::Workers;
 
 namespace {
 
+double tens(std::uint64_t i) { return 10.0 * static_cast<double>(i); }
+
 /// Unit i gives 10 i and 10 i + 1.
 Work numbers(std::uint64_t units, std::uint64_t together) {
   return {.name = "numbers",
@@ -24,7 +26,7 @@ Work numbers(std::uint64_t units, std::uint64_t together) {
           .values = 2,
           .together = together,
           .compute = [](std::uint64_t first, std::uint64_t last, double* out) {
-            for (std::uint64_t i = first; i < last; ++i) *out++ = 10.0 * i, *out++ = 10.0 * i + 1;
+            for (std::uint64_t i = first; i < last; ++i) *out++ = tens(i), *out++ = tens(i) + 1;
           }};
 }
 
@@ -36,7 +38,8 @@ TEST_CASE("shards have every unit of every work once, in order, and equal parts 
     std::vector<Work> works(1 + random() % 6);
     std::uint64_t total = 0, largest = 0;
     for (Work& work : works) {
-      work = {.name = "", .units = random() % 50, .values = 1 + random() % 5, .runs = 1 + random() % 1000};
+      work = {
+          .name = "", .units = random() % 50, .values = 1 + random() % 5, .runs = 1 + random() % 1000, .compute = {}};
       total += work.units * work.runs;
       largest = std::max(largest, work.runs);
     }
@@ -61,7 +64,7 @@ TEST_CASE("shards have every unit of every work once, in order, and equal parts 
 
 TEST_CASE("values come in order, whoever does the units") {
   std::vector<double> expected(2 * 103);
-  for (std::size_t i = 0; i < 103; ++i) expected[2 * i] = 10.0 * i, expected[2 * i + 1] = 10.0 * i + 1;
+  for (std::size_t i = 0; i < 103; ++i) expected[2 * i] = tens(i), expected[2 * i + 1] = tens(i) + 1;
   for (const int threads : {1, 2, 7})
     for (const std::uint64_t together : {1, 8, 1000}) {
       Workers workers(threads);
@@ -80,7 +83,7 @@ TEST_CASE("values come in order, whoever does the units") {
       std::uint64_t next = 20;
       workers.run(numbers(103, together), 20, 33, [&](std::uint64_t first, std::uint64_t last, const double* values) {
         CHECK(first == next);
-        CHECK(values[0] == 10.0 * first);
+        CHECK(values[0] == tens(first));
         next = last;
       });
       CHECK(next == 33);
