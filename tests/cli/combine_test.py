@@ -171,7 +171,7 @@ class Combine(Lengths):
         self.refused("y: what it shares is not known", self.a, kink, "--same", "reference")
         cell = self.folder / "cell.h5"
         shutil.copytree(ROOT / "scenarios", self.folder / "scenarios")
-        run = gumshoe("trace", "scenarios/trace_load_cell.toml", "--draws", 19, "--out", cell, cwd=self.folder, seconds=300)
+        run = gumshoe("trace", "scenarios/trace_load_cell.toml", "--draws", 19, "--out", cell, cwd=self.folder)
         self.assertEqual(run.returncode, 0, run.stderr)
         self.refused("holds no result to combine", self.a, cell)
         volume = self.folder / "volume.h5"

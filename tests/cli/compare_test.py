@@ -89,7 +89,7 @@ class Compare(Lengths):
         for name in ("before", "after"):
             files.append(self.folder / f"trace_{name}.h5")
             run = gumshoe("trace", "scenarios/trace_linear_axis.toml", "--draws", 19, "--out", files[-1], "--force",
-                          cwd=self.folder, seconds=300)
+                          cwd=self.folder)
             self.assertEqual(run.returncode, 0, run.stderr)
             self.correct(data)
         both = self.compared(*files)
@@ -107,7 +107,7 @@ class Compare(Lengths):
         self.assertIn("expected after correcting what was found: ", said)
         self.refused("a trace and a result of measurands cannot be compared", files[0], self.before)
         cell = self.folder / "cell.h5"
-        run = gumshoe("trace", "scenarios/trace_load_cell.toml", "--draws", 19, "--out", cell, cwd=self.folder, seconds=300)
+        run = gumshoe("trace", "scenarios/trace_load_cell.toml", "--draws", 19, "--out", cell, cwd=self.folder)
         self.assertEqual(run.returncode, 0, run.stderr)
         self.refused("the traces have residuals of different dimensions", files[0], cell)
         self.refused("two traces have no budgets to compare", *files, "--same", "reference")

@@ -26,7 +26,7 @@ class ForeignLogs(InFolder):
 
     def traced(self, *words):
         run = gumshoe("trace", "s.toml", "--loop", "4", "--draws", "199", "--format", "json", "--out", "s.h5", "--force", *words,
-                      cwd=self.folder, seconds=300)
+                      cwd=self.folder)
         self.assertEqual(run.returncode, 0, run.stderr)
         return json.loads(run.stdout)
 

@@ -48,7 +48,7 @@ class New(InFolder):
         for model in [*models, "budget"]:  # and linear, below: it needs data
             with self.subTest(model):
                 self.assertIn(f"{model}.toml: ready. Next: gumshoe run {model}.toml", self.new(model))
-                run = gumshoe("run", f"{model}.toml", "--samples", "2000", "--out", f"{model}.h5", cwd=self.folder, seconds=300)
+                run = gumshoe("run", f"{model}.toml", "--samples", "2000", "--out", f"{model}.h5", cwd=self.folder)
                 self.assertEqual(run.returncode, 0, run.stderr)
 
     def test_a_model_on_a_described_machine_asks_for_the_machine(self):
@@ -75,7 +75,7 @@ class New(InFolder):
             said = self.new("--from", name)
             scenario = name.split(".")[0] + ".toml"
             self.assertIn(f"{scenario}: ready. Next: gumshoe trace {scenario}", said)
-            run = gumshoe("trace", scenario, "--draws", "199", "--format", "json", cwd=self.folder, seconds=300)
+            run = gumshoe("trace", scenario, "--draws", "199", "--format", "json", cwd=self.folder)
             self.assertEqual(run.returncode, 0, run.stderr)
             verdict = json.loads(run.stdout)
             self.assertIn("position", verdict["findings"][0]["depends_on"])

@@ -1,4 +1,5 @@
 """The program from outside: run it, and what its messages must look like."""
+import os
 import pathlib
 import re
 import subprocess
@@ -8,6 +9,9 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 GUMSHOE = str(pathlib.Path(sys.argv.pop(1)).resolve()) if len(sys.argv) > 1 and not sys.argv[1].startswith("-") else ""
+
+# Models of tests that say `python3` mean this interpreter, also where a wrapper comes first in PATH.
+os.environ["PATH"] = f"{pathlib.Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
 
 MADE = str(pathlib.Path(GUMSHOE).parent / "tests/gumshoe_made_result")  # writes made-up results with every study
 
@@ -62,7 +66,10 @@ class InOneFolder(unittest.TestCase):
         cls.folder = pathlib.Path(temporary.name)
 
 
-def gumshoe(*words, seconds=60, **options):
+HUNG = 600  # seconds after which a program hangs, on any machine
+
+
+def gumshoe(*words, seconds=HUNG, **options):
     """Runs the program to its end; stdout and stderr as text. Every error message on stderr must be well formed."""
     options.setdefault("stdout", subprocess.PIPE)
     run = subprocess.run([GUMSHOE, *map(str, words)], stderr=subprocess.PIPE, text=True, errors="replace",

@@ -12,7 +12,7 @@ import unittest
 
 from choose_test import TEXT as CHOICE
 from counted_model import COUNTED_PROGRAM, CORRELATED, STUDIES, starters
-from program import FORMULA, GUMSHOE, MESSAGE, SCENARIO, InFolder, gumshoe, ill_formed
+from program import FORMULA, GUMSHOE, HUNG, MESSAGE, SCENARIO, InFolder, gumshoe, ill_formed
 from sealed import samples_done
 from slow_model import SAMPLES, SLOW, SLOW_PROGRAM
 
@@ -46,7 +46,7 @@ class Ranks(InFolder):
 
     def ended(self, process):
         try:
-            out, err = process.communicate(timeout=60)
+            out, err = process.communicate(timeout=HUNG)
         except subprocess.TimeoutExpired:
             process.kill()
             raise

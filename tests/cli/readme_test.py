@@ -42,7 +42,7 @@ class Readme(InOneFolder):
         (self.folder / "results").mkdir()
         for name in ("scenarios", "reports"):
             os.symlink(ROOT / name, self.folder / name)
-        said = "".join(gumshoe(*shlex.split(line), cwd=self.folder, seconds=600).stdout for line in lines)
+        said = "".join(gumshoe(*shlex.split(line), cwd=self.folder).stdout for line in lines)
         self.assertEqual(said.splitlines(), shown.splitlines())
         # The Python lines that read the samples.
         python = block(self.text, "The samples are stored in HDF5")

@@ -131,7 +131,7 @@ class Chain(InFolder):
         self.assertLess(got["standard_uncertainty"], 15)
 
     def test_trace_finds_what_the_links_do_not_explain(self):
-        run = gumshoe("trace", SHIPPED, "--format", "json", "--out", self.folder / "t.h5", cwd=self.folder, seconds=300)
+        run = gumshoe("trace", SHIPPED, "--format", "json", "--out", self.folder / "t.h5", cwd=self.folder)
         self.assertEqual(run.returncode, 0, run.stderr)
         verdict = json.loads(run.stdout)
         found = verdict["findings"]

@@ -63,7 +63,7 @@ class SetPoints(InFolder):
         return name
 
     def said(self, *words):
-        run = gumshoe(*words, "--format", "json", cwd=self.folder, seconds=300)
+        run = gumshoe(*words, "--format", "json", cwd=self.folder)
         self.assertEqual(run.returncode, 0, run.stderr)
         return json.loads(run.stdout)
 

@@ -23,7 +23,7 @@ class TraceAxis(InFolder):
         (self.folder / "data" / "linear_axis.csv").write_text(plain_axis.table(plain_axis.readings(seed=seed)))
         (self.folder / "s.toml").write_text((SCENARIOS / "trace_linear_axis.toml").read_text())
         run = gumshoe("trace", "s.toml", "--draws", "99", "--loop", "5", "--format", "json", "--force", "--threads", "1",
-                      cwd=self.folder, seconds=300)
+                      cwd=self.folder)
         self.assertEqual(run.returncode, 0, run.stderr)
         return json.loads(run.stdout)
 
@@ -82,7 +82,7 @@ class TraceAxis(InFolder):
         (self.folder / "warm.csv").write_text("\n".join(rows) + "\n")
         run = gumshoe("new", "linear_axis", "--from", "warm.csv", "--out", "s.toml", cwd=self.folder)
         self.assertEqual(run.returncode, 0, run.stderr)
-        run = gumshoe("trace", "s.toml", "--draws", "199", "--format", "json", cwd=self.folder, seconds=300)
+        run = gumshoe("trace", "s.toml", "--draws", "199", "--format", "json", cwd=self.folder)
         self.assertEqual(run.returncode, 0, run.stderr)
         v = json.loads(run.stdout)
         found = {f["name"]: f for f in v["findings"]}

@@ -45,7 +45,7 @@ class BadData(InFolder):
         (self.folder / "s.toml").write_text(SCENARIO.format(
             setups="\n".join(f'"{k}" = {{ value = "-510 mm" }}' for k in setups), noise=noise, trace=trace))
         (self.folder / "r.csv").write_text("\n".join([head] + [",".join(map(str, row)) for row in data]) + "\n")
-        return gumshoe("trace", "s.toml", "--format", "json", cwd=self.folder, seconds=120)
+        return gumshoe("trace", "s.toml", "--format", "json", cwd=self.folder)
 
     def verdict(self, *data, **options):
         """Of data that are answered: a sound object, and statements in whole words."""

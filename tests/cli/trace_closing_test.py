@@ -78,7 +78,7 @@ class Closing(InFolder):
         self.traced = self.folder / "results/s.traced.toml"
 
     def program(self, *words, code=0):
-        run = gumshoe(*words, cwd=self.folder, seconds=300)
+        run = gumshoe(*words, cwd=self.folder)
         self.assertEqual(run.returncode, code, run.stderr)
         return run.stdout
 

@@ -24,7 +24,7 @@ class TraceData(InFolder):
         file = self.folder / f"{name}.toml"
         text = text or (SCENARIOS / f"{name}.toml").read_text()
         file.write_text(text.replace('"data/', f'"{SCENARIOS}/data/').replace('"gauge/', f'"{SCENARIOS}/gauge/'))
-        run = gumshoe(verb, file, "--format", "json", *words, cwd=self.folder, seconds=600)
+        run = gumshoe(verb, file, "--format", "json", *words, cwd=self.folder)
         self.assertEqual(run.returncode, 0, run.stderr)
         return json.loads(run.stdout)
 

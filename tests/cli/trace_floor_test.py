@@ -18,7 +18,7 @@ SEEDS = 5
 class Floor(InFolder):
     def trace(self, missing, seed=1, *words):
         repeats.write(self.folder, missing, seed)
-        run = gumshoe("trace", "s.toml", "--force", "--threads", "1", *(words or ("--format", "json")), cwd=self.folder, seconds=300)
+        run = gumshoe("trace", "s.toml", "--force", "--threads", "1", *(words or ("--format", "json")), cwd=self.folder)
         self.assertEqual(run.returncode, 0, run.stderr)
         return run.stdout if words else json.loads(run.stdout)
 
@@ -51,7 +51,7 @@ class Floor(InFolder):
     def test_lack_of_fit_is_a_verdict(self):
         """A reading comes back without a condition that says how: its place in the block does, and two labels together."""
         repeats.write_unrecorded(self.folder, sides=2)
-        v = json.loads(gumshoe("trace", "s.toml", "--format", "json", "--threads", "1", cwd=self.folder, seconds=300).stdout)
+        v = json.loads(gumshoe("trace", "s.toml", "--format", "json", "--threads", "1", cwd=self.folder).stdout)
         self.assertEqual(v["verdict"], "lack_of_fit")
         self.assertAlmostEqual(v["lack_of_fit"]["size"] * 1e6, 3, delta=0.5)
         self.assertIn("run", v["lack_of_fit"]["depends_on"])

@@ -53,7 +53,7 @@ class Trace(InFolder):
         (self.folder / "r.csv").write_text(readings(0.5))
 
     def trace(self, *words, code=0):
-        run = gumshoe("trace", *words, cwd=self.folder, seconds=300)
+        run = gumshoe("trace", *words, cwd=self.folder)
         self.assertEqual(run.returncode, code, run.stderr)
         return run
 

@@ -32,7 +32,7 @@ class Walk(unittest.TestCase):
         cls.folder = pathlib.Path(temporary.name)
 
     def run_it(self, *words):
-        run = gumshoe(*words, cwd=self.folder, seconds=300)
+        run = gumshoe(*words, cwd=self.folder)
         self.assertEqual(run.returncode, 0, run.stderr)
         return run.stdout
 

@@ -70,7 +70,7 @@ class AxisEffects(InFolder):
             for seed in (1, 2):
                 with self.subTest(members=members, seed=seed):
                     (self.folder / "axis.csv").write_text(readings(added, seed))
-                    run = gumshoe("trace", "s.toml", "--draws", "99", "--threads", "1", "--format", "json", "--force", cwd=self.folder, seconds=120)
+                    run = gumshoe("trace", "s.toml", "--draws", "99", "--threads", "1", "--format", "json", "--force", cwd=self.folder)
                     self.assertEqual(run.returncode, 0, run.stderr)
                     verdict = json.loads(run.stdout)
                     self.assertEqual([f["members"] for f in verdict["findings"]], [members] if members else [])
