@@ -109,7 +109,7 @@ constexpr Field<S> summary[] = {
 using B = Budget;
 constexpr Field<B> budget[] = {
     {"reason", of<&B::reason>, one, "why the framework does not apply", in_json},
-    {"remark", of<&B::remark>, one, "why no effective degrees of freedom are stated", in_json},
+    {"remark", of<&B::remark>, one, "why no effective degrees of freedom or no terms of second order are stated", in_json},
     {"applicable", of<&B::applicable>, one, "1 if the framework applies", {.json = same, .gauge = "gum.applicable"}},
     {"estimate", of<&B::estimate>, point, "model at the estimates", {.json = same, .gauge = "gum.estimate"}},
     {"correlation_share", of<&B::correlation_share>, one, "share of the combined variance from all correlations", in_json},

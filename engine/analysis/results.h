@@ -75,7 +75,7 @@ struct Budget {
   double effective_degrees_of_freedom = 0;  ///< truncated (G.4.1); may be infinite; NaN: see remark
   double coverage_factor = 0;
   double expanded_uncertainty = 0;
-  std::string remark; ///< why no effective degrees of freedom are stated; empty if they are, or all are infinite
+  std::string remark; ///< why no effective degrees of freedom or, of many inputs, no terms of second order are stated
 };
 
 /// JCGM 101 clause 8.

@@ -3,6 +3,8 @@
 
 #include <map>
 
+#include <fmt/format.h>
+
 #include "analysis/analyse.h"
 #include "analysis/derivatives.h"
 #include "analysis/gum.h"
@@ -13,6 +15,7 @@
 #include "effects/effect.h"
 #include "gum_models.h"
 #include "propagation/propagate.h"
+#include "unit/estimate_case.h"
 #include "unit/known_case.h"
 
 using namespace gumshoe;
@@ -60,6 +63,30 @@ quantities::Component component(Family family, std::array<double, 4> p, double d
 }
 
 } // namespace
+
+TEST_CASE("terms of second order: of 100 inputs that vary, not of 101, which the budget says", "[gum]") {
+  for (const int n : {100, 101}) {
+    std::string products = "x0^2", inputs = "x0 = { value = \"1\", u = \"0.1\" }\n";
+    for (int i = 1; i < n; ++i) {
+      products += fmt::format(" + x{}^2", i);
+      inputs += fmt::format("x{} = {{ value = \"1\", u = \"0.1\" }}\n", i);
+    }
+    const auto budget = gum_models::analysed(estimate_case::Case("schema = 1\n[model]\nname = \"expression\"\n[model.measurands]\ny = \"" +
+                                                     products + "\"\n[quantities]\n" + inputs + "[run]\nsamples = 100\n")
+                                     .scenario)
+                            .budgets[0];
+    CHECK(budget.combined_standard_uncertainty == Approx(0.2 * std::sqrt(n)).epsilon(1e-12));
+    if (n == 100) {
+      CHECK(budget.second_order_bias == Approx(0.01 * n).epsilon(1e-12));
+      CHECK(budget.second_order_uncertainty == Approx(std::sqrt((0.04 + 0.0002) * n)).epsilon(1e-9)); // H = 2
+      CHECK(budget.remark.empty());
+    } else {
+      CHECK(std::isnan(budget.second_order_bias));
+      CHECK(std::isnan(budget.second_order_uncertainty));
+      CHECK(budget.remark == "no terms of second order: more than 100 inputs vary");
+    }
+  }
+}
 
 TEST_CASE("budget of laser_z: lengths enter with slope one, pitch with the rod's lever", "[gum]") {
   const auto s = rod2({{"rod_length", {component(Family::normal, {0, 1 * um})}},
