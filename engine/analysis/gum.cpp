@@ -79,10 +79,11 @@ private:
 /// c_i.
 void second_order(Budget& b, Slopes& slopes, std::size_t measurand, const std::vector<double>& u) {
   const std::size_t n = u.size();
-  const bool few = has_second_order(u);
-  if (!few) b.remark = fmt::format("no terms of second order: more than {} inputs vary", most_second_order);
   Derivatives at;
-  if (few) at = slopes.second(measurand);
+  if (has_second_order(u))
+    at = slopes.second(measurand);
+  else
+    b.remark = fmt::format("no terms of second order: more than {} inputs vary", most_second_order);
   if (at.second.empty()) { // a kink by some quantity that is exact here: first order holds, second does not
     b.second_order_uncertainty = b.second_order_bias = nan;
     return;

@@ -71,10 +71,9 @@ TEST_CASE("terms of second order: of 100 inputs that vary, not of 101, which the
       products += fmt::format(" + x{}^2", i);
       inputs += fmt::format("x{} = {{ value = \"1\", u = \"0.1\" }}\n", i);
     }
-    const auto budget = gum_models::analysed(estimate_case::Case("schema = 1\n[model]\nname = \"expression\"\n[model.measurands]\ny = \"" +
-                                                     products + "\"\n[quantities]\n" + inputs + "[run]\nsamples = 100\n")
-                                     .scenario)
-                            .budgets[0];
+    const estimate_case::Case sum("schema = 1\n[model]\nname = \"expression\"\n[model.measurands]\ny = \"" + products +
+                                  "\"\n[quantities]\n" + inputs + "[run]\nsamples = 100\n");
+    const auto budget = gum_models::analysed(sum.scenario).budgets[0];
     CHECK(budget.combined_standard_uncertainty == Approx(0.2 * std::sqrt(n)).epsilon(1e-12));
     if (n == 100) {
       CHECK(budget.second_order_bias == Approx(0.01 * n).epsilon(1e-12));
