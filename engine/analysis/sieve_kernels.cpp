@@ -1,28 +1,18 @@
 /// Compiled once per instruction set.
 #include "analysis/sieve_kernels.h"
 
-#include <bit>
-
-#include "math/lanes.h"
+#include "math/store_where.h"
 
 namespace gumshoe::analysis {
 namespace {
 
-Lanes powers_of_two() {
-  alignas(64) double x[Lanes::size];
-  for (std::size_t i = 0; i < Lanes::size; ++i) x[i] = static_cast<double>(1u << i);
-  return Lanes::load_aligned(x);
-}
-
 std::size_t within(const double* x, std::size_t n, const SieveBounds& b, double* out) {
-  const Lanes low0(b.low[0]), high0(b.high[0]), low1(b.low[1]), high1(b.high[1]), powers = powers_of_two(), zero(0.0);
+  const Lanes low0(b.low[0]), high0(b.high[0]), low1(b.low[1]), high1(b.high[1]);
   std::size_t count = 0, i = 0;
   for (; i + Lanes::size <= n; i += Lanes::size) {
     const Lanes v = Lanes::load_unaligned(x + i);
     const auto in = ((v >= low0) & (v <= high0)) | ((v >= low1) & (v <= high1));
-    if (!xsimd::any(in)) continue;
-    for (auto bits = static_cast<unsigned>(xsimd::hadd(xsimd::select(in, powers, zero))); bits != 0; bits &= bits - 1)
-      out[count++] = x[i + static_cast<std::size_t>(std::countr_zero(bits))];
+    count += store_where(in, v, out + count);
   }
   for (; i < n; ++i)
     if ((x[i] >= b.low[0] && x[i] <= b.high[0]) || (x[i] >= b.low[1] && x[i] <= b.high[1])) out[count++] = x[i];

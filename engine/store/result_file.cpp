@@ -70,7 +70,7 @@ struct ResultFile::Impl {
   /// samples, their digests and its marker, which have their place from the start.
   void create(Impl* before = nullptr, const analysis::Results* results = nullptr);
   Record build(const std::string& name, const analysis::Results* results) const;
-  void copy_to(SampleFile& other, std::uint64_t count) const;
+  void copy_to(SampleFile& other, std::uint64_t count);
   void require_room(bool before, bool keeps) const;
   /// Whether the file at the path is an unfinished one of the same run, which then goes on.
   bool resume();
@@ -108,8 +108,11 @@ void ResultFile::Impl::spill() {
   marked_at = Clock::now();
 }
 
-void ResultFile::Impl::copy_to(SampleFile& other, std::uint64_t count) const {
-  if (!early) return samples.copy_to(other, count);
+void ResultFile::Impl::copy_to(SampleFile& other, std::uint64_t count) {
+  if (!early) {
+    samples.flush();
+    return samples.copy_to(other, count);
+  }
   std::vector<const double*> rows;
   for (std::size_t row = 0; row < outputs.size(); ++row) rows.push_back(early->values(row).data());
   other.write(0, rows, early->status().first(count));
@@ -291,7 +294,10 @@ std::vector<double> ResultFile::read(std::size_t output, std::uint64_t first, st
   if (output >= f.samples.rows() || first > f.done || count > f.done - first)
     throw std::out_of_range("samples that are not there");
   std::vector<double> values(count);
-  naming(f.claim.path(), [&] { f.samples.read(output, first, count, values.data()); });
+  naming(f.claim.path(), [&] {
+    impl_->samples.flush();
+    f.samples.read(output, first, count, values.data());
+  });
   return values;
 }
 
@@ -301,13 +307,17 @@ std::vector<std::uint8_t> ResultFile::read_status(std::uint64_t first, std::uint
   if (f.samples.rows() == 0 || first > f.done || count > f.done - first)
     throw std::out_of_range("samples that are not there");
   std::vector<std::uint8_t> status(count);
-  naming(f.claim.path(), [&] { f.samples.read_status(first, count, status.data()); });
+  naming(f.claim.path(), [&] {
+    impl_->samples.flush();
+    f.samples.read_status(first, count, status.data());
+  });
   return status;
 }
 
 analysis::Samples ResultFile::view() const {
   const Impl& f = *impl_;
   if (f.early) return analysis::view_of(*f.early);
+  naming(f.claim.path(), [&] { impl_->samples.flush(); });
   const auto column = [&f](std::size_t output) {
     return analysis::Column(
         f.done,

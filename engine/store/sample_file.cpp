@@ -20,6 +20,9 @@ std::uint64_t digest_of_status(const std::uint8_t* status, std::uint64_t count, 
   return sum;
 }
 
+/// Samples that are gathered: 64 KiB of a row, 1 MiB of all.
+std::size_t most_gathered(std::size_t rows) { return std::min<std::size_t>(8192, (std::size_t{1} << 17) / rows); }
+
 /// Digest term of a block itself: a place that was never written then has no valid digest.
 std::uint64_t empty_digest(std::uint64_t block) { return mix64(~block); }
 
@@ -100,21 +103,41 @@ void SampleFile::write(const propagation::ResultBlock& b) {
 
 void SampleFile::write(std::uint64_t begin, const std::vector<const double*>& rows,
                        std::span<const std::uint8_t> status) {
-  const std::uint64_t samples = status.size();
+  const std::size_t samples = status.size();
   hold(digest_blocks(begin + samples));
-  for (std::size_t row = 0; row < rows_.size(); ++row) {
-    file_.write(rows[row], 8 * samples, place(row, begin));
-    by_block(begin, samples, [&](std::uint64_t block, std::uint64_t first, std::uint64_t count) {
-      digest(block, row) += digest64(rows[row] + (first - begin), count, first);
-    });
-  }
-  if (has_status_) file_.write(status.data(), samples, status_ + begin);
   by_block(begin, samples, [&](std::uint64_t block, std::uint64_t first, std::uint64_t count) {
+    for (std::size_t row = 0; row < rows_.size(); ++row)
+      digest(block, row) += digest64(rows[row] + (first - begin), count, first);
     digest(block, rows_.size()) += digest_of_status(status.data() + (first - begin), count, first);
   });
+  Gathered& g = gathered_;
+  if (g.most == 0) g.most = most_gathered(std::max<std::size_t>(1, rows_.size()));
+  if (begin != g.first + g.count || g.count + samples > g.most) flush();
+  if (samples >= g.most) return put(begin, rows, status);
+  if (g.count == 0) g.first = begin;
+  g.values.resize(rows_.size() * g.most), g.status.resize(g.most);
+  for (std::size_t row = 0; row < rows_.size(); ++row)
+    std::copy_n(rows[row], samples, &g.values[row * g.most + g.count]);
+  std::ranges::copy(status, g.status.begin() + static_cast<std::ptrdiff_t>(g.count));
+  g.count += samples;
+}
+
+void SampleFile::flush() {
+  if (gathered_.count == 0) return;
+  std::vector<const double*> rows;
+  for (std::size_t row = 0; row < rows_.size(); ++row) rows.push_back(&gathered_.values[row * gathered_.most]);
+  put(gathered_.first, rows, std::span(gathered_.status).first(gathered_.count));
+  gathered_.count = 0;
+}
+
+void SampleFile::put(std::uint64_t first, const std::vector<const double*>& rows,
+                     std::span<const std::uint8_t> status) {
+  for (std::size_t row = 0; row < rows_.size(); ++row) file_.write(rows[row], 8 * status.size(), place(row, first));
+  if (has_status_) file_.write(status.data(), status.size(), status_ + first);
 }
 
 void SampleFile::mark(std::uint64_t done, bool durable) {
+  flush();
   if (done <= marked_) return;
   const std::uint64_t counted = std::min<std::uint64_t>((digest_blocks(done) - held_) * width(), digests_.size());
   file_.write(digests_.data(), 8 * counted, digests_at_ + 8 * width() * held_);

@@ -31,13 +31,15 @@ public:
   std::uint64_t samples() const { return samples_; }
   /// Where in the file a value lies.
   std::uint64_t place(std::size_t row, std::uint64_t sample) const { return rows_[row] + 8 * sample; }
-  /// Samples [first, first + count) of a row, or their status.
+  /// Samples [first, first + count) of a row, or their status, of those that are in the file: flush() puts all there.
   void read(std::size_t row, std::uint64_t first, std::uint64_t count, double* values) const;
   void read_status(std::uint64_t first, std::uint64_t count, std::uint8_t* status) const;
-  /// Blocks come in order, each once.
+  /// Blocks come in order, each once. Short ones are gathered: a file system takes half as long for few long writes.
   void write(const propagation::ResultBlock& block);
   /// The same for samples [first, first + status.size()); rows[row] points to as many values.
   void write(std::uint64_t first, const std::vector<const double*>& rows, std::span<const std::uint8_t> status);
+  /// Puts what is gathered into the file.
+  void flush();
 
   /// The progress marker.
   std::uint64_t marked() const { return marked_; }
@@ -48,10 +50,19 @@ public:
   /// How many of the samples counted by the marker stand before the first that is not as it was written. Samples from
   /// there on may be written again.
   std::uint64_t sound();
-  /// Copies samples [0, count) with their digests into a new file, which may have room for fewer or more.
+  /// Copies samples [0, count), all in the file, with their digests into a new one, which may have room for fewer or more.
   void copy_to(SampleFile& other, std::uint64_t count) const;
 
 private:
+  /// Samples of consecutive blocks, [row * most + i].
+  struct Gathered {
+    std::uint64_t first = 0;
+    std::size_t count = 0, most = 0;
+    std::vector<double> values;
+    std::vector<std::uint8_t> status;
+  };
+
+  void put(std::uint64_t first, const std::vector<const double*>& rows, std::span<const std::uint8_t> status);
   void require_whole(const Span& status, const Span& digests, const Span& marker);
   std::uint64_t width() const { return rows_.size() + 1; } ///< digests of a block
   std::uint64_t& digest(std::uint64_t block, std::size_t row) { return digests_[(block - held_) * width() + row]; }
@@ -65,6 +76,7 @@ private:
   bool has_status_ = true;
   std::uint64_t held_ = 0;             ///< the first block whose digests are in memory; the marker counts those before
   std::vector<std::uint64_t> digests_; ///< [block from held_][row], the status last
+  Gathered gathered_;
 };
 
 } // namespace gumshoe::store

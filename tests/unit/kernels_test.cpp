@@ -1,10 +1,13 @@
 /// Kernels that belong to no model: the same bits on every instruction set, and the values of a plain loop.
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "analysis/pick_freeze_sums.h"
+#include "analysis/sieve_kernels.h"
 #include "kernel_variants.h"
 #include "math/products_kernels.h"
 #include "tracing/noise/elimination.h"
@@ -12,6 +15,7 @@
 
 GUMSHOE_VARIANTS(gumshoe::ProductKernels, products)
 GUMSHOE_VARIANTS(gumshoe::analysis::PickFreezeKernels, pick_freeze)
+GUMSHOE_VARIANTS(gumshoe::analysis::SieveKernels, sieve)
 GUMSHOE_VARIANTS(gumshoe::tracing::EliminationKernels, elimination)
 
 using namespace gumshoe;
@@ -45,6 +49,31 @@ TEST_CASE("matrix products have the same bits on every instruction set", "[math]
           sum += a[i * rows + r] * b[j * rows + r], size += std::fabs(a[i * rows + r] * b[j * rows + r]);
         CHECK(std::fabs(c[j * m + i] - sum) < 1e-16 * static_cast<double>(rows) * size);
       }
+  }
+}
+
+TEST_CASE("a sieve keeps what lies in its intervals, in order, on every instruction set", "[summary][kernels]") {
+  const analysis::SieveBounds bounds{{-3, 4}, {-1, 5}};
+  const auto inside = [&](double v) { return (v >= -3 && v <= -1) || (v >= 4 && v <= 5); };
+  const double inf = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
+  // Every pattern of eight lanes, then numbers, ends of the intervals and what is no number, not in whole lanes.
+  std::vector<double> x;
+  for (unsigned pattern = 0; pattern < 256; ++pattern)
+    for (unsigned lane = 0; lane < 8; ++lane) x.push_back((pattern >> lane & 1u) ? -2 - 1e-3 * lane : 1e-3 * pattern);
+  for (const double v : drawn(901, 7)) x.push_back(v);
+  for (const double v : {-3.0, -1.0, 4.0, 5.0, -inf, inf, nan}) x.push_back(v);
+  std::vector<double> expected;
+  for (const double v : x)
+    if (inside(v)) expected.push_back(v);
+  for (const auto& [set, kernels] : sieve_variants()) {
+    INFO(name(set));
+    std::vector<double> found(x.size(), nan);
+    found.resize(kernels->within(x.data(), x.size(), bounds, found.data()));
+    CHECK(found == expected);
+    std::size_t below = 0, above = 0;
+    kernels->outside(x.data(), x.size(), -3, 5, below, above);
+    CHECK(below == static_cast<std::size_t>(std::ranges::count_if(x, [](double v) { return v < -3; })));
+    CHECK(above == static_cast<std::size_t>(std::ranges::count_if(x, [](double v) { return v > 5; })));
   }
 }
 

@@ -195,6 +195,29 @@ TEST_CASE("a run without stored samples keeps them until it is complete", "[stor
   CHECK(store::read_identity(path).samples_done == samples);
 }
 
+TEST_CASE("samples are there as soon as they are written, however short the blocks", "[store]") {
+  const Folder folder;
+  const std::string path = folder / "run.h5";
+  constexpr std::uint64_t many = 40; // of which some are gathered to a long write, and the last ones are not yet
+  Identity id = identity();
+  id.samples = many * block_samples;
+  { ResultFile(path, id, outputs, labels).write(block(0)); } // what goes on goes on in the file
+  {
+    ResultFile file(path, id, outputs, labels);
+    for (std::uint64_t k = 1; k < many; ++k) {
+      file.write(block(k));
+      if (k % 7 != 0) continue;
+      const analysis::Samples seen = file.view();
+      const double last = seen.values(1)[(k + 1) * block_samples - 1];
+      CHECK(last == value(1, (k + 1) * block_samples - 1));
+    }
+    check_values(file, 0, id.samples);
+  } // as Ctrl-C leaves it
+  ResultFile file(path, id, outputs, labels);
+  REQUIRE(file.samples_done() == id.samples); // all digests hold
+  check_values(file, 0, id.samples);
+}
+
 TEST_CASE("bytes that are not there are an error", "[store][errors]") {
   const Folder folder;
   const store::RawFile file(folder.write("short", "abc"), O_RDONLY);
