@@ -127,7 +127,7 @@ void add_analyse(CLI::App& app, Action& action) {
   const auto o = std::make_shared<Options>();
   command->add_option("result", o->file, "result file (HDF5)")->required();
   command->add_option("--scenario", o->scenario, "instead of the one it was made from; only [analysis] may differ");
-  command->add_option("--out", o->out, "new result file (default: RESULT.analysed.h5)");
+  command->add_option("-o,--out", o->out, "new result file (default: RESULT.analysed.h5)");
   add_force(*command, o->force);
   add_external(*command);
   command->add_option("--threads", o->threads, "0: all processors")->check(CLI::Range(0, 1024));

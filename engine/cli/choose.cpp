@@ -57,7 +57,7 @@ void add_choose(CLI::App& app, Action& action) {
   command->add_option("--threads", o->threads, "0: all processors")->check(CLI::Range(0, 1024));
   auto* shard = command->add_option("--shard", o->shard,
                                     "3/16: the third of sixteen parts of the coarse grid, for gumshoe merge");
-  command->add_option("--out", o->out, "result file (default: results/SCENARIO.choose.h5)");
+  command->add_option("-o,--out", o->out, "result file (default: results/SCENARIO.choose.h5)");
   add_force(*command, o->force);
   add_external(*command);
   command->add_option("--format", o->format, "text, csv or json")->check(CLI::IsMember({"text", "csv", "json"}));

@@ -114,7 +114,7 @@ void add_compensate(CLI::App& app, Action& action) {
   command->add_option("scenario", o->scenario, "scenario with its readings, as gumshoe trace or estimate wrote it")
       ->required();
   command->add_option("--format", o->choice.format, "format of the table:" + meanings)->check(CLI::IsMember(formats));
-  command->add_option("--out", o->out, "output file (default: standard output)");
+  command->add_option("-o,--out", o->out, "output file (default: standard output)");
   command->add_option("--axis", o->choice.axis, "name of the axis in the control (default: X)");
   command->add_option("--indication", o->of.indication,
                       "the deviation, actual minus commanded (default: the only one)");

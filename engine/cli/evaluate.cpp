@@ -77,7 +77,7 @@ void add_evaluate(CLI::App& app, Action& action) {
                    "a model (gumshoe models), or a scenario file, whose values stand for columns that are left out")
       ->required();
   command->add_option("--table", o->table, "CSV file; header cells `name (unit)`, one row per point")->required();
-  command->add_option("--out", o->out, "output file (default: standard output)");
+  command->add_option("-o,--out", o->out, "output file (default: standard output)");
   add_force(*command, o->force);
   add_external(*command);
   command->add_option("--evaluation", o->evaluation, "evaluation of the model (default: the scenario's, or the first)");

@@ -287,7 +287,7 @@ void add_new(CLI::App& app, Action& action) {
   command->add_option("--form", o->form,
                       "description of a log that is no table: a file, or the name of one that is shipped, such as "
                       "heidenhain_q");
-  command->add_option("--out", o->out, "scenario to write (default: MODEL.toml, or the name of the data file)");
+  command->add_option("-o,--out", o->out, "scenario to write (default: MODEL.toml, or the name of the data file)");
   command->add_option("--unit", o->units, "COLUMN=UNIT, where the header does not say it");
   command->add_option(
       "--role", o->roles,

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cctype>
 
 #include "cli/command.h"
 
@@ -15,12 +16,15 @@ Problem parse_problem(const CLI::App& app, const std::vector<std::string>& words
     return guess("unknown command '" + words[0] + "'", nearest(words[0], names), "gumshoe --help lists them");
   if (command_known) {
     std::vector<std::string> options;
-    for (const auto* option : app.get_subcommand(words[0])->get_options())
+    for (const auto* option : app.get_subcommand(words[0])->get_options()) {
       for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
+      for (const std::string& name : option->get_snames()) options.push_back("-" + name);
+    }
     for (std::string word : words) {
-      word = word.substr(0, word.find('='));
-      if (word.starts_with("--") && word.size() > 2 && std::ranges::find(options, word) == options.end())
-        return guess("unknown option '" + word + "' of gumshoe " + words[0], nearest(word, options),
+      const bool is_short = word.size() > 1 && word[0] == '-' && std::isalpha(static_cast<unsigned char>(word[1]));
+      word = is_short ? word.substr(0, 2) : word.substr(0, word.find('='));
+      if ((is_short || (word.starts_with("--") && word.size() > 2)) && std::ranges::find(options, word) == options.end())
+        return guess("unknown option '" + word + "' of gumshoe " + words[0], is_short ? "" : nearest(word, options),
                      "gumshoe " + words[0] + " --help lists the options");
     }
   }

@@ -17,7 +17,7 @@ void add_report(CLI::App& app, Action& action) {
   };
   const auto o = std::make_shared<Options>();
   command->add_option("result", o->file, "result file (HDF5)")->required();
-  command->add_option("--out", o->out, "HTML file (default: next to the result)");
+  command->add_option("-o,--out", o->out, "HTML file (default: next to the result)");
   command->add_option("--csv", o->csv, "folder for the CSV tables (default: that of the page)");
   add_force(*command, o->force);
   command->callback([=, &action] {

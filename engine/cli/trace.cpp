@@ -148,7 +148,7 @@ void add_trace(CLI::App& app, Action& action) {
   const auto o = std::make_shared<Options>();
   command->add_option("scenario", o->file, "scenario file (TOML) with readings")->required();
   command->add_option("--data", o->data, "CSV file with readings, instead of the files named in the scenario");
-  command->add_option("--out", o->out, "result file (default: results/SCENARIO.traced.h5)");
+  command->add_option("-o,--out", o->out, "result file (default: results/SCENARIO.traced.h5)");
   add_force(*command, o->force);
   add_external(*command);
   command->add_option("--json", o->json, "file for the verdict");

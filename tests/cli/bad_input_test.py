@@ -278,6 +278,7 @@ class BadInput(InOneFolder):
             **{f"--threads {n}": ([*run, "--threads", n], ["--threads"]) for n in ("-1", "abc", "1.5")},
             "--format": ([*run, "--format", "xml"], ["xml"]),
             "unknown option": ([*run, "--sampels", "5"], ["--sampels"]),
+            "unknown short option": ([*run, "-x", "5"], ["unknown option '-x' of gumshoe run", "--help"]),
             "no scenario": (["run"], ["scenario"]),
             "unknown model": (["evaluate", "rod_gaugin", "--table", self.table], ["Did you mean 'rod_gauging'?"]),
             "unknown evaluation": (["evaluate", "rod_gauging", "--table", self.table, "--evaluation", "ful"], ["'ful'"]),
