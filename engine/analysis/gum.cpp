@@ -242,7 +242,11 @@ Validation validate(const Budget& b, const Summary& s, double coverage_probabili
   }
   if (u == 0) {
     v.verdict = s.standard_uncertainty == 0 ? "not applicable" : "not validated";
-    v.reason = s.standard_uncertainty == 0 ? "no input is uncertain" : "the framework's standard uncertainty is zero";
+    const bool uncertain =
+        std::ranges::any_of(b.contributions, [](const Contribution& c) { return c.standard_uncertainty > 0; });
+    v.reason = s.standard_uncertainty != 0 ? "the framework's standard uncertainty is zero"
+               : uncertain                 ? "the uncertainties of the inputs cancel"
+                                           : "no input is uncertain";
     return v;
   }
   v.delta = numerical_tolerance(u, digits, b.output);

@@ -153,6 +153,8 @@ constexpr Field<C> conformity[] = {
     {"acceptance_lower", of<&C::acceptance_lower>, point, "lower acceptance limit, NaN if there is none", in_both},
     {"acceptance_upper", of<&C::acceptance_upper>, point, "upper acceptance limit, NaN if there is none", in_both},
     {"estimate", of<&C::estimate>, point, "estimate", in_both},
+    {"estimate_se", of<&C::estimate_se>, difference, "Monte Carlo standard error of the estimate, NaN if not known",
+     in_both},
     {"process_mean", of<&C::process_mean>, point, "mean of what is known before measuring, NaN without a process",
      in_both},
     {"rule", of<&C::rule>, one, "decision rule: stated, simple_acceptance, iso_14253_1 or ilac_g8", in_both},

@@ -1,5 +1,6 @@
 #include "base/units.h"
 
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -49,8 +50,26 @@ bool plain_grammar(const std::string& unit) {
   return open == 0;
 }
 
-/// Replaces names of the field that udunits does not know.
+/// Replaces names of the field that udunits does not know, and those whose values it has from before 2019: the
+/// electronvolt by the SI's definition, the atomic mass unit by CODATA 2022. One torr is 1/760 of an atmosphere.
 std::string with_known_names(const std::string& unit) {
+  static const std::map<std::string, std::string> names{
+      {"deg", "degree"},
+      {"rev", "revolution"},
+      {"gon", "(0.9 degree)"},
+      {"Nm", "(N m)"},
+      {"Wh", "(W h)"},
+      {"kWh", "(kW h)"},
+      {"Ah", "(A h)"},
+      {"mAh", "(mA h)"},
+      {"eV", "(1.602176634e-19 J)"},
+      {"keV", "(1.602176634e-16 J)"},
+      {"MeV", "(1.602176634e-13 J)"},
+      {"electronvolt", "(1.602176634e-19 J)"},
+      {"u", "(1.66053906892e-27 kg)"},
+      {"torr", "(133.32236842105263 Pa)"},
+      {"Torr", "(133.32236842105263 Pa)"},
+  };
   std::string out;
   for (std::size_t i = 0; i < unit.size();) {
     std::size_t end = i;
@@ -60,10 +79,24 @@ std::string with_known_names(const std::string& unit) {
       continue;
     }
     const std::string word = unit.substr(i, end - i);
-    out += word == "deg" ? "degree" : word == "rev" ? "revolution" : word;
+    const auto known = names.find(word);
+    out += known == names.end() ? word : known->second;
     i = end;
   }
   return out;
+}
+
+/// Names that people read in two ways, and logarithmic ones: what to write instead.
+std::string instead_of(const std::string& unit) {
+  static const std::map<std::string, std::string> unclear{
+      {"ct", "write carat"},
+      {"oz", "it may be a mass or a volume: convert to g or mL"},
+      {"gal", "it may be a volume or an acceleration: write gallon or cm/s2"},
+      {"dB", "logarithmic units are not known: write the ratio"},
+      {"Np", "logarithmic units are not known: write the ratio"},
+  };
+  const auto found = unclear.find(unit);
+  return found == unclear.end() ? "" : found->second;
 }
 
 int radian_exponent(const std::string& base) {
@@ -177,6 +210,23 @@ const Row* row(const std::string& si_unit) {
   return nullptr;
 }
 
+/// "Kg" and "KHZ" are written "kg" and "kHz": the first of a few spellings that is a unit; empty: none.
+std::string other_case(const std::string& unit) {
+  std::string all = unit;
+  for (char& c : all) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  std::string first = unit;
+  first[0] = all[0];
+  for (const std::string& one : {first, all})
+    if (one != unit && find(one)) return one;
+  return "";
+}
+
+InputError unknown(const std::string& unit, const std::string& remedy) {
+  const std::string meant = unit.empty() ? "" : other_case(unit), instead = instead_of(unit);
+  return InputError(fmt::format("'{}' is not a unit", unit), "",
+                    !instead.empty() ? instead : meant.empty() ? remedy : "did you mean '" + meant + "'?");
+}
+
 struct Pair {
   const Unit& from;
   const Unit& to;
@@ -187,7 +237,7 @@ Pair pair(const std::string& unit, const std::string& si_unit) {
   const Unit* const to = find(si_unit);
   const Row* const r = row(si_unit);
   const std::string remedy(r ? r->remedy : std::string_view());
-  if (!from) throw InputError(fmt::format("'{}' is not a unit", unit), "", remedy);
+  if (!from) throw unknown(unit, remedy);
   if (!to) throw InputError(fmt::format("'{}' is not a unit", si_unit));
   if (!same_kind(*from, *to)) {
     throw InputError(fmt::format("'{}' is not {}", unit, kind_name(si_unit)),
@@ -211,7 +261,7 @@ double over(double x, double factor) {
 } // namespace
 
 std::optional<Unit> unit_of_database(const std::string& name) {
-  if (name.empty() || !plain_grammar(name)) return std::nullopt;
+  if (name.empty() || !plain_grammar(name) || !instead_of(name).empty()) return std::nullopt;
   static ut_system* system = nullptr;
   require_memory(std::size_t{1} << (system ? 20 : 23)); // its parser ends the process where it gets none
   if (!system) {
@@ -298,7 +348,7 @@ bool convertible(const std::string& unit, const std::string& si_unit) {
 
 std::string si_unit_of(const std::string& unit) {
   const Unit* const known = find(unit);
-  if (!known) throw InputError(fmt::format("'{}' is not a unit", unit));
+  if (!known) throw unknown(unit, "");
   for (const Row& r : kinds)
     if (const Unit* const si = find(std::string(r.si_unit));
         si && si->base == known->base && si->radians == known->radians)
@@ -308,7 +358,7 @@ std::string si_unit_of(const std::string& unit) {
 
 std::string base_units_of(const std::string& unit) {
   const Unit* const known = find(unit);
-  if (!known) throw InputError(fmt::format("'{}' is not a unit", unit));
+  if (!known) throw unknown(unit, "");
   return known->base;
 }
 

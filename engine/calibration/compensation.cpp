@@ -58,6 +58,7 @@ public:
     say_what_is_left(whole, held, minus(whole, indications(base)));
     add_rows(held, kept);
     join_directions();
+    out_.coarse = coarse();
     return std::move(out_);
   }
 
@@ -303,6 +304,29 @@ private:
     out_.direction.clear();
   }
 
+  /// Whether the straight line between two neighbours misses the error at the position between them by as much as half
+  /// of what the errors vary, and by more than these are uncertain.
+  bool coarse() const {
+    std::map<int, std::vector<const CompensationRow*>> by_direction;
+    for (const CompensationRow& row : out_.rows) by_direction[row.direction].push_back(&row);
+    double missed = 0, varied = 0, uncertain = 0;
+    std::size_t n = 0;
+    for (const auto& [direction, rows] : by_direction) {
+      double mean = 0;
+      for (const auto* row : rows) mean += row->error / static_cast<double>(rows.size());
+      for (std::size_t i = 1; i + 1 < rows.size(); ++i, ++n) {
+        const CompensationRow &a = *rows[i - 1], &b = *rows[i + 1], &at = *rows[i];
+        const double share = (at.position - a.position) / (b.position - a.position);
+        const double line = a.error + share * (b.error - a.error);
+        missed += (at.error - line) * (at.error - line);
+        varied += (at.error - mean) * (at.error - mean);
+        uncertain += at.u * at.u;
+      }
+    }
+    return n >= least_between && missed > 0.25 * varied && missed > 9 * uncertain;
+  }
+
+  static constexpr std::size_t least_between = 3; ///< positions between others: fewer say little
   static constexpr std::size_t none = ~std::size_t{0};
   static constexpr double same = 1e-6; ///< share of the largest error that is no difference
   const Experiment& e_;

@@ -40,6 +40,9 @@ struct Compensation {
     double without = 0;   ///< with the table, and if what was left out were corrected, too
   };
   std::vector<Left> left; ///< of all readings, and of those of [trace] final
+  /// Whether the errors change so much from one position to the next that a control, which interpolates, may make them
+  /// worse in between: neighbours tell little of the error between them.
+  bool coarse = false;
 };
 
 /// Errors of the effects with a size, at the positions of the scenario's readings: what the simulated indication loses

@@ -81,7 +81,6 @@ std::string number_text(double x) { return std::isfinite(x) ? fmt::format("{:.4g
 
 std::vector<std::string> cells(const Contribution& c, const propagation::Output& output) {
   const RowUnit row{c.unit, c.si_unit}, out{output.unit, output.si_unit};
-  const std::string over = c.unit == "1" ? "" : "/" + c.unit;
   return {c.name,
           fmt::format("{:.8g}{}", converted(c.estimate, In::point, row), unit_text(c.unit)),
           std::isfinite(c.standard_uncertainty) ? with_suitable_unit(c.standard_uncertainty, c.unit, c.si_unit) : "-",
@@ -89,7 +88,7 @@ std::vector<std::string> cells(const Contribution& c, const propagation::Output&
           c.distribution,
           std::isfinite(c.degrees_of_freedom) ? fmt::format("{:.4g}", c.degrees_of_freedom) : "inf",
           number_text(converted(c.sensitivity, In::coefficient, row, out)) +
-              (output.unit == c.unit ? "" : " " + output.unit + over),
+              (output.unit == c.unit ? "" : " " + unit_over(output.unit, c.unit)),
           std::isfinite(c.contribution) ? with_suitable_unit(c.contribution, output.unit, output.si_unit) : "-",
           std::isfinite(c.share)               ? percent(c.share)
           : std::isfinite(c.monte_carlo_share) ? percent(c.monte_carlo_share)
@@ -106,6 +105,10 @@ std::string largest_contributions(const Budget& b, const std::vector<SobolIndex>
   // What is shown as less than 0.01 % is none of the largest.
   const bool some = std::ranges::any_of(all, [](const Part& p) { return p.share >= 1e-4; });
   if (some) std::erase_if(all, [](const Part& p) { return p.share < 1e-4; });
+  const bool uncertain =
+      std::ranges::any_of(b.contributions, [](const Contribution& c) { return c.standard_uncertainty > 0; });
+  if (all.empty() && !monte_carlo && uncertain)
+    return "largest contributions: none to first order, because every sensitivity coefficient is zero at the estimates";
   if (all.empty())
     return b.contributions.empty() || !monte_carlo
                ? "no input is uncertain"

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "analysis/fields_json.h"
+#include "analysis/rounding.h"
 #include "analysis/result_fields.h"
 #include "cli/print.h"
 #include "cli/print_studies.h"
@@ -77,10 +78,9 @@ Json run_json(const Results& r, const std::string& file) {
 
 Json budget_json(const Budget& b) {
   Json rows = Json::array();
-  const std::string over = b.output.unit + "/";
   for (const Contribution& c : b.contributions) {
     rows.push_back(json(contribution_fields, c, b.output));
-    rows.back()["sensitivity_unit"] = c.unit == b.output.unit ? "1" : c.unit == "1" ? b.output.unit : over + c.unit;
+    rows.back()["sensitivity_unit"] = c.unit == b.output.unit ? "1" : unit_over(b.output.unit, c.unit);
   }
   return rows;
 }

@@ -226,8 +226,15 @@ bool is_relative(const std::string& share, const Form& form) {
 std::optional<double> read_width(Table& table, const std::string& key, const Form& form, Context& context) {
   const Node* node = table.find(key);
   const std::string share = unit_of_share(node);
-  if (share.empty() || !is_relative(share, form))
-    return table.measure(key, {form.si_unit, units::Kind::difference});
+  if (share.empty() || !is_relative(share, form)) {
+    const auto width = table.measure(key, {form.si_unit, units::Kind::difference});
+    // "10 %" of "100 ppm" may be meant as 10 ppm.
+    if (const std::string own = unit_of_share(form.reference_node); width && !share.empty() && own != share && !own.empty())
+      context.note(fmt::format("{}: '{}' is taken as {:.6g} {}, and not as a share of '{}'", table.path(key), node->text,
+                               units::from_si(*width, own, form.si_unit, units::Kind::difference), own,
+                               form.reference_node->text));
+    return width;
+  }
   std::string remedy;
   try {
     units::to_si(0, "1e-3", form.si_unit);

@@ -109,6 +109,7 @@ private:
     if (!repeatability && !resolution) return {};
     if (!repeatability) {
       if (r.kind != Repeatability::Kind::none) note("the resolution is used, because the repeatability is zero");
+      else unused_scatter(reading, *step);
       return {*resolution};
     }
     const double scale = repeatability->distribution.parameters[1];
@@ -124,6 +125,17 @@ private:
                      shown(scale), shown(scatter.s), reading.repeats));
     if (rounding) return {*resolution};
     return warned(*repeatability, reading);
+  }
+
+  /// Indications that scatter by more than their resolution, of which nothing is stated.
+  void unused_scatter(const Readouts& reading, double step) {
+    const double n = static_cast<double>(reading.values.size());
+    if (n < 2) return;
+    const double s = std::sqrt(sum_of_squares(reading.values) / (n - 1)), u = s / std::sqrt(n);
+    if (!(u > step / (2 * std::sqrt(3.0)))) return;
+    note(fmt::format("{} indications scatter by s = {}, s/sqrt(n) = {}, which is not used: repeatability = \"readings\" "
+                     "would use it",
+                     reading.values.size(), shown(s), shown(u)));
   }
 
   std::vector<Component> warned(const Component& repeatability, const Readouts& reading) {

@@ -38,7 +38,7 @@ public:
     }
     if (indications) indications->refuse_unknown();
     drop_selecting_labels();
-    merge(tables);
+    merge(tables, conditions);
     context_.readings_known = problems_.size() == before;
     for (const Reading& r : out_.readings) context_.readings.push_back(r.labels);
     for (const auto& of_one : out_.readouts)
@@ -101,8 +101,9 @@ private:
     return std::ranges::find_if(out_.readings, same);
   }
 
-  /// One reading per group of equal labels and conditions, in the order of the first indication.
-  void merge(std::vector<Table>& tables) {
+  /// One reading per group of equal labels and conditions, in the order of the first indication; without indications
+  /// those of the conditions.
+  void merge(std::vector<Table>& tables, const Conditions& conditions) {
     std::vector<IndicationReadouts>& readouts = out_.readouts;
     for (std::size_t i = 0; i < readouts.size(); ++i) {
       for (Readouts& r : readouts[i].used) {
@@ -127,7 +128,8 @@ private:
       if (r.indications.empty() || r.indications.size() == readouts.size()) continue;
       tables.back().add(fmt::format("indications: the reading {} lacks an indication", text_of(r.labels)));
     }
-    if (out_.readings.empty()) out_.readings.push_back({{}, std::vector<double>(model_.conditions.size()), {}, 1});
+    if (out_.readings.empty())
+      for (const Commanded& c : conditions.readings) out_.readings.push_back({c.labels, c.values, {}, 1});
   }
 
   const ModelCard& model_;

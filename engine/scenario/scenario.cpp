@@ -85,7 +85,7 @@ public:
     if (auto run = top.table("run")) out_.run = read_run(*run);
     if (auto analysis = top.table("analysis")) {
       out_.analysis = read_analysis(*analysis, {*model, out_.quantities}, context_);
-      if (out_.analysis.sensitivity.sobol > 0 && !out_.correlations.empty()) refuse_sobol(*analysis);
+      if (!out_.correlations.empty()) refuse_one_at_a_time(*analysis);
     }
     out_.expected = read_expected(top, *model, context_);
     if (auto estimate = top.table("estimate")) out_.estimate = read_estimate(*estimate);
@@ -107,11 +107,16 @@ public:
   }
 
 private:
-  void refuse_sobol(Table& analysis) {
-    Table(*analysis.find("sensitivity"), analysis.path("sensitivity"), problems_)
-        .refuse_key("sobol", "the inputs are correlated",
-                    "Sobol' indices need independent inputs, Shapley effects do not",
-                    "sensitivity = { shapley = 4096 }");
+  /// Studies in which one input moves and the others stay: correlated inputs do not.
+  void refuse_one_at_a_time(Table& analysis) {
+    const SensitivityOptions& wanted = out_.analysis.sensitivity;
+    if (wanted.sobol == 0 && wanted.morris == 0) return;
+    Table table(*analysis.find("sensitivity"), analysis.path("sensitivity"), problems_);
+    const char *correlated = "the inputs are correlated", *remedy = "sensitivity = { shapley = 4096 }";
+    if (wanted.sobol > 0)
+      table.refuse_key("sobol", correlated, "Sobol' indices need independent inputs, Shapley effects do not", remedy);
+    if (wanted.morris > 0)
+      table.refuse_key("morris", correlated, "an elementary effect moves one input alone, Shapley effects do not", remedy);
   }
 
   void check_free(Table& top, const ModelCard& model) {

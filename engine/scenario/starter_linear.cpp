@@ -65,7 +65,7 @@ private:
     const std::string read = unit_or(reading_, "1");
     coefficients_ += line(name,
                           fmt::format("{{ estimated = true, value = \"0 {}\" }}",
-                                      product.unit.empty() ? read : fmt::format("({})/({})", read, product.unit)),
+                                      unit_per(read, product.unit)),
                           "");
   }
 

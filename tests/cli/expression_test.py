@@ -188,6 +188,98 @@ readings = [2.1]
         predicted, = json.loads(run.stdout)
         self.assertEqual((predicted["estimate"], predicted["standard_uncertainty"], predicted["predicted"]["read"]), (2, 0, 2.1))
 
+    # a model without indications
+
+    CONDITION = """schema = 1
+[model]
+name = "expression"
+[model.measurands]
+y = { formula = "a + c", unit = "mm" }
+[quantities]
+a = { value = "1 mm", u = "1 um" }
+[conditions]
+c = %s
+"""
+
+    def outputs(self, text, *more):
+        run = gumshoe("run", self.scenario(text), "--samples", 20000, "--out", self.folder / "r.h5", "--force", "--format", "json", *more)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        return {s["output"]: s for s in json.loads(run.stdout)}
+
+    def test_conditions_count_without_indications(self):
+        one = self.outputs(self.CONDITION % '"5 mm"')
+        self.assertAlmostEqual(one["y"]["estimate"], 6, delta=5e-3 / 20000**0.5)
+        two = self.outputs(self.CONDITION % '["5 mm", "10 mm"]')
+        self.assertEqual(len(two), 2)
+        for (name, row), y in zip(two.items(), (6, 11)):
+            self.assertIn(f"{y - 1} mm", name)
+            self.assertAlmostEqual(row["estimate"], y, delta=5e-3 / 20000**0.5)
+
+    def test_points_of_a_table_without_indications(self):
+        table = self.folder / "p.csv"
+        table.write_text("a (mm),c (mm)\n2,3\n4,5\n")
+        run = gumshoe("evaluate", self.scenario(self.CONDITION % '"5 mm"'), "--table", table)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        lines = run.stdout.splitlines()
+        self.assertEqual(lines[0], "a (mm),c (mm),y (mm),status")
+        self.assertEqual([float(line.split(",")[2]) for line in lines[1:]], [5, 9])
+
+    # what is said
+
+    SUM = """schema = 1
+[model]
+name = "expression"
+[model.measurands]
+y = { formula = "%s", unit = "%s" }
+[quantities]
+%s
+"""
+
+    def said(self, *parts, more=""):
+        run = gumshoe("run", self.scenario(self.SUM % parts + more), "--samples", 20000, "--budget", "--out", self.folder / "r.h5", "--force")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        return run.stdout
+
+    def test_a_limit_that_chance_decides_is_told(self):
+        limit = '[[analysis.conformity]]\nmeasurand = "y"\nupper = "%s mm"\nrule = "simple_acceptance"\n'
+        length = ("a", "mm", 'a = { value = "10.008 mm", u = "2 um" }')
+        self.assertIn("by chance", self.said(*length, more=limit % "10.008"))
+        self.assertNotIn("by chance", self.said(*length, more=limit % "10.009"))  # 71 standard errors away
+
+    def test_inputs_that_cancel_or_do_not_count_are_uncertain(self):
+        text = self.said("a * b", "1", "a = { value = 0, u = 1 }\nb = { value = 0, u = 1 }")
+        self.assertNotIn("no input is uncertain", text)
+        self.assertIn("every sensitivity coefficient is zero", text)
+        text = self.said("a + b", "1", "a = { value = 0, u = 1 }\nb = { value = 0, u = 1 }",
+                         more='[[correlations]]\nquantities = ["a", "b"]\nkind = "pearson"\nmatrix = [[1, -1], [-1, 1]]\n')
+        self.assertNotIn("no input is uncertain", text)
+
+    def test_units_of_coefficients_are_units(self):
+        text = self.said("l * alpha * t", "um", 'l = { value = "1 m", u = "1 mm" }\nalpha = { value = "10 um/m/K", u = "1 um/m/K" }\n'
+                         't = { value = "1 K", u = "0.1 K" }')
+        self.assertIn("um/(um/m/K)", text)
+        self.assertNotIn("um/um/m/K", text)
+
+    def test_a_share_of_a_ratio_is_told(self):
+        text = self.said("l * (1 + k)", "mm", 'l = { value = "100 mm", u = "1 um" }\nk = { value = "100 ppm", u = "10 %" }')
+        self.assertIn("'10 %' is taken as 100000 ppm, and not as a share of '100 ppm'", text)
+
+    def test_a_value_beside_other_observations_is_told(self):
+        observed = 'b = { value = "%s mm", observations = ["2.00 mm", "2.10 mm", "2.20 mm", "2.15 mm", "2.05 mm"] }'
+        self.assertIn("the mean of the observations is not used", self.said("b", "mm", observed % 5))
+        self.assertNotIn("the mean of the observations is not used", self.said("b", "mm", observed % 2.1))
+
+    def test_scatter_that_is_not_used_is_told(self):
+        read = '[indications.z]\nreadings = ["10.00 mm", "10.01 mm", "10.02 mm"]\nresolution = "%s"\n'
+        self.assertIn("indications scatter by s = 10 um", self.said("z", "mm", "", more=read % "1 um"))
+        self.assertNotIn("indications scatter", self.said("z", "mm", "", more=read % "30 um"))
+
+    def test_screening_of_correlated_inputs_is_refused_at_its_line(self):
+        text = self.SUM % ("a + b", "1", "a = { value = 0, u = 1 }\nb = { value = 0, u = 1 }")
+        text += '[[correlations]]\nquantities = ["a", "b"]\nkind = "pearson"\nmatrix = [[1, 0.5], [0.5, 1]]\n'
+        text += "[analysis]\nsensitivity = { morris = 100 }\n"
+        self.refused(text, text[: text.index("[analysis]")].count("\n") + 2, 26, "the inputs are correlated", "shapley")
+
     def test_virtual_experiment_needs_formulas_of_indications(self):
         text = H2.replace('name = "expression"', 'name = "expression"\nmethod = "virtual_experiment"')
         run = gumshoe("check", self.scenario(text))

@@ -58,6 +58,24 @@ TEST_CASE("angles", "[units]") {
   CHECK(units::convertible("deg/min", "rad/s"));
 }
 
+TEST_CASE("units of today's values", "[units]") {
+  CHECK(si("1 eV", "J") == Approx(1.602176634e-19).epsilon(1e-14)); // exact since 2019
+  CHECK(si("2 keV", "J") == Approx(2 * 1.602176634e-16).epsilon(1e-14));
+  CHECK(si("1 u", "kg") == Approx(1.66053906892e-27).epsilon(1e-14)); // CODATA 2022
+  CHECK(si("760 torr", "Pa") == Approx(101325).epsilon(1e-14));
+  CHECK(si("100 gon", "rad") == Approx(pi / 2).epsilon(5e-16));
+  CHECK(si("3 Nm", "J") == 3);
+  CHECK(si("2 kWh", "J") == Approx(7.2e6).epsilon(1e-14));
+  CHECK(si("1 Ah", "A s") == Approx(3600).epsilon(1e-14));
+}
+
+TEST_CASE("what may be two units is none, and it is said what to write", "[units][errors]") {
+  for (const char* unit : {"ct", "oz", "gal", "dB"}) CHECK_FALSE(units::convertible(unit, "kg"));
+  CHECK_THROWS_WITH(units::to_si(1, "ct", "kg"), Catch::Contains("rite carat"));
+  CHECK_THROWS_WITH(units::to_si(1, "Kg", "kg"), Catch::Contains("did you mean 'kg'?", Catch::CaseSensitive::No));
+  CHECK_THROWS_WITH(units::to_si(1, "KHz", "1/s"), Catch::Contains("did you mean 'kHz'?", Catch::CaseSensitive::No));
+}
+
 TEST_CASE("points and differences on a scale with an offset", "[units]") {
   CHECK(si("20 degC", "K") == Approx(293.15).epsilon(1e-15));
   CHECK(si("20 degC", "K", Kind::difference) == 20);

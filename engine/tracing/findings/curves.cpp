@@ -26,11 +26,13 @@ std::size_t moved_indication(const Matrix& columns, std::size_t indications) {
 }
 
 /// "3.31 s, u = 0.01 s"
-std::string with_u(double x, double u, const std::string& unit, const std::string& si_unit) {
+/// @param shown  in place of the unit, where it has a name of its own
+std::string with_u(double x, double u, const std::string& unit, const std::string& si_unit, std::string shown = {}) {
+  if (shown.empty()) shown = unit;
   const auto number = [&](double si) { return units::from_si(si, unit, si_unit, units::Kind::difference); };
   const int decimals = analysis::decimals_for(number(u));
-  return fmt::format("{} {}, u = {} {}", analysis::fixed(number(x), decimals), unit,
-                     analysis::fixed(number(u), decimals), unit);
+  return fmt::format("{} {}, u = {} {}", analysis::fixed(number(x), decimals), shown,
+                     analysis::fixed(number(u), decimals), shown);
 }
 
 class CurveMaker {
@@ -95,14 +97,10 @@ public:
     const double per_size = dx.dot(dy) / dx.squaredNorm();
     constexpr double rounding = 1e-9;
     if (!((dy - per_size * dx).norm() <= rounding * dy.norm())) return "";
-    const auto ratio = [](const std::string& above, const std::string& below) {
-      if (below == "1") return above;
-      return fmt::format("{}/{}", above, below.find_first_of("/. *") == std::string::npos ? below : "(" + below + ")");
-    };
     // A difference of temperatures has the unit K.
     const bool own_zero = units::to_si(0, covariate.unit, covariate.si_unit) != 0;
-    const std::string unit = ratio(small_unit(), own_zero ? covariate.si_unit : covariate.unit),
-                      si_unit = ratio(empty_.indication_si_unit, covariate.si_unit);
+    const std::string unit = analysis::unit_over(small_unit(), own_zero ? covariate.si_unit : covariate.unit),
+                      si_unit = analysis::unit_over(empty_.indication_si_unit, covariate.si_unit);
     const double slope = term_.size[0] * per_size, u = std::sqrt(covariance_(0, 0)) * std::fabs(per_size);
     const std::string text =
         with_u(slope, u, covariate.unit == "s" ? per_time(small_unit(), slope, si_unit) : unit, si_unit);
@@ -114,7 +112,8 @@ public:
     if (term_.candidate.form != Form::drift || term_.size.size() != 1 || !(term_.candidate.parameter_u > 0)) return "";
     const double constant = std::exp(term_.candidate.parameter) * (time.levels.back() - time.levels.front());
     return fmt::format("{}; it levels off at {}",
-                       with_u(constant, constant * term_.candidate.parameter_u, time.unit, time.si_unit),
+                       with_u(constant, constant * term_.candidate.parameter_u, time.unit, time.si_unit,
+                              time.unit == "1" ? "readings" : ""),
                        with_u(term_.size[0], std::sqrt(covariance_(0, 0)), small_unit(), empty_.indication_si_unit));
   }
 
