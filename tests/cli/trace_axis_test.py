@@ -69,6 +69,45 @@ class TraceAxis(InFolder):
         self.assertAlmostEqual(noise / plain_axis.NOISE_UM, 1, delta=4 / math.sqrt(2 * 80) + 0.13)  # 20 of 80 are fitted
         self.assertGreater(after, 3 * noise)
 
+    WARMING = """schema = 1
+[model]
+name = "linear_axis"
+evaluation = "deviation"
+[data]
+file = "w.csv"
+labels = { cycle = "cycle" }
+conditions = { position = "x_mm", direction = "direction", time = "time_min" }
+units = { x_mm = "mm", time_min = "min", deviation_um = "um" }
+[indications.deviation]
+readings = "deviation_um"
+[quantities]
+offset = { estimated = true, value = "0 um" }
+gain = { estimated = true, value = "0 um/m" }
+[trace]
+blocks = "cycle"
+order = "time"
+"""
+
+    def test_a_time_constant_is_fitted_beside_a_reversal(self):
+        """An axis warms by 6 um in 20 min and has a reversal of 2.4 um: each hides the other, so that they are found together."""
+        for seed in (1, 2, 3):
+            draw, rows, time = random.Random(seed), [], 0.0
+            for cycle in range(1, 6):
+                for direction in (1, -1):
+                    for i in range(11)[::direction]:
+                        read = 3 + 5e-3 * 50 * i - 1.2 * direction + 6 * (1 - math.exp(-time / 20)) + draw.gauss(0, 0.5)
+                        rows.append((cycle, 50 * i, direction, time, read))
+                        time += 0.6
+            (self.folder / "w.csv").write_text(plain_axis.table(rows))
+            (self.folder / "w.toml").write_text(self.WARMING)
+            run = gumshoe("trace", "w.toml", "--draws", "199", "--format", "json", "--force", "--threads", "1", cwd=self.folder)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            found = {f["members"][0]: {q["name"].split(".")[-1]: q for q in f["quantities"]} for f in json.loads(run.stdout)["findings"]}
+            self.assertEqual(set(found), {"axis_drift", "axis_reversal"})
+            for name, truth in (("amplitude", 6), ("time_constant", 20)):
+                size = found["axis_drift"][name]
+                self.assertLess(abs(size["value"] - truth), 3 * size["u"], name)  # beyond in one of 400
+
     def test_a_recorded_temperature_hides_neither_drift_nor_floor(self):
         """Readings warm up by 2 um with 2 h, a temperature near the machine rises with the time, and no two readings
         have the same: their conditions are equal all the same, and the drift is one of time."""

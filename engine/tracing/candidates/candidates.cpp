@@ -111,15 +111,39 @@ std::vector<Candidate> stated_candidates(const CandidateMaker& make) {
   return out;
 }
 
+namespace {
+
+/// The effect to which a quantity belongs; none: it is no effect's.
+const effects::Active* effect_of(std::size_t q, const propagation::Experiment& experiment) {
+  const auto& all = experiment.forward().active();
+  const auto at = std::ranges::find_if(all, [&](const effects::Active& e) {
+    const std::size_t first = experiment.layout().effects[e.first];
+    return q >= first && q < first + effects::cards()[e.effect]->quantities.size();
+  });
+  return at == all.end() ? nullptr : &*at;
+}
+
+} // namespace
+
+Candidate with_held_shape(const Candidate& a, const propagation::Experiment& experiment, const Points& at) {
+  const bool effect = a.family == Family::effect && !a.amplitudes.empty() && a.amplitudes[0].labels.empty();
+  const effects::Active* const active = effect ? effect_of(a.amplitudes[0].quantity, experiment) : nullptr;
+  Candidate out = a;
+  if (!active || !a.held.empty()) return out;
+  const auto cards = effects::cards()[active->effect]->quantities;
+  for (std::size_t i = 0; i < cards.size(); ++i)
+    if (const std::size_t q = experiment.layout().effects[active->first + i];
+        cards[i].role == Role::shape && !experiment.scenario().quantities[q].estimated)
+      out.held.emplace_back(q, at[0][q]);
+  return out;
+}
+
 Candidate with_free_shape(const Candidate& a, const propagation::Experiment& experiment) {
   Candidate out = a;
   out.shape.clear();
   for (const auto& [q, value] : a.held) {
     const auto& quantity = experiment.scenario().quantities[q];
-    const effects::Active& active = *std::ranges::find_if(experiment.forward().active(), [&](const effects::Active& e) {
-      const std::size_t first = experiment.layout().effects[e.first];
-      return q >= first && q < first + effects::cards()[e.effect]->quantities.size();
-    });
+    const effects::Active& active = *effect_of(q, experiment);
     const QuantityCard& card =
         effects::cards()[active.effect]->quantities[q - experiment.layout().effects[active.first]];
     Amplitude shape;

@@ -77,6 +77,8 @@ std::vector<Candidate> physical_candidates(const propagation::Experiment& experi
                                            const std::function<bool(const Candidate&)>& skip,
                                            const BestStart& choose = {});
 
+/// A candidate with the shape parameters of its effect among those that are held, at their values at a point.
+Candidate with_held_shape(const Candidate& candidate, const propagation::Experiment& experiment, const Points& at);
 /// A candidate whose shape parameters are sizes, too, from the values at which they were held.
 Candidate with_free_shape(const Candidate& candidate, const propagation::Experiment& experiment);
 

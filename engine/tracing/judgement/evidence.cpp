@@ -56,11 +56,10 @@ double criterion_at(const TraceContext& c, const JointFit& fit, const std::vecto
   return scan.run(scan.whitened(scan.plain()).take(fit.residual)).criterion[0];
 }
 
-/// Whether the last term's shape parameters are known by the fit, and not at a limit.
-bool shape_known(const JointFit& fit) {
-  const std::size_t last = fit.terms.size() - 1;
-  const Term& t = fit.terms[last];
-  const Vector u = uncertainties(fit, last);
+/// Whether a term's shape parameters are known by the fit, and not at a limit.
+bool shape_known(const JointFit& fit, std::size_t term) {
+  const Term& t = fit.terms[term];
+  const Vector u = uncertainties(fit, term);
   for (Index j = 0; j < t.size.size(); ++j) {
     const Amplitude& a = t.candidate.amplitudes[index(j)];
     if (a.is_shape && !(fit.converged && u[j] < criteria.known_shape * std::fabs(a.held + t.size[j]) &&
@@ -222,16 +221,36 @@ JointFit Evidence::with(const std::vector<Term>& more) const {
   return c_.fitter.fit(terms, fit_.noise, &fit_);
 }
 
+std::optional<Term> Evidence::freed(const Term& term) const {
+  const Candidate shaped = with_held_shape(term.candidate, c_.experiment, fit_.at);
+  if (shaped.held.empty()) return std::nullopt;
+  Term out{with_free_shape(shaped, c_.experiment), term.size};
+  out.size.conservativeResizeLike(Vector::Zero(out.candidate.columns.cols()));
+  return out;
+}
+
+JointFit Evidence::with_shapes(const std::vector<Term>& more) const {
+  JointFit best = with(more);
+  const std::size_t first = fit_.terms.size();
+  for (std::size_t i = 0; best.valid && i < more.size(); ++i) {
+    std::vector<Term> terms(best.terms.begin() + index(first), best.terms.end());
+    const auto shaped = freed(terms[i]);
+    if (!shaped) continue;
+    terms[i] = *shaped;
+    if (JointFit other = with(terms); other.valid && shape_known(other, first + i)) best = std::move(other);
+  }
+  return best;
+}
+
 Trial Evidence::trial(std::size_t a) const {
   const Term start = linear_term(a);
   Trial held = trial(a, start);
-  if (start.candidate.held.empty() || !held.fit.valid) return held;
-  Term freed{with_free_shape(start.candidate, c_.experiment), start.size};
-  freed.size.conservativeResizeLike(Vector::Zero(freed.candidate.columns.cols()));
-  Trial out = trial(a, freed);
-  if (!out.fit.valid || !shape_known(out.fit)) return held;
+  const auto shaped = held.fit.valid ? freed(start) : std::nullopt;
+  if (!shaped) return held;
+  Trial out = trial(a, *shaped);
+  if (!out.fit.valid || !shape_known(out.fit, out.fit.terms.size() - 1)) return held;
   // Less twice what chance gives a size.
-  out.score = std::max(held.score, out.score - 2 * static_cast<double>(start.candidate.held.size()));
+  out.score = std::max(held.score, out.score - 2 * static_cast<double>(shaped->candidate.held.size()));
   return out;
 }
 

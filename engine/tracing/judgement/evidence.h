@@ -52,6 +52,8 @@ public:
   Term linear_term(std::size_t candidate) const;
   /// The fit with one more term, or more, by the whole model. Not `valid` where the model has no value.
   JointFit with(const std::vector<Term>& more) const;
+  /// The same with the shape parameters of these terms fitted, where the data determine them.
+  JointFit with_shapes(const std::vector<Term>& more) const;
   /// With its shape parameters fitted, where the data determine them.
   Trial trial(std::size_t candidate) const;
 
@@ -86,6 +88,8 @@ private:
   /// Shape of draws of the seat of a clamping: if readings jump with the seat, so do the draws.
   Matrix scatter_response(const CovarianceModel& model, double variance) const;
   Trial trial(std::size_t candidate, const Term& term) const;
+  /// A term whose shape parameters are free, or none where it has none.
+  std::optional<Term> freed(const Term& term) const;
 
   const TraceContext& c_;
   const JointFit& fit_;

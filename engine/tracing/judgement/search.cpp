@@ -223,7 +223,7 @@ private:
     for (const std::size_t a : pair)
       both.push_back(candidate(a).start.empty() ? Term{candidate(a), Vector::Zero(candidate(a).columns.cols())}
                                                 : at_start(candidate(a)));
-    const JointFit fit = evidence_->with(both);
+    const JointFit fit = evidence_->with_shapes(both);
     if (!fit.valid || !evidence_->predicts_better(fit)) return false;
     for (const std::size_t i : {0, 1}) {
       SearchFinding found = found_by(pair[i], Kind::named, i);
