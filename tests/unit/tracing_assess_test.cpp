@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "tracing/judgement/assess.h"
+#include "tracing/judgement/ranking.h"
 #include "unit/tracing_dense.h"
 
 using namespace tracing_dense;
@@ -112,6 +113,31 @@ TEST_CASE("what is there is found by the same p values", "[tracing]") {
   const Assessment small = assess(scan, noise / 8, 99, 1, 0.05, 1);
   CHECK(small.noise_small);
   CHECK(small.p_noise > 0.99);
+}
+
+TEST_CASE("the ranking says how much of a signature the fit leaves, and what absorbs it", "[tracing]") {
+  const Made made(0, 6, 12);
+  Design design = made.design;
+  design.fixed_names = {"laser_z"};
+  std::vector<Candidate> tried = made.tried;
+  tried.push_back(candidate(3 * design.fixed)); // the fitted constant itself
+  std::vector<const Candidate*> pointers;
+  for (std::size_t a = 0; a < tried.size(); ++a) {
+    tried[a].name = std::to_string(a);
+    pointers.push_back(&tried[a]);
+  }
+  const Scan scan(design, all_rows(design), pointers, 1);
+  const Assessment a = assess(scan, made.truth.draw(1, 5), 99, 1, 0.05, 1);
+  const auto lines = ranking(scan, a, tried, design, {});
+  REQUIRE(lines.size() == tried.size());
+  for (const RankedCandidate& line : lines) {
+    INFO(line.name);
+    const bool constant = line.name == "6";
+    CHECK(line.identifiable == scan.identifiable(std::stoul(line.name)));
+    CHECK((line.identifiable < 1e-12) == constant);
+    CHECK(line.absorbed_by == (constant ? "laser_z" : ""));
+    CHECK((line.outcome == "not testable: absorbed by laser_z") == constant);
+  }
 }
 
 TEST_CASE("a matched null is a gamma distribution", "[tracing]") {

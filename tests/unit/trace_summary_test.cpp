@@ -1,0 +1,28 @@
+/// What a trace says to a machinist.
+#include <algorithm>
+#include <string>
+
+#include <catch2/catch.hpp>
+
+#include "made/traces.h"
+#include "tracing/findings/findings.h"
+
+using namespace gumshoe;
+using namespace gumshoe::tracing;
+
+TEST_CASE("scatter names what may be there in its place", "[tracing][verdict]") {
+  const std::pair<const char*, const char*> expected[] = {
+      {"step:time after reading 27", "or something changed after reading 27"},
+      {"pulse:time about reading 9", "or something came and went about reading 9"},
+      {"shift:time about reading 9", "or something changed about reading 9"},
+      {"step:setup 3", "or setup 3 differs from the others, which agree"},
+      {"line:time", "or the readings follow time"},
+      {"thermal_drift", "or thermal_drift is there"}};
+  for (const auto& [shape, words] : expected) {
+    Trace t = made::trace("scatter").trace;
+    t.findings[0].members = {"scatter:setup", shape};
+    CAPTURE(shape);
+    summarise(t);
+    CHECK(std::ranges::any_of(t.plain, [&](const std::string& line) { return line.find(words) != line.npos; }));
+  }
+}
