@@ -43,8 +43,9 @@ bool is_trace(const std::string& path) {
 std::string relative(double before, double after) {
   if (!(before > 0) || !(after >= 0) || before == after) return "";
   const double change = after / before - 1;
-  if (change > 1) return fmt::format(" ({:.2g} times)", after / before);
-  return fmt::format(" ({:.2g} % {})", 100 * std::fabs(change), change < 0 ? "smaller" : "larger");
+  const auto two_digits = [](double x) { return x < 9.95 ? fmt::format("{:.2g}", x) : fmt::format("{:.0f}", x); };
+  if (change > 1) return fmt::format(" ({} times)", two_digits(after / before));
+  return fmt::format(" ({} % {})", two_digits(100 * std::fabs(change)), change < 0 ? "smaller" : "larger");
 }
 
 std::string size(double x, const std::string& unit, const std::string& si_unit) {

@@ -209,8 +209,8 @@ void print_published(const Results& r, bool all) {
   for (const auto& p : r.printed) {
     const auto shown = [&](double x) { return units::from_si(x, p.unit, p.si_unit); };
     const int d = decimals_for(units::from_si(p.expanded_uncertainty, p.unit, p.si_unit, units::Kind::difference));
-    std::cout << fmt::format("{}: ours {} {}, printed {} {} ({})\n", p.output, fixed(shown(p.ours), d), p.unit,
-                             fixed(shown(p.printed), d), p.unit, p.source);
+    std::cout << fmt::format("{}: ours {} {}, printed {} {}{}\n", p.output, fixed(shown(p.ours), d), p.unit,
+                             fixed(shown(p.printed), d), p.unit, p.source.empty() ? "" : " (" + p.source + ")");
   }
 }
 

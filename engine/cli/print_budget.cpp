@@ -79,10 +79,19 @@ std::string unit_text(const std::string& unit) { return unit == "1" ? "" : " " +
 
 std::string number_text(double x) { return std::isfinite(x) ? fmt::format("{:.4g}", x) : "-"; }
 
+/// An estimate by as many digits as its standard uncertainty leaves, eight at least.
+std::string estimate_text(double x, double u) {
+  constexpr int least = 8, most = 17;
+  const bool told = u > 0 && std::isfinite(u) && x != 0;
+  const int digits = told ? static_cast<int>(std::ceil(std::log10(std::fabs(x) / u))) + 2 : least;
+  return fmt::format("{:.{}g}", x, std::clamp(digits, least, most));
+}
+
 std::vector<std::string> cells(const Contribution& c, const propagation::Output& output) {
   const RowUnit row{c.unit, c.si_unit}, out{output.unit, output.si_unit};
   return {c.name,
-          fmt::format("{:.8g}{}", converted(c.estimate, In::point, row), unit_text(c.unit)),
+          estimate_text(converted(c.estimate, In::point, row), converted(c.standard_uncertainty, In::difference, row)) +
+              unit_text(c.unit),
           std::isfinite(c.standard_uncertainty) ? with_suitable_unit(c.standard_uncertainty, c.unit, c.si_unit) : "-",
           std::string(1, c.evaluation),
           c.distribution,

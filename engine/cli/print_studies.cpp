@@ -125,7 +125,8 @@ void print_indices(const Results& r, std::ostream& out) {
       out << fmt::format("total Sobol' indices of {}: {} ({})\n", s.output.name, text, counts);
   }
   for (const Shapley& s : r.shapley)
-    out << fmt::format("Shapley effects of {}: {}\n", s.output.name, largest(s.effects, &Index::value, &Index::input));
+    if (const auto text = largest(s.effects, &Index::value, &Index::input); !text.empty())
+      out << fmt::format("Shapley effects of {}: {}\n", s.output.name, text);
   for (const GivenData& g : r.given_data)
     if (!g.delta.empty())
       out << fmt::format("Borgonovo's delta of {}, from {} stored samples: {}\n", g.output.name, g.samples,

@@ -236,8 +236,8 @@ void EarlierResults::state_units(Node& document, Problems& problems) {
     for (Member& q : section.value.members) {
       const Node* from = member(q.value, "from");
       if (!from || member(q.value, "unit")) continue;
-      Problems told_later(problems.file());
-      const EarlierOutput* output = open(*from, "quantities." + q.key + ".from", told_later);
+      // What cannot be read is told here: without its unit, formulas would seem to be wrong.
+      const EarlierOutput* output = open(*from, "quantities." + q.key + ".from", problems);
       if (!output) continue;
       Node unit;
       unit.kind = Node::Kind::text;

@@ -145,6 +145,7 @@ private:
     auto values = by->table(label.key);
     if (!values) return;
     std::set<std::string> seen;
+    std::vector<const Member*> unknown;
     for (const Member& row : values->members()) {
       seen.insert(row.key);
       Labels here = labels;
@@ -152,16 +153,18 @@ private:
         return context_.problems.add(row,
                                      fmt::format("{}: the label '{}' is nested within itself", by->path(), label.key));
       here.emplace_back(label.key, row.key);
-      known(label.key, row, values->path());
+      if (context_.readings_known && !context_.label_values[label.key].contains(row.key)) unknown.push_back(&row);
       read(row.value, values->path(row.key), here, source);
     }
+    const std::size_t before = context_.problems.size();
     complete(label, seen, labels, values->path());
+    if (context_.problems.size() > before)
+      for (const Member* row : unknown) no_reading_has(label.key, *row, values->path());
   }
 
-  void known(const std::string& label, const Member& row, const std::string& path) {
-    if (!context_.readings_known) return;
+  /// A value that no reading has is a mistake where another is missing; else it is of readings that are not here.
+  void no_reading_has(const std::string& label, const Member& row, const std::string& path) {
     const auto& values = context_.label_values[label];
-    if (values.contains(row.key)) return;
     context_.problems.add(row, fmt::format("{}: no reading has {} = '{}'", path, label, row.key), "",
                           did_you_mean(row.key, {values.begin(), values.end()}));
   }

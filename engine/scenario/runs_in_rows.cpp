@@ -36,18 +36,24 @@ double sign_of(const std::string& word) {
   return known.empty() ? 0 : known.front().second;
 }
 
-/// "R1+", "Run 2 up".
+/// "R1+", "Run 2 up", "Cycle 3 [um]".
 std::optional<Layout> runs(const Csv& csv) {
   static const std::regex form(
-      R"(\s*(r|run|lauf|cycle|zyklus|messung|reihe|trial|pass|meas|n|)[\s_.#]*(\d+)[\s_.]*([^\s_.\d]*)\s*)",
+      R"(\s*(r|run|lauf|cycle|zyklus|messung|reihe|series|serie|trial|pass|meas|rep|repeat|n|)[\s_.#]*(\d+)[\s_.]*([^\s_.\d]*)\s*)",
       std::regex::icase);
   Layout out{{"run"}, {}, "", false};
   bool ways = true, numbers = true;
   for (std::size_t c = 0; c < csv.header.size(); ++c) {
     std::smatch match;
-    if (csv.header[c].text.size() > longest_name || !std::regex_match(csv.header[c].text, match, form)) continue;
+    if (csv.header[c].text.size() > longest_name) continue;
+    std::string name;
+    const std::string unit = unit_in(csv.header[c].text, name);
+    if (!std::regex_match(name, match, form)) continue;
     const std::string run = match[2], word = match[3];
     if (!word.empty() && sign_of(word) == 0) continue;
+    if (match[1].str().empty() && !unit.empty()) continue; // a target: "50 mm"
+    if (!out.parts.empty() && unit != out.unit) return std::nullopt; // not the same quantity
+    out.unit = unit;
     ways &= !word.empty();
     numbers &= match[1].str().empty() && word.empty() && run == std::to_string(out.parts.size() + 1);
     if (match[1].str().empty() && word.empty() && !numbers) return std::nullopt; // targets

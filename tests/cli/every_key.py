@@ -52,7 +52,6 @@ max_failed_share = 0.5
 store_inputs = true
 [analysis]
 measurands = ["laser_z"]
-sensitivity = { morris = 8 }
 [[analysis.conformity]]
 measurand = "laser_z"
 labels = { rod = "1" }
@@ -83,6 +82,8 @@ readings = { file = "values.csv", column = "r", unit = "mm", decimal = "." }
 repeatability = { pooled = true, evaluation = "A" }
 [run]
 adaptive = { digits = 2, validation = true }
+[analysis]
+sensitivity = { morris = 8 }
 [trace]
 alpha = 0.01
 draws = 99

@@ -260,9 +260,21 @@ y = { formula = "%s", unit = "%s" }
         self.assertIn("um/(um/m/K)", text)
         self.assertNotIn("um/um/m/K", text)
 
+    def test_estimates_have_the_digits_that_u_leaves(self):
+        text = self.said("f", "Hz", 'f = { value = "9999999.98765 Hz", u = "0.3 mHz" }')
+        self.assertRegex(text, r"f +9999999\.98765 Hz")
+
     def test_a_share_of_a_ratio_is_told(self):
         text = self.said("l * (1 + k)", "mm", 'l = { value = "100 mm", u = "1 um" }\nk = { value = "100 ppm", u = "10 %" }')
         self.assertIn("'10 %' is taken as 100000 ppm, and not as a share of '100 ppm'", text)
+
+    def test_a_result_that_is_not_there_is_told_and_no_dimension(self):
+        text = self.SUM % ("a + b", "ohm", 'a = { from = "missing.h5:R" }\nb = { value = "1 ohm", u = "1 mohm" }')
+        file = self.scenario(text)
+        run = gumshoe("check", file)
+        self.assertEqual([line for line, _ in places(run, file)], [7], run.stderr)
+        self.assertIn("missing.h5", run.stderr)
+        self.assertNotIn("dimension", run.stderr)
 
     def test_a_value_beside_other_observations_is_told(self):
         observed = 'b = { value = "%s mm", observations = ["2.00 mm", "2.10 mm", "2.20 mm", "2.15 mm", "2.05 mm"] }'

@@ -249,6 +249,22 @@ class New(InFolder):
             for part in ('file = "w.rows.csv"', 'labels = { run = "run" }', 'map = { "+" = 1, "-" = -1 }', 'decimal = ","'):
                 self.assertIn(part, text)
 
+    def test_runs_side_by_side_with_their_unit(self):
+        for form in ("Cycle {} [um]", "run {} (um)", "series{}_um"):
+            header = ";".join(["Target [mm]"] + [form.format(k) for k in range(1, 6)])
+            (self.folder / "w.csv").write_text("\n".join([header] + [f"{x};1;2;3;4;5" for x in range(0, 110, 10)]) + "\n")
+            self.assertIn("ready", self.new("--from", "w.csv", "--force"), form)
+            self.assertEqual((self.folder / "w.rows.csv").read_text().splitlines()[:2], ["Target [mm];run;reading [um]", "0;1;1"])
+            text = (self.folder / "w.toml").read_text()
+            for part in ('readings = "reading [um]"', 'labels = { run = "run" }', 'position = "Target [mm]"'):
+                self.assertIn(part, text, form)
+
+    def test_a_gain_of_plain_numbers(self):
+        (self.folder / "g.csv").write_text("run,load (kN),reading (1)\n" + "".join(f"{r},{x},{0.5 * x + r % 2 / 1e3}\n" for r in (1, 2, 3) for x in range(10)))
+        self.assertIn("ready", self.new("--from", "g.csv"))
+        check = gumshoe("check", "g.toml", cwd=self.folder)
+        self.assertEqual(check.returncode, 0, check.stderr)
+
     def test_a_calibration_log(self):
         """Units after a blank, a series that is no position, a force, an indication of another kind."""
         rows = ["Reihe\tLage\tStufe\tLast kN\tAnzeige mV/V\tTemp °C"]
