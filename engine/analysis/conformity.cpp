@@ -147,14 +147,17 @@ std::string words(const ConformityResult& r, double expanded_uncertainty, std::s
                         r.guard_band > 0 ? "inside the tolerance (guarded acceptance)"
                                          : "outside the tolerance (guarded rejection)");
   if (r.acceptance_lower >= r.acceptance_upper) text += "The guard bands leave no room for acceptance. ";
-  const std::string chance = r.by_chance() ? ", by chance: an acceptance limit is within twice the estimate's Monte Carlo "
-                                             "standard error" : "";
-  text += fmt::format("The estimate {} is {}{}. Conformance probability (that the true value lies within the tolerance, "
-                      "given this measurement alone): {}{}.",
-                      shown(r.estimate), r.accepted ? "accepted" : "rejected", chance, percent(r.conformance_probability),
-                      r.conformance_probability == 1 || r.conformance_probability == 0
-                          ? fmt::format(" (all of {} samples agree; 95 % confidence)", samples)
-                          : "");
+  const std::string chance = r.by_chance()
+                                 ? ", by chance: an acceptance limit is within twice the estimate's Monte Carlo "
+                                   "standard error"
+                                 : "";
+  text +=
+      fmt::format("The estimate {} is {}{}. Conformance probability (that the true value lies within the tolerance, "
+                  "given this measurement alone): {}{}.",
+                  shown(r.estimate), r.accepted ? "accepted" : "rejected", chance, percent(r.conformance_probability),
+                  r.conformance_probability == 1 || r.conformance_probability == 0
+                      ? fmt::format(" (all of {} samples agree; 95 % confidence)", samples)
+                      : "");
   text += r.accepted ? fmt::format(" Specific consumer's risk (that this accepted item does not conform): {}.",
                                    percent(r.specific_consumer_risk))
                      : fmt::format(" Specific producer's risk (that this rejected item conforms): {}.",

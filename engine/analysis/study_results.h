@@ -124,7 +124,7 @@ struct ConformityResult {
   double acceptance_lower = 0, acceptance_upper = 0; ///< with guard bands; NaN: none
   double guard_band = 0;                             ///< w, SI; above 0: guarded acceptance, below: guarded rejection
   std::string rule;                                  ///< decision rule by name
-  double estimate = 0, estimate_se = 0; ///< with its Monte Carlo standard error, NaN where it is unknown
+  double estimate = 0, estimate_se = 0;              ///< with its Monte Carlo standard error, NaN where it is unknown
   double conformance_probability = 0, conformance_probability_se = 0; ///< from this measurement alone
   /// What so many samples support: one-sided 95 % confidence limits of p_c.
   double conformance_probability_low = 0, conformance_probability_high = 1;

@@ -224,7 +224,9 @@ std::string other_case(const std::string& unit) {
 InputError unknown(const std::string& unit, const std::string& remedy) {
   const std::string meant = unit.empty() ? "" : other_case(unit), instead = instead_of(unit);
   return InputError(fmt::format("'{}' is not a unit", unit), "",
-                    !instead.empty() ? instead : meant.empty() ? remedy : "did you mean '" + meant + "'?");
+                    !instead.empty() ? instead
+                    : meant.empty()  ? remedy
+                                     : "did you mean '" + meant + "'?");
 }
 
 struct Pair {

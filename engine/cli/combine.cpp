@@ -174,7 +174,8 @@ void add_combine(CLI::App& app, Action& action) {
       ->delimiter(',')
       ->allow_extra_args(false); // what follows is a file
   command->add_option("--measurand", o->measurand, "the one to combine, with its labels (default: all in common)");
-  command->add_option("-o,--out", o->out, "scenario to write with the mean: gumshoe run then gives its result and budget");
+  command->add_option("-o,--out", o->out,
+                      "scenario to write with the mean: gumshoe run then gives its result and budget");
   command->add_option("--format", o->format, "text or json (all digits)")->check(CLI::IsMember({"text", "json"}));
   add_force(*command, o->force);
   command->callback([=, &action] { action = [=] { return combine(*o); }; });

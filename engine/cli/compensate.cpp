@@ -78,9 +78,10 @@ ExitCode compensate(Options o) {
     write_table(o.out, text, o.force);
   std::cerr << fmt::format("holds: {}\n", fmt::join(together(table.holds), ", "));
   if (table.coarse)
-    std::cerr << fmt::format("warning: from one {} to the next the errors change by as much as they are: between these a "
-                             "control interpolates, and may make them worse; measure at closer positions\n",
-                             table.position);
+    std::cerr << fmt::format(
+        "warning: from one {} to the next the errors change by as much as they are: between these a "
+        "control interpolates, and may make them worse; measure at closer positions\n",
+        table.position);
   for (const auto& left : table.left_out) std::cerr << fmt::format("left out: {} {}\n", left.name, left.why);
   print_left(table);
   const auto& formats = calibration::compensation_formats();

@@ -23,7 +23,8 @@ Problem parse_problem(const CLI::App& app, const std::vector<std::string>& words
     for (std::string word : words) {
       const bool is_short = word.size() > 1 && word[0] == '-' && std::isalpha(static_cast<unsigned char>(word[1]));
       word = is_short ? word.substr(0, 2) : word.substr(0, word.find('='));
-      if ((is_short || (word.starts_with("--") && word.size() > 2)) && std::ranges::find(options, word) == options.end())
+      if ((is_short || (word.starts_with("--") && word.size() > 2)) &&
+          std::ranges::find(options, word) == options.end())
         return guess("unknown option '" + word + "' of gumshoe " + words[0], is_short ? "" : nearest(word, options),
                      "gumshoe " + words[0] + " --help lists the options");
     }

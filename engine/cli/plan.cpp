@@ -45,7 +45,8 @@ void add_plan(CLI::App& app, Action& action) {
   const auto o = std::make_shared<Options>();
   command->add_option("scenario", o->file, "scenario file (TOML) with [plan]")->required();
   command->add_option("--data", o->data, "CSV file with readings, instead of the files named in the scenario");
-  command->add_option("-o,--out", o->out, "table of the readings, to be filled in (default: results/SCENARIO.plan.csv)");
+  command->add_option("-o,--out", o->out,
+                      "table of the readings, to be filled in (default: results/SCENARIO.plan.csv)");
   add_force(*command, o->force);
   add_external(*command);
   command->add_option("--verify", o->verify, "simulated data sets of each effect, on which gumshoe trace is tried")

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include "analysis/fields_json.h"
-#include "analysis/rounding.h"
 #include "analysis/result_fields.h"
+#include "analysis/rounding.h"
 #include "cli/print.h"
 #include "cli/print_studies.h"
 

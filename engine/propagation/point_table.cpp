@@ -28,7 +28,8 @@ std::size_t chosen_evaluation(const ModelCard& card, const std::string& evaluati
 
 /// Where a model indicates nothing, its measurands follow from the quantities alone.
 bool is_indicated(const ModelCard& card, const TableColumns& columns) {
-  return card.indications.empty() || std::ranges::any_of(card.indications, [&](const auto& i) { return columns.given(i.name) != nullptr; });
+  return card.indications.empty() ||
+         std::ranges::any_of(card.indications, [&](const auto& i) { return columns.given(i.name) != nullptr; });
 }
 
 /// Either all indications are given and no measurand that follows from them, or none; a joint evaluation needs them.

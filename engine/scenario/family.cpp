@@ -229,9 +229,10 @@ std::optional<double> read_width(Table& table, const std::string& key, const For
   if (share.empty() || !is_relative(share, form)) {
     const auto width = table.measure(key, {form.si_unit, units::Kind::difference});
     // "10 %" of "100 ppm" may be meant as 10 ppm.
-    if (const std::string own = unit_of_share(form.reference_node); width && !share.empty() && own != share && !own.empty())
-      context.note(fmt::format("{}: '{}' is taken as {:.6g} {}, and not as a share of '{}'", table.path(key), node->text,
-                               units::from_si(*width, own, form.si_unit, units::Kind::difference), own,
+    if (const std::string own = unit_of_share(form.reference_node);
+        width && !share.empty() && own != share && !own.empty())
+      context.note(fmt::format("{}: '{}' is taken as {:.6g} {}, and not as a share of '{}'", table.path(key),
+                               node->text, units::from_si(*width, own, form.si_unit, units::Kind::difference), own,
                                form.reference_node->text));
     return width;
   }

@@ -109,7 +109,8 @@ private:
     if (!repeatability && !resolution) return {};
     if (!repeatability) {
       if (r.kind != Repeatability::Kind::none) note("the resolution is used, because the repeatability is zero");
-      else unused_scatter(reading, *step);
+      else
+        unused_scatter(reading, *step);
       return {*resolution};
     }
     const double scale = repeatability->distribution.parameters[1];
@@ -133,9 +134,10 @@ private:
     if (n < 2) return;
     const double s = std::sqrt(sum_of_squares(reading.values) / (n - 1)), u = s / std::sqrt(n);
     if (!(u > step / (2 * std::sqrt(3.0)))) return;
-    note(fmt::format("{} indications scatter by s = {}, s/sqrt(n) = {}, which is not used: repeatability = \"readings\" "
-                     "would use it",
-                     reading.values.size(), shown(s), shown(u)));
+    note(
+        fmt::format("{} indications scatter by s = {}, s/sqrt(n) = {}, which is not used: repeatability = \"readings\" "
+                    "would use it",
+                    reading.values.size(), shown(s), shown(u)));
   }
 
   std::vector<Component> warned(const Component& repeatability, const Readouts& reading) {

@@ -51,7 +51,7 @@ std::optional<Layout> runs(const Csv& csv) {
     if (!std::regex_match(name, match, form)) continue;
     const std::string run = match[2], word = match[3];
     if (!word.empty() && sign_of(word) == 0) continue;
-    if (match[1].str().empty() && !unit.empty()) continue; // a target: "50 mm"
+    if (match[1].str().empty() && !unit.empty()) continue;           // a target: "50 mm"
     if (!out.parts.empty() && unit != out.unit) return std::nullopt; // not the same quantity
     out.unit = unit;
     ways &= !word.empty();

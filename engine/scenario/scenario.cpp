@@ -116,7 +116,8 @@ private:
     if (wanted.sobol > 0)
       table.refuse_key("sobol", correlated, "Sobol' indices need independent inputs, Shapley effects do not", remedy);
     if (wanted.morris > 0)
-      table.refuse_key("morris", correlated, "an elementary effect moves one input alone, Shapley effects do not", remedy);
+      table.refuse_key("morris", correlated, "an elementary effect moves one input alone, Shapley effects do not",
+                       remedy);
   }
 
   void check_free(Table& top, const ModelCard& model) {

@@ -63,10 +63,8 @@ private:
     if (!named_.insert(name).second) return;
     formula_ += fmt::format(" + {} * {}", name, product.text);
     const std::string read = unit_or(reading_, "1");
-    coefficients_ += line(name,
-                          fmt::format("{{ estimated = true, value = \"0 {}\" }}",
-                                      unit_per(read, product.unit)),
-                          "");
+    coefficients_ +=
+        line(name, fmt::format("{{ estimated = true, value = \"0 {}\" }}", unit_per(read, product.unit)), "");
   }
 
   const RecognisedColumn& column(const std::string& text) const {

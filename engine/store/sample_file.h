@@ -50,7 +50,8 @@ public:
   /// How many of the samples counted by the marker stand before the first that is not as it was written. Samples from
   /// there on may be written again.
   std::uint64_t sound();
-  /// Copies samples [0, count), all in the file, with their digests into a new one, which may have room for fewer or more.
+  /// Copies samples [0, count), all in the file, with their digests into a new one, which may have room for fewer or
+  /// more.
   void copy_to(SampleFile& other, std::uint64_t count) const;
 
 private:

@@ -129,8 +129,10 @@ TEST_CASE("labels that no reading has, and readings that no label value covers",
   CHECK_THAT(complaint(rows + "[quantities.rod_length.by.rod]\n\"rod 1\" = \"1 mm\"\n\"rod 3\" = \"1 mm\"\n"),
              Contains("no reading has rod = 'rod 3'") && Contains("no value for rod = 'rod 2'"));
   // Of rods that were not measured: nothing is missing.
-  CHECK_THAT(complaint(rows + "[quantities.rod_length.by.rod]\n\"rod 1\" = \"1 mm\"\n\"rod 2\" = \"1 mm\"\n\"rod 3\" = \"1 mm\"\n"),
-             !Contains("rod 3"));
+  CHECK_THAT(
+      complaint(rows +
+                "[quantities.rod_length.by.rod]\n\"rod 1\" = \"1 mm\"\n\"rod 2\" = \"1 mm\"\n\"rod 3\" = \"1 mm\"\n"),
+      !Contains("rod 3"));
   CHECK_THAT(complaint(rows + "[quantities.rod_length.by.rood]\n\"rod 1\" = \"1 mm\"\n"),
              Contains("Did you mean 'rod'?"));
   CHECK_THAT(
