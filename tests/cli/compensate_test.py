@@ -137,6 +137,37 @@ class Compensation(unittest.TestCase):
         assert run.returncode == 0, run.stderr
         cls.rounds = json.loads(run.stdout)["rounds"]
 
+    def test_a_wave_that_is_shorter_than_the_table_is_told(self):
+        """Of 10 mm at every 13.7 mm: straight lines between them are wrong. A bow is another thing."""
+        text = """schema = 1
+[model]
+name = "expression"
+[model.indications]
+deviation = "offset"
+[data]
+file = "m.csv"
+units = { x = "mm", d = "um" }
+[data.conditions]
+position = "x"
+[quantities]
+offset = { estimated = true, value = "0 um" }
+[indications.deviation]
+readings = "d"
+[stated_effects.wave]
+indication = "deviation"
+formula = "%s"
+unit = "%s"
+size = { value = "%s", u = "%s" }
+"""
+        (self.folder / "m.csv").write_text("x,d\n" + "".join(f"{13.7 * i:.1f},0\n" for i in range(12)))
+        screw = ("sin(0.6283185 * position / one)", "um", "1.2 um", "0.05 um")
+        bow = ("position * position", "um/mm2", "1e-4 um/mm2", "1e-5 um/mm2")
+        for form, warned in ((screw, True), (bow, False)):
+            (self.folder / "w.toml").write_text(text % form + ('[conditions]\none = "1 mm"\n' if warned else ""))
+            run = gumshoe("compensate", "w.toml", cwd=self.folder)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            self.assertEqual("from one position to the next the errors change" in run.stderr, warned, run.stderr)
+
     def compensate(self, *words):
         return gumshoe("compensate", "s.traced.toml", *words, cwd=self.folder)
 
