@@ -147,17 +147,12 @@ std::string words(const ConformityResult& r, double expanded_uncertainty, std::s
                         r.guard_band > 0 ? "inside the tolerance (guarded acceptance)"
                                          : "outside the tolerance (guarded rejection)");
   if (r.acceptance_lower >= r.acceptance_upper) text += "The guard bands leave no room for acceptance. ";
-  const std::string chance = r.by_chance()
-                                 ? ", by chance: an acceptance limit is within twice the estimate's Monte Carlo "
-                                   "standard error"
-                                 : "";
-  text +=
-      fmt::format("The estimate {} is {}{}. Conformance probability (that the true value lies within the tolerance, "
-                  "given this measurement alone): {}{}.",
-                  shown(r.estimate), r.accepted ? "accepted" : "rejected", chance, percent(r.conformance_probability),
-                  r.conformance_probability == 1 || r.conformance_probability == 0
-                      ? fmt::format(" (all of {} samples agree; 95 % confidence)", samples)
-                      : "");
+  text += fmt::format("The estimate {} is {}. Conformance probability (that the true value lies within the tolerance, "
+                      "given this measurement alone): {}{}.",
+                      shown(r.estimate), r.decision(), percent(r.conformance_probability),
+                      r.conformance_probability == 1 || r.conformance_probability == 0
+                          ? fmt::format(" (all of {} samples agree; 95 % confidence)", samples)
+                          : "");
   text += r.accepted ? fmt::format(" Specific consumer's risk (that this accepted item does not conform): {}.",
                                    percent(r.specific_consumer_risk))
                      : fmt::format(" Specific producer's risk (that this rejected item conforms): {}.",
@@ -182,9 +177,12 @@ std::string words(const ConformityResult& r, double expanded_uncertainty, std::s
 
 } // namespace
 
-bool ConformityResult::by_chance() const {
+std::string ConformityResult::decision() const {
   const double to_limit = std::fmin(std::fabs(estimate - acceptance_lower), std::fabs(estimate - acceptance_upper));
-  return to_limit <= 2 * estimate_se;
+  return std::string(accepted ? "accepted" : "rejected") +
+         (to_limit <= 2 * estimate_se
+              ? " by chance (an acceptance limit is within twice the estimate's Monte Carlo standard error)"
+              : "");
 }
 
 ConformityResult assess(const Column& samples, const Known& known, const scenario::ConformityTest& test, int threads) {
@@ -246,9 +244,9 @@ std::vector<ConformityResult> conformity(const propagation::Experiment& e, const
       Room room;
       ConformityResult r = assess(held(values(o), room), {s.estimate, s.standard_uncertainty, expanded}, test, threads);
       r.output = e.outputs()[o];
-      r.estimate_se = e.scenario().run.design == scenario::Design::monte_carlo ? s.estimate_se : nan;
+      r.estimate_se = s.estimate_se;
       if (e.scenario().run.design != scenario::Design::monte_carlo)
-        r.conformance_probability_se = r.posterior_conformance_se = r.global_consumer_risk_se =
+        r.estimate_se = r.conformance_probability_se = r.posterior_conformance_se = r.global_consumer_risk_se =
             r.global_producer_risk_se = nan;
       r.statement = words(r, expanded, s.valid, s.failed);
       results.push_back(std::move(r));

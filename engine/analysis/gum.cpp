@@ -223,6 +223,10 @@ std::vector<Budget> budgets(const propagation::Experiment& e, std::size_t first,
   return out;
 }
 
+bool any_uncertain(const Budget& b) {
+  return std::ranges::any_of(b.contributions, [](const Contribution& c) { return c.standard_uncertainty > 0; });
+}
+
 Validation validate(const Budget& b, const Summary& s, double coverage_probability, int digits) {
   Validation v;
   v.output = b.output;
@@ -242,10 +246,8 @@ Validation validate(const Budget& b, const Summary& s, double coverage_probabili
   }
   if (u == 0) {
     v.verdict = s.standard_uncertainty == 0 ? "not applicable" : "not validated";
-    const bool uncertain =
-        std::ranges::any_of(b.contributions, [](const Contribution& c) { return c.standard_uncertainty > 0; });
     v.reason = s.standard_uncertainty != 0 ? "the framework's standard uncertainty is zero"
-               : uncertain                 ? "the uncertainties of the inputs cancel"
+               : any_uncertain(b)          ? "the uncertainties of the inputs cancel"
                                            : "no input is uncertain";
     return v;
   }

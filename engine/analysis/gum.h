@@ -19,6 +19,9 @@ std::vector<Budget> budgets(const propagation::Experiment& experiment, std::size
 /// Whether terms of second order are found for quantities with these standard uncertainties: for at most 100 of them.
 bool has_second_order(const std::vector<double>& standard_uncertainties);
 
+/// Whether any input has a standard uncertainty, whatever its sensitivity coefficient.
+bool any_uncertain(const Budget& budget);
+
 /// JCGM 101 clause 8: compares d_low and d_high with the numerical tolerance delta of u at `digits`. The Monte Carlo
 /// tolerance is two standard errors of an end. The result is undecided below 100 / (1 - p) trials, if that tolerance
 /// exceeds delta / 5 (unless an end differs by more than delta and four standard errors), or if an end differs by more

@@ -50,11 +50,6 @@ std::string with_suitable_unit(double si, const std::string& unit, const std::st
   return (x == 0 ? "0" : fixed(x, decimals_for(std::fabs(x)))) + (in == "1" ? "" : " " + in);
 }
 
-std::string unit_over(const std::string& above, const std::string& below) {
-  if (below == "1") return above;
-  return below.find_first_of("/. *") == std::string::npos ? above + '/' + below : above + "/(" + below + ')';
-}
-
 std::string probability_text(double p, double least) {
   const auto percent = [](double x) {
     const double rest = std::fmin(100 * x, 100 - 100 * x); // as many digits as the smaller of both sides needs

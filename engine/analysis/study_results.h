@@ -138,8 +138,9 @@ struct ConformityResult {
   double global_producer_risk = 0, global_producer_risk_se = 0; ///< NaN without a process
   std::string statement;                                        ///< the numbers with their definitions
 
-  /// Whether the estimate is as near to an acceptance limit as other samples would move it: then chance decides.
-  bool by_chance() const;
+  /// "accepted" or "rejected"; and that chance decided, where the estimate is as near to an acceptance limit as other
+  /// samples would move it: within twice its Monte Carlo standard error.
+  std::string decision() const;
 };
 
 /// Which standard uncertainties would give the wanted expanded uncertainty?

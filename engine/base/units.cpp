@@ -50,43 +50,49 @@ bool plain_grammar(const std::string& unit) {
   return open == 0;
 }
 
-/// Replaces names of the field that udunits does not know, and those whose values it has from before 2019: the
-/// electronvolt by the SI's definition, the atomic mass unit by CODATA 2022. One torr is 1/760 of an atmosphere.
-std::string with_known_names(const std::string& unit) {
+/// Calls action(word) for the names in a unit, and rest(character) for all between them.
+template <class Word, class Rest> void each_name(const std::string& unit, const Word& word, const Rest& rest) {
+  for (std::size_t i = 0, end = 0; i < unit.size(); i = end) {
+    while (end < unit.size() && letter(unit[end])) ++end;
+    if (end > i)
+      word(unit.substr(i, end - i));
+    else
+      rest(unit[end++]);
+  }
+}
+
+/// Names that udunits does not know, or whose values it has from before 2019: the electronvolt is the SI's, the atomic
+/// mass unit that of CODATA 2022, one torr 1/760 of an atmosphere. Some may have a prefix of the SI.
+std::string known_name(const std::string& word) {
   static const std::map<std::string, std::string> names{
       {"deg", "degree"},
       {"rev", "revolution"},
       {"gon", "(0.9 degree)"},
-      {"Nm", "(N m)"},
-      {"Wh", "(W h)"},
-      {"kWh", "(kW h)"},
-      {"Ah", "(A h)"},
-      {"mAh", "(mA h)"},
-      {"eV", "(1.602176634e-19 J)"},
-      {"keV", "(1.602176634e-16 J)"},
-      {"MeV", "(1.602176634e-13 J)"},
-      {"electronvolt", "(1.602176634e-19 J)"},
       {"u", "(1.66053906892e-27 kg)"},
-      {"torr", "(133.32236842105263 Pa)"},
-      {"Torr", "(133.32236842105263 Pa)"},
   };
+  struct Prefixed {
+    std::string_view name, factor, unit;
+  };
+  static constexpr Prefixed prefixed[] = {{"eV", "1.602176634e-19 ", "J"},
+                                          {"torr", "133.32236842105263 ", "Pa"},
+                                          {"Torr", "133.32236842105263 ", "Pa"},
+                                          {"Nm", "", "N m"},
+                                          {"Wh", "", "W h"},
+                                          {"Ah", "", "A h"}};
+  if (const auto known = names.find(word); known != names.end()) return known->second;
+  for (const Prefixed& p : prefixed)
+    if (word.ends_with(p.name) && word.size() <= p.name.size() + 2)
+      return fmt::format("({}{}{})", p.factor, word.substr(0, word.size() - p.name.size()), p.unit);
+  return word;
+}
+
+std::string with_known_names(const std::string& unit) {
   std::string out;
-  for (std::size_t i = 0; i < unit.size();) {
-    std::size_t end = i;
-    while (end < unit.size() && letter(unit[end])) ++end;
-    if (end == i) {
-      out += unit[i++];
-      continue;
-    }
-    const std::string word = unit.substr(i, end - i);
-    const auto known = names.find(word);
-    out += known == names.end() ? word : known->second;
-    i = end;
-  }
+  each_name(unit, [&](const std::string& word) { out += known_name(word); }, [&](char c) { out += c; });
   return out;
 }
 
-/// Names that people read in two ways, and logarithmic ones: what to write instead.
+/// What to write instead of a name that people read in two ways, or of a logarithmic one; empty: the unit has none.
 std::string instead_of(const std::string& unit) {
   static const std::map<std::string, std::string> unclear{
       {"ct", "write carat"},
@@ -95,8 +101,14 @@ std::string instead_of(const std::string& unit) {
       {"dB", "logarithmic units are not known: write the ratio"},
       {"Np", "logarithmic units are not known: write the ratio"},
   };
-  const auto found = unclear.find(unit);
-  return found == unclear.end() ? "" : found->second;
+  std::string out;
+  each_name(
+      unit,
+      [&](const std::string& word) {
+        if (const auto found = unclear.find(word); found != unclear.end()) out = found->second;
+      },
+      [](char) {});
+  return out;
 }
 
 int radian_exponent(const std::string& base) {
@@ -362,6 +374,11 @@ std::string base_units_of(const std::string& unit) {
   const Unit* const known = find(unit);
   if (!known) throw unknown(unit, "");
   return known->base;
+}
+
+std::string quotient(const std::string& above, const std::string& below) {
+  if (below == "1") return above;
+  return below.find_first_of("/. *") == std::string::npos ? above + '/' + below : above + "/(" + below + ')';
 }
 
 std::string kind_name(const std::string& si_unit) {

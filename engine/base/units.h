@@ -42,6 +42,9 @@ std::string si_unit_of(const std::string& unit);
 /// InputError if it is not a unit.
 std::string base_units_of(const std::string& unit);
 
+/// The unit of a ratio: "um/K", "um/(1/K)", "1/kN"; `above` alone over a plain number.
+std::string quotient(const std::string& above, const std::string& below);
+
 /// Name of a quantity of this SI unit in messages: m -> "a length", rad -> "an angle".
 std::string kind_name(const std::string& si_unit);
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "analysis/fields_json.h"
+#include "analysis/gum.h"
 #include "analysis/result_fields.h"
 #include "analysis/rounding.h"
 #include "base/units.h"
@@ -97,7 +98,7 @@ std::vector<std::string> cells(const Contribution& c, const propagation::Output&
           c.distribution,
           std::isfinite(c.degrees_of_freedom) ? fmt::format("{:.4g}", c.degrees_of_freedom) : "inf",
           number_text(converted(c.sensitivity, In::coefficient, row, out)) +
-              (output.unit == c.unit ? "" : " " + unit_over(output.unit, c.unit)),
+              (output.unit == c.unit ? "" : " " + units::quotient(output.unit, c.unit)),
           std::isfinite(c.contribution) ? with_suitable_unit(c.contribution, output.unit, output.si_unit) : "-",
           std::isfinite(c.share)               ? percent(c.share)
           : std::isfinite(c.monte_carlo_share) ? percent(c.monte_carlo_share)
@@ -114,9 +115,7 @@ std::string largest_contributions(const Budget& b, const std::vector<SobolIndex>
   // What is shown as less than 0.01 % is none of the largest.
   const bool some = std::ranges::any_of(all, [](const Part& p) { return p.share >= 1e-4; });
   if (some) std::erase_if(all, [](const Part& p) { return p.share < 1e-4; });
-  const bool uncertain =
-      std::ranges::any_of(b.contributions, [](const Contribution& c) { return c.standard_uncertainty > 0; });
-  if (all.empty() && !monte_carlo && uncertain)
+  if (all.empty() && !monte_carlo && any_uncertain(b))
     return "largest contributions: none to first order, because every sensitivity coefficient is zero at the estimates";
   if (all.empty())
     return b.contributions.empty() || !monte_carlo

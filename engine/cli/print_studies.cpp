@@ -95,12 +95,8 @@ std::string limits(const ConformityResult& c, double low, double high) {
 void print_conformity(const Results& r, std::ostream& out) {
   for (const ConformityResult& c : r.conformity) {
     const auto percent = [&](double p) { return probability_text(p, c.least_risk); };
-    out << fmt::format(
-        "conformity of {}: {}{}, conformance probability {}", c.output.name, c.accepted ? "accepted" : "rejected",
-        c.by_chance() ? " by chance (an acceptance limit is within twice the Monte Carlo standard error of "
-                        "the estimate)"
-                      : "",
-        percent(c.conformance_probability));
+    out << fmt::format("conformity of {}: {}, conformance probability {}", c.output.name, c.decision(),
+                       percent(c.conformance_probability));
     const std::pair<const char*, double> risks[] = {{"specific consumer's risk", c.specific_consumer_risk},
                                                     {"specific producer's risk", c.specific_producer_risk},
                                                     {"global consumer's risk", c.global_consumer_risk},

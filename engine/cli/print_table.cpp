@@ -5,7 +5,7 @@
 
 #include "analysis/fields_json.h"
 #include "analysis/result_fields.h"
-#include "analysis/rounding.h"
+#include "base/units.h"
 #include "cli/print.h"
 #include "cli/print_studies.h"
 
@@ -80,7 +80,7 @@ Json budget_json(const Budget& b) {
   Json rows = Json::array();
   for (const Contribution& c : b.contributions) {
     rows.push_back(json(contribution_fields, c, b.output));
-    rows.back()["sensitivity_unit"] = c.unit == b.output.unit ? "1" : unit_over(b.output.unit, c.unit);
+    rows.back()["sensitivity_unit"] = c.unit == b.output.unit ? "1" : units::quotient(b.output.unit, c.unit);
   }
   return rows;
 }

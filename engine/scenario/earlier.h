@@ -54,7 +54,8 @@ public:
     return *outputs_.at({earlier.file, earlier.output});
   }
 
-  /// States the unit of a quantity of the document that has none, by the result it is from.
+  /// States the unit of a quantity of the document that has none, by the result it is from; a problem if that cannot be
+  /// read.
   void state_units(Node& document, Problems& problems);
 
   /// Continues `hash` over the numbers read.

@@ -108,9 +108,10 @@ private:
     if (resolution) resolution->source = fmt::format("step {}, {}", shown(*step), resolution->source);
     if (!repeatability && !resolution) return {};
     if (!repeatability) {
-      if (r.kind != Repeatability::Kind::none) note("the resolution is used, because the repeatability is zero");
-      else
+      if (r.kind == Repeatability::Kind::none)
         unused_scatter(reading, *step);
+      else
+        note("the resolution is used, because the repeatability is zero");
       return {*resolution};
     }
     const double scale = repeatability->distribution.parameters[1];

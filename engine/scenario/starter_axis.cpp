@@ -168,7 +168,7 @@ std::string starter_axis(const StarterData& data, const std::string& scenario) {
   for (const RecognisedColumn* c : all) {
     const std::string read = unit_or(*c, "um");
     out += line(prefix(*c) + "offset", fitted(found, labels, read), "");
-    if (!turns) out += line(prefix(*c) + "gain", fitted(found, labels, unit_per(measured ? pos : read, pos)), "");
+    if (!turns) out += line(prefix(*c) + "gain", fitted(found, labels, units::quotient(measured ? pos : read, pos)), "");
     for (const char* axis : {"eccentricity_x", "eccentricity_y"})
       if (eccentric) out += line(prefix(*c) + axis, fitted(found, labels, read), "");
     if (direction)

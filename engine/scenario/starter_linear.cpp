@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/units.h"
 #include "scenario/starter_parts.h"
 
 namespace gumshoe::scenario {
@@ -64,7 +65,7 @@ private:
     formula_ += fmt::format(" + {} * {}", name, product.text);
     const std::string read = unit_or(reading_, "1");
     coefficients_ +=
-        line(name, fmt::format("{{ estimated = true, value = \"0 {}\" }}", unit_per(read, product.unit)), "");
+        line(name, fmt::format("{{ estimated = true, value = \"0 {}\" }}", units::quotient(read, product.unit.empty() ? "1" : product.unit)), "");
   }
 
   const RecognisedColumn& column(const std::string& text) const {

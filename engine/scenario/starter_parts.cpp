@@ -188,11 +188,6 @@ void require_numbers(const RecognisedData& data, const RecognisedColumn& c, cons
 
 std::string unit_or(const RecognisedColumn& c, const char* otherwise) { return c.unit == "?" ? otherwise : c.unit; }
 
-std::string unit_per(const std::string& above, const std::string& below) {
-  if (below == "1" || below.empty()) return above;
-  return above == "1" ? fmt::format("1/({})", below) : fmt::format("({})/({})", above, below);
-}
-
 std::string noise_line(const RecognisedColumn& reading, const RecognisedColumn* uncertainty) {
   if (uncertainty && uncertainty->number)
     return line("u", fmt::format("{{ column = {} }}", quoted(uncertainty->name)), "recognised " + uncertainty->why);

@@ -20,8 +20,6 @@ std::string plain_name(const std::string& text);
 /// "key = value", and a comment if it is not empty.
 std::string line(const std::string& key, const std::string& value, const std::string& comment);
 std::string unit_or(const RecognisedColumn& c, const char* otherwise);
-/// Unit of a coefficient: "(um)/(K)", "mV" over a plain number, "1/(K)".
-std::string unit_per(const std::string& above, const std::string& below);
 /// `u` of a reading: a column of the data that was recognised as it, or a comment that shows how it is stated.
 std::string noise_line(const RecognisedColumn& reading, const RecognisedColumn* uncertainty);
 

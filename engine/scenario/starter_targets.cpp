@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/units.h"
 #include "scenario/starter_parts.h"
 
 namespace gumshoe::scenario {
@@ -60,7 +61,7 @@ std::string starter_targets(const StarterData& data, const TargetColumns& column
       formula += fmt::format(" + {} * {}", size(name, other), other);
       quantities +=
           line(size(name, other),
-               fmt::format("{{ estimated = true, value = \"0 {}\" }}", unit_per(unit, unit_or(*column, "mm"))), "");
+               fmt::format("{{ estimated = true, value = \"0 {}\" }}", units::quotient(unit, unit_or(*column, "mm"))), "");
     }
     out += line(name, quoted(formula), "guessed: read where it was commanded to");
   }

@@ -37,7 +37,7 @@ std::optional<Uncertainty> read_observations(Table& table, const Form& form, Con
   for (const double v : x) mean += v / n;
   for (const double v : x) squares += (v - mean) * (v - mean);
   const double scale = std::sqrt(squares / (n - 1) / n);
-  // Of three observations, Student's t is beyond it in one of a thousand cases; of more, more seldom.
+  // In units of s/sqrt(n): the mean of three observations is as far from its expectation in one case of a thousand.
   constexpr double far = 32;
   if (const double apart = form.absolute && form.value ? std::abs(*form.value - mean) / scale : 0; n > 2 && apart > far)
     context.notes.push_back(fmt::format("{}: the mean of the observations is not used, because a value is stated; they "

@@ -59,6 +59,11 @@ struct ResultFile::Impl {
        const std::vector<std::string>& readings)
       : claim(where), identity(run), outputs(rows), labels(readings) {}
 
+  /// The samples, all of them in the file.
+  const SampleFile& whole() {
+    samples.flush();
+    return samples;
+  }
   std::uint64_t bytes_of(std::uint64_t count) const { return count * (8 * outputs.size() + 1); }
   std::uint64_t reserve() const { return (1u << 20) + 65536 * outputs.size(); } ///< for what comes last
   /// A new run: in memory, if that is enough.
@@ -109,10 +114,7 @@ void ResultFile::Impl::spill() {
 }
 
 void ResultFile::Impl::copy_to(SampleFile& other, std::uint64_t count) {
-  if (!early) {
-    samples.flush();
-    return samples.copy_to(other, count);
-  }
+  if (!early) return whole().copy_to(other, count);
   std::vector<const double*> rows;
   for (std::size_t row = 0; row < outputs.size(); ++row) rows.push_back(early->values(row).data());
   other.write(0, rows, early->status().first(count));
@@ -294,10 +296,7 @@ std::vector<double> ResultFile::read(std::size_t output, std::uint64_t first, st
   if (output >= f.samples.rows() || first > f.done || count > f.done - first)
     throw std::out_of_range("samples that are not there");
   std::vector<double> values(count);
-  naming(f.claim.path(), [&] {
-    impl_->samples.flush();
-    f.samples.read(output, first, count, values.data());
-  });
+  naming(f.claim.path(), [&] { impl_->whole().read(output, first, count, values.data()); });
   return values;
 }
 
@@ -307,17 +306,14 @@ std::vector<std::uint8_t> ResultFile::read_status(std::uint64_t first, std::uint
   if (f.samples.rows() == 0 || first > f.done || count > f.done - first)
     throw std::out_of_range("samples that are not there");
   std::vector<std::uint8_t> status(count);
-  naming(f.claim.path(), [&] {
-    impl_->samples.flush();
-    f.samples.read_status(first, count, status.data());
-  });
+  naming(f.claim.path(), [&] { impl_->whole().read_status(first, count, status.data()); });
   return status;
 }
 
 analysis::Samples ResultFile::view() const {
   const Impl& f = *impl_;
   if (f.early) return analysis::view_of(*f.early);
-  naming(f.claim.path(), [&] { impl_->samples.flush(); });
+  naming(f.claim.path(), [&] { impl_->whole(); }); // before several threads read
   const auto column = [&f](std::size_t output) {
     return analysis::Column(
         f.done,

@@ -90,7 +90,7 @@ hdf5::Units file_units(const analysis::Unit& unit, const hdf5::Units& row, const
   case analysis::In::output: return output;
   case analysis::In::coefficient:
     if (row.note) return {"output units / units", true};
-    return row.text == "1" ? output : "(" + output + ")/(" + row.text + ")";
+    return units::quotient(output, row.text);
   default: return {unit.stated, unit.note};
   }
 }

@@ -40,8 +40,10 @@ def table(b, u_monte_carlo, sobol=None, shapley=None):
     """Rows and a sentence; None where no shares are known."""
     if b is None:
         return None
-    # Where the framework does not apply, Shapley effects without Sobol' indices are asked for because inputs are correlated.
-    if abs(b.correlation_share) > WORTH if math.isfinite(b.correlation_share) else shapley is not None and sobol is None:
+    correlated = abs(b.correlation_share) > WORTH
+    if not math.isfinite(b.correlation_share):  # no budget: who asks for Shapley effects in place of Sobol' indices has a reason
+        correlated = shapley is not None and sobol is None
+    if correlated:
         largest = max(shapley.rows, key=lambda i: i.effect if math.isfinite(i.effect) else 0) if shapley and shapley.rows else None
         return types.SimpleNamespace(rows=[], text="The inputs depend on each other: what one of them contributes cannot be "
                                      "taken out of u alone." + (f" The largest Shapley effect is that of {largest.input}, "

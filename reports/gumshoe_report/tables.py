@@ -133,6 +133,11 @@ def alike(rows, sobol):
             if known("contribution") else math.nan})
 
 
+def independent(b):
+    """Whether a budget has no share of correlations, but for rounding."""
+    return not abs(b.correlation_share) > 1e-12
+
+
 def budget(b, u_monte_carlo=math.nan, sobol=None):
     """The budget of one output as text; `u_monte_carlo` in SI."""
     ordered = sorted(alike(b.rows, sobol), key=lambda c: -max([s for s in (c.share, c.monte_carlo_share) if math.isfinite(s)] + [0.0]))
@@ -153,7 +158,7 @@ def budget(b, u_monte_carlo=math.nan, sobol=None):
         folded_share=percent(sum(c.share if has_gum else c.monte_carlo_share for c in folded)),
         folded_below=percent(FOLDED_BELOW if has_gum else FOLDED_INDEX), has_gum=has_gum,
         has_monte_carlo=any(math.isfinite(c.monte_carlo_share) for c in ordered),
-        correlation=percent(b.correlation_share), fine_unit=unit_text(fine),
+        correlation="" if independent(b) else percent(b.correlation_share), fine_unit=unit_text(fine),
         interactions=percent(b.monte_carlo_interactions), u=significant(spread(b, u)),
         u_fine=significant(factor * spread(b, u)), u_monte_carlo=significant(factor * spread(b, u_monte_carlo)),
         dof="∞" if math.isinf(dof) else "not defined, inputs correlated" if math.isnan(dof) else fixed(dof, 0),

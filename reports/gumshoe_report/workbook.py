@@ -5,7 +5,7 @@ import re
 import zipfile
 from xml.sax.saxutils import escape, quoteattr
 
-from .tables import coefficient, point, spread
+from .tables import coefficient, independent, point, spread
 
 TYPES = "application/vnd.openxmlformats-officedocument.spreadsheetml"
 MAIN = "http://schemas.openxmlformats.org/spreadsheetml/2006/main"
@@ -81,13 +81,12 @@ def budget_rows(b, p):
     if not b.applicable:
         return rows + [[], [f"GUM framework not applicable: {b.reason}"]]
     last, u, U = len(rows), spread(b, b.combined_standard_uncertainty), spread(b, b.expanded_uncertainty)
-    independent = not abs(b.correlation_share) > 1e-12
-    total = Formula(f"SQRT(SUMSQ(J3:J{last}))", u) if independent else u
-    row_of_u = last + 2 + (not independent)
+    total = Formula(f"SQRT(SUMSQ(J3:J{last}))", u) if independent(b) else u
+    row_of_u = last + 2 + (not independent(b))
     below = lambda name, value, unit="": [(name, BOLD), *[""] * 8, value, unit]
     return rows + [
         below("estimate y", point(b, b.estimate), b.display_units),
-        *([] if independent else [below("correlations", (b.correlation_share, PERCENT))]),
+        *([] if independent(b) else [below("correlations", (b.correlation_share, PERCENT))]),
         below("combined standard uncertainty u_c", total, b.display_units),
         below("effective degrees of freedom", b.effective_degrees_of_freedom or math.inf),
         below("coverage factor k", b.coverage_factor),

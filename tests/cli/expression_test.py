@@ -254,6 +254,19 @@ y = { formula = "%s", unit = "%s" }
                          more='[[correlations]]\nquantities = ["a", "b"]\nkind = "pearson"\nmatrix = [[1, -1], [-1, 1]]\n')
         self.assertNotIn("no input is uncertain", text)
 
+    def test_a_page_speaks_of_correlations_where_there_are_some(self):
+        """Shapley effects asked for of independent inputs are no sign of any."""
+        inputs = ("a + 2 * b", "1", "a = { value = 1, u = 0.1 }\nb = { value = 2, u = 0.2 }")
+        shapley = "[analysis]\nsensitivity = { shapley = 1000 }\n"
+        tied = '[[correlations]]\nquantities = ["a", "b"]\nkind = "pearson"\nmatrix = [[1, 0.5], [0.5, 1]]\n'
+        for more, correlated in ((shapley, False), (tied + shapley, True)):
+            self.said(*inputs, more=more)
+            report = gumshoe("report", self.folder / "r.h5", "--out", self.folder / "r.html", "--force")
+            self.assertEqual(report.returncode, 0, report.stderr)
+            page = (self.folder / "r.html").read_text()
+            self.assertEqual("The inputs depend on each other" in page, correlated)
+            self.assertEqual(">correlations</th>" in page, correlated)
+
     def test_units_of_coefficients_are_units(self):
         text = self.said("l * alpha * t", "um", 'l = { value = "1 m", u = "1 mm" }\nalpha = { value = "10 um/m/K", u = "1 um/m/K" }\n'
                          't = { value = "1 K", u = "0.1 K" }')

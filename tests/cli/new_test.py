@@ -323,7 +323,7 @@ class New(InFolder):
         terms = [w for t in ("load", "machine", "machine*load", "temp") for w in ("--term", t)]
         self.assertIn("linear.toml: ready. Next: gumshoe trace linear.toml", self.new("linear", "--from", "f.csv", *terms))
         text = (self.folder / "linear.toml").read_text()
-        for part in ('machine_b = { column = "machine", map = { "a" = 0, "b" = 1, "c" = 0 } }', 'by_load = { estimated = true, value = "0 (N)/(N)" }',
+        for part in ('machine_b = { column = "machine", map = { "a" = 0, "b" = 1, "c" = 0 } }', 'by_load = { estimated = true, value = "0 N/N" }',
                      'by_temp * (temp - reference_temperature)', 'order = "time"'):
             self.assertIn(part, text)
         run = gumshoe("estimate", "linear.toml", "--format", "json", cwd=self.folder)

@@ -128,7 +128,7 @@ TEST_CASE("labels that no reading has, and readings that no label value covers",
                                   "\"rod 2\", values = [\"1 mm\"] } ]\n";
   CHECK_THAT(complaint(rows + "[quantities.rod_length.by.rod]\n\"rod 1\" = \"1 mm\"\n\"rod 3\" = \"1 mm\"\n"),
              Contains("no reading has rod = 'rod 3'") && Contains("no value for rod = 'rod 2'"));
-  // Of rods that were not measured: nothing is missing.
+  // Rod 3 was not measured. That is no mistake, because no rod that was measured lacks a value.
   CHECK_THAT(
       complaint(rows +
                 "[quantities.rod_length.by.rod]\n\"rod 1\" = \"1 mm\"\n\"rod 2\" = \"1 mm\"\n\"rod 3\" = \"1 mm\"\n"),

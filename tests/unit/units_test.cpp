@@ -61,6 +61,9 @@ TEST_CASE("angles", "[units]") {
 TEST_CASE("units of today's values", "[units]") {
   CHECK(si("1 eV", "J") == Approx(1.602176634e-19).epsilon(1e-14)); // exact since 2019
   CHECK(si("2 keV", "J") == Approx(2 * 1.602176634e-16).epsilon(1e-14));
+  CHECK(si("3 meV", "J") == Approx(3 * 1.602176634e-22).epsilon(1e-14));
+  CHECK(si("5 mTorr", "Pa") == Approx(5 * 101.325 / 760).epsilon(1e-14));
+  CHECK(si("4 kNm", "J") == 4000);
   CHECK(si("1 u", "kg") == Approx(1.66053906892e-27).epsilon(1e-14)); // CODATA 2022
   CHECK(si("760 torr", "Pa") == Approx(101325).epsilon(1e-14));
   CHECK(si("100 gon", "rad") == Approx(pi / 2).epsilon(5e-16));
@@ -71,6 +74,7 @@ TEST_CASE("units of today's values", "[units]") {
 
 TEST_CASE("what may be two units is none, and it is said what to write", "[units][errors]") {
   for (const char* unit : {"ct", "oz", "gal", "dB"}) CHECK_FALSE(units::convertible(unit, "kg"));
+  for (const char* unit : {"oz/m", "m/ct", "dB/km"}) CHECK_THROWS_AS(units::si_unit_of(unit), InputError);
   CHECK_THROWS_WITH(units::to_si(1, "ct", "kg"), Catch::Contains("rite carat"));
   CHECK_THROWS_WITH(units::to_si(1, "Kg", "kg"), Catch::Contains("did you mean 'kg'?", Catch::CaseSensitive::No));
   CHECK_THROWS_WITH(units::to_si(1, "KHz", "1/s"), Catch::Contains("did you mean 'kHz'?", Catch::CaseSensitive::No));

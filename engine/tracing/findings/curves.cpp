@@ -99,8 +99,8 @@ public:
     if (!((dy - per_size * dx).norm() <= rounding * dy.norm())) return "";
     // A difference of temperatures has the unit K.
     const bool own_zero = units::to_si(0, covariate.unit, covariate.si_unit) != 0;
-    const std::string unit = analysis::unit_over(small_unit(), own_zero ? covariate.si_unit : covariate.unit),
-                      si_unit = analysis::unit_over(empty_.indication_si_unit, covariate.si_unit);
+    const std::string unit = units::quotient(small_unit(), own_zero ? covariate.si_unit : covariate.unit),
+                      si_unit = units::quotient(empty_.indication_si_unit, covariate.si_unit);
     const double slope = term_.size[0] * per_size, u = std::sqrt(covariance_(0, 0)) * std::fabs(per_size);
     const std::string text =
         with_u(slope, u, covariate.unit == "s" ? per_time(small_unit(), slope, si_unit) : unit, si_unit);
