@@ -199,7 +199,7 @@ std::optional<Moment> parse_excel(std::string_view text) {
 
 ClockFormat::ClockFormat(std::string pattern) : pattern_(std::move(pattern)) {
   if (pattern_ == "iso" || pattern_ == "excel") return;
-  bool hours = false;
+  bool moment = false; // of the day, or a day
   for (std::size_t i = 0; i < pattern_.size(); ++i) {
     if (pattern_[i] != '%') continue;
     const char field = ++i < pattern_.size() ? pattern_[i] : ' ';
@@ -207,10 +207,10 @@ ClockFormat::ClockFormat(std::string pattern) : pattern_(std::move(pattern)) {
       throw InputError(fmt::format("'%{}' is no field of a clock time", field),
                        "the fields are %Y %y %m %d %b %H %I %M %S %p %s",
                        "use \"iso\", or a pattern such as \"%d.%m.%Y %H:%M:%S\"");
-    hours |= field == 'H' || field == 'I' || field == 's';
+    moment |= field == 'H' || field == 'I' || field == 's' || field == 'd';
   }
-  if (!hours)
-    throw InputError(fmt::format("'{}' is no form of a clock time", pattern_), "it has no hours",
+  if (!moment)
+    throw InputError(fmt::format("'{}' is no form of a clock time", pattern_), "it has neither hours nor a day",
                      "use \"iso\", or a pattern such as \"%d.%m.%Y %H:%M:%S\"");
 }
 

@@ -189,6 +189,14 @@ RecognisedData table_of(const Options& o, const std::string& out) {
                              fs::relative(fs::absolute(form), fs::absolute(out).parent_path()).generic_string());
 }
 
+/// Whether a column of numbers is not used that may as well be what was read as the one that was guessed.
+bool another_reading(const RecognisedData& found, const scenario::RecognisedColumn& c, const std::string& text) {
+  const auto* reading = found.find(ColumnRole::reading);
+  return reading && reading->basis == scenario::Basis::place && c.number && c.role == ColumnRole::other &&
+         c.unit != "1" && !scenario::counts_rows(c) && !scenario::names_parts(c) && !scenario::is_circumstance(c) &&
+         text.find(scenario::quoted(c.name)) == std::string::npos;
+}
+
 /// What the scenario does with each column.
 void print_columns(const RecognisedData& found, const std::string& text) {
   for (const auto& c : found.columns) {
@@ -202,6 +210,9 @@ void print_columns(const RecognisedData& found, const std::string& text) {
                              : c.unit == "?" ? ", unit unknown"
                                              : ", " + c.unit,
                              c.why.empty() ? "" : fmt::format(" ({})", c.why));
+    if (another_reading(found, c, text))
+      std::cout << fmt::format("    if this is what was read: --role {1}{0}=reading{1}\n", c.name,
+                               c.name.find(' ') == std::string::npos ? "" : "'");
   }
 }
 

@@ -1,9 +1,13 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <map>
 #include <set>
 #include <utility>
+#include <vector>
+
+#include <boost/math/statistics/bivariate_statistics.hpp>
 
 #include "base/units.h"
 #include "scenario/column_words.h"
@@ -29,6 +33,40 @@ bool numbers_rows(const RecognisedData& data, const RecognisedColumn& c) {
   return std::ranges::adjacent_find(data.csv.rows, std::greater_equal{}, value) == data.csv.rows.end();
 }
 
+/// Share of a column's variance that a straight line in another explains; 0 of a constant.
+double follows(const RecognisedData& data, const RecognisedColumn& column, const RecognisedColumn& other) {
+  const auto at = static_cast<std::size_t>(data.csv.find(column.name)),
+             by = static_cast<std::size_t>(data.csv.find(other.name));
+  std::vector<double> x, y;
+  for (const auto& row : data.csv.rows) {
+    if (says_missing(row[at].text) || says_missing(row[by].text)) continue;
+    x.push_back(data.csv.number(row[by], data.decimal));
+    y.push_back(data.csv.number(row[at], data.decimal));
+  }
+  const double r = x.size() < 3 ? 0 : boost::math::statistics::correlation_coefficient(x, y);
+  return r * r > 0 ? r * r : 0; // NaN of a constant
+}
+
+constexpr double follows_it = 0.9, does_not = 0.5; ///< such shares
+
+/// Which of several columns of numbers was read, where only its place would tell: the one that follows the position,
+/// if no other does.
+RecognisedColumn* follower(const RecognisedData& data, const std::vector<RecognisedColumn*>& all) {
+  const RecognisedColumn* position = data.find(ColumnRole::position);
+  if (!position && !all.empty() && is_place(*all[0]) && was_set(data, *all[0])) position = all[0];
+  if (!position) return nullptr;
+  RecognisedColumn* best = nullptr;
+  double most = 0, next = 0;
+  for (RecognisedColumn* c : all) {
+    const double share = c == position ? 0 : follows(data, *c, *position);
+    if (share > most)
+      next = std::exchange(most, share), best = c;
+    else
+      next = std::max(next, share);
+  }
+  return most > follows_it && next < does_not ? best : nullptr;
+}
+
 } // namespace
 
 void guess_roles(RecognisedData& data) {
@@ -45,6 +83,13 @@ void guess_roles(RecognisedData& data) {
     const auto likely = [&](const RecognisedColumn& c) {
       return fitting(c) && !is_circumstance(c) && !(role == ColumnRole::reading && c.unit == "?" && was_set(data, c));
     };
+    std::vector<RecognisedColumn*> all;
+    for (RecognisedColumn& c : columns)
+      if (likely(c)) all.push_back(&c);
+    if (RecognisedColumn* const read = role == ColumnRole::reading ? follower(data, all) : nullptr) {
+      read->take(role, Basis::place, "as it follows what was set");
+      return;
+    }
     auto one = std::find_if(first, end, likely);
     if (one == end) one = std::find_if(first, end, fitting);
     if (one == end) return;

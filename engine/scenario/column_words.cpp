@@ -194,12 +194,42 @@ std::vector<std::pair<std::string, double>> signs(const std::set<std::string>& t
   return texts.size() <= 4 && out.size() == texts.size() ? out : std::vector<std::pair<std::string, double>>{};
 }
 
+namespace {
+
+/// All of these texts in this form; empty if one is not.
+std::vector<Moment> moments_of(const std::vector<std::string>& texts, const std::string& form) {
+  const ClockFormat format(form);
+  std::vector<Moment> out;
+  for (const std::string& text : texts) {
+    const auto moment = format.parse(text);
+    if (!moment) return {};
+    out.push_back(*moment);
+  }
+  return out;
+}
+
+/// Whether no row is before the one above it.
+bool goes_on(const std::vector<Moment>& all) {
+  return std::ranges::adjacent_find(all, [](const Moment& a, const Moment& b) { return b.since(a) < 0; }) == all.end();
+}
+
+} // namespace
+
 std::string clock_form(const std::vector<std::string>& texts) {
-  for (const char* form : {"iso", "%d.%m.%Y %H:%M:%S", "%d.%m.%Y %H:%M", "%d-%m-%Y %H:%M:%S", "%d/%m/%Y %H:%M:%S",
-                           "%Y/%m/%d %H:%M:%S", "%m/%d/%Y %I:%M:%S %p", "%m/%d/%Y %H:%M:%S", "%d.%m.%y %H:%M:%S",
-                           "%d-%b-%Y %H:%M:%S", "%I:%M:%S %p", "%H:%M:%S", "%H:%M"}) {
-    const ClockFormat format(form);
-    if (std::ranges::all_of(texts, [&](const std::string& t) { return format.parse(t).has_value(); })) return form;
+  for (const char* form :
+       {"iso", "%d.%m.%Y %H:%M:%S", "%d.%m.%Y %H:%M", "%d-%m-%Y %H:%M:%S", "%Y/%m/%d %H:%M:%S", "%Y/%m/%d %H:%M",
+        "%d.%m.%y %H:%M:%S", "%d-%b-%Y %H:%M:%S", "%I:%M:%S %p", "%H:%M:%S", "%H:%M", "%Y-%m-%d", "%d.%m.%Y",
+        "%d.%m.%y", "%Y/%m/%d", "%d-%b-%Y"})
+    if (!moments_of(texts, form).empty()) return form;
+  for (const char* rest : {" %H:%M:%S", " %H:%M", " %I:%M:%S %p", ""}) {
+    const std::string day_first = std::string("%d/%m/%Y") + rest, month_first = std::string("%m/%d/%Y") + rest;
+    const std::vector<Moment> days = moments_of(texts, day_first), months = moments_of(texts, month_first);
+    if (days.empty() && months.empty()) continue;
+    if (days.empty() || months.empty()) return days.empty() ? month_first : day_first;
+    if (goes_on(days) != goes_on(months)) return goes_on(days) ? day_first : month_first;
+    const bool same = std::ranges::equal(
+        days, months, [&](const Moment& a, const Moment& b) { return a.since(days[0]) == b.since(months[0]); });
+    return !same ? "" : std::string_view(rest).ends_with("%p") ? month_first : day_first;
   }
   return "";
 }

@@ -31,7 +31,8 @@ std::string unit_below(std::string text);
 
 /// Signs of the words of a direction; empty if they are not such words.
 std::vector<std::pair<std::string, double>> signs(const std::set<std::string>& texts);
-/// The form in which all texts are clock times (base/clock.h); empty if there is none.
+/// The form in which all texts are clock times or dates (base/clock.h); empty if there is none, or if days and months
+/// could be read in either way.
 std::string clock_form(const std::vector<std::string>& texts);
 /// Days without a time of the day.
 bool are_dates(const std::vector<std::string>& texts);

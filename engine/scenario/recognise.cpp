@@ -103,12 +103,25 @@ RecognisedColumn column_of(const RecognisedData& data, std::size_t c, const std:
     if (!out.words.empty() && out.role == ColumnRole::other)
       out.take(ColumnRole::direction, Basis::cells, out.number ? "by its signs" : "by its words");
   }
+  // "measured on": the day, and no reading.
+  if (!out.number && (out.role == ColumnRole::reading || out.role == ColumnRole::position) &&
+      (are_dates(texts) || !clock_form(texts).empty()))
+    out.leave();
   if (!out.number && (out.role == ColumnRole::other || out.role == ColumnRole::time) && are_dates(texts)) {
     out.leave();
-    if (2 * different.size() <= texts.size()) out.take(ColumnRole::cycle, Basis::cells, "by its dates");
+    if (2 * different.size() <= texts.size())
+      out.take(ColumnRole::cycle, Basis::cells, "by its dates");
+    else if (out.clock = clock_form(texts); !out.clock.empty())
+      out.take(ColumnRole::time, Basis::cells, "by its dates");
+    else
+      out.why = "dates whose days and months may be read in either way";
   } else if (!out.number && (out.role == ColumnRole::other || out.role == ColumnRole::time)) {
     out.clock = clock_form(texts);
-    if (out.clock.empty()) out.leave();
+    if (out.clock.empty()) {
+      const bool named = out.role == ColumnRole::time;
+      out.leave();
+      if (named) out.why = "its clock times are of no known form, or their days and months may be read in either way";
+    }
     if (!out.clock.empty() && out.role == ColumnRole::other)
       out.take(ColumnRole::time, Basis::cells, "by its clock times");
   }
@@ -199,6 +212,7 @@ void find_dates(RecognisedData& data) {
       time.date = date.name;
       if (time.role != ColumnRole::time) time.take(ColumnRole::time, Basis::cells, "by its clock times");
       date.take(ColumnRole::time, Basis::place, "with the column " + time.name);
+      date.clock.clear();
       break;
     }
   }
@@ -262,10 +276,14 @@ RecognisedData recognise(const std::string& text, const std::string& file) {
     } catch (const InputError&) {
     }
   if (out.csv.rows.empty()) throw InputError(file + ": the file has no rows", "", "write rows under the header");
-  if (std::ranges::all_of(out.csv.header,
-                          [&](const CsvCell& c) { return is_number(out.csv, c, '.') || is_number(out.csv, c, ','); }))
-    throw InputError({{out.csv.at(out.csv.header.front()), "the first row holds numbers, not names of columns", "",
-                       "write a line with a name for each column above it"}});
+  const auto is_value = [&](const CsvCell& c) {
+    return is_number(out.csv, c, '.') || is_number(out.csv, c, ',') || !clock_form({c.text}).empty();
+  };
+  if (std::ranges::all_of(out.csv.header, is_value))
+    throw InputError({{out.csv.at(out.csv.header.front()), "the first row holds numbers, not names of columns",
+                       out.header > 1 ? "the lines above it have another number of cells" : "",
+                       out.header > 1 ? "write a name for each column, in quotes where it holds the separator"
+                                      : "write a line with a name for each column above it"}});
   if (std::string rows = below_each_other(out.csv); !rows.empty()) {
     RecognisedData apart = recognise(rows, file);
     apart.rewritten = std::move(rows);

@@ -252,7 +252,7 @@ columns.t = { column = "t", unit = "s" }
                 (('column = "dir"', 'column = "dirs"'), "data.conditions.direction.column: "),
                 (('column = "dir"', 'column = ["dir", "date"]'), "one column is expected"),
                 (("map = { fwd = 1, bwd = -1 }", "map = {}"), "no word is named"),
-                (('clock = "%d.%m.%Y %H:%M:%S"', 'clock = "%d.%m.%Y"'), "it has no hours"),
+                (('clock = "%d.%m.%Y %H:%M:%S"', 'clock = "%m.%Y"'), "it has neither hours nor a day"),
                 (('clock = "%d', 'unit = "s", clock = "%d'), "given together with clock"),
                 (('decimal = ","', 'decimal = ","\ndelimiter = "|"'), "data.delimiter: '|' is unknown"),
                 (('readings = "x_um"', 'readings = "x"'), "indications.x.readings.column: "),

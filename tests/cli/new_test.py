@@ -2,6 +2,7 @@
 
 usage: new_test.py path/to/gumshoe [unittest options]
 """
+import datetime
 import json
 import math
 import random
@@ -233,6 +234,43 @@ class New(InFolder):
         rows = ["Time_min,Sphere_Y_mm,Diameter_mm"] + [f"{i},{200 + s / 1e4:.4f},{25 + i % 5 / 1e4}" for i, s in enumerate(steps)]
         (self.folder / "s.csv").write_text("\n".join(rows) + "\n")
         self.assertNotIn("position", self.new("--from", "s.csv"))
+
+    def test_days_are_a_time(self):
+        """A check standard, measured once a week: the day tells its drift. Where it says nothing, new says why."""
+        draw = random.Random(3)
+        weeks = [datetime.date(2026, 1, 5) + datetime.timedelta(days=7 * k) for k in range(40)]
+        forms = {"iso": "%Y-%m-%d", "german": "%d.%m.%Y", "month first": "%m/%d/%Y"}
+        for name, form in forms.items():
+            with self.subTest(name):
+                rows = [f"{d.strftime(form)},{25 + 1e-4 * k + 2e-4 * draw.gauss(0, 1):.5f}" for k, d in enumerate(weeks)]
+                (self.folder / "ring.csv").write_text("measured on,ring diameter (mm)\n" + "\n".join(rows) + "\n")
+                self.assertIn("measured on: time (by its dates)", self.new("--from", "ring.csv", "--force"))
+                run = gumshoe("trace", "ring.toml", "--draws", "99", "--force", "--json", "v.json", cwd=self.folder)
+                self.assertEqual(run.returncode, 0, run.stderr)
+                finding = json.loads((self.folder / "v.json").read_text())["findings"][0]
+                self.assertEqual(finding["depends_on"], ["time"])
+        # Weeks of which no day is above the twelfth, and which go on in either reading.
+        days = [(1, 2), (2, 3), (3, 4), (4, 5), (5, 6), (6, 7), (7, 8)]
+        (self.folder / "ring.csv").write_text("day,reading (mm)\n" + "".join(f"{m:02}/{d:02}/2026,{25 + d / 1e4}\n" for m, d in days))
+        self.assertIn("day: not used (dates whose days and months may be read in either way)", self.new("--from", "ring.csv", "--force"))
+
+    def test_of_several_columns_the_reading_follows_what_was_set(self):
+        draw = random.Random(5)
+        rows = [(run, x, 0.2 * x + 1e-3 * draw.gauss(0, 1), 12 + 0.01 * draw.gauss(0, 1)) for run in range(1, 5) for x in range(11)]
+        (self.folder / "cell.csv").write_text("run,torque (N m),bridge (mV/V),pack (V)\n" + "".join(f"{r},{x},{y:.4f},{v:.3f}\n" for r, x, y, v in rows))
+        said = self.new("--from", "cell.csv")
+        self.assertIn("bridge (mV/V): reading, mV/V (as it follows what was set)", said)
+        self.assertIn("if this is what was read: --role 'pack (V)=reading'", said)
+        # Two that follow it, or none: then their place.
+        (self.folder / "cell.csv").write_text("run,torque (N m),bridge (mV/V),second (V)\n" + "".join(f"{r},{x},{y:.4f},{2 * y:.4f}\n" for r, x, y, v in rows))
+        said = self.new("--from", "cell.csv", "--force")
+        self.assertIn("second (V): reading, V (as the last column of numbers)", said)
+        self.assertIn("--role 'bridge (mV/V)=reading'", said)
+
+    def test_a_row_of_a_time_and_numbers_is_no_header(self):
+        (self.folder / "d.csv").write_text("Time,Diameter, mm\n" + "".join(f"2026-01-{d:02} 08:00,25.00{d:02}\n" for d in range(1, 20)))
+        said = self.new("--from", "d.csv", code=2)
+        self.assertIn("d.csv:2:1: error: the first row holds numbers, not names of columns (the lines above it have another number of cells)", said)
 
     def test_runs_side_by_side(self):
         """As sheets of ISO 230-2 have them, with and without a line of units."""

@@ -49,6 +49,7 @@ TEST_CASE("clock times of patterns", "[clock]") {
   CHECK(between("%d-%b-%Y %H:%M", "03-Feb-2026 10:00", "03-MAR-2026 10:00") == 28 * 86400);
   CHECK(between("%s", "1770112800", "1770112800.001") == Approx(0.001).epsilon(1e-12)); // kept apart from the seconds
   CHECK(between("T%H%M%S%%", "T235959%", "T000000%") == -86399);
+  CHECK(between("%Y-%m-%d", "2026-02-03", "2026-03-03") == 28 * 86400); // midnight
   CHECK(ClockFormat("%H:%M").has_date() == false);
   CHECK(ClockFormat("%d.%m.%Y %H:%M").has_date());
   CHECK(ClockFormat("%d.%m.%Y %H:%M:%S").example() == "03.02.2026 10:00:00");
@@ -56,5 +57,5 @@ TEST_CASE("clock times of patterns", "[clock]") {
   CHECK_FALSE(ClockFormat("%I:%M %p").parse("13:00 PM"));
   CHECK_FALSE(ClockFormat("%H:%M").parse("10-00"));
   CHECK_THROWS_WITH(ClockFormat("%Q"), Catch::Contains("'%Q' is no field of a clock time"));
-  CHECK_THROWS_WITH(ClockFormat("%Y-%m-%d"), Catch::Contains("is no form of a clock time (it has no hours)"));
+  CHECK_THROWS_WITH(ClockFormat("%Y-%m"), Catch::Contains("is no form of a clock time (it has neither hours nor a day)"));
 }
