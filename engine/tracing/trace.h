@@ -70,6 +70,7 @@ struct Finding {
   std::vector<Curve> curves;        ///< curves of an unknown effect
   std::vector<CellTable> tables;    ///< the same by all that it depends on, where this was set again and again
   std::string implausible;          ///< why no such effect has its size: likely an alias of another; or empty
+  std::string fits_better;          ///< unknown effect that fits better, as chance could have it; or empty
   std::string described_by;         ///< shape of an unknown effect: "table:position*direction"; else empty
   std::vector<std::string> remarks; ///< implausible size, kept shapes, also described by ...
 };

@@ -83,12 +83,9 @@ public:
       return std::ranges::any_of(o_.replicate_groups, [&](const Grouping& r) { return r.group == g.group; });
     };
     for (const Grouping& g : o_.labels)
-      if (g.groups.size() > 2 && g.groups.size() <= criteria.most_omnibus_groups && !scatters(g)) {
-        Matrix m = Matrix::Zero(index(o_.readings), index(g.groups.size()) - 1);
-        for (std::size_t i = 0; i < o_.readings; ++i)
-          if (const std::size_t at = g.group[o_.sequence[i]]; at > 0) m(index(i), index(at) - 1) = 1;
-        add(Family::omnibus, "omnibus:" + g.name, m, {g.name});
-      }
+      if (g.groups.size() > 2 && g.groups.size() <= criteria.most_omnibus_groups && !scatters(g))
+        if (const Matrix m = about_their_mean(g); m.cols() > 1)
+          add(Family::omnibus, "omnibus:" + g.name, m, {g.name});
     return std::move(out_);
   }
 
@@ -114,6 +111,22 @@ private:
       a.depends_on = depends_on;
       out_.push_back(std::move(a));
     }
+  }
+
+  /// Any value for each group of the training readings, about the mean of these: of a group that none of them has,
+  /// such as a block that is held out, the mean is what they say.
+  Matrix about_their_mean(const Grouping& g) const {
+    std::vector<Index> column(g.groups.size(), -1);
+    Index count = 0;
+    for (const std::size_t r : o_.sequence)
+      if ((o_.held_out.empty() || !o_.held_out[r]) && column[g.group[r]] < 0) column[g.group[r]] = count++;
+    Matrix out = Matrix::Zero(index(o_.readings), std::max<Index>(count - 1, 0));
+    for (std::size_t i = 0; i < o_.readings; ++i)
+      if (const Index at = column[g.group[o_.sequence[i]]]; at == 0)
+        out.row(index(i)).setConstant(-1);
+      else if (at > 0)
+        out(index(i), at - 1) = 1;
+    return out;
   }
 
   /// Time, under whatever name: it never goes back.

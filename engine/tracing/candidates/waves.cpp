@@ -62,15 +62,37 @@ private:
 };
 
 /// Levels that a wave can tell apart: those within a tenth of their mean distance count as one, such as a target that
-/// was met again but for its jitter.
-std::size_t places(const Covariate& c) {
+/// was met again but for its jitter; their first ones.
+std::vector<double> places(const Covariate& c) {
   const double near = 0.1 * (c.levels.back() - c.levels.front()) / static_cast<double>(c.levels.size() - 1);
-  std::size_t out = 1;
-  for (std::size_t i = 1; i < c.levels.size(); ++i) out += c.levels[i] - c.levels[i - 1] > near;
+  std::vector<double> out{c.levels.front()};
+  for (std::size_t i = 1; i < c.levels.size(); ++i)
+    if (c.levels[i] - c.levels[i - 1] > near) out.push_back(c.levels[i]);
   return out;
 }
 
 } // namespace
+
+double even_step(const std::vector<double>& levels, double tolerance) {
+  const double range = levels.back() - levels.front();
+  double least = range;
+  for (std::size_t i = 1; i < levels.size(); ++i) least = std::min(least, levels[i] - levels[i - 1]);
+  for (const double count : {static_cast<double>(levels.size() - 1), std::round(range / least)}) {
+    const double step = range / count;
+    if (std::ranges::all_of(levels, [&](double x) {
+          const double steps = (x - levels.front()) / step;
+          return std::fabs(steps - std::round(steps)) <= tolerance;
+        }))
+      return step;
+  }
+  return 0;
+}
+
+double most_cycles(const std::vector<double>& levels) {
+  const double step = even_step(levels, criteria.jittered_step), range = levels.back() - levels.front(),
+               uneven = criteria.uneven_reach * static_cast<double>(levels.size() - 1) / 2;
+  return step > 0 ? std::min(uneven, std::round(range / step) / 2) : uneven;
+}
 
 Candidate wave(const Observations& o, const Covariate& c, std::size_t indication, double cycles) {
   Candidate a;
@@ -97,9 +119,9 @@ std::vector<Candidate> waves(const Observations& o, const std::vector<const Cand
       std::ranges::any_of(o.covariates, [&](const Covariate& c) { return c.commanded && !c.course; });
   for (const Covariate& c : o.covariates) {
     if (c.angle || (c.course ? programme : !c.commanded) || c.levels.size() < 2) continue;
-    const std::size_t levels = places(c);
-    if (levels <= criteria.levels_for_fine_omnibus) continue;
-    const double most = std::min(static_cast<double>(levels - 1) / 2, criteria.most_cycles);
+    const std::vector<double> levels = places(c);
+    if (levels.size() <= criteria.levels_for_fine_omnibus) continue;
+    const double most = std::min(most_cycles(levels), criteria.most_cycles);
     for (std::size_t i = 0; i < o.indications; ++i) {
       Candidate a = wave(o, c, i, Waves(o, c, i).best(most, gain));
       a.searched = 4 * most;

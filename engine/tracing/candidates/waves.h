@@ -5,12 +5,19 @@
 namespace gumshoe::tracing {
 
 /// For each indication and each commanded condition with many levels or, if none varies, time or the order: the wave
-/// that explains most, with between two cycles over the range and one per two levels. Its p-value counts 4 W times, W
+/// that explains most, with between two cycles over the range and `most_cycles`. Its p-value counts 4 W times, W
 /// being the number of cycles up to which it was sought: the bound of Baluev, Mon. Not. R. Astron. Soc. 385 (2008)
 /// 1279, for a periodogram's maximum of 16, about where one decides.
 /// @param known  waves that are terms already; one that the range does not resolve from these is no candidate
 std::vector<Candidate> waves(const Observations& observations, const std::vector<const Candidate*>& known,
                              const Gain& gain);
+
+/// The step of which all levels (ascending) are multiples from the first on, but for this share of it; 0: there is none.
+double even_step(const std::vector<double>& levels, double tolerance);
+
+/// Cycles over the range up to which levels tell waves apart: half of their steps, where these are even (the sampling
+/// theorem), else criteria.uneven_reach times half of their number.
+double most_cycles(const std::vector<double>& levels);
 
 /// The wave of so many cycles over the range.
 Candidate wave(const Observations& observations, const Covariate& along, std::size_t indication, double cycles);

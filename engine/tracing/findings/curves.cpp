@@ -125,10 +125,10 @@ public:
     const Vector direction = term_.size / amplitude;
     const double u = std::sqrt(direction.dot(covariance_ * direction));
     const double range = covariate.levels.back() - covariate.levels.front();
-    return fmt::format("period {}; amplitude {}",
+    return fmt::format("period {}; amplitude {}{}",
                        with_u(range / cycles, range / cycles / cycles * term_.candidate.parameter_u, covariate.unit,
                               covariate.si_unit),
-                       with_u(amplitude, u, small_unit(), empty_.indication_si_unit));
+                       with_u(amplitude, u, small_unit(), empty_.indication_si_unit), aliases(covariate, range / cycles));
   }
 
   /// "1 wave per turn 3.6 um, u = 0.1 um; 2 waves ..." of a dependence on an angle that goes round: those that exceed

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/units.h"
+#include "tracing/candidates/waves.h"
 #include "tracing/criteria.h"
 #include "tracing/findings/sizes.h"
 
@@ -29,13 +30,23 @@ Fitted fitted(const Vector& x, const Vector& y, double cycles) {
 
 } // namespace
 
+std::string aliases(const Covariate& c, double period) {
+  const double step = even_step(c.levels, criteria.uneven_step), range = c.levels.back() - c.levels.front();
+  if (!(step > 0) || 2 * step * static_cast<double>(c.levels.size()) < range) return ""; // few of its multiples
+  const auto shown = [&](double x) {
+    return fmt::format("{:.3g} {}", units::from_si(x, c.unit, c.si_unit, units::Kind::difference), c.unit);
+  };
+  return fmt::format("; read in steps of {}, waves of period {} and {} look the same", shown(step),
+                     shown(1 / (1 / step - 1 / period)), shown(1 / (1 / step + 1 / period)));
+}
+
 std::string wave_of(const Curve& table, const std::string& unit) {
   const Index n = index(table.x.size());
   if (table.x.size() < criteria.levels_of_waves || !table.levels.empty()) return "";
   const double first = table.x.front(), range = table.x.back() - first;
   Vector x = Eigen::Map<const Vector>(table.x.data(), n), y = Eigen::Map<const Vector>(table.y.data(), n);
   x = (x.array() - first) / range;
-  const double most = 0.45 * static_cast<double>(n - 1); // of half the levels only one phase is seen
+  const double most = 0.9 * most_cycles(table.x); // of half the levels only one phase is seen
   double cycles = 2, least = HUGE_VAL;
   for (const double step : {0.05, 0.002}) {
     const double middle = cycles, low = step == 0.05 ? 2 : middle - 0.05, high = step == 0.05 ? most : middle + 0.05;

@@ -16,6 +16,7 @@ namespace {
 
 using scenario::Scenario;
 
+constexpr double usual_warming = 10; ///< K: where all readings have one temperature
 constexpr std::size_t planned_settings = 4; ///< settings of a plan that a sentence names
 
 /// Readings like those of one block, with one condition changed.
@@ -39,6 +40,11 @@ std::vector<Proposal> proposals(const ModelCard& card, const Scenario& s) {
     for (const auto& r : s.readings) levels.insert(r.conditions[c]);
     const std::string all =
         levels.size() == 1 ? fmt::format(" (all readings are at {})", shown(*levels.begin(), v)) : "";
+    const auto at = [&](double value) {
+      out.push_back({c, value, Proposal::set, fmt::format("also measure at {} {}{}", v.name, shown(value, v), all)});
+    };
+    // One value in a formula is a constant of it, such as a time constant, as often as a setting.
+    if (levels.size() == 1 && card.name == "expression") continue;
     if (v.name == "direction" || v.name.ends_with("_direction")) {
       if (levels.size() == 1)
         out.push_back({c, 0, Proposal::reverse, fmt::format("also measure with the other {}{}", v.name, all)});
@@ -51,11 +57,11 @@ std::vector<Proposal> proposals(const ModelCard& card, const Scenario& s) {
       const double range = *levels.rbegin() - *levels.begin();
       if (range > 0)
         out.push_back({c, range, Proposal::add, fmt::format("repeat the measurement {} later", shown(range, v))});
+    } else if (v.si_unit == "K") {
+      const double low = *levels.begin(), high = *levels.rbegin(), range = low < high ? high - low : usual_warming;
+      for (const double value : {low - range, high + range}) at(value);
     } else if (v.si_unit != "1" && *levels.begin() > 0) {
-      for (const double factor : {0.5, 2.0, 4.0}) {
-        const double value = factor < 1 ? factor * *levels.begin() : factor * *levels.rbegin();
-        out.push_back({c, value, Proposal::set, fmt::format("also measure at {} {}{}", v.name, shown(value, v), all)});
-      }
+      for (const double factor : {0.5, 2.0, 4.0}) at(factor * (factor < 1 ? *levels.begin() : *levels.rbegin()));
     }
   }
   return out;

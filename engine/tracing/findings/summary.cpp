@@ -1,20 +1,29 @@
 /// What it means, in words for a machinist.
 #include <cmath>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "analysis/rounding.h"
 #include "tracing/findings/findings.h"
 #include "tracing/findings/sizes.h"
+#include "tracing/findings/verdict_json.h"
 
 namespace gumshoe::tracing {
 namespace {
+
+constexpr std::string_view declared = "declared:";
+bool declares(const Finding& f) { return f.name.starts_with(declared); }
 
 /// " (amplitude 1.5 um)"; empty without a size
 std::string size_of(const Finding& f) {
   if (f.quantities.empty()) return "";
   const SizedQuantity& q = f.quantities[0];
-  return fmt::format(" ({} {})", q.name, shown_size(q.value, q.unit, q.si_unit));
+  if (!declares(f)) return fmt::format(" ({} {})", q.name, shown_size(q.value, q.unit, q.si_unit));
+  const ShownSize s = shown(q); // to the digits that u leaves: it may differ little from what was declared
+  return fmt::format(" ({} {}{})", q.name, analysis::fixed(s.value, analysis::decimals_for(s.u)),
+                     s.unit == "1" ? "" : " " + s.unit);
 }
 
 /// "reading 27" of "step:time after reading 27", asked for as "step:" and " after "; empty of any other shape.
@@ -56,19 +65,20 @@ std::string what_was_found(const Finding& f) {
   const auto depends_on = fmt::format("{}", fmt::join(f.depends_on, " and "));
   switch (f.kind) {
   case Kind::named:
-    if (const std::string declared = "declared:"; f.name.starts_with(declared))
+    if (declares(f))
       return fmt::format("The readings contradict a value that the scenario declares: {}{}.",
                          f.name.substr(declared.size()), size);
     if (!f.implausible.empty())
       return fmt::format("A part of the error looks like {}{}, but this size is {}: likely an alias of another effect.",
                          f.name, size, f.implausible);
-    return fmt::format("The model lacks an effect of the machine: {}{}.", f.name, size);
+    return fmt::format("The model lacks an effect of the machine: {}{}{}.", f.name, size,
+                       f.fits_better.empty() ? "" : ", or " + f.fits_better + ", which fits better");
   case Kind::equivalence_class:
     return fmt::format("The model lacks an effect of the machine. It is one of: {}. These data cannot "
                        "distinguish them.",
                        fmt::join(f.members, ", "));
   case Kind::scatter:
-    return fmt::format("The readings scatter more than declared from one {} to the next{}{}.", depends_on, size,
+    return fmt::format("The readings scatter more than the scenario says from one {} to the next{}{}.", depends_on, size,
                        f.members.size() < 2 ? "" : ", or " + in_its_place(f) + ": these data cannot distinguish them");
   case Kind::not_in_catalogue:
     if (f.described_by.starts_with("table:"))

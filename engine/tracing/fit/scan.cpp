@@ -302,14 +302,53 @@ Fit Scan::fit(std::size_t a, const Vector& residuals) const {
   return out;
 }
 
-double Scan::pair_ratio(std::size_t a, std::size_t b, const Vector& residuals, std::size_t k) const {
-  const Vector data = whitened_[k].reduce(winsorised(residuals));
-  Matrix both(data.size(), candidates_[a]->columns.cols() + candidates_[b]->columns.cols());
+double Scan::pair_leaves(std::size_t a, std::size_t b, const Vector& data, std::size_t k) const {
+  Matrix both(rows_.size(), candidates_[a]->columns.cols() + candidates_[b]->columns.cols());
   both << units(a, a + 1), units(b, b + 1);
   const Matrix left_of_both = whitened_[k].reduce_units(both);
   const Matrix basis = left_of_both * orthonormal(left_of_both, whitened_[k].whiten_units(both).colwise().norm());
-  const double left = data.squaredNorm(), in = (basis.transpose() * data).squaredNorm();
-  return static_cast<double>(freedom_) * std::log(left / std::max(left - in, 1e-12 * left));
+  const double left = data.squaredNorm();
+  return std::max(left - (basis.transpose() * data).squaredNorm(), 1e-12 * left);
+}
+
+double Scan::pair_ratio(std::size_t a, std::size_t b, const Vector& residuals, std::size_t k) const {
+  const Vector data = whitened_[k].reduce(winsorised(residuals));
+  return static_cast<double>(freedom_) * std::log(data.squaredNorm() / pair_leaves(a, b, data, k));
+}
+
+double Scan::pair_criterion(std::size_t a, std::size_t b, const Vector& residuals, std::size_t k) const {
+  return criterion(pair_leaves(a, b, whitened_[k].reduce(winsorised(residuals)), k), k);
+}
+
+Matrix Scan::pair_criteria(const std::vector<std::size_t>& some, const Vector& residuals, std::size_t k) const {
+  const Vector data = whitened_[k].reduce(winsorised(residuals));
+  std::vector<Index> from{0};
+  Matrix all(data.size(), 0);
+  for (const std::size_t a : some) {
+    const Matrix own = signatures(a, a + 1, k);
+    all.conservativeResize(Eigen::NoChange, all.cols() + own.cols());
+    all.rightCols(own.cols()) = own;
+    from.push_back(all.cols());
+  }
+  const Matrix products = transposed_product(all, all);
+  const Vector along = transposed_product(all, data);
+  const double left = data.squaredNorm();
+  Matrix out(index(some.size()), index(some.size()));
+  for (Index a = 0; a < out.rows(); ++a)
+    for (Index b = a; b < out.cols(); ++b) {
+      std::vector<Index> columns;
+      for (const Index one : a == b ? std::vector{a} : std::vector{a, b})
+        for (Index j = from[index(one)]; j < from[index(one) + 1]; ++j) columns.push_back(j);
+      double explained = 0;
+      if (!columns.empty()) {
+        const Eigen::SelfAdjointEigenSolver<Matrix> eigen(Matrix(products(columns, columns)));
+        const Vector by = eigen.eigenvectors().transpose() * Vector(along(columns));
+        for (Index j = 0; j < by.size(); ++j)
+          if (eigen.eigenvalues()[j] > criteria.absorbed_share) explained += by[j] * by[j] / eigen.eigenvalues()[j];
+      }
+      out(a, b) = out(b, a) = criterion(std::max(left - explained, 1e-12 * left), k);
+    }
+  return out;
 }
 
 double Scan::correlation(std::size_t a, std::size_t b, std::size_t k) const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <set>
 
 #include "tracing/criteria.h"
 #include "tracing/judgement/decisions.h"
@@ -61,16 +62,21 @@ std::optional<std::size_t> simpler_beside_another(const Evidence& e, const Obser
                        !c.physical() && c.columns.cols() < e.candidates()[shape].columns.cols() &&
                            e.assessment().p[a] <= e.assessment().threshold});
   }
+  const std::size_t of_shape = e.scan().fit(shape, e.residuals()).covariance_model;
   // The simplest, then the best.
   std::pair<Index, double> best{std::numeric_limits<Index>::max(), 0};
   std::optional<std::size_t> out;
   for (const std::size_t s : best_of(simpler, criteria.most_shapes)) {
-    // The noise as it is with the simpler shape: without any, a large one passes for correlation.
-    const std::size_t model = e.scan().fit(s, e.residuals()).covariance_model;
-    const double alone = e.scan().pair_ratio(s, s, e.residuals(), model);
+    // The noise as it is with the simpler shape, or with the whole one: without any, a large one passes for correlation,
+    // and so does the other of the two without the whole one.
+    const Fit alone = e.scan().fit(s, e.residuals());
+    const std::set<std::size_t> models{alone.covariance_model, of_shape};
     for (std::size_t a = 0; a < e.candidates().size(); ++a) {
       if (!is_another(e, o, a, e.candidates()[s], e.candidates()[shape])) continue;
-      const double added = e.scan().pair_ratio(s, a, e.residuals(), model) - alone;
+      double added = 0;
+      for (const std::size_t k : models)
+        added = std::max(added, e.assessment().data.criterion[0] - e.scan().pair_criterion(s, a, e.residuals(), k) -
+                                    alone.ratio);
       const double both = simpler[s].score + added - 2 * e.assessment().null[a].mean;
       const std::pair order{e.candidates()[s].columns.cols(), -both};
       if (both >= by_one_shape(e, e.candidates()[a], e.candidates()[s]) &&

@@ -326,9 +326,14 @@ double Evidence::correlation(std::size_t a, std::size_t b) const {
   return scan_->correlation(a, b, assessment_.data.covariance_model[0]);
 }
 
-double Evidence::pair_score(std::size_t a, std::size_t b) const {
-  return scan_->pair_ratio(a, b, data_, assessment_.data.covariance_model[0]) -
-         2 * (assessment_.null[a].mean + assessment_.null[b].mean);
+Matrix Evidence::pair_scores(const std::vector<std::size_t>& some) const {
+  Matrix out = scan_->pair_criteria(some, data_, assessment_.data.covariance_model[0]);
+  out = out.cwiseMin(scan_->pair_criteria(some, data_, scan_->plain()));
+  for (Index a = 0; a < out.rows(); ++a)
+    for (Index b = 0; b < out.cols(); ++b)
+      out(a, b) = assessment_.data.criterion[0] - out(a, b) -
+                  2 * (assessment_.null[some[index(a)]].mean + assessment_.null[some[index(b)]].mean);
+  return out;
 }
 
 double Evidence::gain_beside(std::size_t best, std::size_t other) const {

@@ -74,8 +74,11 @@ public:
   double chance_of_lead(std::size_t better, std::size_t than, double lead) const;
   /// Cosine of two projected signatures.
   double correlation(std::size_t a, std::size_t b) const;
-  /// Likelihood ratio of two together, minus twice its expectation by chance; and the increment of the second.
-  double pair_score(std::size_t a, std::size_t b) const;
+  /// Likelihood ratios of all pairs of some candidates, each minus twice its expectation by chance: [a][b] by their
+  /// places in `some`. The noise is as it is without a signature, or plain: two that hide each other pass for
+  /// correlation.
+  Matrix pair_scores(const std::vector<std::size_t>& some) const;
+  /// What the second adds to the likelihood ratio of the first.
   double gain_beside(std::size_t best, std::size_t other) const;
   const Vector& residuals() const { return data_; } ///< residuals of the training readings
   /// Draws of the noise, its variance component included, as the best covariance model without a signature has it.

@@ -34,7 +34,7 @@ public:
     }
   }
 
-  /// @param all  shapes
+  /// @param all  shapes. One that is the named effect's own signature is no other.
   std::optional<InPlaceOfNames> instead(const std::vector<Candidate>& all) const {
     if (!less_.valid) return std::nullopt;
     if (auto plain = best(all, [&](const Candidate& a) {
@@ -50,16 +50,20 @@ public:
 
 private:
   template <class Fits> std::optional<InPlaceOfNames> best(const std::vector<Candidate>& all, const Fits& fits) const {
-    std::vector<const Candidate*> some;
+    std::vector<const Candidate*> some{&found_.terms[named_.terms[0]].candidate};
     for (const Candidate& a : all)
       if (fits(a)) some.push_back(&a);
-    if (some.empty()) return std::nullopt;
     const Scan scan(less_.design, c_.fitter.rows(), some, c_.threads);
     const Statistics linear = scan.run(scan.whitened(scan.plain()).take(less_.residual));
     const auto score = [&](std::size_t a) { return linear.ratio(index(a), 0) - chance(*some[a]); };
+    const auto is_the_name = [&](std::size_t a) {
+      return some[a]->columns.cols() == some[0]->columns.cols() &&
+             scan.correlation(0, a, scan.plain()) > criteria.alike;
+    };
     std::size_t most = 0;
     for (std::size_t a = 1; a < some.size(); ++a)
-      if (score(a) > score(most)) most = a;
+      if ((most == 0 || score(a) > score(most)) && !is_the_name(a)) most = a;
+    if (most == 0) return std::nullopt;
     Term shape{apart(*some[most], less_, c_.observations, c_.fitter.rows()), {}};
     shape.size = Vector::Zero(shape.candidate.columns.cols());
     std::vector<Term> terms = less_.terms;

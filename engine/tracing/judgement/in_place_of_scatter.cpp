@@ -17,11 +17,25 @@ std::string without_indication(const std::string& name, const Observations& o) {
   return name;
 }
 
-/// One group that differs, a straight line in what was recorded, a step, a pulse or a course in time: shapes that
-/// scatter may look like.
+/// Whether a label says the same of all readings of a group: all of a run are by one operator.
+bool one_value_each(const Grouping& label, const Grouping& group) {
+  std::vector<std::size_t> value(group.groups.size(), label.groups.size());
+  for (std::size_t r = 0; r < group.group.size(); ++r) {
+    std::size_t& known = value[group.group[r]];
+    if (known != label.groups.size() && known != label.group[r]) return false;
+    known = label.group[r];
+  }
+  return true;
+}
+
+/// One group that differs, or all groups of one operator; a straight line in what was recorded, a step, a pulse or a
+/// course in time: shapes that scatter may look like.
 bool is_plain(const Candidate& a, const Grouping& group, const Observations& o) {
   const std::string name = without_indication(a.name, o);
-  if (name.starts_with("step:") && std::ranges::find(group.groups, name.substr(5)) != group.groups.end()) return true;
+  if (name.starts_with("step:") && std::ranges::any_of(o.labels, [&](const Grouping& label) {
+        return std::ranges::find(label.groups, name.substr(5)) != label.groups.end() && one_value_each(label, group);
+      }))
+    return true;
   if (a.physical() || a.depends_on.size() != 1) return false;
   const auto x = std::ranges::find(o.covariates, a.depends_on[0], &Covariate::name);
   if (x == o.covariates.end()) return false;

@@ -165,10 +165,12 @@ private:
     if (!sought_.names) return take_shape();
     const auto plain = best_of([](const Candidate& a) { return a.family == Family::shape; }, criteria.rival_shapes);
     const std::vector<Trial> tried = trials();
-    if (tried.empty()) return take_shape();
+    const auto score_of_best = [&](const std::vector<std::size_t>& of) { return of.empty() ? 0 : evidence_->score(of[0]); };
+    if (tried.empty())
+      return take_pair(score_of_best(best_of([](const Candidate& a) { return !a.physical(); }, 1))) || take_shape();
     const std::size_t best = tried[0].candidate;
     if (const auto shape = shape_instead(tried[0], plain)) {
-      if (take_pair(plain)) return true;
+      if (take_pair(score_of_best(plain))) return true;
       for (const Trial& t : tried)
         outcomes_[t.candidate] = "refused: " + with_shape(candidate(*shape)) + " fits better and is as simple";
     } else if (evidence_->predicts_better(tried[0].fit)) {
@@ -205,19 +207,22 @@ private:
     return std::nullopt;
   }
 
-  /// One masks the other: two effects together that explain more than any shape alone.
-  bool take_pair(const std::vector<std::size_t>& plain) {
+  /// One masks the other: two effects together that explain more than shapes do. @param best_shape  a shape's score
+  bool take_pair(double best_shape) {
+    const auto first = best_of([](const Candidate& x) { return x.physical() && !x.in_part(); }, criteria.most_paired);
+    std::vector<std::size_t> all = first;
+    for (std::size_t b = 0; b < evidence_->candidates().size(); ++b)
+      if (evidence_->testable(b) && !candidate(b).in_part() && std::ranges::find(first, b) == first.end())
+        all.push_back(b);
+    const Matrix scores = evidence_->pair_scores(all);
     double best = 0;
     std::size_t pair[2] = {0, 0};
-    for (const std::size_t a :
-         best_of([](const Candidate& x) { return x.physical() && !x.in_part(); }, criteria.most_paired))
-      for (std::size_t b = 0; b < evidence_->candidates().size(); ++b) {
-        if (!evidence_->testable(b) || candidate(b).in_part() || candidate(a).name == candidate(b).name) continue;
-        if (const double s = evidence_->pair_score(a, b); s > best) best = s, pair[0] = a, pair[1] = b;
-      }
-    if (!pair_found(best, {evidence_->score(pair[0]), evidence_->score(pair[1])},
-                    {evidence_->limit(pair[0]), evidence_->limit(pair[1])},
-                    plain.empty() ? 0 : evidence_->score(plain[0])))
+    for (std::size_t a = 0; a < first.size(); ++a)
+      for (std::size_t b = 0; b < all.size(); ++b)
+        if (const double s = scores(index(a), index(b)); candidate(all[a]).name != candidate(all[b]).name && s > best)
+          best = s, pair[0] = all[a], pair[1] = all[b];
+    if (best == 0 || !pair_found(best, {evidence_->score(pair[0]), evidence_->score(pair[1])},
+                                 {evidence_->limit(pair[0]), evidence_->limit(pair[1])}, best_shape))
       return false;
     std::vector<Term> both;
     for (const std::size_t a : pair)
@@ -263,6 +268,8 @@ private:
     if (members.size() > 1) found.finding.kind = Kind::equivalence_class;
     for (const std::size_t a : members) outcomes_[a] = members.size() > 1 ? in_class : alone;
     if (as_well_) {
+      found.finding.fits_better =
+          fmt::format("an unknown effect of {}", fmt::join(candidate(*as_well_).depends_on, " and "));
       found.finding.remarks.push_back(with_shape(candidate(*as_well_)) + " fits better, as chance could have it");
       outcomes_[*as_well_] = "fits better than " + winner + ", as chance could have it";
     }

@@ -13,21 +13,62 @@
 namespace gumshoe::tracing {
 namespace {
 
-void straighten(const Evidence& e, std::vector<Trial>& tried) {
+/// The indication of whose readings a shape is, where there are several.
+std::string indication_of(const Candidate& a, const Observations& o) {
+  for (const std::string& name : o.names)
+    if (o.indications > 1 && a.name.ends_with(" of " + name)) return name;
+  return "";
+}
+
+/// Puts the first of those tried that is simpler, and of the same indication, before the best, unless that one's lead
+/// excludes it.
+template <class Simpler>
+void prefer(const TraceContext& c, const Evidence& e, std::vector<Trial>& tried, const Simpler& simpler) {
+  const std::string indication = indication_of(e.candidates()[tried[0].candidate], c.observations);
+  const auto one = std::ranges::find_if(tried, [&](const Trial& t) {
+    const Candidate& a = e.candidates()[t.candidate];
+    return simpler(a) && indication_of(a, c.observations) == indication;
+  });
+  if (one == tried.end()) return;
+  const double lead = tried[0].score - one->score;
+  if (!shape_excludes(lead, [&] { return e.chance_of_lead(tried[0].candidate, one->candidate, lead); }))
+    std::rotate(tried.begin(), one, one + 1);
+}
+
+void straighten(const TraceContext& c, const Evidence& e, std::vector<Trial>& tried) {
   const Candidate& best = e.candidates()[tried[0].candidate];
   const bool curve = best.family == Family::omnibus && best.depends_on.size() == 1,
              of_two = best.depends_on.size() == 2;
   if (!curve && !of_two) return;
-  const auto simple = std::ranges::find_if(tried, [&](const Trial& t) {
-    const Candidate& one = e.candidates()[t.candidate];
+  prefer(c, e, tried, [&](const Candidate& one) {
     if (one.columns.cols() != 1 || one.depends_on.size() != 1) return false;
     return curve ? one.depends_on == best.depends_on
                  : one.form == Form::fixed && std::ranges::count(best.depends_on, one.depends_on[0]) > 0;
   });
-  if (simple == tried.end()) return;
-  const double lead = tried[0].score - simple->score;
-  if (!shape_excludes(lead, [&] { return e.chance_of_lead(tried[0].candidate, simple->candidate, lead); }))
-    std::rotate(tried.begin(), simple, simple + 1);
+}
+
+/// Power of a polynomial of one condition; 0: another shape.
+int power(const Candidate& a) {
+  if (a.depends_on.size() != 1 || !a.name.starts_with("polynomial:" + a.depends_on[0])) return 0;
+  const std::string rest = a.name.substr(std::string("polynomial:").size() + a.depends_on[0].size());
+  return rest.starts_with("^3") ? 3 : rest.starts_with("^2") || !a.shape.empty() ? 2 : 1;
+}
+
+void lower_power(const TraceContext& c, const Evidence& e, std::vector<Trial>& tried) {
+  const Candidate& best = e.candidates()[tried[0].candidate];
+  for (int p = 1; p < power(e.candidates()[tried[0].candidate]); ++p)
+    prefer(c, e, tried, [&](const Candidate& one) { return power(one) == p && one.depends_on == best.depends_on; });
+}
+
+/// Blocks follow one another: where they differ, or one does, that may be a drift.
+void drift_before_blocks(const TraceContext& c, const Evidence& e, std::vector<Trial>& tried) {
+  const Observations& o = c.observations;
+  if (e.candidates()[tried[0].candidate].depends_on != std::vector{o.blocks.name}) return;
+  prefer(c, e, tried, [&](const Candidate& one) {
+    return power(one) == 1 && std::ranges::any_of(o.covariates, [&](const Covariate& x) {
+             return x.course && x.name == one.depends_on[0];
+           });
+  });
 }
 
 void leave_declared_noise(const TraceContext& c, const Evidence& e, std::vector<Trial>& tried) {
@@ -41,7 +82,9 @@ void leave_declared_noise(const TraceContext& c, const Evidence& e, std::vector<
 } // namespace
 
 void order_shapes(const TraceContext& c, const Evidence& e, std::vector<Trial>& tried) {
-  straighten(e, tried);
+  straighten(c, e, tried);
+  drift_before_blocks(c, e, tried);
+  lower_power(c, e, tried);
   leave_declared_noise(c, e, tried);
 }
 

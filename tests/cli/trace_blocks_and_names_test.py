@@ -1,0 +1,164 @@
+"""Traces of a straight axis whose formula is stated: blocks that differ beside a drift, a name and a shape that is the
+same, waves that the steps of the positions cannot tell apart, and how sizes and suggestions are told.
+
+usage: trace_blocks_and_names_test.py path/to/gumshoe [unittest options]
+"""
+import json
+import math
+import random
+import re
+import unittest
+
+from program import InFolder, gumshoe
+
+AXIS = """schema = 1
+[model]
+name = "expression"
+[model.indications]
+deviation = "offset + gain * position + reversal * direction"
+[data]
+file = "s.csv"
+labels = { cycle = "cycle" }
+conditions = { position = "x_mm", direction = "direction" }
+units = { x_mm = "mm", time_min = "min", deviation_um = "um", room_degC = "degC" }
+[indications.deviation]
+readings = "deviation_um"
+[quantities]
+offset = { estimated = true, value = "0 um" }
+gain = { estimated = true, value = "0 um/mm" }
+reversal = { estimated = true, value = "0 um" }
+[trace]
+blocks = "cycle"
+order = "time"
+[trace.columns]
+time = "time_min"
+room = "room_degC"
+"""
+STATED = """[conditions]
+T_ref = "20 degC"
+tau = "15 min"
+[stated_effects.expansion]
+formula = "position * (room - T_ref)"
+unit = "um/m/K"
+[stated_effects.warming]
+formula = "1 - exp(-time / tau)"
+unit = "um"
+"""
+
+
+def room(time, seed):
+    return 20 + 1.5 * math.sin(2 * math.pi * time / 150 + 1) + 0.3 * math.sin(time / 3.1 + seed)
+
+
+def readings(seed, error, places=range(0, 501, 50), cycles=5, noise=0.5):
+    """Up and down `cycles` times: offset, slope and reversal of the model, and error(cycle, place, time, room), in um."""
+    draw, rows, time = random.Random(seed), ["cycle,x_mm,direction,time_min,room_degC,deviation_um"], 0.0
+    places = list(places)
+    for cycle in range(1, cycles + 1):
+        for direction in (1, -1):
+            for x in places[::direction]:
+                here = room(time, seed)
+                d = 3 + 0.02 * x + 1.2 * direction + error(cycle, x, time, here) + draw.gauss(0, noise)
+                rows.append(f"{cycle},{x:g},{direction},{time:.2f},{here:.3f},{d:.3f}")
+                time += 0.6
+    return "\n".join(rows) + "\n"
+
+
+class BlocksAndNames(InFolder):
+    def trace(self, data, scenario=AXIS):
+        (self.folder / "s.csv").write_text(data)
+        (self.folder / "s.toml").write_text(scenario)
+        run = gumshoe("trace", "s.toml", "--draws", "199", "--format", "json", "--force", "--threads", "1", cwd=self.folder)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        return json.loads(run.stdout)
+
+    def test_one_cycle_that_differs_and_a_drift_are_two(self):
+        """Any value by cycle would explain both, and predict nothing of the next cycle."""
+        for seed in (1, 2, 3):
+            v = self.trace(readings(seed, lambda cycle, x, time, room: 2 * (cycle == 3) + 0.04 * time))
+            self.assertEqual([f["described_by"] for f in v["findings"]], ["step:cycle 3", "polynomial:time"], v["plain"])
+            self.assertLess(v["rms"]["holdout_after"], v["rms"]["holdout_before"])
+
+    def test_values_by_cycle_say_nothing_of_another(self):
+        """Cycles at random: of one that is held out their mean is known, as it was without them."""
+        level = [0, 2.5, -2, 1.5, -1]
+        v = self.trace(readings(1, lambda cycle, x, time, room: level[cycle - 1]))
+        self.assertEqual([f["depends_on"] for f in v["findings"]], [["cycle"]], v["plain"])
+        rms = v["rms"]
+        self.assertLess(rms["holdout_after"], 1.05 * rms["holdout_before"], v["plain"])
+
+    def test_two_stated_effects_that_hide_each_other(self):
+        """Neither expansion nor warming alone says more than a shape; and expansion is a product of two conditions, which is
+        no cause to give its name up."""
+        for seed in (1, 2, 3):
+            truth = lambda cycle, x, time, room: 6e-3 * x * (room - 20) + 5 * (1 - math.exp(-time / 15))
+            v = self.trace(readings(seed, truth), AXIS + STATED)
+            found = {f["name"]: f["quantities"][0] for f in v["findings"]}
+            self.assertEqual(set(found), {"expansion", "warming"}, v["plain"])
+            for name, size in (("expansion", 6), ("warming", 5)):
+                self.assertLess(abs(found[name]["value"] - size), 3.5 * found[name]["u"])
+
+    def test_equal_steps_do_not_tell_waves_apart(self):
+        """A wave of 10 mm, read every 13.7 mm, is one of 37 mm: 1/10 = 1/13.7 + 1/37."""
+        wave = lambda cycle, x, time, room: 1.5 * math.sin(2 * math.pi * x / 10)
+        v = self.trace(readings(1, wave, [round(13.7 * k, 1) for k in range(37)], cycles=4))
+        remarks = " ".join(v["findings"][0]["remarks"])
+        period, u = map(float, re.search(r"period (\S+) mm, u = (\S+) mm", remarks).groups())
+        self.assertLess(abs(period - 1 / (1 / 10 - 1 / 13.7)), 3.5 * u)
+        self.assertRegex(remarks, r"read in steps of 13\.7 mm, waves of period 21\.[78] mm and 10 mm look the same")
+
+    def test_uneven_targets_show_short_waves(self):
+        """Targets at (i - 1) p + r, r at random, as ISO 230-2 sets them: a screw of 10 mm shows where p is 13.7 mm."""
+        wave = lambda cycle, x, time, room: 1.5 * math.sin(2 * math.pi * x / 10)
+        for seed in (1, 2):
+            draw = random.Random(seed)
+            places = [round(13.7 * i + draw.uniform(0, 8), 1) for i in range(37)]
+            v = self.trace(readings(seed, wave, places, cycles=4))
+            self.assertEqual([f["described_by"] for f in v["findings"]], ["wave:position"], v["plain"])
+            remarks = " ".join(v["findings"][0]["remarks"])
+            period, u, size, u_size = map(float, re.search(r"period (\S+) mm, u = (\S+) mm; amplitude (\S+) um, u = (\S+) um$", remarks).groups())
+            self.assertLess(abs(period - 10), 3.5 * u)
+            self.assertLess(abs(size - 1.5), 3.5 * u_size)
+        v = self.trace(readings(3, lambda *at: 0, places, cycles=4))
+        self.assertEqual(v["findings"], [])
+
+    def test_a_constant_of_a_formula_is_nothing_to_vary(self):
+        """Expansion of one temperature, and a drift, are one column here; T_ref is 20 degC by definition."""
+        scenario = (AXIS + STATED).replace("position * (room - T_ref)", "room - T_ref").replace("um/m/K", "um/K")
+        scenario += '[stated_effects.creep]\nformula = "time"\nunit = "um/h"\n'
+        v = self.trace(readings(4, lambda cycle, x, time, room: 1.2 * (room - 20)), scenario)
+        for finding in v["findings"]:
+            self.assertNotIn("T_ref", finding.get("suggestion") or "")
+            self.assertNotIn("tau", finding.get("suggestion") or "")
+
+    def test_a_declared_value_is_told_to_the_digits_known(self):
+        """A lever of 300.49 mm, declared as 300 mm."""
+        draw = random.Random(3)
+        rows = ["day,load_N,torque_Nm"] + [f"{day},{f},{f * 0.30049 + draw.gauss(0, 2e-3):.5f}" for day in range(1, 7) for f in (10, 20, 50, 100)]
+        (self.folder / "s.csv").write_text("\n".join(rows) + "\n")
+        (self.folder / "s.toml").write_text("""schema = 1
+[model]
+name = "expression"
+[model.indications]
+torque = "L * load + zero"
+[data]
+file = "s.csv"
+labels = { day = "day" }
+conditions = { load = "load_N" }
+units = { load_N = "N", torque_Nm = "N m" }
+[indications.torque]
+readings = "torque_Nm"
+u = "2 N.mm"
+[quantities]
+L = { value = "300 mm", u = "0.02 mm" }
+zero = { estimated = true, value = "0 N m" }
+[trace]
+blocks = "day"
+""")
+        run = gumshoe("trace", "s.toml", "--draws", "199", "--format", "json", "--force", cwd=self.folder)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertRegex(json.loads(run.stdout)["plain"][0], r"a value that the scenario declares: L \(L 300\.4[789]\d* mm\)")
+
+
+if __name__ == "__main__":
+    unittest.main()
