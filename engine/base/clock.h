@@ -20,10 +20,10 @@ struct Moment {
   }
 };
 
-/// How a clock time is written: "iso" (ISO 8601, 2026-02-03T10:00:00.125Z; a blank may stand for the T, seconds and zone
-/// may be left out), "excel" (days since 1899-12-30), or a pattern of %Y %y %m %d %b (Jan, Feb, ...) %H %I %M %S (with or
-/// without decimals) %p (AM or PM) %s (seconds since a fixed moment) and %%. A blank stands for any number of blanks,
-/// every other character for itself. %y is in 1970 to 2069. A date without hours is its midnight.
+/// How a clock time is written: "iso" (ISO 8601, 2026-02-03T10:00:00.125Z; a blank may stand for the T, seconds and
+/// zone may be left out), "excel" (days since 1899-12-30), or a pattern of %Y %y %m %d %b (Jan, Feb, ...) %H %I %M %S
+/// (with or without decimals) %p (AM or PM) %s (seconds since a fixed moment) and %%. A blank stands for any number of
+/// blanks, every other character for itself. %y is in 1970 to 2069. A date without hours is its midnight.
 class ClockFormat {
 public:
   /// Throws InputError: an unknown field, or neither hours, a day nor %s.

@@ -216,10 +216,9 @@ bool goes_on(const std::vector<Moment>& all) {
 } // namespace
 
 std::string clock_form(const std::vector<std::string>& texts) {
-  for (const char* form :
-       {"iso", "%d.%m.%Y %H:%M:%S", "%d.%m.%Y %H:%M", "%d-%m-%Y %H:%M:%S", "%Y/%m/%d %H:%M:%S", "%Y/%m/%d %H:%M",
-        "%d.%m.%y %H:%M:%S", "%d-%b-%Y %H:%M:%S", "%I:%M:%S %p", "%H:%M:%S", "%H:%M", "%Y-%m-%d", "%d.%m.%Y",
-        "%d.%m.%y", "%Y/%m/%d", "%d-%b-%Y"})
+  for (const char* form : {"iso", "%d.%m.%Y %H:%M:%S", "%d.%m.%Y %H:%M", "%d-%m-%Y %H:%M:%S", "%Y/%m/%d %H:%M:%S",
+                           "%Y/%m/%d %H:%M", "%d.%m.%y %H:%M:%S", "%d-%b-%Y %H:%M:%S", "%I:%M:%S %p", "%H:%M:%S",
+                           "%H:%M", "%Y-%m-%d", "%d.%m.%Y", "%d.%m.%y", "%Y/%m/%d", "%d-%b-%Y"})
     if (!moments_of(texts, form).empty()) return form;
   for (const char* rest : {" %H:%M:%S", " %H:%M", " %I:%M:%S %p", ""}) {
     const std::string day_first = std::string("%d/%m/%Y") + rest, month_first = std::string("%m/%d/%Y") + rest;

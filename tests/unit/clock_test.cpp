@@ -57,5 +57,6 @@ TEST_CASE("clock times of patterns", "[clock]") {
   CHECK_FALSE(ClockFormat("%I:%M %p").parse("13:00 PM"));
   CHECK_FALSE(ClockFormat("%H:%M").parse("10-00"));
   CHECK_THROWS_WITH(ClockFormat("%Q"), Catch::Contains("'%Q' is no field of a clock time"));
-  CHECK_THROWS_WITH(ClockFormat("%Y-%m"), Catch::Contains("is no form of a clock time (it has neither hours nor a day)"));
+  CHECK_THROWS_WITH(ClockFormat("%Y-%m"),
+                    Catch::Contains("is no form of a clock time (it has neither hours nor a day)"));
 }

@@ -84,8 +84,7 @@ public:
     };
     for (const Grouping& g : o_.labels)
       if (g.groups.size() > 2 && g.groups.size() <= criteria.most_omnibus_groups && !scatters(g))
-        if (const Matrix m = about_their_mean(g); m.cols() > 1)
-          add(Family::omnibus, "omnibus:" + g.name, m, {g.name});
+        if (const Matrix m = about_their_mean(g); m.cols() > 1) add(Family::omnibus, "omnibus:" + g.name, m, {g.name});
     return std::move(out_);
   }
 

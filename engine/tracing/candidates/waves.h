@@ -12,7 +12,8 @@ namespace gumshoe::tracing {
 std::vector<Candidate> waves(const Observations& observations, const std::vector<const Candidate*>& known,
                              const Gain& gain);
 
-/// The step of which all levels (ascending) are multiples from the first on, but for this share of it; 0: there is none.
+/// The step of which all levels (ascending) are multiples from the first on, but for this share of it; 0: there is
+/// none.
 double even_step(const std::vector<double>& levels, double tolerance);
 
 /// Cycles over the range up to which levels tell waves apart: half of their steps, where these are even (the sampling

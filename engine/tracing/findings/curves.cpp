@@ -128,7 +128,8 @@ public:
     return fmt::format("period {}; amplitude {}{}",
                        with_u(range / cycles, range / cycles / cycles * term_.candidate.parameter_u, covariate.unit,
                               covariate.si_unit),
-                       with_u(amplitude, u, small_unit(), empty_.indication_si_unit), aliases(covariate, range / cycles));
+                       with_u(amplitude, u, small_unit(), empty_.indication_si_unit),
+                       aliases(covariate, range / cycles));
   }
 
   /// "1 wave per turn 3.6 um, u = 0.1 um; 2 waves ..." of a dependence on an angle that goes round: those that exceed

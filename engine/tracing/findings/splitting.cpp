@@ -16,7 +16,7 @@ namespace {
 
 using scenario::Scenario;
 
-constexpr double usual_warming = 10; ///< K: where all readings have one temperature
+constexpr double usual_warming = 10;        ///< K: where all readings have one temperature
 constexpr std::size_t planned_settings = 4; ///< settings of a plan that a sentence names
 
 /// Readings like those of one block, with one condition changed.

@@ -78,7 +78,8 @@ std::string what_was_found(const Finding& f) {
                        "distinguish them.",
                        fmt::join(f.members, ", "));
   case Kind::scatter:
-    return fmt::format("The readings scatter more than the scenario says from one {} to the next{}{}.", depends_on, size,
+    return fmt::format("The readings scatter more than the scenario says from one {} to the next{}{}.", depends_on,
+                       size,
                        f.members.size() < 2 ? "" : ", or " + in_its_place(f) + ": these data cannot distinguish them");
   case Kind::not_in_catalogue:
     if (f.described_by.starts_with("table:"))

@@ -165,7 +165,9 @@ private:
     if (!sought_.names) return take_shape();
     const auto plain = best_of([](const Candidate& a) { return a.family == Family::shape; }, criteria.rival_shapes);
     const std::vector<Trial> tried = trials();
-    const auto score_of_best = [&](const std::vector<std::size_t>& of) { return of.empty() ? 0 : evidence_->score(of[0]); };
+    const auto score_of_best = [&](const std::vector<std::size_t>& of) {
+      return of.empty() ? 0 : evidence_->score(of[0]);
+    };
     if (tried.empty())
       return take_pair(score_of_best(best_of([](const Candidate& a) { return !a.physical(); }, 1))) || take_shape();
     const std::size_t best = tried[0].candidate;
