@@ -50,7 +50,7 @@ bool plain_grammar(const std::string& unit) {
   return open == 0;
 }
 
-/// Calls action(word) for the names in a unit, and rest(character) for all between them.
+/// Calls word(name) for the names in a unit, and rest(character) for all between them.
 template <class Word, class Rest> void each_name(const std::string& unit, const Word& word, const Rest& rest) {
   for (std::size_t i = 0, end = 0; i < unit.size(); i = end) {
     while (end < unit.size() && letter(unit[end])) ++end;
@@ -73,7 +73,8 @@ std::string known_name(const std::string& word) {
   struct Prefixed {
     std::string_view name, factor, unit;
   };
-  static constexpr Prefixed prefixed[] = {{"eV", "1.602176634e-19 ", "J"},
+  static constexpr Prefixed prefixed[] = {{"electronvolt", "1.602176634e-19 ", "joule"},
+                                          {"eV", "1.602176634e-19 ", "J"},
                                           {"torr", "133.32236842105263 ", "Pa"},
                                           {"Torr", "133.32236842105263 ", "Pa"},
                                           {"Nm", "", "N m"},
@@ -81,7 +82,7 @@ std::string known_name(const std::string& word) {
                                           {"Ah", "", "A h"}};
   if (const auto known = names.find(word); known != names.end()) return known->second;
   for (const Prefixed& p : prefixed)
-    if (word.ends_with(p.name) && word.size() <= p.name.size() + 2)
+    if (word.ends_with(p.name) && word.size() <= p.name.size() + (p.unit == "joule" ? 5 : 2)) // "kilo" or "k"
       return fmt::format("({}{}{})", p.factor, word.substr(0, word.size() - p.name.size()), p.unit);
   return word;
 }

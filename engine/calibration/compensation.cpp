@@ -123,15 +123,15 @@ private:
       refuse(positions.empty() ? "no length or angle is set to several values"
                                : "several conditions may be the position",
              "", positions.empty() ? "" : fmt::format("use --position with one of {}", fmt::join(names, ", ")));
+    const std::string other = "use gumshoe run --predict, which says what to expect of readings";
     const auto a_control_knows = [&](std::string_view name, std::string_view unit, const std::string& use) {
       if (unit != "m" && unit != "rad")
         refuse(fmt::format("'{}' is {}, no length and no angle", name, units::kind_name(std::string(unit))),
                "a control corrects lengths and angles along lengths and angles", use);
     };
     a_control_knows(card_.conditions[position_].name, card_.conditions[position_].si_unit,
-                    names.empty() ? "" : fmt::format("use --position with one of {}", fmt::join(names, ", ")));
-    a_control_knows(indications[indication_].name, indications[indication_].si_unit,
-                    "gumshoe run --predict says what to expect of readings");
+                    names.empty() ? other : fmt::format("use --position with one of {}", fmt::join(names, ", ")));
+    a_control_knows(indications[indication_].name, indications[indication_].si_unit, other);
     out_.position = card_.conditions[position_].name;
     out_.position_si_unit = card_.conditions[position_].si_unit;
     out_.indication = indications[indication_].name;

@@ -1,9 +1,11 @@
 /// `gumshoe new`: a first scenario of a model or of a data file.
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <memory>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -189,6 +191,17 @@ RecognisedData table_of(const Options& o, const std::string& out) {
                              fs::relative(fs::absolute(form), fs::absolute(out).parent_path()).generic_string());
 }
 
+/// A word as a shell takes it.
+std::string for_a_shell(const std::string& word) {
+  const auto plain = [](unsigned char c) {
+    return std::isalnum(c) || std::string_view("_.-=").find(static_cast<char>(c)) != std::string_view::npos;
+  };
+  if (std::ranges::all_of(word, plain)) return word;
+  std::string out = "'";
+  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
 /// Whether a column of numbers is not used that may as well be what was read as the one that was guessed.
 bool another_reading(const RecognisedData& found, const scenario::RecognisedColumn& c, const std::string& text) {
   const auto* reading = found.find(ColumnRole::reading);
@@ -211,8 +224,7 @@ void print_columns(const RecognisedData& found, const std::string& text) {
                                              : ", " + c.unit,
                              c.why.empty() ? "" : fmt::format(" ({})", c.why));
     if (another_reading(found, c, text))
-      std::cout << fmt::format("    if this is what was read: --role {1}{0}=reading{1}\n", c.name,
-                               c.name.find(' ') == std::string::npos ? "" : "'");
+      std::cout << fmt::format("    if this is what was read: --role {}\n", for_a_shell(c.name + "=reading"));
   }
 }
 
@@ -233,7 +245,7 @@ void print_next(const Options& o, const std::string& out, const RecognisedData* 
     std::string options;
     for (const auto& c : found ? found->columns : std::vector<scenario::RecognisedColumn>{})
       if (std::string(error.what()).find(fmt::format("the unit of the column '{}'", c.name)) != std::string::npos)
-        options += fmt::format(" --unit {1}{0}=UNIT{1}", c.name, c.name.find(' ') == std::string::npos ? "" : "'");
+        options += " --unit " + for_a_shell(c.name + "=UNIT");
     if (o.model == "sphere_probing" && o.machine.empty()) options += " --machine B,C/X,Y,Z";
     if (!options.empty()) std::cout << fmt::format("or write it anew: gumshoe new ... --force{}\n", options);
   }

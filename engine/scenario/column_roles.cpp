@@ -50,21 +50,26 @@ double follows(const RecognisedData& data, const RecognisedColumn& column, const
 constexpr double follows_it = 0.9, does_not = 0.5; ///< such shares
 
 /// Which of several columns of numbers was read, where only its place would tell: the one that follows the position,
-/// if no other does.
+/// if no other does, nor the air's pressure.
 RecognisedColumn* follower(const RecognisedData& data, const std::vector<RecognisedColumn*>& all) {
   const RecognisedColumn* position = data.find(ColumnRole::position);
   if (!position && !all.empty() && is_place(*all[0]) && was_set(data, *all[0])) position = all[0];
-  if (!position) return nullptr;
+  // In one sweep whatever drifts follows the position.
+  if (!position || !position->number || 2 * different(data, *position) > data.csv.rows.size()) return nullptr;
   RecognisedColumn* best = nullptr;
   double most = 0, next = 0;
   for (RecognisedColumn* c : all) {
-    const double share = c == position ? 0 : follows(data, *c, *position);
+    const double share = c == position || c->unit == "hPa" || c->unit == "mbar" ? 0 : follows(data, *c, *position);
     if (share > most)
       next = std::exchange(most, share), best = c;
     else
       next = std::max(next, share);
   }
-  return most > follows_it && next < does_not ? best : nullptr;
+  const bool clear = most > follows_it && next < does_not;
+  return clear && !(best->unit != "?" && position->unit != "?" &&
+                    units::convertible(best->unit, units::si_unit_of(position->unit)))
+             ? best
+             : nullptr; // of the position's own unit it may be the position, measured
 }
 
 } // namespace

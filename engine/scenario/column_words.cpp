@@ -1,10 +1,13 @@
 #include "scenario/column_words.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <map>
 #include <regex>
 #include <string_view>
+
+#include <fmt/format.h>
 
 #include "base/clock.h"
 #include "base/error.h"
@@ -216,21 +219,39 @@ bool goes_on(const std::vector<Moment>& all) {
 } // namespace
 
 std::string clock_form(const std::vector<std::string>& texts) {
-  for (const char* form : {"iso", "%d.%m.%Y %H:%M:%S", "%d.%m.%Y %H:%M", "%d-%m-%Y %H:%M:%S", "%Y/%m/%d %H:%M:%S",
-                           "%Y/%m/%d %H:%M", "%d.%m.%y %H:%M:%S", "%d-%b-%Y %H:%M:%S", "%I:%M:%S %p", "%H:%M:%S",
-                           "%H:%M", "%Y-%m-%d", "%d.%m.%Y", "%d.%m.%y", "%Y/%m/%d", "%d-%b-%Y"})
-    if (!moments_of(texts, form).empty()) return form;
-  for (const char* rest : {" %H:%M:%S", " %H:%M", " %I:%M:%S %p", ""}) {
-    const std::string day_first = std::string("%d/%m/%Y") + rest, month_first = std::string("%m/%d/%Y") + rest;
-    const std::vector<Moment> days = moments_of(texts, day_first), months = moments_of(texts, month_first);
-    if (days.empty() && months.empty()) continue;
-    if (days.empty() || months.empty()) return days.empty() ? month_first : day_first;
-    if (goes_on(days) != goes_on(months)) return goes_on(days) ? day_first : month_first;
-    const bool same = std::ranges::equal(
-        days, months, [&](const Moment& a, const Moment& b) { return a.since(days[0]) == b.since(months[0]); });
-    return !same ? "" : std::string_view(rest).ends_with("%p") ? month_first : day_first;
-  }
+  constexpr std::array hours{" %H:%M:%S", " %H:%M", " %I:%M:%S %p", " %I:%M %p", ""};
+  const auto fit = [&](const std::string& form) { return !moments_of(texts, form).empty(); };
+  if (fit("iso")) return "iso";
+  for (const std::string time : {"%I:%M:%S %p", "%I:%M %p", "%H:%M:%S", "%H:%M"})
+    if (fit(time)) return time;
+  for (const std::string date : {"%d.%m.%Y", "%d.%m.%y", "%d-%m-%Y", "%m-%d-%Y", "%d-%b-%Y", "%Y/%m/%d", "%Y-%m-%d"})
+    for (const char* rest : hours)
+      if (fit(date + rest)) return date + rest;
+  for (const char* year : {"%Y", "%y"})
+    for (const std::string rest : hours) {
+      const std::string day_first = fmt::format("%d/%m/{}{}", year, rest),
+                        month_first = fmt::format("%m/%d/{}{}", year, rest);
+      const std::vector<Moment> days = moments_of(texts, day_first), months = moments_of(texts, month_first);
+      if (days.empty() && months.empty()) continue;
+      if (days.empty() || months.empty()) return days.empty() ? month_first : day_first;
+      if (goes_on(days) != goes_on(months)) return goes_on(days) ? day_first : month_first;
+      const bool same = std::ranges::equal(
+          days, months, [&](const Moment& x, const Moment& y) { return x.since(days[0]) == y.since(months[0]); });
+      return !same ? "" : rest.ends_with("%p") ? month_first : day_first;
+    }
   return "";
+}
+
+std::string why_no_clock(const std::vector<std::string>& texts) {
+  if (std::ranges::any_of(texts, says_missing)) return "not every cell has a time";
+  static const std::regex slashes(R"(\d{1,2}/\d{1,2}/(\d{4}|\d{2})( .*)?)");
+  const auto low = [](const std::string& text) {
+    const std::size_t first = text.find('/');
+    return std::stoi(text) <= 12 && std::stoi(text.substr(first + 1)) <= 12;
+  };
+  if (std::ranges::all_of(texts, [&](const std::string& t) { return std::regex_match(t, slashes) && low(t); }))
+    return "its days and months may be read in either way: write them as 2026-02-03";
+  return "its times are of no known form: write them as 2026-02-03 10:00:00";
 }
 
 bool are_dates(const std::vector<std::string>& texts) {

@@ -34,6 +34,8 @@ std::vector<std::pair<std::string, double>> signs(const std::set<std::string>& t
 /// The form in which all texts are clock times or dates (base/clock.h); empty if there is none, or if days and months
 /// could be read in either way.
 std::string clock_form(const std::vector<std::string>& texts);
+/// Why texts that should be times have no such form, with a remedy.
+std::string why_no_clock(const std::vector<std::string>& texts);
 /// Days without a time of the day.
 bool are_dates(const std::vector<std::string>& texts);
 /// Whether a cell among numbers says that there is none: "NaN", "-".

@@ -114,13 +114,13 @@ RecognisedColumn column_of(const RecognisedData& data, std::size_t c, const std:
     else if (out.clock = clock_form(texts); !out.clock.empty())
       out.take(ColumnRole::time, Basis::cells, "by its dates");
     else
-      out.why = "dates whose days and months may be read in either way";
+      out.why = why_no_clock(texts);
   } else if (!out.number && (out.role == ColumnRole::other || out.role == ColumnRole::time)) {
     out.clock = clock_form(texts);
     if (out.clock.empty()) {
       const bool named = out.role == ColumnRole::time;
       out.leave();
-      if (named) out.why = "its clock times are of no known form, or their days and months may be read in either way";
+      if (named) out.why = why_no_clock(texts);
     }
     if (!out.clock.empty() && out.role == ColumnRole::other)
       out.take(ColumnRole::time, Basis::cells, "by its clock times");
@@ -196,17 +196,31 @@ std::map<std::string, std::string> take_units(RecognisedData& data) {
   return out;
 }
 
-/// Dates in a column of their own, next to the times of the day.
+std::vector<std::string> texts_of(const RecognisedData& data, const std::string& name) {
+  const auto column = static_cast<std::size_t>(data.csv.find(name));
+  std::vector<std::string> out;
+  for (const auto& row : data.csv.rows) out.push_back(row[column].text);
+  return out;
+}
+
+/// The texts of two columns, next to each other.
+std::vector<std::string> joined(const RecognisedData& data, const std::string& first, const std::string& second) {
+  std::vector<std::string> out = texts_of(data, first);
+  const std::vector<std::string> rest = texts_of(data, second);
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] += ' ' + rest[i];
+  return out;
+}
+
+/// Dates in a column of their own, next to the times of the day. Times of days that are not known are no times.
 void find_dates(RecognisedData& data) {
   for (RecognisedColumn& time : data.columns) {
     if (time.clock.empty() || ClockFormat(time.clock).has_date()) continue;
+    std::string unknown;
     for (RecognisedColumn& date : data.columns) {
       if (date.number || &date == &time || !date.words.empty()) continue;
-      const auto d = static_cast<std::size_t>(data.csv.find(date.name)),
-                 t = static_cast<std::size_t>(data.csv.find(time.name));
-      std::vector<std::string> texts;
-      for (const auto& row : data.csv.rows) texts.push_back(row[d].text + ' ' + row[t].text);
+      const std::vector<std::string> texts = joined(data, date.name, time.name);
       const std::string form = clock_form(texts);
+      if (form.empty() && are_dates(texts_of(data, date.name))) unknown = why_no_clock(texts);
       if (form.empty()) continue;
       time.clock = form;
       time.date = date.name;
@@ -215,7 +229,26 @@ void find_dates(RecognisedData& data) {
       date.clock.clear();
       break;
     }
+    if (!time.date.empty() || unknown.empty()) continue;
+    time.take(ColumnRole::time, Basis::nothing, unknown); // and no label, though times of day recur
+    time.clock.clear();
   }
+}
+
+/// Of several columns of days the last is the time, which the others had passed by then.
+void one_time_of_days(RecognisedData& data) {
+  const RecognisedColumn* last = nullptr;
+  const auto is_days = [](const RecognisedColumn& c) {
+    return c.role == ColumnRole::time && c.basis == Basis::cells && !c.number && !c.clock.empty() && c.date.empty();
+  };
+  for (const RecognisedColumn& c : data.columns)
+    if (is_days(c)) last = &c;
+  for (RecognisedColumn& c : data.columns)
+    if (is_days(c) && &c != last) {
+      c.leave();
+      c.clock.clear();
+      c.why = "the time is " + last->name;
+    }
 }
 
 Csv table_of(const std::string& text, const std::string& file, RecognisedData& out) {
@@ -249,6 +282,7 @@ void recognise_columns(RecognisedData& out) {
   }
   like_the_others(out.columns);
   find_dates(out);
+  one_time_of_days(out);
   guess_roles(out);
 }
 
@@ -280,7 +314,7 @@ RecognisedData recognise(const std::string& text, const std::string& file) {
     return is_number(out.csv, c, '.') || is_number(out.csv, c, ',') || !clock_form({c.text}).empty();
   };
   if (std::ranges::all_of(out.csv.header, is_value))
-    throw InputError({{out.csv.at(out.csv.header.front()), "the first row holds numbers, not names of columns",
+    throw InputError({{out.csv.at(out.csv.header.front()), "the first row holds numbers or dates, not names of columns",
                        out.header > 1 ? "the lines above it have another number of cells" : "",
                        out.header > 1 ? "write a name for each column, in quotes where it holds the separator"
                                       : "write a line with a name for each column above it"}});

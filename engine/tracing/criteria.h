@@ -104,10 +104,12 @@ struct Criteria {
   /// Periods tried: so many to the resolution of the range (a peak's loss on the grid is about 5 % at most), and cycles
   /// over the range up to which they are, by cost.
   double wave_grid = 4, most_cycles = 500;
-  /// Share of a step by which levels may miss it, and still show a wave no shorter than two steps; and times that many
-  /// cycles that uneven levels show, for which targets are set unevenly (ISO 230-2). By cost.
-  double jittered_step = 0.1, uneven_reach = 4;
-  /// Share of a step by which levels may miss it: an alias as long as that step is then off by an eighth of a radian.
+  /// Share of a step by which levels may miss an even grid; on such a grid the search ends at two steps a period.
+  double jittered_step = 0.1;
+  /// Times that many cycles are sought where levels are uneven, as ISO 230-2 sets targets. By cost.
+  double uneven_reach = 4;
+  /// The same share for the note on shorter periods that look the same: an alias as long as a step is then off by an
+  /// eighth of a radian.
   double uneven_step = 0.02;
   double shown_wave = 3;  ///< amplitude in u from which a wave per turn is told
   double own_wave = 0.5;  ///< share of a wave that the declared model must leave

@@ -30,6 +30,7 @@ struct SizedQuantity {
   /// Name in a scenario: "trigger_latency.delay", "rod_length"; empty: none (scatter, a shape).
   std::string scenario_name;
   std::vector<std::pair<std::string, std::string>> labels; ///< readings with these labels have it; empty: all
+  bool shift = false; ///< true: a difference to what was declared, not a value of the quantity
 };
 
 /// A table for plotting: size of an unknown effect against one condition.

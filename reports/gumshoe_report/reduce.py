@@ -41,7 +41,7 @@ def table(b, u_monte_carlo, sobol=None, shapley=None):
     if b is None:
         return None
     correlated = abs(b.correlation_share) > WORTH
-    if not math.isfinite(b.correlation_share):  # no budget: who asks for Shapley effects in place of Sobol' indices has a reason
+    if not math.isfinite(b.correlation_share):  # no budget: Shapley effects in place of Sobol' indices are a sign of correlation
         correlated = shapley is not None and sobol is None
     if correlated:
         largest = max(shapley.rows, key=lambda i: i.effect if math.isfinite(i.effect) else 0) if shapley and shapley.rows else None

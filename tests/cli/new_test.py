@@ -252,7 +252,27 @@ class New(InFolder):
         # Weeks of which no day is above the twelfth, and which go on in either reading.
         days = [(1, 2), (2, 3), (3, 4), (4, 5), (5, 6), (6, 7), (7, 8)]
         (self.folder / "ring.csv").write_text("day,reading (mm)\n" + "".join(f"{m:02}/{d:02}/2026,{25 + d / 1e4}\n" for m, d in days))
-        self.assertIn("day: not used (dates whose days and months may be read in either way)", self.new("--from", "ring.csv", "--force"))
+        self.assertIn("day: not used (its days and months may be read in either way: write them as 2026-02-03)", self.new("--from", "ring.csv", "--force"))
+
+    def test_days_that_are_not_sure_are_no_time(self):
+        """1 to 8 February, or a day of eight months? Then the times of day are no time either, and no label."""
+        rows = [f"0{m}/02/2026,{h:02}:00,{10 * h},{0.1 * h:.1f}" for m in range(1, 9) for h in range(8, 14)]
+        (self.folder / "d.csv").write_text("date,time,x (mm),error (um)\n" + "\n".join(rows) + "\n")
+        said = self.new("--from", "d.csv")
+        self.assertIn("date: cycle (by its dates)", said)
+        self.assertIn("time: not used (its days and months may be read in either way: write them as 2026-02-03)", said)
+        # A part was made before it was measured.
+        days = [datetime.date(2026, 1, 5) + datetime.timedelta(days=k) for k in range(20)]
+        (self.folder / "d.csv").write_text("made,measured on,d (mm)\n" + "".join(f"{d - datetime.timedelta(days=900 + 7 * k)},{d},{25 + k / 1e4}\n" for k, d in enumerate(days)))
+        said = self.new("--from", "d.csv", "--force")
+        self.assertIn("made: not used (the time is measured on)", said)
+        self.assertIn("measured on: time (by its dates)", said)
+        self.assertIn("d.toml: ready", said)
+
+    def test_what_drifts_in_one_sweep_is_no_reading(self):
+        for name, unit in (("pressure", "hPa"), ("battery", "V")):
+            (self.folder / "d.csv").write_text(f"x (mm),{name} ({unit}),d (um)\n" + "".join(f"{10 * k},{12 + 0.01 * k:.3f},{math.sin(k):.2f}\n" for k in range(30)))
+            self.assertIn("d (um): reading, um (as the last column of numbers)", self.new("--from", "d.csv", "--force"))
 
     def test_of_several_columns_the_reading_follows_what_was_set(self):
         draw = random.Random(5)
@@ -270,7 +290,7 @@ class New(InFolder):
     def test_a_row_of_a_time_and_numbers_is_no_header(self):
         (self.folder / "d.csv").write_text("Time,Diameter, mm\n" + "".join(f"2026-01-{d:02} 08:00,25.00{d:02}\n" for d in range(1, 20)))
         said = self.new("--from", "d.csv", code=2)
-        self.assertIn("d.csv:2:1: error: the first row holds numbers, not names of columns (the lines above it have another number of cells)", said)
+        self.assertIn("d.csv:2:1: error: the first row holds numbers or dates, not names of columns (the lines above it have another number of cells)", said)
 
     def test_runs_side_by_side(self):
         """As sheets of ISO 230-2 have them, with and without a line of units."""
@@ -421,7 +441,7 @@ class New(InFolder):
                             (("--from", "none.csv"), "none.csv")):
             err = self.new(*words, code=2)
             self.assertIn(said, err)
-        for text, said in (("1,2\n3,4\n", "the first row holds numbers, not names of columns"), ("a,b\n", "the file has no rows"),
+        for text, said in (("1,2\n3,4\n", "the first row holds numbers or dates, not names of columns"), ("a,b\n", "the file has no rows"),
                            ("a,b\nx,y\nz,w\n", "there is no column of readings")):
             (self.folder / "bad.csv").write_text(text)
             self.assertIn(said, self.new("--from", "bad.csv", code=2))

@@ -61,6 +61,8 @@ TEST_CASE("angles", "[units]") {
 TEST_CASE("units of today's values", "[units]") {
   CHECK(si("1 eV", "J") == Approx(1.602176634e-19).epsilon(1e-14)); // exact since 2019
   CHECK(si("2 keV", "J") == Approx(2 * 1.602176634e-16).epsilon(1e-14));
+  CHECK(si("2 electronvolt", "J") == Approx(2 * 1.602176634e-19).epsilon(1e-14));
+  CHECK(si("2 kiloelectronvolt", "J") == Approx(2 * 1.602176634e-16).epsilon(1e-14));
   CHECK(si("3 meV", "J") == Approx(3 * 1.602176634e-22).epsilon(1e-14));
   CHECK(si("5 mTorr", "Pa") == Approx(5 * 101.325 / 760).epsilon(1e-14));
   CHECK(si("4 kNm", "J") == 4000);

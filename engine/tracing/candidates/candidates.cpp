@@ -30,6 +30,13 @@ std::vector<const Grouping*> part_labels(const Observations& o) {
   return out;
 }
 
+std::string without_indication(const std::string& name, const Observations& o) {
+  for (const std::string& indication : o.names)
+    if (o.indications > 1 && name.ends_with(" of " + indication))
+      return name.substr(0, name.size() - indication.size() - 4);
+  return name;
+}
+
 Matrix masked(const Observations& o, Matrix columns, const std::vector<bool>* mask) {
   for (Index i = 0; i < columns.rows() && mask; ++i)
     if (!(*mask)[index(i) / o.indications]) columns.row(i).setZero();

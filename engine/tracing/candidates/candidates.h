@@ -85,6 +85,10 @@ Candidate with_free_shape(const Candidate& candidate, const propagation::Experim
 /// Labels that name a part: a rod, a tool. Blocks and acts done anew are no parts, as what they leave behind scatters.
 std::vector<const Grouping*> part_labels(const Observations& observations);
 
+/// "polynomial:t_room" of "polynomial:t_room of z": a shape without the indication that it moves, where there are
+/// several.
+std::string without_indication(const std::string& name, const Observations& observations);
+
 /// Names of the covariates, else of the labels, on which a signature depends. What those named explain is no dependence
 /// on another that happens to go along with them.
 std::vector<std::string> dependence(const Observations& observations, const Matrix& columns);

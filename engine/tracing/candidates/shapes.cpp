@@ -147,8 +147,8 @@ private:
     if (c.levels.front() > 0 && c.si_unit != "K" && !elapses(c)) // the zero of time is an accident
       add(Family::shape, "polynomial:1/" + c.name, y.array().inverse() * (c.levels.front() / size), {c.name});
     if (c.levels.size() < 4) return;
-    // About the middle: what is left of a curve when a line is absorbed.
-    add(Family::shape, "polynomial:" + c.name, x.array().square(), {c.name}, "square about the middle");
+    // What is left of a curve when a line is absorbed.
+    add(Family::shape, "polynomial:" + c.name + "^2", x.array().square(), {c.name}, "about the middle");
   }
 
   void harmonics(const Covariate& c) {

@@ -61,8 +61,16 @@ private:
   Vector x_; ///< in the order of measurement, 0 to 1 over the range
 };
 
-/// Levels that a wave can tell apart: those within a tenth of their mean distance count as one, such as a target that
-/// was met again but for its jitter; their first ones.
+/// Whether all levels are multiples of a step from the first on, but for a share of it.
+bool in_steps(const std::vector<double>& levels, double step, double tolerance) {
+  return std::ranges::all_of(levels, [&](double x) {
+    const double steps = (x - levels.front()) / step;
+    return std::fabs(steps - std::round(steps)) <= tolerance;
+  });
+}
+
+} // namespace
+
 std::vector<double> places(const Covariate& c) {
   const double near = 0.1 * (c.levels.back() - c.levels.front()) / static_cast<double>(c.levels.size() - 1);
   std::vector<double> out{c.levels.front()};
@@ -71,20 +79,19 @@ std::vector<double> places(const Covariate& c) {
   return out;
 }
 
-} // namespace
-
 double even_step(const std::vector<double>& levels, double tolerance) {
   const double range = levels.back() - levels.front();
-  double least = range;
-  for (std::size_t i = 1; i < levels.size(); ++i) least = std::min(least, levels[i] - levels[i - 1]);
-  for (const double count : {static_cast<double>(levels.size() - 1), std::round(range / least)}) {
-    const double step = range / count;
-    if (std::ranges::all_of(levels, [&](double x) {
-          const double steps = (x - levels.front()) / step;
-          return std::fabs(steps - std::round(steps)) <= tolerance;
-        }))
-      return step;
-  }
+  std::vector<double> gaps;
+  for (std::size_t i = 1; i < levels.size(); ++i) gaps.push_back(levels[i] - levels[i - 1]);
+  if (gaps.empty()) return 0;
+  // Some targets may be missing: a gap is a whole number of steps; or the steps are those of the smallest gap.
+  std::vector<double> sorted = gaps;
+  std::ranges::sort(sorted);
+  const double usual = sorted[sorted.size() / 2];
+  double steps = 0;
+  for (const double gap : gaps) steps += std::max(1.0, std::round(gap / usual));
+  for (const double count : {steps, std::round(range / sorted.front())})
+    if (in_steps(levels, range / count, tolerance)) return range / count;
   return 0;
 }
 
@@ -121,9 +128,17 @@ std::vector<Candidate> waves(const Observations& o, const std::vector<const Cand
     if (c.angle || (c.course ? programme : !c.commanded) || c.levels.size() < 2) continue;
     const std::vector<double> levels = places(c);
     if (levels.size() <= criteria.levels_for_fine_omnibus) continue;
-    const double most = std::min(most_cycles(levels), criteria.most_cycles);
+    const double most = std::min(most_cycles(levels), criteria.most_cycles),
+                 usual = std::min(most, static_cast<double>(levels.size() - 1) / 2);
     for (std::size_t i = 0; i < o.indications; ++i) {
-      Candidate a = wave(o, c, i, Waves(o, c, i).best(most, gain));
+      const Waves sought(o, c, i);
+      const auto explained = [&](double cycles) { return gain(sought.columns(cycles), 2, criteria.own_wave)[0]; };
+      double cycles = sought.best(usual, gain);
+      // A short wave must explain clearly more: that a long one is there needs no uneven targets.
+      if (most > usual)
+        if (const double shorter = sought.best(most, gain); explained(shorter) > explained(cycles) + criteria.split)
+          cycles = shorter;
+      Candidate a = wave(o, c, i, cycles);
       a.searched = 4 * most;
       const bool resolved = std::ranges::none_of(known, [&](const Candidate* other) {
         return other->name == a.name && std::fabs(other->parameter - a.parameter) < 1;

@@ -12,8 +12,12 @@ namespace gumshoe::tracing {
 std::vector<Candidate> waves(const Observations& observations, const std::vector<const Candidate*>& known,
                              const Gain& gain);
 
-/// The step of which all levels (ascending) are multiples from the first on, but for this share of it; 0: there is
-/// none.
+/// Levels that a wave can tell apart: those within a tenth of their mean distance count as one, such as a target that
+/// was met again but for its jitter. Returns the first level of each.
+std::vector<double> places(const Covariate& covariate);
+
+/// Step of a grid, from the first level on, on which all levels (ascending) lie within this share of the step; 0: there
+/// is none.
 double even_step(const std::vector<double>& levels, double tolerance);
 
 /// Cycles over the range up to which levels tell waves apart: half of their steps, where these are even (the sampling

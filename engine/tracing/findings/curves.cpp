@@ -127,7 +127,7 @@ public:
     const double range = covariate.levels.back() - covariate.levels.front();
     return fmt::format("period {}; amplitude {}{}",
                        with_u(range / cycles, range / cycles / cycles * term_.candidate.parameter_u, covariate.unit,
-                              covariate.si_unit),
+                              covariate.si_unit, covariate.unit == "1" ? "readings" : ""),
                        with_u(amplitude, u, small_unit(), empty_.indication_si_unit),
                        aliases(covariate, range / cycles));
   }
@@ -266,6 +266,7 @@ void add_curves(const TraceContext& c, const JointFit& fit, std::size_t term, Fi
       if (one.name == name) labels.push_back(&one);
   }
   if (covariates.empty() && labels.empty()) return;
+  CellTable table = make.by(covariates, labels);
   if (covariates.size() + labels.size() == 1) {
     if (const std::string wave = labels.empty() ? make.wave(*covariates[0]) : ""; !wave.empty())
       finding.remarks.push_back(fmt::format("a wave along {}: {}", covariates[0]->name, wave));
@@ -273,10 +274,7 @@ void add_curves(const TraceContext& c, const JointFit& fit, std::size_t term, Fi
       finding.remarks.push_back("time constant " + drift);
     else if (const std::string waves = labels.empty() ? make.waves_per_turn(*covariates[0]) : ""; !waves.empty())
       finding.remarks.push_back(fmt::format("per turn of {}: {}", covariates[0]->name, waves));
-    else if (const std::string wave_there =
-                 labels.empty() && fit.terms[term].candidate.name.starts_with("table:") && !finding.curves.empty()
-                     ? wave_of(finding.curves.front(), covariates[0]->unit)
-                     : "";
+    else if (const std::string wave_there = fit.terms[term].candidate.name.starts_with("table:") ? wave_of(table) : "";
              !wave_there.empty())
       finding.remarks.push_back(wave_there);
     else if (const std::string step = make.step(); !step.empty())
@@ -288,7 +286,7 @@ void add_curves(const TraceContext& c, const JointFit& fit, std::size_t term, Fi
     finding.remarks.push_back(fmt::format("{} alone has a straight line against {}: {}",
                                           quantities::text_of(shape.amplitudes[0].labels), covariates[0]->name,
                                           make.slope(*covariates[0])));
-  if (CellTable table = make.by(covariates, labels); !table.y.empty()) finding.tables.push_back(std::move(table));
+  if (!table.y.empty()) finding.tables.push_back(std::move(table));
 }
 
 } // namespace gumshoe::tracing

@@ -31,22 +31,26 @@ Fitted fitted(const Vector& x, const Vector& y, double cycles) {
 } // namespace
 
 std::string aliases(const Covariate& c, double period) {
-  const double step = even_step(c.levels, criteria.uneven_step), range = c.levels.back() - c.levels.front();
-  if (!(step > 0) || 2 * step * static_cast<double>(c.levels.size()) < range) return ""; // few of its multiples
-  const auto shown = [&](double x) {
-    return fmt::format("{:.3g} {}", units::from_si(x, c.unit, c.si_unit, units::Kind::difference), c.unit);
-  };
-  return fmt::format("; read in steps of {}, waves of period {} and {} look the same", shown(step),
-                     shown(1 / (1 / step - 1 / period)), shown(1 / (1 / step + 1 / period)));
+  const std::vector<double> levels = places(c);
+  const double step = even_step(levels, criteria.uneven_step), range = levels.back() - levels.front();
+  if (!(step > 0) || 2 * step * static_cast<double>(levels.size()) < range) return ""; // few of its multiples
+  const auto shown = [&](double x) { return shown_size(x, c.unit, c.si_unit); };
+  // At two steps a period, the first is the wave itself.
+  const double longer = 1 / (1 / step - 1 / period), shorter = 1 / (1 / step + 1 / period);
+  return fmt::format("; read in steps of {}, {} look{} the same", shown(step),
+                     longer < 0.99 * period ? fmt::format("waves of period {} and {}", shown(longer), shown(shorter))
+                                            : fmt::format("a wave of period {}", shown(shorter)),
+                     longer < 0.99 * period ? "" : "s");
 }
 
-std::string wave_of(const Curve& table, const std::string& unit) {
-  const Index n = index(table.x.size());
-  if (table.x.size() < criteria.levels_of_waves || !table.levels.empty()) return "";
-  const double first = table.x.front(), range = table.x.back() - first;
-  Vector x = Eigen::Map<const Vector>(table.x.data(), n), y = Eigen::Map<const Vector>(table.y.data(), n);
+std::string wave_of(const CellTable& table) {
+  if (table.keys.size() != 1 || table.keys[0].x.size() < criteria.levels_of_waves) return "";
+  const CellTable::Key& along = table.keys[0];
+  const Index n = index(along.x.size());
+  const double first = along.x.front(), range = along.x.back() - first;
+  Vector x = Eigen::Map<const Vector>(along.x.data(), n), y = Eigen::Map<const Vector>(table.y.data(), n);
   x = (x.array() - first) / range;
-  const double most = 0.9 * most_cycles(table.x); // of half the levels only one phase is seen
+  const double most = 0.9 * most_cycles(along.x); // of half the levels only one phase is seen
   double cycles = 2, least = HUGE_VAL;
   for (const double step : {0.05, 0.002}) {
     const double middle = cycles, low = step == 0.05 ? 2 : middle - 0.05, high = step == 0.05 ? most : middle + 0.05;
@@ -62,7 +66,7 @@ std::string wave_of(const Curve& table, const std::string& unit) {
   if (!(share >= criteria.share_of_waves)) return "";
   const std::string small = table.indication_si_unit == "m" ? "um" : table.indication_unit;
   return fmt::format("a wave of period {:.3g} {} and amplitude {} explains {:.0f} % of it",
-                     units::from_si(range / cycles, unit, table.si_unit, units::Kind::difference), unit,
+                     units::from_si(range / cycles, along.unit, along.si_unit, units::Kind::difference), along.unit,
                      shown_size(fitted(x, y, cycles).amplitude, small, table.indication_si_unit), 100 * share);
 }
 

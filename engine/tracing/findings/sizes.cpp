@@ -41,7 +41,7 @@ std::vector<SizedQuantity> sizes(const TraceContext& c, const JointFit& fit, std
   for (Index j = 0; j < t.size.size(); ++j) {
     const Amplitude& a = t.candidate.amplitudes[index(j)];
     if (a.scenario_name.empty()) continue;
-    SizedQuantity q{a.name, a.unit, a.si_unit, t.size[j], u[j], 0, 0, a.scenario_name, a.labels};
+    SizedQuantity q{a.name, a.unit, a.si_unit, t.size[j], u[j], 0, 0, a.scenario_name, a.labels, false};
     // A size alone was reported because it passed the limit; of a pair neither was.
     const double least = amplitudes == 1 && !a.is_shape ? std::sqrt(limit) * u[j] : 0;
     std::tie(q.low95, q.high95) = interval_after_selection(q.value, q.u, least);
@@ -61,6 +61,7 @@ std::vector<SizedQuantity> sizes(const TraceContext& c, const JointFit& fit, std
       }
       if (low != high) {
         q.name = "shift of " + q.name;
+        q.shift = true;
       } else {
         const double declared = low - q.value;
         for (double* x : {&q.value, &q.low95, &q.high95}) *x += declared;

@@ -78,7 +78,10 @@ std::string what_was_found(const Finding& f) {
                        "distinguish them.",
                        fmt::join(f.members, ", "));
   case Kind::scatter:
-    return fmt::format("The readings scatter more than the scenario says from one {} to the next{}{}.", depends_on,
+    return fmt::format("The readings scatter {}{}{}.",
+                       f.depends_on == std::vector<std::string>{"reading"}
+                           ? "more than declared"
+                           : fmt::format("from one {} to the next more than within one", depends_on),
                        size,
                        f.members.size() < 2 ? "" : ", or " + in_its_place(f) + ": these data cannot distinguish them");
   case Kind::not_in_catalogue:

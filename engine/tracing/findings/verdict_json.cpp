@@ -74,7 +74,7 @@ std::string verdict(const Trace& t) {
 
 ShownSize shown(const SizedQuantity& q) {
   using units::Kind;
-  const Kind kind = q.scenario_name.empty() ? Kind::difference : Kind::point;
+  const Kind kind = q.shift || q.scenario_name.empty() ? Kind::difference : Kind::point;
   try {
     const auto convert = [&](double x, Kind k) { return units::from_si(x, q.unit, q.si_unit, k); };
     return {q.unit, convert(q.value, kind), convert(q.u, Kind::difference), convert(q.low95, kind),
@@ -85,7 +85,7 @@ ShownSize shown(const SizedQuantity& q) {
 }
 
 ShownSize shown(const DetectionLimit& d) {
-  return shown(SizedQuantity{d.quantity, d.unit, d.si_unit, d.value, 0, 0, 0, "", {}});
+  return shown(SizedQuantity{d.quantity, d.unit, d.si_unit, d.value, 0, 0, 0, "", {}, false});
 }
 
 std::string verdict_json(const Trace& t) {

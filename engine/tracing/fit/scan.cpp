@@ -320,20 +320,18 @@ double Scan::pair_criterion(std::size_t a, std::size_t b, const Vector& residual
   return criterion(pair_leaves(a, b, whitened_[k].reduce(winsorised(residuals)), k), k);
 }
 
-Matrix Scan::pair_criteria(const std::vector<std::size_t>& some, const Vector& residuals, std::size_t k) const {
+Matrix Scan::pair_criteria(const std::vector<std::size_t>& some, std::size_t first, const Vector& residuals,
+                           std::size_t k) const {
   const Vector data = whitened_[k].reduce(winsorised(residuals));
   std::vector<Index> from{0};
-  Matrix all(data.size(), 0);
-  for (const std::size_t a : some) {
-    const Matrix own = signatures(a, a + 1, k);
-    all.conservativeResize(Eigen::NoChange, all.cols() + own.cols());
-    all.rightCols(own.cols()) = own;
-    from.push_back(all.cols());
-  }
+  for (const std::size_t a : some) from.push_back(from.back() + orthonormal_[k][a].cols());
+  Matrix all(data.size(), from.back());
+  for (std::size_t i = 0; i < some.size(); ++i)
+    all.middleCols(from[i], from[i + 1] - from[i]) = signatures(some[i], some[i] + 1, k);
   const Matrix products = transposed_product(all, all);
   const Vector along = transposed_product(all, data);
   const double left = data.squaredNorm();
-  Matrix out(index(some.size()), index(some.size()));
+  Matrix out(index(first), index(some.size()));
   for (Index a = 0; a < out.rows(); ++a)
     for (Index b = a; b < out.cols(); ++b) {
       std::vector<Index> columns;
@@ -346,7 +344,8 @@ Matrix Scan::pair_criteria(const std::vector<std::size_t>& some, const Vector& r
         for (Index j = 0; j < by.size(); ++j)
           if (eigen.eigenvalues()[j] > criteria.absorbed_share) explained += by[j] * by[j] / eigen.eigenvalues()[j];
       }
-      out(a, b) = out(b, a) = criterion(std::max(left - explained, 1e-12 * left), k);
+      out(a, b) = criterion(std::max(left - explained, 1e-12 * left), k);
+      if (b < out.rows()) out(b, a) = out(a, b);
     }
   return out;
 }

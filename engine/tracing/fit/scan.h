@@ -54,8 +54,9 @@ public:
   double pair_ratio(std::size_t a, std::size_t b, const Vector& residuals, std::size_t model) const;
   /// Minus 2 ln likelihood of both together, comparable with Statistics::criterion.
   double pair_criterion(std::size_t a, std::size_t b, const Vector& residuals, std::size_t model) const;
-  /// The same of all pairs of some candidates, [a][b] by their places in `some`.
-  Matrix pair_criteria(const std::vector<std::size_t>& some, const Vector& residuals, std::size_t model) const;
+  /// The same of the first of some candidates with all of them, in pairs: [a][b] by their places in `some`.
+  Matrix pair_criteria(const std::vector<std::size_t>& some, std::size_t first, const Vector& residuals,
+                       std::size_t model) const;
 
   /// As Whitened::winsorised, under the plain model.
   Matrix winsorised(const Matrix& residuals, Vector* scale = nullptr, Matrix* weight = nullptr) const {

@@ -67,8 +67,8 @@ std::optional<std::size_t> simpler_beside_another(const Evidence& e, const Obser
   std::pair<Index, double> best{std::numeric_limits<Index>::max(), 0};
   std::optional<std::size_t> out;
   for (const std::size_t s : best_of(simpler, criteria.most_shapes)) {
-    // The noise as it is with the simpler shape, or with the whole one: without any, a large one passes for
-    // correlation, and so does the other of the two without the whole one.
+    // The noise as it is with the simpler shape, or with the whole one: without a signature a large effect passes for
+    // correlation; with the simpler shape alone the other one does.
     const Fit alone = e.scan().fit(s, e.residuals());
     const std::set<std::size_t> models{alone.covariance_model, of_shape};
     for (std::size_t a = 0; a < e.candidates().size(); ++a) {

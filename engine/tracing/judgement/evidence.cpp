@@ -326,9 +326,9 @@ double Evidence::correlation(std::size_t a, std::size_t b) const {
   return scan_->correlation(a, b, assessment_.data.covariance_model[0]);
 }
 
-Matrix Evidence::pair_scores(const std::vector<std::size_t>& some) const {
-  Matrix out = scan_->pair_criteria(some, data_, assessment_.data.covariance_model[0]);
-  out = out.cwiseMin(scan_->pair_criteria(some, data_, scan_->plain()));
+Matrix Evidence::pair_scores(const std::vector<std::size_t>& some, std::size_t first) const {
+  Matrix out = scan_->pair_criteria(some, first, data_, assessment_.data.covariance_model[0]);
+  out = out.cwiseMin(scan_->pair_criteria(some, first, data_, scan_->plain()));
   for (Index a = 0; a < out.rows(); ++a)
     for (Index b = 0; b < out.cols(); ++b)
       out(a, b) = assessment_.data.criterion[0] - out(a, b) -

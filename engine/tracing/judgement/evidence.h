@@ -20,7 +20,7 @@ struct Trial {
 /// A candidate over a finite step as a term, from the sizes over which it was taken.
 Term at_start(const Candidate& candidate);
 
-/// "polynomial:feed (square about the middle)"
+/// "polynomial:feed^2 (about the middle)"
 std::string with_shape(const Candidate& candidate);
 
 /// Readings of equal conditions and of blocks among the training readings. Keeps a reference to the fit's design.
@@ -74,10 +74,10 @@ public:
   double chance_of_lead(std::size_t better, std::size_t than, double lead) const;
   /// Cosine of two projected signatures.
   double correlation(std::size_t a, std::size_t b) const;
-  /// Likelihood ratios of all pairs of some candidates, each minus twice its expectation by chance: [a][b] by their
-  /// places in `some`. The noise is as it is without a signature, or plain: two that hide each other pass for
-  /// correlation.
-  Matrix pair_scores(const std::vector<std::size_t>& some) const;
+  /// Likelihood ratios of the first of some candidates with all of them, in pairs, each minus twice its expectation by
+  /// chance: [a][b] by their places in `some`. The noise is as it is without a signature, or plain: two that hide each
+  /// other pass for correlation.
+  Matrix pair_scores(const std::vector<std::size_t>& some, std::size_t first) const;
   /// What the second adds to the likelihood ratio of the first.
   double gain_beside(std::size_t best, std::size_t other) const;
   const Vector& residuals() const { return data_; } ///< residuals of the training readings

@@ -9,14 +9,6 @@
 namespace gumshoe::tracing {
 namespace {
 
-/// "polynomial:t_room of z": without the indication.
-std::string without_indication(const std::string& name, const Observations& o) {
-  for (const std::string& indication : o.names)
-    if (o.indications > 1 && name.ends_with(" of " + indication))
-      return name.substr(0, name.size() - indication.size() - 4);
-  return name;
-}
-
 /// Whether a label says the same of all readings of a group: all of a run are by one operator.
 bool one_value_each(const Grouping& label, const Grouping& group) {
   std::vector<std::size_t> value(group.groups.size(), label.groups.size());

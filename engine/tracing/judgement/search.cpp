@@ -28,6 +28,10 @@ Index sizes(const Candidate& a) { return a.name.starts_with("harmonic:") ? 1 : a
 constexpr const char *alone = "named", *in_class = "in the class";
 constexpr const char* not_predicted = "refused: it does not improve the prediction of held-out blocks";
 
+std::string unknown_effect(const std::vector<std::string>& depends_on) {
+  return fmt::format("an unknown effect of {}", fmt::join(depends_on, " and "));
+}
+
 struct Sought {
   bool names = true;            ///< effects and declared quantities are candidates, and not shapes alone
   bool shapes_for_noise = true; ///< a shape may be there in place of larger noise
@@ -59,6 +63,11 @@ public:
       out_.capped = out_.last.p_anything <= now().alpha;
     }
     c_.fitter.widen_jumping(out_.found);
+    for (SearchFinding& f : out_.findings) // found as well, it is no alternative
+      for (const SearchFinding& other : out_.findings)
+        if (other.finding.kind == Kind::not_in_catalogue &&
+            f.finding.fits_better == unknown_effect(other.finding.depends_on))
+          f.finding.fits_better.clear();
     return std::move(out_);
   }
 
@@ -212,11 +221,12 @@ private:
   /// One masks the other: two effects together that explain more than shapes do. @param best_shape  a shape's score
   bool take_pair(double best_shape) {
     const auto first = best_of([](const Candidate& x) { return x.physical() && !x.in_part(); }, criteria.most_paired);
+    if (first.empty()) return false;
     std::vector<std::size_t> all = first;
     for (std::size_t b = 0; b < evidence_->candidates().size(); ++b)
       if (evidence_->testable(b) && !candidate(b).in_part() && std::ranges::find(first, b) == first.end())
         all.push_back(b);
-    const Matrix scores = evidence_->pair_scores(all);
+    const Matrix scores = evidence_->pair_scores(all, first.size());
     double best = 0;
     std::size_t pair[2] = {0, 0};
     for (std::size_t a = 0; a < first.size(); ++a)
@@ -270,8 +280,7 @@ private:
     if (members.size() > 1) found.finding.kind = Kind::equivalence_class;
     for (const std::size_t a : members) outcomes_[a] = members.size() > 1 ? in_class : alone;
     if (as_well_) {
-      found.finding.fits_better =
-          fmt::format("an unknown effect of {}", fmt::join(candidate(*as_well_).depends_on, " and "));
+      found.finding.fits_better = unknown_effect(candidate(*as_well_).depends_on);
       found.finding.remarks.push_back(with_shape(candidate(*as_well_)) + " fits better, as chance could have it");
       outcomes_[*as_well_] = "fits better than " + winner + ", as chance could have it";
     }

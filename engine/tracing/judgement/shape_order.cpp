@@ -13,21 +13,17 @@
 namespace gumshoe::tracing {
 namespace {
 
-/// The indication of whose readings a shape is, where there are several.
-std::string indication_of(const Candidate& a, const Observations& o) {
-  for (const std::string& name : o.names)
-    if (o.indications > 1 && a.name.ends_with(" of " + name)) return name;
-  return "";
-}
-
-/// Puts the first of those tried that is simpler, and of the same indication, before the best, unless that one's lead
-/// excludes it.
+/// Puts the first of those tried that is simpler, and of the same indication, before the best, unless the
+/// lead of the best excludes it.
 template <class Simpler>
 void prefer(const TraceContext& c, const Evidence& e, std::vector<Trial>& tried, const Simpler& simpler) {
-  const std::string indication = indication_of(e.candidates()[tried[0].candidate], c.observations);
+  const auto indication_of = [&](const Candidate& a) { // " of z"
+    return a.name.substr(without_indication(a.name, c.observations).size());
+  };
+  const std::string indication = indication_of(e.candidates()[tried[0].candidate]);
   const auto one = std::ranges::find_if(tried, [&](const Trial& t) {
     const Candidate& a = e.candidates()[t.candidate];
-    return simpler(a) && indication_of(a, c.observations) == indication;
+    return simpler(a) && indication_of(a) == indication;
   });
   if (one == tried.end()) return;
   const double lead = tried[0].score - one->score;
@@ -51,7 +47,7 @@ void straighten(const TraceContext& c, const Evidence& e, std::vector<Trial>& tr
 int power(const Candidate& a) {
   if (a.depends_on.size() != 1 || !a.name.starts_with("polynomial:" + a.depends_on[0])) return 0;
   const std::string rest = a.name.substr(std::string("polynomial:").size() + a.depends_on[0].size());
-  return rest.starts_with("^3") ? 3 : rest.starts_with("^2") || !a.shape.empty() ? 2 : 1;
+  return rest.starts_with("^3") ? 3 : rest.starts_with("^2") ? 2 : 1;
 }
 
 void lower_power(const TraceContext& c, const Evidence& e, std::vector<Trial>& tried) {
