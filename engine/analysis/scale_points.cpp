@@ -21,7 +21,8 @@ std::vector<std::string> scale_point_notes(const propagation::Experiment& e, con
   std::vector<Derivatives> all;
   for (std::size_t m = 0; m < measurands && m < e.outputs().size(); ++m) {
     const auto& output = e.outputs()[m];
-    if (!has_own_zero(output.unit, output.si_unit)) continue;
+    const bool point_wanted = has_own_zero(output.unit, output.si_unit);
+    if (!point_wanted && output.si_unit != "K") continue;
     const auto point = e.point(output.reading);
     if (all.empty())
       all = stencils_at_estimates(e)
@@ -38,6 +39,12 @@ std::vector<std::string> scale_point_notes(const propagation::Experiment& e, con
       any = true;
     }
     if (!any || std::isnan(weight) || std::fabs(weight - 1) < 1e-6) continue;
+    if (!point_wanted && weight > 1 && std::fabs(weight - std::round(weight)) < 1e-6)
+      notes.push_back(
+          fmt::format("{}: {:.0f} inputs with a zero of their own, such as degC, are added, each from 0 K on; "
+                      "state a correction or a difference of temperatures in K",
+                      output.measurand, weight));
+    if (!point_wanted) continue;
     notes.push_back(
         fmt::format("{}: its inputs in {} enter with weights that add up to {:.4g}, not to 1, so that it is no "
                     "point on this scale; state a difference of temperatures in K",

@@ -304,6 +304,10 @@ TEST_CASE("a sum and a difference of temperatures in degC are noted, a mean is n
   CHECK(notes("(a + b) / 2", "degC").empty());
   CHECK(notes("a + d", "degC").empty());
   CHECK(notes("a - b", "K").empty());
+  CHECK(notes("a", "K").empty());
+  CHECK(notes("1.4 * a", "K").empty());
+  REQUIRE(notes("a + b", "K").size() == 1);
+  CHECK_THAT(notes("a + b", "K")[0], Catch::Contains("2 inputs with a zero of their own, such as degC, are added"));
   REQUIRE(notes("a + b", "degC").size() == 1);
   CHECK_THAT(notes("a + b", "degC")[0], Catch::Contains("add up to 2, not to 1"));
   CHECK_THAT(notes("a - b", "degC")[0], Catch::Contains("state a difference of temperatures in K"));

@@ -180,7 +180,8 @@ std::string what_residuals_show(const Trace& t) {
   const Rms& r = t.rms;
   constexpr const char* lacks = "the model or the declared noise lacks something that these data do not identify.";
   const std::string noise = std::isfinite(r.noise_high) ? in_95(r.noise_low, r.noise_high, r) : shown_rms(r.noise, r);
-  if (held_out_exceeds(r)) return fmt::format("No candidate explains it: {}", lacks);
+  constexpr const char* chance = "noise alone gives as much in one case of forty, or"; // beyond 97.5 %
+  if (held_out_exceeds(r)) return fmt::format("No candidate explains it: {} {}", chance, lacks);
   if (r.before > r.noise_high && t.p_anything > t.alpha && !t.outliers.empty())
     return fmt::format(
         "The residuals of the training data ({}) are larger than noise alone gives ({}), because {} outlying; "
@@ -190,8 +191,8 @@ std::string what_residuals_show(const Trace& t) {
         t.outliers[0].reading, shown_rms(std::fabs(t.outliers[0].residual), r));
   if (r.before > r.noise_high)
     return fmt::format("No candidate explains the residuals, but those of the training data ({}) are larger than noise "
-                       "alone gives ({}): {}",
-                       shown_rms(r.before, r), noise, lacks);
+                       "alone gives ({}): {} {}",
+                       shown_rms(r.before, r), noise, chance, lacks);
   // Nothing agrees whose chance is small.
   if (t.p_anything <= t.alpha)
     return fmt::format("No candidate explains the residuals ({}), but noise alone gives residuals like these in only "
