@@ -95,6 +95,8 @@ class BlocksAndNames(InFolder):
             v = self.trace(readings(seed, truth), AXIS + STATED)
             found = {f["name"]: f["quantities"][0] for f in v["findings"]}
             self.assertEqual(set(found), {"expansion", "warming"}, v["plain"])
+            depends = {f["name"]: f["depends_on"] for f in v["findings"]}  # as the formulas say, though all vary with time
+            self.assertEqual(depends, {"expansion": ["position", "room"], "warming": ["time"]})
             for name, size in (("expansion", 6), ("warming", 5)):
                 self.assertLess(abs(found[name]["value"] - size), 3.5 * found[name]["u"])
 
