@@ -147,8 +147,8 @@ std::optional<Moment> moment_of(const Fields& f) {
   const year_month_day date{year{f.year}, month{static_cast<unsigned>(f.month)}, day{static_cast<unsigned>(f.day)}};
   if (!date.ok() || f.hour > 24 || f.minute > 59 || f.second > 60)
     return std::nullopt; // a leap second, midnight as 24:00
-  return Moment{sys_days{date}.time_since_epoch().count() * std::int64_t{86400} + f.hour * 3600 + f.minute * 60 +
-                    f.second,
+  return Moment{sys_days{date}.time_since_epoch().count() * std::int64_t{86400} + std::int64_t{3600} * f.hour +
+                    std::int64_t{60} * f.minute + f.second,
                 f.fraction, false};
 }
 

@@ -177,7 +177,7 @@ std::string description_of(const Options& o, const fs::path& folder) {
                      meant.empty() ? fmt::format("use one of {}, or a file of your own", fmt::join(known, ", "))
                                    : fmt::format("did you mean '{}'?", meant));
   }
-  const std::string copy = (folder / (o.form + ".toml")).string();
+  std::string copy = (folder / (o.form + ".toml")).string();
   write_file(copy, read_text_file((shipped / (o.form + ".toml")).string(), largest_file), o.force);
   return copy;
 }

@@ -161,7 +161,7 @@ std::string unit_in(const std::string& name, std::string& rest) {
       continue;
     }
     if (const std::size_t more = rest.find_last_of("_ /"); more != std::string::npos)
-      if (const std::string both = ratio(rest.substr(more + 1), tail); !both.empty()) {
+      if (std::string both = ratio(rest.substr(more + 1), tail); !both.empty()) {
         rest = rest.substr(0, more);
         return both;
       }
@@ -222,7 +222,7 @@ std::string clock_form(const std::vector<std::string>& texts) {
   constexpr std::array hours{" %H:%M:%S", " %H:%M", " %I:%M:%S %p", " %I:%M %p", ""};
   const auto fit = [&](const std::string& form) { return !moments_of(texts, form).empty(); };
   if (fit("iso")) return "iso";
-  for (const std::string time : {"%I:%M:%S %p", "%I:%M %p", "%H:%M:%S", "%H:%M"})
+  for (const char* time : {"%I:%M:%S %p", "%I:%M %p", "%H:%M:%S", "%H:%M"})
     if (fit(time)) return time;
   for (const std::string date : {"%d.%m.%Y", "%d.%m.%y", "%d-%m-%Y", "%m-%d-%Y", "%d-%b-%Y", "%Y/%m/%d", "%Y-%m-%d"})
     for (const char* rest : hours)

@@ -243,6 +243,7 @@ void one_time_of_days(RecognisedData& data) {
   };
   for (const RecognisedColumn& c : data.columns)
     if (is_days(c)) last = &c;
+  if (!last) return;
   for (RecognisedColumn& c : data.columns)
     if (is_days(c) && &c != last) {
       c.leave();

@@ -90,7 +90,7 @@ public:
 
 private:
   /// One candidate per indication.
-  void add(Family family, const std::string& name, const Matrix& by_reading, std::vector<std::string> depends_on,
+  void add(Family family, const std::string& name, const Matrix& by_reading, const std::vector<std::string>& depends_on,
            const std::string& shape = "") {
     if (by_reading.cols() == 1 && of_the_start(by_reading)) return;
     const auto k = index(o_.indications);
@@ -286,7 +286,8 @@ private:
     reversals(a, b);
     reversals(b, a);
     // A drift that grows along a slide starts at nothing and has a fixed end; so has what grows with a temperature.
-    for (const auto& [time, place] : {std::pair{&a, &b}, std::pair{&b, &a}}) {
+    for (const auto& both : {std::pair{&a, &b}, std::pair{&b, &a}}) {
+      const Covariate *const time = both.first, *const place = both.second;
       const bool warms = time->si_unit == "K" && !time->commanded;
       if (!(elapses(*time) || warms) || place->angle || place->si_unit == "K" ||
           place->levels.size() * criteria.least_repeats > o_.readings)

@@ -171,7 +171,7 @@ std::string splitting_measurement(const TraceContext& c, const Search& search, c
   if (finding.terms.empty() || finding.rivals.empty()) return {};
   const Scenario& s = c.experiment.scenario();
   if (s.plan)
-    if (const std::string planned = planned_measurement(c, search, finding); !planned.empty()) return planned;
+    if (std::string planned = planned_measurement(c, search, finding); !planned.empty()) return planned;
   const double now = apart(c, s, search, finding);
   double best = 0;
   std::string words;
