@@ -87,8 +87,7 @@ std::size_t OrderedColumn::search(std::size_t span, double turn, std::size_t fro
     return true;
   });
   std::ranges::sort(wanted);
-  const auto twice = std::ranges::unique(wanted);
-  wanted.erase(twice.begin(), twice.end());
+  wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
   Sieved found;
   if (!wanted.empty()) {
     const auto pass = pass_over(wanted, [](const Cell&) { return SieveRange::keep; });

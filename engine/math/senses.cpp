@@ -8,7 +8,7 @@ namespace gumshoe {
 std::vector<double> senses(std::span<const double> x) {
   std::vector<double> levels(x.begin(), x.end());
   std::ranges::sort(levels);
-  levels.erase(std::ranges::unique(levels).begin(), levels.end());
+  levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
   const auto steps = [&](std::size_t i) { // from level to level
     const auto place = [&](double v) { return std::ranges::lower_bound(levels, v) - levels.begin(); };
     return std::abs(place(x[i]) - place(x[i - 1]));

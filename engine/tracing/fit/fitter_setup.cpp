@@ -203,7 +203,7 @@ std::vector<Index> Fitter::outlying_in_cells() const {
   for (const Index i : PureError(fit.design, rows_, replicates_, threads_).outlying(fit.residual(rows_)))
     for (Index j = i / k * k; j < i / k * k + k; ++j) out.push_back(rows_[index(j)]);
   std::ranges::sort(out);
-  out.erase(std::ranges::unique(out).begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
   return out;
 }
 
