@@ -16,10 +16,13 @@
 namespace gumshoe::scenario {
 namespace {
 
+/// A pressure in the unit of the air's.
+bool is_of_the_air(const RecognisedColumn& c) { return c.unit == "hPa" || c.unit == "mbar"; }
+
 /// A length, an angle, a force, a torque, a mass, a pressure that is not the air's, or a number without a unit.
 bool is_place(const RecognisedColumn& c) {
   if (c.unit == "?" || c.unit == "1") return true;
-  if (c.unit == "hPa" || c.unit == "mbar") return false;
+  if (is_of_the_air(c)) return false;
   static const std::set<std::string> set_units{
       "m", "rad", units::si_unit_of("N"), units::si_unit_of("N m"), units::si_unit_of("Pa"), "kg"};
   return set_units.contains(units::si_unit_of(c.unit));
@@ -59,17 +62,17 @@ RecognisedColumn* follower(const RecognisedData& data, const std::vector<Recogni
   RecognisedColumn* best = nullptr;
   double most = 0, next = 0;
   for (RecognisedColumn* c : all) {
-    const double share = c == position || c->unit == "hPa" || c->unit == "mbar" ? 0 : follows(data, *c, *position);
+    const double share = c == position || is_of_the_air(*c) ? 0 : follows(data, *c, *position);
     if (share > most)
       next = std::exchange(most, share), best = c;
     else
       next = std::max(next, share);
   }
-  const bool clear = most > follows_it && next < does_not;
-  return clear && !(best->unit != "?" && position->unit != "?" &&
-                    units::convertible(best->unit, units::si_unit_of(position->unit)))
-             ? best
-             : nullptr; // of the position's own unit it may be the position, measured
+  if (!(most > follows_it && next < does_not)) return nullptr;
+  // Of the position's own unit it may be the position, measured.
+  const bool of_one_unit =
+      best->unit != "?" && position->unit != "?" && units::convertible(best->unit, units::si_unit_of(position->unit));
+  return of_one_unit ? nullptr : best;
 }
 
 } // namespace
@@ -88,12 +91,14 @@ void guess_roles(RecognisedData& data) {
     const auto likely = [&](const RecognisedColumn& c) {
       return fitting(c) && !is_circumstance(c) && !(role == ColumnRole::reading && c.unit == "?" && was_set(data, c));
     };
-    std::vector<RecognisedColumn*> all;
-    for (RecognisedColumn& c : columns)
-      if (likely(c)) all.push_back(&c);
-    if (RecognisedColumn* const read = role == ColumnRole::reading ? follower(data, all) : nullptr) {
-      read->take(role, Basis::place, "as it follows what was set");
-      return;
+    if (role == ColumnRole::reading) {
+      std::vector<RecognisedColumn*> all;
+      for (RecognisedColumn& c : columns)
+        if (likely(c)) all.push_back(&c);
+      if (RecognisedColumn* const read = follower(data, all)) {
+        read->take(role, Basis::place, "as it follows what was set");
+        return;
+      }
     }
     auto one = std::find_if(first, end, likely);
     if (one == end) one = std::find_if(first, end, fitting);

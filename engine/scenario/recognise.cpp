@@ -76,6 +76,27 @@ std::string clock_of_numbers(const RecognisedData& data, std::size_t column) {
   return within(2e4, 8e4) ? "excel" : within(1e9, 4e9) ? "%s" : "";
 }
 
+/// Takes a column of words for a time if its cells are clock times or days, and for cycles if they are days that recur:
+/// "measured on" has no readings.
+/// @param different  number of different texts
+void take_times(RecognisedColumn& column, const std::vector<std::string>& texts, std::size_t different) {
+  const bool named = column.role == ColumnRole::time;
+  if (!named && column.role != ColumnRole::other && column.role != ColumnRole::reading &&
+      column.role != ColumnRole::position)
+    return;
+  const bool days = are_dates(texts);
+  const std::string form = clock_form(texts);
+  if (days && 2 * different <= texts.size()) {
+    column.take(ColumnRole::cycle, Basis::cells, "by its dates");
+  } else if (!form.empty()) {
+    if (days || !named) column.take(ColumnRole::time, Basis::cells, days ? "by its dates" : "by its clock times");
+    column.clock = form;
+  } else if (days || named) {
+    column.leave();
+    column.why = why_no_clock(texts);
+  }
+}
+
 /// @param below  unit below the name; empty: none
 RecognisedColumn column_of(const RecognisedData& data, std::size_t c, const std::string& below) {
   RecognisedColumn out{data.csv.header[c].text, "1", ColumnRole::other, numbers(data.csv, c, data.decimal)};
@@ -103,28 +124,7 @@ RecognisedColumn column_of(const RecognisedData& data, std::size_t c, const std:
     if (!out.words.empty() && out.role == ColumnRole::other)
       out.take(ColumnRole::direction, Basis::cells, out.number ? "by its signs" : "by its words");
   }
-  // "measured on": the day, and no reading.
-  if (!out.number && (out.role == ColumnRole::reading || out.role == ColumnRole::position) &&
-      (are_dates(texts) || !clock_form(texts).empty()))
-    out.leave();
-  if (!out.number && (out.role == ColumnRole::other || out.role == ColumnRole::time) && are_dates(texts)) {
-    out.leave();
-    if (2 * different.size() <= texts.size())
-      out.take(ColumnRole::cycle, Basis::cells, "by its dates");
-    else if (out.clock = clock_form(texts); !out.clock.empty())
-      out.take(ColumnRole::time, Basis::cells, "by its dates");
-    else
-      out.why = why_no_clock(texts);
-  } else if (!out.number && (out.role == ColumnRole::other || out.role == ColumnRole::time)) {
-    out.clock = clock_form(texts);
-    if (out.clock.empty()) {
-      const bool named = out.role == ColumnRole::time;
-      out.leave();
-      if (named) out.why = why_no_clock(texts);
-    }
-    if (!out.clock.empty() && out.role == ColumnRole::other)
-      out.take(ColumnRole::time, Basis::cells, "by its clock times");
-  }
+  if (!out.number) take_times(out, texts, different.size());
   if (out.number && out.role == ColumnRole::time && unit.empty())
     if (out.clock = clock_of_numbers(data, c); !out.clock.empty()) out.why += ", from a fixed day on by its size";
   out.gaps = out.number && std::ranges::any_of(different, says_missing);
@@ -235,7 +235,7 @@ void find_dates(RecognisedData& data) {
   }
 }
 
-/// Of several columns of days the last is the time, which the others had passed by then.
+/// Of several columns of days, the last one is the time: a part is made before it is measured.
 void one_time_of_days(RecognisedData& data) {
   const RecognisedColumn* last = nullptr;
   const auto is_days = [](const RecognisedColumn& c) {
