@@ -1,5 +1,6 @@
 #include "analysis/scale_points.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -11,6 +12,7 @@ namespace gumshoe::analysis {
 namespace {
 
 bool has_own_zero(const std::string& unit, const std::string& si_unit) { return units::to_si(0, unit, si_unit) != 0; }
+bool of_own_zero(const quantities::InputQuantity& q) { return has_own_zero(q.unit, q.si_unit); }
 
 } // namespace
 
@@ -21,8 +23,9 @@ std::vector<std::string> scale_point_notes(const propagation::Experiment& e, con
   std::vector<Derivatives> all;
   for (std::size_t m = 0; m < measurands && m < e.outputs().size(); ++m) {
     const auto& output = e.outputs()[m];
-    const bool point_wanted = has_own_zero(output.unit, output.si_unit);
-    if (!point_wanted && output.si_unit != "K") continue;
+    // Of a temperature in K only a sum is told, for which two such inputs are needed.
+    const bool as_point = has_own_zero(output.unit, output.si_unit);
+    if (!as_point && (output.si_unit != "K" || std::ranges::count_if(quantities, of_own_zero) < 2)) continue;
     const auto point = e.point(output.reading);
     if (all.empty())
       all = stencils_at_estimates(e)
@@ -34,21 +37,21 @@ std::vector<std::string> scale_point_notes(const propagation::Experiment& e, con
     bool any = false;
     for (std::size_t q = 0; q < point.size(); ++q) {
       const auto& quantity = quantities[e.plan().columns[columns[q]].quantity];
-      if (d.first[q] == 0 || !has_own_zero(quantity.unit, quantity.si_unit)) continue;
+      if (d.first[q] == 0 || !of_own_zero(quantity)) continue;
       weight += d.first[q];
       any = true;
     }
     if (!any || std::isnan(weight) || std::fabs(weight - 1) < 1e-6) continue;
-    if (!point_wanted && weight > 1 && std::fabs(weight - std::round(weight)) < 1e-6)
+    if (as_point)
+      notes.push_back(
+          fmt::format("{}: its inputs in {} enter with weights that add up to {:.4g}, not to 1, so that it is no "
+                      "point on this scale; state a difference of temperatures in K",
+                      output.measurand, output.unit, weight));
+    else if (weight > 1 && std::fabs(weight - std::round(weight)) < 1e-6)
       notes.push_back(
           fmt::format("{}: {:.0f} inputs with a zero of their own, such as degC, are added, each from 0 K on; "
                       "state a correction or a difference of temperatures in K",
                       output.measurand, weight));
-    if (!point_wanted) continue;
-    notes.push_back(
-        fmt::format("{}: its inputs in {} enter with weights that add up to {:.4g}, not to 1, so that it is no "
-                    "point on this scale; state a difference of temperatures in K",
-                    output.measurand, output.unit, weight));
   }
   return notes;
 }

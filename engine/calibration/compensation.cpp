@@ -68,6 +68,14 @@ private:
     throw InputError(s_.file + ": " + what, why, remedy);
   }
 
+  /// A control corrects lengths and angles along lengths and angles.
+  static bool corrected(std::string_view si_unit) { return si_unit == "m" || si_unit == "rad"; }
+  void require_corrected(const VariableCard& c, const std::string& remedy) const {
+    if (!corrected(c.si_unit))
+      refuse(fmt::format("'{}' is {}, no length and no angle", c.name, units::kind_name(std::string(c.si_unit))),
+             "a control corrects lengths and angles along lengths and angles", remedy);
+  }
+
   [[noreturn]] void refuse_nothing() const {
     const auto& left = out_.left_out;
     refuse("nothing to compensate",
@@ -110,7 +118,7 @@ private:
       const std::string_view unit = card_.conditions[c].si_unit;
       if (request_.direction.empty() && card_.conditions[c].name == "direction" && values_of(c).size() > 1)
         direction_ = c;
-      if ((unit != "m" && unit != "rad") || values_of(c).size() < 2) continue;
+      if (!corrected(unit) || values_of(c).size() < 2) continue;
       positions.push_back(c);
       names.emplace_back(card_.conditions[c].name);
     }
@@ -124,14 +132,9 @@ private:
                                : "several conditions may be the position",
              "", positions.empty() ? "" : fmt::format("use --position with one of {}", fmt::join(names, ", ")));
     const std::string other = "use gumshoe run --predict, which says what to expect of readings";
-    const auto a_control_knows = [&](std::string_view name, std::string_view unit, const std::string& use) {
-      if (unit != "m" && unit != "rad")
-        refuse(fmt::format("'{}' is {}, no length and no angle", name, units::kind_name(std::string(unit))),
-               "a control corrects lengths and angles along lengths and angles", use);
-    };
-    a_control_knows(card_.conditions[position_].name, card_.conditions[position_].si_unit,
-                    names.empty() ? other : fmt::format("use --position with one of {}", fmt::join(names, ", ")));
-    a_control_knows(indications[indication_].name, indications[indication_].si_unit, other);
+    require_corrected(card_.conditions[position_],
+                      names.empty() ? other : fmt::format("use --position with one of {}", fmt::join(names, ", ")));
+    require_corrected(indications[indication_], other);
     out_.position = card_.conditions[position_].name;
     out_.position_si_unit = card_.conditions[position_].si_unit;
     out_.indication = indications[indication_].name;
