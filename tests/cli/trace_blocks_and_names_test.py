@@ -1,5 +1,5 @@
-"""Traces of a straight axis whose formula is stated: blocks that differ beside a drift, a name and a shape that is the
-same, waves that the steps of the positions cannot tell apart, and how sizes and suggestions are told.
+"""Traces of a straight axis that a formula states: a block that differs and a drift, effects that hide each other, waves
+that equal steps cannot distinguish; and how sizes and suggestions are worded.
 
 usage: trace_blocks_and_names_test.py path/to/gumshoe [unittest options]
 """

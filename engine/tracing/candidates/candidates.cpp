@@ -1,7 +1,6 @@
 #include "tracing/candidates/candidates.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -90,45 +89,6 @@ Amplitude CandidateMaker::amplitude(std::size_t quantity, const QuantityCard& ca
           card.limits.low, card.limits.high,       high,   low,       positive};
 }
 
-namespace {
-
-/// The covariates with which a stated effect's formulas change; empty where one cannot be evaluated elsewhere.
-std::vector<std::string> varies_with(const scenario::StatedEffect& effect, const scenario::Scenario& s,
-                                     const ModelCard& card, const Observations& o) {
-  std::vector<std::string> out;
-  for (const Covariate& c : o.covariates) {
-    const auto column = std::ranges::find(s.trace.columns, c.name, &scenario::TraceColumn::name);
-    const auto condition = std::ranges::find(card.conditions, c.name, &VariableCard::name);
-    if (column == s.trace.columns.end() && condition == card.conditions.end()) continue;
-    const auto changes = [&](const scenario::StatedPart& part, std::size_t r) {
-      std::vector<double> conditions = s.readings[r].conditions, columns;
-      for (const auto& one : s.trace.columns) columns.push_back(one.values[r]);
-      const double here = part.loading_at(conditions, columns);
-      double& x = column != s.trace.columns.end() ? columns[index(column - s.trace.columns.begin())]
-                                                  : conditions[index(condition - card.conditions.begin())];
-      return std::ranges::any_of(std::array{c.levels.front(), c.levels.back()}, [&](double value) {
-        x = value;
-        return std::fabs(part.loading_at(conditions, columns) - here) > 1e-9 * std::fabs(here);
-      });
-    };
-    for (const auto& part : effect.parts) {
-      if (!part.loading_at) return {};
-      // Three readings: at one of them another factor may be zero.
-      try {
-        if (changes(part, 0) || changes(part, o.readings / 2) || changes(part, o.readings - 1)) {
-          out.push_back(c.name);
-          break;
-        }
-      } catch (const InputError&) { // beyond a table's levels
-        return {};
-      }
-    }
-  }
-  return out;
-}
-
-} // namespace
-
 std::vector<Candidate> stated_candidates(const CandidateMaker& make) {
   const Observations& o = make.observations;
   std::vector<Candidate> out;
@@ -151,7 +111,7 @@ std::vector<Candidate> stated_candidates(const CandidateMaker& make) {
     Candidate one;
     one.family = Family::stated;
     one.name = effect.name;
-    one.depends_on = varies_with(effect, make.experiment.scenario(), *make.experiment.model().card, o);
+    one.depends_on = dependence(o, make.experiment, effect);
     one.amplitudes = {size};
     one.columns = in_sequence(o, column);
     make.add(std::move(one), out);

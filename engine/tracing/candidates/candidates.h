@@ -93,4 +93,8 @@ std::string without_indication(const std::string& name, const Observations& obse
 /// on another that happens to go along with them.
 std::vector<std::string> dependence(const Observations& observations, const Matrix& columns);
 
+/// The covariates with which the formulas of a stated effect change; empty where one cannot be evaluated elsewhere.
+std::vector<std::string> dependence(const Observations& observations, const propagation::Experiment& experiment,
+                                    const scenario::StatedEffect& effect);
+
 } // namespace gumshoe::tracing

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -135,6 +136,55 @@ std::vector<std::string> dependence(const Observations& o, const Matrix& columns
     if (out.empty() && g.groups.size() <= criteria.most_label_groups &&
         largest_share(parts, in_order(g.group)) > criteria.dependence_share)
       out.push_back(g.name);
+  return out;
+}
+
+namespace {
+
+/// Whether a formula's value at a reading changes with one of its inputs.
+/// @param known    conditions, then columns, as the reading has them
+/// @param varied   place in these of the input
+/// @param values   tried in its place
+bool changes(const scenario::StatedPart& part, std::vector<double> known, std::size_t conditions, std::size_t varied,
+             const std::array<double, 2>& values) {
+  const auto value = [&] {
+    const auto middle = known.begin() + index(conditions);
+    return part.loading_at({known.begin(), middle}, {middle, known.end()});
+  };
+  const double here = value();
+  return std::ranges::any_of(values, [&](double x) {
+    known[varied] = x;
+    return std::fabs(value() - here) > 1e-9 * std::fabs(here);
+  });
+}
+
+} // namespace
+
+std::vector<std::string> dependence(const Observations& o, const propagation::Experiment& experiment,
+                                    const scenario::StatedEffect& effect) {
+  const scenario::Scenario& s = experiment.scenario();
+  std::vector<std::string> names, out; // of the formulas' inputs
+  for (const VariableCard& c : experiment.model().card->conditions) names.emplace_back(c.name);
+  const std::size_t conditions = names.size();
+  for (const auto& column : s.trace.columns) names.push_back(column.name);
+  if (!std::ranges::all_of(effect.parts, [](const auto& part) { return static_cast<bool>(part.loading_at); }))
+    return {};
+  for (const Covariate& c : o.covariates) {
+    const auto varied = static_cast<std::size_t>(std::ranges::find(names, c.name) - names.begin());
+    if (varied == names.size()) continue;
+    bool found = false;
+    for (const std::size_t r : {std::size_t{0}, o.readings / 2, o.readings - 1}) { // at one a factor may be zero
+      std::vector<double> known = s.readings[r].conditions;
+      for (const auto& column : s.trace.columns) known.push_back(column.values[r]);
+      try {
+        for (const auto& part : effect.parts)
+          found = found || changes(part, known, conditions, varied, {c.levels.front(), c.levels.back()});
+      } catch (const InputError&) { // beyond a table's levels
+        return {};
+      }
+    }
+    if (found) out.push_back(c.name);
+  }
   return out;
 }
 

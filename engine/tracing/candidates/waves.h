@@ -12,8 +12,8 @@ namespace gumshoe::tracing {
 std::vector<Candidate> waves(const Observations& observations, const std::vector<const Candidate*>& known,
                              const Gain& gain);
 
-/// Levels that a wave can tell apart: those within a tenth of their mean distance count as one, such as a target that
-/// was met again but for its jitter. Returns the first level of each.
+/// Levels, of which those within a tenth of their mean distance are one, such as a target that was met again with
+/// jitter. Returns the first level of each.
 std::vector<double> places(const Covariate& covariate);
 
 /// Step of a grid, from the first level on, on which all levels (ascending) lie within this share of the step; 0: there

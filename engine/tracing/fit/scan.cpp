@@ -19,8 +19,10 @@ namespace {
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// Factor that makes reduced columns orthonormal; without columns where next to nothing is left of them.
-Matrix orthonormal(const Matrix& reduced, const Vector& length) {
-  Matrix scaled = reduced.transpose() * reduced;
+/// @param products  of the reduced columns
+/// @param length    of the columns before they were reduced
+Matrix orthonormal(const Matrix& products, const Vector& length) {
+  Matrix scaled = products;
   for (Index i = 0; i < scaled.rows(); ++i)
     for (Index j = 0; j < scaled.cols(); ++j)
       scaled(i, j) = length[i] > 0 && length[j] > 0 ? scaled(i, j) / (length[i] * length[j]) : 0;
@@ -120,7 +122,7 @@ void Scan::prepare(std::size_t k) {
     for (std::size_t a = first; a < last; ++a) {
       const Index cols = candidates_[a]->columns.cols();
       const Matrix w = white.middleCols(from, cols), l = left.middleCols(from, cols);
-      orthonormal_[k].push_back(orthonormal(l, w.colwise().norm()));
+      orthonormal_[k].push_back(orthonormal(l.transpose() * l, w.colwise().norm()));
       if (k == plain_) find_absorbed(a, w, l.squaredNorm());
       from += cols;
     }
@@ -302,32 +304,16 @@ Fit Scan::fit(std::size_t a, const Vector& residuals) const {
   return out;
 }
 
-double Scan::pair_leaves(std::size_t a, std::size_t b, const Vector& data, std::size_t k) const {
-  Matrix both(rows_.size(), candidates_[a]->columns.cols() + candidates_[b]->columns.cols());
-  both << units(a, a + 1), units(b, b + 1);
-  const Matrix left_of_both = whitened_[k].reduce_units(both);
-  const Matrix basis = left_of_both * orthonormal(left_of_both, whitened_[k].whiten_units(both).colwise().norm());
-  const double left = data.squaredNorm();
-  return std::max(left - (basis.transpose() * data).squaredNorm(), 1e-12 * left);
-}
-
-double Scan::pair_ratio(std::size_t a, std::size_t b, const Vector& residuals, std::size_t k) const {
-  const Vector data = whitened_[k].reduce(winsorised(residuals));
-  return static_cast<double>(freedom_) * std::log(data.squaredNorm() / pair_leaves(a, b, data, k));
-}
-
-double Scan::pair_criterion(std::size_t a, std::size_t b, const Vector& residuals, std::size_t k) const {
-  return criterion(pair_leaves(a, b, whitened_[k].reduce(winsorised(residuals)), k), k);
-}
-
 Matrix Scan::pair_criteria(const std::vector<std::size_t>& some, std::size_t first, const Vector& residuals,
                            std::size_t k) const {
   const Vector data = whitened_[k].reduce(winsorised(residuals));
   std::vector<Index> from{0};
-  for (const std::size_t a : some) from.push_back(from.back() + orthonormal_[k][a].cols());
-  Matrix all(data.size(), from.back());
+  for (const std::size_t a : some) from.push_back(from.back() + candidates_[a]->columns.cols());
+  Matrix all(rows_.size(), from.back());
   for (std::size_t i = 0; i < some.size(); ++i)
-    all.middleCols(from[i], from[i + 1] - from[i]) = signatures(some[i], some[i] + 1, k);
+    all.middleCols(from[i], from[i + 1] - from[i]) = units(some[i], some[i] + 1);
+  const Vector length = whitened_[k].whiten_units(all).colwise().norm();
+  all = whitened_[k].reduce_units(all);
   const Matrix products = transposed_product(all, all);
   const Vector along = transposed_product(all, data);
   const double left = data.squaredNorm();
@@ -335,19 +321,19 @@ Matrix Scan::pair_criteria(const std::vector<std::size_t>& some, std::size_t fir
   for (Index a = 0; a < out.rows(); ++a)
     for (Index b = a; b < out.cols(); ++b) {
       std::vector<Index> columns;
-      for (const Index one : a == b ? std::vector{a} : std::vector{a, b})
+      for (const Index one : {a, b})
         for (Index j = from[index(one)]; j < from[index(one) + 1]; ++j) columns.push_back(j);
-      double explained = 0;
-      if (!columns.empty()) {
-        const Eigen::SelfAdjointEigenSolver<Matrix> eigen(Matrix(products(columns, columns)));
-        const Vector by = eigen.eigenvectors().transpose() * Vector(along(columns));
-        for (Index j = 0; j < by.size(); ++j)
-          if (eigen.eigenvalues()[j] > criteria.absorbed_share) explained += by[j] * by[j] / eigen.eigenvalues()[j];
-      }
+      const Matrix factor = orthonormal(products(columns, columns), length(columns));
+      const double explained = (factor.transpose() * Vector(along(columns))).squaredNorm();
       out(a, b) = criterion(std::max(left - explained, 1e-12 * left), k);
       if (b < out.rows()) out(b, a) = out(a, b);
     }
   return out;
+}
+
+double Scan::pair_ratio(std::size_t a, std::size_t b, const Vector& residuals, std::size_t k) const {
+  const double left = whitened_[k].reduce(winsorised(residuals)).squaredNorm();
+  return criterion(left, k) - pair_criteria({a, b}, 1, residuals, k)(0, 1);
 }
 
 double Scan::correlation(std::size_t a, std::size_t b, std::size_t k) const {

@@ -52,9 +52,8 @@ public:
   Fit fit(std::size_t candidate, const Vector& residuals) const;
   /// Two candidates together, under a given covariance model: 2 ln of the likelihood ratio against neither.
   double pair_ratio(std::size_t a, std::size_t b, const Vector& residuals, std::size_t model) const;
-  /// Minus 2 ln likelihood of both together, comparable with Statistics::criterion.
-  double pair_criterion(std::size_t a, std::size_t b, const Vector& residuals, std::size_t model) const;
-  /// The same of the first of some candidates with all of them, in pairs: [a][b] by their places in `some`.
+  /// Minus 2 ln likelihood of the first of some candidates with all of them, in pairs, comparable with
+  /// Statistics::criterion: [a][b] by their places in `some`.
   Matrix pair_criteria(const std::vector<std::size_t>& some, std::size_t first, const Vector& residuals,
                        std::size_t model) const;
 
@@ -85,8 +84,6 @@ private:
   Matrix reduced(std::size_t candidate, std::size_t model) const; ///< Whitened::reduce of a signature
   /// Of these candidates, reduced and orthonormal within each.
   Matrix signatures(std::size_t first, std::size_t last, std::size_t model) const;
-  /// Squares that two candidates together leave of these, reduced.
-  double pair_leaves(std::size_t a, std::size_t b, const Vector& reduced, std::size_t model) const;
   void prepare(std::size_t model);
   void find_absorbed(std::size_t candidate, const Matrix& white, double left);
   double criterion(double left, std::size_t model) const;

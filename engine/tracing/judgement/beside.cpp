@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <set>
 
 #include "tracing/criteria.h"
 #include "tracing/judgement/decisions.h"
@@ -70,13 +69,15 @@ std::optional<std::size_t> simpler_beside_another(const Evidence& e, const Obser
     // The noise as it is with the simpler shape, or with the whole one: without a signature a large effect passes for
     // correlation; with the simpler shape alone the other one does.
     const Fit alone = e.scan().fit(s, e.residuals());
-    const std::set<std::size_t> models{alone.covariance_model, of_shape};
-    for (std::size_t a = 0; a < e.candidates().size(); ++a) {
-      if (!is_another(e, o, a, e.candidates()[s], e.candidates()[shape])) continue;
-      double added = 0;
-      for (const std::size_t k : models)
-        added = std::max(added, e.assessment().data.criterion[0] - e.scan().pair_criterion(s, a, e.residuals(), k) -
-                                    alone.ratio);
+    std::vector<std::size_t> with{s};
+    for (std::size_t a = 0; a < e.candidates().size(); ++a)
+      if (is_another(e, o, a, e.candidates()[s], e.candidates()[shape])) with.push_back(a);
+    const Matrix pairs = e.scan()
+                             .pair_criteria(with, 1, e.residuals(), alone.covariance_model)
+                             .cwiseMin(e.scan().pair_criteria(with, 1, e.residuals(), of_shape));
+    for (std::size_t i = 1; i < with.size(); ++i) {
+      const std::size_t a = with[i];
+      const double added = std::max(0.0, e.assessment().data.criterion[0] - pairs(0, index(i)) - alone.ratio);
       const double both = simpler[s].score + added - 2 * e.assessment().null[a].mean;
       const std::pair order{e.candidates()[s].columns.cols(), -both};
       if (both >= by_one_shape(e, e.candidates()[a], e.candidates()[s]) &&

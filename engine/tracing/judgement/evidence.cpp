@@ -191,7 +191,7 @@ std::vector<std::string> Evidence::jumping(double least) const {
   for (std::size_t a = 0; a < candidates_.size(); ++a)
     all.push_back({candidates_[a].name, score(a), !candidates_[a].start.empty() && score(a) > least});
   std::vector<std::string> out;
-  for (const std::size_t a : best_of(all, criteria.most_jumping)) out.push_back(candidates_[a].name);
+  for (const std::size_t a : tracing::best_of(all, criteria.most_jumping)) out.push_back(candidates_[a].name);
   return out;
 }
 
@@ -324,6 +324,13 @@ Matrix Evidence::noise(std::size_t draws, std::uint64_t key) const {
 
 double Evidence::correlation(std::size_t a, std::size_t b) const {
   return scan_->correlation(a, b, assessment_.data.covariance_model[0]);
+}
+
+std::vector<std::size_t> Evidence::best_of(const std::function<bool(const Candidate&)>& fits, std::size_t most) const {
+  std::vector<Scored> all;
+  for (std::size_t a = 0; a < candidates_.size(); ++a)
+    all.push_back({candidates_[a].name, score(a), fits(candidates_[a]) && assessment_.data.ratio(index(a), 0) > 0});
+  return tracing::best_of(all, most);
 }
 
 Matrix Evidence::pair_scores(const std::vector<std::size_t>& some, std::size_t first) const {

@@ -1,6 +1,7 @@
 #pragma once
 /// Evidence of one round of the search: its candidates, their assessment by the bootstrap, and figures that require a
 /// fit or a simulation.
+#include <functional>
 #include <set>
 
 #include "tracing/fit/trace_context.h"
@@ -40,6 +41,8 @@ public:
   const std::vector<const Candidate*>& pointers() const { return pointers_; }
   const JointFit& fit() const { return fit_; }
 
+  /// Candidates of these that explain something, one of each name, the best first. @param most  so many at most
+  std::vector<std::size_t> best_of(const std::function<bool(const Candidate&)>& fits, std::size_t most) const;
   double score(std::size_t candidate) const;  ///< its linear fit's ratio minus twice that by chance
   double chance(std::size_t candidate) const; ///< twice the ratio by chance, and what the sizes tried cost
   double limit(std::size_t candidate) const;  ///< likelihood ratio that it must exceed

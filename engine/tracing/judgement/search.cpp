@@ -12,6 +12,7 @@
 #include "tracing/judgement/beside.h"
 #include "tracing/judgement/decisions.h"
 #include "tracing/judgement/evidence.h"
+#include "tracing/judgement/hidden_pair.h"
 #include "tracing/judgement/in_place_of_scatter.h"
 #include "tracing/judgement/pruning.h"
 #include "tracing/judgement/ranking.h"
@@ -117,14 +118,6 @@ private:
 
   const Candidate& candidate(std::size_t a) const { return evidence_->candidates()[a]; }
 
-  std::vector<std::size_t> best_of(const std::function<bool(const Candidate&)>& fits, std::size_t most) const {
-    std::vector<Scored> all;
-    for (std::size_t a = 0; a < evidence_->candidates().size(); ++a)
-      all.push_back({candidate(a).name, evidence_->score(a),
-                     fits(candidate(a)) && evidence_->assessment().data.ratio(index(a), 0) > 0});
-    return tracing::best_of(all, most);
-  }
-
   /// A finding by one candidate, the next term of the fit or the one `behind` that.
   SearchFinding found_by(std::size_t a, Kind kind, std::size_t behind = 0) const {
     SearchFinding out;
@@ -148,11 +141,12 @@ private:
   /// Candidates that could win, by the whole model, best first.
   std::vector<Trial> trials() const {
     // What only one rod or one tool has asks for more: it must lead what all have.
-    auto physical = best_of([](const Candidate& a) { return a.physical() && !a.in_part(); }, criteria.most_refitted);
-    const auto parts = best_of([](const Candidate& a) { return a.in_part(); }, 1);
+    auto physical =
+        evidence_->best_of([](const Candidate& a) { return a.physical() && !a.in_part(); }, criteria.most_refitted);
+    const auto parts = evidence_->best_of([](const Candidate& a) { return a.in_part(); }, 1);
     if (!parts.empty() && (physical.empty() || evidence_->score(parts[0]) > evidence_->score(physical[0]) +
                                                                                 2 * std::log(criteria.rarity_of_part)))
-      physical = best_of([](const Candidate& a) { return a.physical(); }, criteria.most_refitted);
+      physical = evidence_->best_of([](const Candidate& a) { return a.physical(); }, criteria.most_refitted);
     std::vector<Trial> out;
     for (const std::size_t a : physical) {
       if (!out.empty() && !could_still_win(evidence_->score(a), evidence_->score(physical[0]))) break;
@@ -172,13 +166,15 @@ private:
 
   bool take_signature() {
     if (!sought_.names) return take_shape();
-    const auto plain = best_of([](const Candidate& a) { return a.family == Family::shape; }, criteria.rival_shapes);
+    const auto plain =
+        evidence_->best_of([](const Candidate& a) { return a.family == Family::shape; }, criteria.rival_shapes);
     const std::vector<Trial> tried = trials();
     const auto score_of_best = [&](const std::vector<std::size_t>& of) {
       return of.empty() ? 0 : evidence_->score(of[0]);
     };
     if (tried.empty())
-      return take_pair(score_of_best(best_of([](const Candidate& a) { return !a.physical(); }, 1))) || take_shape();
+      return take_pair(score_of_best(evidence_->best_of([](const Candidate& a) { return !a.physical(); }, 1))) ||
+             take_shape();
     const std::size_t best = tried[0].candidate;
     if (const auto shape = shape_instead(tried[0], plain)) {
       if (take_pair(score_of_best(plain))) return true;
@@ -220,33 +216,20 @@ private:
 
   /// One masks the other: two effects together that explain more than shapes do. @param best_shape  a shape's score
   bool take_pair(double best_shape) {
-    const auto first = best_of([](const Candidate& x) { return x.physical() && !x.in_part(); }, criteria.most_paired);
-    if (first.empty()) return false;
-    std::vector<std::size_t> all = first;
-    for (std::size_t b = 0; b < evidence_->candidates().size(); ++b)
-      if (evidence_->testable(b) && !candidate(b).in_part() && std::ranges::find(first, b) == first.end())
-        all.push_back(b);
-    const Matrix scores = evidence_->pair_scores(all, first.size());
-    double best = 0;
-    std::size_t pair[2] = {0, 0};
-    for (std::size_t a = 0; a < first.size(); ++a)
-      for (std::size_t b = 0; b < all.size(); ++b)
-        if (const double s = scores(index(a), index(b)); candidate(all[a]).name != candidate(all[b]).name && s > best)
-          best = s, pair[0] = all[a], pair[1] = all[b];
-    if (best == 0 || !pair_found(best, {evidence_->score(pair[0]), evidence_->score(pair[1])},
-                                 {evidence_->limit(pair[0]), evidence_->limit(pair[1])}, best_shape))
-      return false;
+    const auto pair = hidden_pair(*evidence_, best_shape);
+    if (!pair) return false;
     std::vector<Term> both;
-    for (const std::size_t a : pair)
+    for (const std::size_t a : *pair)
       both.push_back(candidate(a).start.empty() ? Term{candidate(a), Vector::Zero(candidate(a).columns.cols())}
                                                 : at_start(candidate(a)));
     const JointFit fit = evidence_->with_shapes(both);
     if (!fit.valid || !evidence_->predicts_better(fit)) return false;
     for (const std::size_t i : {0, 1}) {
-      SearchFinding found = found_by(pair[i], Kind::named, i);
-      found.finding.remarks.push_back("found together with " + candidate(pair[1 - i]).name + "; each masks the other");
+      SearchFinding found = found_by((*pair)[i], Kind::named, i);
+      found.finding.remarks.push_back("found together with " + candidate((*pair)[1 - i]).name +
+                                      "; each masks the other");
       add(std::move(found));
-      outcomes_[pair[i]] = alone;
+      outcomes_[(*pair)[i]] = alone;
     }
     adopt(fit);
     return true;
@@ -292,7 +275,7 @@ private:
   bool take_shape() {
     const auto& assessment = evidence_->assessment();
     std::optional<std::pair<std::size_t, JointFit>> unconfirmed;
-    auto shapes = best_of([](const Candidate& x) { return !x.physical(); }, criteria.most_shapes);
+    auto shapes = evidence_->best_of([](const Candidate& x) { return !x.physical(); }, criteria.most_shapes);
     std::erase_if(shapes, [&](std::size_t a) { return assessment.p[a] > assessment.threshold; });
     if (shapes.empty()) return false;
     // By the whole model: readings that are outlying without a shape need not be so with it.
