@@ -168,7 +168,7 @@ TEST_CASE("shapes span what they say", "[tracing]") {
   spans("polynomial:feed^3", 0, [](double x) { return x * x * x; });
   spans("polynomial:1/feed", 0, [](double x) { return 5 / x; });
   spans(
-      "polynomial:feed^2", 0, [](double x) { return (x - 4.5) * (x - 4.5); }, "about the middle");
+      "polynomial:feed^2", 0, [](double x) { return (x - 4.5) * (x - 4.5); }, "zero in the middle");
   spans("polynomial:load", 2, [](double x) { return x; });
   for (int h = 1; h <= 4; ++h) // any phase
     spans("harmonic:" + std::to_string(h) + "xangle", 1, [&](double x) { return std::cos(h * x + 0.7); });

@@ -148,7 +148,7 @@ private:
       add(Family::shape, "polynomial:1/" + c.name, y.array().inverse() * (c.levels.front() / size), {c.name});
     if (c.levels.size() < 4) return;
     // What is left of a curve when a line is absorbed.
-    add(Family::shape, "polynomial:" + c.name + "^2", x.array().square(), {c.name}, "about the middle");
+    add(Family::shape, "polynomial:" + c.name + "^2", x.array().square(), {c.name}, "zero in the middle");
   }
 
   void harmonics(const Covariate& c) {

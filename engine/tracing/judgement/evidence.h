@@ -21,7 +21,7 @@ struct Trial {
 /// A candidate over a finite step as a term, from the sizes over which it was taken.
 Term at_start(const Candidate& candidate);
 
-/// "polynomial:feed^2 (about the middle)"
+/// "polynomial:feed^2 (zero in the middle)"
 std::string with_shape(const Candidate& candidate);
 
 /// Readings of equal conditions and of blocks among the training readings. Keeps a reference to the fit's design.
