@@ -26,6 +26,7 @@ quantities::SamplePlan plan_of_scores(quantities::SamplePlan plan, std::string_v
     shared.key = group.key;
     plan.variates.push_back(shared);
     group.degrees_of_freedom = 0;
+    group.together.clear();
   }
   for (auto& v : plan.variates) v.key = hash64(name, v.key);
   return plan;

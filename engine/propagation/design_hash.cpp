@@ -59,6 +59,8 @@ std::string design_hash(const Experiment& e) {
     record.add(group.variates);
     record.add(group.matrix);
     if (group.multivariate_t()) record.add(group.key);
+    for (const auto& ranks : group.together)
+      for (const std::uint32_t rank : ranks) record.add(std::uint64_t{rank});
   }
   for (const auto& q : s.quantities) record.add(q.name);
   record.add(std::uint64_t{plan.columns.size()});

@@ -17,6 +17,7 @@ Correlations::Correlations(const SamplePlan& plan)
 double Correlations::coefficient(std::size_t g, std::size_t i, std::size_t j) {
   const CopulaGroup& group = plan_.copulas[g];
   const std::size_t n = group.variates.size();
+  if (!group.pearson.empty()) return group.pearson[i * n + j];
   const double stated = group.matrix[i * n + j];
   if (i == j || stated == 0 || group.multivariate_t()) return stated;
   if (coefficients_[g].empty()) coefficients_[g].assign(n * n, std::numeric_limits<double>::quiet_NaN());

@@ -2,6 +2,7 @@
 /// Input quantities (JCGM 200, 2.50) as a scenario states them: values, components of uncertainty,
 /// scopes and correlations. Plain data, SI units; quantities of models, of effects and the noise of
 /// indications are the same kind of thing.
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
@@ -57,6 +58,9 @@ struct Correlation {
   Kind kind = Kind::copula;
   std::vector<std::string> quantities; ///< names, or "quantity.component"
   std::vector<double> matrix;          ///< row-major, n x n, of the stated kind
+  /// Samples drawn together in an earlier run, which keep their joint distribution: of each quantity, whose
+  /// distribution is empirical, the rank of its value in each of them. Empty: tied by the matrix alone.
+  std::vector<std::vector<std::uint32_t>> together = {};
 };
 
 /// One reading: the mean of `repeats` readouts taken under the same labels and conditions.

@@ -30,14 +30,18 @@ struct Column {
   std::size_t quantity = 0;          ///< of the scenario
 };
 
-/// Variates tied by a Gaussian copula, or jointly t-distributed: then z = L e is divided by sqrt(W), with one
-/// W = chi-squared / degrees of freedom for all of them.
+/// Variates tied by a Gaussian copula, drawn together from the samples of an earlier run, or jointly t-distributed:
+/// then z = L e is divided by sqrt(W), with one W = chi-squared / degrees of freedom for all of them.
 struct CopulaGroup {
   std::vector<std::size_t> variates; ///< in the order of the rows
   std::vector<double> cholesky;  ///< lower factor L of the matrix, row-major; trailing columns are zero if it is singular
   std::vector<double> matrix;    ///< of the copula, or of the scales of the t distributions
   double degrees_of_freedom = 0; ///< of a multivariate t distribution; 0: Gaussian copula
   std::uint64_t key = 0;         ///< of the stream of W
+  /// By variate: the rank of its value in each sample of an earlier run. One sample is drawn for all. The matrix is a
+  /// Gaussian copula's near it, for whatever needs a conditional law; empty: it is the law itself.
+  std::vector<std::vector<std::uint32_t>> together;
+  std::vector<double> pearson; ///< coefficients of these samples, row-major; empty: by the copula
   bool singular() const { return cholesky.back() == 0; }
   bool multivariate_t() const { return degrees_of_freedom > 0; }
   /// Distribution of W: gamma(nu / 2, 2 / nu).

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 #include <set>
+#include <span>
 
 #include "base/hash.h"
 #include "quantities/cells.h"
@@ -39,6 +40,7 @@ struct Sampler::Impl {
     double mean, u;
     std::optional<std::uint32_t> dimension;
     std::vector<random::SobolDimension> sobol; ///< by purpose
+    std::span<const double> values;            ///< of an empirical distribution, sorted
   };
 
   PointSet design;
@@ -63,8 +65,15 @@ struct Sampler::Impl {
   }
 
   Source source(std::uint64_t key, std::uint32_t reading, const Distribution& d, std::set<std::uint32_t>& taken) const {
-    Source out{{key, reading, 0, 0}, QuantileFunction(d), d.family == Family::normal, d.parameters[0],
-               d.parameters[1],      {},                  {}};
+    Source out{{key, reading, 0, 0},
+               QuantileFunction(d),
+               d.family == Family::normal,
+               d.parameters[0],
+               d.parameters[1],
+               {},
+               {},
+               {}};
+    if (d.values) out.values = *d.values;
     // Draws per reading are many and matter little each: they stay plain Monte Carlo.
     if (design != PointSet::sobol || reading != 0) return out;
     out.dimension = take_dimension(key, taken);
@@ -90,10 +99,26 @@ struct Sampler::Impl {
     }
   }
 
+  /// One sample of an earlier run for all variates of the group, by the first one's uniform number.
+  void draw_together(const CopulaGroup& group, std::uint64_t first, std::size_t n, Purpose purpose, double* out,
+                     std::size_t stride) const {
+    std::array<double, strip> chosen;
+    uniforms(sources[group.variates[0]], first, n, purpose, chosen.data());
+    const auto samples = static_cast<double>(group.together[0].size());
+    for (double& u : std::span(chosen.data(), n)) u = std::min(std::floor(u * samples), samples - 1);
+    for (std::size_t i = 0; i < group.variates.size(); ++i) {
+      double* row = out + group.variates[i] * stride;
+      const Source& source = sources[group.variates[i]];
+      for (std::size_t k = 0; k < n; ++k)
+        row[k] = source.values[group.together[i][static_cast<std::size_t>(chosen[k])]];
+    }
+  }
+
   /// Normal scores z, tied by L z in place, then back to deviates: by their distributions, or divided by sqrt(W).
   void draw_group(std::size_t g, std::uint64_t first, std::size_t n, Purpose purpose, double* out,
                   std::size_t stride) const {
     const CopulaGroup& group = copulas[g];
+    if (!group.together.empty()) return draw_together(group, first, n, purpose, out, stride);
     const std::size_t size = group.variates.size();
     std::array<double, strip> widening; // 1 / sqrt(W)
     if (shared_scales[g]) {

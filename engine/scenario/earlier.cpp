@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <numeric>
@@ -108,13 +109,45 @@ public:
         c.quantities.push_back(draws_[i].name);
         for (const std::size_t j : members) c.matrix.push_back(r[i * n + j]);
       }
-      context_.note(fmt::format("{}: tied as their results are", fmt::join(c.quantities, ", ")));
+      c.together = ranks_together(members);
+      context_.note(fmt::format("{}: {}", fmt::join(c.quantities, ", "),
+                                c.together.empty() ? "tied as their results are, by a Gaussian copula"
+                                                   : "drawn together, as their run drew them"));
       out.push_back(std::move(c));
     }
     return out;
   }
 
 private:
+  /// Of outputs of one file with samples: the rank of each one's value in every sample in which all have one.
+  std::vector<std::vector<std::uint32_t>> ranks_together(const std::vector<std::size_t>& members) const {
+    std::vector<const std::vector<double>*> samples;
+    for (const std::size_t i : members) {
+      const Draw& d = draws_[i];
+      if (!d.output || d.stated->distribution.family != quantities::Family::empirical ||
+          d.stated->earlier->file != draws_[members[0]].stated->earlier->file)
+        return {};
+      samples.push_back(&d.output->samples);
+    }
+    std::vector<std::size_t> rows;
+    for (std::size_t row = 0; row < samples[0]->size(); ++row)
+      if (std::ranges::all_of(samples, [&](const auto* s) { return row < s->size() && !std::isnan((*s)[row]); }))
+        rows.push_back(row);
+    if (rows.empty()) return {};
+    std::vector<std::vector<std::uint32_t>> out;
+    for (const auto* s : samples) {
+      std::vector<std::size_t> order; // as the distribution sorts its values
+      for (std::size_t row = 0; row < s->size(); ++row)
+        if (!std::isnan((*s)[row])) order.push_back(row);
+      std::ranges::stable_sort(order, {}, [&](std::size_t row) { return (*s)[row]; });
+      std::vector<std::uint32_t> rank(s->size());
+      for (std::size_t k = 0; k < order.size(); ++k) rank[order[k]] = static_cast<std::uint32_t>(k);
+      out.emplace_back();
+      for (const std::size_t row : rows) out.back().push_back(rank[row]);
+    }
+    return out;
+  }
+
   std::size_t root(std::size_t i) const {
     while (set_[i] != i) i = set_[i];
     return i;

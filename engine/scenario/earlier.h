@@ -69,9 +69,8 @@ private:
 
 /// Dependence of the quantities that are `from` results on each other and on the scenario's own quantities, one
 /// correlation for each set that is tied:
-/// - two outputs of one file: the correlation of their normal scores, sample by sample (where the file has no samples,
-/// of
-///   their budgets);
+/// - outputs of one file: the correlation of their normal scores, and the samples themselves, which are drawn together
+///   unless others are tied to them as well (where the file has no samples, the correlation of their budgets);
 /// - of different files: by the components of `same` in both budgets, sum of c_i u_i c_j u_j over u_a u_b (JCGM 100,
 /// F.1.2.3);
 /// - with a quantity of this scenario that `same` names: its contribution over u.

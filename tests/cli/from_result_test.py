@@ -81,6 +81,25 @@ class FromResult(Lengths):
             width = np.diff(np.quantile(old["values"], [share - 0.01, share + 0.01]))[0] / 0.02
             self.assertAlmostEqual(a, b, delta=5 * width * math.sqrt(share * (1 - share) / SAMPLES))
 
+    def test_outputs_of_one_file_keep_their_joint_distribution(self):
+        """Sums of rectangular inputs, whose dependence no Gaussian copula has: every new sample is one of the earlier run."""
+        self.ran("sums", 'p = "a + b"\nq = "a - 2 * b"', 'a = { value = "1", half_width = "0.3", distribution = "rectangular" }\n'
+                 'b = { value = "3", half_width = "0.2", distribution = "rectangular" }')
+        two = 'p = { from = "sums.h5:p" }\nq = { from = "sums.h5:q" }'
+        new = self.figures(self.ran("of_both", 'y = "p + q"', two))
+        with h5py.File(self.folder / "sums.h5") as f:
+            earlier = np.sort((f["outputs/p"][:] + f["outputs/q"][:]).ravel())
+        at = np.clip(np.searchsorted(earlier, new["values"]), 1, len(earlier) - 1)
+        off = np.minimum(np.abs(earlier[at] - new["values"]), np.abs(earlier[at - 1] - new["values"]))
+        shift = 1e-5  # the samples are about the estimate, of which their mean differs by a part of its standard error
+        self.assertLess(off.max(), 1e-3 * np.std(earlier) + shift)
+        self.assertAlmostEqual(new["u_c"], np.std(earlier), delta=1e-9)
+        self.assertAlmostEqual(new["u"], np.std(earlier), delta=SE * new["u"])
+        for share in (0.005, 0.025, 0.2, 0.8, 0.975, 0.995):
+            self.assertAlmostEqual(np.quantile(new["values"], share), np.quantile(earlier, share), delta=0.003)
+        run = gumshoe("check", self.folder / "of_both.toml")
+        self.assertIn("drawn together", run.stdout)
+
     def test_two_outputs_of_one_file_keep_their_correlation(self):
         out = self.ran("both", 'y = "s + d"\nz = "s"', 's = { from = "pair.h5:s" }\nd = { from = "pair.h5:d" }')
         # s + d = 2 p, of which u is 0.4; of independent s and d it would be 0.316.
