@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 
@@ -73,12 +74,33 @@ private:
   std::map<std::pair<std::size_t, bool>, All> shifted_;
 };
 
-/// The terms of 5.1.2 note: sum over i, j of [H_ij^2 / 2 + c_i d^3f/dx_i dx_j^2] u_i^2 u_j^2 (inputs normal and
-/// independent), and the bias sum of H_ii u_i^2 / 2. Quantities, not variates: u by quantity. Third derivatives are
-/// differences of exact first ones over u / 64: the error is 2e-5 of the next term of the series, the noise 1e-12 of
-/// c_i.
-void second_order(Budget& b, Slopes& slopes, std::size_t measurand, const std::vector<double>& u) {
-  const std::size_t n = u.size();
+/// Central moments of a quantity at a reading, summed over its variates.
+struct CentralMoments {
+  double u = 0, third = 0;
+  double fourth() const { return cumulant_ + 3 * u * u * u * u; }
+
+  /// A t is taken as the law of propagation takes it: normal, with its u.
+  void add(const quantities::Distribution& d, double by) {
+    const bool normal = by == 0 || d.family == quantities::Family::t;
+    u = std::hypot(u, by);
+    third += normal ? 0 : d.skewness() * by * by * by;
+    cumulant_ += normal ? 0 : (d.kurtosis() - 3) * by * by * by * by;
+  }
+
+private:
+  double cumulant_ = 0;
+};
+
+/// The terms of 5.1.2 note, of independent inputs with their own moments m3, m4 (of normal ones 0 and 3 u^4, as the
+/// note has them), to the fourth power of u: sum over i of
+///     (H_ii^2 (m4 - u^4) / 4 + c_i H_ii m3 + c_i d^3f/dx_i^3 m4 / 3)
+/// and over i /= j of (H_ij^2 / 2 + c_i d^3f/dx_i dx_j^2) u_i^2 u_j^2; and the bias sum of H_ii u_i^2 / 2. Quantities,
+/// not variates. Third derivatives are differences of exact first ones over u / 64: the error is 2e-5 of the next term
+/// of the series, the noise 1e-12 of c_i.
+void second_order(Budget& b, Slopes& slopes, std::size_t measurand, const std::vector<CentralMoments>& moments) {
+  const std::size_t n = moments.size();
+  std::vector<double> u;
+  for (const CentralMoments& m : moments) u.push_back(m.u);
   Derivatives at;
   if (has_second_order(u))
     at = slopes.second(measurand);
@@ -100,15 +122,20 @@ void second_order(Budget& b, Slopes& slopes, std::size_t measurand, const std::v
     }
     for (std::size_t i = 0; i < n; ++i) {
       if (u[i] == 0) continue;
-      const double h = at.second[i * n + j];
-      const double third =
-          at.exact ? (above.first[i] - 2 * at.first[i] + below.first[i]) / (fraction * u[j] * fraction * u[j])
-                   : at.third[i * n + j];
-      extra += (0.5 * h * h + (std::isfinite(third) ? at.first[i] * third : 0)) * u[i] * u[i] * u[j] * u[j];
+      const double h = at.second[i * n + j], squares = u[i] * u[i] * u[j] * u[j];
+      double third = at.exact
+                         ? (above.first[i] - 2 * at.first[i] + below.first[i]) / (fraction * u[j] * fraction * u[j])
+                         : at.third[i * n + j];
+      if (!std::isfinite(third)) third = 0;
+      const double fourth = moments[i].fourth();
+      extra += i == j ? h * h * (fourth - squares) / 4 + at.first[i] * (h * moments[i].third + third * fourth / 3)
+                      : (0.5 * h * h + at.first[i] * third) * squares;
     }
   }
-  b.second_order_uncertainty =
-      std::sqrt(std::max(0.0, b.combined_standard_uncertainty * b.combined_standard_uncertainty + extra));
+  const double variance = b.combined_standard_uncertainty * b.combined_standard_uncertainty + extra;
+  b.second_order_uncertainty = variance < 0 ? nan : std::sqrt(variance);
+  if (variance < 0)
+    b.remark = "no terms of second order: they exceed the variance, so that the series is of no use here";
 }
 
 /// Derivatives at the estimates; says in the budget why there are none.
@@ -164,7 +191,7 @@ Budget budget_of(const propagation::Experiment& e, std::size_t output, double co
   const std::vector<double>& point = slopes.point();
   const Derivatives d = linearise(e, slopes, measurand, b);
 
-  std::vector<double> u_of_quantity(point.size(), 0.0);
+  std::vector<CentralMoments> moments(point.size());
   std::vector<Term> terms;
   for (const auto& [v, q] : variates_reaching(e, slopes.reading())) {
     const Contribution c = contribution_of(e, v, q, point[q], d);
@@ -174,7 +201,7 @@ Budget budget_of(const propagation::Experiment& e, std::size_t output, double co
     }
     const double signed_contribution = c.differentiable && b.applicable ? d.first[q] * c.standard_uncertainty : 0;
     terms.push_back({v, signed_contribution, c.degrees_of_freedom});
-    u_of_quantity[q] = std::hypot(u_of_quantity[q], c.standard_uncertainty);
+    moments[q].add(e.plan().variates[v].distribution, c.standard_uncertainty);
     b.contributions.push_back(c);
   }
   if (!b.applicable) {
@@ -199,7 +226,7 @@ Budget budget_of(const propagation::Experiment& e, std::size_t output, double co
   if (combined.correlation != 0)
     b.second_order_uncertainty = b.second_order_bias = nan;
   else
-    second_order(b, slopes, measurand, u_of_quantity);
+    second_order(b, slopes, measurand, moments);
   return b;
 }
 
@@ -227,6 +254,16 @@ bool any_uncertain(const Budget& b) {
   return std::ranges::any_of(b.contributions, [](const Contribution& c) { return c.standard_uncertainty > 0; });
 }
 
+double spacing_of_doubles(double at) {
+  at = std::fabs(at);
+  return std::nextafter(at, std::numeric_limits<double>::infinity()) - at;
+}
+
+bool resolved(const Summary& s, double u) {
+  constexpr double enough = 10; // rounding to steps of u/10 widens u by 0.04 %
+  return !(u > 0) || !std::isfinite(s.estimate) || u >= enough * spacing_of_doubles(s.estimate);
+}
+
 Validation validate(const Budget& b, const Summary& s, double coverage_probability, int digits) {
   Validation v;
   v.output = b.output;
@@ -252,6 +289,12 @@ Validation validate(const Budget& b, const Summary& s, double coverage_probabili
     return v;
   }
   v.delta = numerical_tolerance(u, digits, b.output);
+  if (!resolved(s, u)) {
+    v.verdict = "not applicable";
+    v.reason = "the samples do not resolve the uncertainty";
+    v.d_low = v.d_high = v.monte_carlo_tolerance = nan;
+    return v;
+  }
   v.d_low = std::fabs(b.estimate - b.expanded_uncertainty - s.symmetric.low);
   v.d_high = std::fabs(b.estimate + b.expanded_uncertainty - s.symmetric.high);
   v.monte_carlo_tolerance = 2 * std::max(s.symmetric.low_se, s.symmetric.high_se);

@@ -22,6 +22,11 @@ bool has_second_order(const std::vector<double>& standard_uncertainties);
 /// Whether any input has a standard uncertainty, whatever its sensitivity coefficient.
 bool any_uncertain(const Budget& budget);
 
+/// Distance from a number of double precision to the next.
+double spacing_of_doubles(double at);
+/// Whether samples about the estimate show a standard uncertainty: it is many such distances.
+bool resolved(const Summary& summary, double standard_uncertainty);
+
 /// JCGM 101 clause 8: compares d_low and d_high with the numerical tolerance delta of u at `digits`. The Monte Carlo
 /// tolerance is two standard errors of an end. The result is undecided below 100 / (1 - p) trials, if that tolerance
 /// exceeds delta / 5 (unless an end differs by more than delta and four standard errors), or if an end differs by more

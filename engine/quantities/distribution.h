@@ -77,6 +77,8 @@ struct Distribution {
   double standard_uncertainty() const;
   /// Fourth central moment over variance squared; NaN where it does not exist.
   double kurtosis() const;
+  /// Third central moment over the variance's power 3/2; NaN where it does not exist.
+  double skewness() const;
   /// Inverse distribution function, u in (0, 1).
   double quantile(double u) const;
   /// Density (0 for constant, discrete and empirical, which have none).

@@ -1,4 +1,4 @@
-/// Expectations, variances and kurtoses of the families, by formula where one exists.
+/// Expectations, variances, kurtoses and skewnesses of the families, by formula where one exists.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,7 +15,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 struct Moments {
-  double mean, variance, kurtosis;
+  double mean, variance, kurtosis, skewness = 0;
 };
 
 double fourth(double x) { return x * x * x * x; }
@@ -59,7 +59,8 @@ Moments truncated_normal(double mean, double u, double low, double high) {
   const double weight = integral(0, 0);
   const double centre = nearest + integral(nearest, 1) / weight;
   const double variance = integral(centre, 2) / weight;
-  return {mean + u * centre, u * u * variance, integral(centre, 4) / weight / (variance * variance)};
+  return {mean + u * centre, u * u * variance, integral(centre, 4) / weight / (variance * variance),
+          integral(centre, 3) / weight / std::pow(variance, 1.5)};
 }
 
 Moments of_values(const Distribution& d) {
@@ -68,21 +69,23 @@ Moments of_values(const Distribution& d) {
     return d.family == Family::empirical ? 1.0 / static_cast<double>(values.size()) : (*d.probabilities)[i];
   };
   const double shift = values.front(); // keeps the digits of values that differ little
-  double mean = 0, m2 = 0, m4 = 0;
+  double mean = 0, m2 = 0, m3 = 0, m4 = 0;
   for (std::size_t i = 0; i < values.size(); ++i) mean += weight(i) * (values[i] - shift);
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double deviation = values[i] - shift - mean;
     m2 += weight(i) * deviation * deviation;
+    m3 += weight(i) * deviation * deviation * deviation;
     m4 += weight(i) * fourth(deviation);
   }
-  return {shift + mean, m2, m2 > 0 ? m4 / (m2 * m2) : not_a_number};
+  if (!(m2 > 0)) return {shift + mean, m2, not_a_number, not_a_number};
+  return {shift + mean, m2, m4 / (m2 * m2), m3 / std::pow(m2, 1.5)};
 }
 
 Moments moments(const Distribution& d) {
   const auto& p = d.parameters;
   switch (d.family) {
   case Family::constant:
-    return {p[0], 0, not_a_number};
+    return {p[0], 0, not_a_number, not_a_number};
   case Family::rectangular:
     return {(p[0] + p[1]) / 2, (p[1] - p[0]) * (p[1] - p[0]) / 12, 9.0 / 5};
   case Family::curvilinear_trapezoid:
@@ -97,15 +100,17 @@ Moments moments(const Distribution& d) {
     return {p[0], p[1] * p[1], 3};
   case Family::t:
     // With one degree of freedom or less no expectation exists; the centre stands in as the estimate.
-    return {p[0], p[2] > 2 ? p[1] * p[1] * p[2] / (p[2] - 2) : infinity, p[2] > 4 ? 3 + 6 / (p[2] - 4) : not_a_number};
+    return {p[0], p[2] > 2 ? p[1] * p[1] * p[2] / (p[2] - 2) : infinity, p[2] > 4 ? 3 + 6 / (p[2] - 4) : not_a_number,
+            p[2] > 3 ? 0 : not_a_number};
   case Family::exponential:
-    return {p[0], p[0] * p[0], 9};
+    return {p[0], p[0] * p[0], 9, 2};
   case Family::gamma:
-    return {p[0] * p[1], p[0] * p[1] * p[1], 3 + 6 / p[0]};
+    return {p[0] * p[1], p[0] * p[1] * p[1], 3 + 6 / p[0], 2 / std::sqrt(p[0])};
   case Family::lognormal: {
     const double s2 = p[1] * p[1];
     return {std::exp(p[0] + s2 / 2), std::expm1(s2) * std::exp(2 * p[0] + s2),
-            std::exp(4 * s2) + 2 * std::exp(3 * s2) + 3 * std::exp(2 * s2) - 3};
+            std::exp(4 * s2) + 2 * std::exp(3 * s2) + 3 * std::exp(2 * s2) - 3,
+            (std::exp(s2) + 2) * std::sqrt(std::expm1(s2))};
   }
   case Family::truncated_normal:
     return truncated_normal(p[0], p[1], p[2], p[3]);
@@ -113,7 +118,7 @@ Moments moments(const Distribution& d) {
   case Family::empirical:
     return of_values(d);
   }
-  return {not_a_number, not_a_number, not_a_number};
+  return {not_a_number, not_a_number, not_a_number, not_a_number};
 }
 
 } // namespace
@@ -126,5 +131,6 @@ double Distribution::standard_uncertainty() const {
   return parameters[3] > 0 ? parameters[3] : parameters[1];
 }
 double Distribution::kurtosis() const { return moments(*this).kurtosis; }
+double Distribution::skewness() const { return moments(*this).skewness; }
 
 } // namespace gumshoe::quantities

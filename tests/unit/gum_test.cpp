@@ -87,6 +87,34 @@ TEST_CASE("terms of second order: of 100 inputs that vary, not of 101, which the
   }
 }
 
+TEST_CASE("terms of second order take each input's own moments: a square is known exactly", "[gum]") {
+  // Var x^2 from the raw moments: of a rectangular law in +-0.6 about 0, of an exponential one of mean 1, of both; of a
+  // t as of a normal law with its u, as the law of propagation takes it.
+  const auto of = [](const std::string& x) {
+    const estimate_case::Case square("schema = 1\n[model]\nname = \"expression\"\n[model.measurands]\ny = \"x^2\"\n" +
+                                     x + "[run]\nsamples = 100\n");
+    return gum_models::analysed(square.scenario).budgets[0].second_order_uncertainty;
+  };
+  CHECK(of("[quantities.x]\nvalue = \"0\"\nhalf_width = \"0.6\"\ndistribution = \"rectangular\"\n") ==
+        Approx(0.36 * std::sqrt(4.0 / 45)).epsilon(1e-9));
+  CHECK(of("[quantities.x]\ndistribution = \"exponential\"\nmean = \"1\"\n") == Approx(std::sqrt(20)).epsilon(1e-9));
+  CHECK(of("[quantities.x]\nvalue = \"0\"\nu = \"0.2\"\ndegrees_of_freedom = 3\n") ==
+        Approx(0.04 * std::sqrt(2)).epsilon(1e-9));
+  // Two components: cumulants add.
+  CHECK(
+      of("[quantities.x]\nvalue = \"0\"\ncomponents = [ { distribution = \"rectangular\", half_width = \"0.6\" }, "
+         "{ u = \"0.2\" } ]\n") ==
+      Approx(std::sqrt(std::pow(0.6, 4) / 5 + 6 * 0.12 * 0.04 + 3 * 0.0016 - std::pow(0.12 + 0.04, 2))).epsilon(1e-9));
+}
+
+TEST_CASE("terms of second order that exceed the variance are not stated", "[gum]") {
+  const estimate_case::Case steep("schema = 1\n[model]\nname = \"expression\"\n[model.measurands]\ny = \"sin(x)\"\n"
+                                  "[quantities.x]\nvalue = \"0\"\nu = \"2\"\n[run]\nsamples = 100\n");
+  const auto budget = gum_models::analysed(steep.scenario).budgets[0]; // u^2 - u^4 < 0
+  CHECK(std::isnan(budget.second_order_uncertainty));
+  CHECK(budget.remark.find("exceed the variance") != std::string::npos);
+}
+
 TEST_CASE("budget of laser_z: lengths enter with slope one, pitch with the rod's lever", "[gum]") {
   const auto s = rod2({{"rod_length", {component(Family::normal, {0, 1 * um})}},
                        {"spindle_z", {component(Family::rectangular, {-0.5 * um, 0.5 * um})}},

@@ -49,6 +49,9 @@ TEST_CASE("a million draws have the moments of JCGM 101 Table 1", "[sampler]") {
     // standard errors: sd / sqrt(n) and variance sqrt((kurtosis - 1) / n)
     CHECK(std::abs(mean - d.mean()) < 4 * std::sqrt(d.variance() / n));
     CHECK(std::abs(variance - d.variance()) < 4 * d.variance() * std::sqrt((d.kurtosis() - 1) / n));
+    double third = 0, sixth = 0; // the third one's standard error is at most the root of the sixth over n
+    for (const double x : rows[v]) third += std::pow(x - mean, 3) / n, sixth += std::pow(x - mean, 6) / n;
+    CHECK(std::abs(third - d.skewness() * std::pow(d.variance(), 1.5)) < 5 * std::sqrt(sixth / n));
   }
 }
 
