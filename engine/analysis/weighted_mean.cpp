@@ -66,6 +66,13 @@ private:
   /// Whether u is that of the GUM framework, with finite degrees of freedom. The samples' u has their widening in it.
   bool by_framework(std::size_t i) const { return std::isfinite(out_.parts[i].summary.degrees_of_freedom); }
 
+  /// What a component adds to the u of part i. That of samples has a t's standard deviation, not its scale.
+  double contribution(std::size_t i, const Contribution& c) const {
+    const double freedom = c.degrees_of_freedom;
+    const bool widened = !by_framework(i) && c.distribution == "t" && freedom > 2 && std::isfinite(freedom);
+    return signed_contribution(c) * (widened ? std::sqrt(freedom / (freedom - 2)) : 1);
+  }
+
   bool is_same(const Contribution& c) const { return std::ranges::find(same_, c.quantity) != same_.end(); }
 
   /// The components of `same` that two budgets have.
@@ -82,7 +89,7 @@ private:
       shared.degrees_of_freedom = infinite;
       for (std::size_t i = 0; i < size(); ++i) {
         const Contribution* c = by_part[i];
-        shared.contributions.push_back(c ? signed_contribution(*c) : 0);
+        shared.contributions.push_back(c ? contribution(i, *c) : 0);
         if (c && by_framework(i))
           shared.degrees_of_freedom = std::min(shared.degrees_of_freedom, c->degrees_of_freedom);
         if (c) shared.quantity = c->quantity;
@@ -105,7 +112,7 @@ private:
     if (!sharing) return;
     double all = 0, own = 0, satterthwaite = 0;
     for (const Contribution& c : budgets_[i]->contributions) {
-      const double square = std::pow(signed_contribution(c), 2);
+      const double square = std::pow(contribution(i, c), 2);
       if (!std::isfinite(square))
         throw InputError(names_[i] + ": what it shares is not known",
                          fmt::format("its budget has no sensitivity coefficient of {}", c.name),

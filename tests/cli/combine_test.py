@@ -55,6 +55,17 @@ class Combine(Lengths):
         self.assertTrue(row["consistent"])
         self.assertEqual((row["alike"], row["shared"]), (["reference"], []))
 
+    def test_few_degrees_of_freedom_of_one_input_widen_no_other(self):
+        """A t of 4 degrees of freedom has the standard deviation sqrt(2) u: its own, not that of the reference."""
+        def few(text):  # too few to be validated: u and k are those of the samples
+            return text.replace('u = "3 um"', 'u = "3 um"\ndegrees_of_freedom = 4').replace("digits = 1", "digits = 2")
+        three = [self.result(f"few{i}", reading=110 + 0.001 * i, seed=i, change=few) for i in (1, 2, 3)]
+        row = self.mean(*three, "--same", "reference")
+        # The fourth moment of that t is infinite: its variance is known to some per cent, not to 1 / sqrt(2 n).
+        for shared in row["shared"][0]["contributions"]:
+            self.assertAlmostEqual(shared, -0.004, delta=0.04 * 0.004)
+        self.assertAlmostEqual(row["standard_uncertainty"], math.sqrt(16 + 18 / 3) / 1000, delta=0.04 * 0.0047)
+
     def test_a_shared_input_stays_in_the_mean_and_cancels_in_the_difference(self):
         # V = diag(9, 1) + 16: the weights are those of 9 and 1, u^2 = 16 + 1 / (1/9 + 1), and the difference has 9 + 1.
         row = self.mean(self.a, self.b, "--same", "reference")
