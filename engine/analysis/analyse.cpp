@@ -48,7 +48,7 @@ std::string statement(const Summary& s, const Budget& b, const Validation& v, do
   // An error is a difference of two heights: it converts by scale.
   std::string text = fmt::format("{} = {}{}", s.output.name,
                                  fixed(virtual_experiment ? width(s.estimate) : shown(s.estimate), d), unit);
-  if (s.estimate_is_median) text += " (the median, because no expectation exists)";
+  if (s.estimate_is_median) text += " (the median, because the mean does not settle)";
   if (std::isfinite(s.standard_uncertainty))
     text += fmt::format("{} u = {}{}",
                         virtual_experiment ? " in the mean, with a standard deviation" : " with a standard uncertainty",
@@ -101,6 +101,20 @@ void withhold(Summary& s, const quantities::Variate* without, const Column& valu
                           freedom == 1 ? "" : "s") +
               (s.warning.empty() ? "; the ends of the interval are quantiles and remain valid" : "");
   if (freedom <= 1) use_median(values, s, threads);
+}
+
+/// Warns where samples in double precision are too coarse for the uncertainty.
+void warn_of_resolution(Summary& s, const Budget& b) {
+  const double u =
+      b.applicable && b.combined_standard_uncertainty > 0 ? b.combined_standard_uncertainty : s.standard_uncertainty;
+  if (resolved(s, u)) return;
+  const auto width = [&](double x) {
+    const double shown = units::from_si(x, s.output.unit, s.output.si_unit, units::Kind::difference);
+    return fmt::format("{:.2g}{}{}", shown, s.output.unit == "1" ? "" : " ", s.output.unit == "1" ? "" : s.output.unit);
+  };
+  s.warning += fmt::format("{}numbers of double precision are {} apart here: the samples do not show a standard "
+                           "uncertainty of {}; state the difference from a nominal value",
+                           s.warning.empty() ? "" : "; ", width(spacing_of_doubles(s.estimate)), width(u));
 }
 
 void describe(Results& r, const propagation::Experiment& e) {
@@ -198,8 +212,10 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, const 
     KeptOrder order;
     Summary& summary = r.summaries[o] = summarise(output, values, p, threads, &order);
     const Budget& b = r.budgets[o];
+    if (!(b.applicable && b.combined_standard_uncertainty > 0.5 * summary.standard_uncertainty)) join_rounded(summary);
     withhold(summary, without_variance(e, b), values, order, threads);
     if (s.run.design != scenario::Design::monte_carlo) drop_standard_errors(summary);
+    warn_of_resolution(summary, b);
     r.validations[o] = validate(b, summary, p, s.analysis.validation_digits);
     summary.statement = statement(summary, b, r.validations[o], p, virtual_experiment);
     certify(summary, b, r.validations[o], p, virtual_experiment);

@@ -46,7 +46,8 @@ std::vector<ComparisonResult> compare(const propagation::Experiment& e, const Va
         if (!c.within.empty() && label_value(la, c.within) != label_value(lb, c.within)) continue;
         Room rooms[2];
         const Column first = held(values(i), rooms[0], 2), second = held(values(j), rooms[1], 2);
-        const Summary s = summarise(a, difference(first, second), e.scenario().analysis.coverage_probability, threads);
+        Summary s = summarise(a, difference(first, second), e.scenario().analysis.coverage_probability, threads);
+        join_rounded(s);
         ComparisonResult r;
         r.a = label_value(la, c.between);
         r.b = label_value(lb, c.between);

@@ -114,6 +114,21 @@ void global_risks(ConformityResult& r, std::span<const double> y, double estimat
   r.global_producer_risk_se = p.se;
 }
 
+/// Distance from the estimate that at most 5 % of the samples exceed on either side: 1.65 u of a normal law, where no u
+/// exists. Of the first samples, which are enough.
+double one_sided_uncertainty(const Column& y, double estimate) {
+  Room room;
+  const auto some = y.read(0, std::min(most_deviations, y.size()), room);
+  std::vector<double> values(some.begin(), some.end());
+  if (values.empty()) return nan;
+  const auto quantile = [&](double p) {
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(p * static_cast<double>(values.size() - 1));
+    std::ranges::nth_element(values, at);
+    return *at;
+  };
+  return std::max(estimate - quantile(0.05), quantile(0.95) - estimate);
+}
+
 /// The smallest probability that n independent samples resolve: none seen, it is below at 95 % confidence.
 double least_probability(std::size_t n) { return std::min(1.0, 3 / static_cast<double>(n)); }
 
@@ -197,7 +212,9 @@ ConformityResult assess(const Column& samples, const Known& known, const scenari
   r.rule = name(test.rule);
   r.guard_band = test.guard_band + (test.guard_factor != 0 ? test.guard_factor * expanded_uncertainty : 0);
   if (test.rule == scenario::DecisionRule::ilac_g8) r.guard_band = expanded_uncertainty;
-  if (test.rule == scenario::DecisionRule::iso_14253_1) r.guard_band = 1.65 * standard_uncertainty;
+  if (test.rule == scenario::DecisionRule::iso_14253_1)
+    r.guard_band =
+        std::isfinite(standard_uncertainty) ? 1.65 * standard_uncertainty : one_sided_uncertainty(y, estimate);
   r.acceptance_lower = r.lower + r.guard_band;
   r.acceptance_upper = r.upper - r.guard_band;
   const Range tolerance{test.lower.value_or(-inf), test.upper.value_or(inf)};

@@ -147,19 +147,6 @@ Ends symmetric_ends(std::vector<double>& x, double p) {
 
 namespace {
 
-/// Values that differ by the rounding of their own computation alone, as where a common error cancels, are one value.
-void join_rounded(Summary& s) {
-  constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
-  if (!(s.standard_uncertainty > 0 && s.standard_uncertainty <= rounding * std::fabs(s.estimate))) return;
-  s.standard_uncertainty = s.standard_uncertainty_se = s.estimate_se = s.monte_carlo_expanded = 0;
-  s.skewness = s.kurtosis = s.shortest_length_se = 0;
-  for (Interval* i : {&s.symmetric, &s.shortest}) {
-    i->low = i->high = s.estimate;
-    i->low_se = i->high_se = 0;
-    if (s.failed == 0) i->low_rank = i->high_rank = s.estimate;
-  }
-}
-
 /// Ranks, from 0, of ends that hold whatever values the failed samples had: these could all lie below, or all above, so
 /// that the ends move by that many ranks at the most. None: beyond the values.
 struct BoundRanks {
@@ -276,8 +263,19 @@ Summary summarise(const propagation::Output& output, const Column& values, doubl
   } else {
     add_intervals(s, ordered_tails(values, s.valid, tail_size(s.valid, s.failed, p), threads), values, p, threads);
   }
-  join_rounded(s);
   return s;
+}
+
+void join_rounded(Summary& s) {
+  constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
+  if (!(s.standard_uncertainty > 0 && s.standard_uncertainty <= rounding * std::fabs(s.estimate))) return;
+  s.standard_uncertainty = s.standard_uncertainty_se = s.estimate_se = s.monte_carlo_expanded = 0;
+  s.skewness = s.kurtosis = s.shortest_length_se = 0;
+  for (Interval* i : {&s.symmetric, &s.shortest}) {
+    i->low = i->high = s.estimate;
+    i->low_se = i->high_se = 0;
+    if (s.failed == 0) i->low_rank = i->high_rank = s.estimate;
+  }
 }
 
 } // namespace gumshoe::analysis

@@ -44,5 +44,8 @@ using KeptOrder = std::optional<OrderedColumn>;
 /// @param order  keeps what was found, with the ranks that check_tails() will ask for; refers to `values`
 Summary summarise(const propagation::Output& output, const Column& values, double coverage_probability, int threads = 1,
                   KeptOrder* order = nullptr, Limits limits = Limits());
+/// Values that differ by the rounding of their own computation alone, as where a common error cancels, are one value.
+/// For outputs of which no budget says that they are uncertain.
+void join_rounded(Summary& summary);
 
 } // namespace gumshoe::analysis

@@ -46,7 +46,7 @@ void use_median(const Column& values, Summary& s, int threads) {
   s.estimate = found[1];
   s.estimate_se = 0.5 * (found[2] - found[0]);
   s.estimate_is_median = true;
-  s.warning = "no expectation exists, and the estimate is the median; " + s.warning;
+  s.warning = "the mean does not settle, and the estimate is the median; " + s.warning;
 }
 
 void add_tail_ranks(std::size_t valid, std::vector<RankRange>& ranks) {
@@ -86,10 +86,13 @@ void check_tails(const Column& values, Summary& s, int threads, const KeptOrder*
   const double unsettled = s.kurtosis / n;
   const bool infinite = !std::isfinite(s.standard_uncertainty) || !std::isfinite(s.kurtosis);
   if (infinite || (heavy && unsettled > 1e-3)) {
-    s.warning = fmt::format(
-        "no standard uncertainty: the tails are so heavy that the variance does not settle, Hill's "
-        "tail index is {:.2g}, and below 2 it does not exist; the ends of the interval are quantiles and remain valid",
-        s.hill_index);
+    s.warning =
+        infinite ? std::string("no standard uncertainty: the values are too large for it; the ends of the interval "
+                               "are quantiles and remain valid")
+                 : fmt::format("no standard uncertainty: the tails are so heavy that the variance does not settle in "
+                               "so many samples, if it exists (below 2 of Hill's tail index, here {:.2g}, it does "
+                               "not); the ends of the interval are quantiles and remain valid",
+                               s.hill_index);
     s.standard_uncertainty = s.standard_uncertainty_se = s.estimate_se = nan;
     if (no_expectation) use_median(values, s, threads);
   } else if (below(s.hill_index, k, 2, 4) && unsettled > 1e-2) {
