@@ -57,6 +57,32 @@ class Made(InOneFolder):
             return list(csv.DictReader(file))
 
 
+class Written(InOneFolder):
+    def test_a_quantity_without_a_unit_stands_in_the_page(self):
+        """A dimensionless factor known only with an uncertainty."""
+        scenario = self.folder / "factor.toml"
+        scenario.write_text("""schema = 1
+[model]
+name = "expression"
+[model.indications]
+y = "a + b * x"
+[model.measurands]
+m = "(y - a) / b"
+[quantities]
+a = { estimated = true, value = "0 um" }
+b = { value = 0.5, u = 0.01 }
+[conditions]
+x = ["0 um", "10 um", "20 um", "30 um", "40 um", "50 um", "60 um", "70 um"]
+[indications.y]
+readings = ["0.1 um", "5.2 um", "9.9 um", "15.1 um", "20.2 um", "24.8 um", "30.1 um", "35 um"]
+u = "0.1 um"
+""")
+        page = self.folder / "factor.html"
+        run = gumshoe("trace", scenario, "--draws", "19", "--out", self.folder / "factor.h5", "--report", page)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn("0.01", page.read_text(encoding="utf-8"))
+
+
 class File(Made):
     def test_every_dataset_says_what_it_is(self):
         def check(name, item):
