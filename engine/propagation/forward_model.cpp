@@ -37,6 +37,19 @@ ForwardModel ForwardModel::on_threads(int threads) const {
   return copy;
 }
 
+ForwardModel ForwardModel::with_condition(std::span<const std::size_t> readings, std::size_t condition,
+                                          double value) const {
+  ForwardModel copy = *this;
+  copy.conditions_.clear();
+  for (StatedSize& s : copy.stated_) s.loading.clear();
+  for (const std::size_t r : readings) {
+    copy.conditions_.push_back(conditions_[r]);
+    copy.conditions_.back()[condition] = value;
+    for (std::size_t s = 0; s < stated_.size(); ++s) copy.stated_[s].loading.push_back(stated_[s].loading[r]);
+  }
+  return copy;
+}
+
 void ForwardModel::declare(models::Declared declared) {
   declared_ = std::make_shared<const models::Declared>(std::move(declared));
 }

@@ -34,6 +34,8 @@ public:
   /// The same, with the readings distributed over so many threads (0: all processors). A model made from a scenario (a
   /// plugin, a command) may not be thread-safe and is called from one thread only.
   ForwardModel on_threads(int threads) const;
+  /// The same of some readings only, with one condition set to a value at all of them.
+  ForwardModel with_condition(std::span<const std::size_t> readings, std::size_t condition, double value) const;
   /// Sets the declared uncertainties by which a joint evaluation weights its readings.
   void declare(models::Declared declared);
 

@@ -25,8 +25,12 @@ public:
   /// has no derivatives. `kink` if a reading has none there.
   bool derivatives(const Points& at, const std::vector<std::size_t>& quantities, Vector& f, Matrix& derivative,
                    bool* kink = nullptr) const;
+  /// Whether the derivative by a quantity changes with a condition: [quantities[i]][condition], by some of the readings
+  /// and the condition's ends; true where the model has no value there.
+  std::vector<std::vector<bool>> changes_with(const Points& at, const std::vector<std::size_t>& quantities) const;
 
 private:
+  std::vector<propagation::Partial> partials(const Points& at, const std::vector<std::size_t>& quantities) const;
   double step(std::size_t quantity, const Points& at) const;
 
   const propagation::Experiment& experiment_;

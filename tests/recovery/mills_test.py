@@ -56,6 +56,17 @@ class Jumps(unittest.TestCase):
         self.assertEqual(covered(finding, effect), [True, True], finding)
         self.assertLess(verdict["noise"]["scale"], 1.3)
 
+    def test_a_size_that_no_insert_has_stands_back(self):
+        """An insert of nearly three times its radius would fit better than the true run-out, which is of usual size."""
+        finding, effect, verdict = self.found((("tool_runout", 8.0),), 2710, setups=10, clampings=2)
+        self.assertEqual(covered(finding, effect), [True, True], finding)
+        self.assertIn("tilt_y", verdict["plain"][0])  # the larger of its two sizes is told, too
+
+    def test_run_out_does_not_depend_on_time(self):
+        """In 18 readings its signature goes along with a drift."""
+        finding, _, _ = self.found((("tool_runout", 15.0),), 2710, clampings=1, noise=0.1)
+        self.assertLessEqual(set(finding["depends_on"]), {"feed", "spindle_speed", "start_angle"})
+
     def test_jumps_that_were_not_crossed_are_no_missing_effect(self):
         """As long as this insert is not found. The verdict must not say that no known effect explains the readings."""
         verdict, _ = traced(self.folder, (("declared:wear_2", 8.0),), 7001, setups=10, clampings=2)

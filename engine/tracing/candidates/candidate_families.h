@@ -33,6 +33,8 @@ public:
   const BestStart choose; ///< empty: jumps are not crossed
 
 private:
+  /// On what its signature depends, by its course; of an effect or a quantity no more than what it can change with.
+  std::vector<std::string> dependence_of(const Candidate& a) const;
   const std::function<bool(const Candidate&)>& skip_;
 };
 

@@ -10,6 +10,11 @@
 #include "tracing/criteria.h"
 
 namespace gumshoe::tracing {
+
+bool Amplitude::far_too_large(double size) const {
+  return typical > 0 && std::fabs(size) > criteria.implausible_size * typical;
+}
+
 namespace {
 
 double alike(const Vector& a, const Vector& b) {
@@ -60,9 +65,28 @@ void CandidateMaker::add(Candidate a, std::vector<Candidate>& family) const {
       return;
   for (const auto& [label, value] : a.amplitudes[0].labels) a.depends_on.push_back(label);
   if (a.depends_on.empty() || a.in_part())
-    for (std::string& on : dependence(observations, a.columns))
+    for (std::string& on : dependence_of(a))
       if (std::ranges::find(a.depends_on, on) == a.depends_on.end()) a.depends_on.push_back(std::move(on));
   family.push_back(std::move(a));
+}
+
+std::vector<std::string> CandidateMaker::dependence_of(const Candidate& a) const {
+  std::vector<std::string> out = dependence(observations, a.columns);
+  if (a.family != Family::effect && a.family != Family::declared) return out;
+  const auto conditions = experiment.model().card->conditions;
+  // A course in time may go along with that of a condition, on which alone it can depend.
+  const auto cannot = [&](const std::string& name) {
+    if (std::ranges::find(observations.covariates, name, &Covariate::name) == observations.covariates.end())
+      return false;
+    const auto c = std::ranges::find(conditions, name, &VariableCard::name) - conditions.begin();
+    return std::ranges::none_of(a.amplitudes, [&](const Amplitude& size) {
+      return size.quantity == Amplitude::npos ||
+             (index(c) < conditions.size() && moved.changes_with[size.quantity][index(c)]);
+    });
+  };
+  std::vector<std::string> possible = out;
+  std::erase_if(possible, cannot);
+  return possible.empty() ? out : possible;
 }
 
 void CandidateMaker::add_single(Candidate a, std::size_t quantity, const std::vector<bool>* mask,

@@ -33,6 +33,10 @@ struct Amplitude {
   bool is_shape = false;
   double held = 0;
   static constexpr std::size_t npos = ~std::size_t{0};
+
+  /// Whether a size lies far above the card's typical ones, or has a sign that no such effect has.
+  bool far_too_large(double size) const;
+  bool of_wrong_sign(double size) const { return positive && size < 0; }
 };
 
 /// One signature that is tried.

@@ -83,6 +83,7 @@ Signatures signatures(const propagation::Experiment& experiment, const Simulator
   out.sizes = steps(experiment, at, step, out.tangents);
   drop_still(simulator, at, out);
   take_secants(simulator, at, out);
+  out.changes_with = simulator.changes_with(at, all);
   return out;
 }
 

@@ -9,6 +9,7 @@ struct Signatures {
   Matrix tangents;           ///< [row][quantity]: exact derivatives
   Matrix secants;            ///< [row][2 quantity + i]: slopes over sizes[2 quantity + i], i = 0 upwards, 1 downwards
   std::vector<double> sizes; ///< SI; 0: no secant
+  std::vector<std::vector<bool>> changes_with; ///< [quantity][condition]: whether its tangent changes with it
 };
 
 /// Computes them at a point. Only amplitudes of effects have secants, over steps that move the indications by about

@@ -79,9 +79,9 @@ void remark_on_size(const Term& term, Finding& finding) {
   for (Index j = 0; j < term.size.size(); ++j) {
     const Amplitude& a = term.candidate.amplitudes[index(j)];
     const auto shown = [&](double size) { return shown_size(size, a.unit, a.si_unit); };
-    if (a.typical > 0 && std::fabs(term.size[j]) > criteria.implausible_size * a.typical)
+    if (a.far_too_large(term.size[j]))
       finding.implausible = fmt::format("far above typical sizes (up to {})", shown(a.typical));
-    else if (a.positive && term.size[j] < 0)
+    else if (a.of_wrong_sign(term.size[j]))
       finding.implausible = "negative, which no such effect is";
     else if (single && !a.is_shape && std::fabs(term.size[j]) < criteria.negligible_size * a.least_typical)
       finding.implausible = fmt::format("far below typical sizes (from {})", shown(a.least_typical));

@@ -1,6 +1,8 @@
 /// What it means, in words for a machinist.
+#include <algorithm>
 #include <cmath>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -16,11 +18,27 @@ namespace {
 constexpr std::string_view declared = "declared:";
 bool declares(const Finding& f) { return f.name.starts_with(declared); }
 
-/// " (amplitude 1.5 um)"; empty without a size
+/// Sizes of one kind with the first, as those of a vector: the best known of many, in their order.
+std::vector<const SizedQuantity*> sizes_told(const Finding& f) {
+  constexpr std::size_t most = 3;
+  std::vector<const SizedQuantity*> out;
+  for (const SizedQuantity& q : f.quantities)
+    if (q.si_unit == f.quantities[0].si_unit) out.push_back(&q);
+  const auto times_u = [](const SizedQuantity* q) { return q->u > 0 ? std::fabs(q->value) / q->u : 0; };
+  while (out.size() > most) out.erase(std::ranges::min_element(out, std::ranges::less{}, times_u));
+  return out;
+}
+
+/// " (amplitude 1.5 um)", " (tilt_x 0.1 mrad, tilt_y -0.3 mrad)"; empty without a size
 std::string size_of(const Finding& f) {
   if (f.quantities.empty()) return "";
   const SizedQuantity& q = f.quantities[0];
-  if (!declares(f)) return fmt::format(" ({} {})", q.name, shown_size(q.value, q.unit, q.si_unit));
+  if (!declares(f)) {
+    std::vector<std::string> all;
+    for (const SizedQuantity* one : sizes_told(f))
+      all.push_back(fmt::format("{} {}", one->name, shown_size(one->value, one->unit, one->si_unit)));
+    return fmt::format(" ({})", fmt::join(all, ", "));
+  }
   const ShownSize s = shown(q); // to the digits that u leaves: it may differ little from what was declared
   return fmt::format(" ({} {}{})", q.name, analysis::fixed(s.value, analysis::decimals_for(s.u)),
                      s.unit == "1" ? "" : " " + s.unit);

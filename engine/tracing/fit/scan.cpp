@@ -304,9 +304,9 @@ Fit Scan::fit(std::size_t a, const Vector& residuals) const {
   return out;
 }
 
-Matrix Scan::pair_criteria(const std::vector<std::size_t>& some, std::size_t first, const Vector& residuals,
-                           std::size_t k) const {
-  const Vector data = whitened_[k].reduce(winsorised(residuals));
+std::vector<Matrix> Scan::pair_criteria(const std::vector<std::size_t>& some, std::size_t first,
+                                        const Matrix& residuals, std::size_t k) const {
+  const Matrix data = whitened_[k].reduce(winsorised(residuals));
   std::vector<Index> from{0};
   for (const std::size_t a : some) from.push_back(from.back() + candidates_[a]->columns.cols());
   Matrix all(rows_.size(), from.back());
@@ -314,21 +314,31 @@ Matrix Scan::pair_criteria(const std::vector<std::size_t>& some, std::size_t fir
     all.middleCols(from[i], from[i + 1] - from[i]) = units(some[i], some[i] + 1);
   const Vector length = whitened_[k].whiten_units(all).colwise().norm();
   all = whitened_[k].reduce_units(all);
-  const Matrix products = transposed_product(all, all);
-  const Vector along = transposed_product(all, data);
-  const double left = data.squaredNorm();
-  Matrix out(index(first), index(some.size()));
-  for (Index a = 0; a < out.rows(); ++a)
-    for (Index b = a; b < out.cols(); ++b) {
+  const Matrix products = transposed_product(all, all), along = transposed_product(all, data);
+  const Vector left = data.colwise().squaredNorm();
+  std::vector<Matrix> out(index(data.cols()), Matrix(index(first), index(some.size())));
+  propagation::parallel_for(first, threads_, [&](std::size_t row) {
+    const Index a = index(row);
+    for (Index b = a; b < index(some.size()); ++b) {
       std::vector<Index> columns;
       for (const Index one : {a, b})
         for (Index j = from[index(one)]; j < from[index(one) + 1]; ++j) columns.push_back(j);
       const Matrix factor = orthonormal(products(columns, columns), length(columns));
-      const double explained = (factor.transpose() * Vector(along(columns))).squaredNorm();
-      out(a, b) = criterion(std::max(left - explained, 1e-12 * left), k);
-      if (b < out.rows()) out(b, a) = out(a, b);
+      for (Index set = 0; set < data.cols(); ++set) {
+        const double explained = (factor.transpose() * Vector(along(columns, set))).squaredNorm();
+        out[index(set)](a, b) = criterion(std::max(left[set] - explained, 1e-12 * left[set]), k);
+      }
     }
+  });
+  for (Matrix& one : out)
+    for (Index a = 0; a < one.rows(); ++a)
+      for (Index b = 0; b < a; ++b) one(a, b) = one(b, a);
   return out;
+}
+
+Matrix Scan::pair_criteria(const std::vector<std::size_t>& some, std::size_t first, const Vector& residuals,
+                           std::size_t k) const {
+  return pair_criteria(some, first, Matrix(residuals), k)[0];
 }
 
 double Scan::pair_ratio(std::size_t a, std::size_t b, const Vector& residuals, std::size_t k) const {

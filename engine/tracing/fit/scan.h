@@ -56,6 +56,9 @@ public:
   /// Statistics::criterion: [a][b] by their places in `some`.
   Matrix pair_criteria(const std::vector<std::size_t>& some, std::size_t first, const Vector& residuals,
                        std::size_t model) const;
+  /// The same of several data sets: [set].
+  std::vector<Matrix> pair_criteria(const std::vector<std::size_t>& some, std::size_t first, const Matrix& residuals,
+                                    std::size_t model) const;
 
   /// As Whitened::winsorised, under the plain model.
   Matrix winsorised(const Matrix& residuals, Vector* scale = nullptr, Matrix* weight = nullptr) const {

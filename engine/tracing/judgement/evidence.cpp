@@ -88,6 +88,14 @@ double noise_freedom(const propagation::Experiment& experiment) {
   return fewest;
 }
 
+bool implausible(const Term& term) {
+  for (std::size_t j = 0; j < term.candidate.amplitudes.size(); ++j) {
+    const Amplitude& a = term.candidate.amplitudes[j];
+    if (const double size = term.size[index(j)]; a.far_too_large(size) || a.of_wrong_sign(size)) return true;
+  }
+  return false;
+}
+
 std::size_t wide_cells(std::size_t readings) {
   return std::max(criteria.most_table_cells, std::min(criteria.most_wide_cells, criteria.most_wide_entries / readings));
 }
@@ -263,8 +271,11 @@ Trial Evidence::trial(std::size_t a, const Term& term) const {
   const Index more = term.candidate.columns.cols() - candidates_[a].columns.cols();
   const double sizes = term.candidate.start.empty() ? 0 : static_cast<double>(more);
   out.score = out.ratio - chance(a) - 2 * sizes;
+  out.implausible = implausible(out.fit.terms.back());
   return out;
 }
+
+double Trial::worth() const { return score - (implausible ? 2 * std::log(criteria.rarity_of_implausible) : 0); }
 
 JointFit without(const TraceContext& c, const JointFit& fit, const std::vector<std::size_t>& dropped) {
   std::vector<Term> terms;
@@ -333,13 +344,28 @@ std::vector<std::size_t> Evidence::best_of(const std::function<bool(const Candid
   return tracing::best_of(all, most);
 }
 
+std::vector<Matrix> Evidence::pair_scores(const std::vector<std::size_t>& some, std::size_t first, const Matrix& data,
+                                          const Vector& criterion) const {
+  std::vector<Matrix> out = scan_->pair_criteria(some, first, data, assessment_.data.covariance_model[0]);
+  const std::vector<Matrix> plain = scan_->pair_criteria(some, first, data, scan_->plain());
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    out[k] = criterion[index(k)] - out[k].cwiseMin(plain[k]).array();
+    for (Index a = 0; a < out[k].rows(); ++a)
+      for (Index b = 0; b < out[k].cols(); ++b)
+        out[k](a, b) -= 2 * (assessment_.null[some[index(a)]].mean + assessment_.null[some[index(b)]].mean);
+  }
+  return out;
+}
+
 Matrix Evidence::pair_scores(const std::vector<std::size_t>& some, std::size_t first) const {
-  Matrix out = scan_->pair_criteria(some, first, data_, assessment_.data.covariance_model[0]);
-  out = out.cwiseMin(scan_->pair_criteria(some, first, data_, scan_->plain()));
-  for (Index a = 0; a < out.rows(); ++a)
-    for (Index b = 0; b < out.cols(); ++b)
-      out(a, b) = assessment_.data.criterion[0] - out(a, b) -
-                  2 * (assessment_.null[some[index(a)]].mean + assessment_.null[some[index(b)]].mean);
+  return pair_scores(some, first, Matrix(data_), assessment_.data.criterion)[0];
+}
+
+Evidence::ScoresOfNoise Evidence::scores_of_noise(const std::vector<std::size_t>& some, std::size_t first) const {
+  const Matrix drawn = noise(criteria.rival_draws, c_.seed ^ 0x9a12ull);
+  const Statistics statistics = scan_->run(drawn);
+  ScoresOfNoise out{statistics.ratio, pair_scores(some, first, drawn, statistics.criterion)};
+  for (std::size_t a = 0; a < candidates_.size(); ++a) out.alone.row(index(a)).array() -= chance(a);
   return out;
 }
 

@@ -16,6 +16,10 @@ struct Trial {
   JointFit fit;
   double ratio = 0; ///< likelihood ratio (2 ln) against the fit without it
   double score = 0; ///< the ratio minus twice its expectation by chance
+  bool implausible = false; ///< no such effect has the size that fits
+
+  /// The score less what is improbable of such a size: order of physical candidates.
+  double worth() const;
 };
 
 /// A candidate over a finite step as a term, from the sizes over which it was taken.
@@ -81,6 +85,12 @@ public:
   /// chance: [a][b] by their places in `some`. The noise is as it is without a signature, or plain: two that hide each
   /// other pass for correlation.
   Matrix pair_scores(const std::vector<std::size_t>& some, std::size_t first) const;
+  /// The same of draws of the noise, and scores of all candidates alone in these.
+  struct ScoresOfNoise {
+    Matrix alone;              ///< [candidate][draw]
+    std::vector<Matrix> pairs; ///< [draw]
+  };
+  ScoresOfNoise scores_of_noise(const std::vector<std::size_t>& some, std::size_t first) const;
   /// What the second adds to the likelihood ratio of the first.
   double gain_beside(std::size_t best, std::size_t other) const;
   const Vector& residuals() const { return data_; } ///< residuals of the training readings
@@ -96,6 +106,9 @@ private:
   Trial trial(std::size_t candidate, const Term& term) const;
   /// A term whose shape parameters are free, or none where it has none.
   std::optional<Term> freed(const Term& term) const;
+  /// Pair criteria of data sets that have these without a signature, as scores.
+  std::vector<Matrix> pair_scores(const std::vector<std::size_t>& some, std::size_t first, const Matrix& data,
+                                  const Vector& criterion) const;
 
   const TraceContext& c_;
   const JointFit& fit_;

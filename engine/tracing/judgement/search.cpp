@@ -157,7 +157,7 @@ private:
       return passes(evidence_->assessment().p[t.candidate], evidence_->assessment().threshold, t.ratio,
                     evidence_->limit(t.candidate));
     };
-    std::ranges::sort(out, std::ranges::greater{}, &Trial::score);
+    std::ranges::sort(out, std::ranges::greater{}, &Trial::worth);
     const auto best = std::ranges::find_if(out, counts);
     if (best == out.end()) return {};
     std::rotate(out.begin(), best, best + 1);
@@ -216,7 +216,7 @@ private:
 
   /// One masks the other: two effects together that explain more than shapes do. @param best_shape  a shape's score
   bool take_pair(double best_shape) {
-    const auto pair = hidden_pair(*evidence_, best_shape);
+    const auto pair = hidden_pair(*evidence_, best_shape, now().alpha);
     if (!pair) return false;
     std::vector<Term> both;
     for (const std::size_t a : *pair)
@@ -243,6 +243,10 @@ private:
     std::vector<std::size_t> members{best.candidate};
     for (std::size_t i = 1; i < tried.size(); ++i) {
       const std::size_t rival = tried[i].candidate;
+      if (tried[i].implausible && !best.implausible) {
+        outcomes_[rival] = "refused: no such effect has the size that would explain the residuals";
+        continue;
+      }
       const double lead = best.score - tried[i].score;
       switch (standing(
           lead, evidence_->correlation(best.candidate, rival),
@@ -290,7 +294,7 @@ private:
     if (const auto simpler = simpler_beside_another(*evidence_, c_.observations, tried[0].candidate))
       if (Trial one = evidence_->trial(*simpler); one.fit.valid) tried.insert(tried.begin(), std::move(one));
     std::vector<std::pair<std::size_t, JointFit>> described;
-    for (auto& [a, fit, ratio, score] : tried) {
+    for (auto& [a, fit, ratio, score, implausible] : tried) {
       if (evidence_->of_few(fit)) {
         outcomes_[a] = "refused: it is of a few successive readings only";
         continue;
