@@ -190,6 +190,10 @@ std::string words(const ConformityResult& r, double expanded_uncertainty, std::s
   return text;
 }
 
+double stated_expanded_uncertainty(const Summary& s) {
+  return std::isfinite(s.expanded_uncertainty) ? s.expanded_uncertainty : 0.5 * (s.symmetric.high - s.symmetric.low);
+}
+
 } // namespace
 
 std::string ConformityResult::decision() const {
@@ -257,7 +261,7 @@ std::vector<ConformityResult> conformity(const propagation::Experiment& e, const
   for (const auto& test : e.scenario().analysis.conformity)
     for (const std::size_t o : outputs_named(e, test.measurand, test.labels)) {
       const Summary& s = summaries[o];
-      const double expanded = 0.5 * (s.symmetric.high - s.symmetric.low);
+      const double expanded = stated_expanded_uncertainty(s);
       Room room;
       ConformityResult r = assess(held(values(o), room), {s.estimate, s.standard_uncertainty, expanded}, test, threads);
       r.output = e.outputs()[o];

@@ -18,8 +18,7 @@ struct Known {
 ///
 /// Conformance probability (7.1): the share of the samples within the tolerance limits. Acceptance limits (8.3): the
 /// tolerance limits moved inwards by w = guard_band + guard_factor U (w < 0: outwards, guarded rejection), or by the w
-/// of the named rule; U half the symmetric coverage interval. The decision is the estimate's place. Specific risks
-/// (9.3.2): of this item.
+/// of the named rule. The decision is the estimate's place. Specific risks (9.3.2): of this item.
 ///
 /// With a process, the prior g0: the posterior conformance probability by weighting the samples with g0 (7.2.2), and
 /// the global risks (9.5.2): R_C = P(nonconforming and accepted), R_P = P(conforming and rejected) of an item that the
@@ -29,7 +28,8 @@ struct Known {
 ConformityResult assess(const Column& samples, const Known& known, const scenario::ConformityTest& test,
                         int threads = 1);
 
-/// One for each of the scenario's tests and each output it names.
+/// One for each of the scenario's tests and each output it names. U is the one that the result states (certify()), or
+/// half the symmetric coverage interval where it states none.
 std::vector<ConformityResult> conformity(const propagation::Experiment& experiment, const ValuesOf& values,
                                          const std::vector<Summary>& summaries, int threads);
 

@@ -169,8 +169,35 @@ TEST_CASE("numbers are accompanied by their definitions", "[conformity]") {
   const auto r = analysed(s);
   REQUIRE(r.conformity.size() == 1);
   const auto& c = r.conformity[0];
-  CHECK(c.guard_band == Approx(0.196).epsilon(0.03)); // U is half the symmetric interval
+  CHECK(c.guard_band == Approx(0.196).epsilon(0.03)); // 1.96 u
   for (const char* word :
        {"guarded acceptance", "rejected", "Specific producer's risk", "global consumer's risk", "prior knowledge"})
     CHECK(c.statement.find(word) != std::string::npos);
+}
+
+TEST_CASE("the guard band follows from the U that the result states", "[conformity]") {
+  // Exponential of mean 1: about the mean, U = ln 20 - 1 = 2.00; half the symmetric interval is (ln 40 - ln(40/39)) / 2
+  // = 1.83.
+  auto s = scenario_of<Plain>({{0, {component(Family::exponential, {1})}}}, 100'000);
+  ConformityTest t;
+  t.measurand = "y", t.upper = 4, t.rule = scenario::DecisionRule::ilac_g8;
+  s.analysis.conformity.push_back(t);
+  const auto r = analysed(s);
+  REQUIRE(r.conformity.size() == 1);
+  REQUIRE(r.validations[0].verdict == "not validated");
+  CHECK(r.conformity[0].guard_band == r.summaries[0].expanded_uncertainty);
+  CHECK(r.conformity[0].guard_band == Approx(std::log(20.0) - 1).epsilon(0.02));
+}
+
+TEST_CASE("a result without a standard uncertainty has a guard band of half the symmetric interval", "[conformity]") {
+  auto s = scenario_of<Plain>({{0, {student(1, 1)}}}, 100'000);
+  ConformityTest t;
+  t.measurand = "y", t.upper = 100, t.guard_factor = 1;
+  s.analysis.conformity.push_back(t);
+  const auto r = analysed(s);
+  REQUIRE(r.conformity.size() == 1);
+  REQUIRE(std::isnan(r.summaries[0].expanded_uncertainty));
+  const auto& symmetric = r.summaries[0].symmetric;
+  CHECK(r.conformity[0].guard_band == 0.5 * (symmetric.high - symmetric.low));
+  CHECK(r.conformity[0].accepted);
 }
