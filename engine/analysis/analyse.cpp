@@ -59,7 +59,7 @@ std::string statement(const Summary& s, const Budget& b, const Validation& v, do
     text += " and without a coverage interval" +
             (std::isfinite(s.standard_uncertainty) ? " (" + s.warning + ")" : std::string());
   else
-    text += fmt::format("; the shortest {:.4g} % coverage interval is [{}, {}]{}", 100 * p,
+    text += fmt::format("; the shortest {} coverage interval is [{}, {}]{}", coverage_text(p),
                         fixed(shown(s.shortest.low), d), fixed(shown(s.shortest.high), d), unit);
   if (b.applicable && b.expanded_uncertainty > 0) {
     text += fmt::format(". GUM framework: U = {}{} with k = {:.2f}{}", fixed(width(b.expanded_uncertainty), d), unit,

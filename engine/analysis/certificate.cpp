@@ -18,10 +18,10 @@ std::string certificate_line(const Summary& s, double p, bool error) {
   const std::string pair =
       fmt::format("{} +- {}", fixed(units::from_si(s.estimate, o.unit, o.si_unit, kind), d), fixed(expanded, d));
   return fmt::format(
-      "{} = {}, k = {:.2f}{}, {:.4g} %", o.name, o.unit == "1" ? pair : "(" + pair + ") " + o.unit, s.coverage_factor,
+      "{} = {}, k = {:.2f}{}, {}", o.name, o.unit == "1" ? pair : "(" + pair + ") " + o.unit, s.coverage_factor,
       std::isfinite(s.degrees_of_freedom) ? fmt::format(" ({:.0f} effective degrees of freedom)", s.degrees_of_freedom)
                                           : "",
-      100 * p);
+      coverage_text(p));
 }
 
 void certify(Summary& s, const Budget& b, const Validation& v, double p, bool error) {

@@ -67,6 +67,16 @@ std::string probability_text(double p, double least) {
   return percent(p);
 }
 
+std::string coverage_text(double p) {
+  constexpr double least = 1e-12;
+  const double rest = std::fmin(p, 1 - p);
+  if (!(rest >= least)) return probability_text(p, least);
+  std::string text = fixed(100 * p, std::max(2, -static_cast<int>(std::floor(std::log10(rest)))));
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.ends_with('.')) text.pop_back();
+  return text + " %";
+}
+
 std::string share_text(double share) {
   constexpr double half = 0.005;
   if (std::fabs(share) < half) return "< 1 %";

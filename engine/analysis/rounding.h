@@ -17,6 +17,9 @@ std::string with_suitable_unit(double si, const std::string& unit, const std::st
 /// probability or its complement below it is not known.
 std::string probability_text(double p, double least);
 
+/// A stated coverage probability in percent: "95 %", "99.999 %". Never 0 % or 100 %.
+std::string coverage_text(double p);
+
 /// "97 %" of a whole, in whole percent; "< 1 %" and "> 99 %" for what would round to nothing or to all.
 std::string share_text(double share);
 

@@ -57,7 +57,7 @@ void require_one_coverage(std::span<const Results* const> results) {
   for (const Results* r : results)
     if (r->coverage_probability != results[0]->coverage_probability)
       throw InputError("the results have different coverage probabilities",
-                       fmt::format("{:g} and {:g}", results[0]->coverage_probability, r->coverage_probability),
+                       fmt::format("{} and {}", results[0]->coverage_probability, r->coverage_probability),
                        "state the same coverage_probability in [analysis] of all, and use gumshoe analyse");
 }
 

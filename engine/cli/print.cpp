@@ -62,8 +62,8 @@ void print_details(const Results& r, std::size_t o, bool budget) {
   const int d =
       decimals_for(units::from_si(s.standard_uncertainty, s.output.unit, s.output.si_unit, units::Kind::difference));
   if (!s.certificate.empty()) {
-    std::cout << fmt::format("  u = {}; shortest {:.4g} % coverage interval [{}, {}]{}", width(s.standard_uncertainty),
-                             100 * r.coverage_probability, fixed(point(s.output, s.shortest.low), d),
+    std::cout << fmt::format("  u = {}; shortest {} coverage interval [{}, {}]{}", width(s.standard_uncertainty),
+                             coverage_text(r.coverage_probability), fixed(point(s.output, s.shortest.low), d),
                              fixed(point(s.output, s.shortest.high), d), unit_text(s.output));
     if (v.verdict == "validated")
       std::cout << "; U and k of the GUM framework, validated by Monte Carlo";
@@ -216,9 +216,9 @@ void print_published(const Results& r, bool all) {
 
 void print_predicted(const Results& r) {
   if (r.predicted.empty()) return;
-  std::cout << fmt::format("{} of {} readings lie in their {:.4g} % coverage intervals\n",
+  std::cout << fmt::format("{} of {} readings lie in their {} coverage intervals\n",
                            std::ranges::count(r.predicted, true, &PredictedReading::inside), r.predicted.size(),
-                           100 * r.coverage_probability);
+                           coverage_text(r.coverage_probability));
 }
 
 } // namespace

@@ -51,7 +51,7 @@ std::string largest(const std::vector<Row>& rows, Value value, Name name, Text t
 
 void print_joint(const Results& r, std::ostream& out) {
   for (const JointRegion& j : r.joint) {
-    out << fmt::format("joint coverage region for {:.4g} % of {}:", 100 * j.coverage_probability, names(j.outputs));
+    out << fmt::format("joint coverage region for {} of {}:", coverage_text(j.coverage_probability), names(j.outputs));
     if (std::isfinite(j.k_p)) out << fmt::format(" ellipsoid k_p = {:.3f},", j.k_p);
     if (std::isfinite(j.k_q)) out << fmt::format(" rectangle k_q = {:.3f}", j.k_q);
     out << (j.remark.empty() ? "" : " (" + j.remark + ")") << '\n';

@@ -60,6 +60,8 @@ TEST_CASE("the certificate gives U and k of the framework where it is validated"
   CHECK(s.certificate == "y = (10.003387 +- 0.000099) mm, k = 1.96, 95 %");
   certify(s, framework(s.estimate, 0.0505e-6, 2.262157, 9), v, 0.95, false);
   CHECK(s.certificate == "y = (10.00339 +- 0.00011) mm, k = 2.26 (9 effective degrees of freedom), 95 %");
+  certify(s, framework(s.estimate, 0.0505e-6, 4.417173, infinite), v, 0.99999, false);
+  CHECK(s.certificate == "y = (10.00339 +- 0.00022) mm, k = 4.42, 99.999 %");
   v.verdict = "not validated";
   certify(s, framework(s.estimate, 0.0505e-6, 1.959964, infinite), v, 0.95, false);
   CHECK(s.certificate == "y = (10.00339 +- 0.00011) mm, k = 2.18, 95 %");

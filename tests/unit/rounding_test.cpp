@@ -31,3 +31,16 @@ TEST_CASE("no share and no probability is said to be 0 or 1", "[rounding]") {
   CHECK(probability_text(1, 3e-6) == "> 99.9997 %");
   CHECK(probability_text(0.25, 3e-6) == "25.0 %");
 }
+
+TEST_CASE("a coverage probability is given with the digits that it has, never as 0 or 1", "[rounding]") {
+  CHECK(coverage_text(0.95) == "95 %");
+  CHECK(coverage_text(0.6827) == "68.27 %");
+  CHECK(coverage_text(0.954499736) == "95.45 %");
+  CHECK(coverage_text(0.9973) == "99.73 %");
+  CHECK(coverage_text(0.5) == "50 %");
+  CHECK(coverage_text(0.99999) == "99.999 %");
+  CHECK(coverage_text(1 - 1e-9) == "99.9999999 %");
+  CHECK(coverage_text(1 - 1e-15) == "> 99.9999999999 %");
+  CHECK(coverage_text(1e-5) == "0.001 %");
+  CHECK(coverage_text(1e-15) == "< 0.0000000001 %");
+}
