@@ -16,6 +16,10 @@ double converted(double si, Unit unit, const RowUnit& row, const RowUnit& output
   return units::from_si(si, in.shown, in.si, kind);
 }
 
+std::string coefficient_unit(const RowUnit& row, const RowUnit& output) {
+  return row.shown == output.shown ? "1" : units::quotient(output.shown, row.shown);
+}
+
 Json shown(const Value& value, Unit unit, const RowUnit& row,
            const RowUnit& output) {
   if (const double* x = std::get_if<double>(&value)) return number(converted(*x, unit, row, output));

@@ -13,6 +13,8 @@ Json number(double x);
 
 /// A number in its shown unit; a coefficient in the output's over the row's.
 double converted(double si, Unit unit, const RowUnit& row, const RowUnit& output = {});
+/// Unit of a coefficient: "mV/V"; "1" where both units are the same.
+std::string coefficient_unit(const RowUnit& row, const RowUnit& output);
 Json shown(const Value& value, Unit unit, const RowUnit& row,
            const RowUnit& output = {});
 

@@ -9,7 +9,6 @@
 #include "analysis/gum.h"
 #include "analysis/result_fields.h"
 #include "analysis/rounding.h"
-#include "base/units.h"
 
 namespace gumshoe::cli {
 using namespace analysis;
@@ -97,8 +96,7 @@ std::vector<std::string> cells(const Contribution& c, const propagation::Output&
           std::string(1, c.evaluation),
           c.distribution,
           std::isfinite(c.degrees_of_freedom) ? fmt::format("{:.4g}", c.degrees_of_freedom) : "inf",
-          number_text(converted(c.sensitivity, In::coefficient, row, out)) +
-              (output.unit == c.unit ? "" : " " + units::quotient(output.unit, c.unit)),
+          number_text(converted(c.sensitivity, In::coefficient, row, out)) + unit_text(coefficient_unit(row, out)),
           std::isfinite(c.contribution) ? with_suitable_unit(c.contribution, output.unit, output.si_unit) : "-",
           std::isfinite(c.share)               ? percent(c.share)
           : std::isfinite(c.monte_carlo_share) ? percent(c.monte_carlo_share)

@@ -5,7 +5,6 @@
 
 #include "analysis/fields_json.h"
 #include "analysis/result_fields.h"
-#include "base/units.h"
 #include "cli/print.h"
 #include "cli/print_studies.h"
 
@@ -53,6 +52,8 @@ void add_cells(Line& line, const Fields<Row>& fields, const Row& row, const prop
           },
           field.get(row));
     line.add(prefix + std::string(name), cell);
+    if (field.unit.in == In::coefficient)
+      line.add(prefix + std::string(name) + "_unit", coefficient_unit(unit, of_output));
   }
 }
 
@@ -80,7 +81,7 @@ Json budget_json(const Budget& b) {
   Json rows = Json::array();
   for (const Contribution& c : b.contributions) {
     rows.push_back(json(contribution_fields, c, b.output));
-    rows.back()["sensitivity_unit"] = c.unit == b.output.unit ? "1" : units::quotient(b.output.unit, c.unit);
+    rows.back()["sensitivity_unit"] = coefficient_unit(unit_of(c), unit_of(b));
   }
   return rows;
 }
