@@ -79,6 +79,12 @@ struct Context {
   External external{};
   const Node* data = nullptr;  ///< [data]: what the readings of all indications share
   const Node* trace = nullptr; ///< [trace]: its columns, and blocks that are stretches of the data
+  bool own_quantities = false; ///< the scenario itself declares the quantities: no card knows a default value of theirs
+
+  struct Assumed {
+    std::string quantity, value;
+  };
+  std::vector<Assumed> without_value = {}; ///< uncertain quantities without any value, and the one that is taken
 
   std::vector<std::string> label_names() const;
   /// False, and a problem at the node, if it is known that no reading has a label of this name.

@@ -71,6 +71,7 @@ models::MadeModel make_command(const MadeModelSource& source) {
     context.problems.add(*model.find("time_limit"), "model.time_limit: must be above 0 and at most 1e7 s");
   spec.card.measurands = read_measurands(model, context.problems);
   const Declared declared = declared_symbols(top, context.problems);
+  context.own_quantities = true;
   spec.card.quantities = declared.quantities;
   spec.card.conditions = declared.conditions;
   spec.card.indications = declared.indications;

@@ -56,6 +56,7 @@ models::MadeModel make_expression(const MadeModelSource& source) {
   s.measurands = read_formulas(model, "measurands", true);
   s.simulated = read_formulas(model, "indications", false);
   Declared declared = declared_symbols(top, context.problems);
+  context.own_quantities = true;
   s.quantities = std::move(declared.quantities);
   s.conditions = std::move(declared.conditions);
   s.indications = std::move(declared.indications);

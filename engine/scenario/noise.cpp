@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "scenario/excess_scatter.h"
 #include "scenario/number_column.h"
 #include "scenario/quantity.h"
 #include "scenario/repeatability.h"
@@ -30,6 +31,7 @@ public:
     const auto step = table_.width("resolution", std::string(card_.si_unit));
     const Repeatability repeatability = read_repeatability(table_, card_, readouts_, context_);
     const std::vector<double> own = own_uncertainties();
+    note_excess(step, repeatability, own);
     double unused = 0;
     const auto further = read_components(table_, std::string(card_.si_unit), true, unused, context_);
     const std::size_t before = context_.problems.size();
@@ -139,6 +141,17 @@ private:
         fmt::format("{} indications scatter by s = {}, s/sqrt(n) = {}, which is not used: repeatability = \"readings\" "
                     "would use it",
                     reading.values.size(), shown(s), shown(u)));
+  }
+
+  /// `own`: u of every reading's mean. Where a column states it, the indications differ in u, and no test is made.
+  void note_excess(const std::optional<double>& step, const Repeatability& r, const std::vector<double>& own) {
+    DeclaredNoise declared{0, r.scatter, step.value_or(0)};
+    if (!own.empty()) {
+      if (table_.find("u")->kind == Node::Kind::table) return;
+      declared.u = own.front() * std::sqrt(static_cast<double>(readouts_.used.front().repeats));
+    }
+    if (r.kind == Repeatability::Kind::readings || r.pooled) return;
+    if (const std::string text = excess_scatter(readouts_.used, declared, card_); !text.empty()) note(text);
   }
 
   std::vector<Component> warned(const Component& repeatability, const Readouts& reading) {

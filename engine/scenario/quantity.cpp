@@ -45,6 +45,11 @@ const std::vector<Key>& component_keys() {
   return keys;
 }
 
+std::string shown(double value, const QuantityCard& card) {
+  const double number = units::from_si(value, std::string(card.unit), std::string(card.si_unit));
+  return card.unit == "1" ? fmt::format("{:.6g}", number) : fmt::format("{:.6g} {}", number, card.unit);
+}
+
 class QuantityReader {
 public:
   QuantityReader(const QuantityCard& card, InputQuantity& out, Context& context)
@@ -117,8 +122,29 @@ private:
                    fmt::format("give a value per label: by.{}", c.per.front()));
       return;
     }
-    if (context_.problems.size() == problems)
-      keep(std::move(e), given ? *table.find("value") : table.node(), table.path());
+    if (context_.problems.size() > problems) return;
+    if (!given && !out_.estimated && !states_place(table)) assume(e.value);
+    keep(std::move(e), given ? *table.find("value") : table.node(), table.path());
+  }
+
+  /// Whether the uncertainty says where the quantity lies; the limits of a component are those of a deviation.
+  static bool states_place(const Table& table) {
+    constexpr std::array places{"low", "high", "mean", "median", "mu", "values", "from", "shape", "observations"};
+    const auto has_key = [](const Node& node, const auto& keys) {
+      return std::ranges::any_of(node.members,
+                                 [&](const Member& m) { return std::ranges::find(keys, m.key) != keys.end(); });
+    };
+    if (has_key(table.node(), places)) return true;
+    const auto components = std::ranges::find(table.node().members, "components", &Member::key);
+    return components != table.node().members.end() &&
+           std::ranges::any_of(components->value.items, [&](const Node& component) {
+             return has_key(component, std::array{"observations", "from", "values"});
+           });
+  }
+
+  void assume(double value) {
+    auto& all = context_.without_value;
+    if (all.empty() || all.back().quantity != out_.name) all.push_back({out_.name, shown(value, card_)});
   }
 
   /// Anything but value and source states an uncertainty, or is a mistake that its reader finds.
@@ -200,10 +226,6 @@ private:
   InputQuantity& out_;
   Context& context_;
 };
-
-std::string shown(double value, const QuantityCard& card) {
-  return fmt::format("{:.6g} {}", units::from_si(value, std::string(card.unit), std::string(card.si_unit)), card.unit);
-}
 
 std::string limit_text(const Limits& limits, bool low, const QuantityCard& card) {
   const bool open = low ? limits.low_open : limits.high_open;

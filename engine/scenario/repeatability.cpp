@@ -28,7 +28,7 @@ public:
     const std::string path = table_.path("repeatability");
     if (node->kind == Node::Kind::text && node->text == "readings") {
       own_repeats(*node, path);
-      return {Repeatability::Kind::readings, {}, 'A', "repeats of each reading"};
+      return {Repeatability::Kind::readings, {}, false, 'A', "repeats of each reading"};
     }
     if (node->kind != Node::Kind::table) {
       table_.refuse_key("repeatability", "not understood", "",
@@ -69,13 +69,13 @@ private:
       if (context_.readings_known) table.refuse("there is nothing to pool", "no reading is repeated", "declare s");
       return {};
     }
-    return {Repeatability::Kind::declared, scatter, 'A',
+    return {Repeatability::Kind::declared, scatter, true, 'A',
             fmt::format("s = {} pooled over {} readings, {} degrees of freedom (GUM 4.2.4)",
                         shown_scatter(scatter.s, card_), readouts_.all.size(), scatter.degrees_of_freedom)};
   }
 
   Repeatability declared(Table& table) {
-    Repeatability out{Repeatability::Kind::declared, {}, 'A', {}};
+    Repeatability out{Repeatability::Kind::declared, {}, false, 'A', {}};
     table.require("s", "write s = \"...\" or pooled = true");
     const auto s = table.width("s", std::string(card_.si_unit));
     out.scatter.degrees_of_freedom = table.positive("degrees_of_freedom").value_or(0);

@@ -12,7 +12,8 @@ struct Scatter {
 
 struct Repeatability {
   enum class Kind { none, readings, declared } kind = Kind::none;
-  Scatter scatter; ///< declared or pooled; degrees_of_freedom 0 means infinite
+  Scatter scatter;     ///< declared or pooled; degrees_of_freedom 0 means infinite
+  bool pooled = false; ///< from the data, not declared
   char evaluation = 'A';
   std::string source;
 };

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/hash.h"
 #include "base/text_file.h"
@@ -190,6 +191,17 @@ private:
                                      : default_quantity(card, name));
     }
     if (table) table->refuse_unknown();
+    if (context_.own_quantities) note_assumed_values();
+  }
+
+  /// A correction of zero may be meant; a value that was forgotten is not.
+  void note_assumed_values() {
+    const auto& all = context_.without_value;
+    if (all.empty()) return;
+    std::vector<std::string> names, values;
+    for (const auto& [quantity, value] : all) names.push_back(quantity), values.push_back(value);
+    context_.note(fmt::format("{} {} no value: {} taken as {}", fmt::join(names, ", "), all.size() > 1 ? "have" : "has",
+                              all.size() > 1 ? "their estimates are" : "its estimate is", fmt::join(values, ", ")));
   }
 
   void read_effects(Table& top, const ModelCard& model) {
