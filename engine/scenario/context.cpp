@@ -85,6 +85,10 @@ void DataFiles::include(const std::string& name) {
   files_.push_back({"model: " + path.string(), {std::istreambuf_iterator<char>(in), {}}});
 }
 
+void DataFiles::note(const std::string& text) {
+  if (std::ranges::find(notes_, text) == notes_.end()) notes_.push_back(text);
+}
+
 std::uint64_t DataFiles::hash(std::uint64_t hash) const {
   for (const File& file : files_) hash = hash64(file.bytes, hash);
   return hash;

@@ -42,6 +42,8 @@ public:
   /// A file that fixes the numbers in another way (a model's library or script): its bytes enter the hash. No such
   /// file: nothing.
   void include(const std::string& name);
+  /// Adds a note on a file, once.
+  void note(const std::string& text);
   /// Continues `hash` over the bytes of every file opened, in order.
   std::uint64_t hash(std::uint64_t hash) const;
 

@@ -1,11 +1,13 @@
 #include "scenario/data_file.h"
 
 #include <array>
+#include <cmath>
 #include <filesystem>
 
 #include <fmt/format.h>
 
 #include "base/text_file.h"
+#include "scenario/column_words.h"
 #include "scenario/log_form.h"
 
 namespace gumshoe::scenario {
@@ -74,6 +76,7 @@ std::optional<DataFile> read_data_file(Table& table, DataFiles& files, bool of_r
     out.csv = of_readings ? files.open_readings(*name, table.path("file"), *form, table.problems())
                           : files.open(*name, table.path("file"), *form, table.problems());
   if (!out.csv) return std::nullopt;
+  out.files = &files;
   return out;
 }
 
@@ -115,6 +118,26 @@ std::optional<double> read_cell(const DataFile& file, const CsvCell& cell, const
     problems.add(error);
     return std::nullopt;
   }
+}
+
+namespace {
+
+/// As differences: those of temperatures in degC are read in K.
+bool are_alike(const std::string& a, const std::string& b, const std::string& si_unit) {
+  const auto one = [&](const std::string& unit) { return units::to_si(1, unit, si_unit, units::Kind::difference); };
+  return std::abs(one(a) / one(b) - 1) < 1e-9;
+}
+
+} // namespace
+
+void note_other_unit(const DataFile& file, const std::string& column, const std::string& unit,
+                     const std::string& si_unit) {
+  std::string rest;
+  const std::string named = unit_in(column, rest);
+  if (named.empty() || named == "1" || !units::convertible(named, si_unit)) return;
+  if (!are_alike(named, unit, si_unit))
+    file.files->note(
+        fmt::format("{}: column '{}' is read in {}, but its name states {}", file.csv->file, column, unit, named));
 }
 
 bool is_unknown_unit(const std::string& unit) { return unit == "?"; }

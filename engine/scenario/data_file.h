@@ -8,6 +8,7 @@ struct DataFile {
   const Csv* csv = nullptr;
   char decimal = '.';
   std::map<std::string, std::string> units = {}; ///< by column, from [data]
+  DataFiles* files = nullptr;                    ///< which take notes on it
 };
 
 /// The keys file, delimiter and decimal.
@@ -25,6 +26,11 @@ int find_column(Table& table, const std::string& key, const Csv& csv);
 /// A cell in SI; nullopt and a problem located in the data file.
 std::optional<double> read_cell(const DataFile& file, const CsvCell& cell, const std::string& unit,
                                 const Dimension& dimension, Problems& problems);
+
+/// Notes that the column is read in `unit` although its name states one of the same kind and another size: "x_um" in
+/// mm.
+void note_other_unit(const DataFile& file, const std::string& column, const std::string& unit,
+                     const std::string& si_unit);
 
 /// The unit "?", which stands for one that is still to be told.
 bool is_unknown_unit(const std::string& unit);

@@ -85,6 +85,8 @@ std::optional<NumberColumn> NumberColumn::read(Table& parent, const std::string&
   out.path_ = parent.path(key);
   const bool found = out.read_columns(*table);
   out.unit_ = unit_of_column(stated, file.units);
+  const bool of_numbers = !table->has("clock") && !table->has("sense") && !table->has("map");
+  const bool checked = of_numbers && !out.unit_.empty();
   if (table->has("clock"))
     out.read_clock(*table);
   else if (table->has("sense"))
@@ -94,6 +96,7 @@ std::optional<NumberColumn> NumberColumn::read(Table& parent, const std::string&
   for (const char* other : {"unit", "map"}) table->find(other);
   table->refuse_unknown();
   if (!found || parent.problems().size() != problems) return std::nullopt;
+  if (checked) note_other_unit(file, out.name_, out.unit_, out.si_unit());
   return out;
 }
 

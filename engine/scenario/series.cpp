@@ -46,6 +46,7 @@ void read_column(Table& source, const Dimension& dimension, Context& context, st
   source.find("where");
   source.refuse_unknown();
   if (column < 0 || !unit) return;
+  if (source.has("unit")) note_other_unit(*data, named->text, *unit, dimension.si_unit);
   for (const auto& row : data->csv->rows)
     if (filter.keeps_columns(row))
       if (const auto v = read_cell(*data, row[static_cast<std::size_t>(column)], *unit, dimension, context.problems))

@@ -88,3 +88,48 @@ TEST_CASE("no test of scatter that the data themselves state, or where nothing i
     CHECK_THAT(notes(four(stated)), !Contains("repeats scatter"));
   CHECK_THAT(notes(readings("\"1 um\"", "u = \"0.1 um\"")), !Contains("repeats scatter"));
 }
+
+namespace {
+
+/// The same readings, from a column of this name that is read in this unit.
+std::string column_notes(const std::string& column, const std::string& unit) {
+  const Folder folder;
+  folder.write("r.csv", column + ",id\n1001,1\n1003,2\n");
+  const std::string text =
+      head + "[indications.spindle_z]\nrepeatability = { s = \"1 m\" }\nreadings = { file = \"r.csv\", column = \"" +
+      column + "\", unit = \"" + unit + "\" }\n";
+  return fmt::format("{}", fmt::join(scenario::read(folder.write("s.toml", text), catalogue()).notes, "\n"));
+}
+
+std::string observed_notes(const std::string& unit) {
+  const Folder folder;
+  folder.write("o.csv", "d [um]\n1\n3\n2\n5\n");
+  const std::string text =
+      head + one_reading +
+      "[quantities.rod_length]\nobservations = { file = \"o.csv\", column = \"d [um]\", unit = \"" + unit + "\" }\n";
+  return fmt::format("{}", fmt::join(scenario::read(folder.write("s.toml", text), catalogue()).notes, "\n"));
+}
+
+} // namespace
+
+TEST_CASE("a column that is read in another unit than its name states is noted", "[scenario][notes]") {
+  CHECK_THAT(column_notes("x_um", "mm"), Contains("r.csv: column 'x_um' is read in mm, but its name states um"));
+  CHECK_THAT(column_notes("x (mm)", "um"), Contains("column 'x (mm)' is read in um"));
+  CHECK_THAT(observed_notes("mm"), Contains("column 'd [um]' is read in mm"));
+  for (const auto& [column, unit] : {std::pair{"x_mm", "mm"}, std::pair{"x", "mm"}, std::pair{"x_min", "mm"},
+                                     std::pair{"T_in", "mm"}, std::pair{"x (1)", "mm"}}) {
+    INFO(column << " in " << unit);
+    CHECK_THAT(column_notes(column, unit), !Contains("is read in"));
+  }
+  CHECK_THAT(observed_notes("um"), !Contains("is read in"));
+}
+
+TEST_CASE("corrections in degC are read in K without a note", "[scenario][notes]") {
+  const Folder folder;
+  folder.write("b.csv", "b_degC\n-0.15\n-0.12\n");
+  const std::string text =
+      "schema = 1\n[model]\nname = \"expression\"\n[model.measurands]\ny = \"b\"\n[indications.b]\n"
+      "repeatability = { s = \"1 K\" }\n"
+      "readings = { file = \"b.csv\", column = \"b_degC\", unit = \"K\" }\n";
+  CHECK(scenario::read(folder.write("s.toml", text), catalogue()).notes.empty());
+}
