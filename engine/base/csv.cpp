@@ -1,9 +1,11 @@
 #include "base/csv.h"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -14,10 +16,16 @@ namespace {
 
 constexpr std::size_t most_problems = 20;
 
-std::string trimmed(const std::string& text) {
-  const auto first = text.find_first_not_of(" \t");
-  if (first == std::string::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+/// Blanks, tabs and no-break spaces (U+00A0, U+202F), which spreadsheets put around numbers.
+constexpr std::string_view spaces[] = {" ", "\t", "\xC2\xA0", "\xE2\x80\xAF"};
+
+std::string trimmed(std::string_view text) {
+  for (bool more = true; std::exchange(more, false);)
+    for (const std::string_view space : spaces) {
+      if (text.starts_with(space)) text.remove_prefix(space.size()), more = true;
+      if (text.ends_with(space)) text.remove_suffix(space.size()), more = true;
+    }
+  return std::string(text);
 }
 
 /// Reads the text once, row by row.
@@ -26,6 +34,7 @@ public:
   Reader(std::string_view text, const std::string& file, char separator)
       : text_(text), file_(file), separator_(separator) {
     if (text_.starts_with("\xEF\xBB\xBF")) text_.remove_prefix(3);
+    take_stated_separator();
   }
 
   bool next(std::vector<CsvCell>& row) {
@@ -51,6 +60,7 @@ public:
   }
 
   int comments_like_rows() const { return comments_like_rows_; }
+  char separator() const { return separator_; } ///< '\0' before the header is read
 
   /// Passes over the lines before this one.
   void skip_to(int line) {
@@ -66,7 +76,7 @@ private:
     std::size_t cells = 0, numbers = 0;
     for (std::size_t from = begin; cells_ > 0 && from <= end; ++cells) {
       const std::size_t to = std::min(text_.find(separator_, from), end);
-      const std::string text = trimmed(std::string(text_.substr(from, to - from)));
+      const std::string text = trimmed(text_.substr(from, to - from));
       double unused = 0;
       const char* const last = text.data() + text.size();
       numbers += !text.empty() && std::from_chars(text.data(), last, unused).ptr == last;
@@ -80,6 +90,18 @@ private:
   void end_line() {
     if (at_ < text_.size() && text_[at_++] == '\r' && at_ < text_.size() && text_[at_] == '\n') ++at_;
     new_line();
+  }
+
+  /// A first line `sep=;` is a spreadsheet's and says what separates the cells.
+  void take_stated_separator() {
+    constexpr std::string_view key = "sep=";
+    const auto is_end = [&](std::size_t at) { return at == text_.size() || text_[at] == '\n' || text_[at] == '\r'; };
+    if (text_.size() <= key.size() || !is_end(key.size() + 1) || is_end(key.size())) return;
+    const auto alike = [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; };
+    if (!std::ranges::equal(text_.substr(0, key.size()), key, alike)) return;
+    if (separator_ == '\0') separator_ = text_[key.size()];
+    at_ = key.size() + 1;
+    end_line();
   }
 
   /// From the header: a comma outside quotes, otherwise a semicolon or a tab.
@@ -104,12 +126,12 @@ private:
       cell.quoted = true;
       const std::size_t after = at_;
       while (at_ < text_.size() && !ends_cell(text_[at_])) ++at_;
-      if (!trimmed(std::string(text_.substr(after, at_ - after))).empty())
+      if (!trimmed(text_.substr(after, at_ - after)).empty())
         throw InputError({{{file_, cell.line, cell.column}, "text follows a closing quote", "", ""}});
     } else {
       const std::size_t begin = at_;
       while (at_ < text_.size() && !ends_cell(text_[at_])) ++at_;
-      cell.text = trimmed(std::string(text_.substr(begin, at_ - begin)));
+      cell.text = trimmed(text_.substr(begin, at_ - begin));
     }
     row.push_back(std::move(cell));
     if (separator_ == ' ') // any number of them separates, and none follows the last cell
@@ -190,7 +212,7 @@ std::string without_thousands(const std::string& text, char decimal) {
 } // namespace
 
 double Csv::number(const CsvCell& cell, char decimal) const {
-  std::string text = without_thousands(cell.text, decimal);
+  std::string text = without_thousands(trimmed(cell.text), decimal);
   const bool points = text.find('.') != std::string::npos, comma = std::count(text.begin(), text.end(), ',') == 1;
   if (comma) std::replace(text.begin(), text.end(), ',', '.');
   double value = 0;
@@ -218,6 +240,20 @@ void drop_empty_column(Csv& csv) {
   for (auto& row : csv.rows) row.pop_back();
 }
 
+/// Whether a row would have as many cells as the header, if some of its commas stood within numbers.
+bool has_decimal_commas(const std::vector<CsvCell>& row, std::size_t cells) {
+  const auto digits = [](std::string_view text) {
+    return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+  };
+  const auto whole = [&](std::string_view text) {
+    return digits(text.substr(std::min(text.find_first_not_of("+-"), text.size())));
+  };
+  std::size_t joined = 0;
+  for (std::size_t i = 0; i + 1 < row.size(); ++i)
+    if (whole(row[i].text) && digits(row[i + 1].text)) ++joined, ++i;
+  return row.size() > cells && row.size() - cells <= joined;
+}
+
 } // namespace
 
 Csv parse_csv(std::string_view text, const std::string& file, const CsvLayout& layout) {
@@ -236,8 +272,14 @@ Csv parse_csv(std::string_view text, const std::string& file, const CsvLayout& l
       continue;
     }
     if (row.size() != csv.header.size()) {
-      problems.push_back({csv.at(row.front()),
-                          fmt::format("the row has {} cells, the header {}", row.size(), csv.header.size()), "", ""});
+      const bool commas = csv.rows.empty() && problems.empty() && reader.separator() == ',' &&
+                          has_decimal_commas(row, csv.header.size());
+      problems.push_back(
+          {csv.at(row.front()), fmt::format("the row has {} cells, the header {}", row.size(), csv.header.size()),
+           commas ? "a comma separates cells" : "",
+           commas ? "is the comma the decimal sign? Then write semicolons between the cells, and decimal "
+                    "= \",\" in the scenario"
+                  : ""});
     } else {
       csv.rows.push_back(std::move(row));
     }

@@ -124,3 +124,41 @@ TEST_CASE("texts of other encodings become UTF-8", "[csv]") {
   CHECK(as_utf8(std::string("\xFF\xFE" "a\0\xB5\0\x3D\xD8\x00\xDE", 10)) == "a\xC2\xB5\xF0\x9F\x98\x80");
   CHECK(as_utf8(std::string("\xFE\xFF\0a\0\xB5\xD8\x3D\xDE\x00", 10)) == "a\xC2\xB5\xF0\x9F\x98\x80");
 }
+
+TEST_CASE("a first line may state the separator", "[csv]") {
+  for (const char* line : {"sep=;\n", "SEP=;\r\n"}) {
+    const auto csv = parse_csv(std::string(line) + "x;a,b\n1,5;2\n", "t.csv");
+    REQUIRE(csv.names() == std::vector<std::string>{"x", "a,b"});
+    CHECK(csv.header[0].line == 2);
+    CHECK(csv.rows[0][0].line == 3);
+    CHECK(csv.number(csv.rows[0][0], ',') == 1.5);
+  }
+  CHECK(parse_csv("\xEF\xBB\xBFsep=\t\na,b\tc\n1\t2\n", "t.csv").header[0].text == "a,b");
+  CHECK(parse_csv("sep=;\nlog\na;b\n1;2\n", "t.csv", {.header = 3}).header[1].text == "b");
+  CHECK(parse_csv("sep=,b\n1,2\n", "t.csv").header[0].text == "sep="); // names of columns
+  CHECK_THROWS_WITH(parse_csv("sep=;", "t.csv"), Catch::Contains("the file is empty"));
+}
+
+TEST_CASE("decimal commas between commas are suspected", "[csv]") {
+  const auto hint = Catch::Contains("Is the comma the decimal sign?");
+  CHECK_THROWS_WITH(parse_csv("x,id\n1,001,1\n-1,003,2\n", "t.csv"),
+                    hint && Catch::Contains("t.csv:2:1: error: the row has 3 cells, the header 2 (a comma separates cells)") &&
+                        Catch::Contains("t.csv:3:1: error: the row has 3 cells, the header 2.")); // once
+  CHECK_THROWS_WITH(parse_csv("x,y\n1,001,-1,5\n", "t.csv"), hint);
+  CHECK_THROWS_WITH(parse_csv("x,id\n1.5,a,1\n", "t.csv"), !hint);
+  CHECK_THROWS_WITH(parse_csv("x;id\n1;001;1\n", "t.csv"), !hint);
+  CHECK_THROWS_WITH(parse_csv("x,id,z\n1,001\n", "t.csv"), !hint);
+  CHECK_THROWS_WITH(parse_csv("x,id\n1,2\n1,001,1\n", "t.csv"), !hint); // the rows before it are good
+}
+
+TEST_CASE("no-break spaces around a number are spaces", "[csv]") {
+  for (const std::string text : {"\xC2\xA0" "1.5", "1.5 \xC2\xA0", "\xE2\x80\xAF" "1.5\xE2\x80\xAF", "\"\xC2\xA0" "1.5 \""}) {
+    const auto csv = parse_csv("a,b\n" + text + ",2\n", "t.csv");
+    CHECK(csv.number(csv.rows[0][0]) == 1.5);
+  }
+  const auto latin = parse_csv(gumshoe::as_utf8("a\xA0,b\n1.5\xA0,\xB5m\n"), "t.csv");
+  CHECK(latin.header[0].text == "a");
+  CHECK(latin.number(latin.rows[0][0]) == 1.5);
+  const auto letter = parse_csv("a\n\xC3\xA0\n", "t.csv"); // ends with the byte 0xA0
+  CHECK(letter.rows[0][0].text == "\xC3\xA0");
+}
