@@ -110,12 +110,15 @@ int find_column(Table& table, const std::string& key, const Csv& csv) {
   return column;
 }
 
-std::optional<double> read_cell(const DataFile& file, const CsvCell& cell, const std::string& unit,
-                                const Dimension& dimension, Problems& problems) {
+std::optional<double> read_cell(const DataFile& file, const CsvCell& cell, const std::string& column,
+                                const std::string& unit, const Dimension& dimension, Problems& problems) {
   try {
     return units::to_si(file.csv->number(cell, file.decimal), unit, dimension.si_unit, dimension.kind);
   } catch (const InputError& error) {
-    problems.add(error);
+    for (Problem p : error.problems()) {
+      p.why = fmt::format("column '{}'{}{}", column, p.why.empty() ? "" : ": ", p.why);
+      problems.add(std::move(p));
+    }
     return std::nullopt;
   }
 }

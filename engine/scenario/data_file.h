@@ -23,9 +23,9 @@ std::map<std::string, std::string> read_units(Table& data, const Csv& csv);
 /// Index of the column named by `key` of the table; -1 and a problem if it is not there.
 int find_column(Table& table, const std::string& key, const Csv& csv);
 
-/// A cell in SI; nullopt and a problem located in the data file.
-std::optional<double> read_cell(const DataFile& file, const CsvCell& cell, const std::string& unit,
-                                const Dimension& dimension, Problems& problems);
+/// A cell of the column in SI; nullopt and a problem located in the data file.
+std::optional<double> read_cell(const DataFile& file, const CsvCell& cell, const std::string& column,
+                                const std::string& unit, const Dimension& dimension, Problems& problems);
 
 /// Notes that the column is read in `unit` although its name states one of the same kind and another size: "x_um" in
 /// mm.

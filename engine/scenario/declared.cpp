@@ -16,30 +16,35 @@ constexpr std::array worded{"distribution", "evaluation", "source", "per",    "n
                             "labels",       "where",      "file",   "column", "conditions", "decimal"};
 constexpr std::array widths{"u", "U", "half_width"}; ///< which may be shares of the value
 
+struct StatedUnit {
+  std::string unit;    ///< empty: none
+  const Node* node = nullptr; ///< where it is written
+};
+
 /// Depth first, in file order; empty if no number here carries a unit.
-std::string first_unit(const Node& node) {
+StatedUnit first_unit(const Node& node) {
   if (node.kind == Node::Kind::text) {
     try {
       const std::string unit = units::parse(node.text).unit;
-      return unit == "1" ? "" : unit;
+      return {unit == "1" ? "" : unit, &node};
     } catch (const InputError&) {
-      return "";
+      return {};
     }
   }
   for (const Member& m : node.members) {
     if (std::ranges::find(worded, m.key) != worded.end()) continue;
-    if (m.key == "unit" && m.value.kind == Node::Kind::text) return m.value.text;
+    if (m.key == "unit" && m.value.kind == Node::Kind::text) return {m.value.text, &m.value};
   }
   for (const Member& m : node.members) {
     if (std::ranges::find(worded, m.key) != worded.end()) continue;
-    const auto unit = first_unit(m.value);
-    if (unit.empty()) continue;
-    const bool relative = std::ranges::find(widths, m.key) != widths.end() && units::convertible(unit, "1");
-    if (!relative) return unit;
+    auto found = first_unit(m.value);
+    if (found.unit.empty()) continue;
+    const bool relative = std::ranges::find(widths, m.key) != widths.end() && units::convertible(found.unit, "1");
+    if (!relative) return found;
   }
   for (const Node& item : node.items)
-    if (auto unit = first_unit(item); !unit.empty()) return unit;
-  return "";
+    if (auto found = first_unit(item); !found.unit.empty()) return found;
+  return {};
 }
 
 std::vector<Symbol> symbols(Table& top, const char* key, Problems& problems) {
@@ -50,8 +55,9 @@ std::vector<Symbol> symbols(Table& top, const char* key, Problems& problems) {
     if (const auto reserved = formula::reserved_as(m.key); !reserved.empty())
       problems.add(m, fmt::format("{}: this name is {}", table->path(m.key), reserved),
                    "a formula could not tell the two apart", "rename it");
-    const std::string unit = declared_unit(m.value);
-    const auto si_unit = read_si_unit(m.value, table->path(m.key), unit, problems);
+    const StatedUnit stated = first_unit(m.value);
+    const std::string unit = stated.unit.empty() ? "1" : stated.unit;
+    const auto si_unit = read_si_unit(stated.node ? *stated.node : m.value, table->path(m.key), unit, problems);
     out.push_back({m.key, si_unit ? unit : "1", si_unit.value_or("1"), ""});
   }
   return out;
@@ -62,16 +68,32 @@ const Node* member(const Node& node, std::string_view key) {
   return it == node.members.end() ? nullptr : &it->value;
 }
 
+/// The name of the column that a node refers to, as its text or as { column = "x" }; empty if there is none, or if its
+/// words stand for numbers.
+std::string column_of(const Node& node) {
+  if (node.kind == Node::Kind::text) return node.text;
+  const Node* const column = member(node, "column");
+  return column && column->kind == Node::Kind::text && !member(node, "map") ? column->text : "";
+}
+
+void note_without_unit(const Symbol& symbol, const Node& column, Declared& out) {
+  if (const std::string name = column_of(column); symbol.unit == "1" && !name.empty())
+    out.columns_without_unit.emplace_back(symbol.name, name);
+}
+
 /// Conditions that are columns of a data file.
 void add_conditions(const Node* named, const std::string& path, const std::map<std::string, std::string>& units,
-                    std::vector<Symbol>& conditions, Problems& problems) {
+                    Declared& out, Problems& problems) {
   if (!named) return;
   for (const Member& m : named->members) {
-    if (std::ranges::find(conditions, m.key, &Symbol::name) != conditions.end()) continue;
+    if (std::ranges::find(out.conditions, m.key, &Symbol::name) != out.conditions.end()) continue;
     std::string unit = unit_of_column(m.value, units);
+    const bool stated = !unit.empty();
     if (unit.empty() || is_unknown_unit(unit)) unit = "1";
-    if (const auto si_unit = read_si_unit(m.value, path + '.' + m.key, unit, problems))
-      conditions.push_back({m.key, unit, *si_unit, ""});
+    if (const auto si_unit = read_si_unit(m.value, path + '.' + m.key, unit, problems)) {
+      out.conditions.push_back({m.key, unit, *si_unit, ""});
+      if (!stated) note_without_unit(out.conditions.back(), m.value, out);
+    }
   }
 }
 
@@ -79,28 +101,24 @@ void add_conditions(const Node* named, const std::string& path, const std::map<s
 void add_data(Table& top, Declared& out, Problems& problems) {
   const Node* const data = member(top.node(), "data");
   const auto units = stated_units(data);
-  if (data) add_conditions(member(*data, "conditions"), "data.conditions", units, out.conditions, problems);
+  if (data) add_conditions(member(*data, "conditions"), "data.conditions", units, out, problems);
   const Node* indications = member(top.node(), "indications");
   if (!indications) return;
   for (const Member& indication : indications->members) {
     const Node* readings = member(indication.value, "readings");
     if (!readings) continue;
     const std::string path = fmt::format("indications.{}.readings", indication.key);
-    add_conditions(member(*readings, "conditions"), path + ".conditions", units, out.conditions, problems);
+    add_conditions(member(*readings, "conditions"), path + ".conditions", units, out, problems);
     const std::string unit = unit_of_column(*readings, units);
-    if (unit.empty() || is_unknown_unit(unit)) continue;
     const auto symbol = std::ranges::find(out.indications, indication.key, &Symbol::name);
+    if (unit.empty() && symbol != out.indications.end()) note_without_unit(*symbol, *readings, out);
+    if (unit.empty() || is_unknown_unit(unit)) continue;
     const auto si_unit = read_si_unit(*readings, path, unit, problems);
     if (si_unit && symbol != out.indications.end()) *symbol = {indication.key, unit, *si_unit, ""};
   }
 }
 
 } // namespace
-
-std::string declared_unit(const Node& node) {
-  const std::string unit = first_unit(node);
-  return unit.empty() ? "1" : unit;
-}
 
 Declared declared_symbols(Table& top, Problems& problems) {
   Declared out{symbols(top, "quantities", problems), symbols(top, "conditions", problems),

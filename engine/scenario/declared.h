@@ -1,5 +1,7 @@
 #pragma once
 /// Names and units that a scenario itself declares, for models that have no card of their own (expressions, commands).
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "base/symbol.h"
@@ -9,6 +11,8 @@ namespace gumshoe::scenario {
 
 struct Declared {
   std::vector<Symbol> quantities, conditions, indications;
+  /// Indications and conditions that are plain numbers because nothing states the unit of their column, with its name.
+  std::vector<std::pair<std::string, std::string>> columns_without_unit = {};
 };
 
 /// The keys of [quantities], [conditions] (and conditions that are columns of data files) and [indications]. A unit is that
@@ -16,8 +20,5 @@ struct Declared {
 /// the key `unit` of the entry, or the first one among its numbers ("5 mm", u = "2 um"); "1" if all are bare. Asking
 /// makes no key of the entries known.
 Declared declared_symbols(Table& top, Problems& problems);
-
-/// Unit of an entry, as above.
-std::string declared_unit(const Node& node);
 
 } // namespace gumshoe::scenario

@@ -1,5 +1,6 @@
 /// [model] name = "expression": tables of formulas.
 #include <algorithm>
+#include <cctype>
 
 #include <fmt/format.h>
 
@@ -46,6 +47,41 @@ std::vector<formula::Stated> read_formulas(Table& model, const char* key, bool w
   return out;
 }
 
+bool mentions(const std::string& text, const std::string& name) {
+  const auto in_name = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+  for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) {
+    const std::size_t end = at + name.size();
+    if ((at == 0 || !in_name(text[at - 1])) && (end == text.size() || !in_name(text[end]))) return true;
+  }
+  return false;
+}
+
+/// What a problem of dimensions does not see: that a plain number is a column of which nobody stated the unit.
+class UnitHints {
+public:
+  UnitHints(const formula::Statement& s, const Declared& declared) : columns_(declared.columns_without_unit) {
+    for (const auto* formulas : {&s.intermediates, &s.measurands, &s.simulated})
+      for (const formula::Stated& f : *formulas) formulas_.emplace_back(f.formula.name, f.formula.text);
+    for (const formula::Stated& f : s.intermediates) intermediates_ += ' ' + f.formula.text;
+  }
+
+  void add(Problem& p) const {
+    if ((p.what + p.why).find("plain number") == std::string::npos) return;
+    for (const auto& [path, text] : formulas_) {
+      if (!p.what.starts_with(path + ": ") && !p.what.starts_with(path + ".unit: ")) continue;
+      for (const auto& [name, column] : columns_)
+        if (mentions(text + intermediates_, name))
+          p.remedy += fmt::format("{}state the unit of the column '{}', without which {} is a plain number",
+                                  p.remedy.empty() ? "" : "; or ", column, name);
+      return;
+    }
+  }
+
+private:
+  std::vector<std::pair<std::string, std::string>> columns_, formulas_;
+  std::string intermediates_;
+};
+
 } // namespace
 
 models::MadeModel make_expression(const MadeModelSource& source) {
@@ -70,11 +106,13 @@ models::MadeModel make_expression(const MadeModelSource& source) {
     model.add("model: there is no formula", "an expression needs at least one measurand",
               "[model.measurands] y = \"a + b\"");
   if (context.problems.size() != before) return nullptr;
+  const UnitHints hints(s, declared);
   try {
     return models::expression::make(std::move(s), context.notes,
                                     method && method->text == "virtual_experiment");
   } catch (const InputError& error) {
     for (Problem p : error.problems()) {
+      hints.add(p);
       if (p.where.file.empty()) p.where = {context.problems.file(), model.node().line, model.node().column};
       context.problems.add(InputError(std::vector<Problem>{std::move(p)}));
     }

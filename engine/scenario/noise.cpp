@@ -213,7 +213,7 @@ private:
     const Csv& csv = *readouts_.file->csv;
     const CsvCell& cell = csv.rows[row][static_cast<std::size_t>(csv.find(column.name()))];
     context_.problems.add({csv.at(cell), fmt::format("'{}' is no standard uncertainty", cell.text),
-                           fmt::format("{}.u must be above 0", table_.path()),
+                           fmt::format("column '{}': {}.u must be above 0", column.name(), table_.path()),
                            "leave the reading out by where, or correct it"});
   }
 

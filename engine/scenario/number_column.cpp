@@ -199,7 +199,7 @@ std::vector<std::optional<double>> NumberColumn::values(const std::vector<std::s
   for (const std::size_t row : rows) {
     const CsvCell& cell = file_.csv->rows[row][columns_.front()];
     if (words_.empty()) {
-      out.push_back(read_cell(file_, cell, unit_, dimension_, problems));
+      out.push_back(read_cell(file_, cell, name_, unit_, dimension_, problems));
       continue;
     }
     const auto word = words_.find(cell.text);
@@ -208,7 +208,7 @@ std::vector<std::optional<double>> NumberColumn::values(const std::vector<std::s
     std::vector<std::string> known;
     for (const auto& [text, value] : words_) known.push_back(text);
     problems.add({file_.csv->at(cell), fmt::format("'{}' has no number in {}.map", cell.text, path_),
-                  fmt::format("it has {}", fmt::join(known, ", ")), "add the word to the map"});
+                  fmt::format("column '{}': it has {}", name_, fmt::join(known, ", ")), "add the word to the map"});
   }
   return out;
 }
@@ -237,7 +237,7 @@ std::vector<std::optional<double>> NumberColumn::sense_values(const std::vector<
                                                               Problems& problems) const {
   std::vector<double> numbers;
   for (const std::size_t row : rows) {
-    const auto x = read_cell(file_, file_.csv->rows[row][columns_.front()], "1", {"1"}, problems);
+    const auto x = read_cell(file_, file_.csv->rows[row][columns_.front()], name_, "1", {"1"}, problems);
     if (!x) return std::vector<std::optional<double>>(rows.size());
     numbers.push_back(*x);
   }
@@ -256,7 +256,7 @@ std::vector<std::optional<double>> NumberColumn::clock_values(const std::vector<
     auto moment = format.parse(text_at(row));
     if (!moment)
       problems.add({file_.csv->at(cell), fmt::format("'{}' is not a clock time of {}", text_at(row), path_),
-                    fmt::format("it is read as \"{}\", such as {}", clock_, format.example()),
+                    fmt::format("column '{}': it is read as \"{}\", such as {}", name_, clock_, format.example()),
                     "correct the cell or the form"});
     if (moment && last && moment->zoned != last->zoned)
       problems.add({file_.csv->at(cell), "clock times with and without a zone stand in one column",

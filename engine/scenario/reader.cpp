@@ -330,21 +330,31 @@ void Table::declare(const std::vector<Key>& keys) {
   for (const Key& k : keys) declared_.insert(k.name);
 }
 
+void Table::refuse_undeclared() {
+  for (const Member& m : node_->members)
+    if (!declared_.contains(m.key) && refused_.insert(m.key).second) refuse_as_unknown(m, declared_);
+}
+
+void Table::refuse_as_unknown(const Member& m, const std::set<std::string>& names) {
+  const std::string prefix = path_.empty() ? "" : path_ + ": ";
+  problems_->add(m, fmt::format("{}unknown key '{}'", prefix, m.key), "",
+                 did_you_mean(m.key, {names.begin(), names.end()}));
+}
+
 void Table::refuse_unknown() {
   if (!declared_.empty() && !std::ranges::includes(declared_, known_))
     throw std::logic_error(path_ + ": the reader asks for a key that the schema lacks");
   for (const Member& m : node_->members) {
-    if (known_.contains(m.key)) continue;
-    const std::string prefix = path_.empty() ? "" : path_ + ": ";
+    if (known_.contains(m.key) || refused_.contains(m.key)) continue;
     if (declared_.contains(m.key)) { // a key of another form of this table
+      const std::string prefix = path_.empty() ? "" : path_ + ": ";
       problems_->add(m, fmt::format("{}the key '{}' means nothing together with the others", prefix, m.key), "",
                      "leave it out, or state what it belongs to");
       continue;
     }
     std::set<std::string> names = known_;
     names.insert(declared_.begin(), declared_.end());
-    problems_->add(m, fmt::format("{}unknown key '{}'", prefix, m.key), "",
-                   did_you_mean(m.key, {names.begin(), names.end()}));
+    refuse_as_unknown(m, names);
   }
 }
 

@@ -108,15 +108,20 @@ public:
   void refuse_key(const std::string& key, const std::string& what, std::string why = {}, std::string remedy = {});
   /// States the keys that the schema lists for this table: asking for another one is an error of the program.
   void declare(const std::vector<Key>& keys);
+  /// Reports the keys that are not declared, before others are read: what is missing there may be their cause.
+  void refuse_undeclared();
   /// Reports the keys that were never asked for. Call it last.
   void refuse_unknown();
 
 private:
+  void refuse_as_unknown(const Member& key, const std::set<std::string>& names);
+
   const Node* node_;
   std::string path_;
   Problems* problems_;
   std::set<std::string> known_;
   std::set<std::string> declared_; ///< empty: keys are the user's own
+  std::set<std::string> refused_;  ///< undeclared ones, reported
 };
 
 /// "did you mean 'high'?", or a list of few candidates, or empty.

@@ -186,8 +186,8 @@ private:
     Labels out;
     for (const auto& [label, column] : labels_) {
       if (row[column].text.empty())
-        context_.problems.add(
-            Problem{file_->csv->at(row[column]), fmt::format("the label '{}' is empty", label), "", ""});
+        context_.problems.add(Problem{file_->csv->at(row[column]), fmt::format("the label '{}' is empty", label),
+                                      fmt::format("column '{}'", file_->csv->header[column].text), ""});
       out.emplace_back(label, row[column].text);
     }
     return out;

@@ -48,11 +48,13 @@ public:
     document_ = parse_document(out_.text, out_.file);
     if (document_.members.empty())
       throw InputError({{{out_.file, 0, 0}, "the scenario is empty", "", "write schema = 1 and a [model] table"}});
-    expand_set_points(document_, files_, problems_);
-    earlier_.state_units(document_, problems_);
-    problems_.raise();
     Table top(document_, "", problems_);
     top.declare(sections());
+    top.refuse_undeclared();
+    const std::size_t unknown_sections = problems_.size();
+    expand_set_points(document_, files_, problems_);
+    earlier_.state_units(document_, problems_);
+    if (problems_.size() > unknown_sections) problems_.raise();
     if (top.require("schema", "schema = 1")) top.integer("schema", 1, 1);
     out_.title = top.text("title").value_or("");
     context_.data = top.find("data");

@@ -49,7 +49,8 @@ void read_column(Table& source, const Dimension& dimension, Context& context, st
   if (source.has("unit")) note_other_unit(*data, named->text, *unit, dimension.si_unit);
   for (const auto& row : data->csv->rows)
     if (filter.keeps_columns(row))
-      if (const auto v = read_cell(*data, row[static_cast<std::size_t>(column)], *unit, dimension, context.problems))
+      if (const auto v =
+              read_cell(*data, row[static_cast<std::size_t>(column)], named->text, *unit, dimension, context.problems))
         x.push_back(*v);
   if (x.empty() && context.problems.size() == problems)
     source.refuse(fmt::format("no row of '{}' is left", data->csv->file), filter.text());

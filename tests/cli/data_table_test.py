@@ -227,13 +227,13 @@ columns.t = { column = "t", unit = "s" }
     def test_mistakes_are_named_at_their_place(self):
         bad = self.folder / "run_4.csv"
         for change, said in ((("fwd", "forward"), "run_4.csv:2:23: error: 'forward' has no number in data.conditions.direction.map "
-                              "(it has bwd, fwd). Add the word to the map."),
-                             (("10:00:30", "10:99:30"), "is not a clock time of data.conditions.time (it is read as "
+                              "(column 'dir': it has bwd, fwd). Add the word to the map."),
+                             (("10:00:30", "10:99:30"), "is not a clock time of data.conditions.time (column 'date': it is read as "
                               "\"%d.%m.%Y %H:%M:%S\", such as 03.02.2026 10:00:00)"),
-                             (("250", "2x"), "run_4.csv:3:21: error: '2x' is not a number"),
+                             (("250", "2x"), "run_4.csv:3:21: error: '2x' is not a number (column 'pos_mm'"),
                              (("pos_mm", "pos"), "run_4.csv:1:1: error: there is no column 'pos_mm'"),
                              (("sd_um", "sd"), "there is no column 'sd_um'"),
-                             ((";0,4\n", ";0\n"), "'0' is no standard uncertainty (indications.x.u must be above 0)")):
+                             ((";0,4\n", ";0\n"), "'0' is no standard uncertainty (column 'sd_um': indications.x.u must be above 0)")):
             bad.write_text(RUN.replace("DAY", "04").replace(*change))
             self.refused(("", ""), said)
         bad.write_text(RUN.replace("DAY", "04"))
