@@ -1,6 +1,7 @@
 #include "analysis/failures.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <map>
 
@@ -67,6 +68,14 @@ std::string share_text(std::size_t inside, std::size_t drawn) {
                     : fmt::format("less than {:.1g} %", percent * 3);
 }
 
+/// "1 to 1.00001": two digits of the range's width, and four digits at least.
+std::string range_text(double low, double high) {
+  if (!(high > low)) return fmt::format("{:.4g}", low);
+  const double largest = std::max(std::abs(low), std::abs(high));
+  const int digits = std::clamp(static_cast<int>(std::ceil(std::log10(largest / (high - low)))) + 2, 4, 15);
+  return fmt::format("{:.{}g} to {:.{}g}", low, digits, high, digits);
+}
+
 /// "; a is 1 to 2 mm in them, as in 3 % of all samples"; empty if no input's range is narrow.
 std::string where(const propagation::Experiment& e, const Draws& draws, const Drawn& all,
                   const std::vector<std::uint64_t>& failed) {
@@ -82,9 +91,9 @@ std::string where(const propagation::Experiment& e, const Draws& draws, const Dr
     const Input& input = draws.inputs()[k];
     const auto& q = e.scenario().quantities[e.plan().columns[input.column].quantity];
     const auto shown = [&](double x) { return units::from_si(x, q.unit, q.si_unit); };
-    found.emplace(inside,
-                  fmt::format("; {} is {:.4g} to {:.4g}{} in them, as in {} of all samples", input.name, shown(low),
-                              shown(high), q.unit == "1" ? "" : " " + q.unit, share_text(inside, all[k].size())));
+    found.emplace(inside, fmt::format("; {} is {}{} in them, as in {} of all samples", input.name,
+                                      range_text(shown(low), shown(high)), q.unit == "1" ? "" : " " + q.unit,
+                                      share_text(inside, all[k].size())));
   }
   std::string text;
   std::size_t named = 0;

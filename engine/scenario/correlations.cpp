@@ -49,6 +49,14 @@ void read_matrix(Table& table, std::size_t n, std::vector<double>& matrix) {
   }
 }
 
+std::optional<double> read_coefficient(Table& table) {
+  const Node* const node = table.find("coefficient");
+  if (!node || node->kind != Node::Kind::array) return table.number("coefficient");
+  table.refuse_key("coefficient", "one number is expected, not an array", "several coefficients are a matrix",
+                   "matrix = [[1, 0.5], [0.5, 1]]");
+  return std::nullopt;
+}
+
 Correlation read_correlation(Table table, const std::vector<NamedComponent>& named) {
   Correlation out;
   read_options(table, correlation_options(), out);
@@ -65,7 +73,7 @@ Correlation read_correlation(Table table, const std::vector<NamedComponent>& nam
   const std::size_t n = out.quantities.size();
   const bool known = table.problems().size() == problems;
   table.rendered("source");
-  const auto coefficient = table.number("coefficient");
+  const auto coefficient = read_coefficient(table);
   if (n < 2 && table.has("quantities")) table.refuse("at least two quantities are needed");
   const Node* kind = table.find("kind");
   if (kind && kind->text == "observations") {

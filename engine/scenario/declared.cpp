@@ -17,7 +17,7 @@ constexpr std::array worded{"distribution", "evaluation", "source", "per",    "n
 constexpr std::array widths{"u", "U", "half_width"}; ///< which may be shares of the value
 
 struct StatedUnit {
-  std::string unit;    ///< empty: none
+  std::string unit;           ///< empty: none
   const Node* node = nullptr; ///< where it is written
 };
 

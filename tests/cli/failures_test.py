@@ -45,6 +45,23 @@ class Failures(InFolder):
                 self.assertAlmostEqual(percent / 100, share, delta=5 * math.sqrt(share / 16384))
                 self.assertNotIn("; b is", told)
 
+    def test_a_narrow_range_has_the_digits_that_show_its_ends(self):
+        """acos(x) fails where x > 1: of 0.99997 to 1.00001 in the last quarter."""
+        told, = self.failures("""schema = 1
+[model]
+name = "expression"
+[model.measurands]
+y = "acos(x)"
+[quantities]
+x = { value = 0.99999, distribution = "rectangular", half_width = 2e-5 }
+[run]
+samples = 40_000
+max_failed_share = 1
+""")
+        low, high = map(float, re.search(r"; x is (\S+) to (\S+) in them, as in 2\d % of", told).groups())
+        self.assertTrue(1 <= low < 1.0000001, low)
+        self.assertTrue(1.0000099 < high <= 1.00001, high)
+
     def test_rare_failures(self):
         """4 standard deviations: 3e-5 of the samples, none among those that are looked at for the share."""
         told, = self.failures(SCENARIO.replace('u = "0.5 mm"', 'u = "0.25 mm"'), "--samples", "1e6")

@@ -81,3 +81,13 @@ TEST_CASE("a bad cell is told with its column", "[scenario][hints]") {
                   "id,x_um\n1,2\n2,o\n"),
              Contains("'o' is not a number (column 'x_um')."));
 }
+
+TEST_CASE("an array of coefficients is a matrix", "[scenario][hints]") {
+  CHECK_THAT(
+      said(head + one_reading +
+           "[quantities]\nrod_radius = { u = \"1 um\" }\nrod_length = { u = \"1 um\" }\n"
+           "[[correlations]]\nquantities = [\"rod_radius\", \"rod_length\"]\nkind = \"pearson\"\n"
+           "coefficient = [[1, 0.5], [0.5, 1]]\n"),
+      Contains("correlations[1].coefficient: one number is expected, not an array (several coefficients are a matrix). "
+               "Try: matrix = [[1, 0.5], [0.5, 1]]"));
+}
