@@ -52,6 +52,9 @@ public:
   std::size_t rows() const { return points_.size() * forward_.layout().indications.size(); }
   /// simulated[row] and, unless null, jacobian[row][unknown] at x, SI. False where the model gives no value.
   bool operator()(const double* x, double* simulated, double* jacobian) const;
+  /// Whether a simulated indication at x changes where the quantity is shifted up or down; true if that cannot be
+  /// known.
+  bool depends_on(const double* x, std::size_t quantity, double shift) const;
   /// Whether derivatives are exact; else they are central differences.
   bool exact() const { return forward_.has_derivatives(); }
 
@@ -63,6 +66,7 @@ public:
   Failure failure() const { return failure_; }
 
 private:
+  propagation::Points points_at(const double* x) const;
   propagation::ForwardModel forward_;
   std::vector<Unknown> unknowns_;
   propagation::Points points_; ///< all quantities at their estimates

@@ -8,6 +8,21 @@
 #include "calibration/fit.h"
 
 namespace gumshoe::calibration {
+namespace {
+
+/// Standard uncertainty of a quantity, the largest of its entries; 0 if it is exact.
+double uncertainty_of(const quantities::InputQuantity& quantity) {
+  double largest = 0;
+  for (const quantities::Entry& entry : quantity.entries) {
+    double squares = 0;
+    for (const quantities::Component& c : entry.components)
+      squares += std::pow(c.distribution.standard_uncertainty(), 2);
+    largest = std::max(largest, std::sqrt(squares));
+  }
+  return largest;
+}
+
+} // namespace
 
 void Fit::remarks(Estimate& out) const {
   const auto& s = experiment_.scenario();
@@ -15,9 +30,9 @@ void Fit::remarks(Estimate& out) const {
   for (std::size_t q = 0; q < s.quantities.size(); ++q) {
     if (experiment_.layout().indications.contains(q)) continue;
     const auto& quantity = s.quantities[q];
-    const bool uncertain = std::any_of(quantity.entries.begin(), quantity.entries.end(),
-                                       [](const auto& e) { return !e.components.empty(); });
-    if (uncertain && !quantity.estimated)
+    const double u = quantity.estimated ? 0 : uncertainty_of(quantity);
+    // A quantity of the measurands alone has its uncertainty in the run of the written scenario.
+    if (u > 0 && simulation_.depends_on(x_.data(), q, u))
       out.notes.push_back(quantity.name +
                           " is held at its estimate, so that its uncertainty is not in the result (mark it "
                           "estimated to include it)");

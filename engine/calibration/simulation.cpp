@@ -23,12 +23,32 @@ Simulation::Simulation(const propagation::Experiment& e, std::vector<Unknown> un
   }
 }
 
-bool Simulation::operator()(const double* x, double* simulated, double* jacobian) const {
+propagation::Points Simulation::points_at(const double* x) const {
   propagation::Points at = points_;
+  for (std::size_t u = 0; u < unknowns_.size(); ++u)
+    for (const std::size_t r : partials_[u].readings) at[r][unknowns_[u].quantity] = x[u];
+  return at;
+}
+
+bool Simulation::depends_on(const double* x, std::size_t quantity, double shift) const {
+  const auto moved = [&](double by) { return propagation::Variation{{{quantity, by, false, {}}}}; };
+  const auto f = forward_.indications(points_at(x), std::vector{moved(0), moved(shift), moved(-shift)});
+  if (f.status[0] != Status::ok) return true;
+  bool known = false;
+  for (const std::size_t v : {1, 2}) {
+    if (f.status[v] != Status::ok) continue;
+    known = true;
+    for (std::size_t row = 0; row < f.rows; ++row)
+      if (f.at(v, row) != f.at(0, row)) return true;
+  }
+  return !known;
+}
+
+bool Simulation::operator()(const double* x, double* simulated, double* jacobian) const {
+  const propagation::Points at = points_at(x);
   std::vector<propagation::Partial> partials = partials_;
   const std::size_t p = unknowns_.size();
   for (std::size_t u = 0; u < p; ++u) {
-    for (const std::size_t r : partials[u].readings) at[r][unknowns_[u].quantity] = x[u];
     // The cube root of the rounding error balances it against the cubic term.
     const double h = 6e-6 * std::max(std::fabs(x[u]), 0.1 * unknowns_[u].magnitude);
     partials[u].up = std::min(x[u] + h, unknowns_[u].high);

@@ -186,3 +186,16 @@ TEST_CASE("repeats under the same conditions count like readouts of their own", 
     CHECK(a.parameters[j].standard_uncertainty == Approx(b.parameters[j].standard_uncertainty).epsilon(1e-12));
   }
 }
+
+TEST_CASE("only a quantity that the indications depend on is held at its estimate", "[calibration]") {
+  const auto held = [](const std::string& formula) {
+    std::string text = line({0, 1, 2, 3, 4}, {1, 3, 5.1, 7, 9}, free_line + "[quantities.c]\nvalue = 1\nu = 0.1\n");
+    text.insert(text.find(formula) + formula.size(), " + c");
+    const Case c(text);
+    const auto e = calibration::estimate(c.experiment);
+    return std::any_of(e.notes.begin(), e.notes.end(),
+                       [](const std::string& n) { return n.starts_with("c is held at its estimate"); });
+  };
+  CHECK(held("a + b * x"));
+  CHECK_FALSE(held("a + 2 * b"));
+}
