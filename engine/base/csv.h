@@ -30,7 +30,8 @@ struct Csv {
   /// Index of the column, or -1.
   int find(std::string_view name) const;
   std::vector<std::string> names() const; ///< column names, in order
-  /// The cell as a finite number, "1.234,5" as well, and with spaces around it, no-break ones too; throws InputError with its location. `decimal`: its sign, '.' or ','.
+  /// The cell as a finite number, "1.234,5" as well, and with spaces around it, no-break ones too; throws InputError
+  /// with its location. `decimal`: its sign, '.' or ','.
   double number(const CsvCell& cell, char decimal = '.') const;
 };
 
@@ -41,11 +42,12 @@ struct CsvLayout {
   int rows = 0;   ///< line of the first row; 0: the next after the names
 };
 
-/// `separator`: ',', ';', '\t', or ' ' for any number of blanks. '\0' takes it from the header: a comma if it has one outside
-/// quotes, otherwise a semicolon or a tab; a first line `sep=;` states it. A line that begins with # is a comment. Quoted cells may contain separators,
-/// doubled quotes and line ends; empty rows and heads that come again are skipped; a BOM and CR LF are accepted. Throws
-/// InputError with every problem, located: no header, an unnamed or repeated column, a row of another length, an unclosed
-/// quote. A last column without a name and without any text is none: lines may end with a separator.
+/// `separator`: ',', ';', '\t', or ' ' for any number of blanks. '\0' takes it from a first line `sep=;`, or from the
+/// header: a comma if it has one outside quotes, otherwise a semicolon or a tab. A line that begins with # is a comment.
+/// Quoted cells may contain separators, doubled quotes and line ends; empty rows and heads that come again are skipped; a
+/// BOM and CR LF are accepted. Throws InputError with every problem, located: no header, an unnamed or repeated column, a
+/// row of another length, an unclosed quote. A last column without a name and without any text is none: lines may end
+/// with a separator.
 Csv parse_csv(std::string_view text, const std::string& file, const CsvLayout& layout = {});
 
 /// A table of the parts' rows, one after the other. Columns are matched by name to those of the first part; further ones
