@@ -260,7 +260,7 @@ double spacing_of_doubles(double at) {
 }
 
 bool resolved(const Summary& s, double u) {
-  constexpr double enough = 10; // rounding to steps of u/10 widens u by 0.04 %
+  constexpr double enough = 4; // rounding to steps of u/4 widens u by 0.3 %
   return !(u > 0) || !std::isfinite(s.estimate) || u >= enough * spacing_of_doubles(s.estimate);
 }
 
