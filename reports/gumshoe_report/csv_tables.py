@@ -5,7 +5,7 @@ import json
 import pathlib
 
 from . import compensation, workbook
-from .tables import over, point, spread
+from .tables import coefficient, point, spread
 
 # Columns of each group of the file: [header, dataset, kind of unit]. Written by `gumshoe fields --format json`.
 COLUMNS = json.loads((pathlib.Path(__file__).parent / "columns.json").read_text(encoding="utf-8"))
@@ -24,8 +24,6 @@ def cell(kind, key, row, study, r):
         return spread(row, value)
     if kind == "output":
         return spread(study, value)
-    if kind == "coefficient":
-        return value * study.display_factor / row.display_factor
     return value
 
 
@@ -33,11 +31,10 @@ def line(group, row, study=None, r=None):
     """The columns of one row; those that an older file lacks are left out."""
     cells = {}
     for header, key, kind in COLUMNS[group]:
-        if kind in ("units", "output_units", "run") or hasattr(row, key):
-            cells[header] = cell(kind, key, row, study, r)
         if kind == "coefficient":
-            same = study.display_units == row.display_units
-            cells[f"{header}_unit"] = "1" if same else over(study.display_units, row.display_units)
+            cells[header], cells[f"{header}_unit"] = coefficient(study, row)
+        elif kind in ("units", "output_units", "run") or hasattr(row, key):
+            cells[header] = cell(kind, key, row, study, r)
     return cells
 
 

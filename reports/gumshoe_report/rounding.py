@@ -85,7 +85,15 @@ def of_all(share):
 
 
 def probability(p):
-    return f"{100 * p:.10g}\u202f%"
+    """A stated probability with the digits that it has, never 0 or 100 %, as coverage_text() of the engine writes it."""
+    least = 1e-12
+    if not math.isfinite(p):
+        return "–"
+    rest = min(p, 1 - p)
+    if rest < least:
+        return "<\u202f0.0000000001\u202f%" if p < 0.5 else ">\u202f99.9999999999\u202f%"
+    text = f"{100 * p:.{max(2, -math.floor(math.log10(rest)))}f}"
+    return text.rstrip("0").rstrip(".") + "\u202f%"
 
 
 def thousands(n):

@@ -82,24 +82,32 @@ def numbered(outputs):
 
 
 def coefficient(b, c):
-    """A sensitivity coefficient and its unit as people write it: 12.3 and um/deg; of two lengths a plain number."""
-    if c.units == b.units:
-        return c.sensitivity, "1"
-    value = c.sensitivity * b.display_factor / c.display_factor
-    unit, factor = finer(b.display_units, abs(value))
-    return factor * value, over(unit, c.display_units)
+    """A sensitivity coefficient and its unit: the output's over the quantity's, "1" where both are the same."""
+    return c.sensitivity * b.display_factor / c.display_factor, over(b.display_units, c.display_units)
+
+
+def readable_coefficient(b, c):
+    """The same as people write it: 12.3 and um/deg in place of 0.0123 and mm/deg."""
+    value, unit = coefficient(b, c)
+    if unit == "1":
+        return value, unit
+    fine, factor = finer(b.display_units, abs(value))
+    return factor * value, over(fine, c.display_units)
 
 
 def over(unit, divisor):
+    """The quotient of two units, as units::quotient() of the engine writes it."""
+    if divisor == unit:
+        return "1"
     if divisor == "1":
         return unit
-    return f"{unit}/({divisor})" if "/" in divisor or " " in divisor else f"{unit}/{divisor}"
+    return f"{unit}/({divisor})" if any(sign in divisor for sign in "/. *") else f"{unit}/{divisor}"
 
 
 def budget_row(b, c, factor):
     """`factor`: from the output's display unit to the unit of the contributions."""
     u = spread(c, c.standard_uncertainty)
-    slope, slope_unit = coefficient(b, c)
+    slope, slope_unit = readable_coefficient(b, c)
     return types.SimpleNamespace(
         name=c.name, unit=unit_text(c.display_units) or "1", estimate=fixed(point(c, c.estimate), decimals(u)) if math.isfinite(c.estimate) else "",
         u=significant(u) if math.isfinite(c.standard_uncertainty) else "none", evaluation=c.evaluation,

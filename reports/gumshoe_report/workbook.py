@@ -5,6 +5,7 @@ import re
 import zipfile
 from xml.sax.saxutils import escape, quoteattr
 
+from .rounding import probability
 from .tables import coefficient, independent, point, spread
 
 TYPES = "application/vnd.openxmlformats-officedocument.spreadsheetml"
@@ -90,7 +91,7 @@ def budget_rows(b, p):
         below("combined standard uncertainty u_c", total, b.display_units),
         below("effective degrees of freedom", b.effective_degrees_of_freedom or math.inf),
         below("coverage factor k", b.coverage_factor),
-        below(f"expanded uncertainty U, {100 * p:.10g} %",
+        below(f"expanded uncertainty U, {probability(p)}".replace("\u202f", " "),
               Formula(f"J{row_of_u + 2}*J{row_of_u}", U), b.display_units)]
 
 

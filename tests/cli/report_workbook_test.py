@@ -111,18 +111,20 @@ class Coefficients(unittest.TestCase):
         def unit(output, si_output, factor, of, si, by, slope):
             b = types.SimpleNamespace(display_units=output, units=si_output, display_factor=factor)
             c = types.SimpleNamespace(display_units=of, units=si, display_factor=by, sensitivity=slope)
-            value, written = tables.coefficient(b, c)
+            value, written = tables.readable_coefficient(b, c)
             return float(f"{value:.6g}"), written
         degree = 180 / math.pi
         self.assertEqual(unit("mm", "m", 1e3, "deg", "rad", degree, 5e-3), (87.2665, "um/deg"))  # 5 mm times pi / 180
         self.assertEqual(unit("mm", "m", 1e3, "um", "m", 1e6, -1.0), (-1.0, "1"))
+        self.assertEqual(unit("mm", "m", 1e3, "m", "m", 1.0, 0.3), (300.0, "mm/m"))
         self.assertEqual(unit("mm", "m", 1e3, "1", "1", 1.0, 0.3), (300.0, "mm"))
         self.assertEqual(unit("mm", "m", 1e3, "um/m/K", "1/K", 1e6, 0.04), (0.04, "um/(um/m/K)"))
 
 
 class Reduce(unittest.TestCase):
     def budget(self, shares, **more):
-        rows = [types.SimpleNamespace(name=n, quantity=n, share=s, monte_carlo_share=math.nan, evaluation=e, source="x")
+        rows = [types.SimpleNamespace(name=n, quantity=n, share=s, monte_carlo_share=math.nan, evaluation=e, source="x",
+                                      distribution="normal", degrees_of_freedom=math.inf)
                 for n, s, e in shares]
         return types.SimpleNamespace(**{**dict(rows=rows, applicable=1, correlation_share=0.0, display_units="um", display_factor=1e6,
                                      combined_standard_uncertainty=10e-6), **more})
