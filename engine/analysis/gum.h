@@ -33,6 +33,11 @@ bool resolved(const Summary& summary, double standard_uncertainty);
 /// than delta alone. No verdict unless the framework's U is finite.
 Validation validate(const Budget& budget, const Summary& summary, double coverage_probability, int digits);
 
+/// Whether the law of propagation accounts for the variance by Monte Carlo: the framework is validated, or both differ
+/// by no more than 5 % and twice the Monte Carlo standard error, where a t distribution contributes its variance and
+/// not the square of its scale. Otherwise the shares of the law are not those of the variance.
+bool accounts_for_variance(const Budget& budget, const Summary& summary, const Validation& validation);
+
 /// "per setup", "per rod, setup", "" for a draw that all readings share.
 std::string scope_text(const quantities::Component& component);
 

@@ -81,7 +81,8 @@ void print_details(const Results& r, std::size_t o, bool budget) {
   }
   const bool studied = o < r.sensitivities.size();
   if (!(s.standard_uncertainty == 0))
-    std::cout << "  " << largest_contributions(b, studied ? r.sensitivities[o].indices : std::vector<SobolIndex>{})
+    std::cout << "  "
+              << largest_contributions(b, s, v, studied ? r.sensitivities[o].indices : std::vector<SobolIndex>{})
               << '\n';
   if (!s.warning.empty()) std::cout << "  warning: " << s.warning << '\n';
   if (!s.tail_remark.empty()) std::cout << "  warning: " << s.tail_remark << '\n';

@@ -77,6 +77,8 @@ void print_columns(const std::vector<std::vector<std::string>>& rows, std::ostre
 
 std::string unit_text(const std::string& unit) { return unit == "1" ? "" : " " + unit; }
 
+std::string width_text(double x, const propagation::Output& o) { return with_suitable_unit(x, o.unit, o.si_unit); }
+
 std::string number_text(double x) { return std::isfinite(x) ? fmt::format("{:.4g}", x) : "-"; }
 
 /// An estimate by as many digits as its standard uncertainty leaves, eight at least.
@@ -105,9 +107,11 @@ std::vector<std::string> cells(const Contribution& c, const propagation::Output&
 
 } // namespace
 
-std::string largest_contributions(const Budget& b, const std::vector<SobolIndex>& indices) {
+std::string largest_contributions(const Budget& b, const Summary& s, const Validation& v,
+                                  const std::vector<SobolIndex>& indices) {
   constexpr std::size_t most = 3;
-  bool monte_carlo = !b.applicable;
+  const bool law = b.applicable && accounts_for_variance(b, s, v);
+  const bool monte_carlo = !law && (!b.applicable || !indices.empty());
   std::vector<Part> all = monte_carlo ? parts(b, indices) : parts(b);
   const std::size_t total = all.size();
   // What is shown as less than 0.01 % is none of the largest.
@@ -120,21 +124,30 @@ std::string largest_contributions(const Budget& b, const std::vector<SobolIndex>
                ? "no input is uncertain"
                : "largest contributions: the GUM framework gives none here; set sensitivity = { "
                  "sobol = 65536 } in [analysis]";
-  std::string text = monte_carlo ? "largest contributions (first-order Sobol' indices): " : "largest contributions: ";
+  std::string text = "largest contributions";
+  if (monte_carlo) text += " (first-order Sobol' indices)";
+  if (!law && !monte_carlo)
+    text += fmt::format(" to first order only (u_c = {}; Monte Carlo gives u = {})",
+                        width_text(b.combined_standard_uncertainty, b.output),
+                        width_text(s.standard_uncertainty, b.output));
+  text += ": ";
   for (std::size_t i = 0; i < std::min(most, all.size()); ++i)
-    text += (i == 0 ? "" : ", ") + all[i].name + ' ' +
-            (monte_carlo ? percent(all[i].share)
-                         : fmt::format("{} ({})",
-                                       with_suitable_unit(std::sqrt(all[i].variance), b.output.unit, b.output.si_unit),
-                                       percent(all[i].share)));
+    text +=
+        (i == 0 ? "" : ", ") + all[i].name + ' ' +
+        (monte_carlo ? percent(all[i].share)
+                     : fmt::format("{} ({})", width_text(std::sqrt(all[i].variance), b.output), percent(all[i].share)));
   if (!monte_carlo && std::fabs(b.correlation_share) >= 0.005)
     text += fmt::format(", correlations {}", percent(b.correlation_share));
   const std::size_t shown = std::min(most, all.size());
-  return text + (total > shown ? fmt::format("; {} more", total - shown) : "");
+  if (total > shown) text += fmt::format("; {} more", total - shown);
+  if (!law && !monte_carlo)
+    text += fmt::format("; set sensitivity = {{ {} }} in [analysis] for shares of the variance",
+                        b.correlation_share == 0 ? "sobol = 65536" : "shapley = 4096");
+  return text;
 }
 
 void print_budget(const Budget& b, std::ostream& out) {
-  const auto width = [&](double x) { return with_suitable_unit(x, b.output.unit, b.output.si_unit); };
+  const auto width = [&](double x) { return width_text(x, b.output); };
   out << "  uncertainty budget of " << b.output.name
       << (b.applicable ? "" : " (GUM framework not applicable: " + b.reason + ")") << '\n';
   std::vector<std::vector<std::string>> rows{

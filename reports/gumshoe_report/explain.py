@@ -15,6 +15,20 @@ def first_orders(indices):
     return {name: pair for name, pair in pairs.items() if all(map(math.isfinite, pair))}
 
 
+def law_accounts(b, output, verdict=""):
+    """accounts_for_variance() of the engine: the framework is validated, or the variances by the law of propagation and
+    by Monte Carlo differ by no more than APART and twice the Monte Carlo standard error."""
+    u, law, se = output.standard_uncertainty, drawn_uncertainty(b), output.standard_uncertainty_se
+    return verdict == "validated" or not math.isfinite(u) or (
+        abs(u * u - law * law) <= APART * u * u + (4 * u * se if math.isfinite(se) else 0))
+
+
+def drawn_uncertainty(b):
+    """u_c, where a t distribution contributes its standard deviation and not its scale s/sqrt(n)."""
+    wider = sum(c.share * (heavier(c) ** 2 - 1) for c in b.rows if math.isfinite(c.share))
+    return b.combined_standard_uncertainty * math.sqrt(1 + wider)
+
+
 def listed(names, most=4):
     names = list(names)
     if len(names) > most:

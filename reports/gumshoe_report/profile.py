@@ -3,7 +3,7 @@ import math
 import re
 import types
 
-from .explain import listed
+from .explain import law_accounts, listed
 from .rounding import COMMON, after, finer, percent, significant
 
 LEAST = 8    # points of a line
@@ -70,13 +70,14 @@ def of(r, outputs):
 
 
 def of_variance(output, budgets, sobol):
-    """Share of each quantity in the variance of an output; none where neither study has it."""
+    """Share of each quantity in the variance of an output; none where neither study accounts for it."""
     if sobol:
         rows = sobol[output.name].rows if output.name in sobol else []
         return {i.input: max(0.0, i.first) for i in rows if math.isfinite(i.first)}
     budget = budgets.get(output.name)
     found = {}
-    for c in budget.rows if budget is not None and budget.applicable else ():
+    law = budget is not None and budget.applicable and law_accounts(budget, output)
+    for c in budget.rows if law else ():
         if math.isfinite(c.share):  # all draws of one quantity together
             found[c.quantity] = found.get(c.quantity, 0.0) + c.share
     return found

@@ -2,9 +2,9 @@
 import math
 import types
 
-from .explain import APART
+from .explain import APART, drawn_uncertainty, heavier
 from .rounding import after, finer, percent, significant, unit_text
-from .tables import spread
+from .tables import independent, spread
 
 LISTED, WORTH = 5, 0.01  # rows; the least share of the variance that is worth an effort
 
@@ -19,25 +19,51 @@ def how(components):
     return f"a better source than “{sources[0]}”" if len(sources) == 1 else "better sources, such as a calibration"
 
 
+def drawn_shares(b):
+    """The components with their shares by the law, where a t distribution contributes its variance."""
+    total = (drawn_uncertainty(b) / b.combined_standard_uncertainty) ** 2
+    return [(c, c.share * heavier(c) ** 2 / total) for c in b.rows if math.isfinite(c.share)]
+
+
 def linear(b, sobol):
-    """True where the law of propagation divides the variance: it applies, and the indices, if known, do not differ."""
+    """Whether the law of propagation divides the variance: it applies, and the indices, if known, do not differ."""
     if not b.applicable or not b.combined_standard_uncertainty > 0:
         return False
-    shares = {c.name: c.share for c in b.rows}
+    shares = {c.name: share for c, share in drawn_shares(b)}
     return sobol is None or all(i.total - i.first <= APART and abs(shares.get(i.input, i.first) - i.first) <= APART
                                 for i in sobol.rows)
 
 
-def shares(b, sobol):
-    """(name, components, share of the variance) and whether the shares are the law's; otherwise first-order indices."""
-    if linear(b, sobol):
-        return [(c.name, [c], c.share) for c in b.rows if math.isfinite(c.share)], True
+def shares(b, indices, law):
+    """(name, components, share of the variance), by the law or by first-order indices."""
+    if law:
+        return [(c.name, [c], share) for c, share in drawn_shares(b)]
     of = lambda name: [c for c in b.rows if name in (c.name, c.quantity)]
-    return [(i.input, of(i.input), i.first) for i in (sobol.rows if sobol else ()) if math.isfinite(i.first)], False
+    return [(i.input, of(i.input), i.first) for i in (indices.rows if indices else ()) if math.isfinite(i.first)]
 
 
-def table(b, u_monte_carlo, sobol=None, shapley=None):
-    """Rows and a sentence; None where no shares are known."""
+def sentence(text):
+    return types.SimpleNamespace(rows=[], text=text)
+
+
+def unknown(b, u_monte_carlo, shapley):
+    """In place of the table, where the law does not account for the variance and no first-order indices are known."""
+    unit, factor = finer(b.display_units, spread(b, u_monte_carlo))
+    of = lambda u: significant(factor * spread(b, u)) + after(unit)
+    text = (f"The shares of the budget do not say what would reduce u: they are of first order, where u_c is "
+            f"{of(b.combined_standard_uncertainty)}, and Monte Carlo gives u = {of(u_monte_carlo)}. ")
+    known = sorted((i for i in shapley.rows if math.isfinite(i.effect)), key=lambda i: -i.effect) if shapley else []
+    if known:
+        return sentence(text + f"The largest Shapley effect is that of {known[0].input}, {percent(known[0].effect)}.")
+    study = "sobol = 65536" if independent(b) else "shapley = 4096"
+    return sentence(text + f"Set sensitivity = {{ {study} }} in [analysis] to obtain the share of each quantity.")
+
+
+def table(b, u_monte_carlo, sobol=None, shapley=None, given=None, accounted=True):
+    """Rows and a sentence; None where no shares are known.
+
+    `given`: first-order indices from the samples alone, which serve where there is no `sobol`. `accounted`: whether the
+    law of propagation accounts for the variance by Monte Carlo (explain.law_accounts)."""
     if b is None:
         return None
     correlated = abs(b.correlation_share) > WORTH
@@ -45,11 +71,14 @@ def table(b, u_monte_carlo, sobol=None, shapley=None):
         correlated = shapley is not None and sobol is None
     if correlated:
         largest = max(shapley.rows, key=lambda i: i.effect if math.isfinite(i.effect) else 0) if shapley and shapley.rows else None
-        return types.SimpleNamespace(rows=[], text="The inputs depend on each other: what one of them contributes cannot be "
-                                     "taken out of u alone." + (f" The largest Shapley effect is that of {largest.input}, "
-                                                                f"{percent(largest.effect)}." if largest else ""))
-    everything, law = shares(b, sobol)
-    u = b.combined_standard_uncertainty if law else u_monte_carlo
+        return sentence("The inputs depend on each other: what one of them contributes cannot be taken out of u alone." +
+                        (f" The largest Shapley effect is that of {largest.input}, {percent(largest.effect)}."
+                         if largest else ""))
+    law = accounted and linear(b, sobol)
+    everything = shares(b, sobol or given, law)
+    if b.applicable and not accounted and not everything:
+        return unknown(b, u_monte_carlo, shapley)
+    u = drawn_uncertainty(b) if law else u_monte_carlo
     parts = sorted((p for p in everything if p[2] >= WORTH), key=lambda p: -p[2])
     if not parts or not math.isfinite(u) or u <= 0:
         return None

@@ -40,10 +40,12 @@ def sections(r):
         of = types.SimpleNamespace(**{key: items.get(output.name) for key, items in found.items()})
         full = k < OPEN
         u = output.standard_uncertainty
+        verdict = verdicts.get(output.name)
+        accounted = not of.budget or explain.law_accounts(of.budget, output, verdict.verdict if verdict else "")
         yield types.SimpleNamespace(
             summary=tables.summary_row(output), open=full, targets=targets.get(output.name, []),
-            certificate=certificate.line(output, of.budget, verdicts.get(output.name), r.coverage_probability),
-            reduce=reduce.table(of.budget, u, of.sobol, of.shapley),
+            certificate=certificate.line(output, of.budget, verdict, r.coverage_probability),
+            reduce=reduce.table(of.budget, u, of.sobol, of.shapley, of.given, accounted),
             distribution=picture(full, figures.distribution, output, of.budget, r.coverage_probability, f"d{k}"),
             budget=tables.budget(of.budget, u, of.sobol) if of.budget else None, sobol=of.sobol,
             confidence=rounding.probability(of.sobol.confidence) if of.sobol else "",
@@ -58,7 +60,7 @@ def sections(r):
             morris=studies.morris(of.morris) if of.morris else None,
             morris_figure=picture(full and of.morris, sensitivity_figures.morris, of.morris, f"e{k}"),
             dgsm=studies.dgsm(of.dgsm, of.sobol) if of.dgsm else None,
-            validation=tables.validation_row(verdicts[output.name]) if output.name in verdicts else None)
+            validation=tables.validation_row(verdict) if verdict else None)
 
 
 def whole_run(r):

@@ -321,6 +321,36 @@ TEST_CASE("too few trials give no interval, and no verdict on a linear normal mo
     }
 }
 
+TEST_CASE("the law accounts for the variance where u_c squared is that of the samples", "[gum]") {
+  analysis::Budget b;
+  b.combined_standard_uncertainty = 5 * um;
+  b.contributions.resize(2);
+  b.contributions[0].share = b.contributions[1].share = 0.5;
+  b.contributions[1].degrees_of_freedom = HUGE_VAL;
+  analysis::Summary s;
+  analysis::Validation v;
+  v.verdict = "not validated"; // also where only the shape of the interval differs
+  const auto accounts = [&](double u, double se = 0) {
+    s.standard_uncertainty = u, s.standard_uncertainty_se = se;
+    return analysis::accounts_for_variance(b, s, v);
+  };
+  CHECK(accounts(5.05 * um));
+  CHECK_FALSE(accounts(7.5 * um));
+  CHECK_FALSE(accounts(4.5 * um));
+  CHECK(accounts(7.5 * um, 1.5 * um)); // few trials
+  CHECK_FALSE(accounts(7.5 * um, std::nan("")));
+  CHECK(accounts(std::nan(""))); // nothing to compare with
+  // A t with 5 degrees of freedom has 5/3 of the variance that its scale has: 25 (1 + 0.5 2/3) = 33.3.
+  b.contributions[0].distribution = "t", b.contributions[0].degrees_of_freedom = 5;
+  CHECK(accounts(std::sqrt(100.0 / 3) * um));
+  CHECK_FALSE(accounts(5 * um));
+  v.verdict = "validated";
+  CHECK(accounts(5 * um));
+  b.combined_standard_uncertainty = 0;
+  v.verdict = "not validated";
+  CHECK_FALSE(accounts(1 * um));
+}
+
 TEST_CASE("a sum and a difference of temperatures in degC are noted, a mean is not", "[gum]") {
   const auto notes = [](const std::string& formula, const std::string& unit) {
     const known_case::Case c("schema = 1\n[model]\nname = \"expression\"\n[model.measurands]\nt = { formula = \"" + formula +

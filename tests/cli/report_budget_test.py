@@ -1,0 +1,203 @@
+"""The budget of the report: units of sensitivity coefficients, shares of the variance, coverage probabilities.
+
+usage: report_budget_test.py path/to/gumshoe [unittest options]
+"""
+import csv
+import io
+import json
+import math
+import subprocess
+import sys
+import unittest
+
+from program import GUMSHOE, ROOT, InOneFolder
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(ROOT / "reports"))
+from gumshoe_report import csv_tables, explain, page, read, reduce, rounding, tables, workbook
+
+# Units that differ from those of the inputs in scale: a temperature in degF, a difference of voltages in mV.
+UNITS = """schema = 1
+[model]
+name = "expression"
+[model.measurands]
+t = { formula = "x", unit = "degF" }
+v = { formula = "a - b", unit = "mV" }
+d = { formula = "l * sin(w)", unit = "mm" }
+[quantities]
+x = { value = "20 degC", u = "0.5 degC" }
+a = { value = "1 V", u = "20 uV" }
+b = { value = "999.5 mV", u = "15 uV" }
+l = { value = "1 m", u = "3 um" }
+w = { value = "1 deg", u = "0.01 deg" }
+"""
+
+# The slope against a is zero at the estimate, but a has more than half of the variance.
+TORQUE = """schema = 1
+[model]
+name = "expression"
+[model.measurands]
+M = { formula = "m * l * cos(a)", unit = "N*m" }
+[quantities]
+m = { value = "98.1 N", u = "0.15 mN" }
+l = { value = "500.012 mm"%s }
+a = { value = "0 arcmin", distribution = "rectangular", half_width = "30 arcmin" }
+"""
+LENGTH = ', u = "5 um"'
+
+# Linear: a Type A component of 5 degrees of freedom, and a rectangular one.
+LINEAR = """schema = 1
+[model]
+name = "expression"
+[model.measurands]
+y = { formula = "%s", unit = "um" }
+[quantities]
+a = { value = "0 um", u = "%s um"%s }
+b = { value = "0 um", distribution = "rectangular", half_width = "6 um" }
+"""
+
+
+class Runs(InOneFolder):
+    @classmethod
+    def ran(cls, text, *options, samples=50_000):
+        (cls.folder / "s.toml").write_text(text)
+        run = subprocess.run([GUMSHOE, "run", cls.folder / "s.toml", "--samples", str(samples), "--out",
+                              cls.folder / "s.h5", "--force", *options], check=True, capture_output=True, text=True)
+        return run.stdout
+
+    @classmethod
+    def result(cls, text, **more):
+        cls.ran(text, **more)
+        return read.result(cls.folder / "s.h5")
+
+
+class Coefficients(Runs):
+    """Each row multiplies: c times u is |c| u, in the units that stand next to them."""
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.made = cls.result(UNITS)
+        cls.rows = [(b, c) for b in cls.made.budgets for c in b.rows]
+
+    def test_rows_multiply_in_tables_and_workbook(self):
+        for b, c in self.rows:
+            line = csv_tables.line("budget", c, b)
+            self.assertAlmostEqual(abs(line["sensitivity"]) * line["standard_uncertainty"], line["contribution"], 12)
+            row = dict(zip(workbook.COLUMNS, workbook.component_row(b, c)))
+            self.assertAlmostEqual(abs(row["c"]) * row["u"], row["|c| u"], 12)
+            self.assertEqual((row["c"], row["unit of c"]), (line["sensitivity"], line["sensitivity_unit"]))
+
+    def test_coefficients_are_in_the_units_that_are_shown(self):
+        found = {(b.output, c.name): tables.coefficient(b, c) for b, c in self.rows}
+        for at, (value, unit) in {("t", "x"): (1.8, "degF/degC"), ("v", "a"): (1000, "mV/V"), ("v", "b"): (-1, "1")}.items():
+            self.assertAlmostEqual(found[at][0], value, 9)
+            self.assertEqual(found[at][1], unit)
+
+    def test_the_page_shows_them_so(self):
+        shown = {(b.output, row.name): (row.sensitivity, row.sensitivity_unit) for b in self.made.budgets
+                 for row in tables.budget(b).rows}
+        self.assertEqual(shown["t", "x"], ("1.80", "degF/°C"))
+        self.assertEqual(shown["v", "a"], ("1000", "mV/V"))
+        self.assertEqual(shown["v", "b"], ("−1.00", ""))
+        self.assertEqual(shown["d", "w"], ("17.5", "mm/°"))
+        self.assertEqual(shown["d", "l"], ("17.5", "mm/m"))
+        self.assertIn("1.80<small>degF/°C</small>", page.render(self.made))
+
+    def test_the_terminal_and_the_report_write_one_table(self):
+        text = self.ran(UNITS, "--format", "csv", "--budget")
+        lines = csv_tables.plain(self.made)["budget"]
+        printed = list(csv.DictReader(io.StringIO(text)))
+        self.assertEqual(list(printed[0]), list(lines[0]))
+        names = ("output", "quantity", "unit", "sensitivity_unit", "contribution_unit")
+        self.assertEqual([[row[n] for n in names] for row in printed], [[row[n] for n in names] for row in lines])
+        of_json = json.loads(self.ran(UNITS, "--format", "json"))
+        self.assertEqual([c["sensitivity_unit"] for o in of_json for c in o["budget"]],
+                         [row["sensitivity_unit"] for row in lines])
+
+    def test_quotients_are_written_as_the_engine_writes_them(self):
+        self.assertEqual([tables.over("rad", below) for below in ("1", "rad", "m", "N*m", "m/s", "m.s-1")],
+                         ["rad", "1", "rad/m", "rad/(N*m)", "rad/(m/s)", "rad/(m.s-1)"])
+
+
+class Reduced(Runs):
+    def reduced(self, text, **more):
+        r = self.result(text, **more)
+        o, b, v = r.outputs[0], r.budgets[0], r.validations[0]
+        one = lambda studies: studies[0] if studies else None
+        return o.standard_uncertainty, reduce.table(
+            b, o.standard_uncertainty, one(r.sensitivities), one(r.shapley), one(r.given_data),
+            explain.law_accounts(b, o, v.verdict))
+
+    def study(self, name):
+        return TORQUE % LENGTH + f"[analysis]\nsensitivity = {{ {name} }}\n"
+
+    def test_shares_that_do_not_account_for_the_variance_give_no_advice(self):
+        u, found = self.reduced(TORQUE % LENGTH)
+        self.assertEqual(found.rows, [])
+        self.assertIn("Monte Carlo gives u = 0.00075", found.text)
+        self.assertIn("Set sensitivity = { sobol = 65536 } in [analysis]", found.text)
+        self.assertIn("sobol = 65536", page.render(read.result(self.folder / "s.h5")))
+
+    def test_indices_say_what_an_exact_quantity_leaves(self):
+        without_length = self.reduced(TORQUE % "")[0]
+        for name in ("sobol = 16384", "given_data = 50000"):
+            u, found = self.reduced(self.study(name))
+            self.assertFalse(found.law)
+            self.assertEqual([row.name for row in found.rows][:2], ["a", "l"], name)
+            self.assertAlmostEqual(float(found.rows[1].exact), without_length, delta=0.05 * u, msg=name)
+            self.assertIn("u would fall from 0.00075", found.text)
+
+    def test_shapley_effects_name_the_largest(self):
+        found = self.reduced(self.study("shapley = 2048"))[1]
+        self.assertEqual(found.rows, [])
+        self.assertRegex(found.text, r"The largest Shapley effect is that of a, 5\d\.\d")
+
+    def test_a_linear_model_keeps_the_law_whatever_the_shape_of_its_interval(self):
+        """A rectangular contribution lets the verdict be "not validated"; u and its shares are right."""
+        u, found = self.reduced(LINEAR % ("a + b", 1, ""))
+        self.assertEqual(read.result(self.folder / "s.h5").validations[0].verdict, "not validated")
+        self.assertTrue(found.law)
+        self.assertEqual(float(found.rows[0].exact), 1.0)
+
+    def test_a_t_distribution_counts_with_its_variance(self):
+        freedom = ", degrees_of_freedom = 5"
+        u, found = self.reduced(LINEAR % ("a + b", 5, freedom))
+        self.assertTrue(found.law)
+        halved = self.reduced(LINEAR % ("a + b", 2.5, freedom))[0]
+        row = next(row for row in found.rows if row.name == "a")
+        self.assertAlmostEqual(float(row.half), 1e6 * halved, delta=0.1)
+        self.assertIn(f"from {rounding.significant(1e6 * u)}\u202fµm", found.text)
+
+    def test_the_terminal_says_the_same(self):
+        text = self.ran(TORQUE % LENGTH)
+        self.assertRegex(text, r"largest contributions to first order only \(u_c = 0\.00050 N\*m; Monte Carlo gives "
+                               r"u = 0\.00075 N\*m\): l 0\.00049 N\*m .*; set sensitivity = \{ sobol = 65536 \}")
+        self.assertRegex(self.ran(self.study("sobol = 16384")),
+                         r"largest contributions \(first-order Sobol' indices\): a 5\d %, l 4\d %")
+        for linear in (("a + b", 1, ""), ("a + b", 5, ", degrees_of_freedom = 5")):
+            self.assertRegex(self.ran(LINEAR % linear), r"(?m)^  largest contributions: [ab] \d\.\d um \(\d+ %\), [ab] ")
+
+
+class Coverage(Runs):
+    def test_a_probability_below_one_is_never_a_hundred_percent(self):
+        shown = {0.95: "95", 0.9545: "95.45", 0.9973: "99.73", 0.6827: "68.27", 0.99999: "99.999", 1e-5: "0.001",
+                 1 - 1e-9: "99.9999999", 1 - 1e-15: ">\u202f99.9999999999", 1e-15: "<\u202f0.0000000001"}
+        for p, text in shown.items():
+            self.assertEqual(rounding.probability(p), text + "\u202f%")
+        self.assertEqual(rounding.probability(math.nan), "–")
+
+    def test_result_and_report_write_it_with_its_digits(self):
+        text = LINEAR % ("a + b", 5, "") + "[analysis]\ncoverage_probability = 0.99999\n"
+        printed = self.ran(text, samples=200_000)
+        self.assertIn(", 99.999 %\n", printed)
+        self.assertIn("shortest 99.999 % coverage interval", printed)
+        result = read.result(self.folder / "s.h5")
+        self.assertIn("shortest 99.999 % coverage interval", result.outputs[0].statement)
+        for shown in (printed, page.render(result)):
+            self.assertNotRegex(shown, r"100 % coverage|k = \d\.\d\d, 100")
+        self.assertIn("expanded uncertainty U, 99.999 %", str(workbook.budget_rows(result.budgets[0], 0.99999)))
+
+
+if __name__ == "__main__":
+    unittest.main()
