@@ -71,9 +71,9 @@ def table(b, u_monte_carlo, sobol=None, shapley=None, given=None, accounted=True
         correlated = shapley is not None and sobol is None
     if correlated:
         largest = max(shapley.rows, key=lambda i: i.effect if math.isfinite(i.effect) else 0) if shapley and shapley.rows else None
-        return sentence("The inputs depend on each other: what one of them contributes cannot be taken out of u alone." +
-                        (f" The largest Shapley effect is that of {largest.input}, {percent(largest.effect)}."
-                         if largest else ""))
+        return sentence("The inputs depend on each other: what one of them contributes cannot be taken out of u alone."
+                        + (f" The largest Shapley effect is that of {largest.input}, {percent(largest.effect)}."
+                           if largest else ""))
     law = accounted and linear(b, sobol)
     everything = shares(b, sobol or given, law)
     if b.applicable and not accounted and not everything:

@@ -90,7 +90,8 @@ class Coefficients(Runs):
 
     def test_coefficients_are_in_the_units_that_are_shown(self):
         found = {(b.output, c.name): tables.coefficient(b, c) for b, c in self.rows}
-        for at, (value, unit) in {("t", "x"): (1.8, "degF/degC"), ("v", "a"): (1000, "mV/V"), ("v", "b"): (-1, "1")}.items():
+        wanted = {("t", "x"): (1.8, "degF/degC"), ("v", "a"): (1000, "mV/V"), ("v", "b"): (-1, "1")}
+        for at, (value, unit) in wanted.items():
             self.assertAlmostEqual(found[at][0], value, 9)
             self.assertEqual(found[at][1], unit)
 
@@ -176,7 +177,8 @@ class Reduced(Runs):
         self.assertRegex(self.ran(self.study("sobol = 16384")),
                          r"largest contributions \(first-order Sobol' indices\): a 5\d %, l 4\d %")
         for linear in (("a + b", 1, ""), ("a + b", 5, ", degrees_of_freedom = 5")):
-            self.assertRegex(self.ran(LINEAR % linear), r"(?m)^  largest contributions: [ab] \d\.\d um \(\d+ %\), [ab] ")
+            self.assertRegex(self.ran(LINEAR % linear),
+                             r"(?m)^  largest contributions: [ab] \d\.\d um \(\d+ %\), [ab] ")
 
 
 class Coverage(Runs):
