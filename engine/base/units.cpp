@@ -16,14 +16,10 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/unit_definition.h"
+#include "base/unit_words.h"
 
 namespace gumshoe::units {
 namespace {
-
-bool starts_number(char c) { return c >= '0' && c <= '9'; }
-bool letter(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || static_cast<unsigned char>(c) >= 0x80;
-}
 
 /// udunits reads "mm 3" as 3 mm and "mm@3" as a shifted scale: allow only names, exponents and * / . ^ ( ).
 bool plain_grammar(const std::string& unit) {
@@ -48,68 +44,6 @@ bool plain_grammar(const std::string& unit) {
     }
   }
   return open == 0;
-}
-
-/// Calls word(name) for the names in a unit, and rest(character) for all between them.
-template <class Word, class Rest> void each_name(const std::string& unit, const Word& word, const Rest& rest) {
-  for (std::size_t i = 0, end = 0; i < unit.size(); i = end) {
-    while (end < unit.size() && letter(unit[end])) ++end;
-    if (end > i)
-      word(unit.substr(i, end - i));
-    else
-      rest(unit[end++]);
-  }
-}
-
-/// Names that udunits does not know, or whose values it has from before 2019: the electronvolt is the SI's, the atomic
-/// mass unit that of CODATA 2022, one torr 1/760 of an atmosphere. Some may have a prefix of the SI.
-std::string known_name(const std::string& word) {
-  static const std::map<std::string, std::string> names{
-      {"deg", "degree"},
-      {"rev", "revolution"},
-      {"gon", "(0.9 degree)"},
-      {"u", "(1.66053906892e-27 kg)"},
-  };
-  struct Prefixed {
-    std::string_view name, factor, unit;
-  };
-  static constexpr Prefixed prefixed[] = {{"electronvolt", "1.602176634e-19 ", "joule"},
-                                          {"eV", "1.602176634e-19 ", "J"},
-                                          {"torr", "133.32236842105263 ", "Pa"},
-                                          {"Torr", "133.32236842105263 ", "Pa"},
-                                          {"Nm", "", "N m"},
-                                          {"Wh", "", "W h"},
-                                          {"Ah", "", "A h"}};
-  if (const auto known = names.find(word); known != names.end()) return known->second;
-  for (const Prefixed& p : prefixed)
-    if (word.ends_with(p.name) && word.size() <= p.name.size() + (p.unit == "joule" ? 5 : 2)) // "kilo" or "k"
-      return fmt::format("({}{}{})", p.factor, word.substr(0, word.size() - p.name.size()), p.unit);
-  return word;
-}
-
-std::string with_known_names(const std::string& unit) {
-  std::string out;
-  each_name(unit, [&](const std::string& word) { out += known_name(word); }, [&](char c) { out += c; });
-  return out;
-}
-
-/// What to write instead of a name that people read in two ways, or of a logarithmic one; empty: the unit has none.
-std::string instead_of(const std::string& unit) {
-  static const std::map<std::string, std::string> unclear{
-      {"ct", "write carat"},
-      {"oz", "it may be a mass or a volume: convert to g or mL"},
-      {"gal", "it may be a volume or an acceleration: write gallon or cm/s2"},
-      {"dB", "logarithmic units are not known: write the ratio"},
-      {"Np", "logarithmic units are not known: write the ratio"},
-  };
-  std::string out;
-  each_name(
-      unit,
-      [&](const std::string& word) {
-        if (const auto found = unclear.find(word); found != unclear.end()) out = found->second;
-      },
-      [](char) {});
-  return out;
 }
 
 int radian_exponent(const std::string& base) {
@@ -289,13 +223,25 @@ std::optional<Unit> unit_of_database(const std::string& name) {
   struct Free {
     void operator()(ut_unit* u) const { ut_free(u); }
   };
-  const std::unique_ptr<ut_unit, Free> unit(ut_parse(system, with_known_names(name).c_str(), UT_UTF8));
+  const auto text_of_unit = for_database(name, system);
+  const std::unique_ptr<ut_unit, Free> unit(text_of_unit ? ut_parse(system, text_of_unit->c_str(), UT_UTF8) : nullptr);
   if (!unit) return std::nullopt;
   char text[256];
   const int length = ut_format(unit.get(), text, sizeof text, UT_ASCII | UT_DEFINITION);
   if (length < 0 || length >= static_cast<int>(sizeof text)) return std::nullopt;
   return read_definition(std::string(text, static_cast<std::size_t>(length)), name);
 }
+
+namespace {
+
+/// "d3" directly behind a number: an exponent in Fortran, not a power of days.
+bool begins_exponent(std::string_view text) {
+  if (text.empty() || (text[0] != 'd' && text[0] != 'D')) return false;
+  const std::size_t digit = text.size() > 1 && (text[1] == '-' || text[1] == '+') ? 2 : 1;
+  return text.size() > digit && starts_number(text[digit]);
+}
+
+} // namespace
 
 Measure parse(std::string_view text) {
   const auto trim = [](std::string_view s) {
@@ -318,6 +264,8 @@ Measure parse(std::string_view text) {
   if (!std::isfinite(measure.number)) refuse("it is not finite");
   if (stop != end && *stop == ',') refuse("the decimal sign must be a point");
   if (stop != end && (*stop == '_' || *stop == '.')) refuse("only one number may stand here");
+  if (begins_exponent({stop, static_cast<std::size_t>(end - stop)}))
+    refuse("the exponent is written with e, as in 1e3");
   measure.unit = trim({stop, static_cast<std::size_t>(end - stop)});
   if (measure.unit.empty()) measure.unit = "1";
   return measure;

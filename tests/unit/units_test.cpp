@@ -82,6 +82,54 @@ TEST_CASE("what may be two units is none, and it is said what to write", "[units
   CHECK_THROWS_WITH(units::to_si(1, "KHz", "1/s"), Catch::Contains("did you mean 'kHz'?", Catch::CaseSensitive::No));
 }
 
+TEST_CASE("constants that are units have the values of the SI since 2019, whatever their name", "[units]") {
+  CHECK(si("1 e", "A s") == Approx(1.602176634e-19).epsilon(1e-14));
+  CHECK(si("1 amu", "kg") == si("1 u", "kg"));
+  CHECK(si("1 AMU", "kg") == si("1 u", "kg"));
+  CHECK(si("2 electronvolts", "J") == Approx(2 * 1.602176634e-19).epsilon(1e-14));
+  CHECK(si("2 kiloelectronvolts", "J") == Approx(2 * 1.602176634e-16).epsilon(1e-14));
+  CHECK(si("1 molecule", "mol") == Approx(1 / 6.02214076e23).epsilon(1e-14));
+  CHECK(si("3 1e-6", "1") == 3e-6); // its e is no charge
+}
+
+TEST_CASE("names that begin like a prefix are what people mean by them", "[units]") {
+  CHECK(si("1 nmi", "m") == 1852);
+  CHECK(si("1 mph", "m/s") == Approx(0.44704).epsilon(1e-14));
+  CHECK(si("36 kph", "m/s") == Approx(10).epsilon(1e-14));
+  CHECK(si("1 ha", "m2") == 10000);
+  CHECK(si("1 t", "kg") == 1000);
+  CHECK(si("1 tonne", "kg") == 1000);
+  CHECK(si("3 uin", "m") == Approx(3 * 25.4e-9).epsilon(1e-14)); // of surfaces; no other prefix goes with the inch
+  CHECK(si("3 Kilometer", "m") == 3000);
+  CHECK(si("2 cmH2O", "Pa") == Approx(196.133).epsilon(1e-14));
+  CHECK(si("4 m\xC2\xB2", "m2") == 4);
+  CHECK(si("4 N\xC2\xB7m", "J") == 4);
+}
+
+TEST_CASE("a prefix has one unit behind it, which people use with prefixes", "[units][errors]") {
+  for (const char* unit :
+       {"kkg", "mkg", "kkeV", "Min", "kin", "mmi", "mft", "mmin", "kday", "mdegC", "kton", "k", "da"}) {
+    INFO(unit);
+    CHECK_THROWS_WITH(units::si_unit_of(unit), Catch::Contains("is not a unit"));
+  }
+  CHECK_THROWS_WITH(units::si_unit_of("Min"), Catch::Contains("Did you mean 'min'?"));
+  CHECK_THROWS_WITH(units::si_unit_of("MPH"), Catch::Contains("Did you mean 'mph'?"));
+}
+
+TEST_CASE("what udunits would read as something else is refused", "[units][errors]") {
+  for (const char* unit : {"ton", "TON", "tons", "m/ton"})
+    CHECK_THROWS_WITH(units::si_unit_of(unit), Catch::Contains("write t", Catch::CaseSensitive::No));
+  for (const char* unit : {"g0", "a0", "m^0", "kg/m0"})
+    CHECK_THROWS_WITH(units::si_unit_of(unit), Catch::Contains("power of zero"));
+  CHECK(si("1 m10", "m10") == 1);
+  for (const char* unit : {"\xC2\xB0 C", "deg C", "degrees C", "um/m/deg C"})
+    CHECK_THROWS_WITH(units::si_unit_of(unit), Catch::Contains("Write degC"));
+  for (const char* text : {"1d3 mm", "1D3 mm", "1d-3 mm"})
+    CHECK_THROWS_WITH(units::parse(text), Catch::Contains("the exponent is written with e"));
+  CHECK(units::parse("1d").unit == "d");
+  CHECK(units::parse("1dm").unit == "dm");
+}
+
 TEST_CASE("points and differences on a scale with an offset", "[units]") {
   CHECK(si("20 degC", "K") == Approx(293.15).epsilon(1e-15));
   CHECK(si("20 degC", "K", Kind::difference) == 20);
