@@ -55,16 +55,18 @@ std::string named_quantities(const Compiled& c, const Formula& f, std::size_t no
 
 } // namespace
 
+NotFinite::NotFinite(const Problem& reason)
+    : InputError({{reason.where, reason.what + " at the estimates", reason.why, reason.remedy}}), reason_(reason) {}
+
 void require_finite(const Compiled& c, const Program& program, const Inputs<double>& at) {
   const auto values = interpret<double>(program, at);
   for (std::size_t i = 0; i < program.steps.size(); ++i) {
     const Step& s = program.steps[i];
     if (s.source != Source::step || std::isfinite(values.steps[i])) continue;
     const Formula& f = c.formulas[s.origin.formula];
-    throw InputError(
-        {f.problem(f.nodes[s.origin.node].at,
-                   why_not_finite(s.operation, values.steps[s.a], values.steps[s.b]) + " at the estimates",
-                   named_quantities(c, f, s.origin.node, at))});
+    throw NotFinite(f.problem(f.nodes[s.origin.node].at,
+                              why_not_finite(s.operation, values.steps[s.a], values.steps[s.b]),
+                              named_quantities(c, f, s.origin.node, at)));
   }
 }
 

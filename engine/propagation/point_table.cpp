@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 
 #include <fmt/format.h>
 
 #include "base/units.h"
+#include "formula/finite.h"
 #include "propagation/forward_model.h"
 #include "propagation/table_columns.h"
 
@@ -69,17 +71,27 @@ TablePoints table_points(const models::Model& model, const Csv& table, std::size
   return {std::move(points), ForwardModel(model, columns.acting, evaluation, std::move(conditions))};
 }
 
-void check_rows(const TablePoints& at, const Csv& table, const TableColumns& columns, PointTable& result,
-                std::vector<bool>& bad_row) {
-  for (std::size_t r = 0; r < table.rows.size(); ++r) {
-    const std::string problem = at.forward.check(r, at.points[r]);
-    if (problem.empty()) continue;
-    bad_row[r] = true;
-    if (!columns.bad_row[r])
-      result.impossible.push_back(
-          {table.rows[r].empty() ? Location{table.file} : Location{table.file, table.rows[r][0].line, 1}, problem,
-           "physically impossible", ""});
-  }
+Location place_of(const Csv& table, std::size_t row) {
+  return table.rows[row].empty() ? Location{table.file} : Location{table.file, table.rows[row][0].line, 1};
+}
+
+/// Reasons why formulas have no finite value, by row.
+using NotFiniteRows = std::map<std::size_t, Problem>;
+
+/// Marks rows that are impossible. Whether a row has a value although a formula has none is known when it is evaluated:
+/// a table without readings does not need the formulas of the measurands.
+NotFiniteRows check_rows(const TablePoints& at, const Csv& table, const TableColumns& columns, PointTable& result,
+                         std::vector<bool>& bad_row) {
+  NotFiniteRows out;
+  for (std::size_t r = 0; r < table.rows.size(); ++r) try {
+      const std::string problem = at.forward.check(r, at.points[r]);
+      if (problem.empty()) continue;
+      bad_row[r] = true;
+      if (!columns.bad_row[r]) result.impossible.push_back({place_of(table, r), problem, "physically impossible", ""});
+    } catch (const formula::NotFinite& error) {
+      out.emplace(r, error.reason()).first->second.where = place_of(table, r);
+    }
+  return out;
 }
 
 /// A column of results, NaN where the status is not ok.
@@ -166,11 +178,14 @@ PointTable evaluate_points(const models::Model& model, const Csv& table, const s
   result.impossible = columns.impossible;
   std::vector<bool> bad_row = columns.bad_row;
   const TablePoints at = table_points(model, table, chosen, columns);
-  check_rows(at, table, columns, result, bad_row);
-  if (together)
+  const NotFiniteRows not_finite = check_rows(at, table, columns, result, bad_row);
+  if (together) {
     evaluate_together(at, table, std::ranges::find(bad_row, true) == bad_row.end(), result);
-  else
-    evaluate_rows(at, columns.slots, bad_row, indicated, result);
+    return result;
+  }
+  evaluate_rows(at, columns.slots, bad_row, indicated, result);
+  for (const auto& [row, reason] : not_finite)
+    if (result.status[row] == status_name(Status::not_finite)) result.impossible.push_back(reason);
   return result;
 }
 

@@ -14,7 +14,8 @@ struct PointTable {
   std::vector<std::string> status;          ///< "ok" or why there is no value
   std::vector<std::string> notes;           ///< remarks of a joint evaluation on what its readings leave undetermined
   bool joint = false;                       ///< the table's rows were evaluated together: one row of results
-  std::vector<Problem> impossible;          ///< cells outside the model's limits, by row; their rows have no value
+  /// Cells outside the model's limits and points without a finite value, at their lines; their rows have no value.
+  std::vector<Problem> impossible;
 };
 
 /// Header cells are `name (unit)`: quantities, conditions, effects' quantities (effect.quantity) and

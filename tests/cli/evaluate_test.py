@@ -140,6 +140,25 @@ class Evaluate(InFolder):
             self.assertAlmostEqual(float(row["X (mm)"]), x, delta=1e-9)
             self.assertAlmostEqual(float(row["Y (mm)"]), y, delta=1e-9)
 
+    def test_a_row_without_a_finite_value_leaves_the_others_theirs(self):
+        text = ("schema = 1\n[model]\nname = \"expression\"\n[model.measurands]\ny = \"sqrt(a) / b\"\n[quantities]\n"
+                "a = { value = 4, u = 0.1 }\nb = 1\n")
+        run = self.scenario(text, "a,b\n4,1\n-1,1\n9,0\n16,2\n")
+        self.assertEqual(run.returncode, 2)
+        self.assertEqual(run.stdout.splitlines(), ["a,b,y (1),status", "4,1,2,ok", "-1,1,nan,not_finite", "9,0,nan,not_finite", "16,2,2,ok"])
+        self.assertEqual(places(run, self.folder / "points.csv"), [(3, 1), (4, 1)])
+        self.assertIn("the square root of a negative number (a = -1).", run.stderr)
+        self.assertIn("division by zero (b = 0).", run.stderr)
+        self.assertNotIn("estimates", run.stderr)
+
+    def test_a_formula_that_the_table_does_not_ask_for_may_have_no_value(self):
+        """Without readings the indications are simulated; the measurand's 1 / x is not needed."""
+        text = ("schema = 1\n[model]\nname = \"expression\"\n[model.measurands]\na = \"1 / x\"\n[model.indications]\nx = \"1 / a\"\n"
+                "[quantities]\na = 4\n[indications.x]\nreadings = [0.25]\n")
+        run = self.scenario(text, "a\n4\n")
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        self.assertEqual(run.stdout.splitlines(), ["a,x (1),status", "4,0.25,ok"])
+
     def test_several_values_must_be_given(self):
         text = ("schema = 1\n[model]\nname = \"rod_gauging\"\n[quantities.rod_length.by.rod]\n1 = \"160 mm\"\n2 = \"180 mm\"\n"
                 "[indications.spindle_z.readings]\nfile = \"read.csv\"\ncolumn = \"z\"\nunit = \"mm\"\nlabels = { rod = \"rod\" }\n")
