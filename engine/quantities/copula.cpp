@@ -218,11 +218,16 @@ CorrelationFactor pivoted(const std::vector<double>& matrix, std::size_t n, doub
 
 CorrelationFactor correlation_factor(const std::vector<double>& matrix, const std::vector<double>& stated,
                                      std::size_t n, const std::string& group) {
-  const double smallest = smallest_eigenvalue(matrix, n), least = 1e-12 * static_cast<double>(n);
-  if (!(smallest >= -least)) refuse_indefinite(smallest, smallest_eigenvalue(stated, n), -least, group);
+  const double order = static_cast<double>(n), tolerated = 1e-12 * order;
+  const double smallest = smallest_eigenvalue(matrix, n);
+  if (!(smallest >= -tolerated)) refuse_indefinite(smallest, smallest_eigenvalue(stated, n), -tolerated, group);
+  // A coefficient of 1 - 1e-12 is not 1: the difference of such quantities has an uncertainty. Only what rounding makes
+  // of a singular matrix is singular, and what coefficients with too few digits do, which leave it indefinite.
+  const double rounding = 4 * std::numeric_limits<double>::epsilon() * order;
   const auto size = static_cast<Eigen::Index>(n);
   const Eigen::LLT<Matrix> factor(Eigen::Map<const Matrix>(matrix.data(), size, size));
-  if (!(smallest > 1e-12) || factor.info() != Eigen::Success) return pivoted(matrix, n, least);
+  if (!(smallest > rounding) || factor.info() != Eigen::Success)
+    return pivoted(matrix, n, std::clamp(-smallest * order, rounding, tolerated));
   const Matrix lower = factor.matrixL();
   CorrelationFactor out{std::vector<std::size_t>(n), {lower.data(), lower.data() + lower.size()}};
   std::iota(out.order.begin(), out.order.end(), 0);

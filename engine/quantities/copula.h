@@ -30,9 +30,10 @@ struct CorrelationFactor {
 };
 
 /// Cholesky factor of a row-major n x n matrix. Positive definite: in the matrix' own order. Singular (a coefficient of
-/// +-1, or quantities that determine another): with pivoting, so that it reproduces the matrix to n 1e-12. Throws
-/// InputError naming the smallest eigenvalue if that is below -n 1e-12; `group` names the matrix, and `stated` is the
-/// matrix that it was computed from.
+/// +-1, or quantities that determine another), which is to say that its smallest eigenvalue is not above n 9e-16: with
+/// pivoting, so that it reproduces the matrix to that, or to n times an eigenvalue below zero. Throws InputError naming
+/// the smallest eigenvalue if that is below -n 1e-12; `group` names the matrix, and `stated` is the matrix that it was
+/// computed from.
 CorrelationFactor correlation_factor(const std::vector<double>& matrix, const std::vector<double>& stated,
                                      std::size_t n, const std::string& group);
 

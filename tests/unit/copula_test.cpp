@@ -95,6 +95,31 @@ TEST_CASE("coefficients of +1 and -1 are drawn exactly, whatever the distributio
       }
 }
 
+TEST_CASE("a coefficient just below 1 is not 1: the difference has its uncertainty", "[sampler][copula]") {
+  const std::vector<InputQuantity> quantities = {simple("a", standard), simple("b", standard)};
+  constexpr std::size_t n = 1 << 16;
+  for (const double missing : {1e-6, 1e-12, 1e-14}) {
+    for (const auto kind : {Correlation::Kind::pearson, Correlation::Kind::spearman}) {
+      const double r = 1 - missing;
+      const Correlation c{kind, {"a", "b"}, {1, r, r, 1}};
+      const SamplePlan plan = make_plan(quantities, {&c, 1}, one_reading, 3);
+      CHECK_FALSE(plan.copulas.at(0).singular());
+      const auto rows = draw(plan, n);
+      double variance = 0;
+      for (std::size_t k = 0; k < n; ++k) variance += std::pow(rows[0][k] - rows[1][k], 2) / double(n);
+      // 2 (1 - rho), where the rounding of rho to 1.1e-16 is 1 % of 1e-14.
+      const double expected = 2 * (1 - plan.copulas.at(0).matrix[1]);
+      CHECK(expected > 1.7 * missing);
+      CHECK(std::abs(variance / expected - 1) < 5 * std::sqrt(2.0 / double(n)) + 0.02);
+    }
+  }
+  // What rounding leaves of 1 is 1.
+  for (const double r : {1.0, std::nextafter(1.0, 0.0), -1.0}) {
+    const Correlation c{Correlation::Kind::pearson, {"a", "b"}, {1, r, r, 1}};
+    CHECK(make_plan(quantities, {&c, 1}, one_reading, 3).copulas.at(0).singular());
+  }
+}
+
 TEST_CASE("a singular matrix is drawn exactly: quantities that determine another", "[sampler][copula]") {
   // c = 0.6 a + 0.8 b; the same with c named first, and with a fourth that is opposite to a.
   const std::vector<InputQuantity> quantities = {simple("a", standard), simple("b", standard), simple("c", standard),
