@@ -209,6 +209,12 @@ void add_intervals(Summary& s, const Ordered& ordered, const Column& values, dou
   histogram(s, values, ordered[0], ordered[s.valid - 1], threads);
 }
 
+/// By the kurtosis, which is 1 of any two values and 1.5 of any three: it then says nothing.
+double standard_uncertainty_error(const Summary& s) {
+  if (s.valid < 4 && s.standard_uncertainty > 0) return nan;
+  return s.standard_uncertainty * std::sqrt(std::max(0.0, s.kurtosis - 1) / (4 * static_cast<double>(s.valid)));
+}
+
 } // namespace
 
 Summary summarise(const propagation::Output& output, const Column& values, double p, int threads, KeptOrder* order,
@@ -249,7 +255,7 @@ Summary summarise(const propagation::Output& output, const Column& values, doubl
   s.skewness = m.skewness;
   s.kurtosis = m.kurtosis;
   s.estimate_se = s.standard_uncertainty / std::sqrt(n);
-  s.standard_uncertainty_se = s.standard_uncertainty * std::sqrt(std::max(0.0, m.kurtosis - 1) / (4 * n));
+  s.standard_uncertainty_se = standard_uncertainty_error(s);
   if (!intervals) {
     s.symmetric = s.shortest = {nan, nan, nan, nan, nan, nan};
     s.shortest_length_se = s.monte_carlo_expanded = nan;

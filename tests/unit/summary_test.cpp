@@ -135,3 +135,13 @@ TEST_CASE("a share of a whole is never said to be nothing or all", "[rounding]")
   CHECK(analysis::share_text(0.9951) == "> 99 %");
   CHECK(analysis::share_text(-0.123) == "-12 %");
 }
+
+TEST_CASE("two or three samples do not say how well their spread is known", "[summary]") {
+  for (const std::vector<double>& few : {std::vector<double>{1.0, 3.0}, {1.0, 3.0, 4.0}}) {
+    const Summary s = analysis::summarise(output, few, 0.95);
+    CHECK(s.standard_uncertainty > 0);
+    CHECK(std::isnan(s.standard_uncertainty_se));
+  }
+  CHECK(analysis::summarise(output, std::vector<double>{1, 3, 4, 9}, 0.95).standard_uncertainty_se > 0);
+  CHECK(analysis::summarise(output, std::vector<double>{2, 2}, 0.95).standard_uncertainty_se == 0); // a constant
+}
