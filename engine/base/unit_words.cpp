@@ -57,8 +57,26 @@ bool has_zeroth_power(const std::string& unit) {
 /// Names that udunits does not know, or reads in a way that people do not.
 const std::string* known_name(const std::string& word) {
   static const std::map<std::string, std::string> names{
-      {"deg", "degree"},    {"rev", "revolution"},  {"gon", "(0.9 degree)"}, {"nmi", "(1852 m)"},
-      {"kph", "(km/hour)"}, {"mph", "(mile/hour)"}, {"ha", "hectare"},
+      {"deg", "degree"},
+      {"rev", "revolution"},
+      {"gon", "(0.9 degree)"},
+      {"nmi", "(1852 m)"},
+      {"kph", "(km/hour)"},
+      {"mph", "(mile/hour)"},
+      {"ha", "hectare"},
+      {"mdeg", "(0.001 degree)"},
+      {"mas", "(0.001 arcsec)"},
+      {"mgon", "(0.0009 degree)"},
+      {"cgon", "(0.009 degree)"},
+      {"permille", "(0.001)"},
+      {"‰", "(0.001)"},
+      {"kp", "(9.80665 N)"},
+      {"P", "poise"},
+      {"cP", "(0.01 poise)"},
+      {"mmH2O", "(9.80665 Pa)"},
+      {"thou", "(0.001 inch)"},
+      {"hrs", "hour"},
+      {"mins", "minute"},
   };
   const auto known = names.find(word);
   return known == names.end() ? nullptr : &known->second;
@@ -115,6 +133,8 @@ public:
         "Ci",  "R",   "rem", "Gal",   "poise", "St",     "gauss", "Oe",  "erg",  "dyne",    "pond",   "lbf",
         "psi", "cal", "Btu", "darcy", "tex",   "parsec", "year",  "bit", "byte", "watthour"};
     if (is_micro(prefix) && is(unit, "inch")) return true;
+    if (prefix == "k" && (is(unit, "foot") || is(unit, "pound"))) return true;
+    if (prefix == "m" && is(unit, "celsius")) return true;
     return std::ranges::any_of(names, [&](const char* name) { return is(unit, name); });
   }
 

@@ -104,11 +104,17 @@ TEST_CASE("names that begin like a prefix are what people mean by them", "[units
   CHECK(si("2 cmH2O", "Pa") == Approx(196.133).epsilon(1e-14));
   CHECK(si("4 m\xC2\xB2", "m2") == 4);
   CHECK(si("4 N\xC2\xB7m", "J") == 4);
+  CHECK(si("9 mdeg", "deg") == Approx(0.009).epsilon(1e-14));
+  CHECK(si("10 mgon", "deg") == Approx(0.009).epsilon(1e-14));
+  CHECK(si("3 \xE2\x80\xB0", "1") == Approx(0.003).epsilon(1e-14));
+  CHECK(si("2 cP", "Pa.s") == Approx(0.002).epsilon(1e-14));
+  CHECK(si("1 kft", "m") == Approx(304.8).epsilon(1e-14));
+  CHECK(si("3 mdegC", "K") == Approx(273.153).epsilon(1e-14));
 }
 
 TEST_CASE("a prefix has one unit behind it, which people use with prefixes", "[units][errors]") {
   for (const char* unit :
-       {"kkg", "mkg", "kkeV", "Min", "kin", "mmi", "mft", "mmin", "kday", "mdegC", "kton", "k", "da"}) {
+       {"kkg", "mkg", "kkeV", "Min", "kin", "mmi", "mft", "mmin", "kday", "kton", "k", "da"}) {
     INFO(unit);
     CHECK_THROWS_WITH(units::si_unit_of(unit), Catch::Contains("is not a unit"));
   }
