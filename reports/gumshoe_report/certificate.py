@@ -7,7 +7,7 @@ from .tables import point, spread
 
 def typeset(text):
     """The line of the result file, with the signs that people write."""
-    for plain, sign in (("+-", "±"), (" um,", " µm,"), (") um", ") µm"), ("degC", "°C"), (" deg,", "°,"), (") deg", ")°")):
+    for plain, sign in (("+-", "±"), (" um,", " µm,"), (") um", ") µm"), ("degC", "°C"), ("degF", "°F"), (" deg,", "°,"), (") deg", ")°")):
         text = text.replace(plain, sign)
     return "".join("−" if c == "-" and (k == 0 or text[k - 1] in "( [=") else c for k, c in enumerate(text))
 

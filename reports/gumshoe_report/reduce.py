@@ -50,8 +50,8 @@ def unknown(b, u_monte_carlo, shapley):
     """In place of the table, where the law does not account for the variance and no first-order indices are known."""
     unit, factor = finer(b.display_units, spread(b, u_monte_carlo))
     of = lambda u: significant(factor * spread(b, u)) + after(unit)
-    text = (f"The shares of the budget do not say what would reduce u: they are of first order, where u_c is "
-            f"{of(b.combined_standard_uncertainty)}, and Monte Carlo gives u = {of(u_monte_carlo)}. ")
+    text = (f"The shares of the budget do not say what would reduce u: they are of first order, by which u would be "
+            f"{of(b.combined_standard_uncertainty)}; Monte Carlo gives {of(u_monte_carlo)}. ")
     known = sorted((i for i in shapley.rows if math.isfinite(i.effect)), key=lambda i: -i.effect) if shapley else []
     if known:
         return sentence(text + f"The largest Shapley effect is that of {known[0].input}, {percent(known[0].effect)}.")

@@ -7,7 +7,7 @@ FINER = {"m": ("mm", 1e3), "mm": ("um", 1e3), "deg": ("arcsec", 3600.0), "rad": 
          "mrad": ("urad", 1e3)}
 # Units to show where a column has only its SI unit.
 COMMON = {"m": ("mm", 1e3), "rad": ("deg", 180 / math.pi), "m/s": ("mm/min", 6e4), "rad/s": ("rpm", 30 / math.pi)}
-SYMBOLS = {"um": "µm", "deg": "°", "arcsec": "″", "degC": "°C", "urad": "µrad"}
+SYMBOLS = {"um": "µm", "deg": "°", "arcsec": "″", "degC": "°C", "degF": "°F", "urad": "µrad"}
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
