@@ -90,6 +90,10 @@ struct Distribution {
   double support_high() const;
 };
 
+/// Beyond these the quantiles of t and gamma cannot be tabulated: powers of the samples of such a t overflow, and the
+/// series of such a gamma, which is normal to 1e-4 of its u, does not end.
+inline constexpr double least_degrees_of_freedom = 0.25, largest_gamma_shape = 1e9;
+
 /// What is wrong with the parameters, or empty: "low must be below high". Checked before first use.
 std::string invalid_parameters(const Distribution& distribution);
 

@@ -1,6 +1,8 @@
 /// The catalogue of families: names, parameters, sources, and what makes parameters invalid.
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "quantities/distribution.h"
 
 namespace gumshoe::quantities {
@@ -81,11 +83,15 @@ std::string invalid_numbers(const Distribution& d) {
     return p[1] > 0 ? "" : "u must be positive";
   case Family::t:
     if (!(p[1] > 0)) return "u must be positive";
-    return p[2] > 0 ? "" : "degrees_of_freedom must be positive";
+    return p[2] >= least_degrees_of_freedom
+               ? ""
+               : fmt::format("degrees_of_freedom must be at least {}", least_degrees_of_freedom);
   case Family::exponential:
     return p[0] > 0 ? "" : "mean must be positive";
   case Family::gamma:
     if (!(p[0] > 0)) return "shape must be positive";
+    if (!(p[0] <= largest_gamma_shape))
+      return fmt::format("shape must be at most {:g}; a larger one makes the distribution normal", largest_gamma_shape);
     return p[1] > 0 ? "" : "scale must be positive";
   case Family::lognormal:
     return p[1] > 0 ? "" : "sigma must be positive";

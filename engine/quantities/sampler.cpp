@@ -4,7 +4,9 @@
 #include <optional>
 #include <set>
 #include <span>
+#include <stdexcept>
 
+#include "base/error.h"
 #include "base/hash.h"
 #include "quantities/cells.h"
 #include "quantities/quantile_kernels.h"
@@ -53,8 +55,7 @@ struct Sampler::Impl {
   Impl(const SamplePlan& plan, PointSet point_set, std::uint64_t samples)
       : design(point_set), total(samples), copulas(plan.copulas), tied(plan.variates.size(), false) {
     std::set<std::uint32_t> taken;
-    for (const Variate& variate : plan.variates)
-      sources.push_back(source(variate.key, reading_of(variate.cell), variate.distribution, taken));
+    for (const Variate& variate : plan.variates) sources.push_back(source_of(variate, taken));
     for (const CopulaGroup& group : copulas)
       shared_scales.push_back(group.multivariate_t()
                                   ? std::optional(source(group.key, sources[group.variates[0]].stream.reading,
@@ -62,6 +63,13 @@ struct Sampler::Impl {
                                   : std::nullopt);
     for (const CopulaGroup& group : copulas)
       for (const std::size_t v : group.variates) tied[v] = true;
+  }
+
+  Source source_of(const Variate& variate, std::set<std::uint32_t>& taken) const try {
+    return source(variate.key, reading_of(variate.cell), variate.distribution, taken);
+  } catch (const std::runtime_error&) { // of Boost.Math, which names neither the quantity nor the parameter
+    throw InputError(variate.name + ": the quantiles of its distribution cannot be computed",
+                     "its parameters are too large or too small", "state usual ones, or another distribution");
   }
 
   Source source(std::uint64_t key, std::uint32_t reading, const Distribution& d, std::set<std::uint32_t>& taken) const {

@@ -188,6 +188,10 @@ private:
                          nu == 0 ? "no degrees of freedom" : fmt::format("{:.6g} degrees of freedom", nu)),
              "estimates of a multivariate t distribution share the degrees of freedom of one standard deviation",
              "give all of them u with the same degrees_of_freedom, or use the kind copula");
+      if (nu > 2 * largest_gamma_shape)
+        fail(fmt::format("{} has {:.6g} degrees of freedom, and a multivariate t at most {:.6g}", variate.name, nu,
+                         2 * largest_gamma_shape),
+             "with as many it is normal", "leave degrees_of_freedom out, and use the kind copula");
       group.key += variate.key; // whatever the order of the members
     }
     group.key = hash64("multivariate t", group.key);

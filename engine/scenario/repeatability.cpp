@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "scenario/uncertainty.h"
+
 namespace gumshoe::scenario {
 namespace {
 
@@ -78,7 +80,9 @@ private:
     Repeatability out{Repeatability::Kind::declared, {}, false, 'A', {}};
     table.require("s", "write s = \"...\" or pooled = true");
     const auto s = table.width("s", std::string(card_.si_unit));
-    out.scatter.degrees_of_freedom = table.positive("degrees_of_freedom").value_or(0);
+    const auto degrees = table.positive("degrees_of_freedom");
+    if (degrees && *degrees < quantities::least_degrees_of_freedom) refuse_degrees_of_freedom(table, *degrees);
+    out.scatter.degrees_of_freedom = degrees.value_or(0);
     if (!table.has("degrees_of_freedom")) out.evaluation = 'B';
     if (!s) return {};
     out.scatter.s = *s;

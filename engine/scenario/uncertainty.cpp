@@ -136,11 +136,26 @@ std::optional<Uncertainty> read_earlier(Table& table, const Form& form, Context&
   return out;
 }
 
+} // namespace
+
+void refuse_degrees_of_freedom(Table& table, double degrees) {
+  table.refuse_key("degrees_of_freedom",
+                   fmt::format("{:.6g} must be at least {}", degrees, quantities::least_degrees_of_freedom),
+                   "a t distribution of fewer is wider than floating-point numbers can be",
+                   "state 1, which is that of two readings, or more");
+}
+
+namespace {
+
 /// Finite degrees of freedom of u make a normal distribution a t, of a Type A evaluation (JCGM 101:2008, 6.4.9) and of
 /// a certificate (6.4.9.7) alike. For other families they only enter the effective degrees of freedom (GUM G.4.2).
 void apply_degrees_of_freedom(Component& c, std::optional<double> declared, Table& table, Context& context) {
   if (declared) c.degrees_of_freedom = *declared;
   auto& d = c.distribution;
+  if (d.family == Family::normal && c.degrees_of_freedom < quantities::least_degrees_of_freedom) {
+    refuse_degrees_of_freedom(table, c.degrees_of_freedom);
+    return;
+  }
   if (d.family == Family::normal && std::isfinite(c.degrees_of_freedom)) {
     if (table.has("distribution"))
       context.notes.push_back(fmt::format("{}: a standard uncertainty with {:.6g} degrees of freedom is drawn from a t "

@@ -37,4 +37,7 @@ extern const char* const uncertainty_rules;
 /// lognormal, discrete and empirical keep their distribution and the value 0, or `value` if given.
 std::optional<Uncertainty> read_uncertainty(Table& table, const Form& form, Context& context);
 
+/// Refuses the table's degrees_of_freedom: they are fewer than a t distribution can be drawn with.
+void refuse_degrees_of_freedom(Table& table, double degrees);
+
 } // namespace gumshoe::scenario
