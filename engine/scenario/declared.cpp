@@ -37,6 +37,7 @@ StatedUnit first_unit(const Node& node) {
   }
   for (const Member& m : node.members) {
     if (std::ranges::find(worded, m.key) != worded.end()) continue;
+    if (m.key == "readings" && m.value.kind == Node::Kind::text) continue; // a column, though it be called "3D"
     auto found = first_unit(m.value);
     if (found.unit.empty()) continue;
     const bool relative = std::ranges::find(widths, m.key) != widths.end() && units::convertible(found.unit, "1");
