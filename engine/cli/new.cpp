@@ -210,19 +210,29 @@ bool another_reading(const RecognisedData& found, const scenario::RecognisedColu
          text.find(scenario::quoted(c.name)) == std::string::npos;
 }
 
+/// The name of a column in the scenario where its own means something else in formulas; else empty.
+std::string other_name(const scenario::RecognisedColumn& c, const std::string& text) {
+  const auto meaning = scenario::meaning_in_formulas(c.name);
+  const std::string name = scenario::plain_name(c.name);
+  if (meaning.empty() || text.find(name) == std::string::npos) return "";
+  return fmt::format("; named {}, because its own name is {}", name, meaning);
+}
+
 /// What the scenario does with each column.
 void print_columns(const RecognisedData& found, const std::string& text) {
   for (const auto& c : found.columns) {
     const std::string quoted = scenario::quoted(c.name);
-    const char* use = text.find(quoted) == std::string::npos                   ? "not used"
+    const bool used = text.find(quoted) != std::string::npos;
+    const char* use = !used                                                    ? "not used"
                       : text.find("readings = " + quoted) != std::string::npos ? name(ColumnRole::reading)
                       : c.role == ColumnRole::other                            ? "used by its name"
                                                                                : name(c.role);
-    std::cout << fmt::format("  {}: {}{}{}\n", c.name, use,
+    const std::string why = used ? c.why : scenario::why_not_used(found, c);
+    std::cout << fmt::format("  {}: {}{}{}{}\n", c.name, use,
                              c.unit == "1"   ? ""
                              : c.unit == "?" ? ", unit unknown"
                                              : ", " + c.unit,
-                             c.why.empty() ? "" : fmt::format(" ({})", c.why));
+                             why.empty() ? "" : fmt::format(" ({})", why), other_name(c, text));
     if (another_reading(found, c, text))
       std::cout << fmt::format("    if this is what was read: --role {}\n", for_a_shell(c.name + "=reading"));
   }

@@ -99,10 +99,11 @@ bool is_length(const std::string& name) {
   return !words.empty() && lengths.contains(words.back());
 }
 
-/// Whether a column in this unit can be what its name says: T in degC is no time.
+/// Whether a column in this unit can be what its name says: T in degC is no time, and an approach in um no direction.
 bool fits(ColumnRole role, const std::string& unit) {
   if (unit.empty() || unit == "1") return true;
   const std::string si_unit = units::si_unit_of(unit);
+  if (role == ColumnRole::direction) return false; // an angle, or a coordinate
   if (role == ColumnRole::time) return si_unit == "s";
   if (role == ColumnRole::temperature) return si_unit == "K";
   return si_unit != "s" && (si_unit != "K" || role == ColumnRole::reading || role == ColumnRole::position ||

@@ -95,7 +95,7 @@ bool is_coordinate(const RecognisedColumn& c) {
 
 /// Circumstances with a known unit, which vary: a feed, a humidity, and what else was set to a few values, as a radius;
 /// and coordinates, whose unit the user knows.
-NamedColumns circumstances(const RecognisedData& data, const std::set<std::string>& used) {
+NamedColumns circumstances(const RecognisedData& data, Names& names, const std::set<std::string>& used) {
   constexpr std::size_t few = 10;
   NamedColumns out;
   const auto set = [&](const RecognisedColumn& c) { return different(data, c) <= few && was_set(data, c); };
@@ -103,7 +103,49 @@ NamedColumns circumstances(const RecognisedData& data, const std::set<std::strin
     if (c.number && !c.gaps && c.role == Role::other && (c.unit != "?" || is_coordinate(c)) &&
         (is_circumstance(c) || set(c)) && !counts_rows(c) && !names_parts(c) && !used.contains(c.name) &&
         different(data, c) > 1)
-      out.emplace_back(plain_name(c.name), &c);
+      out.emplace_back(names.add(c.name), &c);
+  return out;
+}
+
+/// A reading of the scenario and the quantities that are fitted to it.
+struct Channel {
+  const RecognisedColumn* column;
+  std::string name, offset = {}, gain = {}, reversal = {}, eccentricity_x = {}, eccentricity_y = {}; ///< empty: none
+};
+
+/// What the model of an axis has.
+struct AxisModel {
+  bool measured;  ///< the readings are positions, and not their errors
+  bool turns;     ///< its error comes back: no gain
+  bool eccentric; ///< its alignments differ
+  bool reversal;
+};
+
+std::vector<Channel> named_channels(const std::vector<const RecognisedColumn*>& columns, const AxisModel& model,
+                                    Names& names) {
+  const bool several = columns.size() > 1;
+  std::vector<Channel> out;
+  for (const RecognisedColumn* c : columns)
+    out.push_back({c, names.add(several ? c->name : model.measured ? "measured" : "deviation")});
+  for (Channel& c : out) {
+    const auto quantity = [&](bool fitted, const char* name) {
+      return fitted ? names.add((several ? c.name + '_' : "") + name) : "";
+    };
+    c.offset = quantity(true, "offset");
+    c.gain = quantity(!model.turns, "gain");
+    c.reversal = quantity(model.reversal, "reversal");
+    c.eccentricity_x = quantity(model.eccentric, "eccentricity_x");
+    c.eccentricity_y = quantity(model.eccentric, "eccentricity_y");
+  }
+  return out;
+}
+
+std::string formula_of(const Channel& c, const AxisModel& model) {
+  std::string out = (model.measured ? "position + " : "") + c.offset;
+  if (model.eccentric)
+    out += fmt::format(" + {} * cos(position) + {} * sin(position)", c.eccentricity_x, c.eccentricity_y);
+  if (!model.turns) out += fmt::format(" + {} * position", c.gain);
+  if (model.reversal) out += fmt::format(" + {} * direction", c.reversal);
   return out;
 }
 
@@ -120,26 +162,28 @@ std::string starter_axis(const StarterData& data, const std::string& scenario) {
   require_numbers(found, *reading, "readings");
   const std::optional<RecognisedColumn> way = found.find(Role::direction) ? std::nullopt : both_ways(found, *position);
   const RecognisedColumn* const direction = way ? &*way : found.find(Role::direction);
-  const RecognisedColumn* const sd = found.find(Role::uncertainty);
-  const auto all = channels(found, *position, *reading);
-  if (std::ranges::find(all, reading) == all.end()) reading = all[0];
+  const RecognisedColumn* const sd = uncertainty_of(found);
+  const auto columns = channels(found, *position, *reading);
+  if (std::ranges::find(columns, reading) == columns.end()) reading = columns[0];
   const bool measured = measured_position(found, *position, *reading);
   const bool turns = full_turn(found, *position); // its error comes back: no gain
   const std::string pos = unit_or(*position, "mm");
   const NamedColumns labels = labels_of(found);
-  const bool eccentric = turns && found.find(Role::alignment);
+  const AxisModel model{measured, turns, turns && found.find(Role::alignment), direction != nullptr};
   NamedColumns conditions{{"position", position}};
   if (direction) conditions.emplace_back("direction", direction);
+  Names names{"position", "direction"};
+  const std::vector<Channel> all = named_channels(columns, model, names);
   std::set<std::string> used{position->name};
-  for (const RecognisedColumn* c : all) used.insert(c->name);
+  for (const RecognisedColumn* c : columns) used.insert(c->name);
   if (direction) used.insert(direction->name);
-  if (sd && sd->number) used.insert(sd->name);
+  if (sd) used.insert(sd->name);
   NamedColumns measured_too;
-  for (const auto& [own, c] : circumstances(found, used)) {
+  for (const auto& [own, c] : circumstances(found, names, used)) {
     used.insert(c->name);
     (was_set(found, *c) ? conditions : measured_too).emplace_back(own, c);
   }
-  const std::string recorded = columns_of(found, used, measured_too);
+  const std::string recorded = columns_of(found, names, used, "", measured_too);
 
   std::string out =
       fmt::format("# Question: which errors do the readings in {} show that {}{} do{} not explain?\n"
@@ -149,37 +193,26 @@ std::string starter_axis(const StarterData& data, const std::string& scenario) {
                   direction ? "" : "es", scenario);
   out += fmt::format("schema = 1\ntitle  = {}\n\n[model]\nname = \"expression\"\n\n[model.indications]\n",
                      quoted(data.file));
-  const auto prefix = [&](const RecognisedColumn& c) { return all.size() > 1 ? plain_name(c.name) + '_' : ""; };
-  const auto name = [&](const RecognisedColumn& c) {
-    return all.size() > 1 ? plain_name(c.name) : measured ? "measured" : "deviation";
-  };
-  for (const RecognisedColumn* c : all)
-    out += line(name(*c),
-                fmt::format("\"{1}{0}offset{2}{3}\"", prefix(*c), measured ? "position + " : "",
-                            eccentric ? fmt::format(" + {0}eccentricity_x * cos(position) + {0}eccentricity_y * "
-                                                    "sin(position)",
-                                                    prefix(*c))
-                            : turns   ? ""
-                                      : fmt::format(" + {}gain * position", prefix(*c)),
-                            direction ? fmt::format(" + {}reversal * direction", prefix(*c)) : ""),
+  for (const Channel& c : all)
+    out += line(c.name, quoted(formula_of(c, model)),
                 measured ? "guessed: the readings span what the positions span" : "guessed: the readings are errors");
   out += '\n' + data_section(data, labels, conditions, used);
   out += "\n[quantities]                            # fitted to the readings\n";
-  for (const RecognisedColumn* c : all) {
-    const std::string read = unit_or(*c, "um");
-    out += line(prefix(*c) + "offset", fitted(found, labels, read), "");
-    if (!turns) out += line(prefix(*c) + "gain", fitted(found, labels, units::quotient(measured ? pos : read, pos)), "");
-    for (const char* axis : {"eccentricity_x", "eccentricity_y"})
-      if (eccentric) out += line(prefix(*c) + axis, fitted(found, labels, read), "");
+  for (const Channel& c : all) {
+    const std::string read = unit_or(*c.column, "um");
+    out += line(c.offset, fitted(found, labels, read), "");
+    if (!turns) out += line(c.gain, fitted(found, labels, units::quotient(measured ? pos : read, pos)), "");
+    for (const std::string& axis : {c.eccentricity_x, c.eccentricity_y})
+      if (!axis.empty()) out += line(axis, fitted(found, labels, read), "");
     if (direction)
-      out += line(prefix(*c) + "reversal", fmt::format("{{ estimated = true, value = \"0 {}\" }}", read),
-                  "half of the reversal error");
+      out +=
+          line(c.reversal, fmt::format("{{ estimated = true, value = \"0 {}\" }}", read), "half of the reversal error");
   }
-  for (const RecognisedColumn* c : all) {
-    out += fmt::format("\n[indications.{}]\n", name(*c)) +
-           line("readings", quoted(c->name),
-                c->why.empty() ? "guessed: an error at the positions" : "recognised " + c->why);
-    out += noise_line(*c, c == reading ? sd : nullptr);
+  for (const Channel& c : all) {
+    out += fmt::format("\n[indications.{}]\n", c.name) +
+           line("readings", quoted(c.column->name),
+                c.column->why.empty() ? "guessed: an error at the positions" : "recognised " + c.column->why);
+    out += noise_line(*c.column, c.column == reading ? sd : nullptr);
   }
   return out + "\n[trace]\n" + blocks_of(found, labels) + recorded;
 }

@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <deque>
+#include <map>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -32,7 +34,8 @@ std::string short_name(const RecognisedColumn& c) {
 /// Conditions, coefficients and formula of a linear model.
 class LinearModel {
 public:
-  LinearModel(const RecognisedData& data, const RecognisedColumn& reading) : data_(data), reading_(reading) {}
+  LinearModel(const RecognisedData& data, const RecognisedColumn& reading)
+      : data_(data), reading_(reading), reading_name_(names_.add(short_name(reading))) {}
 
   void add(const std::string& term) {
     std::vector<Covariate> products{{"", "", ""}};
@@ -49,6 +52,8 @@ public:
     for (const Covariate& p : products) add_product(p);
   }
 
+  const std::string& reading_name() const { return reading_name_; }
+  Names& names() { return names_; }
   const std::string& formula() const { return formula_; }
   const std::string& coefficients() const { return coefficients_; }
   const NamedColumns& conditions() const { return conditions_; }
@@ -60,8 +65,8 @@ private:
   }
 
   void add_product(const Covariate& product) {
-    const std::string name = "by_" + product.name;
-    if (!named_.insert(name).second) return;
+    if (!named_.insert(product.name).second) return;
+    const std::string name = names_.add("by_" + product.name);
     formula_ += fmt::format(" + {} * {}", name, product.text);
     const std::string read = unit_or(reading_, "1");
     coefficients_ +=
@@ -85,13 +90,13 @@ private:
 
   /// The column itself where it is a number; a 0 or 1 for each word but the first where it is not.
   std::vector<Covariate> covariates_of(const RecognisedColumn& c) {
-    const std::string name = short_name(c);
     const bool words = !c.number && c.clock.empty() && c.words.empty();
     if (!words && c.role != Role::cycle) {
+      const std::string name = name_of(c);
       state(name, c);
       const std::string unit = !c.clock.empty() ? "s" : unit_or(c, "1");
       if (unit != "degC") return {{name, name, unit == "1" ? "" : unit}};
-      if (named_.insert(reference).second) // the constant holds at 20 degC, not at 0 K
+      if (!std::exchange(referred_, true)) // the constant holds at 20 degC, not at 0 K
         coefficients_ += line(reference, "\"20 degC\"", "ISO 1");
       return {{name, fmt::format("({} - {})", name, reference), "K"}};
     }
@@ -110,11 +115,18 @@ private:
       level.words.clear();
       for (std::size_t k = 0; k < levels.size(); ++k) level.words.emplace_back(levels[k], k == l ? 1.0 : 0.0);
       level.why = fmt::format("as a factor: 1 at {}, compared with {}", levels[l], levels[0]);
-      const std::string one = plain_name(name + ' ' + levels[l]);
+      const std::string one = name_of(c, ' ' + levels[l]);
       out.push_back({one, one, ""});
       state(out.back().name, made_.emplace_back(std::move(level)));
     }
     return out;
+  }
+
+  /// The name of a condition. @param level  of a factor, with a blank in front; empty: the column itself
+  std::string name_of(const RecognisedColumn& c, const std::string& level = "") {
+    std::string& name = made_of_[{c.name, level}];
+    if (name.empty()) name = names_.add(short_name(c) + level);
+    return name;
   }
 
   void state(const std::string& name, const RecognisedColumn& c) {
@@ -126,9 +138,13 @@ private:
   static constexpr const char* reference = "reference_temperature";
   const RecognisedData& data_;
   const RecognisedColumn& reading_;
-  std::deque<RecognisedColumn> made_; ///< levels of factors
+  Names names_{"constant", reference};
+  std::string reading_name_;
+  std::map<std::pair<std::string, std::string>, std::string> made_of_; ///< names of conditions by column and level
+  std::deque<RecognisedColumn> made_;                                  ///< levels of factors
   NamedColumns conditions_;
   std::set<std::string> used_, named_;
+  bool referred_ = false; ///< to the reference temperature
   std::string formula_, coefficients_;
 };
 
@@ -148,7 +164,7 @@ std::string starter_linear(const StarterData& data, const std::vector<std::strin
   if (!reading)
     throw InputError(found.csv.file + ": there is no column of readings", "a linear model explains one",
                      "tell which it is: --role COLUMN=reading");
-  const RecognisedColumn* const sd = found.find(Role::uncertainty);
+  const RecognisedColumn* const sd = uncertainty_of(found);
   LinearModel model(found, *reading);
   for (const std::string& term : terms) model.add(term);
   for (const RecognisedColumn& c : found.columns)
@@ -159,13 +175,13 @@ std::string starter_linear(const StarterData& data, const std::vector<std::strin
 
   std::set<std::string> used = model.used();
   used.insert(reading->name);
-  if (sd && sd->number) used.insert(sd->name);
+  if (sd) used.insert(sd->name);
   std::string order;
   for (const auto& [name, c] : model.conditions())
-    if (c->role == Role::time) order = line("order", quoted(name), "");
-  const std::string recorded = columns_of(found, used);
+    if (c->role == Role::time) order = name;
+  const std::string recorded = columns_of(found, model.names(), used, order);
   const NamedColumns labels = labels_of(found);
-  const std::string name = short_name(*reading);
+  const std::string& name = model.reading_name();
   std::string out =
       fmt::format("# Question: how do the readings in {} depend on {}, and what does a linear model not explain?\n"
                   "#     gumshoe estimate {}\n#     gumshoe trace {}\n"
@@ -181,7 +197,7 @@ std::string starter_linear(const StarterData& data, const std::vector<std::strin
   out +=
       fmt::format("\n[indications.{}]\n", name) + line("readings", quoted(reading->name), "recognised " + reading->why);
   out += noise_line(*reading, sd);
-  return out + "\n[trace]\n" + blocks_of(found, labels) + order + recorded;
+  return out + "\n[trace]\n" + blocks_of(found, labels) + recorded;
 }
 
 } // namespace gumshoe::scenario

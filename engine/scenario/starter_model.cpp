@@ -123,8 +123,12 @@ private:
   std::string trace_text() {
     if (!data_) return "";
     const bool timed = std::ranges::any_of(conditions_, [](const auto& c) { return c.first == "time"; });
+    Names names;
+    for (const auto* variables : {&card_.conditions, &card_.indications, &card_.measurands})
+      for (const VariableCard& v : *variables) names.reserve(v.name);
+    for (const QuantityCard& q : card_.quantities) names.reserve(q.name);
     return "\n[trace]\n" + blocks_of(data_->found, labels_of(data_->found)) +
-           (timed ? line("order", "\"time\"", "") : "") + columns_of(data_->found, used_);
+           columns_of(data_->found, names, used_, timed ? "time" : "");
   }
 
   /// Whether the model takes positions for deviations on request, and the data's readings are positions.

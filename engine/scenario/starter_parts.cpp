@@ -1,7 +1,6 @@
 #include "scenario/starter_parts.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <numbers>
 
@@ -14,32 +13,14 @@ namespace gumshoe::scenario {
 
 std::string quoted(const std::string& text) {
   std::string out = "\"";
-  for (const char c : text) out += c == '"' || c == '\\' ? std::string{'\\', c} : std::string(1, c);
+  for (const char c : text)
+    if (c == '"' || c == '\\')
+      out += {'\\', c};
+    else if (const auto code = static_cast<unsigned char>(c); code < 0x20 || code == 0x7f)
+      out += fmt::format("\\u{:04X}", code);
+    else
+      out += c;
   return out + '"';
-}
-
-namespace {
-
-/// Letters of European languages as one spells them without their marks: Kuehlmittel, temperature (from température).
-std::string in_ascii(std::string text) {
-  static constexpr std::pair<std::string_view, std::string_view> letters[] = {
-      {"ä", "ae"}, {"ö", "oe"}, {"ü", "ue"}, {"Ä", "Ae"}, {"Ö", "Oe"}, {"Ü", "Ue"}, {"ß", "ss"}, {"é", "e"},
-      {"è", "e"},  {"ê", "e"},  {"à", "a"},  {"â", "a"},  {"á", "a"},  {"í", "i"},  {"ó", "o"},  {"ú", "u"},
-      {"ñ", "n"},  {"ç", "c"},  {"å", "a"},  {"ø", "o"},  {"æ", "ae"}, {"É", "E"},  {"Å", "A"},  {"Ø", "O"},
-      {"Æ", "Ae"}, {"č", "c"},  {"š", "s"},  {"ž", "z"},  {"ł", "l"},  {"ř", "r"},  {"ě", "e"},  {"ý", "y"}};
-  for (const auto& [marked, plain] : letters)
-    for (std::size_t at = text.find(marked); at != std::string::npos; at = text.find(marked, at + plain.size()))
-      text.replace(at, marked.size(), plain);
-  return text;
-}
-
-} // namespace
-
-std::string plain_name(const std::string& text) {
-  std::string out;
-  for (const std::string& word : words_of(in_ascii(text))) out += (out.empty() ? "" : "_") + word;
-  std::erase_if(out, [](unsigned char c) { return c >= 0x80; });
-  return out.empty() || std::isdigit(static_cast<unsigned char>(out[0])) != 0 ? "column_" + out : out;
 }
 
 namespace {
@@ -59,7 +40,10 @@ std::string column_text(const RecognisedColumn& c) {
 
 std::string line(const std::string& key, const std::string& value, const std::string& comment) {
   const std::string text = fmt::format("{} = {}", key, value);
-  return comment.empty() ? text + '\n' : fmt::format("{:<39} # {}\n", text, comment);
+  std::string one_line = comment; // a cell's text may have lines
+  std::ranges::replace_if(
+      one_line, [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
+  return comment.empty() ? text + '\n' : fmt::format("{:<39} # {}\n", text, one_line);
 }
 
 bool is_named(const RecognisedColumn& c, std::string_view name) {
@@ -71,16 +55,84 @@ bool is_named(const RecognisedColumn& c, std::string_view name) {
   return words == wanted;
 }
 
+namespace {
+
+/// Whether the words or the role of a column tell readings apart.
+bool tells_apart(const RecognisedData& data, const RecognisedColumn& c) {
+  if (c.role == ColumnRole::cycle || c.role == ColumnRole::alignment) return true;
+  const std::size_t n = different(data, c);
+  return c.role == ColumnRole::other && (!c.number || names_parts(c)) && c.clock.empty() && c.words.empty() && n > 1 &&
+         2 * n <= data.csv.rows.size();
+}
+
+/// Whether the column is empty in a row that has a reading.
+bool has_empty_cells(const RecognisedData& data, const RecognisedColumn& c) {
+  const auto column = static_cast<std::size_t>(data.csv.find(c.name));
+  const RecognisedColumn* const reading = data.find(ColumnRole::reading);
+  return std::ranges::any_of(data.csv.rows, [&](const auto& row) {
+    return row[column].text.empty() &&
+           !(reading && says_missing(row[static_cast<std::size_t>(data.csv.find(reading->name))].text));
+  });
+}
+
+/// Whether the words of a column alternate: each part was measured again after others.
+bool comes_back(const RecognisedData& data, const RecognisedColumn& c) {
+  const auto column = static_cast<std::size_t>(data.csv.find(c.name));
+  std::set<std::string> left;
+  std::string here;
+  for (const auto& row : data.csv.rows) {
+    const std::string& text = row[column].text;
+    if (text == here) continue;
+    if (left.contains(text)) return true;
+    left.insert(here);
+    here = text;
+  }
+  return false;
+}
+
+/// The label with enough values for blocks; null: there is none.
+const NamedColumns::value_type* block_label(const RecognisedData& data, const NamedColumns& labels) {
+  for (const bool cycle : {true, false}) // what counts cycles, before other words that recur
+    for (const auto& label : labels) {
+      const RecognisedColumn& c = *label.second;
+      if ((c.role == ColumnRole::cycle || c.role == ColumnRole::alignment) == cycle && different(data, c) >= 4 &&
+          (cycle || !comes_back(data, c)))
+        return &label;
+    }
+  return nullptr;
+}
+
+} // namespace
+
 NamedColumns labels_of(const RecognisedData& data) {
   NamedColumns out;
-  for (const RecognisedColumn& c : data.columns) {
-    const std::size_t n = different(data, c);
-    const bool recurs =
-        (!c.number || names_parts(c)) && c.clock.empty() && c.words.empty() && n > 1 && 2 * n <= data.csv.rows.size();
-    if (c.role == ColumnRole::cycle || c.role == ColumnRole::alignment || (c.role == ColumnRole::other && recurs))
-      out.emplace_back(plain_name(c.name), &c);
-  }
+  for (const RecognisedColumn& c : data.columns)
+    if (tells_apart(data, c) && !has_empty_cells(data, c)) out.emplace_back("", &c);
+  Names names{"reading", "row"};                       // every reading; rows that are kept apart
+  if (!block_label(data, out)) names.reserve("block"); // stretches
+  for (auto& [name, c] : out) name = names.add(c->name);
   return out;
+}
+
+const RecognisedColumn* uncertainty_of(const RecognisedData& data) {
+  const RecognisedColumn* const sd = data.find(ColumnRole::uncertainty);
+  if (!sd || !sd->number) return nullptr;
+  const auto column = static_cast<std::size_t>(data.csv.find(sd->name));
+  const bool above_zero = std::ranges::all_of(data.csv.rows, [&](const auto& row) {
+    return says_missing(row[column].text) || data.csv.number(row[column], data.decimal) > 0;
+  });
+  return above_zero ? sd : nullptr;
+}
+
+std::string why_not_used(const RecognisedData& data, const RecognisedColumn& c) {
+  if (tells_apart(data, c) && has_empty_cells(data, c)) return "it has empty cells, and a label has none";
+  const RecognisedColumn* const first = data.find(c.role);
+  if (c.role == ColumnRole::time && first && first != &c && first->date != c.name) return "the time is " + first->name;
+  if (c.role == ColumnRole::uncertainty && first == &c && !uncertainty_of(data))
+    return c.number ? "it is not above 0 in every row" : "not all of its cells are numbers";
+  if (!c.number && c.words.empty() && (c.role == ColumnRole::temperature || c.role == ColumnRole::direction))
+    return "not all of its cells are numbers";
+  return c.why;
 }
 
 namespace {
@@ -173,6 +225,7 @@ bool measured_position(const RecognisedData& data, const RecognisedColumn& posit
 
 void require_numbers(const RecognisedData& data, const RecognisedColumn& c, const std::string& role) {
   if (c.number) return;
+  const std::string remedy = fmt::format("tell another column: --role COLUMN={}", name(c.role));
   const auto column = static_cast<std::size_t>(data.csv.find(c.name));
   for (const auto& row : data.csv.rows)
     if (!says_missing(row[column].text)) try {
@@ -180,10 +233,11 @@ void require_numbers(const RecognisedData& data, const RecognisedColumn& c, cons
       } catch (const InputError& error) {
         Problem problem = error.problems().front();
         problem.why = fmt::format("the column '{}' has the {}", c.name, role);
-        problem.remedy = fmt::format(
-            "write numbers without signs between thousands, or tell another column: --role COLUMN={}", name(c.role));
+        problem.remedy = "write numbers without signs between thousands, or " + remedy;
         throw InputError({problem});
       }
+  throw InputError(fmt::format("{}: the column '{}' has too few numbers", data.csv.file, c.name), "it has the " + role,
+                   remedy);
 }
 
 std::string unit_or(const RecognisedColumn& c, const char* otherwise) { return c.unit == "?" ? otherwise : c.unit; }
@@ -194,31 +248,9 @@ std::string noise_line(const RecognisedColumn& reading, const RecognisedColumn* 
   return line("# u", quoted("0.2 " + unit_or(reading, "um")), "state the noise of a reading if you know it");
 }
 
-namespace {
-
-/// Whether the words of a column alternate: each part was measured again after others.
-bool comes_back(const RecognisedData& data, const RecognisedColumn& c) {
-  const auto column = static_cast<std::size_t>(data.csv.find(c.name));
-  std::set<std::string> left;
-  std::string here;
-  for (const auto& row : data.csv.rows) {
-    const std::string& text = row[column].text;
-    if (text == here) continue;
-    if (left.contains(text)) return true;
-    left.insert(here);
-    here = text;
-  }
-  return false;
-}
-
-} // namespace
-
 std::string blocks_of(const RecognisedData& data, const NamedColumns& labels) {
-  for (const bool cycle : {true, false}) // what counts cycles, before other words that recur
-    for (const auto& [name, c] : labels)
-      if ((c->role == ColumnRole::cycle || c->role == ColumnRole::alignment) == cycle && different(data, *c) >= 4 &&
-          (cycle || !comes_back(data, *c)))
-        return line("blocks", quoted(name), "an effect should recur in each of them");
+  if (const auto* const label = block_label(data, labels))
+    return line("blocks", quoted(label->first), "an effect should recur in each of them");
   if (data.csv.rows.size() < 12)
     return "# blocks = { count = 6 }                # too few rows for blocks; an effect should recur in each of "
            "them\n";
@@ -227,24 +259,29 @@ std::string blocks_of(const RecognisedData& data, const NamedColumns& labels) {
 
 std::string course_name(const RecognisedColumn& time) { return counts_rows(time) ? plain_name(time.name) : "time"; }
 
-std::string columns_of(const RecognisedData& data, std::set<std::string>& used, const NamedColumns& further) {
-  std::string out;
-  bool ordered = false;
+std::string columns_of(const RecognisedData& data, Names& names, std::set<std::string>& used, const std::string& order,
+                       const NamedColumns& further) {
+  const auto fits = [](const RecognisedColumn& c) {
+    if (c.role == ColumnRole::time) return c.number || !c.clock.empty();
+    return (c.role == ColumnRole::temperature && c.number) ||
+           (c.role == ColumnRole::direction && (c.number || !c.words.empty()));
+  };
+  std::string first, others, ordered_by = order;
   for (const RecognisedColumn& c : data.columns) {
-    if (c.role != ColumnRole::time && c.role != ColumnRole::temperature && c.role != ColumnRole::direction) continue;
-    if (c.role == ColumnRole::time && !c.number && c.clock.empty()) continue;
-    if ((c.role == ColumnRole::time && ordered) || used.contains(c.name)) continue;
-    used.insert(c.name);
+    if (!fits(c) || used.contains(c.name)) continue;
     if (c.role == ColumnRole::time) {
-      ordered = true;
-      out = line("order", quoted(course_name(c)), "") + "\n[trace.columns]\n" +
-            line(course_name(c), column_text(c), "recognised " + c.why) + out;
+      if (!ordered_by.empty()) continue; // there is one time
+      ordered_by = names.add(course_name(c));
+      first = line(ordered_by, column_text(c), "recognised " + c.why);
     } else {
-      out += line(plain_name(c.name), column_text(c), "recognised " + c.why);
+      others += line(names.add(c.name), column_text(c), "recognised " + c.why);
     }
+    used.insert(c.name);
   }
-  for (const auto& [name, c] : further) out += line(name, column_text(*c), "recorded with the readings");
-  return ordered || out.empty() ? out : "\n[trace.columns]\n" + out;
+  for (const auto& [name, c] : further) others += line(name, column_text(*c), "recorded with the readings");
+  const std::string columns = first + others;
+  return (ordered_by.empty() ? "" : line("order", quoted(ordered_by), "")) +
+         (columns.empty() ? "" : "\n[trace.columns]\n" + columns);
 }
 
 } // namespace gumshoe::scenario

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scenario/starter.h"
+#include "scenario/starter_names.h"
 
 namespace gumshoe::scenario {
 
@@ -15,8 +16,6 @@ using NamedColumns = std::vector<std::pair<std::string, const RecognisedColumn*>
 
 /// The text between quotes, as TOML takes it.
 std::string quoted(const std::string& text);
-/// A name that formulas and TOML take without quotes.
-std::string plain_name(const std::string& text);
 /// "key = value", and a comment if it is not empty.
 std::string line(const std::string& key, const std::string& value, const std::string& comment);
 std::string unit_or(const RecognisedColumn& c, const char* otherwise);
@@ -25,8 +24,12 @@ std::string noise_line(const RecognisedColumn& reading, const RecognisedColumn* 
 
 /// Whether a column has this name, but for its unit: "X_mm" is X.
 bool is_named(const RecognisedColumn& c, std::string_view name);
-/// Columns whose words tell readings apart: cycles, and texts that recur.
+/// Columns whose words tell readings apart: cycles, and texts that recur. One with empty cells is none.
 NamedColumns labels_of(const RecognisedData& data);
+/// The column of the readings' standard uncertainties, all of them above 0; null: there is none.
+const RecognisedColumn* uncertainty_of(const RecognisedData& data);
+/// Why a scenario does not use a column, or what its role rests on; empty: nothing to say.
+std::string why_not_used(const RecognisedData& data, const RecognisedColumn& column);
 
 /// Refuses a column that a scenario needs as numbers and that has a cell of another kind. @param role  "readings"
 void require_numbers(const RecognisedData& data, const RecognisedColumn& column, const std::string& role);
@@ -48,8 +51,11 @@ std::string data_section(const StarterData& data, const NamedColumns& labels, co
 std::string blocks_of(const RecognisedData& data, const NamedColumns& labels);
 /// "time", or the name of the column that counts the readings in its place.
 std::string course_name(const RecognisedColumn& time);
-/// `order` and [trace.columns]: times, temperatures and directions that are not conditions, whose names it adds to
+/// `order` and [trace.columns]: a time, temperatures and directions that are not conditions, whose columns it adds to
 /// `used`, and `further` columns.
-std::string columns_of(const RecognisedData& data, std::set<std::string>& used, const NamedColumns& further = {});
+/// @param names of the scenario
+/// @param order name of the condition that is the time; empty: none, and a column of times is the order
+std::string columns_of(const RecognisedData& data, Names& names, std::set<std::string>& used,
+                       const std::string& order = "", const NamedColumns& further = {});
 
 } // namespace gumshoe::scenario

@@ -8,13 +8,14 @@
 namespace gumshoe::scenario {
 namespace {
 
-/// The reading, and other columns of numbers that were measured: no circumstances, and not set.
+/// The reading, and other columns of numbers that were measured: no circumstances, and not set. Without names.
 NamedColumns readings_of(const RecognisedData& data) {
   NamedColumns out;
   for (const RecognisedColumn& c : data.columns)
-    if (c.number && !counts_rows(c) && !names_parts(c) &&
+    if (const bool told = c.role == ColumnRole::reading && c.basis == Basis::user;
+        c.number && (told || (!counts_rows(c) && !names_parts(c))) &&
         (c.role == ColumnRole::reading || (c.role == ColumnRole::other && !was_set(data, c) && !is_circumstance(c))))
-      out.emplace_back(plain_name(c.name), &c);
+      out.emplace_back("", &c);
   return out;
 }
 
@@ -69,27 +70,33 @@ std::string offset_of(const RecognisedData& data, const RecognisedColumn& readin
 
 std::string starter_series(const StarterData& data, const std::string& scenario) {
   const RecognisedData& found = data.found;
-  const NamedColumns readings = readings_of(found), labels = labels_of(found);
+  const NamedColumns labels = labels_of(found);
+  NamedColumns readings = readings_of(found);
   if (readings.empty())
     throw InputError(found.csv.file + ": there is no column of readings", "numbers that were measured are needed",
                      "tell which it is: --role COLUMN=reading");
   std::set<std::string> used;
   for (const auto& [name, c] : readings) used.insert(c->name);
+  Names names;
   // Rows that agree in labels and conditions would be repeats of one reading: the time tells them apart.
   NamedColumns conditions;
   const RecognisedColumn* const time = found.find(ColumnRole::time);
-  if (time && (time->number || !time->clock.empty())) {
-    conditions.emplace_back(course_name(*time), time);
+  if (time) {
+    conditions.emplace_back(names.add(course_name(*time)), time);
     used.insert(time->name);
   }
+  for (auto& [name, c] : readings) name = names.add(c->name);
+  std::map<std::string, std::string> offsets; // by reading
+  for (const auto& [name, c] : readings) offsets[name] = names.add(name + "_offset");
   NamedColumns further;
   for (const RecognisedColumn& c : found.columns)
     if (c.number && c.role == ColumnRole::other && !counts_rows(c) && !names_parts(c) && !used.contains(c.name) &&
         different(found, c) > 1) {
-      further.emplace_back(plain_name(c.name), &c);
+      further.emplace_back(names.add(c.name), &c);
       used.insert(c.name);
     }
-  const std::string recorded = columns_of(found, used, further);
+  const std::string order = conditions.empty() ? "" : conditions[0].first;
+  const std::string recorded = columns_of(found, names, used, order, further);
 
   std::string out =
       fmt::format("# Question: what do the readings in {} depend on?\n#     gumshoe trace {}\n"
@@ -98,17 +105,16 @@ std::string starter_series(const StarterData& data, const std::string& scenario)
                   "[model.indications]                     # guessed: no column of positions, which "
                   "--role COLUMN=position tells\n",
                   data.file, scenario, quoted(data.file));
-  for (const auto& [name, c] : readings) out += line(name, quoted(name + "_offset"), "");
+  for (const auto& [name, c] : readings) out += line(name, quoted(offsets[name]), "");
   out += '\n' + data_section(data, labels, conditions, used);
   out += "\n[quantities]                            # fitted to the readings\n";
-  for (const auto& [name, c] : readings) out += line(name + "_offset", offset_of(found, *c, labels), "");
+  for (const auto& [name, c] : readings) out += line(offsets[name], offset_of(found, *c, labels), "");
   for (const auto& [name, c] : readings)
     out += fmt::format("\n[indications.{}]\n", name) +
            line("readings", quoted(c->name),
                 c->why.empty() ? "guessed: numbers that were measured" : "recognised " + c->why) +
            noise_line(*c, nullptr);
-  return out + "\n[trace]\n" + blocks_of(found, labels) +
-         (conditions.empty() ? "" : line("order", quoted(conditions[0].first), "")) + recorded;
+  return out + "\n[trace]\n" + blocks_of(found, labels) + recorded;
 }
 
 } // namespace gumshoe::scenario

@@ -37,13 +37,14 @@ TargetColumns target_columns(const RecognisedData& data) {
 std::string starter_targets(const StarterData& data, const TargetColumns& columns, const std::string& scenario) {
   const RecognisedData& found = data.found;
   const NamedColumns labels = labels_of(found);
-  NamedColumns conditions;
+  NamedColumns conditions, readings;
   std::set<std::string> used;
+  Names names;
   for (const auto& [target, reading] : columns) {
-    conditions.emplace_back(plain_name(target->name), target);
+    conditions.emplace_back(names.add(target->name), target);
+    readings.emplace_back(names.add(reading->name), reading);
     used.insert({target->name, reading->name});
   }
-  const std::string recorded = columns_of(found, used);
 
   std::string out =
       fmt::format("# Question: which errors do the readings in {} show that offsets, scales and turned axes do not "
@@ -51,24 +52,26 @@ std::string starter_targets(const StarterData& data, const TargetColumns& column
                   "# Written by gumshoe new. What was guessed is said in comments: correct it where it is wrong.\n\n"
                   "schema = 1\ntitle  = {}\n\n[model]\nname = \"expression\"\n\n[model.indications]\n",
                   data.file, scenario, quoted(data.file));
-  const auto size = [](const std::string& reading, const std::string& target) { return reading + "_by_" + target; };
   std::string quantities;
-  for (const auto& [target, reading] : columns) {
-    const std::string name = plain_name(reading->name), unit = unit_or(*reading, "mm");
-    std::string formula = fmt::format("{} + {}_offset", plain_name(target->name), name);
-    quantities += line(name + "_offset", fmt::format("{{ estimated = true, value = \"0 {}\" }}", unit), "");
-    for (const auto& [other, column] : conditions) {
-      formula += fmt::format(" + {} * {}", size(name, other), other);
-      quantities +=
-          line(size(name, other),
-               fmt::format("{{ estimated = true, value = \"0 {}\" }}", units::quotient(unit, unit_or(*column, "mm"))), "");
-    }
+  const auto fitted = [&](const std::string& name, const std::string& unit) {
+    std::string own = names.add(name);
+    quantities += line(own, fmt::format("{{ estimated = true, value = \"0 {}\" }}", unit), "");
+    return own;
+  };
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    const auto& [name, reading] = readings[i];
+    const std::string unit = unit_or(*reading, "mm");
+    std::string formula = fmt::format("{} + {}", conditions[i].first, fitted(name + "_offset", unit));
+    for (const auto& [other, column] : conditions)
+      formula += fmt::format(" + {} * {}", fitted(name + "_by_" + other, units::quotient(unit, unit_or(*column, "mm"))),
+                             other);
     out += line(name, quoted(formula), "guessed: read where it was commanded to");
   }
+  const std::string recorded = columns_of(found, names, used);
   out += '\n' + data_section(data, labels, conditions, used);
   out += "\n[quantities]                            # fitted to the readings\n" + quantities;
-  for (const auto& [target, reading] : columns)
-    out += fmt::format("\n[indications.{}]\n", plain_name(reading->name)) +
+  for (const auto& [name, reading] : readings)
+    out += fmt::format("\n[indications.{}]\n", name) +
            line("readings", quoted(reading->name), "recognised by its name") +
            "# u = \"0.02 mm\"                         # state the noise of a reading if you know it\n";
   return out + "\n[trace]\n" + blocks_of(found, labels) + recorded;
