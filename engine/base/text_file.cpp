@@ -9,6 +9,7 @@
 
 #include "base/encoding.h"
 #include "base/error.h"
+#include "base/inputs.h"
 
 namespace gumshoe {
 
@@ -22,6 +23,7 @@ template <class Convert> std::string read(const std::string& path, std::size_t l
   const auto status = std::filesystem::status(path, error);
   if (status.type() == std::filesystem::file_type::not_found) refuse("the file does not exist");
   if (std::filesystem::is_directory(status)) refuse("this is a directory, not a file");
+  inputs::note(path);
   errno = 0;
   std::ifstream in(path, std::ios::binary);
   std::string text;

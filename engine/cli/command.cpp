@@ -62,13 +62,6 @@ std::uint64_t whole_number(const std::string& text, const std::string& option, s
   return static_cast<std::uint64_t>(x);
 }
 
-void require_different(const std::string& out, const std::string& in) {
-  std::error_code ignored;
-  if (std::filesystem::equivalent(out, in, ignored))
-    throw OutputError(out + ": this is the file that is read", "it would be overwritten",
-                      "choose another name for the output");
-}
-
 void write_table(const std::string& path, const std::string& text, bool force) {
   const store::Claim claim(path);
   std::ifstream in(claim.target(), std::ios::binary);

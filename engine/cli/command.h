@@ -48,9 +48,6 @@ scenario::Catalogue catalogue();
 std::uint64_t whole_number(const std::string& text, const std::string& option, std::uint64_t least,
                            const std::string& example);
 
-/// Refuses to write over what was read.
-void require_different(const std::string& out, const std::string& in);
-
 /// Writes a table as text. It carries no mark: only an equal one is known to be ours, and another is replaced by force.
 void write_table(const std::string& path, const std::string& text, bool force);
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/hash.h"
+#include "base/inputs.h"
 #include "base/text_file.h"
 #include "scenario/file_pattern.h"
 
@@ -80,6 +81,7 @@ void DataFiles::include(const std::string& name) {
   const std::filesystem::path path = std::filesystem::path(folder_) / name;
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) return;
+  inputs::note(path.string());
   std::ifstream in(path, std::ios::binary);
   // Not under its own name: it was not read as a table.
   files_.push_back({"model: " + path.string(), {std::istreambuf_iterator<char>(in), {}}});

@@ -14,6 +14,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/inputs.h"
+
 namespace gumshoe::store {
 namespace fs = std::filesystem;
 
@@ -55,6 +57,15 @@ bool open_elsewhere(const std::string& path) {
   return held;
 }
 
+void require_not_read(const std::string& path, const std::string& target) {
+  const std::string input = inputs::same_file(target);
+  if (input.empty()) return;
+  const bool linked = fs::path(input).lexically_normal() != fs::absolute(path).lexically_normal();
+  throw OutputError(path + ": this is the file that is read",
+                    linked ? "it is " + input + ", which would be overwritten" : "it would be overwritten",
+                    "choose another name for the output");
+}
+
 OutputError cannot_be_moved(const std::string& target, int reason) {
   return OutputError("'" + target + "': cannot be moved into place", std::strerror(reason));
 }
@@ -87,6 +98,7 @@ LockedFile::~LockedFile() {
 Claim::Claim(const std::string& path) : path_(path) {
   naming(path, [&] {
     target_ = destination(path);
+    require_not_read(path, target_);
     remove_leftovers(fs::path(target_).parent_path());
     const std::string name = target_ + lock_ending;
     lock_ = LockedFile(name, false);

@@ -30,8 +30,8 @@ private:
 class Claim {
 public:
   Claim() = default;
-  /// Removes what killed processes left in the folder. Throws OutputError: no place for a file, or another process is
-  /// writing it or has it open.
+  /// Removes what killed processes left in the folder. Throws OutputError: no place for a file, this process reads
+  /// it (base/inputs.h), or another process is writing it or has it open.
   explicit Claim(const std::string& path);
   Claim(Claim&&) = default;
   Claim& operator=(Claim&&) = default;

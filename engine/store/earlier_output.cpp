@@ -52,7 +52,7 @@ const analysis::Summary& find(const analysis::Results& results, const std::strin
 } // namespace
 
 scenario::EarlierOutput read_output(const std::string& file, const std::string& output) {
-  const Stored stored = read_identity(file);
+  const Stored stored = open_result(file);
   require_result(stored, file);
   const analysis::Results results = read_results(file);
   const analysis::Summary& s = find(results, output, file);

@@ -7,6 +7,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 
+#include "base/inputs.h"
 #include "base/instruction_set.h"
 #include "base/memory.h"
 #include "base/version.h"
@@ -113,12 +114,17 @@ Stored read_identity(const std::string& path) {
       throw OutputError("the progress marker is damaged");
     return stored;
   } catch (const NoResult& error) {
-    throw InputError("'" + path + "' is not a Gumshoe result", error.problems().front().what);
+    throw NotAResult("'" + path + "' is not a Gumshoe result", error.problems().front().what);
   } catch (const OutputError& error) {
     const Problem& p = error.problems().front();
     throw InputError("'" + path + "' is not a Gumshoe result that can be read",
                      p.what + (p.why.empty() ? "" : ": " + p.why), "run the scenario again");
   }
+}
+
+Stored open_result(const std::string& path) {
+  inputs::note(path);
+  return read_identity(path);
 }
 
 void require_sound_samples(const std::string& path) {

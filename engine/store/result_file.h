@@ -85,6 +85,13 @@ struct Stored {
   const std::string& command() const { return identity.command; }
 };
 Stored read_identity(const std::string& path);
+/// The same of a result that the process reads: no output may replace it (base/inputs.h).
+Stored open_result(const std::string& path);
+/// What both throw of a file that is no result at all, and not a damaged one.
+class NotAResult : public InputError {
+public:
+  using InputError::InputError;
+};
 /// Throws InputError if stored samples, or a shard's values of studies, are not those that were written.
 void require_sound_samples(const std::string& path);
 
