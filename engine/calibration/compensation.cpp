@@ -56,7 +56,7 @@ public:
     name_known();
     if (kept.empty()) refuse_nothing();
     const std::vector<double> held = minus(whole, indications(without));
-    say_what_is_left(whole, held, minus(whole, indications(base)));
+    gather_deviations(whole, minus(whole, indications(base)));
     add_rows(held, kept);
     join_directions();
     out_.coarse = coarse();
@@ -269,28 +269,23 @@ private:
     return out;
   }
 
-  /// @param whole  what the scenario expects  @param held  of that the table's  @param all  of that the table's and what is
-  /// left out of it
-  void say_what_is_left(const std::vector<double>& whole, const std::vector<double>& held,
-                        const std::vector<double>& all) {
-    const auto left = [&](const std::string& which, const auto& counts) {
-      double squares[3] = {}, n = 0;
+  /// @param whole  what the scenario expects  @param all  of that what effects and the quantities asked for give
+  void gather_deviations(const std::vector<double>& whole, const std::vector<double>& all) {
+    const auto gather = [&](const std::string& which, const auto& counts) {
+      Compensation::Group group{which, {}};
       for (std::size_t r = 0; r < s_.readings.size(); ++r) {
         const quantities::Reading& reading = s_.readings[r];
         if (reading.indications.empty() || !counts(reading)) continue;
         const double rest = reading.indications[indication_] - whole[r];
-        const double deviations[] = {rest + all[r], rest + all[r] - held[r], rest};
-        const double repeats = static_cast<double>(reading.repeats);
-        for (int i = 0; i < 3; ++i) squares[i] += repeats * deviations[i] * deviations[i];
-        n += repeats;
+        const auto [position, direction] = key_of(r);
+        group.readings.push_back({position, direction, rest + all[r], rest, static_cast<double>(reading.repeats)});
       }
-      if (n > 0)
-        out_.left.push_back({which, std::sqrt(squares[0] / n), std::sqrt(squares[1] / n), std::sqrt(squares[2] / n)});
+      if (!group.readings.empty()) out_.groups.push_back(std::move(group));
     };
-    left("these readings", [](const auto&) { return true; });
+    gather("these readings", [](const auto&) { return true; });
     const auto& final = s_.trace.final_blocks;
     if (final.empty()) return;
-    left(fmt::format("held-out readings ({} {})", s_.trace.blocks, fmt::join(final, ", ")), [&](const auto& reading) {
+    gather(fmt::format("held-out readings ({} {})", s_.trace.blocks, fmt::join(final, ", ")), [&](const auto& reading) {
       const auto label = std::ranges::find(reading.labels, s_.trace.blocks, [](const auto& l) { return l.first; });
       return label != reading.labels.end() && std::ranges::find(final, label->second) != final.end();
     });

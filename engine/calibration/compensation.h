@@ -31,15 +31,20 @@ struct Compensation {
     std::string name, why; ///< "also depends on ..."
   };
   std::vector<LeftOut> left_out;
-  /// Root mean squares of the deviations that effects and the quantities asked for explain, or nothing does; what the model
-  /// takes for the set-up's is none of them. SI.
-  struct Left {
-    std::string which;    ///< "these readings", "held-out readings (cycle 5)"
-    double before = 0;    ///< as they are
-    double with = 0;      ///< with the table
-    double without = 0;   ///< with the table, and if what was left out were corrected, too
+  /// What a reading deviates by: what effects and the quantities asked for explain, or nothing does; what the model
+  /// takes for the set-up's is none of it. SI.
+  struct Deviation {
+    double position = 0;
+    int direction = 0;
+    double as_read = 0;
+    double unexplained = 0; ///< of that
+    double repeats = 1;
   };
-  std::vector<Left> left; ///< of all readings, and of those of [trace] final
+  struct Group {
+    std::string which; ///< "these readings", "held-out readings (cycle 5)"
+    std::vector<Deviation> readings;
+  };
+  std::vector<Group> groups; ///< all readings, and those of [trace] final; none is empty
   /// Whether the errors change so much from one position to the next that a control, which interpolates, may make them
   /// worse in between: neighbours tell little of the error between them.
   bool coarse = false;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <map>
 
 #include <fmt/format.h>
@@ -10,6 +11,8 @@
 
 namespace gumshoe::calibration {
 namespace {
+
+constexpr std::size_t most_points = 10'000; ///< more than any of these controls reads
 
 /// One position with the errors in both directions, in the control's unit.
 struct Point {
@@ -20,10 +23,18 @@ struct Point {
 class Writer {
 public:
   Writer(const Compensation& t, const CompensationChoice& c)
-      : t_(t), c_(c), angle_(t.position_si_unit == "rad"), radians_(c.format == "isg" || c.format == "etalon") {}
+      : t_(t), c_(c), angle_(t.position_si_unit == "rad"), radians_(c.format == "isg" || c.format == "etalon"),
+        equidistant_(c.format.starts_with("sinumerik")) {}
 
-  std::string write() {
+  CompensationFile write() {
+    std::string text = written();
+    return {std::move(text), std::move(applied_)};
+  }
+
+private:
+  std::string written() {
     if (c_.format == "csv") return csv();
+    require_name();
     make_points();
     if (c_.format == "linuxcnc") return linuxcnc(false);
     if (c_.format == "linuxcnc-trim") return linuxcnc(true);
@@ -32,14 +43,23 @@ public:
     return c_.format == "isg" ? isg() : etalon();
   }
 
-private:
   [[noreturn]] static void refuse(const std::string& what, const std::string& why, const std::string& remedy) {
     throw InputError(what, why, remedy);
+  }
+
+  /// It stands in the lines of the file as it is.
+  void require_name() const {
+    const auto part = [](char c) {
+      return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+    };
+    if (c_.axis.empty() || !std::ranges::all_of(c_.axis, part))
+      refuse("--axis: the name of an axis has letters, digits and _ only", "", "write it as the control does");
   }
 
   bool both() const { return !t_.direction.empty(); }
   static constexpr double degree = 3.14159265358979323846 / 180;
   double position(double si) const { return angle_ ? si / degree : si * 1e3; }
+  double error_si(double x) const { return !angle_ ? x * 1e-3 : radians_ ? x : x * degree; }
   double error(double si) const {
     const double in_unit = !angle_ ? si * 1e3 : radians_ ? si : si / degree;
     return std::round(in_unit / resolution()) * resolution() + 0.0;
@@ -48,27 +68,42 @@ private:
     const double given = !angle_ ? c_.resolution * 1e3 : radians_ ? c_.resolution : c_.resolution / degree;
     return given > 0 ? given : !angle_ ? 1e-4 : radians_ ? 1e-7 : 1e-5;
   }
-  std::string number(double x) const {
-    const int digits = std::max(0, static_cast<int>(std::ceil(-std::log10(resolution()) - 1e-9)));
-    return fmt::format("{:.{}f}", x, digits);
+  /// Decimals that show a multiple of the resolution: 0.00025 has five.
+  int decimals() const {
+    const int least = std::max(0, static_cast<int>(std::ceil(-std::log10(resolution()) - 1e-9))), most = least + 3;
+    for (int d = least; d < most; ++d) {
+      const double scaled = resolution() * std::pow(10, d);
+      if (std::fabs(scaled - std::round(scaled)) < 1e-6 * scaled) return d;
+    }
+    return most;
   }
+  std::string number(double x) const { return fmt::format("{:.{}f}", x, decimals()); }
+  static double read(const std::string& text) { return std::strtod(text.c_str(), nullptr); }
+  std::string at(double si) const { return fmt::format("{:.6g} {}", position(si), unit()); }
   const char* unit() const { return angle_ ? "deg" : "mm"; }
 
   /// Both directions at every position; then the steps asked for, linear between the positions measured.
   void make_points() {
-    std::map<double, std::map<int, double>> at;
-    for (const auto& row : t_.rows) at[row.position][row.direction] = row.error;
-    for (const auto& [x, errors] : at) {
+    std::map<double, std::map<int, double>> known;
+    for (const auto& row : t_.rows) known[row.position][row.direction] = row.error;
+    for (const auto& [x, errors] : known) {
       for (const int d : {1, -1})
         if (both() && !errors.contains(d))
-          refuse(
-              fmt::format("at {:.6g} {} nothing was measured {}", position(x), unit(), d > 0 ? "upwards" : "downwards"),
-              "the table needs both directions at every position", "use --format csv, or measure it");
+          refuse(fmt::format("at {} nothing was measured {}", at(x), d > 0 ? "upwards" : "downwards"),
+                 "the table needs both directions at every position", "use --format csv, or measure it");
       points_.push_back({x, errors.begin()->second, errors.begin()->second});
       if (both()) points_.back().up = errors.at(1), points_.back().down = errors.at(-1);
     }
     if (points_.size() < 2) refuse("a single position", "a table needs two", "");
+    require_reference();
     if (c_.step > 0) resample();
+  }
+
+  void require_reference() const {
+    const double low = points_.front().x, high = points_.back().x, slack = 1e-9 * (high - low);
+    if (c_.at_reference && !(c_.reference >= low - slack && c_.reference <= high + slack))
+      refuse(fmt::format("--reference: {} is outside the travel measured", at(c_.reference)),
+             fmt::format("{} to {}", at(low), at(high)), "name a position within it");
   }
 
   Point between(double x) const {
@@ -80,12 +115,18 @@ private:
     return {x, a.up + share * (b.up - a.up), a.down + share * (b.down - a.down)};
   }
 
+  /// To the end of the travel: exactly, or where the positions must be equidistant to the next step beyond it, where
+  /// the last error holds.
   void resample() {
+    const double first = points_.front().x, steps = (points_.back().x - first) / c_.step;
+    if (steps < 1 - 1e-9) refuse("the step is longer than the travel measured", "", "use a shorter --step");
+    if (!(steps < most_points))
+      refuse(fmt::format("--step: {:.3g} points", std::ceil(steps) + 1),
+             fmt::format("a table has at most {}", most_points), "use a longer --step");
+    const auto last = static_cast<std::size_t>(std::ceil(steps - 1e-9));
     std::vector<Point> out;
-    const double length = points_.back().x - points_.front().x;
-    const auto steps = static_cast<int>(std::floor(length / c_.step + 1e-9));
-    if (steps < 1) refuse("the step is longer than the travel measured", "", "use a shorter --step");
-    for (int i = 0; i <= steps; ++i) out.push_back(between(points_.front().x + i * c_.step));
+    for (std::size_t i = 0; i <= last; ++i) out.push_back(between(first + static_cast<double>(i) * c_.step));
+    if (!equidistant_) out.back() = points_.back();
     points_ = std::move(out);
   }
 
@@ -95,7 +136,7 @@ private:
     for (std::size_t i = 0; i < points_.size(); ++i)
       if (std::fabs(points_[i].x - points_.front().x - static_cast<double>(i) * step) > 1e-6 * step)
         refuse("the positions are not equidistant", "this control's table has one interval",
-               fmt::format("use --step \"{:.1g} {}\"", position(step), unit()));
+               fmt::format("use --step \"{:.10g} {}\"", read(fmt::format("{:.1g}", position(step))), unit()));
     return step;
   }
 
@@ -117,7 +158,7 @@ private:
     return sum / static_cast<double>(points_.size());
   }
 
-  std::string csv() const {
+  std::string csv() {
     const std::string e = t_.indication_si_unit == "m" ? "um" : angle_ ? "arcsec" : t_.indication_si_unit;
     const double factor = e == "um" ? 1e6 : e == "arcsec" ? 3600 / degree : 1;
     std::string out =
@@ -128,33 +169,49 @@ private:
                     "# between the positions linear; beyond them nothing is known\n"
                     "position_{},direction,error_{},correction_{},u_{}\n",
                     unit(), e, e, e);
-    for (const auto& row : t_.rows)
-      out += fmt::format("{:.10g},{},{:.4f},{:.4f},{:.4f}\n", position(row.position), row.direction, row.error * factor,
+    for (const auto& row : t_.rows) {
+      const std::string error = fmt::format("{:.4f}", row.error * factor);
+      out += fmt::format("{:.10g},{},{},{:.4f},{:.4f}\n", position(row.position), row.direction, error,
                          -row.error * factor + 0.0, row.u * factor);
-    return out;
-  }
-
-  /// Linear between rows, end values beyond. Type 0: actual positions; type 1: trims, added to the command.
-  std::string linuxcnc(bool trims) const {
-    if (points_.size() > 256)
-      refuse(fmt::format("{} rows", points_.size()), "LinuxCNC reads 256", "use a longer --step");
-    std::string out; // no comments: reading ends at the first line that is not three numbers
-    for (const Point& p : points_) {
-      const double x = position(p.x), up = error(p.up), down = error(p.down);
-      out +=
-          fmt::format("{:.6f} {} {}\n", x, number(trims ? -up + 0.0 : x + up), number(trims ? -down + 0.0 : x + down));
+      for (const auto& [curve, direction] : {std::pair(&applied_.up, 1), {&applied_.down, -1}})
+        if (row.direction == 0 || row.direction == direction) curve->emplace_back(row.position, read(error) / factor);
     }
     return out;
   }
 
-  /// A line of each point: `place` of its number, and its error.
-  template <class Place, class Error> std::string values(const Place& place, const Error& of) const {
-    std::string out;
-    for (std::size_t i = 0; i < points_.size(); ++i) out += place(i) + '=' + number(of(points_[i])) + '\n';
+  /// Linear between rows, end values beyond. Type 0: actual positions; type 1: trims, added to the command.
+  std::string linuxcnc(bool trims) {
+    if (points_.size() > 256)
+      refuse(fmt::format("{} rows", points_.size()), "LinuxCNC reads 256", "use a longer --step");
+    std::string out; // no comments: reading ends at the first line that is not three numbers
+    for (const Point& p : points_) {
+      const std::string x = fmt::format("{:.6f}", position(p.x));
+      out += x;
+      for (const auto& [curve, si] : {std::pair(&applied_.up, p.up), {&applied_.down, p.down}}) {
+        const std::string text = number(trims ? -error(si) + 0.0 : position(p.x) + error(si));
+        curve->emplace_back(p.x, error_si(trims ? -read(text) : read(text) - read(x)));
+        out += ' ' + text;
+      }
+      out += '\n';
+    }
     return out;
   }
 
-  std::string eec() const {
+  using Curves = std::vector<AppliedTable::Curve*>;
+
+  /// A line of each point: `place` of its number, and its error less `zero`, which applies in these directions.
+  template <class Place, class Error>
+  std::string values(const Place& place, const Error& of, double zero, const Curves& curves) {
+    std::string out;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const std::string text = number(error(of(points_[i]) - zero));
+      for (AppliedTable::Curve* curve : curves) curve->emplace_back(points_[i].x, error_si(read(text)) + zero);
+      out += place(i) + '=' + text + '\n';
+    }
+    return out;
+  }
+
+  std::string eec() {
     const double step = interval(), zero = mean_at_reference();
     std::string out = fmt::format("%_N_{}_EEC_INI\nCHANDATA(1)\n; error (actual minus commanded), {}, zero at the "
                                   "reference; a positive value moves the axis in the negative direction\n",
@@ -165,13 +222,13 @@ private:
                          number(error(mean_reversal())), unit(), number(error(largest_reversal())));
     out += "; load with MD32700 = 0, then set it to 1 and reference\n";
     out += values([&](std::size_t i) { return fmt::format("$AA_ENC_COMP[0,{},{}]", i, c_.axis); },
-                  [&](const Point& p) { return error(p.mean() - zero); });
+                  [](const Point& p) { return p.mean(); }, zero, {&applied_.up, &applied_.down});
     for (const auto& [name, x] : {std::pair("STEP", step), {"MIN", points_.front().x}, {"MAX", points_.back().x}})
       out += fmt::format("$AA_ENC_COMP_{}[0,{}]={:.6f}\n", name, c_.axis, position(x));
     return out + fmt::format("$AA_ENC_COMP_IS_MODULO[0,{}]=0\nM17\n", c_.axis);
   }
 
-  std::string cec() const {
+  std::string cec() {
     const double step = interval();
     std::string out = fmt::format("%_N_NC_CEC_INI\nCHANDATA(1)\n; error (actual minus commanded), {}, zero at the "
                                   "reference; the sign is that of the encoder table: prove it by one step\n",
@@ -180,8 +237,9 @@ private:
       const bool up = table == 0;
       const double zero = mean_at_reference();
       const std::string t = std::to_string(table);
+      const Curves curves = !both() ? Curves{&applied_.up, &applied_.down} : Curves{up ? &applied_.up : &applied_.down};
       out += values([&](std::size_t i) { return fmt::format("$AN_CEC[{},{}]", t, i); },
-                    [&](const Point& p) { return error((up ? p.up : p.down) - zero); });
+                    [&](const Point& p) { return up ? p.up : p.down; }, zero, curves);
       out += fmt::format("$AN_CEC_INPUT_AXIS[{0}]=({1})\n$AN_CEC_OUTPUT_AXIS[{0}]=({1})\n", t, c_.axis);
       for (const auto& [name, x] : {std::pair("STEP", step), {"MIN", points_.front().x}, {"MAX", points_.back().x}})
         out += fmt::format("$AN_CEC_{}[{}]={:.6f}\n", name, t, position(x));
@@ -204,21 +262,25 @@ private:
         "; the sign is a setting of the machine: prove it by one step");
   }
 
-  std::string isg() const {
-    std::string out = said() + fmt::format("{}\t{}\n", c_.axis, component());
-    for (const Point& p : points_) out += fmt::format("{:.6f}\t{}\n", position(p.x), number(signed_mean(p)));
+  /// A line of each point, its position and its error `apart`.
+  std::string grid(char apart) {
+    std::string out;
+    for (const Point& p : points_) {
+      const std::string text = number(signed_mean(p));
+      for (AppliedTable::Curve* curve : {&applied_.up, &applied_.down})
+        curve->emplace_back(p.x, (c_.negate ? -1 : 1) * error_si(read(text)));
+      out += fmt::format("{:.6f}{}{}\n", position(p.x), apart, text);
+    }
     return out;
   }
-  std::string etalon() const {
-    std::string out = said() + fmt::format("[{}]\nGridpoints = {{\n", component());
-    for (const Point& p : points_) out += fmt::format("{:.6f} {}\n", position(p.x), number(signed_mean(p)));
-    return out + "}\n";
-  }
+  std::string isg() { return said() + fmt::format("{}\t{}\n", c_.axis, component()) + grid('\t'); }
+  std::string etalon() { return said() + fmt::format("[{}]\nGridpoints = {{\n", component()) + grid(' ') + "}\n"; }
 
   const Compensation& t_;
   const CompensationChoice& c_;
-  bool angle_, radians_;
+  bool angle_, radians_, equidistant_;
   std::vector<Point> points_;
+  AppliedTable applied_;
 };
 
 } // namespace
@@ -253,7 +315,7 @@ const std::vector<CompensationFormat>& compensation_formats() {
   return all;
 }
 
-std::string compensation_text(const Compensation& table, const CompensationChoice& choice) {
+CompensationFile compensation_file(const Compensation& table, const CompensationChoice& choice) {
   return Writer(table, choice).write();
 }
 

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "calibration/compensation.h"
+#include "calibration/compensation_left.h"
 
 namespace gumshoe::calibration {
 
@@ -22,14 +22,20 @@ struct CompensationChoice {
   std::string format = "csv";
   std::string axis = "X";    ///< letter, or name of the machine axis
   double resolution = 0;     ///< SI; 0: 0.1 um, 0.1 arcsec of an angle in its own unit
-  double step = 0;           ///< SI; above 0: linear between the positions measured, at such steps
+  double step = 0;           ///< SI; above 0: at such steps, to the end of the travel measured or the next step beyond
   double reference = 0;      ///< position at which the control's table is zero, SI
   bool at_reference = false; ///< `reference` was given; else the first position
   bool negate = false;
 };
 
-/// The file's text. Throws InputError where the format cannot hold the table: positions that are not equidistant, too
-/// many rows, a direction that was not measured.
-std::string compensation_text(const Compensation& table, const CompensationChoice& choice);
+/// A file, and what a control makes of it: of the numbers as they are written, which are rounded.
+struct CompensationFile {
+  std::string text;
+  AppliedTable applied; ///< with the constant that the control's table loses by being zero at the reference
+};
+
+/// Throws InputError where the format cannot hold the table: positions that are not equidistant, too many rows, a
+/// direction that was not measured, a reference outside the travel.
+CompensationFile compensation_file(const Compensation& table, const CompensationChoice& choice);
 
 } // namespace gumshoe::calibration

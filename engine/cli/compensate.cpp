@@ -23,9 +23,18 @@ struct Options {
 };
 
 double measure(const std::string& text, const std::string& si_unit) {
-  if (text.empty()) return 0;
   const auto given = units::parse(text);
   return units::to_si(given.number, given.unit, si_unit, units::Kind::difference);
+}
+
+/// 0 if the option is not given.
+double positive(const std::string& option, const std::string& text, const std::string& si_unit) {
+  if (text.empty()) return 0;
+  const double value = measure(text, si_unit);
+  if (!(value > 0))
+    throw InputError(fmt::format("{}: '{}' must be positive", option, text), "",
+                     "write a value above 0, or leave it out");
+  return value;
 }
 
 /// "shape_1 (18 sizes)" instead of shape_1_1, shape_1_2 and so on.
@@ -45,37 +54,50 @@ std::vector<std::string> together(const std::vector<std::string>& names) {
   return out;
 }
 
-/// How far the readings would be off with the table.
-void print_left(const calibration::Compensation& table) {
-  const bool length = table.indication_si_unit == "m", angle = table.indication_si_unit == "rad";
-  const std::string unit = length ? "um" : angle ? "arcsec" : table.indication_si_unit;
+/// How far the readings would be off with the table as it is written.
+void print_left(const calibration::Compensation& of, const calibration::AppliedTable& table) {
+  const bool length = of.indication_si_unit == "m", angle = of.indication_si_unit == "rad";
+  const std::string unit = length ? "um" : angle ? "arcsec" : of.indication_si_unit;
   const auto shown = [&](double x) {
-    return fmt::format("{:.3g} {}", units::from_si(x, unit, table.indication_si_unit, units::Kind::difference), unit);
+    return fmt::format("{:.3g} {}", units::from_si(x, unit, of.indication_si_unit, units::Kind::difference), unit);
   };
-  for (const auto& left : table.left) {
+  for (const auto& left : calibration::left_with(of, table)) {
     std::cerr << fmt::format("root mean square of {}: {}, with the table {}", left.which, shown(left.before),
                              shown(left.with));
     if (left.with > 1.01 * left.without)
-      std::cerr << fmt::format(", of which {} is noise and the rest what is left out", shown(left.without));
+      std::cerr << fmt::format(", of which {} is noise and the rest what is left out, interpolated or rounded",
+                               shown(left.without));
     std::cerr << '\n';
   }
+}
+
+/// Where a table with steps of its own begins and ends, and the travel that was measured.
+void print_travel(const calibration::Compensation& of, const calibration::AppliedTable& table) {
+  const std::string unit = of.position_si_unit == "rad" ? "deg" : "mm";
+  const auto shown = [&](double x) {
+    return fmt::format("{:.6g} {}", units::from_si(x, unit, of.position_si_unit, units::Kind::difference), unit);
+  };
+  const double end = table.up.back().first, measured = of.rows.back().position;
+  std::cerr << fmt::format("table: {} points, {} to {}", table.up.size(), shown(table.up.front().first), shown(end));
+  if (shown(end) != shown(measured))
+    std::cerr << fmt::format("; measured to {}, where the last error holds", shown(measured));
+  std::cerr << '\n';
 }
 
 ExitCode compensate(Options o) {
   scenario::Scenario s = scenario::read(o.scenario, catalogue());
   if (o.unconfirmed) s.trace.unconfirmed.clear();
-  require_different(o.out, o.scenario);
   const propagation::Experiment experiment(s);
   const calibration::Compensation table = calibration::compensation(experiment, o.of);
-  o.choice.resolution = measure(o.resolution, table.indication_si_unit);
-  o.choice.step = measure(o.step, table.position_si_unit);
-  o.choice.reference = measure(o.reference, table.position_si_unit);
+  o.choice.resolution = positive("--resolution", o.resolution, table.indication_si_unit);
+  o.choice.step = positive("--step", o.step, table.position_si_unit);
   o.choice.at_reference = !o.reference.empty();
-  const std::string text = calibration::compensation_text(table, o.choice);
+  if (o.choice.at_reference) o.choice.reference = measure(o.reference, table.position_si_unit);
+  const calibration::CompensationFile file = calibration::compensation_file(table, o.choice);
   if (o.out.empty())
-    std::cout << text;
+    std::cout << file.text;
   else
-    write_table(o.out, text, o.force);
+    write_table(o.out, file.text, o.force);
   std::cerr << fmt::format("holds: {}\n", fmt::join(together(table.holds), ", "));
   if (table.coarse)
     std::cerr << fmt::format(
@@ -83,7 +105,8 @@ ExitCode compensate(Options o) {
         "control interpolates, and may make them worse; measure at closer positions\n",
         table.position);
   for (const auto& left : table.left_out) std::cerr << fmt::format("left out: {} {}\n", left.name, left.why);
-  print_left(table);
+  if (o.choice.step > 0) print_travel(table, file.applied);
+  print_left(table, file.applied);
   const auto& formats = calibration::compensation_formats();
   const auto format = std::ranges::find(formats, o.choice.format, &calibration::CompensationFormat::name);
   if (!format->check.empty()) std::cerr << fmt::format("prove the sign on the machine: {}\n", format->check);
@@ -128,7 +151,9 @@ void add_compensate(CLI::App& app, Action& action) {
   command->add_option("--direction", o->of.direction, "condition whose sign is the direction (default: direction)");
   command->add_option("--with", o->of.with, "quantities of the model that count, too, such as a gain");
   command->add_option("--without", o->of.without, "effects to leave out");
-  command->add_option("--step", o->step, "interval of the table, linear between the positions measured: \"50 mm\"");
+  command->add_option(
+      "--step", o->step,
+      "interval of the table, linear between the positions measured, to the end of the travel: \"50 mm\"");
   command->add_option("--reference", o->reference,
                       "position at which the control's table is zero (default: the first)");
   command->add_option("--resolution", o->resolution, "to which values are rounded (default: 0.1 um)");
