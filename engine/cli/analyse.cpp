@@ -1,5 +1,4 @@
 /// `gumshoe analyse`: the stored samples of a result analysed anew, into a new file.
-#include <cmath>
 #include <filesystem>
 #include <memory>
 
@@ -13,6 +12,7 @@
 #include "cli/command.h"
 #include "cli/print.h"
 #include "cli/progress_line.h"
+#include "cli/recomputed.h"
 #include "cli/shards.h"
 #include "propagation/propagate.h"
 #include "store/origin.h"
@@ -45,39 +45,17 @@ void refuse_unusable(const store::Stored& stored, const std::string& file) {
     throw InputError(file + ": the design of its samples is not recorded", "an older version wrote it", "run again");
 }
 
-/// The design hash knows a model by name only: the first samples, run again, must come out as they are stored, but
-/// for the rounding of another instruction set.
+/// The design hash knows a model by name only. The file may come from another instruction set.
 void refuse_other_model(const propagation::Experiment& e, const store::StoredSamples& stored, const std::string& file) {
-  const std::size_t n = 64, d = e.plan().variates.size();
-  const std::size_t there = static_cast<std::size_t>(std::min<std::uint64_t>(n, e.scenario().run.samples));
-  const quantities::Sampler sampler(e.plan(), propagation::point_set(e.scenario().run.design),
-                                    e.scenario().run.samples);
-  std::vector<double> x(d * n), y(e.outputs().size() * n);
-  std::vector<std::uint8_t> status(n);
-  std::vector<const double*> pointers;
-  sampler.draw(0, n, quantities::Purpose::sampling, x.data(), n);
-  for (std::size_t v = 0; v < d; ++v) pointers.push_back(&x[v * n]);
-  propagation::Workspace w;
-  e.run(pointers, n, w, y.data(), status.data());
-  for (std::size_t o = 0; o < e.outputs().size(); ++o) {
-    const auto before = stored.read(o, 0, there);
-    double low = INFINITY, high = -INFINITY;
-    for (const double b : before) low = std::fmin(low, b), high = std::fmax(high, b);
-    for (std::size_t i = 0; i < there; ++i) {
-      const double now = y[o * n + i];
-      const bool same = std::isnan(now) ? std::isnan(before[i])
-                                        : std::fabs(now - before[i]) <= 1e-12 * std::fabs(now) + 1e-6 * (high - low);
-      if (!same)
-        throw InputError(file + ": its samples come from another model",
-                         fmt::format("{} of sample {} is {:.17g} in the file and {:.17g} now", e.outputs()[o].name, i,
-                                     before[i], now),
-                         "run the scenario again");
-    }
-  }
+  const auto read = [&](std::size_t output, std::uint64_t first, std::uint64_t count) {
+    return stored.read(output, first, count);
+  };
+  const std::string how = first_difference(e, {{0, e.scenario().run.samples}, read}, Same::rounding);
+  if (!how.empty()) throw InputError(file + ": its samples come from another model", how, "run the scenario again");
 }
 
 ExitCode analyse(const Options& o) {
-  const store::Stored stored = store::read_identity(o.file);
+  const store::Stored stored = store::open_result(o.file);
   refuse_unusable(stored, o.file);
   store::require_sound_samples(o.file);
   scenario::Scenario s = scenario::read(o.scenario.empty() ? stored.identity.scenario_file : o.scenario, catalogue(),
@@ -93,7 +71,6 @@ ExitCode analyse(const Options& o) {
                      "only [analysis] may differ. Run the scenario again");
   const std::string out =
       !o.out.empty() ? o.out : std::filesystem::path(o.file).replace_extension(".analysed.h5").string();
-  require_different(out, o.file);
   const std::uint64_t samples = s.run.samples;
   const store::StoredSamples source(o.file, experiment.outputs());
   refuse_other_model(experiment, source, o.file);

@@ -4,11 +4,15 @@
 
 #include <fmt/format.h>
 
+#include "base/instruction_set.h"
 #include "base/units.h"
+#include "base/version.h"
 #include "cli/command.h"
+#include "cli/recomputed.h"
 #include "cli/shards.h"
 #include "propagation/propagate.h"
 #include "store/result_file.h"
+#include "store/stored_samples.h"
 
 namespace gumshoe::cli {
 
@@ -60,6 +64,26 @@ void print_reading(const propagation::Experiment& e, std::size_t r, const std::v
     std::cout << fmt::format("    {:<42} {:.17g} {}\n", i.name, i.value, i.unit);
 }
 
+/// Throws InputError where the file has other outputs. @param now  of the sample, by output
+void require_stored(const propagation::Experiment& e, const store::Stored& stored, const std::string& file,
+                    std::uint64_t sample, const std::vector<double>& now) {
+  const store::Identity& i = stored.identity;
+  if (sample >= stored.samples_done || (stored.complete && !i.store_samples)) {
+    std::cerr << "note: the file does not hold this sample, so its outputs are not compared\n";
+    return;
+  }
+  const store::StoredSamples samples(file, e.outputs());
+  const auto read = [&](std::size_t output, std::uint64_t first, std::uint64_t count) {
+    return samples.read(output, first, count);
+  };
+  const bool bits = i.external.empty() && i.version == version && i.instruction_set == name(best_instruction_set());
+  const std::string how =
+      difference(e, {{0, stored.samples_done}, read}, {sample, sample + 1}, now, bits ? Same::bits : Same::rounding);
+  if (!how.empty())
+    throw InputError(file + ": the sample comes from another model", how,
+                     "restore what the model was then, or run the scenario again");
+}
+
 } // namespace
 
 void add_replay(CLI::App& app, Action& action) {
@@ -73,7 +97,7 @@ void add_replay(CLI::App& app, Action& action) {
   add_external(*command);
   command->callback([=, &action] {
     action = [=] {
-      const store::Stored stored = store::read_identity(o->file);
+      const store::Stored stored = store::open_result(o->file);
       refuse_shard(stored.identity, o->file);
       if (stored.command() == "choose" || stored.command() == "trace")
         throw InputError(o->file + ": the file holds no run", "gumshoe " + stored.command() + " made it",
@@ -113,7 +137,10 @@ void add_replay(CLI::App& app, Action& action) {
         std::cout << fmt::format("  {:<44} {:.17g} {}\n", out.name,
                                  units::from_si(outputs[i * 8], out.unit, out.si_unit), out.unit);
       }
-      std::cout << "status " << status_name(static_cast<Status>(status[0])) << '\n';
+      std::cout << "status " << status_name(static_cast<Status>(status[0])) << '\n' << std::flush;
+      std::vector<double> now;
+      for (std::size_t i = 0; i < e.outputs().size(); ++i) now.push_back(outputs[i * 8]);
+      require_stored(e, stored, o->file, sample, now);
       return ExitCode::done;
     };
   });

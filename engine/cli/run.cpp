@@ -10,6 +10,7 @@
 #include "base/interrupt.h"
 #include "cli/command.h"
 #include "cli/ranks.h"
+#include "cli/recomputed.h"
 #include "cli/requested_run.h"
 #include "cli/shards.h"
 #include "propagation/propagate.h"
@@ -86,6 +87,19 @@ std::string progress_of(const store::ResultFile& file, const store::Identity& id
   return text;
 }
 
+/// A run that goes on with another model, or with another file that its program reads, would mix both.
+void require_same_model(const propagation::Experiment& e, const store::ResultFile& file, std::uint64_t begin,
+                        const std::string& out) {
+  const auto read = [&](std::size_t output, std::uint64_t first, std::uint64_t count) {
+    return file.read(output, first - begin, count);
+  };
+  const Same same = e.scenario().external.empty() ? Same::bits : Same::rounding;
+  const std::string how = first_difference(e, {{begin, begin + file.samples_done()}, read}, same);
+  if (!how.empty())
+    throw InputError(out + ": the samples there come from another model", how,
+                     "restore what the model was then, or remove the file to start again");
+}
+
 ExitCode run(const Options& o) {
   const Begun begun;
   auto ranks = o.shard.empty() ? propagation::Ranks::join() : nullptr; // shards share nothing
@@ -116,8 +130,10 @@ ExitCode run(const Options& o) {
   };
   const bool finished =
       part && file.samples_done() == file.samples() && file.study_values_done() == identity.study_values;
-  if (file.samples_done() > 0 && !finished)
+  if (file.samples_done() > 0 && !finished) {
+    require_same_model(experiment, file, begin, out);
     std::cerr << fmt::format("resuming after {} samples\n", file.samples_done());
+  }
   when_interrupted("The samples so far are kept. Repeat the command to resume.");
   analysis::StoppingRecord stopping;
   const bool whole = keeping(file, out, [&] {
