@@ -23,15 +23,6 @@ std::string capitalised(std::string sentence) {
 /// A message is one that people read: what a file repeats in it is cut.
 constexpr std::size_t longest = 1000, most_problems = 50;
 
-/// Control characters as escapes: a message is a line, and text to its end.
-std::string printable(const std::string& text) {
-  std::string out;
-  for (const char c : text)
-    out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? fmt::format("\\x{:02x}", static_cast<unsigned char>(c))
-                                                             : std::string(1, c);
-  return out;
-}
-
 std::string cut(const std::string& said) {
   std::string text = printable(said);
   if (text.size() <= longest) return text;
@@ -48,6 +39,21 @@ bool is_code(std::string_view remedy) {
 }
 
 } // namespace
+
+std::string printable(const std::string& text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto c = static_cast<unsigned char>(text[i]);
+    const auto next = static_cast<unsigned char>(i + 1 < text.size() ? text[i + 1] : '\0');
+    if (c < 0x20 || c == 0x7f)
+      out += fmt::format("\\x{:02x}", c);
+    else if (c == 0xc2 && next >= 0x80 && next < 0xa0) // U+0080 to U+009F, one of which begins commands as ESC [ does
+      out += fmt::format("\\x{:02x}", next), ++i;
+    else
+      out += text[i];
+  }
+  return out;
+}
 
 std::string format(const Problem& p) {
   std::string text;

@@ -22,6 +22,9 @@ struct Problem {
   std::string remedy; ///< what to do: "use mm or um", "did you mean 'mm'?", or code: `u = "1 um"`; may be empty
 };
 
+/// Control characters as escapes, so that text from a file is one line and does nothing to a terminal.
+std::string printable(const std::string& text);
+
 /// One line in the form above, without a trailing newline: full stops and the remedy's capital are added here.
 std::string format(const Problem& problem);
 

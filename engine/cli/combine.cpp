@@ -14,6 +14,7 @@
 #include "calibration/combined_scenario.h"
 #include "cli/command.h"
 #include "cli/shards.h"
+#include "cli/shell.h"
 #include "store/result_file.h"
 #include "store/stored_results.h"
 
@@ -145,15 +146,14 @@ void select(WeightedMeans& all, const Options& o) {
 }
 
 ExitCode combine(const Options& o) {
-  for (const std::string& file : o.files)
-    if (!o.out.empty()) require_different(o.out, file);
   const std::vector<NamedResult> results = read_all(o.files);
   WeightedMeans all = weighted_means(results, o.same);
   select(all, o);
   if (!o.out.empty()) write_table(o.out, calibration::combined_scenario(all.rows[0], results), o.force);
   if (o.format == "text") {
     print(all, results);
-    if (!o.out.empty()) std::cout << fmt::format("{}: the mean as a scenario. Next: gumshoe run {}\n", o.out, o.out);
+    if (!o.out.empty())
+      std::cout << fmt::format("{}: the mean as a scenario. Next: gumshoe run {}\n", o.out, shell_file(o.out));
     return ExitCode::done;
   }
   Json out{

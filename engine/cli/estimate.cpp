@@ -119,7 +119,7 @@ void print_json(const propagation::Experiment& e, const Estimate& r, const std::
 }
 
 void print_text(const propagation::Experiment& e, const Estimate& r, const std::string& written) {
-  if (!e.scenario().title.empty()) std::cout << e.scenario().title << '\n';
+  if (!e.scenario().title.empty()) std::cout << printable(e.scenario().title) << '\n';
   std::size_t width = 9;
   for (const auto& p : r.parameters) width = std::max(width, p.unknown.name.size());
   std::cout << fmt::format("{:<{}}  {:>18}  {:>14}  unit\n", "estimated", width, "value", "u");
@@ -182,7 +182,6 @@ ExitCode estimate(const Options& o) {
   const scenario::Scenario s = scenario::read(o.file, catalogue());
   const propagation::Experiment experiment(s);
   const std::string out = !o.scenario_out.empty() ? o.scenario_out : default_output(o.file, ".estimated.toml");
-  require_different(out, o.file);
   const store::Origin origin = store::origin_of(s, "estimate", o.force);
   const store::Claim claim = store::claim_text(out, origin);
   const Estimate result = calibration::estimate(experiment, {o.threads});

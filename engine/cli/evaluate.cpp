@@ -84,7 +84,6 @@ void add_evaluate(CLI::App& app, Action& action) {
   command->callback([=, &action] {
     action = [=] {
       const Asked of = asked(o->model);
-      require_different(o->out, o->table);
       const Csv table = read_csv(o->table);
       const auto points = propagation::evaluate_points(*of.model, table, o->evaluation, of.values.get());
       const std::string text = to_csv(table, points);

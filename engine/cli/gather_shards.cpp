@@ -10,6 +10,7 @@
 #include "base/version.h"
 #include "cli/command.h"
 #include "cli/requested_choice.h"
+#include "cli/shell.h"
 
 namespace gumshoe::cli {
 
@@ -45,20 +46,11 @@ struct Found {
   std::uint64_t number = 0;
 };
 
-std::string quoted(const std::string& word) {
-  if (!word.empty() &&
-      word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+./:=,@%") ==
-          std::string::npos)
-    return word;
-  std::string text = "'";
-  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
-}
-
 /// The command that makes a shard, or finishes it.
 std::string command_of(const store::Identity& run, const std::string& shard, const std::string& out) {
   return fmt::format("gumshoe {} {}{}{} --shard {} --out {}\n", run.command.substr(0, run.command.find(' ')),
-                     quoted(run.scenario_file), run.options.empty() ? "" : " ", run.options, shard, quoted(out));
+                     shell_file(run.scenario_file), run.options.empty() ? "" : " ", run.options, shard,
+                     shell_file(out));
 }
 
 class Gathering {
@@ -93,12 +85,15 @@ Gathering::Gathering(const std::vector<std::string>& files) {
 
 void Gathering::look_at(const std::string& file) {
   try {
-    store::Stored stored = store::read_identity(file);
+    store::Stored stored = store::open_result(file);
     if (stored.identity.shard.empty())
       problems_.push_back(
           {{}, file + ": the file is no shard", "gumshoe " + stored.command() + " made it", "leave it out"});
     else
       found_.push_back({file, stored, propagation::shard_of(stored.identity.shard, file).number});
+  } catch (const store::NotAResult& error) {
+    const char* remedy = std::filesystem::exists(file) ? "leave it out" : "check its name";
+    problems_.push_back({{}, file + ": the file is no shard", error.problems().front().why, remedy});
   } catch (const InputError& error) {
     const Problem& p = error.problems().front();
     problems_.push_back({{}, p.what, p.why, "remove it, and make the shard again"});

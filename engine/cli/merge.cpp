@@ -58,14 +58,12 @@ ExitCode merge(const Options& o) {
   const scenario::Scenario s = scenario_of(shards.identity, o.scenario);
   if (shards.identity.command == choice_shard_command) {
     const std::string out = choice_output(o.out, s.file, "");
-    for (const std::string& file : o.files) require_different(out, file);
     return complete_choice(s, workers_of_choice(s, shards, o.threads), out, o.print.format, o.force);
   }
   const propagation::Experiment experiment(s, propagation::Trial::made_elsewhere);
   const store::Identity identity = identity_of_run(experiment);
   require_same_design(experiment, identity, shards);
   const std::string out = !o.out.empty() ? o.out : default_output(s.file, ".h5");
-  for (const std::string& file : o.files) require_different(out, file);
 
   store::ResultFile file(out, identity, experiment.outputs(), experiment.place_names(), o.force);
   if (!file.remark().empty()) std::cerr << file.remark() << '\n';

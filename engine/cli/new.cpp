@@ -1,11 +1,9 @@
 /// `gumshoe new`: a first scenario of a model or of a data file.
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <memory>
-#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -16,6 +14,7 @@
 #include "base/units.h"
 #include "cli/command.h"
 #include "cli/installed.h"
+#include "cli/shell.h"
 #include "scenario/log_form.h"
 #include "scenario/made_models.h"
 #include "scenario/starter_parts.h"
@@ -178,7 +177,8 @@ std::string description_of(const Options& o, const fs::path& folder) {
                                    : fmt::format("did you mean '{}'?", meant));
   }
   std::string copy = (folder / (o.form + ".toml")).string();
-  write_file(copy, read_text_file((shipped / (o.form + ".toml")).string(), largest_file), o.force);
+  const std::string original = (shipped / (o.form + ".toml")).string();
+  if (!fs::equivalent(copy, original, none)) write_file(copy, read_text_file(original, largest_file), o.force);
   return copy;
 }
 
@@ -189,17 +189,6 @@ RecognisedData table_of(const Options& o, const std::string& out) {
   const std::string form = description_of(o, fs::path(out).parent_path());
   return scenario::recognise(scenario::LogForm(read_text_file(form, largest_file), form).read(text, o.from),
                              fs::relative(fs::absolute(form), fs::absolute(out).parent_path()).generic_string());
-}
-
-/// A word as a shell takes it.
-std::string for_a_shell(const std::string& word) {
-  const auto plain = [](unsigned char c) {
-    return std::isalnum(c) || std::string_view("_.-=").find(static_cast<char>(c)) != std::string_view::npos;
-  };
-  if (std::ranges::all_of(word, plain)) return word;
-  std::string out = "'";
-  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
 }
 
 /// Whether a column of numbers is not used that may as well be what was read as the one that was guessed.
@@ -234,7 +223,7 @@ void print_columns(const RecognisedData& found, const std::string& text) {
                                              : ", " + c.unit,
                              why.empty() ? "" : fmt::format(" ({})", why), other_name(c, text));
     if (another_reading(found, c, text))
-      std::cout << fmt::format("    if this is what was read: --role {}\n", for_a_shell(c.name + "=reading"));
+      std::cout << fmt::format("    if this is what was read: --role {}\n", shell_word(c.name + "=reading"));
   }
 }
 
@@ -246,16 +235,16 @@ void print_next(const Options& o, const std::string& out, const RecognisedData* 
     if (s.made && !s.made->card->axes.empty() && o.machine.empty())
       std::cout << fmt::format(
           "{}: the machine is that of the example. Replace [machine] by yours, then: gumshoe {} {}\n", out,
-          o.from.empty() ? "run" : "estimate", out);
+          o.from.empty() ? "run" : "estimate", shell_file(out));
     else
       std::cout << fmt::format("{}: ready. Next: gumshoe {} {}\n", out,
-                               o.model.empty() || o.model == "linear" ? "trace" : "run", out);
+                               o.model.empty() || o.model == "linear" ? "trace" : "run", shell_file(out));
   } catch (const InputError& error) {
-    std::cout << fmt::format("{}: to fill in, then gumshoe check {}:\n{}\n", out, out, error.what());
+    std::cout << fmt::format("{}: to fill in, then gumshoe check {}:\n{}\n", out, shell_file(out), error.what());
     std::string options;
     for (const auto& c : found ? found->columns : std::vector<scenario::RecognisedColumn>{})
       if (std::string(error.what()).find(fmt::format("the unit of the column '{}'", c.name)) != std::string::npos)
-        options += " --unit " + for_a_shell(c.name + "=UNIT");
+        options += " --unit " + shell_word(c.name + "=UNIT");
     if (o.model == "sphere_probing" && o.machine.empty()) options += " --machine B,C/X,Y,Z";
     if (!options.empty()) std::cout << fmt::format("or write it anew: gumshoe new ... --force{}\n", options);
   }
@@ -293,12 +282,10 @@ ExitCode run(Options o) {
   }
   if (found && !found->rewritten.empty()) {
     const std::string rows = fs::path(out).replace_extension(".rows.csv").string();
-    require_different(rows, o.from);
     write_file(rows, found->rewritten, o.force);
     std::cout << fmt::format("{}: the runs of {} one below the other, with a row for each reading\n", rows, o.from);
     o.from = rows;
   }
-  if (found) require_different(out, o.from);
   const std::string text = text_of(o, found.get(), out);
   write_file(out, text, o.force);
   if (found) {

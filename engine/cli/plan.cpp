@@ -31,8 +31,6 @@ ExitCode plan(const Options& o) {
   const tracing::Planned result = tracing::plan(s, {o.threads, o.verify, progress::stage});
   line.clear();
   const std::string out = !o.out.empty() ? o.out : default_output(o.file, ".plan.csv");
-  require_different(out, o.file);
-  if (!o.data.empty()) require_different(out, o.data);
   write_table(out, plan_table(s, result), o.force);
   print_plan(s, result, out, o.format);
   return ExitCode::done;

@@ -10,6 +10,7 @@
 
 #include "analysis/rounding.h"
 #include "analysis/selection.h"
+#include "base/error.h"
 #include "base/units.h"
 #include "cli/print_budget.h"
 #include "cli/print_studies.h"
@@ -225,7 +226,7 @@ void print_predicted(const Results& r) {
 } // namespace
 
 void print_text(const Results& r, const std::string& file, const PrintOptions& options) {
-  std::cout << r.title << '\n';
+  std::cout << printable(r.title) << '\n';
   const std::set<std::string> printed = print_outputs(r, options);
   print_validations(r);
   Results in_full = r;

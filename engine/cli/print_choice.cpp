@@ -8,6 +8,7 @@
 
 #include "analysis/fields_json.h"
 #include "analysis/rounding.h"
+#include "base/error.h"
 #include "base/units.h"
 #include "choice/choose.h"
 #include "choice/fields.h"
@@ -50,7 +51,7 @@ void print_text(const Result& r, const std::string& file) {
   const bool worst = r.asked.worst_case;
   const Figures& best = asked(r.fresh, worst);
   const auto u = [&](double si) { return width(r, si, best.expanded); };
-  if (!r.title.empty()) std::cout << r.title << '\n';
+  if (!r.title.empty()) std::cout << printable(r.title) << '\n';
   std::cout << r.statement << '\n';
   const Figures& searched = asked(r.candidates[r.best], worst);
   std::cout << fmt::format("U of the average {}, bias {}, standard deviation {}; in the search U was {}\n",

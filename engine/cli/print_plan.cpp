@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "analysis/fields_json.h"
+#include "base/error.h"
 #include "base/units.h"
 #include "quantities/cells.h"
 #include "tracing/planning/fields.h"
@@ -98,7 +99,7 @@ std::string answer(const Planned& plan) {
 }
 
 void print_text(const scenario::Scenario& s, const Planned& plan, const std::string& file) {
-  if (!s.title.empty()) std::cout << s.title << '\n';
+  if (!s.title.empty()) std::cout << printable(s.title) << '\n';
   std::cout << answer(plan) << '\n';
   if (!plan.readings.empty()) print_readings(plan);
   print_goals(plan);

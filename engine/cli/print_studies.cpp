@@ -9,6 +9,7 @@
 #include "analysis/fields_json.h"
 #include "analysis/result_fields.h"
 #include "analysis/rounding.h"
+#include "base/error.h"
 #include "base/units.h"
 
 namespace gumshoe::cli {
@@ -143,8 +144,8 @@ void print_screening(const Results& r, std::ostream& out) {
   for (const OneAtATimeTable& table : r.one_at_a_time)
     for (std::size_t o = 0; o < table.outputs.size(); ++o) {
       const auto change = [o](const OneAtATimeRow& row) { return std::fmax(std::fabs(row.up[o]), std::fabs(row.down[o])); };
-      out << fmt::format("{}, largest changes of {}: {}\n", table.title.empty() ? "one at a time" : table.title,
-                         table.outputs[o].name,
+      out << fmt::format("{}, largest changes of {}: {}\n",
+                         table.title.empty() ? "one at a time" : printable(table.title), table.outputs[o].name,
                          largest(table.rows, change, &OneAtATimeRow::quantity, in_unit_of(table.outputs[o])));
     }
 }

@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "analysis/rounding.h"
+#include "base/error.h"
 #include "base/units.h"
 #include "tracing/findings/sizes.h"
 #include "tracing/findings/verdict_json.h"
@@ -175,7 +176,7 @@ void print_noise(const Noise& n, const Rms& r) {
 
 void print_trace(const Trace& t, const std::string& title, const std::vector<std::string>& written,
                  const std::string& traced) {
-  if (!title.empty()) std::cout << title << '\n';
+  if (!title.empty()) std::cout << printable(title) << '\n';
   print_verdict(t);
   for (const Finding& f : t.findings) print_finding(f);
   if (std::isfinite(t.rms.before)) {

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "base/inputs.h"
 #include "cli/command.h"
 #include "cli/shards.h"
 #include "cli/generator.h"
@@ -22,8 +23,8 @@ void add_report(CLI::App& app, Action& action) {
   add_force(*command, o->force);
   command->callback([=, &action] {
     action = [=] {
-      require_different(o->out, o->file);
-      const store::Stored stored = store::read_identity(o->file);
+      const store::Stored stored = store::open_result(o->file);
+      inputs::note(stored.identity.scenario_file); // not read, but the page must not replace what it reports on
       refuse_shard(stored.identity, o->file);
       if (!stored.complete)
         throw InputError(o->file + ": the run is not finished", "it was interrupted",

@@ -121,7 +121,6 @@ std::string choice_output(const std::string& out, const std::string& scenario, c
 
 ExitCode complete_choice(const scenario::Scenario& s, const propagation::Workers& workers, const std::string& out,
                          const std::string& format, bool force) {
-  require_different(out, s.file);
   const store::Claim claim = store::claim_result(out, store::origin_of(s, "choose", force)); // before the work
   if (!claim.remark.empty()) std::cerr << claim.remark << '\n';
   ProgressLine line;

@@ -144,7 +144,7 @@ void refuse_shard(const store::Identity& identity, const std::string& file) {
 }
 
 store::Identity require_finished(const std::string& file) {
-  store::Stored stored = store::read_identity(file);
+  store::Stored stored = store::open_result(file);
   refuse_shard(stored.identity, file);
   if (!stored.complete)
     throw InputError(file + ": the run is not finished", "it was interrupted",

@@ -56,11 +56,6 @@ Outputs claimed_outputs(const Options& o, const scenario::Scenario& s) {
     if (path == scenario)
       throw OutputError(path + ": the traced scenario is written to this file",
                         "two outputs cannot have the same name");
-  for (const std::string& path : {out, o.json, o.report, scenario}) {
-    if (path.empty()) continue;
-    require_different(path, o.file);
-    if (!o.data.empty()) require_different(path, o.data);
-  }
   const auto text = [&](const std::string& path, const char* command) {
     return path.empty() ? store::Claim() : store::claim_text(path, store::origin_of(s, command, o.force));
   };
@@ -108,8 +103,8 @@ ExitCode trace(const Options& o) {
   Outputs outputs = claimed_outputs(o, s);
   const std::string out = outputs.result.path();
   if (!outputs.result.remark.empty()) std::cerr << outputs.result.remark << '\n';
-  History history(o.history, s);
   const ModelCard& card = s.made ? *s.made->card : *models::find(s.model)->card;
+  History history(o.history, s, card);
   ProgressLine line;
   const StudyProgress studies(line);
   const Rounds rounds = trace_rounds(s, {o.threads, progress::stage, bool(history)}, outputs.scenario, o.loop);

@@ -48,19 +48,31 @@ std::string sizes_of(const tracing::EffectEvidence& e) {
 
 } // namespace
 
-History::History(const std::string& path, const scenario::Scenario& s) : path_(path), id_(id_of(s.readings)) {
+History::History(const std::string& path, const scenario::Scenario& s, const ModelCard& card)
+    : path_(path), id_(id_of(s.readings)), model_(s.model), model_title_(card.title) {
   if (path.empty()) return;
   claim_ = store::Claim(path);
   campaigns_ = store::read_history(claim_.target());
+  require_same_model();
   if (std::ranges::find(campaigns_, id_, &tracing::Campaign::id) != campaigns_.end())
     throw InputError(path + ": it holds these readings already", "evidence that is counted twice is no evidence",
                      "append each campaign once");
+}
+
+void History::require_same_model() const {
+  for (const tracing::Campaign& c : campaigns_)
+    if (!c.model.empty() && c.model != model_)
+      throw InputError(path_ + ": it is the history of another model",
+                       fmt::format("{}, '{}'; here it is {}, '{}'", c.model, c.model_title, model_, model_title_),
+                       "append to a history of its own");
 }
 
 void History::append(const tracing::Trace& trace, store::Draft& draft) {
   if (trace.campaign.readings == 0) return;
   campaigns_.push_back(trace.campaign);
   campaigns_.back().id = id_;
+  campaigns_.back().model = model_;
+  campaigns_.back().model_title = model_title_;
   campaigns_.back().date = date_text(std::time(nullptr));
   evidence_ = tracing::evidence_over_time(campaigns_);
   store::write_history(draft, claim_, campaigns_, evidence_);

@@ -13,8 +13,9 @@ namespace gumshoe::cli {
 class History {
 public:
   History() = default;
-  /// Throws InputError if the file is no history, or holds these readings already. `path` empty: none is kept.
-  History(const std::string& path, const scenario::Scenario& scenario);
+  /// Throws InputError if the file is no history, is of another model, or holds these readings already. `path` empty:
+  /// none is kept.
+  History(const std::string& path, const scenario::Scenario& scenario, const ModelCard& card);
   explicit operator bool() const { return !path_.empty(); }
 
   /// Adds the campaign and drafts the file. A campaign that could not be judged is left out.
@@ -24,7 +25,8 @@ public:
   nlohmann::ordered_json json() const;
 
 private:
-  std::string path_, id_;
+  void require_same_model() const;
+  std::string path_, id_, model_, model_title_;
   store::Claim claim_;
   std::vector<tracing::Campaign> campaigns_;
   tracing::EvidenceOverTime evidence_;

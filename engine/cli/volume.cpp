@@ -65,7 +65,6 @@ ExitCode volume(const Options& o) {
   if (o.samples) over.samples = whole_number(*o.samples, "--samples", 100, "1e4");
   if (o.seed) s.run.seed = whole_number(*o.seed, "--seed", 0, "1");
   const std::string out = !o.out.empty() ? o.out : default_output(o.file, ".volume.h5");
-  require_different(out, o.file);
   const store::Claim claim = store::claim_result(out, store::origin_of(s, "volume", o.force)); // before the work
   if (!claim.remark.empty()) std::cerr << claim.remark << '\n';
   const propagation::Experiment experiment(s);

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "base/error.h"
 #include "base/units.h"
 #include "scenario/analysis.h"
 #include "scenario/options.h"
@@ -105,7 +106,7 @@ void explain_options(const Scenario& s, const ModelCard& model, Lines out) {
   fmt::format_to(out, "analysis\n  {}, sensitivity {}\n", explained(analysis_options(), s.analysis),
                  explained_changes(sensitivity_options(), s.analysis.sensitivity));
   for (const OneAtATime& study : s.analysis.one_at_a_time)
-    fmt::format_to(out, "  one at a time: {} ({} quantities)\n", study.title, study.steps.size());
+    fmt::format_to(out, "  one at a time: {} ({} quantities)\n", printable(study.title), study.steps.size());
   for (const ConformityTest& c : s.analysis.conformity)
     fmt::format_to(out, "  conformity of {}, SI limits [{}, {}]\n", c.measurand,
                    c.lower ? fmt::format("{:.12g}", *c.lower) : "none",
@@ -212,7 +213,7 @@ std::string explain(const Scenario& s, const Catalogue& catalogue) {
   const Lines out = std::back_inserter(text);
   fmt::format_to(out, "{} (hash {})\n", s.file, s.hash);
   if (!s.data.empty()) fmt::format_to(out, "readings from {}\n", s.data);
-  if (!s.title.empty()) fmt::format_to(out, "title: {}\n", s.title);
+  if (!s.title.empty()) fmt::format_to(out, "title: {}\n", printable(s.title));
   fmt::format_to(out, "model {}, method {}, evaluation {}\n", s.model, name(s.method), s.evaluation);
   const auto known =
       std::find_if(catalogue.models.begin(), catalogue.models.end(), [&](const auto* m) { return m->name == s.model; });

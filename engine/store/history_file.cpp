@@ -30,6 +30,8 @@ void require_sound(const std::string& path) {
 void write_campaign(hid_t group, const Campaign& c) {
   hdf5::write_attribute(group, "id", c.id);
   hdf5::write_attribute(group, "title", c.title);
+  hdf5::write_attribute(group, "model", c.model);
+  hdf5::write_attribute(group, "model_title", c.model_title);
   hdf5::write_attribute(group, "date", c.date);
   hdf5::write_attribute(group, "readings", c.readings);
   hdf5::write_attribute(group, "squares", c.squares);
@@ -63,6 +65,10 @@ Campaign read_campaign(hid_t group) {
              hdf5::read_number(group, "squares"),
              hdf5::read_number(group, "degrees_of_freedom"),
              {}};
+  if (H5Aexists(group, "model") > 0) {
+    c.model = hdf5::read_text(group, "model");
+    c.model_title = hdf5::read_text(group, "model_title");
+  }
   if (!hdf5::has(group, "score")) return c; // nothing could be looked for
   const auto candidate = hdf5::read_texts(group, "candidate"), size = hdf5::read_texts(group, "quantity"),
              unit = hdf5::read_texts(group, "unit"), si_unit = hdf5::read_texts(group, "si_unit");

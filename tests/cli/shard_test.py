@@ -141,6 +141,14 @@ class Shards(InFolder):
                 shutil.rmtree(self.shards)
                 self.shards.mkdir()
 
+    def test_a_scenario_whose_name_looks_like_an_option(self):
+        scenario = self.scenario(FORMULA, "-x.toml")
+        self.done("run", "--shard", "1/2", "--out", "one.h5", "--", scenario)
+        run = self.refused("1 of 2 shards are missing (2/2)", "merge", "one.h5")
+        self.assertEqual(run.stdout, "gumshoe run ./-x.toml --shard 2/2 --out ./-x.2-of-2.h5\n")
+        self.done(*shlex.split(run.stdout)[1:])
+        self.merged(["one.h5", "./-x.2-of-2.h5"])
+
     def test_studies_that_are_lost_or_damaged(self):
         (self.folder / "counted.py").write_text(COUNTED_PROGRAM)
         scenario = self.scenario(STUDIES)
@@ -262,7 +270,10 @@ class Shards(InFolder):
         self.assertIn("Remove it, and make the shard again.", run.stderr)
         self.assertIn("--shard 3/3", run.stdout)
         files, _ = self.make(scenario, 3)
-        self.refused("no shard can be read", "merge", scenario)
+        for other in (scenario, "/dev/null"):
+            run = self.refused("no shard can be read", "merge", other)
+            self.assertIn(f"{other}: the file is no shard (it is not an HDF5 file). Leave it out.", run.stderr)
+        self.refused("none.h5: the file is no shard (the file does not exist). Check its name.", "merge", "none.h5")
         self.refused("this is the file that is read", "merge", *files.values(), "--out", files[2])
         for command in (["report", files[1]], ["analyse", files[1]], ["replay", files[1], "--sample", 0]):
             self.refused("the file holds a part of a run (shard 1/3)", *command)

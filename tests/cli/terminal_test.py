@@ -113,6 +113,12 @@ sensitivity = { sobol = 256, by = "quantity" }
         self.assertEqual(line, "a 5.0 um (45 %), b 4.0 um (29 %), c 3.0 um (16 %); 2 more")
         self.assertIn("  u = 7.4 um; shortest 95 % coverage interval [", text)
 
+    def test_control_characters_of_a_title_are_shown(self):
+        text = self.run_text(SUM.replace('"a sum"', r'"a\u0000b\u001b[2Jc\u009b"'), "--samples", "1000")
+        self.assertEqual(text.split("\n")[0], r"a\x00b\x1b[2Jc\x9b")
+        check = gumshoe("check", self.folder / "case.toml", "--explain")
+        self.assertIn(r"title: a\x00b\x1b[2Jc\x9b" + "\n", check.stdout)
+
     def test_u_stands_in_the_unit_that_suits_it(self):
         text = self.run_text(SUM.replace('"5 um"', '"0.052 um"').replace('y = "a + b + c + d + f"\n', ""))
         self.assertIn("u = 0.10 um; ", text)  # of 2 a = 20 mm: 0.104 um

@@ -15,6 +15,22 @@ import weeks
 
 GUMSHOE = str(pathlib.Path(sys.argv.pop(1)).resolve()) if len(sys.argv) > 1 and not sys.argv[1].startswith("-") else ""
 
+OTHER = """schema = 1
+[model]
+name = "linear_axis"
+[data]
+file = "r.csv"
+labels = { cycle = "cycle" }
+units = { x = "mm", d = "um" }
+conditions = { position = "x", direction = "direction" }
+[quantities]
+offset = { estimated = true, value = "0 um" }
+[indications.deviation]
+readings = "d"
+[trace]
+blocks = "cycle"
+"""
+
 
 class Weeks(unittest.TestCase):
     def test_what_is_there_is_shown_and_nothing_else(self):
@@ -55,6 +71,14 @@ class Weeks(unittest.TestCase):
             again = run("--append", "h.h5")
             self.assertEqual(again.returncode, 2)
             self.assertIn("it holds these readings already", again.stderr)
+            axis.write(folder, "reversal", 3)
+            (folder / "other.toml").write_text(OTHER)
+            before = (folder / "h.h5").read_bytes()
+            other = subprocess.run([GUMSHOE, "trace", "other.toml", "--append", "h.h5"], cwd=folder, capture_output=True, text=True)
+            self.assertEqual(other.returncode, 2)
+            self.assertIn("h.h5: it is the history of another model (", other.stderr)
+            self.assertIn("here it is linear_axis, '", other.stderr)
+            self.assertEqual((folder / "h.h5").read_bytes(), before)
             with h5py.File(folder / "h.h5", "a") as file:
                 cut = file["campaigns/000/information"][:-1]
                 del file["campaigns/000/information"]

@@ -29,6 +29,7 @@ struct Campaign {
   double squares = 0; ///< r'Wr, without any effect
   double freedom = 0; ///< readings less unknowns
   std::vector<Score> scores;
+  std::string model = {}, model_title = {}; ///< by name; empty in histories of older versions
 };
 
 } // namespace gumshoe::tracing
