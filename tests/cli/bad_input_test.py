@@ -316,10 +316,10 @@ class BadInput(InOneFolder):
         hdf5 = self.folder / "theirs.h5"
         with h5py.File(hdf5, "w") as file:
             file["x"] = [1, 2, 3]
-        for path in (foreign, hdf5, self.good):
+        for path, why in ((foreign, "not overwritten"), (hdf5, "not overwritten"), (self.good, "it would be overwritten")):
             before = path.read_bytes()
             with self.subTest(path.name):
-                self.refused(gumshoe("run", self.good, "--samples", 1000, "--out", path), [str(path), "not overwritten"])
+                self.refused(gumshoe("run", self.good, "--samples", 1000, "--out", path), [str(path), why])
                 self.assertEqual(path.read_bytes(), before)
 
     def test_no_command_destroys_its_own_input(self):
