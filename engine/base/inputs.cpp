@@ -31,7 +31,8 @@ void note(const std::string& path) {
 }
 
 std::string same_file(const std::string& path) {
-  struct stat out {}, in {};
+  struct stat out {
+  }, in{};
   if (stat(path.c_str(), &out) != 0) return {}; // nothing is there to be replaced
   Noted& all = noted();
   const std::lock_guard lock(all.mutex);

@@ -4,8 +4,8 @@
 
 #include "base/inputs.h"
 #include "cli/command.h"
-#include "cli/shards.h"
 #include "cli/generator.h"
+#include "cli/shards.h"
 #include "store/result_file.h"
 
 namespace gumshoe::cli {

@@ -141,9 +141,10 @@ TEST_CASE("a first line may state the separator", "[csv]") {
 
 TEST_CASE("decimal commas between commas are suspected", "[csv]") {
   const auto hint = Catch::Contains("Is the comma the decimal sign?");
-  CHECK_THROWS_WITH(parse_csv("x,id\n1,001,1\n-1,003,2\n", "t.csv"),
-                    hint && Catch::Contains("t.csv:2:1: error: the row has 3 cells, the header 2 (a comma separates cells)") &&
-                        Catch::Contains("t.csv:3:1: error: the row has 3 cells, the header 2.")); // once
+  CHECK_THROWS_WITH(
+      parse_csv("x,id\n1,001,1\n-1,003,2\n", "t.csv"),
+      hint && Catch::Contains("t.csv:2:1: error: the row has 3 cells, the header 2 (a comma separates cells)") &&
+          Catch::Contains("t.csv:3:1: error: the row has 3 cells, the header 2.")); // once
   CHECK_THROWS_WITH(parse_csv("x,y\n1,001,-1,5\n", "t.csv"), hint);
   CHECK_THROWS_WITH(parse_csv("x,id\n1.5,a,1\n", "t.csv"), !hint);
   CHECK_THROWS_WITH(parse_csv("x;id\n1;001;1\n", "t.csv"), !hint);
@@ -152,7 +153,13 @@ TEST_CASE("decimal commas between commas are suspected", "[csv]") {
 }
 
 TEST_CASE("no-break spaces around a number are spaces", "[csv]") {
-  for (const std::string text : {"\xC2\xA0" "1.5", "1.5 \xC2\xA0", "\xE2\x80\xAF" "1.5\xE2\x80\xAF", "\"\xC2\xA0" "1.5 \""}) {
+  for (const std::string text : {"\xC2\xA0"
+                                 "1.5",
+                                 "1.5 \xC2\xA0",
+                                 "\xE2\x80\xAF"
+                                 "1.5\xE2\x80\xAF",
+                                 "\"\xC2\xA0"
+                                 "1.5 \""}) {
     const auto csv = parse_csv("a,b\n" + text + ",2\n", "t.csv");
     CHECK(csv.number(csv.rows[0][0]) == 1.5);
   }

@@ -176,9 +176,10 @@ TEST_CASE("data files with comments, semicolons and decimal commas", "[scenario]
   CHECK(s.readings[1].indications[0] == -2.25e-3);
   CHECK(s.readings[1].conditions[0] == Approx(8e-3 / 60));
   CHECK_THAT(notes(s), Catch::Contains("1 line(s) that look like rows begin with #"));
-  CHECK_THROWS_WITH(scenario::read(folder.write("t.toml", file + " }\n"), catalogue()),
-                    Catch::Contains("z.csv:3:5: error: '-1,5' is not a number (column 'z': the decimal sign must be a point)") &&
-                        Catch::Contains("decimal = \",\""));
+  CHECK_THROWS_WITH(
+      scenario::read(folder.write("t.toml", file + " }\n"), catalogue()),
+      Catch::Contains("z.csv:3:5: error: '-1,5' is not a number (column 'z': the decimal sign must be a point)") &&
+          Catch::Contains("decimal = \",\""));
 }
 
 TEST_CASE("a virtual experiment needs no readouts", "[scenario][readings]") {

@@ -113,8 +113,7 @@ TEST_CASE("names that begin like a prefix are what people mean by them", "[units
 }
 
 TEST_CASE("a prefix has one unit behind it, which people use with prefixes", "[units][errors]") {
-  for (const char* unit :
-       {"kkg", "mkg", "kkeV", "Min", "kin", "mmi", "mft", "mmin", "kday", "kton", "k", "da"}) {
+  for (const char* unit : {"kkg", "mkg", "kkeV", "Min", "kin", "mmi", "mft", "mmin", "kday", "kton", "k", "da"}) {
     INFO(unit);
     CHECK_THROWS_WITH(units::si_unit_of(unit), Catch::Contains("is not a unit"));
   }
