@@ -98,12 +98,12 @@ class Coefficients(Runs):
     def test_the_page_shows_them_so(self):
         shown = {(b.output, row.name): (row.sensitivity, row.sensitivity_unit) for b in self.made.budgets
                  for row in tables.budget(b).rows}
-        self.assertEqual(shown["t", "x"], ("1.80", "degF/°C"))
+        self.assertEqual(shown["t", "x"], ("1.80", "°F/°C"))
         self.assertEqual(shown["v", "a"], ("1000", "mV/V"))
         self.assertEqual(shown["v", "b"], ("−1.00", ""))
         self.assertEqual(shown["d", "w"], ("17.5", "mm/°"))
         self.assertEqual(shown["d", "l"], ("17.5", "mm/m"))
-        self.assertIn("1.80<small>degF/°C</small>", page.render(self.made))
+        self.assertIn("1.80<small>°F/°C</small>", page.render(self.made))
 
     def test_the_terminal_and_the_report_write_one_table(self):
         text = self.ran(UNITS, "--format", "csv", "--budget")
