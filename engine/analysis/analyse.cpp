@@ -108,10 +108,7 @@ void warn_of_resolution(Summary& s, const Budget& b) {
   const double u =
       b.applicable && b.combined_standard_uncertainty > 0 ? b.combined_standard_uncertainty : s.standard_uncertainty;
   if (resolved(s, u)) return;
-  const auto width = [&](double x) {
-    const double shown = units::from_si(x, s.output.unit, s.output.si_unit, units::Kind::difference);
-    return fmt::format("{:.2g}{}{}", shown, s.output.unit == "1" ? "" : " ", s.output.unit == "1" ? "" : s.output.unit);
-  };
+  const auto width = [&](double x) { return with_suitable_unit(x, s.output.unit, s.output.si_unit); };
   s.warning += fmt::format("{}numbers of double precision are {} apart here: the samples do not show a standard "
                            "uncertainty of {}; state the difference from a nominal value",
                            s.warning.empty() ? "" : "; ", width(spacing_of_doubles(s.estimate)), width(u));

@@ -324,14 +324,18 @@ Validation validate(const Budget& b, const Summary& s, double coverage_probabili
   return v;
 }
 
+double variance_over_scale(const Contribution& c) {
+  const double freedom = c.degrees_of_freedom;
+  return c.distribution == "t" && freedom > 2 && std::isfinite(freedom) ? freedom / (freedom - 2) : 1;
+}
+
 bool accounts_for_variance(const Budget& b, const Summary& s, const Validation& v) {
   constexpr double apart = 0.05;
   const double u = s.standard_uncertainty;
   if (v.verdict == "validated" || !std::isfinite(u)) return true;
   double wider = 1;
   for (const Contribution& c : b.contributions)
-    if (c.distribution == "t" && c.degrees_of_freedom > 2 && std::isfinite(c.share))
-      wider += c.share * 2 / (c.degrees_of_freedom - 2);
+    if (std::isfinite(c.share)) wider += c.share * (variance_over_scale(c) - 1);
   const double law = wider * b.combined_standard_uncertainty * b.combined_standard_uncertainty;
   const double error = std::isfinite(s.standard_uncertainty_se) ? 4 * u * s.standard_uncertainty_se : 0;
   return std::fabs(u * u - law) <= apart * u * u + error;

@@ -33,6 +33,10 @@ bool resolved(const Summary& summary, double standard_uncertainty);
 /// than delta alone. No verdict unless the framework's U is finite.
 Validation validate(const Budget& budget, const Summary& summary, double coverage_probability, int digits);
 
+/// Variance of a component's samples over the square of the u that the law of propagation takes: nu / (nu - 2) of a t
+/// with nu degrees of freedom, 1 of all others; 1 also where that variance does not exist.
+double variance_over_scale(const Contribution& contribution);
+
 /// Whether the law of propagation accounts for the variance by Monte Carlo: the framework is validated, or both differ
 /// by no more than 5 % and twice the Monte Carlo standard error, where a t distribution contributes its variance and
 /// not the square of its scale. Otherwise the shares of the law are not those of the variance.

@@ -23,7 +23,7 @@ std::vector<std::string> scale_point_notes(const propagation::Experiment& e, con
   std::vector<Derivatives> all;
   for (std::size_t m = 0; m < measurands && m < e.outputs().size(); ++m) {
     const auto& output = e.outputs()[m];
-    // Of a temperature in K only a sum is told, for which two such inputs are needed.
+    // A result in K is noted only where two or more such inputs are added.
     const bool as_point = has_own_zero(output.unit, output.si_unit);
     if (!as_point && (output.si_unit != "K" || std::ranges::count_if(quantities, of_own_zero) < 2)) continue;
     const auto point = e.point(output.reading);

@@ -90,8 +90,8 @@ void check_tails(const Column& values, Summary& s, int threads, const KeptOrder*
         infinite ? std::string("no standard uncertainty: the values are too large for it; the ends of the interval "
                                "are quantiles and remain valid")
                  : fmt::format("no standard uncertainty: the tails are so heavy that the variance does not settle in "
-                               "so many samples, if it exists (below 2 of Hill's tail index, here {:.2g}, it does "
-                               "not); the ends of the interval are quantiles and remain valid",
+                               "so many samples (Hill's tail index is {:.2g}; a variance exists only above 2); the ends "
+                               "of the interval are quantiles and remain valid",
                                s.hill_index);
     s.standard_uncertainty = s.standard_uncertainty_se = s.estimate_se = nan;
     if (no_expectation) use_median(values, s, threads);

@@ -12,6 +12,7 @@
 
 #include "analysis/certificate.h"
 #include "analysis/combine.h"
+#include "analysis/gum.h"
 #include "analysis/shared_inputs.h"
 #include "base/error.h"
 
@@ -68,9 +69,7 @@ private:
 
   /// What a component adds to the u of part i. That of samples has a t's standard deviation, not its scale.
   double contribution(std::size_t i, const Contribution& c) const {
-    const double freedom = c.degrees_of_freedom;
-    const bool widened = !by_framework(i) && c.distribution == "t" && freedom > 2 && std::isfinite(freedom);
-    return signed_contribution(c) * (widened ? std::sqrt(freedom / (freedom - 2)) : 1);
+    return signed_contribution(c) * (by_framework(i) ? 1 : std::sqrt(variance_over_scale(c)));
   }
 
   bool is_same(const Contribution& c) const { return std::ranges::find(same_, c.quantity) != same_.end(); }

@@ -119,7 +119,8 @@ public:
   }
 
 private:
-  /// Of outputs of one file with samples: the rank of each one's value in every sample in which all have one.
+  /// By output of one file with samples: the rank of its value, sample by sample, where none of them failed. Empty if
+  /// the members are not all of that kind.
   std::vector<std::vector<std::uint32_t>> ranks_together(const std::vector<std::size_t>& members) const {
     std::vector<const std::vector<double>*> samples;
     for (const std::size_t i : members) {

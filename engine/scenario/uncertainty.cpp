@@ -58,6 +58,13 @@ std::optional<Uncertainty> read_observations(Table& table, const Form& form, Con
   return out;
 }
 
+/// The key that is like "distribution"; empty: none is.
+std::string misspelt_distribution(const Table& table) {
+  for (const Member& m : table.node().members)
+    if (m.key != "distribution" && !nearest(m.key, {"distribution"}).empty()) return m.key;
+  return {};
+}
+
 std::optional<Uncertainty> read_distribution(Table& table, const Form& form, Context& context) {
   std::string name = "normal"; // u, or U with k, alone
   if (table.has("distribution")) {
@@ -70,8 +77,11 @@ std::optional<Uncertainty> read_distribution(Table& table, const Form& form, Con
     name = names[*index];
   } else if (!table.has("u") && !table.has("U")) {
     const bool bounded = table.has("half_width") || table.has("low") || table.has("high");
-    table.refuse("the distribution is missing", "",
-                 bounded ? "distribution = \"rectangular\"" : "give distribution, u, U with k, or observations");
+    const std::string key = misspelt_distribution(table);
+    table.refuse("the distribution is missing", key.empty() ? "" : fmt::format("'{}' is no key", key),
+                 !key.empty() ? "did you mean 'distribution'?"
+                 : bounded    ? "distribution = \"rectangular\""
+                              : "give distribution, u, U with k, or observations");
     table.members(); // the other keys cannot be judged
     return std::nullopt;
   }

@@ -42,6 +42,13 @@ TEST_CASE("a misspelt section is named together with what follows from it", "[sc
   CHECK(once.find("unknown key 'runn'") == once.rfind("unknown key 'runn'"));
 }
 
+TEST_CASE("a misspelt distribution is named", "[scenario][hints]") {
+  const std::string a = "[quantities.a]\nvalue = \"1 mm\"\nhalf_width = \"1 um\"\n";
+  CHECK_THAT(said(formula("\"a\"") + a + "distribtuion = \"rectangular\"\n"),
+             Contains("'distribtuion' is no key") && Contains("Did you mean 'distribution'?"));
+  CHECK_THAT(said(formula("\"a\"") + a), Contains("Try: distribution = \"rectangular\""));
+}
+
 TEST_CASE("a sum with a column without a unit names the column", "[scenario][hints]") {
   const std::string b = "[quantities.b]\nvalue = \"1 mm\"\n";
   CHECK_THAT(said(formula("\"r + b\"") + without_unit + b), Contains("a plain number plus a length") && Contains(hint));
