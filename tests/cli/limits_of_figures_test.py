@@ -68,7 +68,7 @@ class LimitsOfFigures(InFolder):
         for u, told in (("1 nm", True), ("0.3 um", True), ("10 um", False)):  # doubles there are 0.12 um apart
             row = json.loads(self.ran(FAR.replace("U", u), "--format", "json"))[0]
             warning, verdict = row["warning"], row["validation"]["verdict"]
-            self.assertEqual("numbers of double precision are 1.2e-07 m apart" in warning, told, warning)
+            self.assertEqual("numbers of double precision are 0.12 um apart" in warning, told, warning)
             self.assertEqual(verdict == "not applicable", told, verdict)
         row = json.loads(self.ran(FAR.replace("U", "0.3 um"), "--format", "json"))[0]
         self.assertAlmostEqual(row["standard_uncertainty"], 0.3e-6, delta=0.02e-6)  # coarse, but not constant
