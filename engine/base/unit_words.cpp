@@ -4,7 +4,6 @@
 #include <array>
 #include <cctype>
 #include <map>
-#include <memory>
 #include <regex>
 #include <string_view>
 #include <vector>
@@ -13,11 +12,6 @@
 
 namespace gumshoe::units {
 namespace {
-
-struct Free {
-  void operator()(ut_unit* u) const { ut_free(u); }
-};
-using Known = std::unique_ptr<ut_unit, Free>;
 
 std::string lower(std::string text) {
   std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -120,9 +114,9 @@ public:
   explicit Database(ut_system* system) : system_(system) {}
 
   /// The unit of this name, without a prefix; null if there is none.
-  Known find(const std::string& name) const {
-    if (ut_unit* const by_name = ut_get_unit_by_name(system_, name.c_str())) return Known(by_name);
-    return Known(ut_get_unit_by_symbol(system_, name.c_str()));
+  UnitPointer find(const std::string& name) const {
+    if (ut_unit* const by_name = ut_get_unit_by_name(system_, name.c_str())) return UnitPointer(by_name);
+    return UnitPointer(ut_get_unit_by_symbol(system_, name.c_str()));
   }
 
   bool takes(const std::string& prefix, const ut_unit* unit) const {
@@ -158,7 +152,7 @@ public:
 
 private:
   bool is(const ut_unit* unit, const char* name) const {
-    const Known known = find(name);
+    const UnitPointer known = find(name);
     return known && ut_compare(unit, known.get()) == 0;
   }
 
@@ -190,11 +184,11 @@ std::optional<std::string> read_name(const std::string& word, const Database& da
     const std::string value = database.todays_value(prefix, unit);
     return value.empty() ? word : value;
   };
-  if (const Known unit = database.find(word)) return text("", unit.get());
+  if (const UnitPointer unit = database.find(word)) return text("", unit.get());
   for (std::size_t n = 1; n < word.size(); ++n) {
     const std::string prefix = word.substr(0, n), rest = word.substr(n);
     if (!is_prefix(prefix) || !unclear(rest).empty()) continue;
-    if (const Known unit = database.find(rest); unit && database.takes(prefix, unit.get()))
+    if (const UnitPointer unit = database.find(rest); unit && database.takes(prefix, unit.get()))
       return text(prefix, unit.get());
   }
   return std::nullopt;

@@ -1,12 +1,18 @@
 #pragma once
 /// The names in a unit: which of them are units, and what the database of udunits2 has to read in their place. Private
 /// to this folder; `units.h` is what others use.
+#include <memory>
 #include <optional>
 #include <string>
 
 #include <udunits2.h>
 
 namespace gumshoe::units {
+
+struct FreeUnit {
+  void operator()(ut_unit* u) const { ut_free(u); }
+};
+using UnitPointer = std::unique_ptr<ut_unit, FreeUnit>;
 
 constexpr bool starts_number(char c) { return c >= '0' && c <= '9'; }
 constexpr bool letter(char c) {

@@ -220,11 +220,8 @@ std::optional<Unit> unit_of_database(const std::string& name) {
       throw std::runtime_error(
           "the unit database of udunits2 cannot be read (it belongs to the package libudunits2-data)");
   }
-  struct Free {
-    void operator()(ut_unit* u) const { ut_free(u); }
-  };
   const auto text_of_unit = for_database(name, system);
-  const std::unique_ptr<ut_unit, Free> unit(text_of_unit ? ut_parse(system, text_of_unit->c_str(), UT_UTF8) : nullptr);
+  const UnitPointer unit(text_of_unit ? ut_parse(system, text_of_unit->c_str(), UT_UTF8) : nullptr);
   if (!unit) return std::nullopt;
   char text[256];
   const int length = ut_format(unit.get(), text, sizeof text, UT_ASCII | UT_DEFINITION);

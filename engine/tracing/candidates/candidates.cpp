@@ -70,30 +70,6 @@ void CandidateMaker::add(Candidate a, std::vector<Candidate>& family) const {
   family.push_back(std::move(a));
 }
 
-std::vector<std::string> CandidateMaker::dependence_of(const Candidate& a) const {
-  std::vector<std::string> out = dependence(observations, a.columns);
-  if (a.family != Family::effect && a.family != Family::declared) return out;
-  const auto conditions = experiment.model().card->conditions;
-  // A course in time may go along with that of a condition, on which alone it can depend.
-  const auto can = [&](const std::string& name) {
-    const auto c = std::ranges::find(conditions, name, &VariableCard::name) - conditions.begin();
-    return std::ranges::any_of(a.amplitudes, [&](const Amplitude& size) {
-      return size.quantity == Amplitude::npos ||
-             (index(c) < conditions.size() && moved.changes_with[size.quantity][index(c)]);
-    });
-  };
-  const auto is_covariate = [&](const std::string& name) {
-    return std::ranges::find(observations.covariates, name, &Covariate::name) != observations.covariates.end();
-  };
-  std::vector<std::string> possible;
-  for (const std::string& name : out)
-    if (!is_covariate(name) || can(name)) possible.push_back(name);
-  if (!possible.empty() || out.empty()) return possible;
-  for (const Covariate& c : observations.covariates)
-    if (can(c.name)) possible.push_back(c.name);
-  return possible.empty() ? out : possible;
-}
-
 void CandidateMaker::add_single(Candidate a, std::size_t quantity, const std::vector<bool>* mask,
                                 std::vector<Candidate>& family) const {
   a.columns = masked(observations, moved.tangents.col(index(quantity)), mask);
