@@ -69,7 +69,7 @@ RecognisedColumn* follower(const RecognisedData& data, const std::vector<Recogni
       next = std::max(next, share);
   }
   if (!(most > follows_it && next < does_not)) return nullptr;
-  // Of the position's own unit it may be the position, measured.
+  // A column in the unit of the position may be the measured position.
   const bool of_one_unit =
       best->unit != "?" && position->unit != "?" && units::convertible(best->unit, units::si_unit_of(position->unit));
   return of_one_unit ? nullptr : best;

@@ -235,7 +235,7 @@ void find_dates(RecognisedData& data) {
   }
 }
 
-/// Of several columns of days, the last one is the time: a part is made before it is measured.
+/// Where several columns hold days, the last one is the time: a part is made before it is measured.
 void one_time_of_days(RecognisedData& data) {
   const RecognisedColumn* last = nullptr;
   const auto is_days = [](const RecognisedColumn& c) {

@@ -173,7 +173,7 @@ struct Criteria {
   double share_of_alignments = 0.5, p_of_alignments = 1e-6;
   /// An effect that one rod or one tool alone has is taken to be so many times rarer than one of them all.
   double rarity_of_part = 10;
-  /// Of a size far above typical ones, or of a sign that no such effect has, against one that is typical.
+  /// A size far above typical ones, or of a sign that no such effect has, is taken to be so many times rarer.
   double rarity_of_implausible = 1000;
   double beyond_doubt = 25; ///< 2 ln L beyond which no simulation is needed: five standard deviations
   /// 2 ln L up to which a shape that fits better than an effect is of equal merit: the effect has a cause.

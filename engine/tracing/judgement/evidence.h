@@ -14,8 +14,8 @@ namespace gumshoe::tracing {
 struct Trial {
   std::size_t candidate = 0;
   JointFit fit;
-  double ratio = 0; ///< likelihood ratio (2 ln) against the fit without it
-  double score = 0; ///< the ratio minus twice its expectation by chance
+  double ratio = 0;         ///< likelihood ratio (2 ln) against the fit without it
+  double score = 0;         ///< the ratio minus twice its expectation by chance
   bool implausible = false; ///< no such effect has the size that fits
 
   /// The score less what is improbable of such a size: order of physical candidates.
@@ -125,24 +125,5 @@ double gain_of(const TraceContext& context, const JointFit& fit, const std::vect
                bool in_place_of_scatter = false);
 /// The fit without some of its terms.
 JointFit without(const TraceContext& context, const JointFit& fit, const std::vector<std::size_t>& terms);
-
-/// The same candidates with a noise that has no variance component.
-class WithoutScatter {
-public:
-  WithoutScatter(const TraceContext& context, const Evidence& evidence);
-  double score(std::size_t candidate) const; ///< as Evidence::score
-  Fit fit(std::size_t candidate) const { return scan_.fit(candidate, evidence_.residuals()); }
-  const CovarianceModel& model(const Fit& fit) const { return scan_.covariance_models()[fit.covariance_model]; }
-  /// Probability that the best of some candidates would lead a variance component by so much if that were the cause; by
-  /// simulation. 1 if another component fits better.
-  double chance_of_lead(const std::vector<std::size_t>& of, std::size_t component, double lead) const;
-
-private:
-  const TraceContext& c_;
-  const Evidence& evidence_;
-  Design design_;
-  Scan scan_;
-  Statistics statistics_;
-};
 
 } // namespace gumshoe::tracing

@@ -5,6 +5,7 @@
 
 #include "tracing/criteria.h"
 #include "tracing/judgement/decisions.h"
+#include "tracing/judgement/without_scatter.h"
 
 namespace gumshoe::tracing {
 namespace {

@@ -9,7 +9,6 @@
 #include <fmt/ranges.h>
 
 #include "tracing/criteria.h"
-#include "tracing/judgement/beside.h"
 #include "tracing/judgement/decisions.h"
 #include "tracing/judgement/evidence.h"
 #include "tracing/judgement/hidden_pair.h"
@@ -18,6 +17,7 @@
 #include "tracing/judgement/ranking.h"
 #include "tracing/judgement/set_aside.h"
 #include "tracing/judgement/shape_order.h"
+#include "tracing/judgement/trials.h"
 
 namespace gumshoe::tracing {
 namespace {
@@ -95,9 +95,8 @@ private:
 
   /// Takes in one more effect; false if there is none.
   bool round() {
-    report_progress(out_.findings.empty() ? "searching for what is missing from the declared model"
-                                          : "searching for "
-                                            "more");
+    const bool anything = !out_.findings.empty();
+    report_progress(anything ? "searching for more" : "searching for what is missing from the declared model");
     const bool first = out_.findings.empty() && out_.first.p.empty();
     const Evidence evidence(now(), out_.found, rounds_++, dropped_, wide_);
     evidence_ = &evidence;
@@ -138,37 +137,11 @@ private:
 
   void adopt(const JointFit& fit) { out_.found = fitted_anew(c_, fit); }
 
-  /// Candidates that could win, by the whole model, best first.
-  std::vector<Trial> trials() const {
-    // What only one rod or one tool has asks for more: it must lead what all have.
-    auto physical =
-        evidence_->best_of([](const Candidate& a) { return a.physical() && !a.in_part(); }, criteria.most_refitted);
-    const auto parts = evidence_->best_of([](const Candidate& a) { return a.in_part(); }, 1);
-    if (!parts.empty() && (physical.empty() || evidence_->score(parts[0]) > evidence_->score(physical[0]) +
-                                                                                2 * std::log(criteria.rarity_of_part)))
-      physical = evidence_->best_of([](const Candidate& a) { return a.physical(); }, criteria.most_refitted);
-    std::vector<Trial> out;
-    for (const std::size_t a : physical) {
-      if (!out.empty() && !could_still_win(evidence_->score(a), evidence_->score(physical[0]))) break;
-      if (Trial one = evidence_->trial(a); one.fit.valid) out.push_back(std::move(one));
-    }
-    // Those that do not pass by themselves may be members of the class of one that does.
-    const auto counts = [&](const Trial& t) {
-      return passes(evidence_->assessment().p[t.candidate], evidence_->assessment().threshold, t.ratio,
-                    evidence_->limit(t.candidate));
-    };
-    std::ranges::sort(out, std::ranges::greater{}, &Trial::worth);
-    const auto best = std::ranges::find_if(out, counts);
-    if (best == out.end()) return {};
-    std::rotate(out.begin(), best, best + 1);
-    return out;
-  }
-
   bool take_signature() {
     if (!sought_.names) return take_shape();
     const auto plain =
         evidence_->best_of([](const Candidate& a) { return a.family == Family::shape; }, criteria.rival_shapes);
-    const std::vector<Trial> tried = trials();
+    const std::vector<Trial> tried = physical_trials(*evidence_);
     const auto score_of_best = [&](const std::vector<std::size_t>& of) {
       return of.empty() ? 0 : evidence_->score(of[0]);
     };
@@ -279,20 +252,8 @@ private:
   bool take_shape() {
     const auto& assessment = evidence_->assessment();
     std::optional<std::pair<std::size_t, JointFit>> unconfirmed;
-    auto shapes = evidence_->best_of([](const Candidate& x) { return !x.physical(); }, criteria.most_shapes);
-    std::erase_if(shapes, [&](std::size_t a) { return assessment.p[a] > assessment.threshold; });
-    if (shapes.empty()) return false;
-    // By the whole model: readings that are outlying without a shape need not be so with it.
-    std::vector<Trial> tried;
-    for (const std::size_t a : shapes)
-      if (Trial one = evidence_->trial(a); one.fit.valid) tried.push_back(std::move(one));
-    // Equal shapes differ by rounding: then as they were made.
-    const auto place = [](const Trial& t) { return std::pair{-std::round(t.score * 1e3), t.candidate}; };
-    std::ranges::sort(tried, std::ranges::less{}, place);
+    std::vector<Trial> tried = shape_trials(c_, *evidence_);
     if (tried.empty()) return false;
-    order_shapes(c_, *evidence_, tried);
-    if (const auto simpler = simpler_beside_another(*evidence_, c_.observations, tried[0].candidate))
-      if (Trial one = evidence_->trial(*simpler); one.fit.valid) tried.insert(tried.begin(), std::move(one));
     std::vector<std::pair<std::size_t, JointFit>> described;
     for (auto& [a, fit, ratio, score, implausible] : tried) {
       if (evidence_->of_few(fit)) {

@@ -64,4 +64,10 @@ std::vector<Index> independent(const Design& d, const std::vector<Index>& rows) 
   return out;
 }
 
+Design without_components(Design design) {
+  design.scatter.clear();
+  std::erase_if(design.covariance_models, [](const CovarianceModel& m) { return m.scatter >= 0; });
+  return design;
+}
+
 } // namespace gumshoe::tracing

@@ -53,4 +53,7 @@ std::vector<Index> insensitive(const Design& design, const std::vector<Index>& r
 /// The models that are tried; all are correlations alone, and with each variance component at each ratio (criteria.h).
 std::vector<CovarianceModel> covariance_models(const Design& design, std::size_t rows);
 
+/// The design with no variance component to be tried.
+Design without_components(Design design);
+
 } // namespace gumshoe::tracing
