@@ -96,8 +96,10 @@ void print_rms(const Rms& r) {
                ? fmt::format("{} (95 %: {} to {})", show(middle), show(low), show(high))
                : show(middle);
   };
-  std::cout << fmt::format("{:<44}{:>10}{:>10}   noise alone\n",
-                           with_unit("residuals, root mean square,", figures.unit), "before", "after");
+  std::cout << fmt::format(
+      "{:<44}{:>10}{:>10}   noise alone\n",
+      with_unit(figures.unit.empty() ? "residuals, root mean square" : "residuals, root mean square,", figures.unit),
+      "before", "after");
   line("  in sample (training data)", r.before, r.after, noise(r.noise, r.noise_low, r.noise_high));
   line("  hold-out: " + r.holdout, r.holdout_before, r.holdout_after,
        noise(r.holdout_noise, r.holdout_noise_low, r.holdout_noise_high));

@@ -1,5 +1,6 @@
 """Figures of a trace: residuals before (orange) and after (blue), and what is not in the catalogue."""
 import math
+import textwrap
 import types
 
 import matplotlib.pyplot as plt
@@ -250,7 +251,7 @@ def sizes(t, name):
                 end = max(x, noise[2])
             axes.annotate(t.number(x), (w * end, y), xytext=(5, 0), textcoords="offset points", va="center", fontsize=8)
     axes.invert_yaxis()
-    axes.set_yticks(range(len(found)), [f"{kind}\n{what[:34]}" for kind, what, *_ in found])
+    axes.set_yticks(range(len(found)), [f"{kind}\n{textwrap.shorten(what.split(';')[0], 34, placeholder=' …')}" for kind, what, *_ in found])
     axes.tick_params(axis="y", length=0)
     axes.spines["left"].set_visible(False)
     axes.set_xlim(0, 1.1 * w * max(x for row in found for x in (*row[2:4], *(row[4] or ())) if math.isfinite(x)))
