@@ -109,6 +109,31 @@ class BlocksAndNames(InFolder):
             for name, size in (("expansion", 6), ("warming", 5)):
                 self.assertLess(abs(found[name]["value"] - size), 3.5 * found[name]["u"])
 
+    def test_a_hall_is_cooled_while_a_programme_recurs(self):
+        """A wave in time is no function of the positions that come back, nor the other way round."""
+        for seed, period in ((1, 7.3), (2, 31.0)):
+            v = self.trace(readings(seed, lambda cycle, x, time, room: 1.5 * math.sin(2 * math.pi * time / period), cycles=6))
+            self.assertEqual([f["described_by"] for f in v["findings"]], ["wave:time"], v["plain"])
+            found, u, size, u_size = map(float, re.search(r"period (\S+) min, u = (\S+) min; amplitude (\S+) um, u = (\S+) um",
+                                                          " ".join(v["findings"][0]["remarks"])).groups())
+            self.assertLess(abs(found - period), 3.5 * u)
+            self.assertLess(abs(size - 1.5), 3.5 * u_size)
+            draw = random.Random(seed)
+            errors = {x: draw.gauss(0, 1.5) for x in range(0, 501, 50)}
+            v = self.trace(readings(seed, lambda cycle, x, time, room: errors[x], cycles=6))
+            self.assertEqual([f["described_by"] for f in v["findings"]], ["table:position"], v["plain"])
+
+    def test_a_drift_is_no_scatter_from_cycle_to_cycle(self):
+        """It changes the readings within a cycle, too; scatter of the cycles does not."""
+        for seed in (1, 5, 7, 9):
+            for drift in (lambda time: 1.8 * (1 - math.exp(-time / 24)), lambda time: 0.022 * time):
+                v = self.trace(readings(seed, lambda cycle, x, time, room: drift(time), cycles=6))
+                self.assertEqual([f["depends_on"] for f in v["findings"]], [["time"]], v["plain"])
+            draw = random.Random(seed)
+            shift = [draw.choice((-1, 1)) * draw.uniform(0.5, 1) for _ in range(7)]
+            v = self.trace(readings(seed, lambda cycle, x, time, room: shift[cycle], cycles=6))
+            self.assertIn("scatter:cycle", v["findings"][0]["members"], v["plain"])
+
     def test_equal_steps_do_not_tell_waves_apart(self):
         """A wave of 10 mm, read every 13.7 mm, is one of 37 mm: 1/10 = 1/13.7 + 1/37."""
         wave = lambda cycle, x, time, room: 1.5 * math.sin(2 * math.pi * x / 10)

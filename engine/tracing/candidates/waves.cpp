@@ -119,13 +119,14 @@ Candidate wave(const Observations& o, const Covariate& c, std::size_t indication
   return a;
 }
 
-std::vector<Candidate> waves(const Observations& o, const std::vector<const Candidate*>& known, const Gain& gain) {
+std::vector<Candidate> waves(const Observations& o, const std::vector<const Candidate*>& known, const Gain& plain,
+                             const Gain& in_time) {
   std::vector<Candidate> out;
-  // A programme that recurs is itself a wave in time.
   const bool programme =
       std::ranges::any_of(o.covariates, [&](const Covariate& c) { return c.commanded && !c.course; });
   for (const Covariate& c : o.covariates) {
-    if (c.angle || (c.course ? programme : !c.commanded) || c.levels.size() < 2) continue;
+    const Gain& gain = c.course && programme ? in_time : plain;
+    if (!gain || c.angle || !(c.course || c.commanded) || c.levels.size() < 2) continue;
     const std::vector<double> levels = places(c);
     if (levels.size() <= criteria.levels_for_fine_omnibus) continue;
     const double most = std::min(most_cycles(levels), criteria.most_cycles),

@@ -4,13 +4,16 @@
 
 namespace gumshoe::tracing {
 
-/// For each indication and each commanded condition with many levels or, if none varies, time or the order: the wave
-/// that explains most, with between two cycles over the range and `most_cycles`. Its p-value counts 4 W times, W
-/// being the number of cycles up to which it was sought: the bound of Baluev, Mon. Not. R. Astron. Soc. 385 (2008)
-/// 1279, for a periodogram's maximum of 16, about where one decides.
-/// @param known  waves that are terms already; one that the range does not resolve from these is no candidate
+/// For each indication and each commanded condition with many levels, and time or the order: the wave that explains
+/// most, with between two cycles over the range and `most_cycles`. Its p-value counts 4 W times, W being the number of
+/// cycles up to which it was sought: the bound of Baluev, Mon. Not. R. Astron. Soc. 385 (2008) 1279, for a
+/// periodogram's maximum of 16, about where one decides.
+/// @param known    waves that are terms already; one that the range does not resolve from these is no candidate
+/// @param in_time  the gain beside any value at each of the conditions that come back: a programme that recurs is
+/// itself
+///                 a wave in time. Empty: where a condition is commanded, none is sought in time
 std::vector<Candidate> waves(const Observations& observations, const std::vector<const Candidate*>& known,
-                             const Gain& gain);
+                             const Gain& gain, const Gain& in_time = {});
 
 /// Levels, of which those within a tenth of their mean distance are one, such as a target that was met again with
 /// jitter. Returns the first level of each.

@@ -90,6 +90,36 @@ bool implausible(const Term& term) {
   return false;
 }
 
+/// What columns explain of residuals (chosen rows) under one covariance model, which is kept by reference.
+Gain gain_under(const Whitened& white, const Vector& residual) {
+  return [&white, left = Vector(white.reduce(residual))](const Matrix& all, Index each, double share) {
+    const Matrix whole = white.whiten(white.take(all)), reduced = white.reduce(white.take(all));
+    Vector out = Vector::Zero(all.cols() / each);
+    for (Index k = 0; k < out.size(); ++k) {
+      const auto columns = reduced.middleCols(each * k, each);
+      const Matrix squares = columns.transpose() * columns;
+      const Vector product = columns.transpose() * left;
+      // What unknowns follow has an alias that is none.
+      const bool own = columns.squaredNorm() > share * whole.middleCols(each * k, each).squaredNorm();
+      if (own && squares.determinant() > criteria.absorbed_share * squares.diagonal().prod())
+        out[k] = product.dot(squares.inverse() * product);
+    }
+    return out;
+  };
+}
+
+/// The design with any value for each cell; nothing where too few readings come back, or too many cells do.
+std::optional<Design> with_cells(const TraceContext& c, const Design& design) {
+  const Replicates& replicates = c.fitter.replicates();
+  const std::vector<Index>& rows = c.fitter.rows();
+  const std::set<std::size_t> cells(replicates.cell.begin(), replicates.cell.end());
+  const std::size_t values = cells.size() * design.indications;
+  if (values > criteria.most_cells_of_noise || values * criteria.least_repeats > rows.size()) return std::nullopt;
+  Design out = design;
+  fix(out, rows, columns_by_group(rows, design.indications, replicates.cell, false));
+  return out;
+}
+
 std::size_t wide_cells(std::size_t readings) {
   return std::max(criteria.most_table_cells, std::min(criteria.most_wide_cells, criteria.most_wide_entries / readings));
 }
@@ -143,25 +173,15 @@ void Evidence::add_sought(const std::set<std::string>& dropped) {
   // A correlation or a component that stands for the very shape would hide its form.
   std::vector<CovarianceModel> models{fit_.covariance_model};
   if (models[0].correlation != 0 || models[0].scatter >= 0) models.emplace_back();
+  const std::optional<Design> any_by_cell = with_cells(c_, fit_.design);
   std::vector<Candidate> sought;
   for (const CovarianceModel& model : models) {
     const Whitened white(plain, model);
-    const Vector left = white.reduce(residual);
-    const Gain gain = [&](const Matrix& all, Index each, double share) {
-      const Matrix whole = white.whiten(plain.take(all)), reduced = white.reduce(plain.take(all));
-      Vector out = Vector::Zero(all.cols() / each);
-      for (Index k = 0; k < out.size(); ++k) {
-        const auto columns = reduced.middleCols(each * k, each);
-        const Matrix squares = columns.transpose() * columns;
-        const Vector product = columns.transpose() * left;
-        // What unknowns follow has an alias that is none.
-        const bool own = columns.squaredNorm() > share * whole.middleCols(each * k, each).squaredNorm();
-        if (own && squares.determinant() > criteria.absorbed_share * squares.diagonal().prod())
-          out[k] = product.dot(squares.inverse() * product);
-      }
-      return out;
-    };
-    std::ranges::move(waves(c_.observations, known, gain), std::back_inserter(sought));
+    const Gain gain = gain_under(white, residual);
+    std::optional<Whitened> beside;
+    if (any_by_cell) beside.emplace(*any_by_cell, c_.fitter.rows(), independent(*any_by_cell, c_.fitter.rows()), model);
+    std::ranges::move(waves(c_.observations, known, gain, beside ? gain_under(*beside, residual) : Gain{}),
+                      std::back_inserter(sought));
     std::ranges::move(courses(c_.observations, c_.fitter.rows(), gain), std::back_inserter(sought));
   }
   for (Candidate& a : sought) {

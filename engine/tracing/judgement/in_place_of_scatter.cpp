@@ -33,8 +33,9 @@ bool is_plain(const Candidate& a, const Grouping& group, const Observations& o) 
   const auto x = std::ranges::find(o.covariates, a.depends_on[0], &Covariate::name);
   if (x == o.covariates.end()) return false;
   if (x->course)
-    return a.family == Family::omnibus || std::ranges::any_of(std::array{"step:", "pulse:", "shift:"},
-                                                              [&](const char* kind) { return name.starts_with(kind); });
+    return a.family == Family::omnibus || (name == "polynomial:" + x->name && a.shape.empty()) ||
+           std::ranges::any_of(std::array{"step:", "pulse:", "shift:", "drift:", "wave:"},
+                               [&](const char* kind) { return name.starts_with(kind); });
   return !x->commanded && name == "polynomial:" + x->name && a.shape.empty();
 }
 

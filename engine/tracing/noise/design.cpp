@@ -64,6 +64,12 @@ std::vector<Index> independent(const Design& d, const std::vector<Index>& rows) 
   return out;
 }
 
+void fix(Design& design, const std::vector<Index>& rows, const Matrix& columns) {
+  design.fixed.conservativeResize(Eigen::NoChange, design.fixed.cols() + columns.cols());
+  design.fixed.rightCols(columns.cols()).setZero();
+  design.fixed(rows, Eigen::lastN(columns.cols())) = columns;
+}
+
 Design without_components(Design design) {
   design.scatter.clear();
   std::erase_if(design.covariance_models, [](const CovarianceModel& m) { return m.scatter >= 0; });

@@ -53,6 +53,9 @@ std::vector<Index> insensitive(const Design& design, const std::vector<Index>& r
 /// The models that are tried; all are correlations alone, and with each variance component at each ratio (criteria.h).
 std::vector<CovarianceModel> covariance_models(const Design& design, std::size_t rows);
 
+/// Adds columns over the chosen rows to the fixed ones.
+void fix(Design& design, const std::vector<Index>& rows, const Matrix& columns);
+
 /// The design with no variance component to be tried.
 Design without_components(Design design);
 
