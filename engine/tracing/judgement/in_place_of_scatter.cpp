@@ -21,8 +21,8 @@ bool one_value_each(const Grouping& label, const Grouping& group) {
   return true;
 }
 
-/// One group that differs, or all groups of one operator; a straight line in what was recorded, a step, a pulse or a
-/// course in time: shapes that scatter may look like.
+/// One group that differs, or all groups of one operator; a straight line in what was recorded, a step, a pulse, a
+/// drift or any course in time: shapes that scatter may look like.
 bool is_plain(const Candidate& a, const Grouping& group, const Observations& o) {
   const std::string name = without_indication(a.name, o);
   if (name.starts_with("step:") && std::ranges::any_of(o.labels, [&](const Grouping& label) {

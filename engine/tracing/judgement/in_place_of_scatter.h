@@ -22,8 +22,8 @@ struct InPlaceOfScatter {
 /// that explain as much without the component, and predict held-out readings better, form a class with it. Quantities
 /// declared, and effects, by label do not: of so many, some look like scatter by chance. Where the best of them
 /// explains more than scatter would seldom let it, scatter is no member. One group that differs from all others, which
-/// agree, explains more than scatter, and so does a temperature that was recorded, or what came and went in time: plain
-/// shapes, found where scatter would seldom let them.
+/// agree, explains more than scatter, and so does a temperature that was recorded, a drift, or what came and went in
+/// time: plain shapes, found where scatter would seldom let them.
 InPlaceOfScatter in_place_of_scatter(const TraceContext& context, const Evidence& evidence,
                                      const SearchFinding& scatter);
 
