@@ -140,7 +140,7 @@ std::vector<Candidate> waves(const Observations& o, const std::vector<const Cand
         if (const double shorter = sought.best(most, gain); explained(shorter) > explained(cycles) + criteria.split)
           cycles = shorter;
       Candidate a = wave(o, c, i, cycles);
-      a.searched = 4 * most;
+      a.searched = 4 * (cycles > usual ? most : usual);
       const bool resolved = std::ranges::none_of(known, [&](const Candidate* other) {
         return other->name == a.name && std::fabs(other->parameter - a.parameter) < 1;
       });

@@ -7,7 +7,8 @@ namespace gumshoe::tracing {
 /// For each indication and each commanded condition with many levels, and time or the order: the wave that explains
 /// most, with between two cycles over the range and `most_cycles`. Its p-value counts 4 W times, W being the number of
 /// cycles up to which it was sought: the bound of Baluev, Mon. Not. R. Astron. Soc. 385 (2008) 1279, for a
-/// periodogram's maximum of 16, about where one decides.
+/// periodogram's maximum of 16, about where one decides. Where uneven levels let it be sought further, a longer wave
+/// counts as if it had not been, because a shorter one must explain clearly more.
 /// @param known    waves that are terms already; one that the range does not resolve from these is no candidate
 /// @param in_time  the gain beside any value at each of the conditions that come back: a programme that recurs is
 /// itself

@@ -37,7 +37,8 @@ void straighten(const TraceContext& c, const Evidence& e, std::vector<Trial>& tr
              of_two = best.depends_on.size() == 2;
   if (!curve && !of_two) return;
   prefer(c, e, tried, [&](const Candidate& one) {
-    if (one.columns.cols() != 1 || one.depends_on.size() != 1) return false;
+    const bool wave = one.form == Form::wave;
+    if (!(one.columns.cols() == 1 || (curve && wave)) || one.depends_on.size() != 1) return false;
     return curve ? one.depends_on == best.depends_on
                  : one.form == Form::fixed && std::ranges::count(best.depends_on, one.depends_on[0]) > 0;
   });
