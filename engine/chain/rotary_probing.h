@@ -12,6 +12,7 @@ template <class T> struct RotaryMotion {
   T angle = T(0.0);     ///< rad
   T direction = T(1.0); ///< from which the angle was reached, +1 or -1; 0 neither
   T clamped = T(0.0);   ///< 1 where the axis' brake holds
+  T sense = T(1.0);     ///< of the turn at a positive command: -1 if the axis carries the workpiece
   // effects add to
   T error[E_X0]; ///< E_X ... E_C, m and rad; the positioning error is the one about the axis itself
 

@@ -64,3 +64,27 @@ TEST_CASE("what the sensor adds, and how the axes move the part", "[laws][laser_
   const double turn = 10.0 / 3600 * deg;
   CHECK(std::fabs(change("b_brake_shift.angle (arcsec)", "10", "surface (1),B (deg)", "1,30") + 0.07e6 * turn / std::cos(30 * deg)) < 1e-3);
 }
+
+TEST_CASE("an axis that lags leaves the table behind its command, and a gear ratio turns it further", "[laws][laser_scan][effects]") {
+  // The table turns by minus the command. A table that is delta further about +Z than it should be shows a plane of slope m,
+  // at radius r and theta, where theta - delta was: nearer by m r (cos(theta - delta) - cos theta).
+  const double m = 0.2, r = 60e3;
+  const auto nearer = [&](double theta, double delta) { return m * r * (std::cos(theta - delta) - std::cos(theta)); };
+  const std::string at = "surface (1),plane_slope_x (1),radius (mm),theta (deg),C (deg),direction (1)";
+  for (const int direction : {1, -1, 0}) {
+    const double lag = direction * 50.0 / 3600 * deg;
+    const double found = change("c_axis_reversal.backlash (arcsec)", "100", at, "1,0.2,60,70,30," + std::to_string(direction));
+    CHECK(std::fabs(found - nearer(70 * deg, lag)) < 1e-9);
+  }
+  const double found = change("c_scale.scale (um/m)", "200", at, "1,0.2,60,70,30,1");
+  CHECK(std::fabs(found - nearer(70 * deg, -200e-6 * 30 * deg)) < 1e-9);
+  // About Y the same error is one of location: half the reversal value is E_B0B, of the table that stands at -B.
+  const std::string tilted = "surface (1),plane_slope_x (1),radius (mm),theta (deg),B (deg),B_direction (1)", row = "1,0.2,60,50,10,";
+  for (const int direction : {1, -1}) {
+    const std::string side = std::to_string(direction);
+    CHECK(std::fabs(change("b_axis_reversal.backlash (arcsec)", "100", tilted, row + side) -
+                    change("E_B0B (arcsec)", std::to_string(50 * direction), tilted, row + side)) < 1e-9);
+  }
+  CHECK(std::fabs(change("b_scale.scale (um/m)", "200", tilted, row + "1") -
+                  change("E_B0B (mrad)", std::to_string(-0.2 * 10 * deg), tilted, row + "1")) < 1e-6);
+}

@@ -137,6 +137,22 @@ TEST_CASE("a bar's exact equation is that of the source plus (dl^2 - D^2) / 2; t
   }
 }
 
+TEST_CASE("a bar of stated length indicates also by how much the balls were commanded to another distance",
+          "[laws][single_socket]") {
+  const Vector3<double> error{30e-6, -20e-6, 50e-6};
+  Bars bars({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}}, error);
+  const double distances[] = {150.04 * mm, 149.97 * mm, 150.02 * mm, 149.9 * mm};
+  for (std::size_t i = 0; i < bars.stations.size(); ++i) {
+    socket::Station<double>& s = bars.stations[i];
+    s.lever = distances[i] / s.nominal * s.lever;
+    s.excess = distances[i] - s.nominal;
+    bars.changes[i] = std::sqrt(dot(s.lever + error, s.lever + error)) - s.nominal;
+    CHECK(std::fabs(socket::change_of_length(s, error) - bars.changes[i]) < 1e-16);
+  }
+  CHECK(distance(bars.error(false), error) < 1e-15);
+  CHECK(distance(bars.error(true), error) < 4 * dot(error, error) / 0.3);
+}
+
 TEST_CASE("more stations than three: the truth comes back from any, noise from none", "[laws][single_socket]") {
   const Vector3<double> error{0.4 * mm, -0.3 * mm, 0.9 * mm};
   Bars bars({{1, 0, 0.1}, {0.2, 1, 0}, {0, -0.3, 1}, {-1, 1, 1}, {1, 1, -1}}, error);

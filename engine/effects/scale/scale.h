@@ -59,25 +59,26 @@ struct RotaryScale {
   static constexpr Common common{
       .stage = Stage::rotary,
       .meaning = "Actual minus commanded angle grows in proportion to the command: a gear ratio or a number of lines "
-                 "that the control does not quite know.",
+                 "that the control does not quite know. An axis that carries the workpiece turns it by minus the "
+                 "command (sense -1), and its error with it.",
       .source = "engineering knowledge; ISO 230-1",
       .quantities = quantities};
   template <class T> static void add(const T* q, const Turn<T>& turn) {
-    turn.error = turn.error + q[0] * turn.axis.angle;
+    turn.error = turn.error + q[0] * (turn.axis.sense * turn.axis.angle);
   }
 };
 
 struct BScale : On<RotaryScale, axis_B> {
   static constexpr EffectCard card =
       on({.name = "b_scale", .title = "Linear positioning error of B", .iso230 = "E_BB",
-          .adds = "E_BB += scale B",
+          .adds = "E_BB += B.sense scale B",
           .confused_with = "the sine of b_encoder_eccentricity over a short range of B; E_A0B, E_C0B"},
          RotaryScale::common);
 };
 struct CScale : On<RotaryScale, axis_C> {
   static constexpr EffectCard card =
       on({.name = "c_scale", .title = "Linear positioning error of C", .iso230 = "E_CC",
-          .adds = "E_CC += scale C",
+          .adds = "E_CC += C.sense scale C",
           .confused_with = "the sine of c_encoder_eccentricity over a short range of C; E_A0C, E_B0C"},
          RotaryScale::common);
 };

@@ -136,6 +136,8 @@ template <class T> Spot<T> spot(const At<T>& at, const SetUp<T>& set_up, Outcome
   event.z.direction = -one; // lowered to the part
   rotary.B.angle = c.B, rotary.C.angle = c.C;
   rotary.B.direction = c.B_direction, rotary.C.direction = c.direction;
+  const chain::TwoRotaryAxes& axes = axes_of(at.context);
+  rotary.B.sense = T(axes.first.sense), rotary.C.sense = T(axes.second.sense);
   scanning.azimuth = c.theta, scanning.part_angle = c.part_angle;
   scanning.turn_rate = c.direction * c.speed, scanning.displacement = out.displacement;
   rotary.B.clamped = one, rotary.C.clamped = num::select(scanning.turn_rate == zero, one, zero); // clamped at rest
@@ -146,7 +148,6 @@ template <class T> Spot<T> spot(const At<T>& at, const SetUp<T>& set_up, Outcome
   const auto then = command(at, ahead);
   const Vector3<T> moved{chain::actual_of(then.slides.x, event.x, zero), chain::actual_of(then.slides.y, event.y, zero),
                          chain::actual_of(then.slides.z, event.z, zero)};
-  const chain::TwoRotaryAxes& axes = axes_of(at.context);
   const Beam<T> real = beam(at, set_up, squared(q, moved, then.slides), chain::turned(axes.first, c.B, rotary.B, 1),
                             chain::turned(axes.second, T(c.C + ahead), rotary.C, 2));
   out.displacement = displacement(at, real, outcome);

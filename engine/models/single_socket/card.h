@@ -98,7 +98,8 @@ inline constexpr EquationCard length_equations[] = {
 inline constexpr EquationCard exact_equations[] = {
     {"abs(P_i + D - P_0) = l_i + length_error_i", GUMSHOE_SYMBOLS}, length_equations[0]};
 inline constexpr EquationCard linear_equations[] = {
-    {"(P_i - P_0) * D = l_i * length_error_i", GUMSHOE_SYMBOLS}, length_equations[0]};
+    {"(P_i - P_0) * D = d_i * (l_i + length_error_i - d_i)", GUMSHOE_SYMBOLS "; d: distance of P_i and P_0"},
+    length_equations[0]};
 inline constexpr EquationCard turned_equations[] = {
     {GUMSHOE_TURNED, "R: turns of the machine; solved as in single_socket_rotation"},
     exact_equations[0], length_equations[0]};

@@ -24,6 +24,7 @@ template <class T> struct Station {
   Vector3<T> lever;  ///< nominal, from the fixed ball to the moving one, m
   Vector3<T> slides; ///< errors of the slides that effects cause, m
   T nominal;         ///< length from which changes count, m
+  T excess = T(0.0); ///< nominal distance of the balls less that, m
   chain::BallBar<T> bar;
 };
 
@@ -34,6 +35,7 @@ template <class T> Station<T> station(const At<T>& at) {
   s.lever = nominal - Vector3<T>{q.reference_x, q.reference_y, q.reference_z};
   const T distance = length(s.lever);
   s.nominal = num::select(q.bar_length > T(0.0), q.bar_length, distance);
+  s.excess = distance - s.nominal;
   s.bar.length = s.nominal;
   s.bar.along = T(1.0) / distance * s.lever;
   s.bar.speed = at.c.speed;
@@ -53,9 +55,9 @@ template <class T> Station<T> station(const At<T>& at) {
   return s;
 }
 
-/// Change of the balls' distance when the moving ball is `by` off its nominal place, m.
+/// The balls' distance less `nominal` when the moving ball is `by` off its nominal place, m.
 template <class T> T change_of_length(const Station<T>& s, const Vector3<T>& by) {
-  const T more = T(2.0) * dot(s.lever, by) + dot(by, by);
+  const T more = s.excess * (T(2.0) * s.nominal + s.excess) + (T(2.0) * dot(s.lever, by) + dot(by, by));
   return more / (num::sqrt(s.nominal * s.nominal + more) + s.nominal);
 }
 
@@ -66,8 +68,9 @@ template <class T> struct Position {
   T amplification;
   T last_step; ///< by how much the last iteration changed the error, m
 };
-/// Least squares of the changes of length. Linear: eq (1), (P_i - P_0) D = l_i Delta_l_i. Exact: Gauss-Newton, a fixed
-/// number of steps, so that a sample does not depend on its neighbours.
+/// Least squares of the changes of length. Linear: eq (1), (P_i - P_0) D = l_i Delta_l_i, where l_i is the nominal
+/// distance of the balls. Exact: Gauss-Newton, a fixed number of steps, so that a sample does not depend on its
+/// neighbours.
 template <class T>
 Position<T> position_of(const std::vector<Station<T>>& stations, const std::vector<T>& changes, bool linear) {
   constexpr int exact_steps = 8, linear_steps = 2; // the second refines the rounding of the first
@@ -80,8 +83,9 @@ Position<T> position_of(const std::vector<Station<T>>& stations, const std::vect
     for (std::size_t i = 0; i < stations.size(); ++i) {
       const Station<T>& s = stations[i];
       const Vector3<T> by = p.error + s.slides;
-      const T change = linear ? dot(s.lever, by) / s.nominal : change_of_length(s, by);
-      const Vector3<T> slope = linear ? T(1.0) / s.nominal * s.lever : T(1.0) / (s.nominal + change) * (s.lever + by);
+      const T distance = s.nominal + s.excess;
+      const T change = linear ? s.excess + dot(s.lever, by) / distance : change_of_length(s, by);
+      const Vector3<T> slope = linear ? T(1.0) / distance * s.lever : T(1.0) / (s.nominal + change) * (s.lever + by);
       const T left = changes[i] - change;
       normal = {normal.x + slope.x * slope, normal.y + slope.y * slope, normal.z + slope.z * slope};
       right = right + left * slope;
