@@ -134,6 +134,14 @@ class BlocksAndNames(InFolder):
             v = self.trace(readings(seed, lambda cycle, x, time, room: shift[cycle], cycles=6))
             self.assertIn("scatter:cycle", v["findings"][0]["members"], v["plain"])
 
+    def test_noise_that_resembles_what_was_before_is_said_first(self):
+        for seed in (1, 2):
+            draw, slow = random.Random(seed), [0.0]
+            wander = lambda *at: slow.append(0.8 * slow[-1] + draw.gauss(0, 1)) or slow[-1]
+            v = self.trace(readings(seed, wander, cycles=6, noise=0.1))
+            self.assertEqual(v["findings"], [])
+            self.assertRegex(v["plain"][0], r"resemble those before them \(correlation 0\.[68]\): something varies slowly")
+
     def test_equal_steps_do_not_tell_waves_apart(self):
         """A wave of 10 mm, read every 13.7 mm, is one of 37 mm: 1/10 = 1/13.7 + 1/37."""
         wave = lambda cycle, x, time, room: 1.5 * math.sin(2 * math.pi * x / 10)

@@ -63,10 +63,12 @@ public:
   }
 
   bool compare() {
-    const InSample before = in_sample(base_, rows_, base_.residual), after = in_sample(after_, rows_, after_.residual);
+    const Vector after_in_first = in_first(c_.observations, after_.design);
+    const InSample before = in_sample(base_, rows_, base_.residual, in_first(c_.observations, base_.design)),
+                   after = in_sample(after_, rows_, after_.residual, after_in_first);
     out_.rms.before = before.rms[0];
     out_.rms.after = after.rms[0];
-    const Vector noise = in_sample(after_, rows_, noise_).rms;
+    const Vector noise = in_sample(after_, rows_, noise_, after_in_first).rms;
     set_noise_alone({noise.data(), noise.data() + noise.size()}, out_.rms.noise, out_.rms.noise_low,
                     out_.rms.noise_high);
     replicate_floor();
@@ -125,11 +127,7 @@ private:
   }
 
   Scores predict(const JointFit& fit, const Matrix& residual, const Blocks& blocks) const {
-    Scores out = score(fit, residual, rows_, blocks, after_.covariance_model);
-    const auto& reference = after_.design.reference;
-    if (!c_.observations.one_kind)
-      out.in_first = Eigen::Map<const Vector>(reference.data(), index(reference.size())).cwiseInverse() * reference[0];
-    return out;
+    return score(fit, residual, rows_, blocks, after_.covariance_model, in_first(c_.observations, fit.design));
   }
 
   /// What the error cannot fall below: the replicates' scatter, else the declared noise.
@@ -192,8 +190,12 @@ private:
           "the hold-out blocks are insensitive to the finding and can neither confirm nor reject it");
       return false;
     }
-    const Holdout says = judge_holdout({before.whitened, before.rms[0]}, {after.whitened, after.rms[0]},
-                                       overstated(before, after, after_.design));
+    Holdout says = judge_holdout({before.whitened, before.rms[0]}, {after.whitened, after.rms[0]},
+                                 overstated(before, after, after_.design));
+    // However ill the training data know what was found: its errors are no longer those that its own noise allows.
+    if (says == Holdout::unsure && after.rms[0] > criteria.veto_growth * before.rms[0] &&
+        after.rms[0] > out_.rms.holdout_noise_high)
+      says = Holdout::vetoes;
     out_.unconfirmed = says == Holdout::unsure;
     if (out_.unconfirmed)
       out_.statements.push_back("the hold-out blocks are predicted no better with what was found, but no worse than "
@@ -246,8 +248,10 @@ private:
       between.names.push_back(o.blocks.groups[g]);
     }
     const std::vector<Index> all = rows_where(o, std::vector<bool>(o.readings, true));
-    const Scores before = score(previous_, previous_.residual, all, between, after_.covariance_model),
-                 after = score(after_, after_.residual, all, between, after_.covariance_model);
+    const auto predicted = [&](const JointFit& fit) {
+      return score(fit, fit.residual, all, between, after_.covariance_model, in_first(o, fit.design));
+    };
+    const Scores before = predicted(previous_), after = predicted(after_);
     const bool rejected = !before.scored() || !(before.whitened - after.whitened > criteria.beyond_doubt);
     out_.statements.push_back(fmt::format(
         "the hold-out blocks lie beyond the {} of the training data, to which what was found does not extend; blocks "

@@ -22,11 +22,27 @@ Blocks predicted_blocks(const Observations& o) {
   return out;
 }
 
+Vector in_first(const Observations& o, const Design& design) {
+  Vector out = Vector::Ones(index(o.indications));
+  for (Index k = 0; k < out.size() && !o.one_kind; ++k) out[k] = design.reference[0] / design.reference[index(k)];
+  return out;
+}
+
+namespace {
+
+/// Sum of squares of each set (column), in the unit of the first indication. @param rows  of the residuals
+Vector squares_of(const Matrix& residual, const std::vector<Index>& rows, const Vector& in_first) {
+  Vector out = Vector::Zero(residual.cols());
+  for (Index i = 0; i < residual.rows(); ++i)
+    out += (in_first[rows[index(i)] % in_first.size()] * residual.row(i)).cwiseAbs2().transpose();
+  return out;
+}
+
+} // namespace
+
 bool Scores::scored() const { return !rms.empty() && std::isfinite(rms[0]); }
 
-double Scores::counts(Index row) const {
-  return std::fabs(residual[row]) * (in_first.size() == 0 ? 1 : in_first[row % in_first.size()]);
-}
+double Scores::counts(Index row) const { return std::fabs(residual[row]) * in_first[row % in_first.size()]; }
 
 Index Scores::worst_row() const {
   Index worst = -1;
@@ -38,9 +54,9 @@ Index Scores::worst_row() const {
 double Scores::worst_point() const { return worst_row() < 0 ? none : counts(worst_row()); }
 
 Scores score(const JointFit& fit, const Matrix& residual, const std::vector<Index>& training, const Blocks& blocks,
-             const CovarianceModel& units) {
-  const double reference = fit.design.reference[0];
+             const CovarianceModel& units, const Vector& in_first) {
   Scores out;
+  out.in_first = in_first;
   Vector squares = Vector::Zero(residual.cols());
   double count = 0;
   out.residual = Vector::Constant(residual.rows(), Scores::none);
@@ -51,15 +67,16 @@ Scores score(const JointFit& fit, const Matrix& residual, const std::vector<Inde
     const HeldOut held = hold_out(fit.design, winsorised_in(fit.design, train, residual), train, blocks.rows[b],
                                   fit.covariance_model, units);
     if (held.count <= 0) continue;
-    squares += held.squares;
+    const Vector of_block = squares_of(held.residual, held.rows, in_first);
+    squares += of_block;
     out.whitened += held.whitened[0];
     count += held.count;
-    const double rms = reference * std::sqrt(held.squares[0] / held.count);
+    const double rms = std::sqrt(of_block[0] / held.count);
     if (!(rms <= out.worst_block)) out.worst_block = rms, out.worst_name = blocks.names[b];
     out.residual(held.rows) = held.residual.col(0);
   }
   for (Index j = 0; j < residual.cols(); ++j)
-    out.rms.push_back(count > 0 ? reference * std::sqrt(squares[j] / count) : Scores::none);
+    out.rms.push_back(count > 0 ? std::sqrt(squares[j] / count) : Scores::none);
   return out;
 }
 
@@ -94,7 +111,8 @@ double overstated(const Scores& before, const Scores& after, const Design& desig
   return squares > 0 ? -sum / std::sqrt(squares) : 0;
 }
 
-InSample in_sample(const JointFit& fit, const std::vector<Index>& rows, const Matrix& residual) {
+InSample in_sample(const JointFit& fit, const std::vector<Index>& rows, const Matrix& residual,
+                   const Vector& in_first) {
   const auto use = independent(fit.design, rows);
   const Whitened w(fit.design, rows, use, {});
   Matrix covariance;
@@ -105,10 +123,7 @@ InSample in_sample(const JointFit& fit, const std::vector<Index>& rows, const Ma
   // A draw of which the readings say nothing is no unknown; one that they determine is.
   double freedom = static_cast<double>(rows.size() - use.size());
   for (Index j = p; j < p + q; ++j) freedom -= 1 - covariance(j, j);
-  Design plain = fit.design;
-  plain.random.resize(plain.random.rows(), 0);
-  const Matrix white = Whitened(plain, rows, {}, {}).whiten(out.left);
-  out.rms = fit.design.reference[0] * (white.colwise().squaredNorm() / freedom).cwiseSqrt().transpose();
+  out.rms = (squares_of(out.left, rows, in_first) / freedom).cwiseSqrt();
   return out;
 }
 

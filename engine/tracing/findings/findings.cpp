@@ -71,7 +71,7 @@ double share_of(const TraceContext& c, const Search& s, const SearchFinding& fou
   const auto mean_square = [&](JointFit fit) {
     fit.design.local = s.found.design.local;
     fit.design.reference = s.found.design.reference;
-    const double rms = in_sample(fit, c.fitter.rows(), fit.residual).rms[0];
+    const double rms = in_sample(fit, c.fitter.rows(), fit.residual, in_first(c.observations, fit.design)).rms[0];
     return rms * rms;
   };
   std::vector<Term> others;

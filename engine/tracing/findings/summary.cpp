@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "analysis/rounding.h"
+#include "tracing/criteria.h"
 #include "tracing/findings/findings.h"
 #include "tracing/findings/sizes.h"
 #include "tracing/findings/verdict_json.h"
@@ -216,6 +217,10 @@ std::string what_residuals_show(const Trace& t) {
     return fmt::format("No candidate explains the residuals ({}), but noise alone gives residuals like these in only "
                        "{:.2g} % of cases: {}",
                        shown_rms(r.before, r), 100 * t.p_anything, lacks);
+  if (t.noise.correlation >= criteria.strong_correlation)
+    return fmt::format("No candidate explains the residuals ({}). They are no larger than noise gives whose readings "
+                       "resemble those before them (correlation {:.1f}): something varies slowly that is not known.",
+                       shown_rms(r.before, r), t.noise.correlation);
   return fmt::format("The measured values agree with the model: the residuals ({}) are no larger than noise alone "
                      "gives ({}).",
                      shown_rms(r.before, r), noise);

@@ -24,14 +24,15 @@ bool is_term(const JointFit& fit, const Candidate& a) {
   });
 }
 
-/// The largest share of what is removed (squares, by row) that a few successive readings hold; all, if nothing is.
+/// The largest share of what is removed (squares, by row) that a few successive readings hold; all, if nothing is. What
+/// some readings gain and others lose makes the sum no smaller.
 double share_of_few(const Vector& squares, std::size_t indications) {
   if (!(squares.sum() > 0)) return 1;
   const Index few = std::min(squares.size(), criteria.few_readings * index(indications));
   double most = 0;
   for (Index from = 0; from + few <= squares.size(); from += index(indications))
     most = std::max(most, squares.segment(from, few).sum());
-  return most / squares.sum();
+  return most / squares.cwiseMax(0).sum();
 }
 
 /// Criterion of the residuals at a fit's point, with the same unknowns as without some of its terms.

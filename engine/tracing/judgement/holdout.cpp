@@ -41,7 +41,7 @@ HeldOut hold_out(const Design& d, const Matrix& residual, const std::vector<Inde
   own.fixed = Matrix(d.fixed(Eigen::all, offsets_of(d, train, test)));
   const auto seen = independent(own, test);
   out.count = static_cast<double>(test.size() - seen.size());
-  out.squares = out.whitened = Vector::Zero(residual.cols());
+  out.whitened = Vector::Zero(residual.cols());
   // With declared draws and scatter, as they are expected of readings not seen.
   const Whitened declared(own, test, seen, {0, units.scatter, units.ratio, units.indication});
   own.random.resize(own.random.rows(), 0);
@@ -55,7 +55,6 @@ HeldOut hold_out(const Design& d, const Matrix& residual, const std::vector<Inde
   }
   if (out.count <= 0) return out;
   // Squares of what the offsets leave: those may be millions of times the noise, and differences would lose digits.
-  out.squares = local.squares(out.residual);
   out.whitened = declared.squares(as_declared);
   return out;
 }

@@ -7,7 +7,6 @@ namespace gumshoe::tracing {
 /// Errors of one held-out block, for one residual or many (columns).
 struct HeldOut {
   Matrix residual;  ///< test rows x sets, SI; the block's offsets are subtracted
-  Vector squares;   ///< sum of squares by set, in units of the noise of single readings
   Vector whitened;  ///< sum of squares by set, in units of the whole declared covariance; expectation: count
   double count = 0; ///< rows minus the block's offsets; 0: not scored
   std::vector<Index> rows;

@@ -15,9 +15,10 @@ namespace {
 
 constexpr double rounding = 1e-9;
 
-double robust_scale(const Vector& residual, double freedom, double least) {
-  std::vector<double> sizes(index(residual.size()));
-  for (std::size_t i = 0; i < sizes.size(); ++i) sizes[i] = std::fabs(residual[index(i)]);
+/// @param rows  of the readings whose cell has others: nothing is left of one that is alone
+double robust_scale(const Vector& residual, const std::vector<Index>& rows, double freedom, double least) {
+  std::vector<double> sizes;
+  for (const Index i : rows) sizes.push_back(std::fabs(residual[i]));
   const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
   std::nth_element(sizes.begin(), middle, sizes.end());
   const double lost = freedom / static_cast<double>(sizes.size());
@@ -46,6 +47,8 @@ PureError::PureError(const Design& d, const std::vector<Index>& rows, const Repl
   const auto cell_of = [&](Index i) { return replicates.cell[index(rows_[index(i)]) / d.indications]; };
   for (auto& order : orders_) order.resize(rows.size()), std::iota(order.begin(), order.end(), Index{0});
   std::ranges::stable_sort(orders_[1], {}, cell_of);
+  for (Index i = 0; i < index(rows.size()); ++i)
+    if (cell_mates(i).size() > d.indications) together_.push_back(i);
   nuisance_.add(d.fixed);
   nuisance_.add(d.random);
   SparseColumns drifts = nuisance_;
@@ -199,7 +202,7 @@ void PureError::clean(Matrix& data, Vector& squares, Vector& freedom) const {
         moved[i].push_back({j, by});
       }
       fresh[index(j)] = false;
-      const double scale = robust_scale(left.col(j), freedom[j], least);
+      const double scale = robust_scale(left.col(j), together_, freedom[j], least);
       bool again = change > settled * scale;
       // One at a time: the others of its cell may only look outlying beside it.
       Index worst = 0;

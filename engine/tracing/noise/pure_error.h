@@ -64,6 +64,7 @@ private:
   int threads_;
   std::size_t cells_ = 0;
   std::vector<std::vector<Index>> orders_; ///< of the chosen rows: as measured, and cell by cell
+  std::vector<Index> together_;            ///< places of readings that are not the only one of their cell
   SparseColumns nuisance_;                 ///< the model's columns and, where they are blocks, constants of passes
   Projection without_, with_, pure_;       ///< without and with the cells' constants; with all that drifts, too
 };
