@@ -110,7 +110,9 @@ void print_rms(const Rms& r) {
                              show(r.replicate_floor), show(r.replicate_floor_low), show(r.replicate_floor_high));
   if (std::isfinite(r.share_removed))
     std::cout << fmt::format("  {} of the removable mean square of the hold-out residuals has been removed\n",
-                             r.share_removed > 1 ? "all" : analysis::share_text(r.share_removed));
+                             r.share_removed > 1   ? "all"
+                             : r.share_removed < 0 ? "nothing"
+                                                   : analysis::share_text(r.share_removed));
   if (!std::isfinite(r.holdout_before) && !r.holdout.empty()) std::cout << "  hold-out: " << r.holdout << '\n';
 }
 

@@ -42,6 +42,23 @@ void state_what_means_hide(const Observations& o, const scenario::Scenario& s, T
                   rows, s.readings.size(), fmt::join(recorded, " and ")));
 }
 
+/// Conditions that only rise, or only fall, from the first reading to the last: what depends on one may depend on the
+/// time.
+void state_what_goes_with_order(const Observations& o, Trace& out) {
+  const auto course = std::ranges::find_if(o.covariates, &Covariate::course);
+  if (course == o.covariates.end()) return;
+  for (const Covariate& x : o.covariates) {
+    if (!x.commanded || x.course) continue;
+    std::vector<double> met;
+    for (const std::size_t r : o.sequence) met.push_back(x.value[r]);
+    const bool rises = std::ranges::is_sorted(met);
+    if (!rises && !std::ranges::is_sorted(met, std::ranges::greater{})) continue;
+    out.statements.push_back(fmt::format("{} never {} from one reading to the next; what depends on {} cannot be "
+                                         "distinguished from what depends on {}",
+                                         x.name, rises ? "falls" : "rises", course->name, x.name));
+  }
+}
+
 /// Says what the design of the data rules out, whatever the readings are.
 void state_what_design_rules_out(const TraceContext& c, const scenario::Scenario& s, Trace& out) {
   const ModelCard& card = *c.experiment.model().card;
@@ -59,6 +76,7 @@ void state_what_design_rules_out(const TraceContext& c, const scenario::Scenario
                     card.conditions[i].name, units::from_si(first, unit, std::string(card.conditions[i].si_unit)),
                     unit == "1" ? "" : " " + unit));
   }
+  state_what_goes_with_order(c.observations, out);
   state_what_means_hide(c.observations, s, out);
 }
 

@@ -156,9 +156,9 @@ class Trace:
         return f"{self.t.blocks} {text}" if self.apart and self.t.blocks and not text.startswith(self.t.blocks) else text
 
     def removed(self):
-        """Above 1 what is left is less than the noise expected: chance, and not more than all."""
+        """Above 1 what is left is less than the noise expected: chance, and not more than all. Below 0 it has grown."""
         share = self.t.rms.share_removed
-        return "all" if share > 1 else of_all(share)
+        return "all" if share > 1 else "nothing" if share < 0 else of_all(share)
 
     def sizes(self, f):
         """One line per size; of a class every member's. Sizes of one unit are shown in one."""

@@ -142,6 +142,14 @@ class BlocksAndNames(InFolder):
             self.assertEqual(v["findings"], [])
             self.assertRegex(v["plain"][0], r"resemble those before them \(correlation 0\.[68]\): something varies slowly")
 
+    def test_one_rising_series_does_not_tell_the_order_from_the_position(self):
+        rows = readings(1, lambda *at: 0, range(0, 501, 10), cycles=1).splitlines()
+        upwards = "\n".join(rows[:52]) + "\n"
+        both = "position never falls from one reading to the next; what depends on time cannot be distinguished from what depends on position"
+        scenario = AXIS.replace('reversal = { estimated = true, value = "0 um" }', 'reversal = { value = "1.2 um" }')
+        self.assertIn(both, self.trace(upwards, scenario)["statements"])
+        self.assertNotIn(both, self.trace("\n".join(rows) + "\n")["statements"])
+
     def test_equal_steps_do_not_tell_waves_apart(self):
         """A wave of 10 mm, read every 13.7 mm, is one of 37 mm: 1/10 = 1/13.7 + 1/37."""
         wave = lambda cycle, x, time, room: 1.5 * math.sin(2 * math.pi * x / 10)
