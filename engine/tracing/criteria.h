@@ -226,8 +226,8 @@ struct Criteria {
   double implausible_size = 5, negligible_size = 0.02;
   double implausible_shift = 10;     ///< times the declared standard uncertainty of a quantity that cause a remark
   double reported_correlation = 0.2; ///< serial correlation from which the trace mentions it
-  /// Serial correlation from which the first sentence does: a third of what one reading is off comes back in the next.
-  double strong_correlation = 0.6;
+  /// Serial correlation from which the first sentence does: most white noise of twenty readings stays below it.
+  double strong_correlation = 0.4;
   /// A split must separate the members by this much (2 ln L: three standard deviations), and by this factor more than
   /// the present data do.
   double split = 9, split_gain = 1.5;
