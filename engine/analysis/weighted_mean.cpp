@@ -223,25 +223,51 @@ std::vector<std::pair<std::string, std::vector<std::string>>> outputs_of(const s
   return out;
 }
 
+/// Throws InputError if `measurand` is not one that two or more results have.
+void require_common(const std::string& measurand,
+                    const std::vector<std::pair<std::string, std::vector<std::string>>>& outputs) {
+  std::vector<std::string> common;
+  for (const auto& [output, files] : outputs)
+    if (files.size() > 1) common.push_back(output);
+  if (std::ranges::find(common, measurand) != common.end()) return;
+  const std::string near = nearest(measurand, common);
+  throw InputError(fmt::format("--measurand {}: no two results have it", measurand),
+                   common.empty() ? "they have no measurand in common"
+                                  : fmt::format("they have {}", fmt::join(common, ", ")),
+                   near.empty() ? "" : "did you mean '" + near + "'?");
+}
+
 } // namespace
 
-WeightedMeans weighted_means(const std::vector<NamedResult>& results, const std::vector<std::string>& same) {
+WeightedMeans weighted_means(const std::vector<NamedResult>& results, const std::vector<std::string>& same,
+                             const std::string& measurand) {
   if (results.size() < 2) throw InputError("a single result cannot be combined", "", "name two or more result files");
   std::vector<const Results*> all;
   for (const NamedResult& r : results) all.push_back(&r.results);
   require_one_coverage(all);
   require_shared(same, all);
+  const auto outputs = outputs_of(results);
+  if (!measurand.empty()) require_common(measurand, outputs);
   WeightedMeans out;
-  for (const auto& [output, files] : outputs_of(results)) {
-    if (files.size() < 2)
+  for (const auto& [output, files] : outputs) {
+    if (files.size() < 2) {
       out.single.push_back(fmt::format("{} ({})", output, files[0]));
-    else
+      continue;
+    }
+    if (!measurand.empty() && output != measurand) continue;
+    try {
       out.rows.push_back(Combining(results, same, output).combine(all[0]->coverage_probability));
+    } catch (const InputError& e) {
+      out.left_out.push_back({output, e.problems()[0]});
+    }
   }
-  if (out.rows.empty())
+  if (!out.rows.empty()) return out;
+  if (out.left_out.empty())
     throw InputError("the results have no measurand in common", fmt::format("{}", fmt::join(out.single, ", ")),
                      "labels are part of a name. Use the same labels in all scenarios");
-  return out;
+  std::vector<Problem> problems;
+  for (const LeftOut& l : out.left_out) problems.push_back(l.problem);
+  throw InputError(std::move(problems));
 }
 
 } // namespace gumshoe::analysis

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "analysis/results.h"
+#include "base/error.h"
 
 namespace gumshoe::analysis {
 
@@ -47,12 +48,19 @@ struct WeightedMean {
   bool consistent() const { return probability >= least_consistent_probability; }
 };
 
+/// A measurand that two or more results have but that cannot be combined.
+struct LeftOut {
+  std::string output; ///< its name
+  Problem problem;    ///< why
+};
+
 struct WeightedMeans {
   std::vector<WeightedMean> rows;  ///< of the measurands that two or more results have, by name
+  std::vector<LeftOut> left_out;   ///< the others that two or more results have
   std::vector<std::string> single; ///< "z (a.h5)": of one result alone
 };
 
-/// Combines the measurands of the same name.
+/// Combines the measurands of the same name, or `measurand` alone if it is not empty.
 ///
 /// The results are taken as independent, except for the components of the quantities `same`, which have one unknown
 /// error in all of them. With s_ki the contribution c u of such a component k to result i, and v_i what else there is,
@@ -65,9 +73,12 @@ struct WeightedMeans {
 /// validates it, else that of the samples, which has them in it already. A budget is the first order: its contributions
 /// are scaled to add up to u_i. Correlations between different quantities of a result are so spread over all of them.
 ///
-/// Throws InputError: fewer than two results, no common measurand, different coverage probabilities or dimensions, a
-/// quantity of `same` that no two budgets have or without a coefficient, a result without u, results that differ by
-/// nothing but what they share.
-WeightedMeans weighted_means(const std::vector<NamedResult>& results, const std::vector<std::string>& same);
+/// A measurand cannot be combined if its results have different dimensions, a quantity of `same` has no coefficient, a
+/// result has no u, or results differ by nothing but what they share. It is left out if another one can be combined.
+///
+/// Throws InputError: fewer than two results, no common measurand, no two results with `measurand`, different coverage
+/// probabilities, a quantity of `same` that no two budgets have, no measurand that can be combined.
+WeightedMeans weighted_means(const std::vector<NamedResult>& results, const std::vector<std::string>& same,
+                             const std::string& measurand);
 
 } // namespace gumshoe::analysis

@@ -86,6 +86,9 @@ void print(const WeightedMeans& all, const std::vector<NamedResult>& results) {
     for (const std::string& name : m.alike)
       if (std::ranges::find(alike, name) == alike.end()) alike.push_back(name);
   }
+  for (const LeftOut& l : all.left_out)
+    std::cout << fmt::format("left out: {}{}\n", l.problem.what,
+                             l.problem.why.empty() ? "" : " (" + l.problem.why + ")");
   if (!all.single.empty()) std::cout << fmt::format("in one result only: {}\n", fmt::join(all.single, ", "));
   if (!alike.empty())
     std::cout << fmt::format(
@@ -128,27 +131,12 @@ Json to_json(const WeightedMean& m, const std::vector<NamedResult>& results) {
   return out;
 }
 
-/// Leaves the measurand that is asked for.
-void select(WeightedMeans& all, const Options& o) {
-  if (!o.measurand.empty()) {
-    std::vector<std::string> names;
-    for (const WeightedMean& m : all.rows) names.push_back(m.mean.output.name);
-    std::erase_if(all.rows, [&](const WeightedMean& m) { return m.mean.output.name != o.measurand; });
-    const std::string near = nearest(o.measurand, names);
-    if (all.rows.empty())
-      throw InputError(fmt::format("--measurand {}: no two results have it", o.measurand),
-                       fmt::format("they have {}", fmt::join(names, ", ")),
-                       near.empty() ? "" : "did you mean '" + near + "'?");
-  }
+ExitCode combine(const Options& o) {
+  const std::vector<NamedResult> results = read_all(o.files);
+  const WeightedMeans all = weighted_means(results, o.same, o.measurand);
   if (!o.out.empty() && all.rows.size() > 1)
     throw InputError("--out: a scenario has the mean of one measurand",
                      fmt::format("the results have {} in common", all.rows.size()), "name one by --measurand");
-}
-
-ExitCode combine(const Options& o) {
-  const std::vector<NamedResult> results = read_all(o.files);
-  WeightedMeans all = weighted_means(results, o.same);
-  select(all, o);
   if (!o.out.empty()) write_table(o.out, calibration::combined_scenario(all.rows[0], results), o.force);
   if (o.format == "text") {
     print(all, results);
@@ -156,9 +144,13 @@ ExitCode combine(const Options& o) {
       std::cout << fmt::format("{}: the mean as a scenario. Next: gumshoe run {}\n", o.out, shell_file(o.out));
     return ExitCode::done;
   }
-  Json out{
-      {"means", Json::array()}, {"single", all.single}, {"scenario_out", o.out.empty() ? Json(nullptr) : Json(o.out)}};
+  Json out{{"means", Json::array()},
+           {"left_out", Json::array()},
+           {"single", all.single},
+           {"scenario_out", o.out.empty() ? Json(nullptr) : Json(o.out)}};
   for (const WeightedMean& m : all.rows) out["means"].push_back(to_json(m, results));
+  for (const LeftOut& l : all.left_out)
+    out["left_out"].push_back({{"output", l.output}, {"what", l.problem.what}, {"why", l.problem.why}});
   std::cout << out.dump(2) << '\n';
   return ExitCode::done;
 }
@@ -173,7 +165,8 @@ void add_combine(CLI::App& app, Action& action) {
   command->add_option("--same", o->same, "quantities that have one error in several results, such as a certificate's")
       ->delimiter(',')
       ->allow_extra_args(false); // what follows is a file
-  command->add_option("--measurand", o->measurand, "the one to combine, with its labels (default: all in common)");
+  command->add_option("--measurand", o->measurand,
+                      "the one to combine, with its labels (default: all in common that can be combined)");
   command->add_option("-o,--out", o->out,
                       "scenario to write with the mean: gumshoe run then gives its result and budget");
   command->add_option("--format", o->format, "text or json (all digits)")->check(CLI::IsMember({"text", "json"}));

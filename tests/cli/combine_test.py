@@ -158,7 +158,33 @@ class Combine(Lengths):
         self.refused("--out: a scenario has the mean of one measurand", *two, "--out", self.folder / "two.toml")
         self.refused("--measurand x: no two results have it", *two, "--measurand", "x")
         # The certificate's own length is all of z: two of them are one.
-        self.refused("z: the results cannot be combined", *two, "--same", "reference")
+        self.refused("z: the results cannot be combined", *two, "--same", "reference", "--measurand", "z")
+
+    def test_a_measurand_that_cannot_be_combined_does_not_stop_the_others(self):
+        """z is the shared reference itself. y has 3 um of its own in each result and 4 um of the reference in both."""
+        two = [self.result(f"some{k}", reading=110 + k / 1000,
+                           change=lambda t: t.replace('y = "', 'z = "reference"\ny = "')) for k in range(2)]
+        u = math.sqrt(16 + 9 / 2) / 1000
+        for words in ((), ("--measurand", "y")):
+            out = self.combined(*two, "--same", "reference", *words)
+            self.assertEqual([m["output"] for m in out["means"]], ["y"])
+            self.assertAlmostEqual(out["means"][0]["standard_uncertainty"], u, delta=2 * self.RELATIVE * u)
+            self.assertEqual([row["output"] for row in out["left_out"]], [] if words else ["z"])
+        said = gumshoe("combine", *two, "--same", "reference")
+        self.assertEqual((said.returncode, said.stderr), (0, ""))
+        self.assertIn("left out: z: the results cannot be combined (two of them differ by nothing but what they share)\n",
+                      said.stdout)
+        # The same of what else is wrong with one measurand: here the dimensions of z.
+        other = self.result("metres", change=lambda t: t.replace('y = "', 'z = "reading / reference"\ny = "'))
+        out = self.combined(two[0], other)
+        self.assertEqual([m["output"] for m in out["means"]], ["y"])
+        self.assertIn("different dimensions", out["left_out"][0]["what"])
+        self.refused("--measurand x: no two results have it", self.a, self.b, "--measurand", "x")
+        # If none can be combined, all are told.
+        alone = [self.result(f"alone{k}", formula="reference", change=lambda t: t.replace('y = "', 'z = "reference"\ny = "'),
+                             reading=110 + k / 1000) for k in range(2)]
+        for name in "yz":
+            self.refused(f"{name}: the results cannot be combined", *alone, "--same", "reference")
 
     def test_refusals(self):
         self.refused("a single result cannot be combined", self.a)
