@@ -53,7 +53,7 @@ bool is_test(const GoalReached& g) { return g.kind == GoalReached::Kind::split |
 std::string figure(const Planned& plan, const GoalReached& g, double x) {
   if (is_test(g)) return share(x);
   if (std::isinf(x)) return "unknown";
-  if (!plan.noise_known) return fmt::format("{:.3g}", x);
+  if (plan.noise == Planned::Noise::unknown) return fmt::format("{:.3g}", x);
   const double shown = units::from_si(x, g.unit, g.si_unit, units::Kind::difference);
   return g.unit == "1" ? fmt::format("{:.3g}", shown) : fmt::format("{:.3g} {}", shown, g.unit);
 }
@@ -103,7 +103,8 @@ void print_text(const scenario::Scenario& s, const Planned& plan, const std::str
   std::cout << answer(plan) << '\n';
   if (!plan.readings.empty()) print_readings(plan);
   print_goals(plan);
-  if (!plan.noise_known) std::cout << "no noise is known: u is in units of the noise of a reading\n";
+  if (plan.noise == Planned::Noise::unknown)
+    std::cout << "no noise is known: u is in units of the noise of a reading\n";
   for (const auto& v : plan.verified)
     std::cout << fmt::format("gumshoe trace on simulated readings: {}{} in {} of {} data sets\n", v.of,
                              v.against.empty() ? " found" : fmt::format(" found and not {}", v.against), v.found,

@@ -113,6 +113,66 @@ class Plan(InFolder):
         p = goal["power_after"]
         self.assertAlmostEqual(np.mean(np.abs(z) > Z), p, delta=5 * math.sqrt(p * (1 - p) / sets))
 
+    @staticmethod
+    def power(noncentrality, freedom, alpha):
+        """Of a two-sided t-test: integrated over the estimated noise, with its own quantile."""
+        s = np.linspace(0, 12, 200_001)[1:]
+        log = freedom / 2 * math.log(freedom / 2) - math.lgamma(freedom / 2)
+        weight = 2 * np.exp(log + (freedom - 1) * np.log(s) - freedom * s**2 / 2) * (s[1] - s[0])
+
+        def share(t, shift):
+            beyond = np.vectorize(lambda z: 0.5 * math.erfc(z / math.sqrt(2)))
+            coarse = np.linspace(0, 12, 4_001)  # the tail is smooth: interpolated
+            return float(np.sum(weight * np.interp(s, coarse, beyond(coarse * t - shift) + beyond(coarse * t + shift))))
+
+        low, high = 0.0, 1e4
+        for _ in range(60):
+            middle = (low + high) / 2
+            low, high = (middle, high) if share(middle, 0) > alpha else (low, middle)
+        return share(high, math.sqrt(noncentrality))
+
+    UNDECLARED = TEXT.replace('components = [{ distribution = "normal", u = 1, per = "reading" }]', "")
+
+    def test_an_estimated_noise_has_the_freedom_that_the_fit_with_the_effect_leaves(self):
+        """A t-test of the effect has n - 2 degrees of freedom here; the fit without it leaves one more."""
+        x, y = np.arange(4.0), np.array([0.3, 1.2, -0.4, 0.1])
+        variance = float(np.var(y, ddof=1))
+        allowed = [0.0, 3.0]
+
+        def power(readings):
+            rows = np.array([*x, *readings])
+            return self.power(4 * np.sum((rows - rows.mean()) ** 2) / variance, len(rows) - 2, 0.05)
+
+        goals = 'detect = "scale"\nsizes = { scale = 2 }\nalpha = 0.05\npower = 0.99'
+        answer = self.planned(goals, "x = [0, 3]", text=self.UNDECLARED)
+        self.assertEqual(answer["noise"], "estimated")
+        goal = answer["goals"][0]
+        self.assertAlmostEqual(goal["power_before"], power([]), places=3)
+        planned = [float(row["x"]) for row in self.table()]
+        self.assertAlmostEqual(goal["power_after"], power(planned), places=3)
+        least = next(n for n in range(9)
+                     if any(power(more) >= 0.99 for more in itertools.combinations_with_replacement(allowed, n)))
+        self.assertEqual((answer["met"], answer["count"]), (True, least))
+        self.assertGreater(least, 0)
+
+    def test_a_split_by_an_estimated_noise_has_both_effects_in_the_fit(self):
+        variance = float(np.var([0.3, 1.2, -0.4, 0.1], ddof=1))
+        answer = self.planned(SPLIT, text=self.UNDECLARED)
+        rows = [(x, 1) for x in range(4)] + [(float(r["x"]), float(r["warmth"])) for r in self.table()]
+        for goal in answer["goals"]:
+            lam = self.noncentrality(rows, goal["of"], 2 if goal["of"] == "scale" else 1) / variance
+            self.assertAlmostEqual(goal["power_after"], self.power(lam, len(rows) - 3, 0.05), places=3)
+
+    def test_too_few_readings_have_no_test_of_an_effect(self):
+        """Two readings and a constant show a noise; with the effect in the fit none is left of it."""
+        goals = 'detect = "scale"\nsizes = { scale = 1000 }\nalpha = 0.05\npower = 0.9'
+        answer = self.planned(goals, "x = [0, 3]", text=self.UNDECLARED, data="setup,x,warmth,y\n1,0,1,0\n1,1,1,0.5\n")
+        goal = answer["goals"][0]
+        self.assertEqual(goal["power_before"], 0.05)
+        self.assertGreater(answer["count"], 0)
+        self.assertTrue(answer["met"])
+        self.assertEqual(self.planned(goals, "x = [0, 3]")["noise"], "declared")
+
     def test_says_what_cannot_be_split(self):
         hidden = self.planned('detect = "scale"\nsizes = { scale = 1 }', "x = 2", data="setup,x,warmth,y\n1,2,1,0\n")
         self.assertIn("no allowed reading shows scale: what is estimated", hidden["goals"][0]["remark"])

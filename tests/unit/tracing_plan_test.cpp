@@ -171,6 +171,18 @@ TEST_CASE("power of a test is that of the normal distribution, and F tends to ch
   CHECK(power(noncentrality_for(0.9, 1, 8, 0.05), 1, 8, 0.05) == Approx(0.9));
 }
 
+TEST_CASE("an effect of any size may be missed where the noise is hardly known", "[tracing][plan]") {
+  // One degree of freedom: the effect d is seen if |d| > t |w|, w normal, t Cauchy's quantile; its own scatter adds 1 / d.
+  const boost::math::normal normal;
+  const double alpha = 1e-3, t = std::tan(0.5 * 3.14159265358979 * (1 - alpha));
+  for (const double d : {150.0, 300.0, 900.0, 1100.0}) { // t is 637; both sides of d^2 = 1e6
+    const double exact = 2 * boost::math::cdf(normal, d / t) - 1;
+    CHECK(power(d * d, 1, 1, alpha) == Approx(exact).epsilon(1e-4));
+  }
+  CHECK(power(noncentrality_for(0.9, 1, 1, alpha), 1, 1, alpha) == Approx(0.9));
+  CHECK(power(1e12, 1, 0, alpha) == alpha); // no residual is left
+}
+
 TEST_CASE("power with an estimated noise is the share of simulated t-tests", "[tracing][plan]") {
   // 10 readings of a mean of 1.2 noises, t-test at 5 %: tolerance of five standard deviations of a share of 20,000
   // sets.

@@ -24,7 +24,9 @@ constexpr Field<P> plan_list[] = {
     {"d_optimal", of<&P::d_optimal>, one, "1: no goal was stated", in_json},
     {"gain", of<&P::gain>, one, "of a D-optimal plan: gain of ln det of the information on the free unknowns", in_json},
     {"allowed", of<&P::allowed>, one, "readings compared", in_json},
-    {"noise_known", of<&P::noise_known>, one, "0: uncertainties are in units of the noise of a reading", in_json}};
+    {"noise", [](const P& p) -> Value { return std::string(name(p.noise)); }, one,
+     "declared, estimated (from residuals) or unknown: uncertainties are then in units of the noise of a reading",
+     in_json}};
 
 using R = PlannedReading;
 constexpr Field<R> reading_list[] = {

@@ -26,6 +26,10 @@ using scenario::Scenario;
 /// Share of a column's length that stands for a prior where nothing determines it: far below any share that counts, far
 /// above rounding.
 constexpr double ridge = 1e-9;
+/// Columns shorter than this, of which all readings have the length 1, are zero.
+constexpr double least_length = 1e-7;
+/// What is left of a column, as a share of its squared length, if the others explain it: above rounding.
+constexpr double explained_share = 1e-10;
 
 /// The scenario as it is linearised: with every effect, and asked for nothing but its readings.
 Scenario prepared(const Scenario& s) {
@@ -170,8 +174,8 @@ private:
     out_.indications = observations.indications;
     out_.fit = fitter.linearised(1);
     if (!out_.fit.valid) no_value();
-    out_.freedom = static_cast<int>(rows.size()) - static_cast<int>(independent(out_.fit.design, rows).size());
-    out_.noise_known = out_.noise_declared || out_.freedom > 0;
+    out_.values = static_cast<int>(rows.size());
+    out_.noise_known = out_.noise_declared || rows.size() > independent(out_.fit.design, rows).size();
     const bool fitted = existing_ > 0 && out_.noise_known;
     if (fitted) out_.fit = fitter.fit({}, out_.noise_declared ? 1 : 0);
     if (!out_.fit.valid) no_value();
@@ -341,6 +345,34 @@ std::vector<QuantityColumns> LinearModel::quantities_named(const std::string& na
 double LinearModel::stated_size(const Amplitude& a) const {
   if (a.quantity == Amplitude::npos || a.declared > 0) return 0;
   return all.quantities[a.quantity].entries.front().value;
+}
+
+int LinearModel::fitted(const PlanGoal& goal, const Matrix& information) const {
+  std::vector<Index> columns = goal.of;
+  for (const Index j : goal.others) // a declared draw is part of the noise
+    if (quantity[index(j)] == Amplitude::npos || std::ranges::find(free, j) != free.end()) columns.push_back(j);
+  Matrix m = information(columns, columns);
+  m.diagonal().array() -= ridge;
+  const Vector length = m.diagonal().cwiseMax(0).cwiseSqrt();
+  std::vector<Index> left;
+  for (Index j = 0; j < m.rows(); ++j)
+    if (length[j] > least_length) left.push_back(j);
+  for (const Index j : left) {
+    m.row(j) /= length[j];
+    m.col(j) /= length[j];
+  }
+  int out = 0;
+  while (!left.empty()) { // elimination, largest first
+    const auto pivot = std::ranges::max_element(left, {}, [&](Index j) { return m(j, j); });
+    const Index p = *pivot;
+    if (!(m(p, p) > explained_share)) break;
+    left.erase(pivot);
+    ++out;
+    for (const Index i : left)
+      for (const Index j : left)
+        if (j >= i) m(i, j) = m(j, i) = m(i, j) - m(i, p) * m(p, j) / m(p, p);
+  }
+  return out;
 }
 
 double LinearModel::share_left(const PlanGoal& goal, const Matrix& information) const {

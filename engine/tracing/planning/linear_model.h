@@ -43,7 +43,7 @@ struct LinearModel {
   std::vector<QuantityColumns> declared;       ///< quantities with declared draws that readings share
   std::vector<EffectColumns> effects;
   bool noise_declared = true, noise_known = true;
-  int freedom = 0; ///< of an estimated noise, before any further reading
+  int values = 0; ///< indications of the readings there are
   std::size_t indications = 1;
   std::vector<std::string> notes;
   /// By column: the quantity of the scenario whose change it is.
@@ -60,6 +60,8 @@ struct LinearModel {
   std::vector<QuantityColumns> quantities_named(const std::string& name) const;
   /// Size that the scenario states of an effect, SI; 0: none.
   double stated_size(const Amplitude& amplitude) const;
+  /// Number of unknowns and amplitudes that readings of this information determine in the model of a goal.
+  int fitted(const PlanGoal& goal, const Matrix& information) const;
   /// Smallest share of a goal's columns that its other columns leave.
   double share_left(const PlanGoal& goal, const Matrix& information) const;
   /// Standard uncertainty beyond which nothing but rounding determines a goal.

@@ -42,7 +42,9 @@ public:
     Planned out;
     out.notes = model_.notes;
     out.allowed = model_.allowed.size();
-    out.noise_known = model_.noise_known;
+    out.noise = model_.noise_declared ? Planned::Noise::declared
+                : model_.noise_known  ? Planned::Noise::estimated
+                                      : Planned::Noise::unknown;
     out.d_optimal = asked_.d_optimal();
     if (!model_.noise_known && !out.d_optimal)
       calibration::refuse(s_.file, "[plan]: the noise of a reading is not known",
@@ -155,9 +157,13 @@ private:
     return out;
   }
 
-  double freedom(int further) const {
-    return model_.noise_declared ? infinity
-                                 : static_cast<double>(model_.freedom + further * static_cast<int>(model_.indications));
+  /// Degrees of freedom of the noise in the test of a goal: those that the fit with its amplitudes, and with the effect
+  /// that must not explain them, leaves.
+  /// @param information  says which unknowns the readings determine
+  double freedom(const Asked& a, const Matrix& information, int further) const {
+    if (model_.noise_declared) return infinity;
+    const int values = model_.values + further * static_cast<int>(model_.indications);
+    return values - model_.fitted(a.goal, information);
   }
 
   /// Power of a test, or standard uncertainty, at an information matrix.
@@ -167,13 +173,13 @@ private:
       const double u = 1 / std::sqrt(value);
       return u > model_.undetermined(a.goal) ? infinity : u;
     }
-    return power(value, a.parameters, freedom(further), asked_.alpha);
+    return power(value, a.parameters, freedom(a, information, further), asked_.alpha);
   }
 
   /// Whether any number of allowed readings reaches a goal; one that none does is not sought.
   void judge_possible() {
     const Matrix all = information(task_, std::vector<int>(task_.rows.size(), plenty));
-    set_required(asked_.most);
+    set_required(all, plenty);
     for (Asked& a : goals_) {
       a.said.possible = reached(a.goal, all) >= enough;
       if (!a.said.possible) a.said.remark = why_not(a, all);
@@ -198,40 +204,83 @@ private:
     return fmt::format("no number of allowed readings suffices for {}: declared uncertainties hide it", a.said.of);
   }
 
-  void set_required(int further) {
+  void set_required(const Matrix& information, int further) {
     for (Asked& a : goals_)
       if (a.goal.kind == PlanGoal::Kind::size)
-        a.goal.required = noncentrality_for(asked_.power, a.parameters, freedom(further), asked_.alpha);
+        a.goal.required = noncentrality_for(asked_.power, a.parameters, freedom(a, information, further), asked_.alpha);
+  }
+
+  int taken() const { return std::accumulate(count_.begin(), count_.end(), 0); }
+
+  /// The plan of tests with the noise that so many further readings show. @return whether it meets the goals
+  bool find_for(const Matrix& fitted, int further, Planned& out) {
+    set_required(fitted, further);
+    task_.goals.clear();
+    for (const Asked& a : goals_)
+      if (a.said.possible) task_.goals.push_back(a.goal);
+    const PlanFound found = find_plan(task_);
+    count_ = found.count;
+    out.cost = found.cost;
+    out.met = found.met;
+    return found.met;
+  }
+
+  /// Whether the plan meets the goals by the noise that it shows itself.
+  bool holds() {
+    const Matrix after = information(task_, count_);
+    set_required(after, taken());
+    return std::ranges::all_of(goals_,
+                               [&](const Asked& a) { return !a.said.possible || reached(a.goal, after) >= enough; });
+  }
+
+  /// An estimated noise is known better the more readings there are, and with fewer the test asks for more: the least
+  /// number that is no smaller than that of the readings which its test needs.
+  void find_consistent(const Matrix& fitted, Planned& out) {
+    int low = -1, high = asked_.most;
+    while (high - low > 1) {
+      const int middle = (low + high) / 2;
+      (find_for(fitted, middle, out) && taken() <= middle ? high : low) = middle;
+    }
+    find_for(fitted, high, out);
+    if (out.met) fill_up(high, out);
+  }
+
+  /// Adds the cheapest readings, for their degrees of freedom.
+  void fill_up(int wanted, Planned& out) {
+    std::set<std::size_t> open;
+    for (std::size_t i = 0; i < count_.size(); ++i)
+      if (count_[i] > 0) open.insert(task_.opens[i].begin(), task_.opens[i].end());
+    for (int n = taken(); n < wanted; ++n) {
+      std::vector<double> cost = task_.cost; // with the set-ups that it opens
+      for (std::size_t i = 0; i < cost.size(); ++i)
+        for (const std::size_t setup : task_.opens[i])
+          if (!open.contains(setup)) cost[i] += task_.opening[setup];
+      const auto best = static_cast<std::size_t>(std::ranges::min_element(cost) - cost.begin());
+      if (out.cost + cost[best] > task_.budget) return;
+      ++count_[best];
+      out.cost += cost[best];
+      open.insert(task_.opens[best].begin(), task_.opens[best].end());
+    }
   }
 
   void find(Planned& out) {
     count_.assign(task_.rows.size(), 0);
     const bool any = std::ranges::any_of(goals_, [](const Asked& a) { return a.said.possible; });
     if (!goals_.empty() && !any) return;
-    int further = asked_.most;
-    for (int round = 0; round < 3; ++round) {
-      set_required(further);
-      task_.goals.clear();
-      for (const Asked& a : goals_)
-        if (a.said.possible) task_.goals.push_back(a.goal);
-      const PlanFound found = find_plan(task_);
-      count_ = found.count;
-      out.cost = found.cost;
-      out.met = found.met;
-      const int taken = std::accumulate(count_.begin(), count_.end(), 0);
-      // An estimated noise is known better the more readings there are: with fewer the test asks for more.
-      if (model_.noise_declared || taken >= further || !found.met) break;
-      further = taken;
-    }
+    const Matrix all = information(task_, std::vector<int>(task_.rows.size(), plenty));
+    if (!find_for(all, asked_.most, out) || model_.noise_declared || out.d_optimal || holds()) return;
+    find_consistent(information(task_, count_), out);
+    if (out.met && !holds()) find_consistent(all, out); // it has opened further set-ups, each with its unknowns
   }
 
   void describe(Planned& out) {
-    const int taken = std::accumulate(count_.begin(), count_.end(), 0);
     const Matrix before = task_.base, after = information(task_, count_);
-    out.count = taken;
+    out.count = taken();
+    set_required(after, out.count);
+    if (!goals_.empty()) out.met = true;
     for (Asked& a : goals_) {
       a.said.before = figure(a, before, 0);
-      a.said.after = figure(a, after, taken);
+      a.said.after = figure(a, after, out.count);
       a.said.met = a.said.possible && reached(a.goal, after) >= enough;
       out.met = out.met && a.said.met;
     }
@@ -301,6 +350,11 @@ private:
 const char* name(GoalReached::Kind kind) {
   static constexpr const char* names[] = {"split", "detect", "uncertainty", "unknown"};
   return names[static_cast<int>(kind)];
+}
+
+const char* name(Planned::Noise noise) {
+  static constexpr const char* names[] = {"unknown", "estimated", "declared"};
+  return names[static_cast<int>(noise)];
 }
 
 Planned plan(const Scenario& s, const PlanSettings& settings) { return Planner(s, settings).plan(settings); }

@@ -52,7 +52,9 @@ struct Planned {
   bool d_optimal = false;
   std::size_t allowed = 0; ///< readings compared
   double gain = 0;         ///< of a D-optimal plan: ln of the determinant of the information, after less before
-  bool noise_known = true; ///< false: uncertainties are in units of the noise of a reading
+  /// Of a reading: as declared, or by the residuals of the readings there are; unknown: uncertainties are in its units.
+  enum class Noise : unsigned char { unknown, estimated, declared };
+  Noise noise = Noise::declared;
   std::vector<Verified> verified;
   std::vector<std::string> notes;
 };
@@ -62,6 +64,9 @@ struct PlanSettings {
   int verify = 0; ///< simulated data sets of each goal that `gumshoe trace` is tried on
   std::function<void(const std::string& what)> progress = {};
 };
+
+/// "unknown", "estimated", "declared"
+const char* name(Planned::Noise noise);
 
 /// Plans further readings as [plan] of the scenario asks, which must have one. Throws InputError: an effect that moves
 /// no reading, goals that need a noise that nothing tells.
