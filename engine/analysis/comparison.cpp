@@ -49,9 +49,9 @@ std::vector<ComparisonResult> compare(const propagation::Experiment& e, const Va
         Summary s = summarise(a, difference(first, second), e.scenario().analysis.coverage_probability, threads);
         join_rounded(s);
         ComparisonResult r;
-        r.a = label_value(la, c.between);
-        r.b = label_value(lb, c.between);
-        r.name = c.measurand + ": " + r.a + " - " + r.b;
+        r.a = a.name;
+        r.b = b.name;
+        r.name = c.measurand + ": " + label_value(la, c.between) + " - " + label_value(lb, c.between);
         if (!c.within.empty()) r.name += ", " + c.within + " " + label_value(la, c.within);
         r.unit = a.unit;
         r.si_unit = a.si_unit;

@@ -90,7 +90,8 @@ struct Validation {
 
 /// d = a - b from joint samples; E_n = d / U(d), U(d) half the shortest coverage interval.
 struct ComparisonResult {
-  std::string name, a, b; ///< "laser_z: rod 1 - rod 2, setup 1"
+  std::string name; ///< "laser_z: rod 1 - rod 2, setup 1"
+  std::string a, b; ///< names of the outputs: "laser_z[rod 1, setup 1]"
   std::string unit, si_unit;
   double difference = 0, standard_uncertainty = 0;
   double root_sum_square = 0; ///< what ignoring the common inputs would give

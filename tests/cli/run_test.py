@@ -228,6 +228,41 @@ class Run(InOneFolder):
             self.assertAlmostEqual(float(row["estimate"]), same["estimate"], delta=1e-12)
             self.assertAlmostEqual(float(row["shortest_high"]), same["shortest"][1], delta=1e-12)
 
+    def test_comparisons_stand_with_both_of_their_outputs(self):
+        """Labels of one value, 1, in both columns: a comparison is told by its outputs, not by the words in its name."""
+        (self.folder / "x.csv").write_text("rod,setup,x\n1,1,0.1\n2,1,0.3\n1,2,0.6\n2,2,0.7\n")
+        scenario = self.write("compared.toml", """schema = 1
+[model]
+name = "expression"
+[model.measurands]
+y = "x + a"
+z = "x - a"
+[quantities]
+a = { value = 2, u = 1 }
+[indications.x]
+readings = { file = "x.csv", column = "x", unit = "1", labels = { rod = "rod", setup = "setup" } }
+components = [ { u = 0.01, per = "reading" } ]
+[analysis]
+comparisons = [ { measurand = "y", between = "rod", within = "setup" }, { measurand = "y", between = "setup", within = "rod" } ]
+printed = [ { measurand = "z", labels = { rod = "1", setup = "2" }, value = -1.5 } ]
+""")
+        self.result("compared.h5", scenario, 20_000, "--format", "json")
+        rows = {row["output"]: row for row in json.loads(self.text)}
+        name = lambda rod, setup: f"y[rod {rod}, setup {setup}]"
+        read = {("1", "1"): 0.1, ("2", "1"): 0.3, ("1", "2"): 0.6, ("2", "2"): 0.7}
+        for (rod, setup), x in read.items():
+            found = {(c["a"], c["b"]): c for c in rows[name(rod, setup)]["comparisons"]}
+            others = [name({"1": "2", "2": "1"}[rod], setup), name(rod, {"1": "2", "2": "1"}[setup])]
+            self.assertEqual({frozenset(pair) for pair in found}, {frozenset((name(rod, setup), o)) for o in others})
+            values = {name(*labels): value for labels, value in read.items()}
+            for (a, b), c in found.items():  # the common input cancels: u = 0.01 sqrt(2), known to 1 / sqrt(2 n)
+                u = 0.01 * math.sqrt(2)
+                self.assertAlmostEqual(c["difference"], values[a] - values[b], delta=5 * u / math.sqrt(20_000))
+                self.assertAlmostEqual(c["standard_uncertainty"], u, delta=5 * u / math.sqrt(2 * 20_000))
+        for output, row in rows.items():
+            self.assertEqual("comparisons" in row, output.startswith("y"), output)
+            self.assertEqual("printed" in row, output == "z[rod 1, setup 2]", output)
+
     def test_too_many_failed_samples(self):
         samples = 20_000
         path = self.result("pin.h5", self.write("pin.toml", PIN), samples, code=3)
