@@ -63,6 +63,7 @@ template <class Cards> Json variables(const Cards& cards) {
     list.push_back({{"name", v.name}, {"unit", v.unit}, {"si_unit", v.si_unit}, {"meaning", v.meaning}});
   return list;
 }
+Json text_or_null(std::string_view text) { return text.empty() ? Json(nullptr) : Json(text); }
 Json to_json(const ModelCard& card) {
   Json j{{"name", card.name}, {"title", card.title}, {"summary", card.summary}, {"source", card.source}};
   for (const QuantityCard& q : card.quantities) j["quantities"].push_back(to_json(q, "default"));
@@ -70,21 +71,22 @@ Json to_json(const ModelCard& card) {
   j["indications"] = variables(card.indications);
   j["measurands"] = variables(card.measurands);
   for (const EvaluationCard& e : card.evaluations)
-    j["evaluations"].push_back(
-        {{"name", e.name}, {"meaning", e.meaning}, {"joint", e.joint()}, {"measurands", variables(e.measurands)}});
+    j["evaluations"].push_back({{"name", e.name},
+                                {"meaning", e.meaning},
+                                {"joint", e.joint()},
+                                {"measurands", variables(e.measurands)},
+                                {"time_per_reading", text_or_null(e.time_per_reading)},
+                                {"time_once", text_or_null(e.time_once)}});
+  j["time_constants"] = Json::array();
+  for (const QuantityCard& q : card.timing) j["time_constants"].push_back(to_json(q, "default"));
   for (const EffectCard* e : effects::cards())
     if (effects::applies(card, *e)) j["effects"].push_back(e->name);
   return j;
 }
 Json to_json(const EffectCard& card) {
-  Json j{{"name", card.name},
-         {"title", card.title},
-         {"stage", name(card.stage)},
-         {"iso_230", card.iso230},
-         {"meaning", card.meaning},
-         {"adds", card.adds},
-         {"confused_with", card.confused_with},
-         {"source", card.source}};
+  Json j{
+      {"name", card.name},       {"title", card.title}, {"stage", name(card.stage)},           {"iso_230", card.iso230},
+      {"meaning", card.meaning}, {"adds", card.adds},   {"confused_with", card.confused_with}, {"source", card.source}};
   for (const QuantityCard& q : card.quantities) j["quantities"].push_back(to_json(q, "null_value"));
   return j;
 }
@@ -95,6 +97,26 @@ void print(const QuantityCard& q, const char* default_word) {
                            shown(q.limits.high, q), q.limits.high_open ? ")" : "]",
                            q.typical.high == 0 ? "" : fmt::format("; typical {}", typical(q)));
   std::cout << fmt::format("  {:<24} {}{}\n", "", q.symbol.empty() ? "" : fmt::format("{}: ", q.symbol), q.meaning);
+}
+/// The formulas that `gumshoe choose` minimises, each with the evaluations that have it, and their constants.
+void print_time(const ModelCard& card) {
+  std::vector<std::pair<std::string, std::vector<std::string_view>>> formulas;
+  for (const EvaluationCard& e : card.evaluations) {
+    std::string text;
+    if (!e.time_per_reading.empty()) text += fmt::format("    per_reading = {}\n", e.time_per_reading);
+    if (!e.time_once.empty()) text += fmt::format("    once = {}\n", e.time_once);
+    if (text.empty()) continue;
+    auto at = std::ranges::find(formulas, text, [](const auto& f) { return f.first; });
+    if (at == formulas.end()) at = formulas.insert(at, {text, {}});
+    at->second.push_back(e.name);
+  }
+  if (formulas.empty()) return;
+  std::cout << "\nmeasuring time (gumshoe choose): once, and per_reading for every readout of every reading\n";
+  for (const auto& [text, evaluations] : formulas)
+    std::cout << fmt::format("  {}\n{}", fmt::join(evaluations, ", "), text);
+  if (card.timing.empty()) return;
+  std::cout << "\nconstants of the measuring time ([choose.time] changes them)\n";
+  for (const QuantityCard& q : card.timing) print(q, "default");
 }
 void print(const ModelCard& card) {
   std::cout << fmt::format("{}: {}\n\n{}\n\nquantities\n", card.name, card.title, card.summary);
@@ -112,16 +134,16 @@ void print(const ModelCard& card) {
     for (const VariableCard& v : e.measurands)
       std::cout << fmt::format("    {:<22} {:<8} {}\n", v.name, v.unit, v.meaning);
   }
+  print_time(card);
   std::cout << "\neffects that act here\n ";
   for (const EffectCard* e : effects::cards())
     if (effects::applies(card, *e)) std::cout << ' ' << e->name;
   std::cout << fmt::format("\n\nsource: {}\n", card.source);
 }
 void print(const EffectCard& card) {
-  std::cout << fmt::format("{}: {} (stage {}{})\n\n{}\nAdds: {}.\nConfused with: {}.\n\nquantities\n",
-                           card.name, card.title, name(card.stage),
-                           card.iso230.empty() ? "" : fmt::format(", {}", card.iso230), card.meaning, card.adds,
-                           card.confused_with);
+  std::cout << fmt::format("{}: {} (stage {}{})\n\n{}\nAdds: {}.\nConfused with: {}.\n\nquantities\n", card.name,
+                           card.title, name(card.stage), card.iso230.empty() ? "" : fmt::format(", {}", card.iso230),
+                           card.meaning, card.adds, card.confused_with);
   for (const QuantityCard& q : card.quantities) print(q, "null");
   std::cout << fmt::format("\nsource: {}\n", card.source);
 }
@@ -164,7 +186,8 @@ void add(CLI::App& app, const char* name, const char* help, const std::vector<st
   auto* command = app.add_subcommand(name, help);
   const auto o = std::make_shared<Options>();
   command->add_option("name", o->name, "one of them, in full");
-  command->add_option("--format", o->format, fmt::format("{}", fmt::join(formats, " or ")))->check(CLI::IsMember(formats));
+  command->add_option("--format", o->format, fmt::format("{}", fmt::join(formats, " or ")))
+      ->check(CLI::IsMember(formats));
   command->callback([=, &action] { action = [=] { return body(*o); }; });
 }
 

@@ -50,6 +50,27 @@ def line_of(text, words):
     return next(i for i, line in enumerate(text.splitlines(), 1) if words in line)
 
 
+# The model's own time, of which the scenario changes one constant.
+RODS = """schema = 1
+[model]
+name = "rod_gauging"
+method = "virtual_experiment"
+[indications.spindle_z]
+components = [ { u = "2 um", per = "reading" } ]
+[choose]
+measurand = "laser_z"
+target = "10 um"
+samples = 200
+confirm_samples = 400
+[choose.variables]
+feed = ["4 mm/min", "30 mm/min"]
+readings = [1, 3]
+[choose.time]
+retract = "3 s"
+"""
+SI = {"mm": 1e-3, "s": 1, "mm/min": 1e-3 / 60}
+
+
 class Choose(InFolder):
     def setUp(self):
         super().setUp()
@@ -59,6 +80,28 @@ class Choose(InFolder):
     def choose(self, text=TEXT, *more):
         self.file.write_text(text)
         return gumshoe("choose", self.file, "--out", self.out, *more)
+
+    def test_the_time_is_what_the_card_shows(self):
+        card = json.loads(gumshoe("models", "rod_gauging", "--format", "json").stdout)
+        constants = {c["name"]: c["default"] * SI[c["unit"]] for c in card["time_constants"]}
+        formulas = card["evaluations"][0]
+        answer = json.loads(self.choose(RODS, "--format", "json").stdout)
+        for candidate in answer["candidates"]:
+            settings = candidate["settings"]
+            names = {**constants, "retract": 3, "feed": settings["feed"] * SI["mm/min"]}
+            time = eval(formulas["time_once"], names) + settings["readings"] * eval(formulas["time_per_reading"], names)
+            self.assertAlmostEqual(candidate["time"], time, places=9)
+        self.assertGreater(len(answer["candidates"]), 3)
+        said = gumshoe("models", "rod_gauging").stdout
+        self.assertIn("  full, conventional\n    per_reading = approach / feed + retract\n    once = rod_change\n", said)
+        self.assertRegex(said, r"rod_change +s +default 60; limits \[0, .*\]\n +mounting the rod")
+        # Of every model: formulas of one evaluation at least, or neither formulas nor constants.
+        for model in json.loads(gumshoe("models", "--format", "json").stdout):
+            timed = [e["name"] for e in model["evaluations"] if e["time_per_reading"] or e["time_once"]]
+            said = gumshoe("models", model["name"]).stdout
+            self.assertEqual("measuring time (gumshoe choose)" in said, bool(timed), model["name"])
+            for constant in model["time_constants"]:
+                self.assertIn(f"  {constant['name']} ", said.partition("constants of the measuring time")[2])
 
     def test_answer_and_formats(self):
         said = self.choose()
