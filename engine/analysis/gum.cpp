@@ -7,6 +7,7 @@
 #include <optional>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "analysis/combine.h"
 #include "analysis/differences.h"
@@ -183,6 +184,26 @@ Contribution contribution_of(const propagation::Experiment& e, std::size_t v, st
   return c;
 }
 
+/// The input draws in which the model has no derivative, by their labels; those of a quantity that has many by number.
+std::string without_derivative(const std::vector<Contribution>& contributions) {
+  constexpr std::size_t most_named = 3;
+  std::vector<std::pair<std::string, std::vector<std::string>>> by_quantity;
+  for (const Contribution& c : contributions) {
+    if (c.differentiable || !(c.standard_uncertainty > 0)) continue;
+    auto at = std::ranges::find(by_quantity, c.quantity, [](const auto& q) { return q.first; });
+    if (at == by_quantity.end()) at = by_quantity.insert(at, {c.quantity, {}});
+    const std::string name = c.name.substr(0, c.name.find(": ")); // without the component's
+    if (std::ranges::find(at->second, name) == at->second.end()) at->second.push_back(name);
+  }
+  std::string out;
+  for (const auto& [quantity, names] : by_quantity) {
+    if (!out.empty()) out += ", ";
+    out += names.size() > most_named ? fmt::format("{} ({} of its input draws)", quantity, names.size())
+                                     : fmt::format("{}", fmt::join(names, ", "));
+  }
+  return out;
+}
+
 Budget budget_of(const propagation::Experiment& e, std::size_t output, double coverage_probability, Slopes& slopes) {
   Budget b;
   b.output = e.outputs()[output];
@@ -195,15 +216,15 @@ Budget budget_of(const propagation::Experiment& e, std::size_t output, double co
   std::vector<Term> terms;
   for (const auto& [v, q] : variates_reaching(e, slopes.reading())) {
     const Contribution c = contribution_of(e, v, q, point[q], d);
-    if (!c.differentiable && c.standard_uncertainty > 0) {
-      b.applicable = false;
-      b.reason += (b.reason.empty() ? "there is no derivative at the estimate with respect to " : ", ") + c.quantity;
-    }
+    if (!c.differentiable && c.standard_uncertainty > 0) b.applicable = false;
     const double signed_contribution = c.differentiable && b.applicable ? d.first[q] * c.standard_uncertainty : 0;
     terms.push_back({v, signed_contribution, c.degrees_of_freedom});
     moments[q].add(e.plan().variates[v].distribution, c.standard_uncertainty);
     b.contributions.push_back(c);
   }
+  if (b.reason.empty())
+    if (const std::string inputs = without_derivative(b.contributions); !inputs.empty())
+      b.reason = "there is no derivative at the estimate with respect to " + inputs;
   if (!b.applicable) {
     b.combined_standard_uncertainty = b.expanded_uncertainty = b.second_order_uncertainty = b.coverage_factor = nan;
     for (Contribution& c : b.contributions) c.share = nan;

@@ -174,6 +174,34 @@ class ToolLength(InFolder):
         self.assertEqual(run.returncode, 3)
         self.assertIn("never_covered: 1000 samples", run.stdout)
 
+    def test_readings_without_a_derivative_are_named_or_counted(self):
+        """Of the curve of a mill two readings decide some flutes, and eight or more the others."""
+        angles = (8.69, 15.22, 20.66, 24.40, 29.41, 110.58, 121.82, 122.40, 133.26, 155.38, 176.79, 177.39, 182.76, 188.32,
+                  211.74, 211.96, 216.69, 253.52, 271.16, 340.95, 349.65, 353.07)
+        below = (4.719, 3.386, 2.321, 1.647, 19.536, 2.080, -0.130, -0.234, 16.480, 11.677, 7.061, 6.934, 5.787, 4.608, -0.180,
+                 -0.222, -1.013, 9.906, 6.118, 10.590, 8.728, 8.000)  # um
+        text = swap('name = "tool_length"', 'name = "tool_length"\nevaluation = "characteristic_curve"')
+        for old, new in (('"0 deg"', str([f"{a} deg" for a in angles])), ('"0.5 mm"', str(["1.2 mm"] * 22)),
+                         ('"30 mm/min"', '"49.75361884132676 mm/min"'), ('"1000 rpm"', '"610.0196187145038 rpm"'),
+                         ("inserts = 2", 'inserts = 4\ntool_radius = "11.881761350480067 mm"\n'
+                          'insert_radius = "7.353228058581706 mm"\nholder_angle = "201.16724607024975 deg"'),
+                         ('"4 mm"', '"3.102660939698377 mm"'), ("-500 mm", "-300 mm"),
+                         ('["-350.002 mm"]', str([f"{-160 - b / 1000:.6f} mm" for b in below])),
+                         ('resolution = "1 um"', 'components = [ { u = "0.3 um", per = "reading" } ]')):
+            assert old in text, old
+            text = text.replace(old, new, 1)
+        run = gumshoe("run", self.write(text), "--samples", 500, "--format", "json", "--out", self.folder / "out.h5")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        reasons = {row["gum"]["reason"] for row in json.loads(run.stdout)}
+        inputs = [r.partition("with respect to ")[2] for r in reasons if "no derivative" in r]
+        self.assertTrue(inputs, reasons)
+        for one in inputs:
+            named = one.split(", ")
+            self.assertEqual(len(named), len(set(named)), one)  # "spindle_z, spindle_z, ..." says nothing
+            for name in named:
+                self.assertRegex(name, r"^(laser_z|spindle_z(\[reading \d+\]| \(\d+ of its input draws\)))$")
+        self.assertTrue(any("of its input draws" in one for one in inputs), inputs)
+
     def test_effects_run_and_show(self):
         path = self.write(SCENARIO + '[effects.feed_start_delay]\ndelay = { value = "3 ms", u = "1 ms" }\n'
                           '[effects.insert_seat_error]\nradius_2 = { value = "0 um", u = "5 um" }\n'
