@@ -172,7 +172,8 @@ TEST_CASE("power of a test is that of the normal distribution, and F tends to ch
 }
 
 TEST_CASE("an effect of any size may be missed where the noise is hardly known", "[tracing][plan]") {
-  // One degree of freedom: the effect d is seen if |d| > t |w|, w normal, t Cauchy's quantile; its own scatter adds 1 / d.
+  // One degree of freedom: the effect d is seen if |d| > t |w|, w normal, t Cauchy's quantile; its own scatter adds 1 /
+  // d.
   const boost::math::normal normal;
   const double alpha = 1e-3, t = std::tan(0.5 * 3.14159265358979 * (1 - alpha));
   for (const double d : {150.0, 300.0, 900.0, 1100.0}) { // t is 637; both sides of d^2 = 1e6
