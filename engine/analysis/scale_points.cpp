@@ -1,6 +1,5 @@
 #include "analysis/scale_points.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -19,13 +18,20 @@ bool of_own_zero(const quantities::InputQuantity& q) { return has_own_zero(q.uni
 std::vector<std::string> scale_point_notes(const propagation::Experiment& e, const propagation::Workers& workers) {
   std::vector<std::string> notes;
   const auto& quantities = e.scenario().quantities;
+  // What is read of an indication is a point; to a prediction, which simulates it, its noise is a difference.
+  const bool predicted = e.scenario().method == scenario::Method::prediction;
+  const auto is_point = [&](std::size_t q) {
+    return of_own_zero(quantities[q]) && !(predicted && e.layout().indications.contains(q));
+  };
+  std::size_t points = 0;
+  for (std::size_t q = 0; q < quantities.size(); ++q) points += is_point(q);
   const std::size_t measurands = e.measurands().size();
   std::vector<Derivatives> all;
   for (std::size_t m = 0; m < measurands && m < e.outputs().size(); ++m) {
     const auto& output = e.outputs()[m];
     // A result in K is noted only where two or more such inputs are added.
     const bool as_point = has_own_zero(output.unit, output.si_unit);
-    if (!as_point && (output.si_unit != "K" || std::ranges::count_if(quantities, of_own_zero) < 2)) continue;
+    if (!as_point && (output.si_unit != "K" || points < 2)) continue;
     const auto point = e.point(output.reading);
     if (all.empty())
       all = stencils_at_estimates(e)
@@ -36,8 +42,7 @@ std::vector<std::string> scale_point_notes(const propagation::Experiment& e, con
     double weight = 0;
     bool any = false;
     for (std::size_t q = 0; q < point.size(); ++q) {
-      const auto& quantity = quantities[e.plan().columns[columns[q]].quantity];
-      if (d.first[q] == 0 || !of_own_zero(quantity)) continue;
+      if (d.first[q] == 0 || !is_point(e.plan().columns[columns[q]].quantity)) continue;
       weight += d.first[q];
       any = true;
     }

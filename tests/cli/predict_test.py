@@ -94,6 +94,17 @@ class Predict(InFolder):
             self.assertAlmostEqual(o["gum"]["combined_standard_uncertainty"], u, delta=1e-12)
             self.assertAlmostEqual(o["standard_uncertainty"], u, delta=5 * u / 2e4 ** 0.5)
 
+    def test_noise_is_no_further_temperature(self):
+        """In degC as in K; the sum of two temperatures is noted all the same."""
+        for formula, unit, noted in (("a", "degC", False), ("a + d", "degC", False), ("a + b", "degC", True),
+                                     ("a + d", "K", False)):
+            (self.folder / "s.toml").write_text(
+                f'schema = 1\n[model]\nname = "expression"\n[model.indications]\nT = "{formula}"\n[quantities]\n'
+                + "".join(f'{q} = {{ value = "20 {"K" if q == "d" else "degC"}", u = "1 K" }}\n' for q in formula[::4])
+                + f'[indications.T]\nreadings = ["300 {unit}"]\ncomponents = [ {{ u = "0.1 {unit}", per = "reading" }} ]\n')
+            o, = self.predict(self.folder / "s.toml", "--predict", "--samples", "1e4")
+            self.assertEqual([n for n in o["run"]["notes"] if "difference of temperatures" in n] != [], noted, formula)
+
 
 if __name__ == "__main__":
     unittest.main()
