@@ -327,6 +327,10 @@ std::string quotient(const std::string& above, const std::string& below) {
   return below.find_first_of("/. *") == std::string::npos ? above + '/' + below : above + "/(" + below + ')';
 }
 
+std::string difference_unit(const std::string& unit, const std::string& si_unit) {
+  return to_si(0, unit, si_unit) == 0 ? unit : si_unit;
+}
+
 std::string kind_name(const std::string& si_unit) {
   const Row* const r = row(si_unit);
   return r ? std::string(r->name) : "convertible to " + si_unit;

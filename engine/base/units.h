@@ -45,6 +45,10 @@ std::string base_units_of(const std::string& unit);
 /// The unit of a ratio: "um/K", "um/(1/K)", "1/kN"; `above` alone over a plain number.
 std::string quotient(const std::string& above, const std::string& below);
 
+/// Unit of differences, widths and standard uncertainties on the scale of `unit`: itself; of a scale with a zero of its
+/// own, such as degC or degF, the SI unit K.
+std::string difference_unit(const std::string& unit, const std::string& si_unit);
+
 /// Name of a quantity of this SI unit in messages: m -> "a length", rad -> "an angle".
 std::string kind_name(const std::string& si_unit);
 

@@ -99,14 +99,18 @@ void tell(RecognisedData& data, const Options& o) {
   for (const std::string& text : o.units) {
     const auto [column, unit] = assignment(text, "--unit");
     units::si_unit_of(unit);
-    column_of(data, column, "--unit").unit = unit;
+    auto& c = column_of(data, column, "--unit");
+    c.unit = unit;
+    c.unit_told = true;
   }
   if (!on_terminal()) return;
   for (auto& c : data.columns) {
     if (c.unit != "?" || c.role == ColumnRole::other) continue;
     const std::string unit =
         asked(fmt::format("unit of the column '{}' ({}), such as mm; empty: decide later:", c.name, name(c.role)));
-    if (!unit.empty()) c.unit = units::convertible(unit, units::si_unit_of(unit)) ? unit : "?";
+    if (unit.empty()) continue;
+    c.unit_told = units::convertible(unit, units::si_unit_of(unit));
+    c.unit = c.unit_told ? unit : "?";
   }
 }
 

@@ -19,6 +19,7 @@ struct RecognisedColumn {
   bool number = false;                                    ///< all of its cells that are not empty
   bool gaps = false;                                      ///< it has empty cells
   bool unit_guessed = false;                              ///< from its numbers
+  bool unit_told = false;                                 ///< by the user
   Basis basis = Basis::nothing;                           ///< of the role
   std::string why = {};                                   ///< in words: "by its name"
   std::string clock = {};                                 ///< form of its clock times (base/clock.h); empty: none

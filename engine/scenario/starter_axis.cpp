@@ -119,6 +119,7 @@ struct AxisModel {
   bool turns;     ///< its error comes back: no gain
   bool eccentric; ///< its alignments differ
   bool reversal;
+  std::string reference; ///< from which positions count whose zero is no zero of their size, as 0 degC; empty: none
 };
 
 std::vector<Channel> named_channels(const std::vector<const RecognisedColumn*>& columns, const AxisModel& model,
@@ -144,7 +145,9 @@ std::string formula_of(const Channel& c, const AxisModel& model) {
   std::string out = (model.measured ? "position + " : "") + c.offset;
   if (model.eccentric)
     out += fmt::format(" + {} * cos(position) + {} * sin(position)", c.eccentricity_x, c.eccentricity_y);
-  if (!model.turns) out += fmt::format(" + {} * position", c.gain);
+  if (!model.turns)
+    out += fmt::format(" + {} * {}", c.gain,
+                       model.reference.empty() ? "position" : "(position - " + model.reference + ")");
   if (model.reversal) out += fmt::format(" + {} * direction", c.reversal);
   return out;
 }
@@ -169,10 +172,12 @@ std::string starter_axis(const StarterData& data, const std::string& scenario) {
   const bool turns = full_turn(found, *position); // its error comes back: no gain
   const std::string pos = unit_or(*position, "mm");
   const NamedColumns labels = labels_of(found);
-  const AxisModel model{measured, turns, turns && found.find(Role::alignment), direction != nullptr};
   NamedColumns conditions{{"position", position}};
   if (direction) conditions.emplace_back("direction", direction);
   Names names{"position", "direction"};
+  const std::string pos_difference = difference_unit_or(*position, "mm");
+  const AxisModel model{measured, turns, turns && found.find(Role::alignment), direction != nullptr,
+                        pos == pos_difference ? "" : names.add("reference")};
   const std::vector<Channel> all = named_channels(columns, model, names);
   std::set<std::string> used{position->name};
   for (const RecognisedColumn* c : columns) used.insert(c->name);
@@ -198,15 +203,20 @@ std::string starter_axis(const StarterData& data, const std::string& scenario) {
                 measured ? "guessed: the readings span what the positions span" : "guessed: the readings are errors");
   out += '\n' + data_section(data, labels, conditions, used);
   out += "\n[quantities]                            # fitted to the readings\n";
+  if (!model.reference.empty())
+    out += line(model.reference, fmt::format("\"0 {}\"", pos), "offset holds here, not at 0 K");
   for (const Channel& c : all) {
-    const std::string read = unit_or(*c.column, "um");
-    out += line(c.offset, fitted(found, labels, read), "");
-    if (!turns) out += line(c.gain, fitted(found, labels, units::quotient(measured ? pos : read, pos)), "");
+    // What is added to a temperature is a difference.
+    const std::string difference = difference_unit_or(*c.column, "um");
+    out += line(c.offset, fitted(found, labels, measured ? difference : unit_or(*c.column, "um")), "");
+    if (!turns)
+      out += line(c.gain,
+                  fitted(found, labels, units::quotient(measured ? pos_difference : difference, pos_difference)), "");
     for (const std::string& axis : {c.eccentricity_x, c.eccentricity_y})
-      if (!axis.empty()) out += line(axis, fitted(found, labels, read), "");
+      if (!axis.empty()) out += line(axis, fitted(found, labels, difference), "");
     if (direction)
-      out +=
-          line(c.reversal, fmt::format("{{ estimated = true, value = \"0 {}\" }}", read), "half of the reversal error");
+      out += line(c.reversal, fmt::format("{{ estimated = true, value = \"0 {}\" }}", difference),
+                  "half of the reversal error");
   }
   for (const Channel& c : all) {
     out += fmt::format("\n[indications.{}]\n", c.name) +

@@ -184,6 +184,7 @@ std::string data_section(const StarterData& data, const NamedColumns& labels, co
     if (c.number && c.unit != "1" && used.contains(c.name))
       out += line(quoted(c.name), quoted(c.unit),
                   c.unit == "?"    ? "the file does not say it: write the unit, such as \"mm\""
+                  : c.unit_told    ? "as told"
                   : c.unit_guessed ? "guessed: temperatures of 10 to 45, or as the others"
                                    : "from its header");
   if (!conditions.empty()) out += "\n[data.conditions]\n";
@@ -241,6 +242,11 @@ void require_numbers(const RecognisedData& data, const RecognisedColumn& c, cons
 }
 
 std::string unit_or(const RecognisedColumn& c, const char* otherwise) { return c.unit == "?" ? otherwise : c.unit; }
+
+std::string difference_unit_or(const RecognisedColumn& c, const char* otherwise) {
+  const std::string unit = unit_or(c, otherwise);
+  return unit == "?" ? unit : units::difference_unit(unit, units::si_unit_of(unit));
+}
 
 std::string noise_line(const RecognisedColumn& reading, const RecognisedColumn* uncertainty) {
   if (uncertainty && uncertainty->number)

@@ -19,6 +19,8 @@ std::string quoted(const std::string& text);
 /// "key = value", and a comment if it is not empty.
 std::string line(const std::string& key, const std::string& value, const std::string& comment);
 std::string unit_or(const RecognisedColumn& c, const char* otherwise);
+/// Unit of differences of a column's numbers: K of degC.
+std::string difference_unit_or(const RecognisedColumn& c, const char* otherwise);
 /// `u` of a reading: a column of the data that was recognised as it, or a comment that shows how it is stated.
 std::string noise_line(const RecognisedColumn& reading, const RecognisedColumn* uncertainty);
 

@@ -109,6 +109,27 @@ class New(Starter):
         self.assertIn("ready", self.new("--from", "p.csv"))
         self.assertIn('measured = "position + offset + gain * position"', (self.folder / "p.toml").read_text())
 
+    def test_an_offset_of_a_temperature_is_a_difference(self):
+        """Of a thermometer against a reference, at 0 degC and not at 0 K; and a length against a temperature."""
+        noise = (0.01, -0.02, 0.01)
+        rows = ["run,ref_degC,reading_degC,grows_um"] + [f"{r},{t},{1.02 * t + 0.7 + noise[(t // 5 + r) % 3]},{3 + 0.5 * t + noise[r - 1]}"
+                                                         for r in (1, 2, 3) for t in range(0, 60, 5)]
+        (self.folder / "t.csv").write_text("\n".join(rows) + "\n")
+        for reading, formula, offset, gain in (("reading_degC", "position + offset + gain", ("K", 0.7), ("K/K", 0.02)),
+                                               ("grows_um", "offset + gain", ("um", 3), ("um/K", 0.5))):
+            self.assertIn("ready", self.new("--from", "t.csv", "--role", f"{reading}=reading", "--unit", "ref_degC=degC", "--force"))
+            text = (self.folder / "t.toml").read_text()
+            self.assertIn(f'"{formula} * (position - reference)"', text)
+            for part in (f'"0 {offset[0]}"', f'"0 {gain[0]}"', 'reference = "0 degC"'):
+                self.assertIn(part, text)
+            self.assertRegex(text, '"ref_degC" = "degC" +# as told')
+            run = gumshoe("estimate", "t.toml", "--format", "json", cwd=self.folder)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            sizes = json.loads(run.stdout)["parameters"]
+            for name, (unit, value) in (("offset", offset), ("gain", gain)):
+                self.assertEqual(sizes[name]["unit"], unit)
+                self.assertAlmostEqual(sizes[name]["value"], value, delta=0.01)
+
     def test_rows_without_a_number_and_counts_of_rows(self):
         rows = "".join(f"{i};{10 * i};{'' if i == 3 else f'1,{i}'};{'+' if i % 2 else '-'}\r\n" for i in range(1, 8))
         (self.folder / "g.csv").write_bytes(("\ufeffNr;Pos_X (mm);Messwert [um];Side\r\n" + rows).encode())
