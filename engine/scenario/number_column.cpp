@@ -198,6 +198,11 @@ std::vector<std::optional<double>> NumberColumn::values(const std::vector<std::s
   std::set<std::string> told;
   for (const std::size_t row : rows) {
     const CsvCell& cell = file_.csv->rows[row][columns_.front()];
+    if (words_.empty() && says_missing(cell.text)) {
+      out.emplace_back();
+      if (told.insert(cell.text).second) refuse_missing(cell.text, rows, problems);
+      continue;
+    }
     if (words_.empty()) {
       out.push_back(read_cell(file_, cell, name_, unit_, dimension_, problems));
       continue;
@@ -211,6 +216,24 @@ std::vector<std::optional<double>> NumberColumn::values(const std::vector<std::s
                   fmt::format("column '{}': it has {}", name_, fmt::join(known, ", ")), "add the word to the map"});
   }
   return out;
+}
+
+/// All cells of a column that say alike that there is no number: one problem.
+void NumberColumn::refuse_missing(const std::string& text, const std::vector<std::size_t>& rows,
+                                  Problems& problems) const {
+  constexpr std::size_t listed = 3;
+  std::vector<const CsvCell*> cells;
+  for (const std::size_t row : rows)
+    if (const CsvCell& cell = file_.csv->rows[row][columns_.front()]; cell.text == text) cells.push_back(&cell);
+  std::vector<int> lines;
+  for (std::size_t i = 1; i < cells.size() && i <= listed; ++i) lines.push_back(cells[i]->line);
+  std::string where = fmt::format("column '{}'", name_);
+  if (!lines.empty())
+    where += fmt::format("; so {} line{} {}", lines.size() == 1 ? "has" : "have", lines.size() == 1 ? "" : "s",
+                         fmt::join(lines, ", "));
+  if (cells.size() > listed + 1) where += fmt::format(" and {} more", cells.size() - listed - 1);
+  problems.add({file_.csv->at(*cells.front()), fmt::format("'{}' is not a number", text), where,
+                fmt::format("leave such rows out: where = {{ \"{}\" = {{ not = \"{}\" }} }}", name_, text)});
 }
 
 bool NumberColumn::no_numbers(const std::vector<std::size_t>& rows, Problems& problems) const {

@@ -41,6 +41,7 @@ private:
   std::vector<std::optional<double>> sense_values(const std::vector<std::size_t>& rows, Problems& problems) const;
   /// Whether all these cells are clock times, or words of a direction; says how to read them.
   bool no_numbers(const std::vector<std::size_t>& rows, Problems& problems) const;
+  void refuse_missing(const std::string& text, const std::vector<std::size_t>& rows, Problems& problems) const;
   std::string text_at(std::size_t row) const;
 
   DataFile file_;

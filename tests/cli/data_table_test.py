@@ -279,6 +279,15 @@ columns.t = { column = "t", unit = "s" }
         self.refused(("[quantities]", "[trace]\nblocks = { count = 2 }\n[quantities]"), "the label 'block' is already used",
                      scenario=SCENARIO.replace('{ run = "run" }', '{ block = "run" }'))
 
+    def test_cells_without_a_number_are_told_once_with_the_remedy(self):
+        """And the remedy works."""
+        for text in ("NA", "-"):
+            for k, more in ((1, ""), (2, "; so has line 6"), (9, "; so have lines 6, 7, 8 and 5 more")):
+                (self.folder / "run_4.csv").write_text(RUN.replace("DAY", "04") + f"04.02.2026;10:02:00;{text};fwd;1;1;1\n" * k)
+                said = self.refused(("", ""), f"'{text}' is not a number (column 'pos_mm'{more}). "
+                                    f'Leave such rows out: where = {{ "pos_mm" = {{ not = "{text}" }} }}.')
+                self.assertEqual(said.count("is not a number"), 1, said)
+
     def test_many_mistakes_of_one_kind_are_cut_short(self):
         (self.folder / "run_4.csv").write_text(RUN.replace("DAY", "04") + "04.02.2026;10:02:00;1.5;fwd;1;1;1\n" * 30)
         self.assertIn("10 more problems of the data are not listed", self.refused(("", ""), "'1.5' is not a number"))
