@@ -331,6 +331,12 @@ std::string difference_unit(const std::string& unit, const std::string& si_unit)
   return to_si(0, unit, si_unit) == 0 ? unit : si_unit;
 }
 
+std::string error_unit(const std::string& unit, const std::string& si_unit, double size) {
+  if (si_unit != "m") return unit;
+  if (!(size >= 1e-6) && to_si(1, unit, si_unit) < 1e-8) return "nm";
+  return !(size >= 1e-3) ? "um" : size < 1 ? "mm" : "m";
+}
+
 std::string kind_name(const std::string& si_unit) {
   const Row* const r = row(si_unit);
   return r ? std::string(r->name) : "convertible to " + si_unit;

@@ -49,6 +49,10 @@ std::string quotient(const std::string& above, const std::string& below);
 /// own, such as degC or degF, the SI unit K.
 std::string difference_unit(const std::string& unit, const std::string& si_unit);
 
+/// Unit in which an error of this size (SI) of what is read in `unit` is shown: of lengths nm, where they are read so
+/// finely, um, mm or m, as suits it; else `unit`. Without a size that of small errors.
+std::string error_unit(const std::string& unit, const std::string& si_unit, double size = 0);
+
 /// Name of a quantity of this SI unit in messages: m -> "a length", rad -> "an angle".
 std::string kind_name(const std::string& si_unit);
 

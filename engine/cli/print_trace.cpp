@@ -84,7 +84,8 @@ void print_finding(const Finding& f) {
   for (const std::string& remark : f.remarks) std::cout << "  remark: " << remark << '\n';
 }
 
-void print_rms(const Rms& r) {
+/// @param cells  sets of equal conditions; one alone has readings that differ in nothing that was set
+void print_rms(const Rms& r, int cells) {
   const Figures figures(r);
   const auto show = [&](double si) { return figures.show(si); };
   const auto line = [&](const std::string& what, double before, double after, const std::string& noise) {
@@ -96,18 +97,20 @@ void print_rms(const Rms& r) {
                ? fmt::format("{} (95 %: {} to {})", show(middle), show(low), show(high))
                : show(middle);
   };
-  std::cout << fmt::format(
-      "{:<44}{:>10}{:>10}   noise alone\n",
-      with_unit(figures.unit.empty() ? "residuals, root mean square" : "residuals, root mean square,", figures.unit),
-      "before", "after");
+  std::cout << fmt::format("{:<44}{:>10}{:>10}   noise alone\n",
+                           with_unit(figures.unit.empty() || figures.unit == "1" ? "residuals, root mean square"
+                                                                                 : "residuals, root mean square,",
+                                     figures.unit),
+                           "before", "after");
   line("  in sample (training data)", r.before, r.after, noise(r.noise, r.noise_low, r.noise_high));
   line("  hold-out: " + r.holdout, r.holdout_before, r.holdout_after,
        noise(r.holdout_noise, r.holdout_noise_low, r.holdout_noise_high));
   line("  worst block: " + r.worst_block, r.worst_block_before, r.worst_block_after, "");
   line("  worst point: " + r.worst_point, r.worst_point_before, r.worst_point_after, "");
   if (std::isfinite(r.replicate_floor))
-    std::cout << fmt::format("  replicate floor: readings of equal conditions scatter by {} (95 %: {} to {})\n",
-                             show(r.replicate_floor), show(r.replicate_floor_low), show(r.replicate_floor_high));
+    std::cout << fmt::format("  replicate floor: readings {} scatter by {} (95 %: {} to {})\n",
+                             cells > 1 ? "of equal conditions" : "that follow each other", show(r.replicate_floor),
+                             show(r.replicate_floor_low), show(r.replicate_floor_high));
   if (std::isfinite(r.share_removed))
     std::cout << fmt::format("  {} of the removable mean square of the hold-out residuals has been removed\n",
                              r.share_removed > 1   ? "all"
@@ -118,12 +121,12 @@ void print_rms(const Rms& r) {
 
 void print_repeats(const Trace& t) {
   const Figures figures(t.rms);
-  if (const LackOfFit& l = t.lack_of_fit; std::isfinite(l.p_value))
-    std::cout << fmt::format("lack of fit: {}, p = {} ({} sets of equal conditions)\n",
+  if (const LackOfFit& l = t.lack_of_fit; std::isfinite(l.p_value) && (l.found || l.cells > 1))
+    std::cout << fmt::format("lack of fit: {}, p = {} ({} set{} of equal conditions)\n",
                              l.found ? fmt::format("what repeats and is not explained is {}, by {}",
                                                    figures.with_unit(l.size), fmt::join(l.depends_on, ", "))
                                      : "what repeats is no more than chance gives",
-                             probability(l.p_value), l.cells);
+                             probability(l.p_value), l.cells, l.cells == 1 ? "" : "s");
   for (const AnomalousBlock& b : t.anomalous_blocks)
     std::cout << fmt::format("{} differs: scatter {}, of the other blocks {}, p = {}\n", b.name,
                              figures.with_unit(b.spread), figures.with_unit(b.others), probability(b.p_value));
@@ -184,7 +187,7 @@ void print_trace(const Trace& t, const std::string& title, const std::vector<std
   print_verdict(t);
   for (const Finding& f : t.findings) print_finding(f);
   if (std::isfinite(t.rms.before)) {
-    print_rms(t.rms);
+    print_rms(t.rms, t.lack_of_fit.cells);
     print_noise(t.noise, t.rms);
     print_repeats(t);
   }

@@ -129,10 +129,9 @@ Scatter pooled_scatter(const std::vector<Readouts>& cells) {
 }
 
 std::string shown_scatter(double value, const VariableCard& card) {
-  const bool length = card.si_unit == "m"; // scatter of lengths reads best in um
-  const std::string unit(length ? "um" : card.unit);
-  return fmt::format("{:.3g} {}", units::from_si(value, unit, std::string(card.si_unit), units::Kind::difference),
-                     unit);
+  const std::string si_unit(card.si_unit), unit = units::error_unit(std::string(card.unit), si_unit, value);
+  return fmt::format("{:.3g}{}", units::from_si(value, unit, si_unit, units::Kind::difference),
+                     unit == "1" ? "" : " " + unit);
 }
 
 } // namespace gumshoe::scenario

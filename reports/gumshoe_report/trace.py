@@ -285,7 +285,8 @@ class Trace:
                         f"standard deviation {self.size(n.scatter_u)}.")
         r = self.t.rms
         if math.isfinite(r.replicate_floor):
-            text.append(f"Readings of equal conditions scatter by {self.size(r.replicate_floor)}, 95{SPACE}% interval "
+            equal = "of equal conditions" if self.t.lack_of_fit.cells > 1 else "that follow each other"
+            text.append(f"Readings {equal} scatter by {self.size(r.replicate_floor)}, 95{SPACE}% interval "
                         f"[{self.number(r.replicate_floor_low)}, {self.number(r.replicate_floor_high)}]; what repeats and "
                         "what drifts slowly does not count.")
         return text
@@ -293,7 +294,7 @@ class Trace:
     def repeats(self):
         """What is left that repeats, and blocks that differ, in sentences."""
         lack, text = self.t.lack_of_fit, []
-        if self.known and math.isfinite(lack.p_value):
+        if self.known and math.isfinite(lack.p_value) and (lack.found or lack.cells > 1):
             text.append(f"What repeats with the conditions and is not explained is {self.size(lack.size)}, p {self.p(lack.p_value)}. "
                         f"It depends on {joined(lack.depends_on)}." if lack.found else
                         f"What is left does not repeat with the conditions more than chance gives, p {self.p(lack.p_value)} "
@@ -340,6 +341,16 @@ def labels(t):
     return {**{", ".join(names): [", ".join(values) for values in zip(*(of[n] for n in names))] for names in joint}, **of}
 
 
+def axis_unit(column, values):
+    """Unit, factor and offset in which values (SI) of a condition or column stand along an axis, the same in every figure."""
+    unit, factor, offset = column.display_units, column.display_factor, column.display_offset
+    if unit == column.units and unit in COMMON:
+        unit, factor = COMMON[unit]
+    if unit == "s" and max(values) - min(values) > 600:
+        unit, factor = "min", 1 / 60
+    return unit, factor, offset
+
+
 def columns(t):
     """What residuals are drawn against: conditions and recorded columns that vary, those that a finding depends on
     first. (name, unit, values by reading, whether a finding depends on it)"""
@@ -348,10 +359,6 @@ def columns(t):
     for name, column in {**t.data.columns, **t.data.conditions}.items():
         if len({v for v in column.values if math.isfinite(v)}) < 2:
             continue
-        unit, factor, offset = column.display_units, column.display_factor, column.display_offset
-        if unit == column.units and unit in COMMON:
-            unit, factor = COMMON[unit]
-        if unit == "s" and max(column.values) - min(column.values) > 600:
-            unit, factor = "min", 1 / 60
+        unit, factor, offset = axis_unit(column, column.values)
         found.append((name, unit, [v * factor + offset for v in column.values], name in chosen))
     return sorted(found, key=lambda c: not c[3])

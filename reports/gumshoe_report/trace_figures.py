@@ -11,6 +11,7 @@ from . import compensation
 from .choice import axis_label
 from .figures import BAND, BLUE, GREY, GRID, INK, NOISE, ORANGE, PALE, RULE, svg
 from .rounding import finer
+from .trace import axis_unit
 
 SIDES = (("before", ORANGE), ("after", BLUE))
 WIDE = 9.2  # inches, of the figures with many points
@@ -307,10 +308,11 @@ def curves(found, name):
             axes.set_xticks(range(len(y)), [p.level for p in c.rows], rotation=90 if len(y) > 12 else 0)
             axes.set_xlabel(c.against.replace("_", " "))
         else:
-            x = np.array([p.x * c.display_factor + c.display_offset for p in c.rows])
+            along, factor, offset = axis_unit(c, [p.x for p in c.rows])
+            x = np.array([p.x * factor + offset for p in c.rows])
             axes.fill_between(x, y - 2 * u, y + 2 * u, color=PALE, linewidth=0)
             axes.plot(x, y, color=BLUE, linewidth=1.5)
-            axes.set_xlabel(axis_label(c.against, c.display_units))
+            axes.set_xlabel(axis_label(c.against, along))
         axes.axhline(0, color=GREY, linewidth=0.6)
         axes.grid(**GRID)
     indication = found[0].indication.replace("_", " ")

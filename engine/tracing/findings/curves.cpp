@@ -28,16 +28,19 @@ std::size_t moved_indication(const Matrix& columns, std::size_t indications) {
 /// "3.31 s, u = 0.01 s"
 /// @param shown  in place of the unit, where it has a name of its own
 std::string with_u(double x, double u, const std::string& unit, const std::string& si_unit, std::string shown = {}) {
-  if (shown.empty()) shown = unit;
+  if (!shown.empty() || unit != "1") shown = " " + (shown.empty() ? unit : shown);
   const auto number = [&](double si) { return units::from_si(si, unit, si_unit, units::Kind::difference); };
   const int decimals = analysis::decimals_for(number(u));
-  return fmt::format("{} {}, u = {} {}", analysis::fixed(number(x), decimals), shown,
+  return fmt::format("{}{}, u = {}{}", analysis::fixed(number(x), decimals), shown,
                      analysis::fixed(number(u), decimals), shown);
 }
 
+/// "readings" of differences along what counts them; else empty.
+std::string counted(const Covariate& c) { return counts_readings(c) ? "readings" : ""; }
+
 class CurveMaker {
 public:
-  CurveMaker(const TraceContext& c, const JointFit& fit, std::size_t term)
+  CurveMaker(const TraceContext& c, const JointFit& fit, std::size_t term, const Rms& rms)
       : o_(c.observations), readings_(c.experiment.scenario().readings), term_(fit.terms[term]),
         indication_(moved_indication(term_.candidate.columns, o_.indications)) {
     const Index first = first_column(fit, term), d = term_.size.size();
@@ -46,7 +49,11 @@ public:
     empty_.indication = card.name;
     empty_.indication_unit = card.unit;
     empty_.indication_si_unit = card.si_unit;
+    unit_ = unit_of(rms, empty_.indication_unit, empty_.indication_si_unit);
   }
+
+  /// Unit of errors of the indication.
+  const std::string& unit() const { return unit_; }
 
   Curve against(const Covariate& covariate) const {
     Curve out = empty_;
@@ -97,24 +104,20 @@ public:
     const double per_size = dx.dot(dy) / dx.squaredNorm();
     constexpr double rounding = 1e-9;
     if (!((dy - per_size * dx).norm() <= rounding * dy.norm())) return "";
-    // A difference of temperatures has the unit K.
-    const bool own_zero = units::to_si(0, covariate.unit, covariate.si_unit) != 0;
-    const std::string unit = units::quotient(small_unit(), own_zero ? covariate.si_unit : covariate.unit),
+    const std::string unit = units::quotient(unit_, units::difference_unit(covariate.unit, covariate.si_unit)),
                       si_unit = units::quotient(empty_.indication_si_unit, covariate.si_unit);
     const double slope = term_.size[0] * per_size, u = std::sqrt(covariance_(0, 0)) * std::fabs(per_size);
-    const std::string text =
-        with_u(slope, u, covariate.unit == "s" ? per_time(small_unit(), slope, si_unit) : unit, si_unit);
-    return covariate.course && covariate.unit == "1" ? text + ", per reading" : text;
+    const std::string text = with_u(slope, u, covariate.unit == "s" ? per_time(unit_, slope, si_unit) : unit, si_unit);
+    return counts_readings(covariate) ? text + ", per reading" : text;
   }
 
-  /// "38 min, u = 4 min; it levels off at 6.1 um, u = 0.3 um" of a drift; empty of anything else.
+  /// "38 min, u = 4 min; until it levels off it changes by 6.1 um, u = 0.3 um" of a drift; empty of anything else.
   std::string time_constant(const Covariate& time) const {
     if (term_.candidate.form != Form::drift || term_.size.size() != 1 || !(term_.candidate.parameter_u > 0)) return "";
     const double constant = std::exp(term_.candidate.parameter) * (time.levels.back() - time.levels.front());
-    return fmt::format("{}; it levels off at {}",
-                       with_u(constant, constant * term_.candidate.parameter_u, time.unit, time.si_unit,
-                              time.unit == "1" ? "readings" : ""),
-                       with_u(term_.size[0], std::sqrt(covariance_(0, 0)), small_unit(), empty_.indication_si_unit));
+    return fmt::format("{}; until it levels off it changes by {}",
+                       with_u(constant, constant * term_.candidate.parameter_u, time.unit, time.si_unit, counted(time)),
+                       with_u(term_.size[0], std::sqrt(covariance_(0, 0)), unit_, empty_.indication_si_unit));
   }
 
   /// "period 3.31 s, u = 0.01 s; amplitude 1.5 um, u = 0.2 um" of a wave; empty of anything else.
@@ -127,9 +130,8 @@ public:
     const double range = covariate.levels.back() - covariate.levels.front();
     return fmt::format("period {}; amplitude {}{}",
                        with_u(range / cycles, range / cycles / cycles * term_.candidate.parameter_u, covariate.unit,
-                              covariate.si_unit, covariate.unit == "1" ? "readings" : ""),
-                       with_u(amplitude, u, small_unit(), empty_.indication_si_unit),
-                       aliases(covariate, range / cycles));
+                              covariate.si_unit, counted(covariate)),
+                       with_u(amplitude, u, unit_, empty_.indication_si_unit), aliases(covariate, range / cycles));
   }
 
   /// "1 wave per turn 3.6 um, u = 0.1 um; 2 waves ..." of a dependence on an angle that goes round: those that exceed
@@ -160,8 +162,8 @@ public:
       const double u = std::sqrt(wave.dot(covariance.block(2 * h - 1, 2 * h - 1, 2, 2) * wave)) / amplitude;
       if (amplitude > criteria.shown_wave * u)
         out += fmt::format("{}{} wave{} {}, u = {}", out.empty() ? "" : "; ", h, h > 1 ? "s" : "",
-                           shown_size(amplitude, small_unit(), empty_.indication_si_unit),
-                           shown_size(u, small_unit(), empty_.indication_si_unit));
+                           shown_size(amplitude, unit_, empty_.indication_si_unit),
+                           shown_size(u, unit_, empty_.indication_si_unit));
     }
     return out;
   }
@@ -174,7 +176,7 @@ public:
     const double low = y.minCoeff(), high = y.maxCoeff();
     const bool gradual = term_.candidate.name.starts_with("shift:");
     if (!gradual && ((y.array() - low) * (y.array() - high)).abs().maxCoeff() > 0) return "";
-    return with_u(term_.size[0] * (high - low), std::sqrt(covariance_(0, 0)) * (high - low), small_unit(),
+    return with_u(term_.size[0] * (high - low), std::sqrt(covariance_(0, 0)) * (high - low), unit_,
                   empty_.indication_si_unit);
   }
 
@@ -215,9 +217,6 @@ public:
   }
 
 private:
-  /// Errors of a length are shown in um.
-  std::string small_unit() const { return empty_.indication_si_unit == "m" ? "um" : empty_.indication_unit; }
-
   /// The mean over the training readings of a group, if there are any.
   bool add(double x, const std::vector<std::size_t>& group, std::size_t which, Curve& out) const {
     const Matrix& columns = term_.candidate.columns;
@@ -242,12 +241,13 @@ private:
   std::size_t indication_;
   Matrix covariance_;
   Curve empty_;
+  std::string unit_; ///< of errors
 };
 
 } // namespace
 
-void add_curves(const TraceContext& c, const JointFit& fit, std::size_t term, Finding& finding) {
-  const CurveMaker make(c, fit, term);
+void add_curves(const TraceContext& c, const JointFit& fit, std::size_t term, const Rms& rms, Finding& finding) {
+  const CurveMaker make(c, fit, term, rms);
   const auto add = [&](const auto& all, const std::string& name) {
     for (const auto& one : all)
       if (one.name == name)
@@ -274,7 +274,8 @@ void add_curves(const TraceContext& c, const JointFit& fit, std::size_t term, Fi
       finding.remarks.push_back("time constant " + drift);
     else if (const std::string waves = labels.empty() ? make.waves_per_turn(*covariates[0]) : ""; !waves.empty())
       finding.remarks.push_back(fmt::format("per turn of {}: {}", covariates[0]->name, waves));
-    else if (const std::string wave_there = fit.terms[term].candidate.name.starts_with("table:") ? wave_of(table) : "";
+    else if (const std::string wave_there =
+                 fit.terms[term].candidate.name.starts_with("table:") ? wave_of(table, make.unit()) : "";
              !wave_there.empty())
       finding.remarks.push_back(wave_there);
     else if (const std::string step = make.step(); !step.empty())

@@ -168,7 +168,7 @@ void collect(const TraceContext& c, const Search& s, Trace& out) {
     f.name = f.kind == Kind::not_in_catalogue ? "not in the catalogue" : fmt::format("{}", fmt::join(f.members, " | "));
     for (const std::size_t t : found.terms) {
       if (f.kind == Kind::not_in_catalogue) {
-        add_curves(c, fit, t, f);
+        add_curves(c, fit, t, out.rms, f);
         continue;
       }
       const auto more = sizes(c, fit, t, found.threshold);
@@ -177,7 +177,7 @@ void collect(const TraceContext& c, const Search& s, Trace& out) {
     }
     if (plain && !f.quantities.empty()) remark_on_shapes(c, fit, *plain, found, f);
     if (f.kind == Kind::equivalence_class) describe_class(c, s, found, f);
-    if (f.kind == Kind::scatter) describe_scatter(c, out.vetoed ? s.base : fit, found.component, f);
+    if (f.kind == Kind::scatter) describe_scatter(c, out.vetoed ? s.base : fit, found.component, out.rms, f);
     out.findings.push_back(std::move(f));
   }
   out.outcome = out.findings.empty() ? Outcome::nothing_found : Outcome::found;

@@ -22,7 +22,8 @@ ScatterSize size_of_scatter(const TraceContext& context, const JointFit& fit, in
 std::vector<MoreNoise> noise_found(const TraceContext& context, const JointFit& fit, const SearchFinding& found);
 
 /// Size of a variance component, with the interval of its profile likelihood; with none, size of the noise.
-void describe_scatter(const TraceContext& context, const JointFit& fit, int component, Finding& finding);
+void describe_scatter(const TraceContext& context, const JointFit& fit, int component, const Rms& rms,
+                      Finding& finding);
 /// Writes the two sentences for a machinist: what was found, how large, how sure, what to do.
 void summarise(Trace& out);
 

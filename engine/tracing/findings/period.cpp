@@ -7,7 +7,6 @@
 #include <Eigen/QR>
 #include <fmt/format.h>
 
-#include "base/units.h"
 #include "tracing/candidates/waves.h"
 #include "tracing/criteria.h"
 #include "tracing/findings/sizes.h"
@@ -43,7 +42,7 @@ std::string aliases(const Covariate& c, double period) {
                      longer < 0.99 * period ? "" : "s");
 }
 
-std::string wave_of(const CellTable& table) {
+std::string wave_of(const CellTable& table, const std::string& unit) {
   if (table.keys.size() != 1 || table.keys[0].x.size() < criteria.levels_of_waves) return "";
   const CellTable::Key& along = table.keys[0];
   const Index n = index(along.x.size());
@@ -64,10 +63,9 @@ std::string wave_of(const CellTable& table) {
   }();
   const double share = 1 - least / about_line.squaredNorm();
   if (!(share >= criteria.share_of_waves)) return "";
-  const std::string small = table.indication_si_unit == "m" ? "um" : table.indication_unit;
-  return fmt::format("a wave of period {:.3g} {} and amplitude {} explains {:.0f} % of it",
-                     units::from_si(range / cycles, along.unit, along.si_unit, units::Kind::difference), along.unit,
-                     shown_size(fitted(x, y, cycles).amplitude, small, table.indication_si_unit), 100 * share);
+  return fmt::format("a wave of period {} and amplitude {} explains {:.0f} % of it",
+                     shown_size(range / cycles, along.unit, along.si_unit),
+                     shown_size(fitted(x, y, cycles).amplitude, unit, table.indication_si_unit), 100 * share);
 }
 
 } // namespace gumshoe::tracing

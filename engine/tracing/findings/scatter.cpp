@@ -69,12 +69,12 @@ std::vector<MoreNoise> noise_found(const TraceContext& c, const JointFit& fit, c
   return out;
 }
 
-void describe_scatter(const TraceContext& c, const JointFit& fit, int component, Finding& finding) {
+void describe_scatter(const TraceContext& c, const JointFit& fit, int component, const Rms& rms, Finding& finding) {
   const auto& card = c.experiment.model().card->indications[0];
   SizedQuantity q;
   q.name = "standard deviation";
-  q.unit = card.si_unit == "m" ? "um" : std::string(card.unit);
   q.si_unit = card.si_unit;
+  q.unit = unit_of(rms, std::string(card.unit), q.si_unit);
   const double unit = fit.design.reference[0] * std::sqrt(fit.variance);
   if (component < 0) { // of single readings: the noise is larger than declared
     q.value = unit;

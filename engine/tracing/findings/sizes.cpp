@@ -19,11 +19,14 @@ std::string shown_size(double si, const std::string& unit, const std::string& si
 }
 
 std::string unit_of(const Rms& rms) {
-  if (rms.si_unit != "m") return rms.unit;
   double largest = 0;
   for (const double x : {rms.before, rms.after, rms.noise})
     if (std::isfinite(x)) largest = std::max(largest, x);
-  return largest < 1e-3 ? "um" : largest < 1 ? "mm" : "m";
+  return units::error_unit(rms.unit, rms.si_unit, largest);
+}
+
+std::string unit_of(const Rms& rms, const std::string& unit, const std::string& si_unit) {
+  return rms.si_unit == si_unit ? unit_of(rms) : units::error_unit(unit, si_unit);
 }
 
 std::string shown_rms(double si, const Rms& rms) {

@@ -154,6 +154,14 @@ void find_blocks(const Scenario& s, Observations& o) {
 
 } // namespace
 
+bool counts_readings(const Covariate& c) {
+  if (!c.course || c.unit != "1" || c.levels.size() != c.value.size()) return false;
+  const double first = c.levels.front();
+  for (std::size_t i = 0; i < c.levels.size(); ++i)
+    if (c.levels[i] != first + static_cast<double>(i)) return false;
+  return first == 0 || first == 1;
+}
+
 std::vector<std::size_t> neighbours(const Covariate& c, std::size_t most) {
   const std::size_t levels = c.levels.size(), groups = std::min(levels, most);
   std::vector<std::size_t> out;

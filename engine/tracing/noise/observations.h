@@ -17,6 +17,9 @@ struct Covariate {
   bool course = false;    ///< time, or the order of measurement
 };
 
+/// Whether a covariate is the number of the reading, and no other course that has no unit, such as decimal years.
+bool counts_readings(const Covariate& covariate);
+
 /// Number of the group of each reading, if the levels are cut into at most so many groups of neighbours.
 std::vector<std::size_t> neighbours(const Covariate& covariate, std::size_t most);
 

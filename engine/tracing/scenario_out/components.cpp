@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/units.h"
 #include "tracing/findings/findings.h"
 #include "tracing/findings/sizes.h"
 #include "tracing/scenario_out/composition.h"
@@ -25,8 +26,9 @@ public:
         per = {"reading"};
         source += "; drawn for each reading, since their declared noise differs";
       }
-    out_.additions.push_back(
-        {std::string(card.name), unit_of(card), std::string(card.si_unit), u, std::move(per), std::move(source)});
+    out_.additions.push_back({std::string(card.name),
+                              units::error_unit(std::string(card.unit), std::string(card.si_unit)),
+                              std::string(card.si_unit), u, std::move(per), std::move(source)});
   }
 
   /// The part of an indication's noise that grows with a condition: u at its largest value.
@@ -61,8 +63,9 @@ public:
     if (f.quantities.empty()) return;
     const double u = f.quantities[0].value;
     if (f.quantities[0].low95 < f.quantities[0].high95)
-      source += fmt::format("; 95 % interval of u in the indication [{:.3g}, {:.3g}] {}", f.quantities[0].low95,
-                            f.quantities[0].high95, f.quantities[0].si_unit);
+      source += fmt::format("; 95 % interval of u in the indication: {} to {}",
+                            shown_size(f.quantities[0].low95, f.quantities[0].unit, f.quantities[0].si_unit),
+                            shown_size(f.quantities[0].high95, f.quantities[0].unit, f.quantities[0].si_unit));
     const auto seat = seat_at_null(c_.experiment);
     if (const double loading = seat && d.indications == 1 ? loading_of(*seat) : 0; loading > 0) {
       const auto& q = c_.experiment.scenario().quantities[*seat];
@@ -95,8 +98,6 @@ public:
   }
 
 private:
-  static std::string unit_of(const VariableCard& card) { return card.si_unit == "m" ? "um" : std::string(card.unit); }
-
   /// Change of the indication with a quantity, root mean square; 0 if the model has no derivative there.
   double loading_of(std::size_t quantity) const {
     Vector f;

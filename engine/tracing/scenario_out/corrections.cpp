@@ -109,8 +109,8 @@ std::optional<Correction> in_a_group(const TraceContext& c, const Vector& loadin
 } // namespace
 
 std::string unit_of_size(const VariableCard& card) {
-  const std::string unit = card.si_unit == "m" ? "um" : std::string(card.unit), si_unit(card.si_unit);
-  return units::to_si(0, unit, si_unit) == 0 ? unit : si_unit;
+  const std::string si_unit(card.si_unit);
+  return units::difference_unit(units::error_unit(std::string(card.unit), si_unit), si_unit);
 }
 
 std::optional<WrittenShape> written_shape(const TraceContext& c, const Term& term, const std::string& name) {
