@@ -9,7 +9,9 @@ import re
 import subprocess
 import sys
 import tempfile
+import types
 import unittest
+import unittest.mock
 
 import h5py
 import numpy as np
@@ -331,6 +333,24 @@ class Words(unittest.TestCase):
             unit, factor = trace.suited("mm", size)
             self.assertEqual((unit, round(factor)), said)
         self.assertEqual(trace.suited("um", 5390), ("mm", 1e-3))
+
+    def test_a_time_has_one_unit_along_every_axis(self):
+        """Residuals and the curve of an unknown effect against the same time."""
+        for last, unit, to in ((540.0, "s", 540), (5400.0, "min", 90)):
+            own = {"display_units": "s", "units": "s", "display_factor": 1.0, "display_offset": 0.0}
+            points = [types.SimpleNamespace(x=x, y=1e-6 * x, u=1e-7) for x in np.linspace(0, last, 10)]
+            curve = types.SimpleNamespace(**own, against="time", rows=points, size_display_units="um", size_display_factor=1e6,
+                                          indication="deviation")
+            drawn = []
+            with unittest.mock.patch.object(trace_figures, "svg", lambda figure, *_: drawn.append(figure) or ""):
+                trace_figures.curves([curve], "c")
+            axes = drawn[0].axes[0]
+            self.assertEqual(axes.get_xlabel(), f"time, {unit}")
+            self.assertAlmostEqual(axes.lines[0].get_xdata()[-1], to)
+            column = types.SimpleNamespace(**own, values=[p.x for p in points])
+            t = types.SimpleNamespace(findings=[], data=types.SimpleNamespace(columns={"time": column}, conditions={}))
+            (name, along, values, _), = trace.columns(t)
+            self.assertEqual((name, along, values[-1]), ("time", unit, to))
 
     def test_averages_lie_on_a_line(self):
         x = np.repeat(np.arange(40.0), 6)
