@@ -4,6 +4,7 @@
 #include <optional>
 #include <regex>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -36,11 +37,42 @@ double sign_of(const std::string& word) {
   return known.empty() ? 0 : known.front().second;
 }
 
+/// Whether a word of a direction may be something else: "pos" is a position as a rule, "rev" a revision.
+bool is_doubtful(const std::string& word) { return word.size() < 2 || word == "pos" || word == "rev"; }
+
+#define GUMSHOE_RUN "r|run|lauf|cycle|zyklus|messung|reihe|series|serie|trial|pass|meas|rep|repeat|n"
+
+/// "up_1", "fwd1", "Up run 2 (um)": a direction, then the number of the run. Both ways are there, or it is none.
+std::optional<Layout> numbered_ways(const Csv& csv) {
+  static const std::regex form(R"(\s*([^\s_.\d]+)(?:[\s_.]+(?:)" GUMSHOE_RUN R"())?[\s_.#]*(\d+)\s*)",
+                               std::regex::icase);
+  Layout out{{"run", "direction"}, {}, "", false};
+  std::set<std::pair<int, double>> known; // each run goes each way once
+  for (std::size_t c = 0; c < csv.header.size(); ++c) {
+    std::smatch match;
+    if (csv.header[c].text.size() > longest_name) continue;
+    std::string name;
+    const std::string unit = unit_in(csv.header[c].text, name);
+    if (!std::regex_match(name, match, form)) continue;
+    const std::string word = match[1], run = match[2];
+    const auto words = words_of(word);
+    const double sign = sign_of(word);
+    if (words.size() != 1 || is_doubtful(words.front()) || sign == 0 || run.size() > 6) continue;
+    if (!out.parts.empty() && unit != out.unit) return std::nullopt; // not the same quantity
+    out.unit = unit;
+    if (!known.emplace(std::stoi(run), sign).second) return std::nullopt;
+    out.parts.push_back({c, {run, word}, sign});
+  }
+  const auto forward = std::ranges::count_if(out.parts, [](const Part& p) { return p.sign > 0; });
+  if (forward == 0 || forward == std::ssize(out.parts)) return std::nullopt;
+  // A machine that has gone up comes down before it goes up again.
+  std::ranges::stable_sort(out.parts, {}, [](const Part& p) { return std::stoi(p.said[0]); });
+  return out;
+}
+
 /// "R1+", "Run 2 up", "Cycle 3 [um]".
 std::optional<Layout> runs(const Csv& csv) {
-  static const std::regex form(
-      R"(\s*(r|run|lauf|cycle|zyklus|messung|reihe|series|serie|trial|pass|meas|rep|repeat|n|)[\s_.#]*(\d+)[\s_.]*([^\s_.\d]*)\s*)",
-      std::regex::icase);
+  static const std::regex form(R"(\s*()" GUMSHOE_RUN R"(|)[\s_.#]*(\d+)[\s_.]*([^\s_.\d]*)\s*)", std::regex::icase);
   Layout out{{"run"}, {}, "", false};
   bool ways = true, numbers = true;
   for (std::size_t c = 0; c < csv.header.size(); ++c) {
@@ -68,6 +100,8 @@ std::optional<Layout> runs(const Csv& csv) {
   return out;
 }
 
+#undef GUMSHOE_RUN
+
 /// "Forward (um)", "Backward (um)".
 std::optional<Layout> directions(const Csv& csv) {
   Layout out{{"direction"}, {}, "", false};
@@ -76,10 +110,7 @@ std::optional<Layout> directions(const Csv& csv) {
     std::string rest;
     const std::string unit = unit_in(csv.header[c].text, rest);
     const auto words = words_of(rest);
-    // "Pos" is a position as a rule, "rev" a revision.
-    const bool doubtful =
-        words.size() != 1 || words.front().size() < 2 || words.front() == "pos" || words.front() == "rev";
-    const double sign = doubtful ? 0 : sign_of(words.front());
+    const double sign = words.size() != 1 || is_doubtful(words.front()) ? 0 : sign_of(words.front());
     if (sign == 0) continue;
     out.parts.push_back({c, {words.front()}, sign});
     out.unit = unit;
@@ -178,7 +209,7 @@ private:
 } // namespace
 
 std::string below_each_other(const Csv& csv) {
-  for (const auto kind : {runs, directions, targets})
+  for (const auto kind : {runs, numbered_ways, directions, targets})
     if (auto layout = kind(csv)) {
       Rewriter rewriter(csv, std::move(*layout));
       if (rewriter.useful()) return rewriter.write();

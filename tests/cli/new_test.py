@@ -202,6 +202,35 @@ class New(Starter):
             for part in ('readings = "reading [um]"', 'labels = { run = "run" }', 'position = "Target [mm]"'):
                 self.assertIn(part, text, form)
 
+    def test_runs_side_by_side_whose_direction_comes_first(self):
+        """Columns in the order of the runs or of the directions: each run goes up, then down, from the last target back."""
+        for up, down in (("up_{}_um", "down_{}_um"), ("up{}_um", "down{}_um"), ("fwd{} (um)", "bwd{} (um)"),
+                         ("Up run {} [um]", "Down run {} [um]")):
+            for order in ([(1, up), (1, down), (2, up), (2, down)], [(1, up), (2, up), (1, down), (2, down)]):
+                with self.subTest(up, order=order):
+                    header = ["target_mm"] + [form.format(run) for run, form in order]
+                    value = {(1, up): 1, (1, down): 2, (2, up): 3, (2, down): 4}
+                    rows = [";".join([str(x), *(f"{value[one]}.{x}" for one in order)]) for x in range(10, 70, 5)]
+                    (self.folder / "w.csv").write_text("\n".join([";".join(header), *rows]) + "\n")
+                    said = self.new("--from", "w.csv", "--force")
+                    self.assertIn("w.rows.csv: the runs of w.csv one below the other", said)
+                    self.assertIn("ready", said)
+                    lines = [line.split(";") for line in (self.folder / "w.rows.csv").read_text().splitlines()]
+                    self.assertEqual(lines[0], ["target_mm", "run", "direction", "reading [um]"])
+                    self.assertEqual([line[1] for line in lines[1::12]], ["1", "1", "2", "2"])
+                    self.assertEqual([line[3] for line in lines[1::12]], ["1.10", "2.65", "3.10", "4.65"])
+                    text = (self.folder / "w.toml").read_text()
+                    for part in ('labels = { run = "run" }', " = 1", " = -1"):
+                        self.assertIn(part, text)
+        # Of one direction alone, of a position, or twice the same, such names say no run.
+        for names in ("up_1_um;up_2_um", "pos1_mm;pos2_mm", "up_1_um;up_01_um;down_1_um"):
+            with self.subTest(names):
+                values = [";".join([str(x), *(f"{k}.{x}" for k in range(len(names.split(";"))))]) for x in range(10, 70, 5)]
+                (self.folder / "w.csv").write_text("\n".join([f"target_mm;{names}", *values]) + "\n")
+                said = gumshoe("new", "--from", "w.csv", "--force", cwd=self.folder)
+                self.assertEqual(said.returncode, 0, said.stderr)
+                self.assertNotIn("w.rows.csv", said.stdout + said.stderr)
+
     def test_a_gain_of_plain_numbers(self):
         (self.folder / "g.csv").write_text("run,load (kN),reading (1)\n" + "".join(f"{r},{x},{0.5 * x + r % 2 / 1e3}\n" for r in (1, 2, 3) for x in range(10)))
         self.assertIn("ready", self.new("--from", "g.csv"))
