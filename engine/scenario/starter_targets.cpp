@@ -58,13 +58,25 @@ std::string starter_targets(const StarterData& data, const TargetColumns& column
     quantities += line(own, fmt::format("{{ estimated = true, value = \"0 {}\" }}", unit), "");
     return own;
   };
+  // Targets whose zero is none of their size, such as 0 degC, count from it all the same.
+  std::map<std::string, std::string> references;
+  const auto reference_of = [&](const std::string& unit) {
+    std::string& known = references[unit];
+    if (known.empty()) {
+      known = names.add("reference");
+      quantities += line(known, fmt::format("\"0 {}\"", unit), "offsets hold here, not at 0 K");
+    }
+    return known;
+  };
   for (std::size_t i = 0; i < readings.size(); ++i) {
     const auto& [name, reading] = readings[i];
-    const std::string unit = unit_or(*reading, "mm");
+    const std::string unit = difference_unit_or(*reading, "mm");
     std::string formula = fmt::format("{} + {}", conditions[i].first, fitted(name + "_offset", unit));
-    for (const auto& [other, column] : conditions)
-      formula += fmt::format(" + {} * {}", fitted(name + "_by_" + other, units::quotient(unit, unit_or(*column, "mm"))),
-                             other);
+    for (const auto& [other, column] : conditions) {
+      const std::string difference = difference_unit_or(*column, "mm"), own = unit_or(*column, "mm");
+      formula += fmt::format(" + {} * {}", fitted(name + "_by_" + other, units::quotient(unit, difference)),
+                             own == difference ? other : fmt::format("({} - {})", other, reference_of(own)));
+    }
     out += line(name, quoted(formula), "guessed: read where it was commanded to");
   }
   const std::string recorded = columns_of(found, names, used);

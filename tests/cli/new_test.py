@@ -130,6 +130,21 @@ class New(Starter):
                 self.assertEqual(sizes[name]["unit"], unit)
                 self.assertAlmostEqual(sizes[name]["value"], value, delta=0.01)
 
+    def test_offsets_of_several_set_temperatures_are_differences(self):
+        draw, rows = random.Random(3), ["set_a_degC,set_b_degC,act_a_degC,act_b_degC"]
+        for _ in range(40):
+            a, b = draw.uniform(0, 80), draw.uniform(0, 80)
+            rows.append(",".join(f"{x:.3f}" for x in (a, b, 1.01 * a + 0.5, b - 0.3 + 0.02 * a)))
+        (self.folder / "s.csv").write_text("\n".join(rows) + "\n")
+        self.assertIn("ready", self.new("--from", "s.csv"))
+        self.assertIn('"set_a_degc + act_a_degc_offset + act_a_degc_by_set_a_degc * (set_a_degc - reference)', (self.folder / "s.toml").read_text())
+        run = gumshoe("estimate", "s.toml", "--format", "json", cwd=self.folder)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        sizes = json.loads(run.stdout)["parameters"]
+        for name, value in (("act_a_degc_offset", 0.5), ("act_b_degc_offset", -0.3)):
+            self.assertEqual(sizes[name]["unit"], "K")
+            self.assertAlmostEqual(sizes[name]["value"], value, delta=0.01)
+
     def test_rows_without_a_number_and_counts_of_rows(self):
         rows = "".join(f"{i};{10 * i};{'' if i == 3 else f'1,{i}'};{'+' if i % 2 else '-'}\r\n" for i in range(1, 8))
         (self.folder / "g.csv").write_bytes(("\ufeffNr;Pos_X (mm);Messwert [um];Side\r\n" + rows).encode())

@@ -88,7 +88,6 @@ Matrix columns_of(const Covariate& c, const std::vector<std::size_t>& readings, 
 void describe_alignments(const TraceContext& c, const Search& s, Trace& out) {
   const JointFit& fit = out.vetoed ? s.base : s.found;
   const Observations& o = c.observations;
-  const auto& card = c.experiment.model().card->indications[0];
   std::vector<std::size_t> readings; // of the first indication
   std::vector<Index> rows;
   for (const Index row : c.fitter.rows())
@@ -128,8 +127,7 @@ void describe_alignments(const TraceContext& c, const Search& s, Trace& out) {
       out.statements.push_back(fmt::format(
           "each {} has {} of its own against {} ({}, root mean square): where it was aligned anew, the model needs {} "
           "for each, such as gumshoe new --role COLUMN=alignment writes",
-          g.name, turns ? "a first wave" : "a slope", v.name,
-          shown_size(own.size, std::string(card.unit), std::string(card.si_unit)),
+          g.name, turns ? "a first wave" : "a slope", v.name, shown_rms(own.size, out.rms),
           turns ? "an eccentricity" : "a slope"));
     }
   }
