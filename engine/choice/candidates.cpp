@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/hash.h"
 #include "choice/figures.h"
 #include "choice/setup.h"
 
@@ -104,6 +105,16 @@ std::vector<Place> coarse_places(const scenario::Scenario& s) {
     if (known.insert(std::move(values)).second) out.push_back(std::move(place));
   }
   return out;
+}
+
+std::string coarse_grid_hash(const scenario::Scenario& s) {
+  std::string text = fmt::format("{} samples;", s.choose->samples);
+  for (const std::string& name : assessment_names(s)) text += name + ';';
+  for (const scenario::Variable& v : s.choose->variables)
+    text += fmt::format("{} {};", static_cast<int>(v.knob.kind), v.knob.name);
+  for (const Place& place : coarse_places(s))
+    for (const scenario::Setting& setting : settings_at(*s.choose, place)) text += fmt::format("{:a};", setting.value);
+  return fmt::format("{:016x}", hash64(text));
 }
 
 propagation::Work assessment_work(const scenario::Scenario& s, std::vector<Place> list, int threads) {

@@ -26,6 +26,9 @@ struct Assessment {
 
 /// Places of one value each: those of the coarse grid, the first of equal ones.
 std::vector<Place> coarse_places(const scenario::Scenario& scenario);
+/// What the units of the coarse grid are: its variables, the values of its candidates, their samples and the numbers of a
+/// unit, hashed.
+std::string coarse_grid_hash(const scenario::Scenario& scenario);
 
 /// Assesses places with common random numbers, one in a unit, on so many threads each. Its name says which places they
 /// are: "grid" of the coarse ones, or a list.

@@ -61,6 +61,7 @@ ExitCode choose_shard(const scenario::Scenario& s, const std::string& shard, con
   identity.shard = wanted.text();
   identity.options = request.words();
   identity.samples = part.size();
+  identity.design_hash = choice::coarse_grid_hash(s);
   const auto outputs = outputs_of(s);
   store::ResultFile file(out, identity, outputs, {"coarse grid"}, force);
   if (!file.remark().empty()) std::cerr << file.remark() << '\n';
@@ -90,6 +91,10 @@ ExitCode choose_shard(const scenario::Scenario& s, const std::string& shard, con
 propagation::Workers workers_of_choice(const scenario::Scenario& s, const ShardSet& shards, int threads) {
   const auto outputs = outputs_of(s);
   const propagation::Work grid = grid_of(s);
+  if (const std::string hash = choice::coarse_grid_hash(s); hash != shards.identity.design_hash)
+    throw InputError("the shards have other candidates than the coarse grid of " + s.file,
+                     "design hash " + shards.identity.design_hash + ", the scenario has " + hash,
+                     "make the shards again");
   const auto files = std::make_shared<std::vector<std::unique_ptr<store::StoredSamples>>>();
   for (std::size_t k = 0; k < shards.files.size(); ++k) {
     if (store::read_identity(shards.files[k]).identity.samples != part_of(grid, {k + 1, shards.of}).size())

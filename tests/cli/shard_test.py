@@ -241,7 +241,23 @@ class Shards(InFolder):
         for file in files.values():
             reseal(file, scenario_hash=said["scenario_hash"])
         self.scenario(content)
+        self.refused("the shards have other candidates than the coarse grid of s.toml (design hash", "merge", *files.values())
+        for file in files.values():
+            reseal(file, design_hash=said["design_hash"])
         self.refused("the shard has another number of candidates than its part of the grid", "merge", *files.values())
+
+    def test_a_shard_of_another_grid_of_as_many_candidates_is_made_again(self):
+        content = CHOICE.replace('low = "10 mm/min"', 'low = "20 mm/min"')
+        file = self.make(self.scenario(content), 2, command="choose")[0][1]
+        said, whole = record(file), file.read_bytes()
+        self.make(self.scenario(CHOICE), 2, "--force", command="choose", numbers=[1])
+        self.assertEqual(record(file)["rows"], said["rows"])
+        # As a program would have left it that divides the same ranges in another way.
+        reseal(file, scenario_hash=said["scenario_hash"], scenario_text=said["scenario_text"])
+        other = self.done("choose", self.scenario(content), "--shard", "1/2", "--out", file)
+        self.assertIn("held 8 samples of an unfinished run with other settings; this run replaces it", other.stderr)
+        self.assertEqual(file.read_bytes(), whole)
+        self.assertEqual(self.done("choose", "s.toml", "--shard", "1/2", "--out", file).stderr, "")
 
     def test_refusals_of_files(self):
         scenario = self.scenario(FORMULA)
