@@ -59,6 +59,7 @@ Outputs claimed_outputs(const Options& o, const scenario::Scenario& s) {
   const auto text = [&](const std::string& path, const char* command) {
     return path.empty() ? store::Claim() : store::claim_text(path, store::origin_of(s, command, o.force));
   };
+  if (!o.report.empty()) generator_script();
   const store::Origin origin = store::origin_of(s, "trace", o.force);
   return {origin, store::claim_result(out, origin), text(scenario, "trace"), text(o.json, "trace"),
           text(o.report, "report")};

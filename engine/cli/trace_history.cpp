@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <map>
+#include <sstream>
 
 #include <fmt/format.h>
 
@@ -30,6 +32,42 @@ std::string id_of(const std::vector<quantities::Reading>& readings) {
   return fmt::format("{:016x}", digest64(values.data(), values.size()));
 }
 
+/// What a model that a scenario describes says of itself, one in a line: two such models may share a name.
+std::string equations_of(const scenario::Scenario& s, const ModelCard& card) {
+  if (!s.made) return {};
+  std::string out = s.external.empty() ? "" : std::string(card.title) + '\n'; // a command's words, a plugin's title
+  for (const EvaluationCard& e : card.evaluations)
+    for (const EquationCard& equation : e.equations) {
+      std::string text(equation.text);
+      std::ranges::replace(text, '\n', ' ');
+      out += text + '\n';
+    }
+  for (const AxisCard& axis : card.axes)
+    out += fmt::format("axis {} of the {}: {} {}\n", axis.name, axis.carries_workpiece ? "workpiece" : "tool",
+                       axis.rotary ? "turns about" : "moves along", "XYZ"[axis.direction]);
+  return out;
+}
+
+/// The lines of a text, by what stands in them apart from spaces.
+std::map<std::string, std::string> lines_of(const std::string& text) {
+  std::map<std::string, std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) {
+    std::string bare = line;
+    std::erase_if(bare, [](char c) { return c == ' ' || c == '\t' || c == '\r'; });
+    lines[bare] = line;
+  }
+  return lines;
+}
+
+/// The first line of `text` that is not in `other`; empty if there is none.
+std::string first_missing(const std::string& text, const std::string& other) {
+  const auto known = lines_of(other);
+  for (const auto& [bare, line] : lines_of(text))
+    if (!known.contains(bare)) return line;
+  return {};
+}
+
 /// "430", "2.1e+05", "0.02".
 std::string odds(double log_evidence) { return fmt::format("{:.2g}", std::exp(std::min(log_evidence, 700.0))); }
 
@@ -49,7 +87,8 @@ std::string sizes_of(const tracing::EffectEvidence& e) {
 } // namespace
 
 History::History(const std::string& path, const scenario::Scenario& s, const ModelCard& card)
-    : path_(path), id_(id_of(s.readings)), model_(s.model), model_title_(card.title) {
+    : path_(path), id_(id_of(s.readings)), model_(s.model), model_title_(card.title),
+      model_equations_(equations_of(s, card)) {
   if (path.empty()) return;
   claim_ = store::Claim(path);
   campaigns_ = store::read_history(claim_.target());
@@ -60,11 +99,21 @@ History::History(const std::string& path, const scenario::Scenario& s, const Mod
 }
 
 void History::require_same_model() const {
-  for (const tracing::Campaign& c : campaigns_)
-    if (!c.model.empty() && c.model != model_)
-      throw InputError(path_ + ": it is the history of another model",
-                       fmt::format("{}, '{}'; here it is {}, '{}'", c.model, c.model_title, model_, model_title_),
-                       "append to a history of its own");
+  const auto refuse = [&](const std::string& there, const std::string& here) {
+    throw InputError(path_ + ": it is the history of another model", fmt::format("{}; here it is {}", there, here),
+                     "append to a history of its own");
+  };
+  const auto in_words = [](const std::string& model, const std::string& what) {
+    return fmt::format("{}, {}", model, what.empty() ? "without a counterpart" : "'" + what + "'");
+  };
+  for (const tracing::Campaign& c : campaigns_) {
+    if (c.model.empty()) continue;
+    if (c.model != model_) refuse(in_words(c.model, c.model_title), in_words(model_, model_title_));
+    const std::string there = first_missing(c.model_equations, model_equations_),
+                      here = first_missing(model_equations_, c.model_equations);
+    if (!c.model_equations.empty() && !(there.empty() && here.empty()))
+      refuse(in_words(c.model, there), in_words(model_, here));
+  }
 }
 
 void History::append(const tracing::Trace& trace, store::Draft& draft) {
@@ -73,6 +122,7 @@ void History::append(const tracing::Trace& trace, store::Draft& draft) {
   campaigns_.back().id = id_;
   campaigns_.back().model = model_;
   campaigns_.back().model_title = model_title_;
+  campaigns_.back().model_equations = model_equations_;
   campaigns_.back().date = date_text(std::time(nullptr));
   evidence_ = tracing::evidence_over_time(campaigns_);
   store::write_history(draft, claim_, campaigns_, evidence_);

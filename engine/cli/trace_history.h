@@ -13,7 +13,8 @@ namespace gumshoe::cli {
 class History {
 public:
   History() = default;
-  /// Throws InputError if the file is no history, is of another model, or holds these readings already. `path` empty:
+  /// Throws InputError if the file is no history, is of another model or of other equations, or holds these readings
+  /// already. `path` empty:
   /// none is kept.
   History(const std::string& path, const scenario::Scenario& scenario, const ModelCard& card);
   explicit operator bool() const { return !path_.empty(); }
@@ -26,7 +27,7 @@ public:
 
 private:
   void require_same_model() const;
-  std::string path_, id_, model_, model_title_;
+  std::string path_, id_, model_, model_title_, model_equations_;
   store::Claim claim_;
   std::vector<tracing::Campaign> campaigns_;
   tracing::EvidenceOverTime evidence_;

@@ -32,6 +32,7 @@ void write_campaign(hid_t group, const Campaign& c) {
   hdf5::write_attribute(group, "title", c.title);
   hdf5::write_attribute(group, "model", c.model);
   hdf5::write_attribute(group, "model_title", c.model_title);
+  hdf5::write_attribute(group, "model_equations", c.model_equations);
   hdf5::write_attribute(group, "date", c.date);
   hdf5::write_attribute(group, "readings", c.readings);
   hdf5::write_attribute(group, "squares", c.squares);
@@ -69,6 +70,7 @@ Campaign read_campaign(hid_t group) {
     c.model = hdf5::read_text(group, "model");
     c.model_title = hdf5::read_text(group, "model_title");
   }
+  if (H5Aexists(group, "model_equations") > 0) c.model_equations = hdf5::read_text(group, "model_equations");
   if (!hdf5::has(group, "score")) return c; // nothing could be looked for
   const auto candidate = hdf5::read_texts(group, "candidate"), size = hdf5::read_texts(group, "quantity"),
              unit = hdf5::read_texts(group, "unit"), si_unit = hdf5::read_texts(group, "si_unit");

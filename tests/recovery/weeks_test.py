@@ -79,6 +79,17 @@ class Weeks(unittest.TestCase):
             self.assertIn("h.h5: it is the history of another model (", other.stderr)
             self.assertIn("here it is linear_axis, '", other.stderr)
             self.assertEqual((folder / "h.h5").read_bytes(), before)
+            # Another equation makes another model, although both are called `expression`; spaces do not.
+            text = axis.scenario(True) + weeks.STATED
+            (folder / "s.toml").write_text(text.replace("gain * x + offset", "gain * x^2 / (1 m) + offset"))
+            other = run("--append", "h.h5")
+            self.assertEqual(other.returncode, 2, other.stdout)
+            self.assertIn("h.h5: it is the history of another model (expression, 'd = gain * x + offset'; here it is expression, "
+                          "'d = gain * x^2 / (1 m) + offset'). Append to a history of its own.", other.stderr)
+            self.assertEqual((folder / "h.h5").read_bytes(), before)
+            (folder / "s.toml").write_text(text.replace("gain * x + offset", "gain*x  + offset"))
+            self.assertEqual(run("--append", "h.h5").returncode, 0)
+            (folder / "s.toml").write_text(text)
             with h5py.File(folder / "h.h5", "a") as file:
                 cut = file["campaigns/000/information"][:-1]
                 del file["campaigns/000/information"]

@@ -30,6 +30,9 @@ struct Campaign {
   double freedom = 0; ///< readings less unknowns
   std::vector<Score> scores;
   std::string model = {}, model_title = {}; ///< by name; empty in histories of older versions
+  /// What distinguishes models of one name that scenarios describe, one in a line: title, equations and axes. Empty for a
+  /// model of the catalogue, and in histories of older versions.
+  std::string model_equations = {};
 };
 
 } // namespace gumshoe::tracing
