@@ -255,7 +255,7 @@ Results analyse(const propagation::Experiment& e, const Samples& samples, const 
   study(true, "covariance of the fit", r.fits, [&] { return fit_covariances(e, samples); });
   study(true, "circular statistics", r.circular, [&] { return circular_summaries(e, samples.values, threads); });
   study(true, "conformity", r.conformity, [&] { return conformity(e, samples.values, r.summaries, threads); });
-  study(true, "target uncertainties", r.targets, [&] { return target_uncertainties(e, r.budgets, threads); });
+  study(true, "target uncertainties", r.targets, [&] { return target_uncertainties(e, r.summaries, r.budgets, threads); });
   if (s.run.store_inputs) r.draws = input_draws(e);
   r.comparisons = compare(e, samples.values, r.summaries, threads);
   r.printed = beside_printed(e, r.summaries);

@@ -58,7 +58,7 @@ std::vector<ComparisonResult> compare(const propagation::Experiment& e, const Va
         r.difference = s.estimate;
         r.standard_uncertainty = s.standard_uncertainty;
         r.root_sum_square = std::hypot(summaries[i].standard_uncertainty, summaries[j].standard_uncertainty);
-        r.expanded_uncertainty = 0.5 * (s.shortest.high - s.shortest.low);
+        r.expanded_uncertainty = s.monte_carlo_expanded;
         r.normalised_error = r.difference / r.expanded_uncertainty;
         results.push_back(r);
       }

@@ -271,6 +271,14 @@ std::vector<Budget> budgets(const propagation::Experiment& e, std::size_t first,
   return out;
 }
 
+bool contributions_cancel(const Budget& b) { return b.correlation_share < -1; }
+
+double uncorrelated_uncertainty(const Budget& b) {
+  double u = 0;
+  for (const Contribution& c : b.contributions) u = std::hypot(u, c.contribution);
+  return u;
+}
+
 bool any_uncertain(const Budget& b) {
   return std::ranges::any_of(b.contributions, [](const Contribution& c) { return c.standard_uncertainty > 0; });
 }

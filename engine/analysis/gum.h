@@ -19,6 +19,12 @@ std::vector<Budget> budgets(const propagation::Experiment& experiment, std::size
 /// Whether terms of second order are found for quantities with these standard uncertainties: for at most 100 of them.
 bool has_second_order(const std::vector<double>& standard_uncertainties);
 
+/// Whether the contributions of correlated inputs cancel: the correlations take off more than the variance that is left.
+/// Contributions are then no shares of it.
+bool contributions_cancel(const Budget& budget);
+/// Standard uncertainty that the contributions would combine to without correlations.
+double uncorrelated_uncertainty(const Budget& budget);
+
 /// Whether any input has a standard uncertainty, whatever its sensitivity coefficient.
 bool any_uncertain(const Budget& budget);
 

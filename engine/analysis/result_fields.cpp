@@ -97,8 +97,8 @@ constexpr Field<S> summary[] = {
      in_both},
     {"valid", of<&S::valid>, one, "samples with a value", in_both},
     {"failed", of<&S::failed>, one, "samples without a value", {same, same, "failed"}},
-    {"skewness", of<&S::skewness>, one, "skewness", {.json = same, .gauge = "skewness"}},
-    {"kurtosis", of<&S::kurtosis>, one, "kurtosis", {.json = same, .gauge = "kurtosis"}},
+    {"skewness", of<&S::skewness>, one, "skewness, NaN of fewer than 3 samples", {.json = same, .gauge = "skewness"}},
+    {"kurtosis", of<&S::kurtosis>, one, "kurtosis, NaN of fewer than 4 samples", {.json = same, .gauge = "kurtosis"}},
     {"hill_index", of<&S::hill_index>, one, "tail index by Hill's estimator, NaN if not estimated", in_json},
     {"warning", of<&S::warning>, one, "what the reader must know of this output", in_both},
     {"tail_remark", of<&S::tail_remark>, one, "what heavy tails do to the standard uncertainty", in_json},
@@ -178,7 +178,7 @@ constexpr Field<D> comparison[] = {
     {"standard_uncertainty", of<&D::standard_uncertainty>, difference, "standard uncertainty of d, from joint samples",
      in_both},
     {"root_sum_square", of<&D::root_sum_square>, difference, "what ignoring common inputs would give", in_both},
-    {"expanded_uncertainty", of<&D::expanded_uncertainty>, difference, "U(d): half the shortest coverage interval",
+    {"expanded_uncertainty", of<&D::expanded_uncertainty>, difference, "U(d): half the coverage interval about d",
      in_both},
     {"normalised_error", of<&D::normalised_error>, one, "E_n = d / U(d)", in_both}};
 

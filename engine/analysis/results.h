@@ -88,7 +88,8 @@ struct Validation {
   std::string reason;
 };
 
-/// d = a - b from joint samples; E_n = d / U(d), U(d) half the shortest coverage interval.
+/// d = a - b from joint samples; E_n = d / U(d), U(d) half the coverage interval about d, as in
+/// Summary::monte_carlo_expanded.
 struct ComparisonResult {
   std::string name; ///< "laser_z: rod 1 - rod 2, setup 1"
   std::string a, b; ///< names of the outputs: "laser_z[rod 1, setup 1]"

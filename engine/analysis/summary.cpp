@@ -145,6 +145,13 @@ Ends symmetric_ends(std::vector<double>& x, double p) {
   return {x[low], x[high]};
 }
 
+double half_width_about(double y, std::vector<double> x, double p) {
+  for (double& v : x) v = std::fabs(v - y);
+  const auto farthest = x.begin() + static_cast<std::ptrdiff_t>(covered_ranks(x.size(), p));
+  std::nth_element(x.begin(), farthest, x.end());
+  return *farthest;
+}
+
 namespace {
 
 /// Ranks, from 0, of ends that hold whatever values the failed samples had: these could all lie below, or all above, so
@@ -209,9 +216,9 @@ void add_intervals(Summary& s, const Ordered& ordered, const Column& values, dou
   histogram(s, values, ordered[0], ordered[s.valid - 1], threads);
 }
 
-/// By the kurtosis, which is 1 of any two values and 1.5 of any three: it then says nothing.
+/// By the kurtosis; NaN where there is none.
 double standard_uncertainty_error(const Summary& s) {
-  if (s.valid < 4 && s.standard_uncertainty > 0) return nan;
+  if (s.valid < least_for_kurtosis && s.standard_uncertainty > 0) return nan;
   return s.standard_uncertainty * std::sqrt(std::max(0.0, s.kurtosis - 1) / (4 * static_cast<double>(s.valid)));
 }
 
@@ -252,8 +259,9 @@ Summary summarise(const propagation::Output& output, const Column& values, doubl
     return s;
   }
   s.standard_uncertainty = std::sqrt(m.variance);
-  s.skewness = m.skewness;
-  s.kurtosis = m.kurtosis;
+  const bool constant = s.standard_uncertainty == 0;
+  s.skewness = constant || s.valid >= least_for_skewness ? m.skewness : nan;
+  s.kurtosis = constant || s.valid >= least_for_kurtosis ? m.kurtosis : nan;
   s.estimate_se = s.standard_uncertainty / std::sqrt(n);
   s.standard_uncertainty_se = standard_uncertainty_error(s);
   if (!intervals) {
@@ -274,6 +282,7 @@ Summary summarise(const propagation::Output& output, const Column& values, doubl
 
 void join_rounded(Summary& s) {
   constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
+  if (!std::isfinite(s.estimate)) return; // the values are too large for their mean
   if (!(s.standard_uncertainty > 0 && s.standard_uncertainty <= rounding * std::fabs(s.estimate))) return;
   s.standard_uncertainty = s.standard_uncertainty_se = s.estimate_se = s.monte_carlo_expanded = 0;
   s.skewness = s.kurtosis = s.shortest_length_se = 0;

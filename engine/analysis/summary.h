@@ -20,6 +20,10 @@ struct Moments {
 /// @param threads 0: all processors
 Moments moments(const Column& values, int threads = 1);
 
+/// Fewer values have the same skewness, 0 of any two, or the same kurtosis, 1 of any two and 1.5 of any three: a summary
+/// states none.
+inline constexpr std::size_t least_for_skewness = 3, least_for_kurtosis = 4;
+
 /// JCGM 101 7.7.2: q = pM rounded to an integer; an interval runs from rank r to rank r + q of the M ordered values.
 std::size_t covered_ranks(std::size_t values, double coverage_probability);
 
@@ -28,6 +32,9 @@ struct Ends {
   double low, high;
 };
 Ends symmetric_ends(std::vector<double>& values, double coverage_probability);
+
+/// Half-width of the interval about y that holds as many of the values as a coverage interval. None may be NaN.
+double half_width_about(double y, std::vector<double> values, double coverage_probability);
 
 /// What bounds the memory of a summary. The figures do not depend on it.
 struct Limits {

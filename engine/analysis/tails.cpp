@@ -56,8 +56,30 @@ void add_tail_ranks(std::size_t valid, std::vector<RankRange>& ranks) {
   ranks.push_back({valid - 1 - k, valid - 1});
 }
 
+namespace {
+
+/// Withholds moments that numbers of double precision do not hold, although they hold the values. Returns whether it did.
+bool withhold_beyond_range(const Column& values, Summary& s, int threads) {
+  if (s.valid < 2) return false;
+  const bool fourth = s.valid < least_for_kurtosis || std::isfinite(s.kurtosis); // of d^4, the first to leave the range
+  const double u = s.standard_uncertainty;
+  const bool large = !std::isfinite(s.estimate) || !std::isfinite(u) || (!fourth && u > 1);
+  const bool small = (u == 0 && s.symmetric.low < s.symmetric.high) || (!fourth && u < 1);
+  if (!large && !small) return false;
+  s.warning = fmt::format("{}no standard uncertainty: the values are too {} for it in double precision",
+                          s.warning.empty() ? "" : s.warning + "; ", large ? "large" : "small");
+  if (!std::isnan(s.symmetric.low)) s.warning += "; the ends of the interval are quantiles and remain valid";
+  s.standard_uncertainty = s.standard_uncertainty_se = s.estimate_se = s.monte_carlo_expanded = nan;
+  s.skewness = s.kurtosis = nan;
+  if (!std::isfinite(s.estimate)) use_median(values, s, threads);
+  return true;
+}
+
+} // namespace
+
 void check_tails(const Column& values, Summary& s, int threads, const KeptOrder* order) {
   s.hill_index = nan;
+  if (withhold_beyond_range(values, s, threads)) return;
   if (s.valid < least || !(s.standard_uncertainty > 0)) return;
   const bool known = order && order->has_value();
   const auto some = known && !(*order)->pilot().empty() ? (*order)->pilot() : pilot_sample(values);
@@ -84,15 +106,11 @@ void check_tails(const Column& values, Summary& s, int threads, const KeptOrder*
   const double n = static_cast<double>(s.valid);
   // Sum d^4 / (sum d^2)^2: how much the largest contribute; it vanishes as 1 / n if there is a fourth moment.
   const double unsettled = s.kurtosis / n;
-  const bool infinite = !std::isfinite(s.standard_uncertainty) || !std::isfinite(s.kurtosis);
-  if (infinite || (heavy && unsettled > 1e-3)) {
-    s.warning =
-        infinite ? std::string("no standard uncertainty: the values are too large for it; the ends of the interval "
-                               "are quantiles and remain valid")
-                 : fmt::format("no standard uncertainty: the tails are so heavy that the variance does not settle in "
-                               "so many samples (Hill's tail index is {:.2g}; a variance exists only above 2); the ends "
-                               "of the interval are quantiles and remain valid",
-                               s.hill_index);
+  if (heavy && unsettled > 1e-3) {
+    s.warning = fmt::format("no standard uncertainty: the tails are so heavy that the variance does not settle in "
+                            "so many samples (Hill's tail index is {:.2g}; a variance exists only above 2); the ends "
+                            "of the interval are quantiles and remain valid",
+                            s.hill_index);
     s.standard_uncertainty = s.standard_uncertainty_se = s.estimate_se = nan;
     if (no_expectation) use_median(values, s, threads);
   } else if (below(s.hill_index, k, 2, 4) && unsettled > 1e-2) {

@@ -112,10 +112,10 @@ private:
 
 class Study {
 public:
-  Study(const propagation::Experiment& e, const scenario::Target& target, std::size_t output, const Budget& budget,
-        int threads)
+  Study(const propagation::Experiment& e, const scenario::Target& target, std::size_t output, const Summary& summary,
+        const Budget& budget, int threads)
       : target_(target), law_(budget, e, e.scenario().analysis.coverage_probability), trial_(e, output, threads),
-        ones_(trial_.experiment().plan().variates.size(), 1.0) {
+        ones_(trial_.experiment().plan().variates.size(), 1.0), stated_(summary.expanded_uncertainty) {
     result_.output = e.outputs()[output];
     result_.wanted = target.expanded_uncertainty;
     result_.reached = result_.cost_ratio = nan;
@@ -131,7 +131,9 @@ public:
   }
 
   TargetResult result() {
-    result_.present = trial_.expanded_uncertainty(ones_);
+    const double tried = trial_.expanded_uncertainty(ones_);
+    if (stated_ > 0 && tried > 0 && std::isfinite(tried)) per_tried_ = stated_ / tried;
+    result_.present = per_tried_ * tried;
     for (TargetRow& row : result_.rows) one(row);
     cheapest();
     say();
@@ -139,6 +141,9 @@ public:
   }
 
 private:
+  /// U of a trial, of the same kind as the stated one.
+  double expanded(const std::vector<double>& scale) { return per_tried_ * trial_.expanded_uncertainty(scale); }
+
   /// Scales of the variates when each quantity has its own.
   std::vector<double> scales(const std::vector<double>& of_row) const {
     auto scale = ones_;
@@ -155,7 +160,7 @@ private:
     const auto u = [&](double s) {
       std::vector<double> of_row(result_.rows.size(), 1.0);
       of_row[index] = s;
-      return trial_.expanded_uncertainty(scales(of_row));
+      return expanded(scales(of_row));
     };
     const double without = u(0);
     drop_.push_back(result_.present * result_.present - without * without);
@@ -198,7 +203,7 @@ private:
     const double wanted = target_.expanded_uncertainty, rest = result_.present * result_.present - variance;
     double unit = std::sqrt(std::max(wanted * wanted - rest, 0.01 * wanted * wanted) / std::max(moved, 1e-300));
     if (!std::isfinite(unit) || !(unit > 0)) unit = 1;
-    const auto u = [&](double s) { return trial_.expanded_uncertainty(scales(of_row(s * unit))); };
+    const auto u = [&](double s) { return expanded(scales(of_row(s * unit))); };
     const double common = unit * largest_allowed(u, u(1), u(0), wanted, 0);
     if (std::isnan(common)) return no_cheapest("the quantities without a cost alone exceed the target");
     if (std::isinf(common)) return no_cheapest("no limit, because the quantities with a cost hardly matter");
@@ -210,7 +215,7 @@ private:
       row.cheapest = s[r] * row.present;
       then += row.cost / s[r];
     }
-    result_.reached = trial_.expanded_uncertainty(scales(s));
+    result_.reached = expanded(scales(s));
     result_.cost_ratio = then / now;
   }
 
@@ -225,9 +230,10 @@ private:
     const std::string unit = o.unit == "1" ? "" : " " + o.unit;
     const int digits = decimals_for(width(0.5 * std::min(result_.present, result_.wanted)));
     result_.statement = fmt::format(
-        "{}: wanted U = {}{}, at present U = {}{} (half the symmetric coverage interval). Each allowed standard "
+        "{}: wanted U = {}{}, at present U = {}{}{}. Each allowed standard "
         "uncertainty stands alone, the others as they are; found to 0.1 % with common random numbers",
-        o.name, fixed(width(result_.wanted), digits), unit, fixed(width(result_.present), digits), unit);
+        o.name, fixed(width(result_.wanted), digits), unit, fixed(width(result_.present), digits), unit,
+        std::isfinite(stated_) ? "" : " (half the interval about the mean; the result states no U)");
     if (!std::isnan(result_.reached))
       result_.statement += fmt::format(". Cheapest combination: U = {}{} at {:.3g} times the present cost, the cost of "
                                        "a quantity being inversely proportional to its standard uncertainty",
@@ -241,6 +247,7 @@ private:
   Law law_;
   Trial trial_;
   std::vector<double> ones_;
+  double stated_, per_tried_ = 1; ///< U of the result, NaN if none is stated; U for a unit of a trial's
   std::vector<double> drop_; ///< by row: how much U^2 falls without the quantity
   TargetResult result_;
   std::string why_not_;
@@ -248,12 +255,12 @@ private:
 
 } // namespace
 
-std::vector<TargetResult> target_uncertainties(const propagation::Experiment& e, const std::vector<Budget>& budgets,
-                                               int threads) {
+std::vector<TargetResult> target_uncertainties(const propagation::Experiment& e, const std::vector<Summary>& summaries,
+                                               const std::vector<Budget>& budgets, int threads) {
   std::vector<TargetResult> results;
   for (const auto& target : e.scenario().analysis.targets)
     for (const std::size_t o : outputs_named(e, target.measurand, target.labels))
-      results.push_back(Study(e, target, o, budgets[o], threads).result());
+      results.push_back(Study(e, target, o, summaries[o], budgets[o], threads).result());
   return results;
 }
 

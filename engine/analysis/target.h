@@ -5,7 +5,9 @@
 
 namespace gumshoe::analysis {
 
-/// One for each of the scenario's targets and each output it names. U is half the symmetric coverage interval.
+/// One for each of the scenario's targets and each output it names. U is the one that the result states (certify()); of
+/// trials it is that times the ratio of their half-widths about the mean, trial.h. Where the result states none, it is
+/// the half-width itself.
 ///
 /// A quantity's standard uncertainty is changed by scaling all deviations of its components about their means; its
 /// distribution keeps its shape. `allowed` is found by running the model with the same random numbers for every trial
@@ -18,6 +20,7 @@ namespace gumshoe::analysis {
 ///
 /// Up to 100,000 points per model run, of the output's reading alone; the statement says how many runs were made.
 std::vector<TargetResult> target_uncertainties(const propagation::Experiment& experiment,
+                                               const std::vector<Summary>& summaries,
                                                const std::vector<Budget>& budgets, int threads);
 
 } // namespace gumshoe::analysis

@@ -77,8 +77,8 @@ double Trial::expanded_uncertainty(const std::vector<double>& scale) {
   const double failed = static_cast<double>(points_ - y.size());
   if (y.size() < 2 || failed > scenario_->run.max_failed_share * static_cast<double>(points_))
     return std::numeric_limits<double>::infinity();
-  const Ends ends = symmetric_ends(y, scenario_->analysis.coverage_probability);
-  return 0.5 * (ends.high - ends.low);
+  const double mean = moments(y).mean;
+  return half_width_about(mean, std::move(y), scenario_->analysis.coverage_probability);
 }
 
 } // namespace gumshoe::analysis

@@ -21,7 +21,7 @@ public:
   const std::vector<std::size_t>& reaching() const { return reaching_; }
   const propagation::Experiment& experiment() const { return *experiment_; }
 
-  /// Half the length of the probabilistically symmetric coverage interval, SI.
+  /// Half-width of the interval about the mean that has the coverage probability, SI: the U of a result (summary.h).
   ///
   /// @param scale by variate: factor on its deviations from its mean, 1 for the uncertainty as declared, 0 for none
   /// @return      infinite if more samples fail than `max_failed_share` allows

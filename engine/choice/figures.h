@@ -6,9 +6,9 @@
 
 namespace gumshoe::choice {
 
-/// Over all uncertain quantities. Corrected: U is half the shortest interval of coverage probability p (JCGM 101,
-/// 5.3.4) of the errors less their mean, enlarged by the standard error s / sqrt(n) of that correction (GUM F.2.4.5):
-/// sqrt(1 + 1/n). Uncorrected: the p-quantile of |e|.
+/// Over all uncertain quantities. Corrected: U is the p-quantile of |e - mean|, so that +-U about the corrected result
+/// covers the truth, enlarged by the standard error s / sqrt(n) of that correction (GUM F.2.4.5): sqrt(1 + 1/n).
+/// Uncorrected: the p-quantile of |e|.
 Figures average_figures(std::span<const double> errors, double p, scenario::Choose::Definition definition);
 
 /// In a case, with the correction of the average, because nobody knows the case: U is the p-quantile of |e -

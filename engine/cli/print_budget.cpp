@@ -89,7 +89,8 @@ std::string estimate_text(double x, double u) {
   return fmt::format("{:.{}g}", x, std::clamp(digits, least, most));
 }
 
-std::vector<std::string> cells(const Contribution& c, const propagation::Output& output) {
+/// `shares`: whether contributions are shares of the variance.
+std::vector<std::string> cells(const Contribution& c, const propagation::Output& output, bool shares) {
   const RowUnit row{c.unit, c.si_unit}, out{output.unit, output.si_unit};
   return {c.name,
           estimate_text(converted(c.estimate, In::point, row), converted(c.standard_uncertainty, In::difference, row)) +
@@ -100,7 +101,8 @@ std::vector<std::string> cells(const Contribution& c, const propagation::Output&
           std::isfinite(c.degrees_of_freedom) ? fmt::format("{:.4g}", c.degrees_of_freedom) : "inf",
           number_text(converted(c.sensitivity, In::coefficient, row, out)) + unit_text(coefficient_unit(row, out)),
           std::isfinite(c.contribution) ? with_suitable_unit(c.contribution, output.unit, output.si_unit) : "-",
-          std::isfinite(c.share)               ? percent(c.share)
+          !shares                              ? "-"
+          : std::isfinite(c.share)             ? percent(c.share)
           : std::isfinite(c.monte_carlo_share) ? percent(c.monte_carlo_share)
                                                : "-"};
 }
@@ -124,6 +126,7 @@ std::string largest_contributions(const Budget& b, const Summary& s, const Valid
                ? "no input is uncertain"
                : "largest contributions: the GUM framework gives none here; set sensitivity = { "
                  "sobol = 65536 } in [analysis]";
+  const bool cancel = !monte_carlo && contributions_cancel(b);
   std::string text = "largest contributions";
   if (monte_carlo) text += " (first-order Sobol' indices)";
   if (!law && !monte_carlo)
@@ -135,11 +138,17 @@ std::string largest_contributions(const Budget& b, const Summary& s, const Valid
     text +=
         (i == 0 ? "" : ", ") + all[i].name + ' ' +
         (monte_carlo ? percent(all[i].share)
+         : cancel    ? width_text(std::sqrt(all[i].variance), b.output)
                      : fmt::format("{} ({})", width_text(std::sqrt(all[i].variance), b.output), percent(all[i].share)));
-  if (!monte_carlo && std::fabs(b.correlation_share) >= 0.005)
+  if (!monte_carlo && !cancel && std::fabs(b.correlation_share) >= 0.005)
     text += fmt::format(", correlations {}", percent(b.correlation_share));
   const std::size_t shown = std::min(most, all.size());
   if (total > shown) text += fmt::format("; {} more", total - shown);
+  if (cancel)
+    text += fmt::format("; the inputs are correlated, and their contributions of {} cancel to u_c = {}, so that they "
+                        "are no shares of the variance",
+                        width_text(uncorrelated_uncertainty(b), b.output),
+                        width_text(b.combined_standard_uncertainty, b.output));
   if (!law && !monte_carlo)
     text += fmt::format("; set sensitivity = {{ {} }} in [analysis] for shares of the variance",
                         b.correlation_share == 0 ? "sobol = 65536" : "shapley = 4096");
@@ -152,12 +161,14 @@ void print_budget(const Budget& b, std::ostream& out) {
       << (b.applicable ? "" : " (GUM framework not applicable: " + b.reason + ")") << '\n';
   std::vector<std::vector<std::string>> rows{
       {"component", "estimate", "u", "type", "distribution", "nu", "c", "|c| u", b.applicable ? "share" : "Sobol'"}};
-  for (const Contribution& c : b.contributions) rows.push_back(cells(c, b.output));
+  const bool cancel = contributions_cancel(b);
+  for (const Contribution& c : b.contributions) rows.push_back(cells(c, b.output, !cancel));
   const auto closing = [&](const std::string& name, const std::string& value, const std::string& share) {
     rows.push_back({name, "", "", "", "", "", "", value, share});
   };
   if (b.applicable) {
-    if (b.correlation_share != 0) closing("correlations", "", percent(b.correlation_share));
+    if (cancel) closing("without correlations", width(uncorrelated_uncertainty(b)), "");
+    if (b.correlation_share != 0 && !cancel) closing("correlations", "", percent(b.correlation_share));
     closing("combined standard uncertainty", width(b.combined_standard_uncertainty), "");
     closing("effective degrees of freedom",
             std::isfinite(b.effective_degrees_of_freedom) ? fmt::format("{:.0f}", b.effective_degrees_of_freedom)
@@ -168,6 +179,7 @@ void print_budget(const Budget& b, std::ostream& out) {
     closing("expanded uncertainty", width(b.expanded_uncertainty), "");
   }
   print_columns(rows, out);
+  if (cancel) out << "  no shares: the inputs are correlated, and their contributions cancel\n";
   if (!b.remark.empty()) out << "  " << b.remark << '\n';
 }
 

@@ -48,7 +48,7 @@ Options<Choose> choose_options() {
       by_hand("bias", shape::reference("width"), "limit of the magnitude of the mean error; default: none"),
       option::word("definition", &Choose::definition,
                    std::vector{Choose::Definition::corrected, Choose::Definition::uncorrected},
-                   "corrected: the mean error is corrected for, U is half the shortest interval of what remains; "
+                   "corrected: the mean error is corrected for, U is half the interval about the corrected result; "
                    "uncorrected: U is the quantile of the error's magnitude"),
       option::whole("samples", &Choose::samples, 200, most_samples, "samples per candidate"),
       option::whole("confirm_samples", &Choose::confirm_samples, 200, most_samples,

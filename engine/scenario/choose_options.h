@@ -56,7 +56,7 @@ struct ChooseCompare {
 
 struct Choose {
   enum class Definition {
-    corrected,  ///< the mean error is added as a correction; U is half the shortest interval of what remains
+    corrected,  ///< the mean error is added as a correction; U is half the interval about the corrected result
     uncorrected ///< U is the quantile of the error's magnitude
   };
   std::string measurand;

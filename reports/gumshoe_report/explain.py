@@ -23,6 +23,11 @@ def law_accounts(b, output, verdict=""):
         abs(u * u - law * law) <= APART * u * u + (4 * u * se if math.isfinite(se) else 0))
 
 
+def cancels(b):
+    """contributions_cancel() of the engine: contributions of correlated inputs are then no shares of the variance."""
+    return b.correlation_share < -1
+
+
 def drawn_uncertainty(b):
     """u_c, where a t distribution contributes its standard deviation and not its scale s/sqrt(n)."""
     wider = sum(c.share * (heavier(c) ** 2 - 1) for c in b.rows if math.isfinite(c.share))
@@ -69,7 +74,8 @@ def reasons(budget, indices, shapley):
     if tails:
         found.append(f"the t distribution that is drawn is wider than the s/√n of the budget for {listed(tails)}")
     if math.isfinite(budget.correlation_share) and abs(budget.correlation_share) > NEGLIGIBLE:
-        found.append(f"inputs are correlated: the budget puts {percent(budget.correlation_share)} into one row, "
+        found.append("inputs are correlated, and their contributions cancel" if cancels(budget) else
+                     f"inputs are correlated: the budget puts {percent(budget.correlation_share)} into one row, "
                      + ("the Shapley effects divide it among the inputs" if shapley is not None else
                         "which belongs to no single quantity"))
     return found
@@ -93,4 +99,5 @@ def why(budget, indices, shapley, u_monte_carlo):
     if budget.applicable and apart[worst] <= APART and hidden <= APART:
         return f"Budget and {what} agree: no share differs by more than {fixed(max(apart[worst], 0.001), 3)}." + size
     found = reasons(budget, indices, shapley) or ["the model is not linear over the range of its inputs"]
-    return f"Budget and {what} differ, most for {worst} ({fixed(apart[worst], 2)}), because " + "; ".join(found) + "." + size
+    most = "" if cancels(budget) else f" most for {worst} ({fixed(apart[worst], 2)}),"
+    return f"Budget and {what} differ,{most} because " + "; ".join(found) + "." + size

@@ -3,7 +3,7 @@ import math
 import re
 import types
 
-from .explain import law_accounts, listed
+from .explain import cancels, law_accounts, listed
 from .rounding import COMMON, after, finer, percent, significant
 
 LEAST = 8    # points of a line
@@ -76,7 +76,7 @@ def of_variance(output, budgets, sobol):
         return {i.input: max(0.0, i.first) for i in rows if math.isfinite(i.first)}
     budget = budgets.get(output.name)
     found = {}
-    law = budget is not None and budget.applicable and law_accounts(budget, output)
+    law = budget is not None and budget.applicable and law_accounts(budget, output) and not cancels(budget)
     for c in budget.rows if law else ():
         if math.isfinite(c.share):  # all draws of one quantity together
             found[c.quantity] = found.get(c.quantity, 0.0) + c.share

@@ -3,6 +3,7 @@ import math
 import re
 import types
 
+from .explain import cancels
 from .rounding import COMMON, after, decimals, finer, fixed, percent, significant, unit_text
 
 FOLDED_BELOW = 5e-4  # shares that the page sums up in one line when a budget is long
@@ -114,8 +115,8 @@ def budget_row(b, c, factor):
         distribution=c.distribution, dof=f"{c.degrees_of_freedom:.4g}" if math.isfinite(c.degrees_of_freedom) else "∞",
         differentiable=bool(c.differentiable),
         sensitivity=significant(slope, 3), sensitivity_unit=unit_text(slope_unit),
-        contribution=significant(factor * spread(b, c.contribution)), share=percent(c.share),
-        width=max(0.0, min(100.0, 100 * c.share)) if math.isfinite(c.share) else 0,
+        contribution=significant(factor * spread(b, c.contribution)), share=percent(math.nan if cancels(b) else c.share),
+        width=max(0.0, min(100.0, 100 * c.share)) if math.isfinite(c.share) and not cancels(b) else 0,
         monte_carlo=percent(c.monte_carlo_share), scope=c.scope, source=c.source)
 
 
@@ -160,19 +161,22 @@ def budget(b, u_monte_carlo=math.nan, sobol=None):
     moved = [f"second-order terms change u_c to {significant(spread(b, b.second_order_uncertainty))} and shift the mean "
              f"by {significant(spread(b, b.second_order_bias))} {unit_text(b.display_units)}"] \
         if u > 0 and (abs(b.second_order_uncertainty / u - 1) > 0.05 or abs(b.second_order_bias) > 0.1 * u) else []
+    alone = math.hypot(*(c.contribution for c in b.rows if math.isfinite(c.contribution)))
+    without_shares = [f"the inputs are correlated, and their contributions of {significant(factor * spread(b, alone))}{after(fine)} cancel to "
+                      f"u_c = {significant(factor * spread(b, u))}{after(fine)}, so that they are no shares of the variance"] if cancels(b) else []
     return types.SimpleNamespace(
-        output=b.output, unit=unit_text(b.display_units), applicable=bool(b.applicable), reason=b.reason,
+        output=b.output, unit=unit_text(b.display_units), applicable=bool(b.applicable), reason=b.reason, cancels=cancels(b),
         rows=[budget_row(b, c, factor) for c in ordered if c not in folded], folded=len(folded),
         folded_share=percent(sum(c.share if has_gum else c.monte_carlo_share for c in folded)),
         folded_below=percent(FOLDED_BELOW if has_gum else FOLDED_INDEX), has_gum=has_gum,
         has_monte_carlo=any(math.isfinite(c.monte_carlo_share) for c in ordered),
-        correlation="" if independent(b) else percent(b.correlation_share), fine_unit=unit_text(fine),
+        correlation="" if independent(b) else "they cancel" if cancels(b) else percent(b.correlation_share), fine_unit=unit_text(fine),
         interactions=percent(b.monte_carlo_interactions), u=significant(spread(b, u)),
         u_fine=significant(factor * spread(b, u)), u_monte_carlo=significant(factor * spread(b, u_monte_carlo)),
         dof="∞" if math.isinf(dof) else "not defined, inputs correlated" if math.isnan(dof) else fixed(dof, 0),
         k=fixed(b.coverage_factor, 2), U=significant(spread(b, b.expanded_uncertainty)),
         estimate=fixed(point(b, b.estimate), decimals(spread(b, u))),
-        remarks=moved + [text for text in (getattr(b, "remark", ""),) if text])
+        remarks=moved + without_shares + [text for text in (getattr(b, "remark", ""),) if text])
 
 
 def validation_row(v):

@@ -57,6 +57,24 @@ b = { value = "0 um", distribution = "rectangular", half_width = "6 um" }
 """
 
 
+# Two readings that share nearly all of their error.
+CANCELLING = """schema = 1
+[model]
+name = "expression"
+[model.measurands]
+y = { formula = "a - b", unit = "mm" }
+[quantities]
+a = { value = "10 mm", u = "1 mm" }
+b = { value = "5 mm", u = "1 mm" }
+[[correlations]]
+quantities = ["a", "b"]
+kind = "pearson"
+coefficient = %s
+[analysis]
+sensitivity = { shapley = 256 }
+"""
+
+
 class Runs(InOneFolder):
     @classmethod
     def ran(cls, text, *options, samples=50_000):
@@ -179,6 +197,32 @@ class Reduced(Runs):
         for linear in (("a + b", 1, ""), ("a + b", 5, ", degrees_of_freedom = 5")):
             self.assertRegex(self.ran(LINEAR % linear),
                              r"(?m)^  largest contributions: [ab] \d\.\d um \(\d+ %\), [ab] ")
+
+
+class Cancelling(Runs):
+    """Contributions are no shares of a variance that correlations have made smaller than any of them."""
+
+    def test_no_shares_are_stated(self):
+        printed = self.ran(CANCELLING % 0.99999999, "--budget")
+        self.assertIn("  largest contributions: a 1.0 mm, b 1.0 mm; the inputs are correlated, and their contributions of 1.4 mm "
+                      "cancel to u_c = 0.14 um, so that they are no shares of the variance\n", printed)
+        self.assertRegex(printed, r"(?m)^  a  .* 1\.0 mm +-$")
+        self.assertRegex(printed, r"(?m)^  without correlations +1\.4 mm$")
+        self.assertNotIn("correlations  ", printed.replace("without correlations", ""))
+        result = read.result(self.folder / "s.h5")
+        shown = tables.budget(result.budgets[0], result.outputs[0].standard_uncertainty)
+        self.assertEqual([row.share for row in shown.rows], ["–", "–"])
+        self.assertEqual([row.width for row in shown.rows], [0, 0])
+        html = page.render(result)
+        self.assertIn("they cancel", html)
+        self.assertIn("so that they are no shares of the variance", html)
+        for text in (printed, html):
+            self.assertNotRegex(text, r"\d{4,}(\.\d)?[ \u202f]%")
+
+    def test_shares_are_stated_where_they_are_some(self):
+        printed = self.ran(CANCELLING % 0.4, "--budget")  # 1 + 1 - 0.8 = 1.2
+        self.assertRegex(printed, r"largest contributions: a 1\.0 mm \(83 %\), b 1\.0 mm \(83 %\), correlations -67 %\n")
+        self.assertIn("-66.7\u202f%".replace("-", "−"), page.render(read.result(self.folder / "s.h5")))
 
 
 class Coverage(Runs):

@@ -38,7 +38,8 @@ using Texts = std::vector<std::string>;
 std::string history_in(const fixture::Folder& folder) {
   const tracing::Score one{
       "scale", 0, {{"scale.size", "um/m", "1"}}, tracing::Vector::Ones(1), tracing::Matrix::Ones(1, 1)};
-  const tracing::Campaign campaign{"0123", "a title", "2026-02-03", 12, 10.5, 9, {one}, "linear_axis", "an axis"};
+  const tracing::Campaign campaign{"0123", "a title", "2026-02-03", 12, 10.5, 9, {one}, "linear_axis", "an axis",
+                                   "d = gain * x\n"};
   const store::Claim claim(folder / "h.h5");
   store::Draft draft;
   store::write_history(draft, claim, {campaign}, {});
@@ -83,6 +84,7 @@ TEST_CASE("a history is as it was written, or it is refused", "[store]") {
   CHECK(store::read_history(path).front().scores.front().sizes.front().unit == "um/m");
   CHECK(store::read_history(path).front().model == "linear_axis");
   CHECK(store::read_history(path).front().model_title == "an axis");
+  CHECK(store::read_history(path).front().model_equations == "d = gain * x\n");
   CHECK_THROWS_WITH(store::read_identity(path), Catch::Contains("it is a history of gumshoe trace --append"));
 
   replace(path, "campaigns/000/information", Numbers{});

@@ -122,7 +122,9 @@ TEST_CASE("both definitions of U against closed forms", "[choose]") {
   const auto exponential = even(n, [](double p) { return 1 - std::log(1 - p); }); // 1 + an exponential of mean 1
   const auto corrected = choice::average_figures(exponential, 0.95, Definition::corrected);
   CHECK(corrected.mean == Approx(2).margin(spacing));
-  CHECK(corrected.expanded == Approx(-0.5 * std::log(0.05)).margin(spacing)); // shortest: [0, -ln 0.05]
+  // +-U about the mean covers 95 %: all below it, so that U = -ln 0.05 - 1. Half of the shortest interval, [0, -ln 0.05],
+  // is 1.498, about which 92 % lie.
+  CHECK(corrected.expanded == Approx(-std::log(0.05) - 1).margin(spacing));
   CHECK(corrected.left == 0);
   const auto plain = choice::average_figures(exponential, 0.95, Definition::uncorrected);
   CHECK(plain.expanded == Approx(1 - std::log(0.05)).margin(spacing)); // all are positive
@@ -136,11 +138,11 @@ TEST_CASE("both definitions of U against closed forms", "[choose]") {
 }
 
 TEST_CASE("the correction's own uncertainty is in U", "[choose]") {
-  // Of 64 equally likely values the halves' intervals are known: 31 of 32 spacings apart, of length 2.
+  // Of 64 equally likely values, 62 lie within 30.5 spacings about the mean.
   const auto few = even(64, [](double p) { return 64 * p; });
   const auto f = choice::average_figures(few, 0.95, Definition::corrected);
-  const double ranks = std::floor(0.95 * 32 + 0.5); // JCGM 101, 7.7.2
-  CHECK(f.expanded == Approx(0.5 * 2 * ranks * std::sqrt(1 + 1.0 / 64)).epsilon(1e-12));
+  CHECK(std::floor(0.95 * 64 + 0.5) == 61); // JCGM 101, 7.7.2: from rank 0 to rank 61
+  CHECK(f.expanded == Approx(30.5 * std::sqrt(1 + 1.0 / 64)).epsilon(1e-12));
 }
 
 TEST_CASE("common random numbers make differences of U certain", "[choose]") {
@@ -186,12 +188,11 @@ TEST_CASE("fresh numbers decide, and their probability is calibrated", "[choose]
     const double p = choice::probability_below(f.expanded, f.expanded_se, exact);
     sure += p > 0.95, likely += p > 0.5, refused += p < 0.05;
   }
-  // Binomial, four standard deviations; the crossed halves lie a fifth of a standard error too high, which moves a
-  // share of 0.5 by 0.08 and one of 0.05 by 0.02, to the safe side.
+  // Binomial, four standard deviations; 0.02 for the rank, which lies between two values.
   const auto chance = [](double share) { return 4 * std::sqrt(share * (1 - share) / n); };
   CHECK(sure / double(n) < 0.05 + chance(0.05));
-  CHECK(std::fabs(likely / double(n) - 0.46) < 0.04 + chance(0.5));
-  CHECK(refused / double(n) < 0.07 + chance(0.07));
+  CHECK(std::fabs(likely / double(n) - 0.5) < 0.02 + chance(0.5));
+  CHECK(refused / double(n) < 0.05 + chance(0.05));
 
   const auto r = choice::choose(read("[choose]\ntarget = \"3 um\"\nsamples = 1000\n" + ranges), {});
   CHECK(r.fresh.average.mean != r.candidates[r.best].average.mean);

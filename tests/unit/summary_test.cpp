@@ -3,6 +3,7 @@
 
 #include "analysis/rounding.h"
 #include "analysis/summary.h"
+#include "analysis/tails.h"
 #include "quantities/sample_plan.h"
 
 using namespace gumshoe;
@@ -115,6 +116,40 @@ TEST_CASE("degenerate samples", "[coverage]") {
   CHECK(analysis::summarise(output, std::vector<double>(1000, 4.25), 0.95).standard_uncertainty == 0);
   CHECK(std::isnan(analysis::summarise(output, std::vector<double>(10, std::nan("")), 0.95).estimate));
   CHECK(std::isnan(analysis::summarise(output, {}, 0.95).estimate));
+}
+
+TEST_CASE("two or three samples have no kurtosis", "[coverage]") {
+  // It is 1 of any two values and 1.5 of any three, and the skewness of any two is 0: no property of what was drawn.
+  const Summary two = analysis::summarise(output, std::vector{1.0, 7.0}, 0.95);
+  CHECK(two.standard_uncertainty == Approx(std::sqrt(18.0)));
+  CHECK(std::isnan(two.skewness));
+  CHECK(std::isnan(two.kurtosis));
+  const Summary three = analysis::summarise(output, std::vector{1.0, 2.0, 7.0}, 0.95);
+  CHECK(three.skewness > 0);
+  CHECK(std::isnan(three.kurtosis));
+  CHECK(analysis::summarise(output, std::vector{1.0, 2.0, 4.0, 7.0}, 0.95).kurtosis > 1);
+  CHECK(analysis::summarise(output, std::vector{4.0, 4.0}, 0.95).kurtosis == 0); // a constant, however few
+}
+
+TEST_CASE("values whose mean is not a number of double precision are no constant", "[coverage]") {
+  for (const std::size_t n : {30u, 5000u}) { // below and above the number from which tails are looked at
+    std::vector<double> y(n);
+    for (std::size_t i = 0; i < n; ++i) y[i] = 1e308 * static_cast<double>(i) / static_cast<double>(n) - 1e307;
+    Summary s = analysis::summarise(output, y, 0.9);
+    analysis::join_rounded(s);
+    analysis::check_tails(y, s);
+    CHECK(std::isnan(s.standard_uncertainty));
+    CHECK(s.estimate == Approx(4e307).epsilon(0.05)); // the median
+    CHECK(s.shortest.high > s.shortest.low);
+    CHECK_THAT(s.warning, Catch::Contains("no standard uncertainty: the values are too large for it in double precision"));
+  }
+  std::vector<double> y(5000);
+  for (std::size_t i = 0; i < y.size(); ++i) y[i] = 1e-200 * static_cast<double>(i % 50);
+  Summary s = analysis::summarise(output, y, 0.95); // squares of the deviations are 0
+  analysis::join_rounded(s);
+  analysis::check_tails(y, s);
+  CHECK(std::isnan(s.standard_uncertainty));
+  CHECK_THAT(s.warning, Catch::Contains("the values are too small for it in double precision"));
 }
 
 TEST_CASE("rounding by GUM 7.2.6", "[rounding]") {
