@@ -14,9 +14,21 @@
 
 namespace gumshoe::cli {
 
-ExitCode generate(const std::vector<std::string>& words) {
+std::string generator_script() {
   const char* folder = std::getenv("GUMSHOE_REPORTS");
-  const std::string script = (std::filesystem::path(folder ? folder : data_folder("reports", GUMSHOE_REPORTS_DIR)) / "report.py").string();
+  const std::filesystem::path script =
+      std::filesystem::path(folder ? folder : data_folder("reports", GUMSHOE_REPORTS_DIR)) / "report.py";
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(script, none))
+    throw InputError("report: the report generator '" + script.string() + "' does not exist",
+                     folder ? "GUMSHOE_REPORTS names its folder" : "it is installed with the program",
+                     folder ? "unset GUMSHOE_REPORTS, or set it to the folder of report.py"
+                            : "set GUMSHOE_REPORTS to the folder of report.py");
+  return script.string();
+}
+
+ExitCode generate(const std::vector<std::string>& words) {
+  const std::string script = generator_script();
   std::vector<std::string> line{"python3", script};
   line.insert(line.end(), words.begin(), words.end());
   std::vector<char*> argv;

@@ -16,6 +16,14 @@ int interrupted_exit() {
   return static_cast<int>(gumshoe::ExitCode::interrupted);
 }
 
+/// The exit code, after what was printed has been written: a full disk or a closed pipe is an error of every command.
+int printed(int code) {
+  std::cout.flush();
+  if (std::cout && std::fflush(stdout) == 0) return code;
+  std::cerr << "error: standard output cannot be written.\n";
+  return static_cast<int>(gumshoe::ExitCode::bad_input);
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
@@ -57,17 +65,11 @@ int main(int argc, char** argv) {
                        "a launcher of MPI started several", "start it without the launcher");
     }
     catch_interrupts();
-    const ExitCode code = action ? action() : ExitCode::done;
-    std::cout.flush();
-    if (!std::cout || std::fflush(stdout) != 0) {
-      std::cerr << "error: standard output cannot be written.\n";
-      return static_cast<int>(ExitCode::bad_input);
-    }
-    return static_cast<int>(code);
+    return printed(static_cast<int>(action ? action() : ExitCode::done));
   } catch (const Interrupted&) {
     return interrupted_exit();
   } catch (const CLI::Success& wanted) { // --help, --version
-    return silent ? 0 : app.exit(wanted);
+    return silent ? 0 : printed(app.exit(wanted));
   } catch (const CLI::ParseError& error) {
     if (silent) return 0;
     std::cerr << format(cli::parse_problem(app, {argv + 1, argv + argc}, error)) << '\n';

@@ -304,6 +304,9 @@ class Messages(InFolder):
             (["check", "/proc/self/mem"], {}, "the file cannot be read (Input/output error)"),  # opens, but holds nothing
             (["check", self.file], {"UDUNITS2_XML_PATH": "none.xml"}, "the unit database of udunits2 cannot be read"),
             (["report", result], {"GUMSHOE_REPORTS": reports}, "the generator did not run to its end"),
+            (["report", result], {"GUMSHOE_REPORTS": reports / "none"}, "report: the report generator '"),
+            (["report", result], {"GUMSHOE_REPORTS": ""}, "(GUMSHOE_REPORTS names its folder). Unset GUMSHOE_REPORTS, or set "),
+            (["trace", self.file, "--report", "x.html"], {"GUMSHOE_REPORTS": reports / "none"}, "report: the report generator '"),
         ]:
             with self.subTest(words):
                 run = gumshoe(*command, env={**os.environ, **variables})
