@@ -105,7 +105,7 @@ private:
     parameter(0) = 0;
     parameter(1) = standard_uncertainty();
     if (card_.family != Family::t) return;
-    const auto degrees = table_.positive("degrees_of_freedom");
+    const auto degrees = read_degrees_of_freedom(table_);
     parameter(2) = degrees.value_or(1);
     if (!table_.has("degrees_of_freedom")) missing("degrees_of_freedom");
   }

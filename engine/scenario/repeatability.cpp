@@ -9,7 +9,7 @@ namespace {
 
 std::vector<Key> declared_keys() {
   return {{"s", shape::reference("width"), "experimental standard deviation of one reading", true},
-          {"degrees_of_freedom", shape::reference("positive"), "degrees of freedom of s; default: infinite"}};
+          {"degrees_of_freedom", degrees_of_freedom_shape(), "degrees of freedom of s; default: infinite"}};
 }
 
 /// Also together with { pooled = true }.
@@ -80,8 +80,7 @@ private:
     Repeatability out{Repeatability::Kind::declared, {}, false, 'A', {}};
     table.require("s", "write s = \"...\" or pooled = true");
     const auto s = table.width("s", std::string(card_.si_unit));
-    const auto degrees = table.positive("degrees_of_freedom");
-    if (degrees && *degrees < quantities::least_degrees_of_freedom) refuse_degrees_of_freedom(table, *degrees);
+    const auto degrees = read_degrees_of_freedom(table);
     out.scatter.degrees_of_freedom = degrees.value_or(0);
     if (!table.has("degrees_of_freedom")) out.evaluation = 'B';
     if (!s) return {};

@@ -8,6 +8,7 @@
 
 #include "base/hash.h"
 #include "base/text_file.h"
+#include "base/version.h"
 #include "scenario/analysis.h"
 #include "scenario/choose.h"
 #include "scenario/correlations.h"
@@ -50,12 +51,12 @@ public:
       throw InputError({{{out_.file, 0, 0}, "the scenario is empty", "", "write schema = 1 and a [model] table"}});
     Table top(document_, "", problems_);
     top.declare(sections());
+    check_schema(top);
     top.refuse_undeclared();
     const std::size_t unknown_sections = problems_.size();
     expand_set_points(document_, files_, problems_);
     earlier_.state_units(document_, problems_);
     if (problems_.size() > unknown_sections) problems_.raise();
-    if (top.require("schema", "schema = 1")) top.integer("schema", 1, 1);
     out_.title = top.text("title").value_or("");
     context_.data = top.find("data");
     context_.trace = top.find("trace");
@@ -110,6 +111,19 @@ public:
   }
 
 private:
+  /// What a newer format calls unknown here would only mislead.
+  void check_schema(Table& top) {
+    if (!top.require("schema", "schema = 1")) return;
+    const auto stated = top.number("schema");
+    if (!stated || *stated == 1) return;
+    const bool newer = *stated > 1;
+    top.refuse_key("schema", fmt::format("this program does not know version {} of the format", *stated),
+                   fmt::format("Gumshoe {} reads version 1", version),
+                   newer ? "use a newer Gumshoe, or write schema = 1 if the scenario is of version 1"
+                         : "write schema = 1");
+    if (newer) problems_.raise();
+  }
+
   /// Studies in which one input moves and the others stay: correlated inputs do not.
   void refuse_one_at_a_time(Table& analysis) {
     const SensitivityOptions& wanted = out_.analysis.sensitivity;

@@ -33,6 +33,10 @@ Shape interval(double low, double high, bool open) {
   return fmt::format(R"({}, "{}": {}, "{}": {})", number(), least, low, most, high);
 }
 
+Shape at_least(double low) { return fmt::format(R"({}, "minimum": {})", number(), low); }
+
+Shape positive_up_to(double high) { return fmt::format(R"({}, "exclusiveMinimum": 0, "maximum": {})", number(), high); }
+
 Shape whole(std::int64_t low, std::int64_t high) {
   return fmt::format(R"({}, "minimum": {}, "maximum": {}, "multipleOf": 1)", number(), low, high);
 }

@@ -33,6 +33,9 @@ Shape flag();
 Shape number();
 /// A number between `low` and `high`; `open` excludes both ends.
 Shape interval(double low, double high, bool open);
+Shape at_least(double low);
+/// A number above 0, up to `high`.
+Shape positive_up_to(double high);
 /// A whole number, also written 1e6.
 Shape whole(std::int64_t low, std::int64_t high);
 Shape words(const std::vector<std::string>& words);

@@ -148,11 +148,16 @@ std::optional<Uncertainty> read_earlier(Table& table, const Form& form, Context&
 
 } // namespace
 
-void refuse_degrees_of_freedom(Table& table, double degrees) {
+Shape degrees_of_freedom_shape() { return shape::at_least(quantities::least_degrees_of_freedom); }
+
+std::optional<double> read_degrees_of_freedom(Table& table) {
+  const auto degrees = table.number("degrees_of_freedom");
+  if (!degrees || *degrees >= quantities::least_degrees_of_freedom) return degrees;
   table.refuse_key("degrees_of_freedom",
-                   fmt::format("{:.6g} must be at least {}", degrees, quantities::least_degrees_of_freedom),
+                   fmt::format("{:.6g} must be at least {}", *degrees, quantities::least_degrees_of_freedom),
                    "a t distribution of fewer is wider than floating-point numbers can be",
                    "state 1, which is that of two readings, or more");
+  return std::nullopt;
 }
 
 namespace {
@@ -162,10 +167,6 @@ namespace {
 void apply_degrees_of_freedom(Component& c, std::optional<double> declared, Table& table, Context& context) {
   if (declared) c.degrees_of_freedom = *declared;
   auto& d = c.distribution;
-  if (d.family == Family::normal && c.degrees_of_freedom < quantities::least_degrees_of_freedom) {
-    refuse_degrees_of_freedom(table, c.degrees_of_freedom);
-    return;
-  }
   if (d.family == Family::normal && std::isfinite(c.degrees_of_freedom)) {
     if (table.has("distribution"))
       context.notes.push_back(fmt::format("{}: a standard uncertainty with {:.6g} degrees of freedom is drawn from a t "
@@ -209,9 +210,9 @@ std::vector<Key> uncertainty_keys() {
       {"high", measure, "upper limit; for a component, of the deviation"},
       {"inexactness", width, "curvilinear trapezoid: half-width of each limit's range"},
       {"top_ratio", interval(0, 1, false), "trapezoid: width of the top over that of the base"},
-      {"mean", measure, "exponential: expectation"},
-      {"shape", positive, "gamma: shape"},
-      {"scale", measure, "gamma: scale"},
+      {"mean", width, "exponential: expectation"},
+      {"shape", positive_up_to(quantities::largest_gamma_shape), "gamma: shape"},
+      {"scale", width, "gamma: scale"},
       {"median", measure, "lognormal: median"},
       {"mu", number(), "lognormal: expectation of ln x, x in SI"},
       {"sigma", positive, "lognormal: standard deviation of ln x"},
@@ -230,7 +231,7 @@ std::vector<Key> uncertainty_keys() {
        "quantity "
        "of that name here"},
       {"evaluation", words({"A", "B"}), "Type A or Type B evaluation (GUM 2.3.2, 2.3.3)"},
-      {"degrees_of_freedom", positive,
+      {"degrees_of_freedom", degrees_of_freedom_shape(),
        "degrees of freedom of u; finite ones make a normal distribution a t (JCGM 101, 6.4.9); default: infinite"},
       {"per", any_of({text(), list(text())}),
        "scope: one draw per combination of these labels, or per \"reading\"; default: a single draw, as with []"},
@@ -257,7 +258,7 @@ std::optional<Uncertainty> read_uncertainty(Table& table, const Form& form, Cont
 
   // Read in any case, so that these keys are known and their problems are told too.
   const auto evaluation = table.choice("evaluation", {"A", "B"});
-  const auto degrees = table.positive("degrees_of_freedom");
+  const auto degrees = read_degrees_of_freedom(table);
   const auto per = table.texts("per");
   check_scope(table, per, context);
   const std::string source = table.rendered("source");

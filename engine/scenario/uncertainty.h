@@ -37,7 +37,8 @@ extern const char* const uncertainty_rules;
 /// lognormal, discrete and empirical keep their distribution and the value 0, or `value` if given.
 std::optional<Uncertainty> read_uncertainty(Table& table, const Form& form, Context& context);
 
-/// Refuses the table's degrees_of_freedom: they are fewer than a t distribution can be drawn with.
-void refuse_degrees_of_freedom(Table& table, double degrees);
+/// Degrees of freedom that a t distribution can be drawn with: what the schema says of the key, and its reader.
+Shape degrees_of_freedom_shape();
+std::optional<double> read_degrees_of_freedom(Table& table);
 
 } // namespace gumshoe::scenario

@@ -339,6 +339,12 @@ class BadInput(InOneFolder):
             "report": ["report", self.result, "--out", self.folder / "full.html"],
             "models": ["models"],
             "effects": ["effects", "z_scale", "--format", "json"],
+            "schema": ["schema"],
+            "man": ["man"],
+            "completion": ["completion"],
+            "version": ["--version"],
+            "help": ["--help"],
+            "help of a command": ["run", "--help"],
         }
         for name, command in commands.items():
             with self.subTest(name), open("/dev/full", "w") as full:

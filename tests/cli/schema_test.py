@@ -110,6 +110,25 @@ class Schema(unittest.TestCase):
             with self.subTest(name):
                 self.assertFalse(self.validator.is_valid(broken(change)))
 
+    def test_the_bounds_are_those_of_the_program(self):
+        """Of what is refused by the number alone, and of the bound itself."""
+        normal, gamma = {"value": 1, "u": 1}, {"distribution": "gamma", "shape": 2, "scale": 1}
+        cases = [(normal | {"degrees_of_freedom": n}, fine) for n, fine in ((0.25, True), (0.2, False), (0, False), (1e12, True))]
+        cases += [(normal | {"distribution": "t", "degrees_of_freedom": n}, fine) for n, fine in ((0.25, True), (0.2, False))]
+        cases += [(gamma | {"shape": n}, fine) for n, fine in ((1e9, True), (1.1e9, False), (1e-3, True), (0, False))]
+        cases += [(gamma | {"scale": n}, fine) for n, fine in ((1e-3, True), (0, False), (-1, False))]
+        cases += [({"distribution": "exponential", "mean": n}, fine) for n, fine in ((1e-3, True), (0, False), (-1, False))]
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "s.toml"
+            for quantity, fine in cases:
+                with self.subTest(quantity):
+                    document = {"schema": 1, "model": {"name": "expression", "measurands": {"y": "x"}}, "quantities": {"x": quantity}}
+                    self.assertEqual(self.validator.is_valid(document), fine)
+                    if GUMSHOE:
+                        file.write_text('schema = 1\n[model]\nname = "expression"\nmeasurands = { y = "x" }\n[quantities.x]\n' +
+                                        "".join(f"{key} = {json.dumps(value)}\n" for key, value in quantity.items()))
+                        self.assertEqual(self.program("check", file).returncode, 0 if fine else 2)
+
     def test_mistakes_of_a_machine_are_refused(self):
         good = load(FOLDER / "machine_five_axis.toml")
         own = {"workpiece_side": ["X", {"axis": "B", "point": ["0 mm", "0 mm", "-400 mm"]}], "tool_side": ["Z", "Y"]}

@@ -29,7 +29,16 @@ TEST_CASE("a distribution that cannot be drawn is refused at its line", "[scenar
              Contains("s.toml:11:22: error: quantities.x.degrees_of_freedom: 0.01 must be at least 0.25") &&
                  Contains("State 1"));
   CHECK_THAT(said("value = 1\nu = 1\ndistribution = \"t\"\ndegrees_of_freedom = 0.01\n"),
-             Contains("s.toml:8:") && Contains("degrees_of_freedom must be at least 0.25"));
+             Contains("s.toml:12:22: error: quantities.x.degrees_of_freedom: 0.01 must be at least 0.25"));
+  for (const char* few : {"0.2", "0", "-1"}) { // once, for whatever distribution
+    const std::string degrees = std::string("degrees_of_freedom = ") + few;
+    for (const char* family : {"normal", "t", "rectangular"}) {
+      const std::string width = std::string(family) == "rectangular" ? "half_width = 1\n" : "u = 1\n";
+      const std::string text = said("value = 1\n" + width + "distribution = \"" + family + "\"\n" + degrees + "\n");
+      CHECK_THAT(text, Contains("must be at least 0.25"));
+      CHECK(text.find("must be") == text.rfind("must be"));
+    }
+  }
   CHECK_THAT(said("distribution = \"gamma\"\nshape = 1e15\nscale = 1\n"),
              Contains("s.toml:8:") &&
                  Contains("shape must be at most 1e+09; a larger one makes the distribution normal"));
