@@ -124,13 +124,55 @@ const RecognisedColumn* uncertainty_of(const RecognisedData& data) {
   return above_zero ? sd : nullptr;
 }
 
+namespace {
+
+/// "line 5", or with several files "b.csv, line 5".
+std::string line_of(const Csv& csv, const CsvCell& cell) {
+  return fmt::format("{}line {}", csv.parts.empty() ? "" : csv.at(cell).file + ", ", cell.line);
+}
+
+/// The cells that keep a column, of which most are numbers, from being one of numbers; empty if there are none.
+std::string odd_cells(const RecognisedData& data, const RecognisedColumn& c) {
+  if (c.number) return {};
+  const auto column = static_cast<std::size_t>(data.csv.find(c.name));
+  std::vector<const CsvCell*> odd;
+  std::size_t numbers = 0;
+  for (const auto& row : data.csv.rows) {
+    const CsvCell& cell = row[column];
+    if (says_missing(cell.text)) continue;
+    if (is_number(data.csv, cell, data.decimal))
+      ++numbers;
+    else
+      odd.push_back(&cell);
+  }
+  if (odd.empty() || numbers <= odd.size()) return {};
+  std::string out = fmt::format("'{}' in {} is not a number", odd[0]->text, line_of(data.csv, *odd[0]));
+  if (odd.size() > 1) out += fmt::format(", nor are {} more of its cells", odd.size() - 1);
+  return out;
+}
+
+/// Why a column of uncertainties is none.
+std::string not_above_zero(const RecognisedData& data, const RecognisedColumn& c) {
+  const auto column = static_cast<std::size_t>(data.csv.find(c.name));
+  const auto bad = std::ranges::find_if(data.csv.rows, [&](const auto& row) {
+    return !says_missing(row[column].text) && !(data.csv.number(row[column], data.decimal) > 0);
+  });
+  return bad == data.csv.rows.end() ? "it is not above 0 in every row"
+                                    : fmt::format("it is not above 0 in every row: '{}' in {}", (*bad)[column].text,
+                                                  line_of(data.csv, (*bad)[column]));
+}
+
+} // namespace
+
 std::string why_not_used(const RecognisedData& data, const RecognisedColumn& c) {
   if (tells_apart(data, c) && has_empty_cells(data, c)) return "it has empty cells, and a label has none";
   const RecognisedColumn* const first = data.find(c.role);
   if (c.role == ColumnRole::time && first && first != &c && first->date != c.name) return "the time is " + first->name;
   if (c.role == ColumnRole::uncertainty && first == &c && !uncertainty_of(data))
-    return c.number ? "it is not above 0 in every row" : "not all of its cells are numbers";
-  if (!c.number && c.words.empty() && (c.role == ColumnRole::temperature || c.role == ColumnRole::direction))
+    if (c.number) return not_above_zero(data, c);
+  if (std::string odd = odd_cells(data, c); !odd.empty() && c.words.empty()) return odd;
+  if (!c.number && c.words.empty() &&
+      (c.role == ColumnRole::temperature || c.role == ColumnRole::direction || c.role == ColumnRole::uncertainty))
     return "not all of its cells are numbers";
   return c.why;
 }

@@ -91,11 +91,22 @@ class NewNames(Starter):
         self.assertIn('labels = { run = "run" }', written)
 
     def test_cells_that_do_not_fit_the_name_of_their_column(self):
-        for name, cell, why in (("u", 0, "it is not above 0 in every row"), ("temp", "warm", "not all of its cells are numbers")):
+        for name, cell, why in (("u", 0, "it is not above 0 in every row: '0' in line 2"),
+                                ("temp", "warm", "not all of its cells are numbers")):
             with self.subTest(name):
                 rows = [(k % 6 * 50, 0.7 * k * k % 1, cell) for k in range(24)]
                 said, _ = self.good(table(["pos_mm", "err_um", name], rows), f"--unit={name}={'um' if name == 'u' else 'K'}")
                 self.assertRegex(said, rf"{name}: not used.* \({why}\)")
+
+    def test_the_cell_that_is_no_number_is_named(self):
+        """A column with a misprint is not used; which cell is to be mended must be said."""
+        for name, unit in (("temp", "degC"), ("u", "um"), ("load", "N")):
+            for bad, why in (({20: "2O.1"}, r"'2O\.1' in line 22 is not a number"),
+                             ({3: "20.1.2", 7: "x", 9: "y"}, r"'20\.1\.2' in line 5 is not a number, nor are 2 more of its cells")):
+                with self.subTest(name, bad=bad):
+                    rows = [(k % 6 * 50, 0.7 * k * k % 1, bad.get(k, 20 + k % 5 / 10)) for k in range(24)]
+                    said, _ = self.good(table(["pos_mm", "err_um", name], rows), f"--unit={name}={unit}")
+                    self.assertRegex(said, rf"{name}: not used.* \({why}\)")
 
     def test_positions_without_a_number_are_refused(self):
         (self.folder / "d.csv").write_text("load;err_um\n;1\n;2\n;3\n")
