@@ -66,10 +66,11 @@ public:
   Failure failure() const { return failure_; }
 
 private:
-  propagation::Points points_at(const double* x) const;
+  /// Until the next call.
+  const propagation::Points& points_at(const double* x) const;
   propagation::ForwardModel forward_;
   std::vector<Unknown> unknowns_;
-  propagation::Points points_; ///< all quantities at their estimates
+  mutable propagation::Points points_; ///< the unknowns at the last x, all other quantities at their estimates
   std::vector<propagation::Partial> partials_;
   mutable Failure failure_;
 };

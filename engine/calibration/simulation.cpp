@@ -23,11 +23,10 @@ Simulation::Simulation(const propagation::Experiment& e, std::vector<Unknown> un
   }
 }
 
-propagation::Points Simulation::points_at(const double* x) const {
-  propagation::Points at = points_;
+const propagation::Points& Simulation::points_at(const double* x) const {
   for (std::size_t u = 0; u < unknowns_.size(); ++u)
-    for (const std::size_t r : partials_[u].readings) at[r][unknowns_[u].quantity] = x[u];
-  return at;
+    for (const std::size_t r : partials_[u].readings) points_[r][unknowns_[u].quantity] = x[u];
+  return points_;
 }
 
 bool Simulation::depends_on(const double* x, std::size_t quantity, double shift) const {
@@ -45,7 +44,7 @@ bool Simulation::depends_on(const double* x, std::size_t quantity, double shift)
 }
 
 bool Simulation::operator()(const double* x, double* simulated, double* jacobian) const {
-  const propagation::Points at = points_at(x);
+  const propagation::Points& at = points_at(x);
   std::vector<propagation::Partial> partials = partials_;
   const std::size_t p = unknowns_.size();
   for (std::size_t u = 0; u < p; ++u) {

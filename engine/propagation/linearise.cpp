@@ -48,8 +48,9 @@ void ForwardModel::by_dual_numbers(const Points& at, std::span<const Partial> pa
   const auto wanted = partials_at(partials, layout_, readings);
   out.values.assign(out.rows, 0.0);
   std::vector<models::PointOutcome> outcomes(readings);
-  const auto one = [&](std::size_t r) {
-    std::vector<models::Gradient> point(at[r].begin(), at[r].end()), found;
+  using Gradients = std::vector<models::Gradient>; // of a part of the readings: memory is not asked for at each of many
+  const auto one = [&](std::size_t r, Gradients& point, Gradients& found) {
+    point.assign(at[r].begin(), at[r].end());
     std::size_t from = 0;
     do {
       const std::size_t to = std::min(wanted[r].size(), from + lanes);
@@ -75,7 +76,8 @@ void ForwardModel::by_dual_numbers(const Points& at, std::span<const Partial> pa
   };
   const auto order = alike_together(at);
   const auto some = [&](std::size_t p) {
-    for (std::size_t i = p * part; i < std::min(readings, (p + 1) * part); ++i) one(order[i]);
+    Gradients point, found;
+    for (std::size_t i = p * part; i < std::min(readings, (p + 1) * part); ++i) one(order[i], point, found);
   };
   const std::size_t parts = (readings + part - 1) / part;
   if (parts == 1 || threads_ == 1)
