@@ -218,6 +218,10 @@ Budget budget_of(const propagation::Experiment& e, std::size_t output, double co
     const Contribution c = contribution_of(e, v, q, point[q], d);
     if (!c.differentiable && c.standard_uncertainty > 0) b.applicable = false;
     const double signed_contribution = c.differentiable && b.applicable ? d.first[q] * c.standard_uncertainty : 0;
+    if (!std::isfinite(signed_contribution) && c.standard_uncertainty > 0 && std::isfinite(c.standard_uncertainty)) {
+      b.applicable = false;
+      b.reason += fmt::format("{}the contribution of {} is not finite", b.reason.empty() ? "" : "; ", c.quantity);
+    }
     terms.push_back({v, signed_contribution, c.degrees_of_freedom});
     moments[q].add(e.plan().variates[v].distribution, c.standard_uncertainty);
     b.contributions.push_back(c);
@@ -225,14 +229,18 @@ Budget budget_of(const propagation::Experiment& e, std::size_t output, double co
   if (b.reason.empty())
     if (const std::string inputs = without_derivative(b.contributions); !inputs.empty())
       b.reason = "there is no derivative at the estimate with respect to " + inputs;
+  quantities::Correlations correlations(e.plan());
+  const CombinedVariance combined = b.applicable ? combine(terms, correlations) : CombinedVariance();
+  const double total = combined.total();
+  if (std::isinf(total)) {
+    b.applicable = false;
+    b.reason = "the framework's uncertainty is not finite";
+  }
   if (!b.applicable) {
     b.combined_standard_uncertainty = b.expanded_uncertainty = b.second_order_uncertainty = b.coverage_factor = nan;
     for (Contribution& c : b.contributions) c.share = nan;
     return b;
   }
-  quantities::Correlations correlations(e.plan());
-  const CombinedVariance combined = combine(terms, correlations);
-  const double total = combined.total();
   b.combined_standard_uncertainty = std::sqrt(total);
   for (Contribution& c : b.contributions) c.share = total > 0 ? c.contribution * c.contribution / total : 0;
   b.correlation_share = total > 0 ? combined.correlation / total : 0;

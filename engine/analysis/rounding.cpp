@@ -21,7 +21,7 @@ int decimals_for(double u) {
 
 std::string fixed(double value, int decimals) {
   std::string text;
-  if (decimals > 15 && std::isfinite(value)) {
+  if (std::abs(decimals) > 15 && std::isfinite(value)) { // a hundred zeros are no digits
     const int digits = value == 0 ? 0 : decimals + static_cast<int>(std::floor(std::log10(std::fabs(value))));
     text = fmt::format("{:.{}e}", digits < 0 ? 0.0 : value, std::clamp(digits, 0, 17));
   } else if (decimals >= 0 || !std::isfinite(value)) {

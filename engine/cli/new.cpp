@@ -211,11 +211,18 @@ std::string other_name(const scenario::RecognisedColumn& c, const std::string& t
   return fmt::format("; named {}, because its own name is {}", name, meaning);
 }
 
+/// Whether the scenario does more with a column than to state its unit, on a line that begins with its name.
+bool uses(const std::string& text, const std::string& quoted) {
+  for (std::size_t at = text.find(quoted); at != std::string::npos; at = text.find(quoted, at + 1))
+    if (at > 0 && text[at - 1] != '\n') return true;
+  return false;
+}
+
 /// What the scenario does with each column.
 void print_columns(const RecognisedData& found, const std::string& text) {
   for (const auto& c : found.columns) {
     const std::string quoted = scenario::quoted(c.name);
-    const bool used = text.find(quoted) != std::string::npos;
+    const bool used = uses(text, quoted);
     const char* use = !used                                                    ? "not used"
                       : text.find("readings = " + quoted) != std::string::npos ? name(ColumnRole::reading)
                       : c.role == ColumnRole::other                            ? "used by its name"

@@ -48,7 +48,7 @@ def fixed(value, places):
         return "–"
     if places is None:
         text = f"{value:.6g}"
-    elif places > 9:
+    elif places > 9 or places < -15:
         text = f"{value:.{max(1, places + math.floor(math.log10(abs(value) or 1)))}e}"
     else:
         text = f"{round(value, places):.{max(places, 0)}f}"

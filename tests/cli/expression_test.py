@@ -141,6 +141,33 @@ max_failed_share = 0.2
         run = gumshoe("run", self.scenario(text), "--out", self.folder / "f.h5")
         self.assertIn("not_finite", run.stdout + run.stderr)
 
+    def test_values_beyond_double_precision_are_no_constant(self):
+        """Above 709.8 the exponential overflows, and those samples fail; the mean of the others is no number either."""
+        text = """schema = 1
+[model]
+name = "expression"
+[model.measurands]
+y = "%s"
+[quantities]
+x = { value = %s, u = %s }
+[run]
+samples = 10_000
+max_failed_share = 0.5
+"""
+        for y, value, u, failed, why in (
+                ("exp(1000 * x)", 0.7, 0.01, True, "the framework's uncertainty is not finite"),
+                ("x * 1e200 * 1e150", 1e-60, 1e-43, False, "the contribution of x is not finite")):
+            with self.subTest(y):
+                run = gumshoe("run", self.scenario(text % (y, value, u)), "--out", self.folder / "f.h5", "--force")
+                self.assertEqual(run.returncode, 0, run.stderr)
+                self.assertNotIn("the same in every sample", run.stdout)
+                self.assertIn("without a standard uncertainty (the values are too large for it in double precision", run.stdout)
+                self.assertIn(f"not applicable ({why}): y", run.stdout)
+                self.assertNotIn("none to first order", run.stdout)
+                self.assertNotIn("U = inf", run.stdout)
+                self.assertLess(max(map(len, run.stdout.split())), 40)  # no numbers of 300 digits
+                self.assertEqual("failed: not_finite: 1794 samples" in run.stdout, failed)
+
     def test_unused_quantity_is_a_note(self):
         run = gumshoe("check", self.scenario(H2.replace("[quantities.V]", "[quantities.idle]\nvalue = 1\n[quantities.V]")))
         self.assertEqual(run.returncode, 0, run.stderr)

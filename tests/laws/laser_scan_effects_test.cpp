@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "base/csv.h"
 #include "propagation/point_table.h"
 
@@ -86,5 +88,5 @@ TEST_CASE("an axis that lags leaves the table behind its command, and a gear rat
                     change("E_B0B (arcsec)", std::to_string(50 * direction), tilted, row + side)) < 1e-9);
   }
   CHECK(std::fabs(change("b_scale.scale (um/m)", "200", tilted, row + "1") -
-                  change("E_B0B (mrad)", std::to_string(-0.2 * 10 * deg), tilted, row + "1")) < 1e-6);
+                  change("E_B0B (mrad)", fmt::format("{}", -0.2 * 10 * deg), tilted, row + "1")) < 1e-9);
 }

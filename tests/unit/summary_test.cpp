@@ -134,7 +134,7 @@ TEST_CASE("two or three samples have no kurtosis", "[coverage]") {
 TEST_CASE("values whose mean is not a number of double precision are no constant", "[coverage]") {
   for (const std::size_t n : {30u, 5000u}) { // below and above the number from which tails are looked at
     std::vector<double> y(n);
-    for (std::size_t i = 0; i < n; ++i) y[i] = 1e308 * static_cast<double>(i) / static_cast<double>(n) - 1e307;
+    for (std::size_t i = 0; i < n; ++i) y[i] = 1e308 * (static_cast<double>(i) / static_cast<double>(n)) - 1e307;
     Summary s = analysis::summarise(output, y, 0.9);
     analysis::join_rounded(s);
     analysis::check_tails(y, s);
@@ -160,6 +160,8 @@ TEST_CASE("rounding by GUM 7.2.6", "[rounding]") {
   CHECK(analysis::fixed(51234.4, analysis::decimals_for(1234)) == "51200");
   CHECK(analysis::fixed(1234, analysis::decimals_for(1234)) == "1200");
   CHECK(analysis::fixed(-509.86594, 4) == "-509.8659");
+  CHECK(analysis::fixed(1.987e304, -303) == "2.0e+304");
+  CHECK(analysis::fixed(-1.987e300, -303) == "0e+00");
 }
 
 TEST_CASE("a share of a whole is never said to be nothing or all", "[rounding]") {

@@ -24,15 +24,16 @@ bool is_term(const JointFit& fit, const Candidate& a) {
   });
 }
 
-/// The largest share of what is removed (squares, by row) that a few successive readings hold; all, if nothing is. What
-/// some readings gain and others lose makes the sum no smaller.
-double share_of_few(const Vector& squares, std::size_t indications) {
-  if (!(squares.sum() > 0)) return 1;
+/// Whether a few successive readings hold most of what is removed (squares, by row), and much of what is without what
+/// other readings lose; also if nothing is removed.
+bool of_few_readings(const Vector& squares, std::size_t indications) {
+  if (!(squares.sum() > 0)) return true;
   const Index few = std::min(squares.size(), criteria.few_readings * index(indications));
   double most = 0;
   for (Index from = 0; from + few <= squares.size(); from += index(indications))
     most = std::max(most, squares.segment(from, few).sum());
-  return most / squares.cwiseMax(0).sum();
+  constexpr double much = 0.3; // as three of ten readings that all differ alike
+  return most > criteria.few_share * squares.sum() && most > much * squares.cwiseMax(0).sum();
 }
 
 /// Criterion of the residuals at a fit's point, with the same unknowns as without some of its terms.
@@ -321,7 +322,7 @@ bool Evidence::of_few(const JointFit& other) const {
     const Whitened plain(fit.design, c_.fitter.rows(), use, {}), white(plain, model);
     return Vector(white.left_over(plain.winsorised(plain.take(fit.residual))).array().square());
   };
-  return share_of_few(squares(fit_) - squares(other), c_.observations.indications) > criteria.few_share;
+  return of_few_readings(squares(fit_) - squares(other), c_.observations.indications);
 }
 
 double Evidence::chance_of_lead(std::size_t better, std::size_t than, double lead) const {
