@@ -102,30 +102,6 @@ const NamedColumns::value_type* block_label(const RecognisedData& data, const Na
   return nullptr;
 }
 
-} // namespace
-
-NamedColumns labels_of(const RecognisedData& data) {
-  NamedColumns out;
-  for (const RecognisedColumn& c : data.columns)
-    if (tells_apart(data, c) && !has_empty_cells(data, c)) out.emplace_back("", &c);
-  Names names{"reading", "row"};                       // labels of single readings, and of rows kept apart
-  if (!block_label(data, out)) names.reserve("block"); // stretches
-  for (auto& [name, c] : out) name = names.add(c->name);
-  return out;
-}
-
-const RecognisedColumn* uncertainty_of(const RecognisedData& data) {
-  const RecognisedColumn* const sd = data.find(ColumnRole::uncertainty);
-  if (!sd || !sd->number) return nullptr;
-  const auto column = static_cast<std::size_t>(data.csv.find(sd->name));
-  const bool above_zero = std::ranges::all_of(data.csv.rows, [&](const auto& row) {
-    return says_missing(row[column].text) || data.csv.number(row[column], data.decimal) > 0;
-  });
-  return above_zero ? sd : nullptr;
-}
-
-namespace {
-
 /// "line 5", or with several files "b.csv, line 5".
 std::string line_of(const Csv& csv, const CsvCell& cell) {
   return fmt::format("{}line {}", csv.parts.empty() ? "" : csv.at(cell).file + ", ", cell.line);
@@ -163,6 +139,26 @@ std::string not_above_zero(const RecognisedData& data, const RecognisedColumn& c
 }
 
 } // namespace
+
+NamedColumns labels_of(const RecognisedData& data) {
+  NamedColumns out;
+  for (const RecognisedColumn& c : data.columns)
+    if (tells_apart(data, c) && !has_empty_cells(data, c) && odd_cells(data, c).empty()) out.emplace_back("", &c);
+  Names names{"reading", "row"};                       // labels of single readings, and of rows kept apart
+  if (!block_label(data, out)) names.reserve("block"); // stretches
+  for (auto& [name, c] : out) name = names.add(c->name);
+  return out;
+}
+
+const RecognisedColumn* uncertainty_of(const RecognisedData& data) {
+  const RecognisedColumn* const sd = data.find(ColumnRole::uncertainty);
+  if (!sd || !sd->number) return nullptr;
+  const auto column = static_cast<std::size_t>(data.csv.find(sd->name));
+  const bool above_zero = std::ranges::all_of(data.csv.rows, [&](const auto& row) {
+    return says_missing(row[column].text) || data.csv.number(row[column], data.decimal) > 0;
+  });
+  return above_zero ? sd : nullptr;
+}
 
 std::string why_not_used(const RecognisedData& data, const RecognisedColumn& c) {
   if (tells_apart(data, c) && has_empty_cells(data, c)) return "it has empty cells, and a label has none";
