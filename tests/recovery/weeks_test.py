@@ -81,11 +81,11 @@ class Weeks(unittest.TestCase):
             self.assertEqual((folder / "h.h5").read_bytes(), before)
             # Another equation makes another model, although both are called `expression`; spaces do not.
             text = axis.scenario(True) + weeks.STATED
-            (folder / "s.toml").write_text(text.replace("gain * x + offset", "gain * x^2 / (1 m) + offset"))
+            (folder / "s.toml").write_text(text.replace("gain * x + offset", "gain * abs(x) + offset"))
             other = run("--append", "h.h5")
             self.assertEqual(other.returncode, 2, other.stdout)
             self.assertIn("h.h5: it is the history of another model (expression, 'd = gain * x + offset'; here it is expression, "
-                          "'d = gain * x^2 / (1 m) + offset'). Append to a history of its own.", other.stderr)
+                          "'d = gain * abs(x) + offset'). Append to a history of its own.", other.stderr)
             self.assertEqual((folder / "h.h5").read_bytes(), before)
             (folder / "s.toml").write_text(text.replace("gain * x + offset", "gain*x  + offset"))
             self.assertEqual(run("--append", "h.h5").returncode, 0)
