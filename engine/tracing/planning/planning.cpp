@@ -8,10 +8,10 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/units.h"
 #include "calibration/data.h"
 #include "quantities/cells.h"
 #include "tracing/criteria.h"
-#include "tracing/findings/sizes.h"
 #include "tracing/planning/linear_model.h"
 #include "tracing/planning/power.h"
 #include "tracing/planning/verification.h"
@@ -192,8 +192,9 @@ private:
     if (a.goal.kind == PlanGoal::Kind::uncertainty) {
       const double least = figure(a, all, plenty);
       if (std::isinf(least)) return fmt::format("no allowed reading determines {}", a.said.of);
-      return fmt::format("no number of allowed readings brings u of {} below {}", a.said.of,
-                         shown_size(least, a.said.unit, a.said.si_unit));
+      return fmt::format("no number of allowed readings brings u of {} below {:.3g}{}", a.said.of,
+                         units::from_si(least, a.said.unit, a.said.si_unit, units::Kind::difference),
+                         a.said.unit == "1" ? "" : " " + a.said.unit);
     }
     if (hidden(a.alone))
       return fmt::format("no allowed reading shows {}: what is estimated explains all of it", a.said.of);
