@@ -138,12 +138,19 @@ std::string not_above_zero(const RecognisedData& data, const RecognisedColumn& c
                                                   line_of(data.csv, (*bad)[column]));
 }
 
+/// Whether a column has numbers of a unit, but for misprints: it tells nothing apart. Runs 1, 2 and 2b do.
+bool is_misprinted(const RecognisedData& data, const RecognisedColumn& c) {
+  std::string rest;
+  const bool has_unit = (c.unit != "1" && c.unit != "?") || !unit_in(c.name, rest).empty();
+  return has_unit && !odd_cells(data, c).empty();
+}
+
 } // namespace
 
 NamedColumns labels_of(const RecognisedData& data) {
   NamedColumns out;
   for (const RecognisedColumn& c : data.columns)
-    if (tells_apart(data, c) && !has_empty_cells(data, c) && odd_cells(data, c).empty()) out.emplace_back("", &c);
+    if (tells_apart(data, c) && !has_empty_cells(data, c) && !is_misprinted(data, c)) out.emplace_back("", &c);
   Names names{"reading", "row"};                       // labels of single readings, and of rows kept apart
   if (!block_label(data, out)) names.reserve("block"); // stretches
   for (auto& [name, c] : out) name = names.add(c->name);

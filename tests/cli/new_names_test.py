@@ -108,6 +108,15 @@ class NewNames(Starter):
                     said, _ = self.good(table(["pos_mm", "err_um", name], rows), f"--unit={name}={unit}")
                     self.assertRegex(said, rf"{name}: not used.* \({why}\)")
 
+    def test_labels_that_are_numbers_but_for_a_letter(self):
+        """Runs 1, 2 and 2b are no misprint, unless the column has a unit."""
+        for name, label in (("run", True), ("batch", True), ("load (N)", False)):
+            with self.subTest(name):
+                rows = [(k % 6 * 50, 0.7 * k * k % 1, "1122"[k // 6] + "b" * (k // 6 == 3)) for k in range(24)]
+                said, written = self.good(table(["pos_mm", "err_um", name], rows))
+                self.assertEqual("labels = " in written, label)
+                self.assertEqual(f"{name}: not used ('2b' in line 20 is not a number, nor are 5 more of its cells)" in said, not label)
+
     def test_positions_without_a_number_are_refused(self):
         (self.folder / "d.csv").write_text("load;err_um\n;1\n;2\n;3\n")
         self.assertIn("the column 'load' has too few numbers (it has the positions)", self.new("--from", "d.csv", code=2))
