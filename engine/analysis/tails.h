@@ -15,7 +15,8 @@ namespace gumshoe::analysis {
 /// Takes the standard uncertainty back and says so in `warning` if all hold: the index lies below 2.25 by 2.5 standard
 /// errors; over the k / 10 largest alone it is not above 2.25 by 2 (outliers in a cluster are no power law); and the
 /// variance has not settled, its relative standard error sqrt(kurtosis / n) being above 3 %. An index below 4 and one
-/// above 10 %: `tail_remark`. It is also taken back where double precision holds the values, but not their moments. A mixture with a much wider law in less than a per cent of the samples may look alike.
+/// above 10 %: `tail_remark`. A mixture with a much wider law in less than a per cent of the samples may look alike. It
+/// is also taken back where double precision holds the values, but not their moments.
 /// Where the index cannot be told from one of 1 or less, by 2 standard errors in the tail and far out, the expectation
 /// does not exist either: use_median(). Call after summarise(); `values` is in sample order, NaN where failed. Linear
 /// in their number.

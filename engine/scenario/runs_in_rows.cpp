@@ -1,6 +1,7 @@
 #include "scenario/runs_in_rows.h"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <regex>
 #include <set>
@@ -40,21 +41,34 @@ double sign_of(const std::string& word) {
 /// Whether a word of a direction may be something else: "pos" is a position as a rule, "rev" a revision.
 bool is_doubtful(const std::string& word) { return word.size() < 2 || word == "pos" || word == "rev"; }
 
-#define GUMSHOE_RUN "r|run|lauf|cycle|zyklus|messung|reihe|series|serie|trial|pass|meas|rep|repeat|n"
+const std::string words_of_runs = "r|run|lauf|cycle|zyklus|messung|reihe|series|serie|trial|pass|meas|rep|repeat|n";
+
+/// A column whose name without its unit has a form, with the form's groups.
+struct Named {
+  std::size_t column;
+  std::string unit;
+  std::vector<std::string> groups; ///< from the form's first on
+};
+std::vector<Named> columns_like(const Csv& csv, const std::regex& form) {
+  std::vector<Named> out;
+  for (std::size_t c = 0; c < csv.header.size(); ++c) {
+    if (csv.header[c].text.size() > longest_name) continue;
+    std::string name;
+    std::smatch match;
+    const std::string unit = unit_in(csv.header[c].text, name);
+    if (std::regex_match(name, match, form)) out.push_back({c, unit, {std::next(match.begin()), match.end()}});
+  }
+  return out;
+}
 
 /// "up_1", "fwd1", "Up run 2 (um)": a direction, then the number of the run. Both ways are there, or it is none.
 std::optional<Layout> numbered_ways(const Csv& csv) {
-  static const std::regex form(R"(\s*([^\s_.\d]+)(?:[\s_.]+(?:)" GUMSHOE_RUN R"())?[\s_.#]*(\d+)\s*)",
+  static const std::regex form(R"(\s*([^\s_.\d]+)(?:[\s_.]+(?:)" + words_of_runs + R"())?[\s_.#]*(\d+)\s*)",
                                std::regex::icase);
   Layout out{{"run", "direction"}, {}, "", false};
   std::set<std::pair<int, double>> known; // each run goes each way once
-  for (std::size_t c = 0; c < csv.header.size(); ++c) {
-    std::smatch match;
-    if (csv.header[c].text.size() > longest_name) continue;
-    std::string name;
-    const std::string unit = unit_in(csv.header[c].text, name);
-    if (!std::regex_match(name, match, form)) continue;
-    const std::string word = match[1], run = match[2];
+  for (const auto& [c, unit, groups] : columns_like(csv, form)) {
+    const std::string &word = groups[0], &run = groups[1];
     const auto words = words_of(word);
     const double sign = sign_of(word);
     if (words.size() != 1 || is_doubtful(words.front()) || sign == 0 || run.size() > 6) continue;
@@ -72,23 +86,19 @@ std::optional<Layout> numbered_ways(const Csv& csv) {
 
 /// "R1+", "Run 2 up", "Cycle 3 [um]".
 std::optional<Layout> runs(const Csv& csv) {
-  static const std::regex form(R"(\s*()" GUMSHOE_RUN R"(|)[\s_.#]*(\d+)[\s_.]*([^\s_.\d]*)\s*)", std::regex::icase);
+  static const std::regex form(R"(\s*()" + words_of_runs + R"(|)[\s_.#]*(\d+)[\s_.]*([^\s_.\d]*)\s*)",
+                               std::regex::icase);
   Layout out{{"run"}, {}, "", false};
   bool ways = true, numbers = true;
-  for (std::size_t c = 0; c < csv.header.size(); ++c) {
-    std::smatch match;
-    if (csv.header[c].text.size() > longest_name) continue;
-    std::string name;
-    const std::string unit = unit_in(csv.header[c].text, name);
-    if (!std::regex_match(name, match, form)) continue;
-    const std::string run = match[2], word = match[3];
+  for (const auto& [c, unit, groups] : columns_like(csv, form)) {
+    const std::string &run = groups[1], &word = groups[2];
     if (!word.empty() && sign_of(word) == 0) continue;
-    if (match[1].str().empty() && !unit.empty()) continue;           // a target: "50 mm"
+    if (groups[0].empty() && !unit.empty()) continue;                // a target: "50 mm"
     if (!out.parts.empty() && unit != out.unit) return std::nullopt; // not the same quantity
     out.unit = unit;
     ways &= !word.empty();
-    numbers &= match[1].str().empty() && word.empty() && run == std::to_string(out.parts.size() + 1);
-    if (match[1].str().empty() && word.empty() && !numbers) return std::nullopt; // targets
+    numbers &= groups[0].empty() && word.empty() && run == std::to_string(out.parts.size() + 1);
+    if (groups[0].empty() && word.empty() && !numbers) return std::nullopt; // targets
     out.parts.push_back({c, {run, word}, word.empty() ? 1 : sign_of(word)});
   }
   if (out.parts.size() < 3) return std::nullopt;
@@ -99,8 +109,6 @@ std::optional<Layout> runs(const Csv& csv) {
   }
   return out;
 }
-
-#undef GUMSHOE_RUN
 
 /// "Forward (um)", "Backward (um)".
 std::optional<Layout> directions(const Csv& csv) {

@@ -151,7 +151,7 @@ NamedColumns labels_of(const RecognisedData& data) {
   NamedColumns out;
   for (const RecognisedColumn& c : data.columns)
     if (tells_apart(data, c) && !has_empty_cells(data, c) && !is_misprinted(data, c)) out.emplace_back("", &c);
-  Names names{"reading", "row"};                       // labels of single readings, and of rows kept apart
+  Names names{"reading", "row"};                       // labels that mean something else in a scenario
   if (!block_label(data, out)) names.reserve("block"); // stretches
   for (auto& [name, c] : out) name = names.add(c->name);
   return out;

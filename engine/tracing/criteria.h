@@ -117,6 +117,9 @@ struct Criteria {
   /// A shape of which so many successive readings hold this share is one of outliers.
   Index few_readings = 3;
   double few_share = 0.75;
+  /// The same of what is removed without what other readings lose by it, as three of ten readings hold that are all
+  /// moved alike.
+  double few_gain = 0.3;
   /// Time constants tried: so many, from this share of the duration (three readings at least) to this multiple of it.
   /// Beyond the ends a rise is a step or a line.
   int time_constants = 6;

@@ -141,13 +141,6 @@ void judge_by_holdout(const TraceContext& c, Search& found, Trace& out) {
     out.statements.push_back(fmt::format("found after the others and rejected by the hold-out blocks: {}", later));
 }
 
-/// Leaves out of the list what has a weight that is shown as 1.00.
-void list_outliers(Trace& out) {
-  constexpr double full = 0.995;
-  std::erase_if(out.outliers, [](const Outlier& o) { return o.weight >= full; });
-  out.noise.outliers = static_cast<int>(out.outliers.size());
-}
-
 /// Whether more than noise is left where readings jump with a size. Scatter of single readings is what is left, too.
 bool jumps_not_crossed(const TraceContext& c, const Search& found, bool vetoed) {
   if (found.jumping.empty() || vetoed || found.last.p_anything > c.alpha_given(!found.findings.empty())) return false;
@@ -236,7 +229,6 @@ Trace traced(const scenario::Scenario& scenario, const Settings& settings, bool&
     out.statements.push_back(
         "the model has a kink at the point of linearisation; its derivatives hold for one side only");
   judge_by_holdout(c, found, out);
-  list_outliers(out);
   if (found.capped)
     out.statements.push_back(
         fmt::format("the search ended at its limit of {} findings; more would be found", criteria.most_findings));

@@ -10,11 +10,10 @@ namespace gumshoe::tracing {
 /// periodogram's maximum of 16, about where one decides. Where uneven levels let it be sought further, a longer wave
 /// counts as if it had not been, because a shorter one must explain clearly more.
 /// @param known    waves that are terms already; one that the range does not resolve from these is no candidate
-/// @param in_time  the gain beside any value at each of the conditions that come back: a programme that recurs is
-/// itself
-///                 a wave in time. Empty: where a condition is commanded, none is sought in time
+/// @param in_time  the gain in time, where conditions are commanded: with any value at each of their levels among the
+///                 columns, as a programme that is repeated is a wave in time, too. Empty: none is sought
 std::vector<Candidate> waves(const Observations& observations, const std::vector<const Candidate*>& known,
-                             const Gain& gain, const Gain& in_time = {});
+                             const Gain& gain, const Gain& in_time);
 
 /// Levels, of which those within a tenth of their mean distance are one, such as a target that was met again with
 /// jitter. Returns the first level of each.

@@ -297,7 +297,9 @@ private:
     out_.noise.outliers = static_cast<int>(out_.outliers.size());
   }
 
+  /// None whose weight is shown as 1.00.
   void add_outlier(const Row& row) {
+    if (row.weight >= 0.995) return;
     const VariableCard& v = c_.experiment.model().card->indications[row.indication];
     out_.outliers.push_back({c_.experiment.reading_text(row.reading), row.block, std::string(v.name),
                              std::string(v.unit), std::string(v.si_unit), row.after, row.weight});

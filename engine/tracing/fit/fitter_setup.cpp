@@ -254,14 +254,15 @@ void Fitter::find_covariance_models() {
   const PureError pure(fit.design, rows_, replicates_, threads_);
   if (!pure.known() || pure.cells() * observations_.indications > criteria.most_cells_of_noise) return;
   Design d = fit.design;
-  fix(d, rows_, d.random(rows_, Eigen::all));
+  add_fixed(d, rows_, d.random(rows_, Eigen::all));
   d.random.resize(d.random.rows(), 0);
   d.bent.clear();
-  fix(d, rows_, columns_by_group(rows_, d.indications, replicates_.cell, false));
+  add_fixed(d, rows_, columns_by_group(rows_, d.indications, replicates_.cell, false));
   const Vector residual = fit.residual(rows_);
   const auto models = covariance_models(d, rows_.size());
   const Vector about_cells = criteria_of(d, rows_, residual, threads_);
-  for (const bool line : {false, true}) fix(d, rows_, columns_by_group(rows_, d.indications, replicates_.pass, line));
+  for (const bool line : {false, true})
+    add_fixed(d, rows_, columns_by_group(rows_, d.indications, replicates_.pass, line));
   const Vector about_lines = criteria_of(d, rows_, residual, threads_);
   const bool few = static_cast<double>(rows_.size() - independent(d, rows_).size()) < criteria.least_pure_freedom;
   for (std::size_t i = 0; i < models.size(); ++i) {

@@ -32,8 +32,7 @@ bool of_few_readings(const Vector& squares, std::size_t indications) {
   double most = 0;
   for (Index from = 0; from + few <= squares.size(); from += index(indications))
     most = std::max(most, squares.segment(from, few).sum());
-  constexpr double much = 0.3; // as three of ten readings that all differ alike
-  return most > criteria.few_share * squares.sum() && most > much * squares.cwiseMax(0).sum();
+  return most > criteria.few_share * squares.sum() && most > criteria.few_gain * squares.cwiseMax(0).sum();
 }
 
 /// Criterion of the residuals at a fit's point, with the same unknowns as without some of its terms.
@@ -118,7 +117,7 @@ std::optional<Design> with_cells(const TraceContext& c, const Design& design) {
   const std::size_t values = cells.size() * design.indications;
   if (values > criteria.most_cells_of_noise || values * criteria.least_repeats > rows.size()) return std::nullopt;
   Design out = design;
-  fix(out, rows, columns_by_group(rows, design.indications, replicates.cell, false));
+  add_fixed(out, rows, columns_by_group(rows, design.indications, replicates.cell, false));
   return out;
 }
 
@@ -176,14 +175,17 @@ void Evidence::add_sought(const std::set<std::string>& dropped) {
   std::vector<CovarianceModel> models{fit_.covariance_model};
   if (models[0].correlation != 0 || models[0].scatter >= 0) models.emplace_back();
   const std::optional<Design> any_by_cell = with_cells(c_, fit_.design);
+  std::optional<Whitened> cells;
+  if (any_by_cell)
+    cells.emplace(*any_by_cell, c_.fitter.rows(), independent(*any_by_cell, c_.fitter.rows()), models[0]);
   std::vector<Candidate> sought;
   for (const CovarianceModel& model : models) {
     const Whitened white(plain, model);
     const Gain gain = gain_under(white, residual);
-    std::optional<Whitened> beside;
-    if (any_by_cell) beside.emplace(*any_by_cell, c_.fitter.rows(), independent(*any_by_cell, c_.fitter.rows()), model);
-    std::ranges::move(waves(c_.observations, known, gain, beside ? gain_under(*beside, residual) : Gain{}),
-                      std::back_inserter(sought));
+    std::optional<Whitened> about_cells;
+    if (cells) about_cells.emplace(*cells, model);
+    const Gain in_time = about_cells ? gain_under(*about_cells, residual) : Gain{};
+    std::ranges::move(waves(c_.observations, known, gain, in_time), std::back_inserter(sought));
     std::ranges::move(courses(c_.observations, c_.fitter.rows(), gain), std::back_inserter(sought));
   }
   for (Candidate& a : sought) {

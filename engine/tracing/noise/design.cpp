@@ -64,7 +64,7 @@ std::vector<Index> independent(const Design& d, const std::vector<Index>& rows) 
   return out;
 }
 
-void fix(Design& design, const std::vector<Index>& rows, const Matrix& columns) {
+void add_fixed(Design& design, const std::vector<Index>& rows, const Matrix& columns) {
   design.fixed.conservativeResize(Eigen::NoChange, design.fixed.cols() + columns.cols());
   design.fixed.rightCols(columns.cols()).setZero();
   design.fixed(rows, Eigen::lastN(columns.cols())) = columns;

@@ -54,7 +54,7 @@ std::vector<Index> insensitive(const Design& design, const std::vector<Index>& r
 std::vector<CovarianceModel> covariance_models(const Design& design, std::size_t rows);
 
 /// Adds columns over the chosen rows to the fixed ones.
-void fix(Design& design, const std::vector<Index>& rows, const Matrix& columns);
+void add_fixed(Design& design, const std::vector<Index>& rows, const Matrix& columns);
 
 /// The design with no variance component to be tried.
 Design without_components(Design design);

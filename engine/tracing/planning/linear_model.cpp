@@ -6,6 +6,7 @@
 #include <set>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <fmt/format.h>
 
 #include "base/error.h"
@@ -354,25 +355,14 @@ int LinearModel::fitted(const PlanGoal& goal, const Matrix& information) const {
   Matrix m = information(columns, columns);
   m.diagonal().array() -= ridge;
   const Vector length = m.diagonal().cwiseMax(0).cwiseSqrt();
-  std::vector<Index> left;
+  std::vector<Index> some;
   for (Index j = 0; j < m.rows(); ++j)
-    if (length[j] > least_length) left.push_back(j);
-  for (const Index j : left) {
-    m.row(j) /= length[j];
-    m.col(j) /= length[j];
-  }
-  int out = 0;
-  while (!left.empty()) { // elimination, largest first
-    const auto pivot = std::ranges::max_element(left, {}, [&](Index j) { return m(j, j); });
-    const Index p = *pivot;
-    if (!(m(p, p) > explained_share)) break;
-    left.erase(pivot);
-    ++out;
-    for (const Index i : left)
-      for (const Index j : left)
-        if (j >= i) m(i, j) = m(j, i) = m(i, j) - m(i, p) * m(p, j) / m(p, p);
-  }
-  return out;
+    if (length[j] > least_length) some.push_back(j);
+  if (some.empty()) return 0;
+  const Vector scale = length(some).cwiseInverse();
+  Eigen::FullPivLU<Matrix> left(scale.asDiagonal() * m(some, some) * scale.asDiagonal());
+  left.setThreshold(explained_share);
+  return static_cast<int>(left.rank());
 }
 
 double LinearModel::share_left(const PlanGoal& goal, const Matrix& information) const {

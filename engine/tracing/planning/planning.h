@@ -52,7 +52,7 @@ struct Planned {
   bool d_optimal = false;
   std::size_t allowed = 0; ///< readings compared
   double gain = 0;         ///< of a D-optimal plan: ln of the determinant of the information, after less before
-  /// Of a reading: as declared, or by the residuals of the readings there are; unknown: uncertainties are in its units.
+  /// How the noise of a reading is known: as declared, or from residuals. Unknown: uncertainties are in units of it.
   enum class Noise : unsigned char { unknown, estimated, declared };
   Noise noise = Noise::declared;
   std::vector<Verified> verified;
