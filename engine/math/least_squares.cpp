@@ -1,46 +1,31 @@
-// The only door to Ceres.
 #include "math/least_squares.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <mutex>
 #include <optional>
 
-#include <ceres/ceres.h>
 #include <fmt/format.h>
-#include <glog/logging.h>
 
+#include "base/error.h"
+#include "base/module.h"
+#include "math/descent.h"
 #include "math/gauss_newton.h"
 
 namespace gumshoe::least_squares {
 namespace {
 
-class Cost final : public ceres::CostFunction {
-public:
-  explicit Cost(const Rows& rows) : rows_(rows) {
-    set_num_residuals(static_cast<int>(rows.rows()));
-    mutable_parameter_block_sizes()->push_back(static_cast<int>(rows.parameters()));
-  }
-  bool Evaluate(double const* const* z, double* r, double** jacobians) const override {
-    return rows_.evaluate(z[0], r, jacobians ? jacobians[0] : nullptr);
-  }
-
-private:
-  const Rows& rows_;
-};
-
 struct Strategy {
   const char* name;
-  ceres::TrustRegionStrategyType type;
+  TrustRegion type;
   double radius;
   bool scaling; ///< columns of the Jacobian to length one; without it steps are measured in magnitudes
 };
 // The second half serves when the first steps run away: they start with steps of about one magnitude.
-constexpr Strategy strategies[] = {{"Levenberg-Marquardt", ceres::LEVENBERG_MARQUARDT, 1e4, true},
-                                   {"dogleg", ceres::DOGLEG, 1e4, true},
-                                   {"cautious Levenberg-Marquardt", ceres::LEVENBERG_MARQUARDT, 1e-2, true},
-                                   {"cautious dogleg", ceres::DOGLEG, 0.1, false}};
+constexpr Strategy strategies[] = {{"Levenberg-Marquardt", TrustRegion::levenberg_marquardt, 1e4, true},
+                                   {"dogleg", TrustRegion::dogleg, 1e4, true},
+                                   {"cautious Levenberg-Marquardt", TrustRegion::levenberg_marquardt, 1e-2, true},
+                                   {"cautious dogleg", TrustRegion::dogleg, 0.1, false}};
 
 struct Attempt {
   Vector z, r;
@@ -74,6 +59,19 @@ bool stationary(const Tangent& t, const Options& options) {
          (t.relative_offset <= options.offset_tolerance && t.relative_step <= longest_step);
 }
 
+/// Opened by the first that needs it.
+decltype(&gumshoe_descend) descend() {
+  static const auto opened = [] {
+    std::string why;
+    void* const found = module_symbol("gumshoe_ceres", "gumshoe_descend", why);
+    if (!found)
+      throw InputError("the part of this program that fits cannot be opened", why,
+                       "it stands in gumshoe_ceres.so: next to the program, or in lib/gumshoe where it is installed");
+    return reinterpret_cast<decltype(&gumshoe_descend)>(found);
+  }();
+  return opened;
+}
+
 std::optional<Attempt> attempt(const Rows& rows, const Vector& start, const Strategy& strategy,
                                const Options& options) {
   Attempt out;
@@ -82,30 +80,16 @@ std::optional<Attempt> attempt(const Rows& rows, const Vector& start, const Stra
   const auto acted = acting(out.jacobian, out.z);
   const Eigen::Index rank = tangent(rows, out.z, out.r, out.jacobian).rank;
 
-  ceres::Problem problem;
-  problem.AddResidualBlock(new Cost(rows), nullptr, out.z.data());
-  for (Eigen::Index j = 0; j < rows.parameters(); ++j) {
-    if (std::isfinite(rows.low()[j])) problem.SetParameterLowerBound(out.z.data(), static_cast<int>(j), rows.low()[j]);
-    if (std::isfinite(rows.high()[j]))
-      problem.SetParameterUpperBound(out.z.data(), static_cast<int>(j), rows.high()[j]);
-  }
-  ceres::Solver::Options o;
-  o.trust_region_strategy_type = strategy.type;
-  o.initial_trust_region_radius = strategy.radius;
-  o.jacobi_scaling = strategy.scaling;
-  o.linear_solver_type = ceres::DENSE_QR;
-  o.max_num_iterations = options.iterations;
-  o.max_num_consecutive_invalid_steps = 50;
-  // The polish and the judgement below decide; Ceres stops where it gains no more.
-  o.function_tolerance = 1e-15;
-  o.gradient_tolerance = 1e-15;
-  o.parameter_tolerance = 1e-13;
-  o.num_threads = 1;
-  o.logging_type = ceres::SILENT;
-  ceres::Solver::Summary summary;
-  ceres::Solve(o, &problem, &summary);
-  out.said = fmt::format("{}: {}", strategy.name, summary.message);
-  out.iterations = static_cast<int>(summary.iterations.size());
+  Descent descent{strategy.type, strategy.radius, strategy.scaling, options.iterations};
+  descent.rows = static_cast<int>(rows.rows());
+  descent.parameters = static_cast<int>(rows.parameters());
+  descent.low = rows.low().data();
+  descent.high = rows.high().data();
+  descent.evaluate = [&rows](const double* z, double* r, double* jacobian) { return rows.evaluate(z, r, jacobian); };
+  Descended ended;
+  descend()(descent, out.z.data(), ended);
+  out.said = fmt::format("{}: {}", strategy.name, ended.message);
+  out.iterations = ended.iterations;
   out.z = rows.clamp(out.z);
   if (!rows.evaluate(out.z, out.r, &out.jacobian)) return std::nullopt;
   out.iterations += polish(rows, out.z, out.r, out.jacobian);
@@ -178,16 +162,9 @@ std::optional<Vector> lower_start(const Rows& rows, const Attempt& at) {
   return lowest;
 }
 
-/// Ceres says on stderr what its summary says too.
-void silence() {
-  static std::once_flag once;
-  std::call_once(once, [] { FLAGS_minloglevel = google::GLOG_FATAL; });
-}
-
 } // namespace
 
 Solution solve(const Problem& problem, const Options& options) {
-  silence();
   const Rows rows(problem);
   Solution out;
   Report& report = out.report;

@@ -1,5 +1,5 @@
 #pragma once
-/// Non-linear least squares: the one door to Ceres. Ceres finds the minimum, Gauss-Newton steps by QR carry it to
+/// Non-linear least squares: Ceres finds the minimum, Gauss-Newton steps by QR carry it to
 /// the last digits, and the report is judged anew at the end, whatever the solver said.
 #include <cstddef>
 #include <functional>

@@ -5,15 +5,14 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
-#include <filesystem>
 #include <thread>
 
-#include <dlfcn.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include "base/error.h"
 #include "base/interrupt.h"
+#include "base/module.h"
 
 namespace gumshoe::propagation {
 
@@ -29,21 +28,11 @@ int number(const char* variable, int otherwise) {
   return text ? std::atoi(text) : otherwise;
 }
 
-/// Next to the program where it is built, in lib/gumshoe where it is installed.
-std::string module_file() {
-  namespace fs = std::filesystem;
-  std::error_code none;
-  const fs::path folder = fs::read_symlink("/proc/self/exe", none).parent_path();
-  const fs::path installed = folder.parent_path() / "lib/gumshoe/gumshoe_mpi.so";
-  return (fs::exists(installed, none) ? installed : folder / "gumshoe_mpi.so").string();
-}
-
 std::unique_ptr<Transport> open_transport(const Launch& launch) {
-  const std::string file = module_file();
-  void* const module = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL); // closed by the end of the process
-  void* const open = module ? dlsym(module, "gumshoe_open_transport") : nullptr;
+  std::string why;
+  void* const open = module_symbol("gumshoe_mpi", "gumshoe_open_transport", why);
   if (!open)
-    throw InputError("this program has no MPI, and a launcher of MPI started several of it", dlerror(),
+    throw InputError("this program has no MPI, and a launcher of MPI started several of it", why,
                      "build it where MPI is installed, or use --shard and gumshoe merge");
   std::unique_ptr<Transport> transport(reinterpret_cast<decltype(&gumshoe_open_transport)>(open)());
   if (launch.size > transport->size())

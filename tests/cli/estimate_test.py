@@ -4,10 +4,12 @@ usage: estimate_test.py path/to/gumshoe [unittest options]
 """
 import json
 import math
+import shutil
+import subprocess
 import tomllib
 import unittest
 
-from program import ROOT, InFolder, complaint, gumshoe
+from program import GUMSHOE, ROOT, InFolder, complaint, gumshoe
 
 GAUGE = ROOT / "scenarios" / "gauge"
 
@@ -160,6 +162,21 @@ class Estimate(InFolder):
         run = gumshoe("estimate", file, "--scenario-out", file)
         self.assertIsNone(complaint(run), run.stderr)
         self.assertEqual(file.read_text(), LINE)
+
+    def test_a_missing_or_damaged_part_of_the_program_is_said_where_it_is_needed(self):
+        program, module = self.folder / "bin/gumshoe", self.folder / "lib/gumshoe/gumshoe_ceres.so"
+        for file in (program, module):
+            file.parent.mkdir(parents=True)
+        shutil.copy(GUMSHOE, program)
+        words = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True, "cwd": self.folder}
+        for damage in (None, "no library"):
+            if damage:
+                module.write_text(damage)
+            fit = subprocess.run([program, "estimate", self.scenario()], **words)
+            self.assertIsNone(complaint(fit), fit.stderr)
+            self.assertIn("the part of this program that fits cannot be opened", fit.stderr)
+            self.assertIn("gumshoe_ceres.so", fit.stderr)
+        self.assertEqual(subprocess.run([program, "check", self.scenario()], **words).returncode, 0)
 
 
 if __name__ == "__main__":
