@@ -8,8 +8,8 @@ namespace gumshoe {
 /// process where they get no memory (udunits2's parser, HDF5's cache of a file, the JSON library's destructors).
 void require_memory(std::size_t bytes);
 
-/// Asks the system for large pages where it has not yet given any: the first touch of a page of 4 KiB costs as much as
-/// copying several. It may decline. For fresh memory that will be written from end to end.
-void prefer_large_pages(void* memory, std::size_t bytes);
+/// Lets the heap begin with large pages: the first touch of a small one costs as much as copying several. Larger blocks
+/// of `operator new` have them anyway. The system may decline. Called before the first thread starts.
+void prefer_large_pages_of_heap();
 
 } // namespace gumshoe

@@ -5,6 +5,7 @@
 #include <new>
 
 #include "base/interrupt.h"
+#include "base/memory.h"
 #include "base/version.h"
 #include "cli/command.h"
 #include "propagation/ranks.h"
@@ -24,11 +25,8 @@ int printed(int code) {
   return static_cast<int>(gumshoe::ExitCode::bad_input);
 }
 
-} // namespace
-
-int main(int argc, char** argv) {
+int command_line(int argc, char** argv) {
   using namespace gumshoe;
-  std::signal(SIGXFSZ, SIG_IGN); // a file-size limit becomes a write error with a message
   CLI::App app{"Gumshoe: uncertainty and sensitivity analysis of on-machine measurement", "gumshoe"};
   app.set_version_flag("--version", std::string("gumshoe ") + version + " (" + git_hash + ")");
   app.require_subcommand(1);
@@ -75,7 +73,7 @@ int main(int argc, char** argv) {
     std::cerr << format(cli::parse_problem(app, {argv + 1, argv + argc}, error)) << '\n';
     return static_cast<int>(ExitCode::bad_input);
   } catch (const std::bad_alloc&) {
-    std::cerr << "error: out of memory. Use fewer samples.\n";
+    throw;
   } catch (const InputError& error) {
     if (interrupted()) return interrupted_exit(); // a signal reached a program that we wait for, too
     std::cerr << error.what() << '\n';
@@ -83,4 +81,15 @@ int main(int argc, char** argv) {
     std::cerr << format({{}, error.what(), "", ""}) << '\n';
   }
   return static_cast<int>(ExitCode::bad_input);
+}
+
+} // namespace
+
+int main(int argc, char** argv) try {
+  gumshoe::prefer_large_pages_of_heap();
+  std::signal(SIGXFSZ, SIG_IGN); // a file-size limit becomes a write error with a message
+  return command_line(argc, argv);
+} catch (const std::bad_alloc&) {
+  std::cerr << "error: out of memory. Use fewer samples.\n";
+  return static_cast<int>(gumshoe::ExitCode::bad_input);
 }

@@ -27,6 +27,7 @@
 /// The card's limits are checked here, for points and for samples: a model states them once, in its card.
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -107,12 +108,13 @@ namespace detail {
 /// `compute(at, solution, memory, outcome)` at a point within all limits; NaN elsewhere.
 template <class M, class T, class Compute>
 PointOutcome at_point(const PointCall<T>& call, bool simulating, T* out, const Compute& compute) {
-  thread_local typename MemoryOf<M, T>::type memory{};
+  // Not in the thread's own storage, which every thread would pay for, whatever it computes.
+  thread_local const auto memory = std::make_unique<typename MemoryOf<M, T>::type>();
   const auto at = reading_of<M>(call, simulating);
   Outcome<T> outcome;
   check_all<M>(at, outcome);
-  decltype(compute(at, solve<M>(at, outcome), memory, outcome)) values{};
-  if (!outcome.failed) values = compute(at, solve<M>(at, outcome), memory, outcome);
+  decltype(compute(at, solve<M>(at, outcome), *memory, outcome)) values{};
+  if (!outcome.failed) values = compute(at, solve<M>(at, outcome), *memory, outcome);
   for (std::size_t i = 0; i < sizeof(values) / sizeof(T); ++i)
     out[i] = outcome.failed ? T(std::nan("")) : array_of(values)[i];
   return {code(outcome.status[0]), outcome.kink};

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "base/memory.h"
-
 namespace gumshoe::propagation {
 
 void MemoryStore::write(const ResultBlock& block) {
@@ -18,7 +16,6 @@ void MemoryStore::write(const ResultBlock& block) {
 
 void MemoryStore::resize(std::uint64_t samples) {
   auto values = std::make_unique_for_overwrite<double[]>(outputs_ * samples);
-  prefer_large_pages(values.get(), outputs_ * samples * sizeof(double));
   const std::uint64_t kept = std::min(done_, samples);
   for (std::size_t o = 0; o < outputs_; ++o)
     std::copy_n(values_.get() + o * samples_, kept, values.get() + o * samples);
