@@ -240,6 +240,9 @@ struct Criteria {
   /// Ratios of scatter to noise in the profile likelihood: from the lowest, over this factor, in equal steps of ln.
   double scatter_low = 0.05, scatter_span = 4000;
   int scatter_steps = 60;
+  int most_scatter_sweeps = 4; ///< over components that are fitted together, one after the other
+  /// Degrees of freedom with which scatter is written at least: a t distribution of fewer has no standard uncertainty.
+  double least_scatter_freedom = 3;
 };
 
 inline constexpr Criteria criteria;

@@ -204,6 +204,7 @@ struct Addition {
   double u = 0;
   std::vector<std::string> per;
   std::string source;
+  double degrees_of_freedom = std::numeric_limits<double>::infinity();
 };
 
 enum class Outcome { found, nothing_found, insufficient_data };

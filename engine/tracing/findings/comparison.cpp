@@ -48,7 +48,10 @@ public:
     // outlier, and how large the noise is, are judged given its draws, as a trace of that scenario does.
     std::vector<MoreNoise> declared;
     for (const SearchFinding& f : s.findings)
-      std::ranges::copy(noise_found(c, s.found, f), std::back_inserter(declared));
+      std::ranges::copy(larger_noise(s.found, f.finding), std::back_inserter(declared));
+    if (!s.findings.empty())
+      for (const Component& one : fitted_scatter(c, s.found, s.findings).components)
+        std::ranges::copy(noise_of(one, s.found), std::back_inserter(declared));
     if (!declared.empty())
       if (JointFit fit = c.fitter.with_noise(s.found, declared); fit.valid) after_ = std::move(fit);
     // Judged in the units of one noise: the fit without the effect takes it for noise. Each predicts by its own

@@ -161,6 +161,8 @@ void collect(const TraceContext& c, const Search& s, Trace& out) {
   else
     out.statements.insert(out.statements.end(), s.dropped.begin(), s.dropped.end());
   const auto plain = out.vetoed ? std::nullopt : without_shapes(c, fit);
+  const JointFit& stands = out.vetoed ? s.base : fit;
+  const FittedScatter scatter = fitted_scatter(c, stands, s.findings);
   for (SearchFinding found : s.findings) {
     if (out.vetoed && !survives_veto(c, s, found)) continue;
     Finding f = found.finding;
@@ -177,7 +179,7 @@ void collect(const TraceContext& c, const Search& s, Trace& out) {
     }
     if (plain && !f.quantities.empty()) remark_on_shapes(c, fit, *plain, found, f);
     if (f.kind == Kind::equivalence_class) describe_class(c, s, found, f);
-    if (f.kind == Kind::scatter) describe_scatter(c, out.vetoed ? s.base : fit, found.component, out.rms, f);
+    if (f.kind == Kind::scatter) describe_scatter(c, stands, scatter, found.component, out.rms, f);
     out.findings.push_back(std::move(f));
   }
   out.outcome = out.findings.empty() ? Outcome::nothing_found : Outcome::found;

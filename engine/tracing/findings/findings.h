@@ -1,6 +1,6 @@
 #pragma once
 /// Converts the results of the search into reported findings.
-#include "tracing/judgement/search.h"
+#include "tracing/findings/fitted_scatter.h"
 
 namespace gumshoe::tracing {
 
@@ -18,12 +18,15 @@ struct ScatterSize {
   int indication = -1;                ///< the only one that it moves; -1: each by itself
 };
 ScatterSize size_of_scatter(const TraceContext& context, const JointFit& fit, int component);
-/// Scatter that was found, as noise of the indications that it moves; none of effects and shapes.
-std::vector<MoreNoise> noise_found(const TraceContext& context, const JointFit& fit, const SearchFinding& found);
+/// What single readings scatter beyond what is declared, where this was found; none of other findings.
+std::vector<MoreNoise> larger_noise(const JointFit& fit, const Finding& found);
+/// A component as noise of the indications that it moves.
+std::vector<MoreNoise> noise_of(const Component& component, const JointFit& fit);
 
-/// Size of a variance component, with the interval of its profile likelihood; with none, size of the noise.
-void describe_scatter(const TraceContext& context, const JointFit& fit, int component, const Rms& rms,
-                      Finding& finding);
+/// Size of a variance component given the others, with the interval of its profile likelihood; with none, size of the
+/// noise.
+void describe_scatter(const TraceContext& context, const JointFit& fit, const FittedScatter& scatter, int component,
+                      const Rms& rms, Finding& finding);
 /// Writes the two sentences for a machinist: what was found, how large, how sure, what to do.
 void summarise(Trace& out);
 

@@ -52,24 +52,27 @@ ScatterSize size_of_scatter(const TraceContext& c, const JointFit& fit, int comp
   return out;
 }
 
-std::vector<MoreNoise> noise_found(const TraceContext& c, const JointFit& fit, const SearchFinding& found) {
+std::vector<MoreNoise> larger_noise(const JointFit& fit, const Finding& found) {
   std::vector<MoreNoise> out;
-  if (found.finding.kind != Kind::scatter) return out;
+  if (found.kind != Kind::scatter || found.depends_on != std::vector<std::string>{"reading"}) return out;
   const auto& reference = fit.design.reference;
-  if (found.component < 0) { // the noise is larger than declared: what is missing in its square
-    const double scale = fit.noise * std::sqrt(fit.variance);
-    for (std::size_t i = 0; i < reference.size(); ++i)
-      out.push_back({i, reference[i] / fit.noise * std::sqrt(std::max(0.0, scale * scale - 1))});
-    return out;
-  }
-  const ScatterSize size = size_of_scatter(c, fit, found.component);
+  const double scale = fit.noise * std::sqrt(fit.variance); // what is missing in its square
   for (std::size_t i = 0; i < reference.size(); ++i)
-    if (size.indication < 0 || i == index(size.indication))
-      out.push_back({i, size.best * reference[i], &c.observations.replicate_groups[index(found.component)]});
+    out.push_back({i, reference[i] / fit.noise * std::sqrt(std::max(0.0, scale * scale - 1))});
   return out;
 }
 
-void describe_scatter(const TraceContext& c, const JointFit& fit, int component, const Rms& rms, Finding& finding) {
+std::vector<MoreNoise> noise_of(const Component& component, const JointFit& fit) {
+  std::vector<MoreNoise> out;
+  const auto& reference = fit.design.reference;
+  for (std::size_t i = 0; i < reference.size(); ++i)
+    if (component.indication < 0 || i == index(component.indication))
+      out.push_back({i, component.u * reference[i], component.group});
+  return out;
+}
+
+void describe_scatter(const TraceContext& c, const JointFit& fit, const FittedScatter& scatter, int component,
+                      const Rms& rms, Finding& finding) {
   const auto& card = c.experiment.model().card->indications[0];
   SizedQuantity q;
   q.name = "standard deviation";
@@ -89,7 +92,9 @@ void describe_scatter(const TraceContext& c, const JointFit& fit, int component,
     finding.quantities = {q};
     return;
   }
-  const ScatterSize size = size_of_scatter(c, fit, component);
+  const auto known = std::ranges::find(scatter.components, component, &Component::index);
+  ScatterSize size = size_of_scatter(c, given_others(fit, scatter, component), component);
+  if (known != scatter.components.end()) size.best = known->u;
   const double reference = fit.design.reference[index(std::max(0, size.indication))];
   if (size.indication >= 0) finding.remarks.push_back("of " + c.observations.names[index(size.indication)] + " alone");
   q.value = size.best * reference;

@@ -64,8 +64,8 @@ bool shape_known(const JointFit& fit, std::size_t term) {
   return true;
 }
 
-/// Degrees of freedom of the declared noise by Welch and Satterthwaite's formula (JCGM 100, G.4.1), the fewest of all
-/// indications.
+/// Degrees of freedom of the declared noise of a reading by Welch and Satterthwaite's formula (JCGM 100, G.4.1), the
+/// fewest of all indications. What readings share is a draw, and no noise.
 double noise_freedom(const propagation::Experiment& experiment) {
   const auto& quantities = experiment.scenario().quantities;
   const propagation::Range noise = experiment.layout().indications;
@@ -74,6 +74,7 @@ double noise_freedom(const propagation::Experiment& experiment) {
     for (const auto& entry : quantities[q].entries) {
       double variance = 0, sum = 0;
       for (const auto& component : entry.components) {
+        if (std::ranges::find(component.per, "reading") == component.per.end()) continue;
         const double u = component.distribution.standard_uncertainty();
         variance += u * u;
         sum += u * u * u * u / component.degrees_of_freedom;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -18,7 +19,8 @@ public:
   Components(const TraceContext& c, const Search& s, Trace& out) : c_(c), fit_(s.found), out_(out) {}
 
   /// A component of an indication's noise. Readings of different noise share no draw: there it is drawn for each.
-  void of_noise(std::size_t indication, double u, std::vector<std::string> per, std::string source) {
+  void of_noise(std::size_t indication, double u, std::vector<std::string> per, std::string source,
+                double degrees_of_freedom = std::numeric_limits<double>::infinity()) {
     const auto& card = c_.experiment.model().card->indications[indication];
     if (!(u > 0)) return;
     for (const auto& q : out_.extended.quantities)
@@ -28,11 +30,12 @@ public:
       }
     out_.additions.push_back({std::string(card.name),
                               units::error_unit(std::string(card.unit), std::string(card.si_unit)),
-                              std::string(card.si_unit), u, std::move(per), std::move(source)});
+                              std::string(card.si_unit), u, std::move(per), std::move(source), degrees_of_freedom});
   }
 
   /// The part of an indication's noise that grows with a condition: u at its largest value.
-  void growing(std::size_t indication, double u, const NoiseGrowth& grows, const std::string& source) {
+  void growing(std::size_t indication, double u, const NoiseGrowth& grows, const std::string& source,
+               double degrees_of_freedom) {
     const auto& card = c_.experiment.model().card->indications[indication];
     const Covariate& x = c_.observations.covariates[grows.covariate];
     Correction effect;
@@ -44,7 +47,8 @@ public:
     effect.source = source;
     effect.keys = {{x.name, x.unit, x.si_unit, {std::min(0.0, x.levels.front()), std::max(0.0, x.levels.back())}}};
     for (const double level : effect.keys[0].levels) effect.loading.push_back(level / grows.largest);
-    out_.additions.push_back({effect.name + ".size", effect.unit, effect.si_unit, u, {"reading"}, source});
+    out_.additions.push_back(
+        {effect.name + ".size", effect.unit, effect.si_unit, u, {"reading"}, source, degrees_of_freedom});
     out_.statements.push_back(
         fmt::format("the noise of {} grows with {}: u = {} at 0 and {} at {}; readings are weighted so", card.name,
                     x.name, shown_size(u / grows.ratio, effect.unit, effect.si_unit),
@@ -52,27 +56,32 @@ public:
     out_.growing_noise.push_back(std::move(effect));
   }
 
-  void scatter(const SearchFinding& found, const Finding& f) {
-    const auto& d = fit_.design;
-    std::string source = fmt::format("scatter by {}, p = {:.2g}", fmt::join(f.depends_on, " and "), f.p_value);
-    const auto more = noise_found(c_, fit_, found);
-    if (found.component < 0) {
-      for (const MoreNoise& one : more) of_noise(one.indication, one.u, {"reading"}, source);
-      return;
-    }
-    if (f.quantities.empty()) return;
-    const double u = f.quantities[0].value;
-    if (f.quantities[0].low95 < f.quantities[0].high95)
+  /// What single readings scatter beyond what is declared.
+  void larger(const Finding& f) {
+    for (const MoreNoise& one : larger_noise(fit_, f)) of_noise(one.indication, one.u, {"reading"}, source_of(f));
+  }
+
+  /// What the readings of a group share: a finding of its own or not, new readings scatter so.
+  void shared(const Component& component) {
+    const auto& labels = component.group->labels;
+    const auto f = std::ranges::find_if(
+        out_.findings, [&](const Finding& one) { return one.kind == Kind::scatter && one.depends_on == labels; });
+    const bool found = f != out_.findings.end() && !f->quantities.empty();
+    std::string source = found ? source_of(*f)
+                               : fmt::format("scatter by {}, fitted to these readings; no finding of its own",
+                                             fmt::join(labels, " and "));
+    if (found && f->quantities[0].low95 < f->quantities[0].high95)
       source += fmt::format("; 95 % interval of u in the indication: {} to {}",
-                            shown_size(f.quantities[0].low95, f.quantities[0].unit, f.quantities[0].si_unit),
-                            shown_size(f.quantities[0].high95, f.quantities[0].unit, f.quantities[0].si_unit));
+                            shown_size(f->quantities[0].low95, f->quantities[0].unit, f->quantities[0].si_unit),
+                            shown_size(f->quantities[0].high95, f->quantities[0].unit, f->quantities[0].si_unit));
+    const std::vector<MoreNoise> more = noise_of(component, fit_);
     const auto seat = seat_at_null(c_.experiment);
-    if (const double loading = seat && d.indications == 1 ? loading_of(*seat) : 0; loading > 0) {
+    if (const double loading = found && seat && fit_.design.indications == 1 ? loading_of(*seat) : 0; loading > 0) {
       const auto& q = c_.experiment.scenario().quantities[*seat];
-      out_.additions.push_back({q.name, q.unit, q.si_unit, u / loading, f.depends_on, source});
+      out_.additions.push_back({q.name, q.unit, q.si_unit, more[0].u / loading, labels, source, component.freedom});
       return;
     }
-    for (const MoreNoise& one : more) of_noise(one.indication, one.u, f.depends_on, source);
+    for (const MoreNoise& one : more) of_noise(one.indication, one.u, labels, source, component.freedom);
   }
 
   void not_in_catalogue(const SearchFinding& found, const Finding& f, const std::vector<Vector>& left) {
@@ -98,6 +107,10 @@ public:
   }
 
 private:
+  static std::string source_of(const Finding& f) {
+    return fmt::format("scatter by {}, p = {:.2g}", fmt::join(f.depends_on, " and "), f.p_value);
+  }
+
   /// Change of the indication with a quantity, root mean square; 0 if the model has no derivative there.
   double loading_of(std::size_t quantity) const {
     Vector f;
@@ -117,23 +130,24 @@ void add_estimated_noise(const TraceContext& c, const Search& s, Trace& out) {
   if (c.fitter.noise_declared()) return;
   Components components(c, s, out);
   const std::string source = "noise, estimated from the residuals of these readings";
+  const FittedScatter scatter = fitted_scatter(c, s.found, s.findings);
   for (std::size_t i = 0; i < s.found.design.indications; ++i) {
-    double u = s.found.design.reference[i] * std::sqrt(s.found.variance);
+    double u = s.found.design.reference[i] * std::sqrt(scatter.variance);
     if (const auto& grows = c.fitter.noise_growth()) {
       u /= std::sqrt(grows->variance.mean());
-      components.growing(i, u * grows->ratio, *grows, source);
+      components.growing(i, u * grows->ratio, *grows, source, scatter.freedom);
     }
-    components.of_noise(i, u, {"reading"}, source);
+    components.of_noise(i, u, {"reading"}, source, scatter.freedom);
   }
 }
 
 void add_components(const TraceContext& c, const Search& s, const std::vector<Vector>& left, Trace& out) {
   Components components(c, s, out);
-  for (std::size_t i = 0; i < s.findings.size() && i < out.findings.size(); ++i) {
-    const Finding& f = out.findings[i];
-    if (f.kind == Kind::scatter) components.scatter(s.findings[i], f);
-    if (f.kind == Kind::not_in_catalogue) components.not_in_catalogue(s.findings[i], f, left);
-  }
+  for (const Finding& f : out.findings) components.larger(f);
+  for (std::size_t i = 0; i < s.findings.size() && i < out.findings.size(); ++i)
+    if (out.findings[i].kind == Kind::not_in_catalogue)
+      components.not_in_catalogue(s.findings[i], out.findings[i], left);
+  for (const Component& one : fitted_scatter(c, s.found, s.findings).components) components.shared(one);
 }
 
 } // namespace gumshoe::tracing

@@ -1,6 +1,7 @@
 #include "tracing/scenario_out/traced_scenario.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <set>
 
@@ -327,6 +328,9 @@ private:
                    {"per", 0, 0, per.size() == 1 ? per[0] : calibration::list_node(per)},
                    {"evaluation", 0, 0, text_node("A")},
                    {"source", 0, 0, text_node(source(a.source))}};
+    if (std::isfinite(a.degrees_of_freedom))
+      one.members.insert(one.members.begin() + 1,
+                         {"degrees_of_freedom", 0, 0, calibration::number_node(std::round(a.degrees_of_freedom))});
     if (!noise) {
       one.members.insert(one.members.begin(), {"value", 0, 0, measure_node(0, a.unit, a.si_unit, false)});
       text_.quantity(a.quantity) = std::move(one);
