@@ -241,6 +241,8 @@ struct Criteria {
   double scatter_low = 0.05, scatter_span = 4000;
   int scatter_steps = 60;
   int most_scatter_sweeps = 4; ///< over components that are fitted together, one after the other
+  std::size_t least_scatter_groups =
+      3; ///< groups of a stated set-up step whose scatter is written, if not searched for
   /// Degrees of freedom with which scatter is written at least: a t distribution of fewer has no standard uncertainty.
   double least_scatter_freedom = 3;
 };

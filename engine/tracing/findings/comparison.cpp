@@ -41,24 +41,31 @@ constexpr std::uint16_t scale_of_noise = 5; ///< stream of random numbers, after
 class Comparison {
 public:
   Comparison(const TraceContext& c, const Search& s, Trace& out)
-      : c_(c), rows_(c.fitter.rows()), base_(s.base), before_(s.base), after_(s.found),
+      : c_(c), rows_(c.fitter.rows()), base_(s.base), before_(s.base), after_(s.found), judged_(s.found),
         previous_(s.stages.size() > 1 ? s.stages[s.stages.size() - 2].fit : s.base), has_previous_(s.stages.size() > 1),
         out_(out) {
-    // Scatter that was found is declared from now on, with the size that the traced scenario states: what is an
-    // outlier, and how large the noise is, are judged given its draws, as a trace of that scenario does.
-    std::vector<MoreNoise> declared;
-    for (const SearchFinding& f : s.findings)
-      std::ranges::copy(larger_noise(s.found, f.finding), std::back_inserter(declared));
-    if (!s.findings.empty())
-      for (const Component& one : fitted_scatter(c, s.found, s.findings).components)
-        std::ranges::copy(noise_of(one, s.found), std::back_inserter(declared));
-    if (!declared.empty())
-      if (JointFit fit = c.fitter.with_noise(s.found, declared); fit.valid) after_ = std::move(fit);
+    // Scatter is declared from now on, with the size that the traced scenario states: what is an outlier, and how large
+    // the noise is, are judged given its draws, as a trace of that scenario does. The verdict knows only what was
+    // found.
+    const FittedScatter scatter = s.findings.empty() ? FittedScatter{} : fitted_scatter(c, s.found, s.findings);
+    for (const bool all : {false, true}) {
+      std::vector<MoreNoise> declared;
+      for (const SearchFinding& f : s.findings)
+        std::ranges::copy(larger_noise(s.found, f.finding), std::back_inserter(declared));
+      for (const Component& one : scatter.components)
+        if (all || one.found) std::ranges::copy(noise_of(one, s.found), std::back_inserter(declared));
+      if (declared.empty()) continue;
+      if (JointFit fit = c.fitter.with_noise(s.found, declared); fit.valid) (all ? after_ : judged_) = std::move(fit);
+      if (std::ranges::all_of(scatter.components, &Component::found)) {
+        after_ = judged_;
+        break;
+      }
+    }
     // Judged in the units of one noise: the fit without the effect takes it for noise. Each predicts by its own
     // covariance model, as a trace of the scenario would that it stands for.
     for (JointFit* fit : {&before_, &previous_}) {
-      fit->design.local = after_.design.local;
-      fit->design.reference = after_.design.reference;
+      fit->design.local = judged_.design.local;
+      fit->design.reference = judged_.design.reference;
     }
     std::vector<Index> every(index(after_.residual.size()));
     std::iota(every.begin(), every.end(), 0);
@@ -133,6 +140,12 @@ private:
     return score(fit, residual, rows_, blocks, after_.covariance_model, in_first(c_.observations, fit.design));
   }
 
+  /// As the verdict has it: without these excesses, by the covariance model of what was found.
+  Scores verdict(const JointFit& fit, const Vector& bad, const Blocks& blocks) const {
+    return score(fit, fit.residual - bad, rows_, blocks, judged_.covariance_model,
+                 in_first(c_.observations, fit.design));
+  }
+
   /// What the error cannot fall below: the replicates' scatter, else the declared noise.
   double floor() const {
     if (std::isfinite(out_.rms.replicate_floor)) return out_.rms.replicate_floor;
@@ -152,8 +165,8 @@ private:
     const Vector bad = excess(scored_before_, scored_after_, after_.design);
     const Scores clean_before = predict(base_, base_.residual - bad, blocks);
     Scores clean_after = predict(after_, after_.residual - bad, blocks);
-    const bool refused = (judge(blocks, predict(before_, before_.residual - bad, blocks), clean_after) ||
-                          last_spoils(blocks, bad, clean_after)) &&
+    const Scores judged = verdict(judged_, bad, blocks);
+    const bool refused = (judge(blocks, verdict(before_, bad, blocks), judged) || last_spoils(blocks, bad, judged)) &&
                          !confirmed_between_blocks();
     if (refused) {
       scored_after_ = scored_before_;
@@ -194,7 +207,7 @@ private:
       return false;
     }
     Holdout says = judge_holdout({before.whitened, before.rms[0]}, {after.whitened, after.rms[0]},
-                                 overstated(before, after, after_.design));
+                                 overstated(before, after, judged_.design));
     // However ill the training data know what was found: its errors are no longer those that its own noise allows.
     if (says == Holdout::unsure && after.rms[0] > criteria.veto_growth * before.rms[0] &&
         after.rms[0] > out_.rms.holdout_noise_high)
@@ -209,9 +222,9 @@ private:
   /// Whether they are predicted much worse with what the last round found than without it, though better than before.
   bool last_spoils(const Blocks& blocks, const Vector& bad, const Scores& after) const {
     if (c_.observations.holdout_blocks.empty() || !scored_before_.scored() || !has_previous_) return false;
-    const Scores before = predict(previous_, previous_.residual - bad, blocks);
+    const Scores before = verdict(previous_, bad, blocks);
     return after.whitened > before.whitened && after.rms[0] > criteria.veto_growth * before.rms[0] &&
-           overstated(before, after, after_.design) > criteria.overstated_last;
+           overstated(before, after, judged_.design) > criteria.overstated_last;
   }
 
   /// Names of what was found to depend on, of which the hold-out readings lie outside the training range.
@@ -252,9 +265,9 @@ private:
     }
     const std::vector<Index> all = rows_where(o, std::vector<bool>(o.readings, true));
     const auto predicted = [&](const JointFit& fit) {
-      return score(fit, fit.residual, all, between, after_.covariance_model, in_first(o, fit.design));
+      return score(fit, fit.residual, all, between, judged_.covariance_model, in_first(o, fit.design));
     };
-    const Scores before = predicted(previous_), after = predicted(after_);
+    const Scores before = predicted(previous_), after = predicted(judged_);
     const bool rejected = !before.scored() || !(before.whitened - after.whitened > criteria.beyond_doubt);
     out_.statements.push_back(fmt::format(
         "the hold-out blocks lie beyond the {} of the training data, to which what was found does not extend; blocks "
@@ -311,8 +324,9 @@ private:
   const TraceContext& c_;
   const std::vector<Index>& rows_;
   JointFit base_;   ///< the declared model with its own noise: where the round before ended
-  JointFit before_; ///< the same in units of the noise of `after_`
+  JointFit before_; ///< the same in units of the noise of `judged_`
   JointFit after_;
+  JointFit judged_;   ///< the same for the verdict, with only the scatter that was found
   JointFit previous_; ///< without what the last round found
   bool has_previous_; ///< it is not the first round
   Trace& out_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "tracing/criteria.h"
 #include "tracing/noise/sparse_columns.h"
@@ -42,7 +43,7 @@ public:
     CovarianceModel model{fit_.covariance_model.correlation, -1, 0, -1};
     for (std::size_t i = 0; i < components.size(); ++i) {
       if (!(ratio[i] > 0)) continue;
-      if (model.scatter < 0)
+      if (model.scatter < 0 && components[i].index >= 0)
         model = {model.correlation, components[i].index, ratio[i], components[i].indication};
       else
         add_draws(design, components[i], ratio[i]);
@@ -157,7 +158,7 @@ private:
   /// What comes back with the conditions is no scatter: the fit leaves out such models.
   bool admitted(const Component& one, double ratio) const {
     const auto& models = likelihood_.fit().design.covariance_models;
-    return models.empty() || std::ranges::any_of(models, [&](const CovarianceModel& m) {
+    return one.index < 0 || models.empty() || std::ranges::any_of(models, [&](const CovarianceModel& m) {
              return m.scatter == one.index && m.ratio == ratio && m.indication == one.indication;
            });
   }
@@ -165,19 +166,47 @@ private:
   const Likelihood& likelihood_;
 };
 
-/// What the fit uses without insisting on it, as noise of each reading.
-double not_insisted(const Likelihood& likelihood, const JointFit& fit, Component one) {
+/// Groups of one label that are fitted.
+std::size_t fitted_groups(const TraceContext& c, const Grouping& label) {
+  std::set<std::size_t> out;
+  for (const Index row : c.fitter.rows())
+    out.insert(label.group[c.observations.sequence[index(row) / c.observations.indications]]);
+  return out.size();
+}
+
+/// Set-up steps that were repeated too seldom to be searched for scatter: new readings show it nevertheless.
+std::vector<Component> seldom_repeated(const TraceContext& c) {
+  std::vector<Component> out;
+  const Observations& o = c.observations;
+  for (const auto& labels : c.experiment.scenario().trace.redone.value_or(std::vector<std::vector<std::string>>{}))
+    for (const Grouping& g : o.labels)
+      if (g.labels == labels && g.groups.size() < criteria.stated_replicates &&
+          fitted_groups(c, g) >= criteria.least_scatter_groups)
+        out.push_back({.group = &g});
+  return out;
+}
+
+/// What the fit uses without insisting on it, as noise of each reading: its variance, and degrees of freedom by Welch
+/// and Satterthwaite's formula, of the means of groups and of readings about them.
+void add_not_insisted(const Likelihood& likelihood, const JointFit& fit, const Component& one, FittedScatter& out) {
   Sizes alone(likelihood);
   alone.components = {one};
   alone.ratio = {fit.covariance_model.ratio};
   alone.settle();
-  return alone.here().variance * (1 + alone.ratio[0] * alone.ratio[0]);
+  const double square = alone.ratio[0] * alone.ratio[0];
+  const auto freedom = likelihood.freedoms(alone.components);
+  const double share = (freedom[0] + 1) / (freedom[0] + 1 + freedom[1]), // of a reading in the mean of its group
+      of_means = square + share, of_readings = 1 - share;
+  out.variance = alone.here().variance * (1 + square);
+  if (freedom[0] > 0 && freedom[1] > 0)
+    out.freedom =
+        (1 + square) * (1 + square) / (of_means * of_means / freedom[0] + of_readings * of_readings / freedom[1]);
 }
 
 } // namespace
 
 FittedScatter fitted_scatter(const TraceContext& c, const JointFit& fit, const std::vector<SearchFinding>& findings) {
-  std::vector<Component> possible;
+  std::vector<Component> possible = seldom_repeated(c);
   for (std::size_t g = 0; g < fit.design.scatter.size(); ++g) {
     const int number = static_cast<int>(g);
     const bool used = fit.covariance_model.scatter == number;
@@ -196,7 +225,7 @@ FittedScatter fitted_scatter(const TraceContext& c, const JointFit& fit, const s
     if (one.found) sizes.components.push_back(one), sizes.ratio.push_back(1);
   sizes.settle();
   const auto taken = [&](const Component& one) {
-    return std::ranges::any_of(sizes.components, [&](const Component& known) { return known.index == one.index; });
+    return std::ranges::any_of(sizes.components, [&](const Component& known) { return known.group == one.group; });
   };
   for (bool more = true; more;) {
     more = false;
@@ -229,13 +258,14 @@ FittedScatter fitted_scatter(const TraceContext& c, const JointFit& fit, const s
     out.components.back().u = sizes.ratio[i] * std::sqrt(out.variance);
   }
   std::ranges::stable_sort(out.components, {}, [](const Component& one) { return one.group->groups.size(); });
-  if (out.components.empty() && fit.covariance_model.scatter >= 0)
-    for (const Component& one : possible)
-      if (one.index == fit.covariance_model.scatter) out.variance = not_insisted(likelihood, fit, one);
   const auto freedom = likelihood.freedoms(out.components);
   for (std::size_t i = 0; i < out.components.size(); ++i)
     out.components[i].freedom = std::max(freedom[i], criteria.least_scatter_freedom);
-  out.freedom = std::max(freedom.back(), criteria.least_scatter_freedom);
+  out.freedom = freedom.back();
+  if (out.components.empty() && fit.covariance_model.scatter >= 0)
+    add_not_insisted(likelihood, fit, *std::ranges::find(possible, fit.covariance_model.scatter, &Component::index),
+                     out);
+  out.freedom = std::max(out.freedom, criteria.least_scatter_freedom);
   return out;
 }
 

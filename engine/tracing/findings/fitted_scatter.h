@@ -9,7 +9,7 @@ namespace gumshoe::tracing {
 /// A variance component given the others.
 struct Component {
   const Grouping* group = nullptr;
-  int index = -1;      ///< into Design::scatter
+  int index = -1;      ///< into Design::scatter; -1: of too few groups to be searched
   bool found = false;  ///< it is a finding of its own
   int indication = -1; ///< the only one that it moves; -1: each by itself
   double u = 0;        ///< standard deviation, in units of Design::reference
