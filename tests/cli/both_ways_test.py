@@ -2,11 +2,11 @@
 
 usage: both_ways_test.py path/to/gumshoe [unittest options]
 """
-import json
 import random
 import unittest
 
-from program import InFolder, complaint, gumshoe
+from program import complaint, gumshoe
+from traced_log import TracedLog
 
 PATH = [0, 20, 40, 60, 80, 100, 80, 60, 40, 20, 0]
 
@@ -22,20 +22,12 @@ def torque(loop, reversal=0.0, seed=77):
                 yield f"{mounting},{cycle},{load},{2 * x - way * (4 * loop * x * (1 - x) + reversal) + draw.gauss(0, 3e-5):.6f}"
 
 
-class BothWays(InFolder):
-    def new(self, rows):
-        (self.folder / "log.csv").write_text("\n".join(rows) + "\n")
-        run = gumshoe("new", "--from", "log.csv", "--out", "log.toml", "--force", cwd=self.folder)
-        self.assertEqual(run.returncode, 0, run.stderr)
-        return (self.folder / "log.toml").read_text()
-
-    def traced(self):
-        run = gumshoe("trace", "log.toml", "--loop", "4", "--draws", "199", "--json", "v.json", cwd=self.folder)
-        self.assertEqual(run.returncode, 0, run.stderr)
-        return json.loads((self.folder / "v.json").read_text())
+class BothWays(TracedLog):
+    def rounds(self):
+        return self.verdict("log.toml", "--loop", "4")["rounds"]
 
     def test_new_takes_the_direction_from_the_path(self):
-        self.assertIn('direction = { column = "M_Nm", sense = true }', self.new(torque(6e-4)))
+        self.assertIn('direction = { column = "M_Nm", sense = true }', self.log(torque(6e-4)))
 
     def test_a_reference_pressure_is_a_position_and_the_air_s_is_none(self):
         rows = ["series;p_ref_bar;air_hPa;p_ind_bar"]
@@ -43,20 +35,20 @@ class BothWays(InFolder):
         for series in range(1, 4):
             for load in PATH:
                 rows.append(f"{series};{load};{1013 + series // 2};{load + draw.gauss(0, 0.01):.3f}")
-        text = self.new(rows)
+        text = self.log(rows)
         self.assertIn('position = "p_ref_bar"', text)
         self.assertIn('direction = { column = "p_ref_bar", sense = true }', text)
 
     def test_passes_one_way_have_no_direction(self):
         one_way = ["cycle,pos_mm,err_um"] + [f"{c},{100 * i},{i + 0.1 * c}" for c in range(1, 6) for i in range(6)]
-        self.assertNotIn("sense", self.new(one_way))
+        self.assertNotIn("sense", self.log(one_way))
         shuffled = random.Random(1)
         any_order = ["cycle,pos_mm,err_um"] + [f"{c},{100 * i},{i + 0.1 * c}" for c in range(1, 9) for i in shuffled.sample(range(8), 8)]
-        self.assertNotIn("sense", self.new(any_order))
+        self.assertNotIn("sense", self.log(any_order))
 
     def test_a_loop_is_found_and_its_correction_holds_in_the_next_round(self):
-        self.new(torque(6e-4))
-        rounds = self.traced()["rounds"]
+        self.log(torque(6e-4))
+        rounds = self.rounds()
         self.assertEqual(len(rounds[0]["added"]), 1, rounds)
         # 66 readings of noise 3e-5 mV/V; what is left is known to 1 / sqrt(2 * 40) = 11 %.
         self.assertAlmostEqual(rounds[0]["after"], 3e-8, delta=1e-8)
@@ -65,14 +57,14 @@ class BothWays(InFolder):
             self.assertAlmostEqual(rounds[1][key] / rounds[0]["after"], 1, delta=0.02)
 
     def test_a_constant_reversal_is_fitted(self):
-        self.new(torque(0, reversal=4e-4))
-        self.assertEqual(self.traced()["rounds"][0]["added"], [])
+        self.log(torque(0, reversal=4e-4))
+        self.assertEqual(self.rounds()[0]["added"], [])
         run = gumshoe("estimate", "log.toml", cwd=self.folder)
         # u = 3e-5 / sqrt(60) = 4e-6 mV/V
         self.assertRegex(run.stdout, r"reversal +-0\.000(39|40|41)")
 
     def test_a_sense_stands_alone(self):
-        text = self.new(torque(6e-4))
+        text = self.log(torque(6e-4))
         for wrong, said in (('sense = true, unit = "mm"', "given together with sense"), ("sense = false", "false says nothing")):
             (self.folder / "wrong.toml").write_text(text.replace("sense = true", wrong))
             run = gumshoe("check", "wrong.toml", cwd=self.folder)

@@ -2,33 +2,28 @@
 
 usage: foreign_logs_test.py path/to/gumshoe [unittest options]
 """
-import json
 import math
 import random
 import unittest
 
-from program import InFolder, gumshoe
+from program import gumshoe
+from traced_log import TracedLog
 
 
 def german(x, places=2):
     return f"{x:.{places}f}".replace(".", ",")
 
 
-class ForeignLogs(InFolder):
-    def new(self, name, content, *words, said=()):
+class ForeignLogs(TracedLog):
+    def foreign(self, name, content, *words, said=()):
         (self.folder / name).write_bytes(content if isinstance(content, bytes) else content.encode())
-        run = gumshoe("new", "--from", name, "--out", "s.toml", "--force", *words, cwd=self.folder)
-        self.assertEqual(run.returncode, 0, run.stderr)
-        self.assertIn("s.toml: ready", run.stdout)
-        for part in said:
-            self.assertIn(part, run.stdout)
+        printed = self.new("--from", name, "--out", "s.toml", "--force", *words)
+        for part in ("s.toml: ready", *said):
+            self.assertIn(part, printed)
         self.text = (self.folder / "s.toml").read_text()
 
-    def traced(self, *words):
-        run = gumshoe("trace", "s.toml", "--loop", "4", "--draws", "199", "--format", "json", "--out", "s.h5", "--force", *words,
-                      cwd=self.folder)
-        self.assertEqual(run.returncode, 0, run.stderr)
-        return json.loads(run.stdout)
+    def traced(self):
+        return self.verdict("s.toml", "--loop", "4")
 
     def assert_axis(self, noise, depends=("position",)):
         """One loop leaves the noise, in sample and held out, to four standard deviations of their root mean squares."""
@@ -61,7 +56,7 @@ class ForeignLogs(InFolder):
             by_run.setdefault((run, "up" if way > 0 else "down"), {})[x] = f"{e:.2f}"
         rows = ["Run;Dir;" + ";".join(f"{x} mm" for x in range(0, 450, 50))]
         rows += [f"{run};{way};" + ";".join(cells[x] for x in range(0, 450, 50)) for (run, way), cells in by_run.items()]
-        self.new("wide.csv", "\n".join(rows) + "\n", "--unit", "reading=um", said=["s.rows.csv: the runs of wide.csv one below the other", "position [mm]: position, mm"])
+        self.foreign("wide.csv", "\n".join(rows) + "\n", "--unit", "reading=um", said=["s.rows.csv: the runs of wide.csv one below the other", "position [mm]: position, mm"])
         lines = (self.folder / "s.rows.csv").read_text().splitlines()
         self.assertEqual(lines[0], "Run;Dir;position [mm];reading")
         self.assertEqual([line.split(";")[2] for line in lines[1:19]], [str(x) for x in [*range(0, 450, 50), *range(400, -50, -50)]])
@@ -73,7 +68,7 @@ class ForeignLogs(InFolder):
         at = {(run, way, x): f"{e:.2f}" for run, way, x, e in errors}
         rows = ["Cycle,Position (mm),Forward (um),Backward (um)"]
         rows += [f"{run},{x},{at[run, 1, x]},{at[run, -1, x]}" for run in range(1, 6) for x in range(0, 520, 40)]
-        self.new("pairs.csv", "\n".join(rows) + "\n")
+        self.foreign("pairs.csv", "\n".join(rows) + "\n")
         lines = (self.folder / "s.rows.csv").read_text().splitlines()
         self.assertEqual(lines[0], "Cycle;Position (mm);direction;reading [um]")
         self.assertEqual([tuple(line.split(";")[:3]) for line in lines[13:15]], [("1", "480", "forward"), ("1", "480", "backward")])
@@ -90,7 +85,7 @@ class ForeignLogs(InFolder):
             if k % 20 == 0:
                 rows += ["Zyklus;Pos;Richt;Abw;", "-;mm;-;µm;"]
             rows.append(f"{run};{x};{'+' if way > 0 else '-'};{'---' if k == 27 else german(e)};")
-        self.new("again.csv", "\r\n".join(rows) + "\r\n", said=["s.toml: ready"])
+        self.foreign("again.csv", "\r\n".join(rows) + "\r\n", said=["s.toml: ready"])
         self.assertIn("first_row = 3", self.text)
         explained = gumshoe("check", "s.toml", "--explain", cwd=self.folder)
         self.assertEqual(explained.returncode, 0, explained.stderr)
@@ -104,7 +99,7 @@ class ForeignLogs(InFolder):
         head += [" ".join(f"{x:12.4f}" for x in targets[i:i + 5]) for i in range(0, 13, 5)]
         head += ["Flags: 0", "USER-TEXT::", "Machine:M5", "Axis:Y", "RUNS::", "Run-count:10", "DEVIATIONS::", "Run Target Data:"]
         runs = [f"{2 * run - (way > 0)} {i} {at[run, way, x]:.3f}" for run in range(1, 6) for way in (1, -1) for i, x in enumerate(targets, 1)]
-        self.new("y.rtl", "\r\n".join(head + runs + ["EQUIPMENT::", "Laser: 1 2 3", "ENVIRONMENT::", "1 2 3"]) + "\r\n",
+        self.foreign("y.rtl", "\r\n".join(head + runs + ["EQUIPMENT::", "Laser: 1 2 3", "ENVIRONMENT::", "1 2 3"]) + "\r\n",
                  said=["target [mm]: position, mm", "deviation [um]: reading, um"])
         lines = (self.folder / "s.rows.csv").read_text().splitlines()
         self.assertEqual(len(lines), 1 + 130)
@@ -124,7 +119,7 @@ class ForeignLogs(InFolder):
             z = f"{1190 + 4.5 * (t - 21) + draw.gauss(0, 0.6):,.1f}".replace(",", "_").replace(".", ",").replace("_", ".")
             rows.append(f"{german(46085.3125 + k * 300 / 86400, 6)};{german(t)};{z}")
         self.assertTrue(any(z.split(";")[2].startswith("1.2") for z in rows) and any(len(z.split(";")[2]) == 7 for z in rows))
-        self.new("days.csv", b"\xef\xbb\xbf" + "\r\n".join(rows).encode() + b"\r\n", said=["Z-Position [µm]: reading, um"])
+        self.foreign("days.csv", b"\xef\xbb\xbf" + "\r\n".join(rows).encode() + b"\r\n", said=["Z-Position [µm]: reading, um"])
         self.assertIn('time = { column = "Datum/Zeit", clock = "excel" }', self.text)
         found = self.traced()
         self.assertIn("temperatur_spindel_c", [name for f in found["findings"] for name in f["depends_on"]])
@@ -136,7 +131,7 @@ class ForeignLogs(InFolder):
             x, y, z = draw.uniform(-20, 20), draw.uniform(-15, 15), draw.uniform(0, 25)
             at = (x + 0.004 + 3e-4 * x - 1e-4 * y + 1e-5 * z * z, y - 0.002 + 1e-4 * x, z + 0.001 - 2e-4 * z)
             rows.append(f"P{k + 1}," + ",".join(f"{v:.5f}" for v in (x, y, z, *(v + draw.gauss(0, 4e-4) for v in at))))
-        self.new("points.csv", "\n".join(rows) + "\n", said=["X_nom_in: position, inch", "Z_meas_in: reading, inch"])
+        self.foreign("points.csv", "\n".join(rows) + "\n", said=["X_nom_in: position, inch", "Z_meas_in: reading, inch"])
         found = self.traced()
         self.assertEqual([f["depends_on"] for f in found["findings"]], [["z_nom_in"]])
         self.assertAlmostEqual(found["rounds"][-1]["after"] / (4e-4 * 25.4e-3), 1, delta=4 / math.sqrt(2 * 3 * 40))
@@ -144,7 +139,7 @@ class ForeignLogs(InFolder):
     def test_what_in_means(self):
         """An inch behind a length, a place behind anything else."""
         rows = ["pos_in,dev_in,T_in"] + [f"{x},{x % 3 / 1e4},{20 + x % 5 / 10}" for x in range(12)]
-        self.new("in.csv", "\n".join(rows) + "\n", said=["pos_in: position, inch", "dev_in: reading, inch", "T_in: temperature, degC"])
+        self.foreign("in.csv", "\n".join(rows) + "\n", said=["pos_in: position, inch", "dev_in: reading, inch", "T_in: temperature, degC"])
 
     def test_contacts_of_a_macro_program(self):
         """DPRNT by a shipped description: the tip of a probe that grows as the spindle warms."""
@@ -152,7 +147,7 @@ class ForeignLogs(InFolder):
         for k in range(72):
             x, y, z = 100 + draw.gauss(0, 6e-4), draw.gauss(0, 6e-4), -20 + 0.012 * (1 - math.exp(-k / 20)) + draw.gauss(0, 6e-4)
             rows.append(f"X {x:9.4f} Y {y:9.4f} Z {z:9.4f}".replace(" 0.", "  ."))
-        self.new("dprnt.txt", "\r\n".join(rows + ["%"]) + "\r\n", "--form", "fanuc_dprnt", "--role", "z=reading", "--unit", "z=mm", "--unit", "x=mm",
+        self.foreign("dprnt.txt", "\r\n".join(rows + ["%"]) + "\r\n", "--form", "fanuc_dprnt", "--role", "z=reading", "--unit", "z=mm", "--unit", "x=mm",
                  "--unit", "y=mm")
         self.assertIn('form = "fanuc_dprnt.toml"', self.text)
         self.assertTrue((self.folder / "fanuc_dprnt.toml").exists())
@@ -168,7 +163,7 @@ class ForeignLogs(InFolder):
                 rows += ["; TCH PROBE 421, made up", "Date: 03-02-2026", f"Time: {9 + k // 12}:00:00", "Type of dimension (0 = MM / 1 = INCH): 0"]
             rows.append(f"Q151 = {50 + draw.gauss(0, 8e-4):.4f} Q152 = {-30 + draw.gauss(0, 8e-4):.4f} Q153 = {25 + draw.gauss(0, 8e-4):.4f}")
         told = [w for name in ("centre_1", "centre_2", "diameter") for w in ("--unit", f"{name}=mm")]
-        self.new("tchpr.txt", "\n".join(rows) + "\n", "--form", "heidenhain_q", "--role", "diameter=reading", *told)
+        self.foreign("tchpr.txt", "\n".join(rows) + "\n", "--form", "heidenhain_q", "--role", "diameter=reading", *told)
         found = self.traced()
         self.assertEqual(found["findings"], [])
         self.assertAlmostEqual(found["rounds"][-1]["after"] / 0.8e-6, 1, delta=4 / math.sqrt(2 * 48))

@@ -3,13 +3,13 @@
 usage: trace_log_test.py path/to/gumshoe [unittest options]
 """
 import datetime
-import json
 import math
 import random
 import re
 import unittest
 
-from program import InFolder, gumshoe
+from program import gumshoe
+from traced_log import TracedLog
 
 
 def drifts():
@@ -141,15 +141,12 @@ def rotary_table():
                 yield f"{cycle},{30 * i},{sense},{4 * math.sin(t + 0.3) + 1.2 * math.sin(2 * t) + 1.5 * sign + draw.gauss(0, 0.3):.2f}"
 
 
-class TraceLog(InFolder):
+class TraceLog(TracedLog):
     def trace(self, rows):
-        (self.folder / "log.csv").write_text("\n".join(rows) + "\n")
-        for words in (("new", "--from", "log.csv"), ("check", "log.toml")):
-            run = gumshoe(*words, cwd=self.folder)
-            self.assertEqual(run.returncode, 0, run.stderr)
-        run = gumshoe("trace", "log.toml", "--draws", "199", "--format", "json", "--out", "t.h5", cwd=self.folder)
+        self.log(rows)
+        run = gumshoe("check", "log.toml", cwd=self.folder)
         self.assertEqual(run.returncode, 0, run.stderr)
-        v = json.loads(run.stdout)
+        v = self.verdict("log.toml")
         self.assertLess(v["rms"]["holdout_after"], v["rms"]["holdout_noise_interval95"][1])
         return v
 
@@ -186,9 +183,7 @@ class TraceLog(InFolder):
         said = re.search(r"machine C alone has a straight line against position: (\S+) um/N, u = (\S+) um/N", " ".join(v["findings"][0]["remarks"]))
         self.assertAlmostEqual(float(said[1]), 0.02, delta=3.5 * float(said[2]))
         # As it was written, it predicts what it was found in, and nothing is found again.
-        run = gumshoe("trace", "log.traced.toml", "--draws", "199", "--format", "json", cwd=self.folder)
-        self.assertEqual(run.returncode, 0, run.stderr)
-        again = json.loads(run.stdout)
+        again = self.verdict("log.traced.toml")
         self.assertEqual(again["findings"], [])
         self.assertAlmostEqual(again["rms"]["before"] / v["rms"]["after"], 1, delta=0.02)
         self.assertAlmostEqual(again["rms"]["holdout_before"] / v["rms"]["holdout_after"], 1, delta=0.02)
@@ -201,7 +196,6 @@ class TraceLog(InFolder):
             said = re.search(r"period (\S+) \S+, u = (\S+) \S+; amplitude (\S+) um, u = (\S+) um", " ".join(wave[0]["remarks"]))
             for true, value, u in ((period, said[1], said[2]), (amplitude, said[3], said[4])):
                 self.assertAlmostEqual(float(value), true, delta=3.5 * float(u))
-            (self.folder / "log.toml").unlink()
 
     def test_a_step_is_told_with_its_instant(self):
         v = self.trace(slipped())
@@ -218,8 +212,7 @@ class TraceLog(InFolder):
         v = self.trace(["n,diameter_mm"] + [f"{i},{25.003 + 1e-3 * ((1.5 if i > 47 else 0) + draw.gauss(0, 0.4)):.5f}" for i in range(1, 81)])
         self.assertEqual([f["depends_on"] for f in v["findings"]], [["n"]])
         self.assertAlmostEqual(int(v["findings"][0]["described_by"].split()[-1]), 47, delta=2)
-        run = gumshoe("trace", "log.traced.toml", "--draws", "199", "--format", "json", cwd=self.folder)
-        again = json.loads(run.stdout)
+        again = self.verdict("log.traced.toml")
         self.assertEqual(again["findings"], [])
         self.assertAlmostEqual(again["rms"]["holdout_before"] / v["rms"]["holdout_after"], 1, delta=0.02)
 
@@ -234,9 +227,7 @@ class TraceLog(InFolder):
         self.assertEqual([f["described_by"] for f in v["findings"]], ["table:position*probe"])
         # A value of each cell from four readings leaves sqrt(1 + 1/4) of the noise.
         self.assertAlmostEqual(v["rms"]["holdout_after"], 0.3e-6 * math.sqrt(1.25), delta=3 * 0.3e-6 / math.sqrt(2 * 26))
-        run = gumshoe("trace", "log.traced.toml", "--draws", "199", "--format", "json", cwd=self.folder)
-        self.assertEqual(run.returncode, 0, run.stderr)
-        again = json.loads(run.stdout)
+        again = self.verdict("log.traced.toml")
         self.assertEqual(again["findings"], [])
         self.assertAlmostEqual(again["rms"]["holdout_before"] / v["rms"]["holdout_after"], 1, delta=0.02)
 
@@ -285,42 +276,6 @@ class TraceLog(InFolder):
         self.assertAlmostEqual(float(period), 100, delta=3.5 * 20 * math.sqrt(6) / math.pi * u / 0.8)
         self.assertGreaterEqual(int(share), 80)
 
-    def test_passes_that_were_aligned_anew(self):
-        """Straightness in eight passes, each with an offset and a slope of its own: it is told, and then fitted."""
-        draw, rows = random.Random(12), ["Lauf,X_mm,dY_um"]
-        for run in range(1, 9):
-            offset, slope = draw.gauss(0, 6), draw.gauss(0, 0.012)
-            rows += [f"{run},{x},{offset + slope * x + 2.5 * math.sin(2 * math.pi * x / 500) + draw.gauss(0, 0.4):.2f}" for x in range(0, 501, 25)]
-        (self.folder / "log.csv").write_text("\n".join(rows) + "\n")
-        for words, told in (((), True), (("--role", "Lauf=alignment", "--force"), False)):
-            self.assertEqual(gumshoe("new", "--from", "log.csv", *words, cwd=self.folder).returncode, 0)
-            run = gumshoe("trace", "log.toml", "--draws", "199", "--format", "json", "--out", "t.h5", "--force", cwd=self.folder)
-            self.assertEqual(run.returncode, 0, run.stderr)
-            v = json.loads(run.stdout)
-            self.assertEqual(any("each lauf has a slope of its own against position" in s for s in v["statements"]), told)
-        self.assertEqual([f["depends_on"] for f in v["findings"]], [["position"]])
-        self.assertLess(v["rms"]["holdout_after"], v["rms"]["holdout_noise_interval95"][1])
-
-    def test_a_ball_bar_that_was_centred_anew(self):
-        """Four circles, each with an eccentricity of its own, that drifts and steps in order must not hide."""
-        draw, rows = random.Random(77), ["run;dir;angle_deg;dr_um"]
-        for run in range(1, 5):
-            x, y = draw.gauss(0, 3), draw.gauss(0, 3)
-            for a in (range(0, 360, 5) if run % 2 else range(355, -1, -5)):
-                t = math.radians(a)
-                rows.append(f"{run};{'CCW' if run % 2 else 'CW'};{a};{x * math.cos(t) + y * math.sin(t) + 2.5 * math.sin(2 * t) + draw.gauss(0, 0.3):.2f}")
-        (self.folder / "log.csv").write_text("\n".join(rows) + "\n")
-        for words, told in (((), True), (("--role", "run=alignment", "--force"), False)):
-            self.assertEqual(gumshoe("new", "--from", "log.csv", *words, cwd=self.folder).returncode, 0)
-            run = gumshoe("trace", "log.toml", "--loop", "3", "--draws", "199", "--format", "json", "--out", "t.h5", "--force", cwd=self.folder)
-            self.assertEqual(run.returncode, 0, run.stderr)
-            v = json.loads(run.stdout)
-            first = v["rounds"][0]
-            said = gumshoe("trace", "log.toml", "--draws", "199", "--format", "json", "--out", "u.h5", "--force", cwd=self.folder)
-            self.assertEqual("each run has a first wave of its own against position" in said.stdout, told)
-            if not told:
-                self.assertLess(first["after"], 1.2 * 0.3e-6)
-
     def test_a_slope_of_one_channel_goes_before_scatter_of_blocks(self):
         """A spindle and its room: three channels, of which one follows the room's slow temperature as well."""
         draw, spindle, rows = random.Random(3), 21.0, ["t_min,X_um,Y_um,Z_um,T_spindle,T_room,rpm"]
@@ -359,64 +314,6 @@ class TraceLog(InFolder):
         self.assertTrue(any("um/(1/min), u = " in remark for remark in v["findings"][0]["remarks"]))
         slope, u = re.search(r"(\S+) um/\(1/min\), u = (\S+) um", " ".join(v["findings"][0]["remarks"])).groups()
         self.assertAlmostEqual(float(slope), -0.6 / 8000, delta=3.5 * float(u))
-
-    def test_a_curve_that_goes_astray_beyond_its_end_is_rejected(self):
-        """Creep of a load cell: 20 s apart, loaded from 200 s to 1000 s."""
-        draw, rows = random.Random(5), ["t_s,Kraft_kN,S_mVV"]
-        for t in range(0, 1800, 20):
-            load = 0 if t < 200 or t > 1000 else 50
-            creep = 0 if t < 200 else 1 - math.exp(-(t - 200) / 150) if t <= 1000 else math.exp(-(t - 1000) / 150)
-            rows.append(f"{t},{load},{0.04 * load + 6e-4 * creep + draw.gauss(0, 2e-5):.6f}")
-        (self.folder / "log.csv").write_text("\n".join(rows) + "\n")
-        self.assertEqual(gumshoe("new", "--from", "log.csv", cwd=self.folder).returncode, 0)
-        run = gumshoe("trace", "log.toml", "--loop", "5", "--draws", "199", "--format", "json", "--out", "t.h5", cwd=self.folder)
-        self.assertEqual(run.returncode, 0, run.stderr)
-        for round in json.loads(run.stdout)["rounds"]:
-            self.assertLess(round["holdout_after"], 4.01 * round["holdout_before"])
-
-    def test_a_drift_without_times_or_by_a_temperature(self):
-        """An axis that grows while its temperature rises, and no time: what is found holds in the second round."""
-        draw, rows = random.Random(11), ["run,dir,target_mm,measured_mm,temp"]
-        for run in range(1, 4):
-            for way in (1, -1):
-                for i, p in enumerate(range(0, 1001, 50)[::way]):
-                    t = 20 + 0.6 * (run - 1) + 0.3 * (way < 0) + 0.015 * i
-                    y = p + 11e-6 * p * (t - 20) - 0.004 * (way < 0) + 0.003 * math.sin(p / 130) + draw.gauss(0, 0.0006)
-                    rows.append(f"{run},{'+' if way > 0 else '-'},{p},{y:.4f},{t:.2f}")
-        (self.folder / "log.csv").write_text("\n".join(rows) + "\n")
-        self.assertEqual(gumshoe("new", "--from", "log.csv", cwd=self.folder).returncode, 0)
-        run = gumshoe("trace", "log.toml", "--loop", "4", "--draws", "199", "--format", "json", "--out", "t.h5", cwd=self.folder)
-        self.assertEqual(run.returncode, 0, run.stderr)
-        v = json.loads(run.stdout)
-        first, second = v["rounds"][:2]
-        self.assertEqual(second["added"], [])
-        self.assertAlmostEqual(second["before"], first["after"], delta=0.02 * first["after"])
-        traced = next(self.folder.glob("**/*.traced.toml")).read_text()
-        if "order" in traced:
-            self.assertIn('order = { counts = "readings" }', traced)
-            self.assertIn("these data cannot distinguish it from product:position*temp", run.stdout + json.dumps(v))
-
-    def test_what_only_the_order_of_rows_tells_is_not_found_for_ever(self):
-        """A load cell that bends and lags on the way down, in a scenario that does not say which way it was."""
-        draw, rows = random.Random(31), ["Reihe;Lage;Stufe;Last kN;Anzeige mV/V"]
-        for k, place in enumerate(("0 Grad", "0 Grad", "120 Grad", "240 Grad")):
-            for level, word in [(s, "auf") for s in range(11)] + [(s, "ab") for s in range(9, -1, -1)]:
-                load = 5 * level
-                lag = 1.5e-4 * math.sin(math.pi * load / 50) if word == "ab" else 0
-                d = 0.04 * load + 2.2e-6 * load**2 + lag + (0, 0, 3e-4, -2e-4)[k] * load / 50 + draw.gauss(0, 2e-5)
-                rows.append(f"{k + 1};{place};{word}{level};{load:.1f};{d:.5f}".replace(".", ","))
-        (self.folder / "log.csv").write_text("\n".join(rows) + "\n")
-        self.assertEqual(gumshoe("new", "--from", "log.csv", cwd=self.folder).returncode, 0)
-        text = (self.folder / "log.toml").read_text()
-        text = re.sub(r"\n(direction|reversal) = [^\n]*", "", text).replace(" + reversal * direction", "")
-        (self.folder / "log.toml").write_text(text)
-        run = gumshoe("trace", "log.toml", "--loop", "5", "--draws", "199", "--format", "json", "--out", "t.h5", cwd=self.folder)
-        self.assertEqual(run.returncode, 0, run.stderr)
-        v = json.loads(run.stdout)
-        self.assertIn("hysteresis:position", [f["described_by"] for f in v["findings"]])
-        self.assertEqual(v["rounds"][-1]["added"], [])
-        self.assertLess(len(v["rounds"]), 5)
-        self.assertIn("follows the order of the rows", " ".join(v["statements"]))
 
 
 if __name__ == "__main__":
