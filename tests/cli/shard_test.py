@@ -4,7 +4,6 @@ named, with the commands that make it.
 usage: shard_test.py path/to/gumshoe [unittest options]
 """
 import os
-import pathlib
 import random
 import re
 import shlex
@@ -17,54 +16,14 @@ import unittest
 
 import h5py
 
-from choose_test import TEXT as CHOICE
 from counted_model import CORRELATED, COUNTED_PROGRAM, STUDIES, starts
-from program import FORMULA, GUMSHOE, ROOT, SCENARIO, InFolder, complaint, gumshoe
+from program import FORMULA, GUMSHOE, SCENARIO, gumshoe
 from sealed import record, reseal, samples_done
+from shards import SAME_DATE, Shards
 from slow_model import SLOW, SLOW_PROGRAM
 
-SAME_DATE = {**os.environ, "SOURCE_DATE_EPOCH": "0"}  # no host and no duration: equal runs give equal bytes
 
-
-class Shards(InFolder):
-    def setUp(self):
-        super().setUp()
-        self.shards = self.folder / "shards"
-        self.shards.mkdir()
-
-    def gumshoe(self, *words):
-        return gumshoe(*words, cwd=self.folder, env=SAME_DATE)
-
-    def done(self, *words):
-        run = self.gumshoe(*words)
-        self.assertEqual(run.returncode, 0, run.stderr)
-        return run
-
-    def scenario(self, text, name="s.toml"):
-        (self.folder / name).write_text(text)
-        return name
-
-    def make(self, scenario, of, *options, numbers=None, command="run"):
-        """The files of shards, by number."""
-        files = {k: self.shards / f"{pathlib.Path(scenario).stem}.{k}-of-{of}.h5" for k in range(1, of + 1)}
-        said = {k: self.done(command, scenario, *options, "--shard", f"{k}/{of}", "--out", files[k]).stdout
-                for k in numbers or files}
-        return files, said
-
-    def merged(self, files, *options):
-        self.done("merge", *files, "--out", "whole.h5", *options)
-        return (self.folder / "whole.h5").read_bytes()
-
-    def single(self, scenario, *options, command="run"):
-        self.done(command, scenario, *options, "--out", "single.h5")
-        return (self.folder / "single.h5").read_bytes()
-
-    def refused(self, words, *command):
-        run = self.gumshoe(*command)
-        self.assertIsNone(complaint(run))
-        self.assertIn(words, run.stderr)
-        return run
-
+class RunShards(Shards):
     def test_three_of_sixteen_are_lost_and_made_again(self):
         scenario = self.scenario(SCENARIO + "[run]\nsamples = 20_000\n")
         files, _ = self.make(scenario, 16, "--threads", 1)
@@ -201,64 +160,6 @@ class Shards(InFolder):
         reseal(self.folder / "whole.h5", complete=False)
         self.assertEqual(self.merged(files.values()), whole)
 
-    def test_a_choice_is_divided(self):
-        scenario = self.scenario(CHOICE + '[run]\nseed = 3\n')
-        files, said = self.make(scenario, 4, command="choose")
-        self.assertIn("candidates 0 to 3 of 15 of the coarse grid", said[1])
-        single = self.single(scenario, command="choose")
-        for threads in (1, 2):
-            (self.folder / "whole.h5").unlink(missing_ok=True)
-            self.assertEqual(self.merged(files.values(), "--threads", threads), single)
-        with h5py.File(files[1]) as file:  # what a shard knows can be read
-            self.assertTrue((file["outputs/time"][0] > 5).all())
-        files[2].unlink()
-        with open(files[3], "r+b") as file:  # as if it had been killed
-            file.seek(record(files[3])["places"]["samples_done"][0])
-            file.write(struct.pack("<Q", 1))
-        self.done("choose", scenario, "--seed", "4", "--shard", "4/4", "--out", "other.h5")
-        self.done("run", self.scenario(FORMULA, "f.toml"), "--shard", "4/4", "--out", "run.h5")
-        run = self.refused("1 of 4 shards are missing (2/4)", "merge", *self.shards.iterdir(), "other.h5", "run.h5")
-        for words in ("3-of-4.h5: shard 3/4 cannot be used (it is not finished: 1 of 4 candidates)",
-                      "other.h5: the shard belongs to another run (its seed is 4, that of the others 3)",
-                      "run.h5: the shard belongs to another run (its command is run --shard, that of the others choose --shard)"):
-            self.assertIn(words, run.stderr)
-        for command in run.stdout.splitlines():
-            self.assertTrue(command.startswith("gumshoe choose s.toml --shard"))
-            self.done(*shlex.split(command)[1:])
-        self.assertEqual(self.merged(sorted(self.shards.iterdir())), single)
-        self.refused("15 candidates are too few for 16 shards", "choose", scenario, "--shard", "1/16")
-        self.refused("--shard excludes --format", "choose", scenario, "--shard", "1/4", "--format", "json")
-        self.refused("the file holds a part of a run (shard 1/4)", "report", files[1])
-
-    def test_a_grid_that_is_not_that_of_the_shards(self):
-        scenario = self.scenario(CHOICE)
-        files, _ = self.make(scenario, 2, command="choose")
-        content = CHOICE.replace("steps = 5", "steps = 6")
-        self.scenario(content)
-        other, _ = self.make(scenario, 2, "--force", command="choose")
-        said = record(other[1])
-        files, _ = self.make(self.scenario(CHOICE), 2, "--force", command="choose")
-        for file in files.values():
-            reseal(file, scenario_hash=said["scenario_hash"])
-        self.scenario(content)
-        self.refused("the shards have other candidates than the coarse grid of s.toml (design hash", "merge", *files.values())
-        for file in files.values():
-            reseal(file, design_hash=said["design_hash"])
-        self.refused("the shard has another number of candidates than its part of the grid", "merge", *files.values())
-
-    def test_a_shard_of_another_grid_of_as_many_candidates_is_made_again(self):
-        content = CHOICE.replace('low = "10 mm/min"', 'low = "20 mm/min"')
-        file = self.make(self.scenario(content), 2, command="choose")[0][1]
-        said, whole = record(file), file.read_bytes()
-        self.make(self.scenario(CHOICE), 2, "--force", command="choose", numbers=[1])
-        self.assertEqual(record(file)["rows"], said["rows"])
-        # As a program would have left it that divides the same ranges in another way.
-        reseal(file, scenario_hash=said["scenario_hash"], scenario_text=said["scenario_text"])
-        other = self.done("choose", self.scenario(content), "--shard", "1/2", "--out", file)
-        self.assertIn("held 8 samples of an unfinished run with other settings; this run replaces it", other.stderr)
-        self.assertEqual(file.read_bytes(), whole)
-        self.assertEqual(self.done("choose", "s.toml", "--shard", "1/2", "--out", file).stderr, "")
-
     def test_refusals_of_files(self):
         scenario = self.scenario(FORMULA)
         files, _ = self.make(scenario, 3)
@@ -344,62 +245,6 @@ class Shards(InFolder):
         run = self.gumshoe("merge", *files.values())
         self.assertEqual(run.returncode, 2)
         self.merged(files.values(), "--scenario", "moved.toml")
-
-    def tools(self):
-        """The environment with the program, and a loop in place of GNU parallel."""
-        tools = self.folder / "tools"
-        tools.mkdir()
-        os.symlink(GUMSHOE, tools / "gumshoe")
-        (tools / "parallel").write_text('#!/bin/bash\nall=$*\ncommand=${all%%:::*}\nfor k in ${all##*:::}; do name=$(basename "${k%.*}")\n'
-                                        'one=${command//\\{\\}/$k}; eval "${one//\\{\\/.\\}/$name}" || exit; done\n')
-        (tools / "parallel").chmod(0o755)
-        return {**SAME_DATE, "PATH": f"{tools}:{os.environ['PATH']}", "SLURM_CPUS_PER_TASK": "2"}
-
-    def bash(self, line, environment):
-        subprocess.run(["bash", "-c", line], cwd=self.folder, check=True, capture_output=True, env=environment)
-
-    def array(self, script, tasks, *words, **environment):
-        """A Slurm array, replaced by a loop."""
-        for k in range(1, tasks + 1):
-            subprocess.run([ROOT / "scenarios" / script, *words], cwd=self.folder, check=True, capture_output=True,
-                           env={**environment, "SLURM_ARRAY_TASK_ID": str(k)})
-
-    def test_the_scripts_that_are_shipped(self):
-        """The Slurm array and the line for GNU parallel; both programs are replaced by loops."""
-        scenario = self.scenario(FORMULA)
-        single = self.single(scenario)
-        environment = self.tools()
-        self.array("shards.sbatch", 16, scenario, **environment)
-        self.assertEqual(self.merged(self.shards.iterdir()), single)
-        line = re.search(r"^parallel gumshoe run.*\n", (ROOT / "scenarios/README.md").read_text(), re.M)[0]
-        shutil.rmtree(self.shards)
-        self.shards.mkdir()
-        self.bash(line.replace("scenarios/rod_gauging.toml", scenario), environment)
-        (self.folder / "whole.h5").unlink()
-        self.assertEqual(self.merged(self.shards.iterdir()), single)
-
-    def test_the_script_on_a_choice(self):
-        scenario = self.scenario(CHOICE)
-        self.array("shards.sbatch", 4, scenario, **self.tools(), COMMAND="choose", SHARDS="4")
-        self.assertEqual(self.merged(self.shards.iterdir()), self.single(scenario, command="choose"))
-
-    def test_traces_are_dealt_out_by_their_data(self):
-        environment = self.tools()
-        shutil.copytree(ROOT / "scenarios/data", self.folder / "scenarios/data")
-        shutil.copy(ROOT / "scenarios/trace_rods.toml", self.folder / "scenarios")
-        (self.folder / "data").mkdir()
-        rows = (self.folder / "scenarios/data/rods.csv").read_text().splitlines(keepends=True)
-        for name, some in (("all", rows), ("fewer", rows[:-4])):
-            (self.folder / f"data/{name}.csv").write_text("".join(some))
-        line = re.search(r"^parallel '.*gumshoe trace.*\n", (ROOT / "scenarios/README.md").read_text(), re.M)[0]
-        self.bash(line, environment)
-        by_line = {name: (self.folder / f"traces/{name}/traced.h5").read_bytes() for name in ("all", "fewer")}
-        self.assertNotEqual(by_line["all"], by_line["fewer"])
-        shutil.rmtree(self.folder / "traces")
-        self.array("traces.sbatch", 3, "scenarios/trace_rods.toml", "data/all.csv", "data/fewer.csv", **environment)
-        for name, content in by_line.items():
-            self.assertEqual((self.folder / f"traces/{name}/traced.h5").read_bytes(), content)
-            self.assertTrue((self.folder / f"traces/{name}/verdict.json").exists())
 
 
 if __name__ == "__main__":
