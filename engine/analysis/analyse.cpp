@@ -37,7 +37,7 @@ std::string statement(const Summary& s, const Budget& b, const Validation& v, do
   const auto width = [&](double x) {
     return units::from_si(x, s.output.unit, s.output.si_unit, units::Kind::difference);
   };
-  const std::string unit = s.output.unit == "1" ? "" : " " + s.output.unit;
+  const std::string unit = units::suffix(s.output.unit);
   const int d = decimals_for(width(
       std::isfinite(s.standard_uncertainty) ? s.standard_uncertainty : 0.25 * (s.symmetric.high - s.symmetric.low)));
   constexpr std::string_view said_before = "no standard uncertainty: ";

@@ -145,7 +145,7 @@ std::string words(const ConformityResult& r, double expanded_uncertainty, std::s
     return x != 0 ? decimals_for(units::from_si(std::fabs(x), o.unit, o.si_unit, units::Kind::difference)) : 0;
   };
   const int digits = std::max({0, decimals(0.5 * expanded_uncertainty), decimals(r.guard_band)});
-  const std::string unit = o.unit == "1" ? "" : " " + o.unit;
+  const std::string unit = units::suffix(o.unit);
   const auto shown = [&](double x) { return fixed(units::from_si(x, o.unit, o.si_unit), digits) + unit; };
   const auto range = [&](double low, double high) {
     return std::isnan(low)    ? "at most " + shown(high)

@@ -92,7 +92,7 @@ std::string where(const propagation::Experiment& e, const Draws& draws, const Dr
     const auto& q = e.scenario().quantities[e.plan().columns[input.column].quantity];
     const auto shown = [&](double x) { return units::from_si(x, q.unit, q.si_unit); };
     found.emplace(inside, fmt::format("; {} is {}{} in them, as in {} of all samples", input.name,
-                                      range_text(shown(low), shown(high)), q.unit == "1" ? "" : " " + q.unit,
+                                      range_text(shown(low), shown(high)), units::suffix(q.unit),
                                       share_text(inside, all[k].size())));
   }
   std::string text;

@@ -47,7 +47,7 @@ std::string with_suitable_unit(double si, const std::string& unit, const std::st
     if (auto at = std::ranges::find(ladder, unit); at != ladder.end())
       while (x != 0 && std::fabs(x) < 0.0095 && ++at != ladder.end())
         x = units::from_si(si, in = *at, si_unit, units::Kind::difference);
-  return (x == 0 ? "0" : fixed(x, decimals_for(std::fabs(x)))) + (in == "1" ? "" : " " + in);
+  return (x == 0 ? "0" : fixed(x, decimals_for(std::fabs(x)))) + units::suffix(in);
 }
 
 std::string probability_text(double p, double least) {

@@ -227,7 +227,7 @@ private:
   void say() {
     const auto& o = result_.output;
     const auto width = [&](double x) { return units::from_si(x, o.unit, o.si_unit, units::Kind::difference); };
-    const std::string unit = o.unit == "1" ? "" : " " + o.unit;
+    const std::string unit = units::suffix(o.unit);
     const int digits = decimals_for(width(0.5 * std::min(result_.present, result_.wanted)));
     result_.statement = fmt::format(
         "{}: wanted U = {}{}, at present U = {}{}{}. Each allowed standard "

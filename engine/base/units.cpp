@@ -322,6 +322,8 @@ std::string base_units_of(const std::string& unit) {
   return known->base;
 }
 
+std::string suffix(std::string_view unit) { return unit == "1" ? std::string() : " " + std::string(unit); }
+
 std::string quotient(const std::string& above, const std::string& below) {
   if (below == "1") return above;
   return below.find_first_of("/. *") == std::string::npos ? above + '/' + below : above + "/(" + below + ')';

@@ -42,6 +42,9 @@ std::string si_unit_of(const std::string& unit);
 /// InputError if it is not a unit.
 std::string base_units_of(const std::string& unit);
 
+/// What follows a number in `unit`: " um"; nothing after a plain number, the unit of which is "1".
+std::string suffix(std::string_view unit);
+
 /// The unit of a ratio: "um/K", "um/(1/K)", "1/kN"; `above` alone over a plain number.
 std::string quotient(const std::string& above, const std::string& below);
 

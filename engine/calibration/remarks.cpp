@@ -44,7 +44,7 @@ void Fit::remarks(Estimate& out) const {
       if (std::all_of(s.readings.begin(), s.readings.end(), [&](const auto& r) { return r.conditions[c] == first; }))
         out.notes.push_back(fmt::format("{} is {:.6g}{} in every reading", card.conditions[c].name,
                                         units::from_si(first, unit, std::string(card.conditions[c].si_unit)),
-                                        unit == "1" ? "" : " " + unit));
+                                        units::suffix(unit)));
     }
   for (const Parameter& p : out.parameters)
     if (p.at_limit) out.notes.push_back(p.unknown.name + " is at a limit of its card");
@@ -73,7 +73,7 @@ void Fit::outlier(Estimate& out) const {
       fmt::format("{} stands out: {} is {:.4g}{} from the fit, {:.3g} times the usual residual",
                   experiment_.reading_text(row.reading), indication.name,
                   units::from_si(row.residual, unit, std::string(indication.si_unit), units::Kind::difference),
-                  unit == "1" ? "" : " " + unit, *largest / scale));
+                  units::suffix(unit), *largest / scale));
 }
 
 } // namespace gumshoe::calibration

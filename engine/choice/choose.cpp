@@ -169,7 +169,7 @@ private:
 
   void state() {
     const auto shown = [&](double x) { return units::from_si(x, r_.unit, r_.si_unit, units::Kind::difference); };
-    const std::string unit = r_.unit == "1" ? "" : " " + r_.unit;
+    const std::string unit = units::suffix(r_.unit);
     const Figures& f = asked(r_.fresh);
     const int d = analysis::decimals_for(shown(f.expanded));
     const auto width = [&](double x) { return analysis::fixed(shown(x), d) + unit; };
@@ -222,7 +222,7 @@ std::string in_words(const std::vector<Setting>& settings, const std::vector<std
       text += fmt::format("evaluation {}", evaluations[static_cast<std::size_t>(value)]);
     else
       text += fmt::format("{} {}{}", knob.name, four_digits(units::from_si(value, knob.unit, knob.si_unit)),
-                          knob.unit == "1" ? "" : " " + knob.unit);
+                          units::suffix(knob.unit));
   }
   return text;
 }

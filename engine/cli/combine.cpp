@@ -69,7 +69,7 @@ void print(const WeightedMean& m, const std::vector<NamedResult>& results) {
     const WeightedPart& p = m.parts[i];
     std::cout << fmt::format("  {}. {}: {}{}, u = {}, weight {:.2f}, E_n = {:.2f}\n", i + 1, results[p.result].name,
                              fixed(units::from_si(p.summary.estimate, o.unit, o.si_unit), digits),
-                             o.unit == "1" ? "" : " " + o.unit, with_unit(p.summary.standard_uncertainty), p.weight,
+                             units::suffix(o.unit), with_unit(p.summary.standard_uncertainty), p.weight,
                              p.normalised_error);
   }
   std::cout << fmt::format("  chi^2 = {:.2f} ({} degree{} of freedom, p = {}): {}\n", m.chi_squared, m.parts.size() - 1,

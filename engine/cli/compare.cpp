@@ -71,7 +71,7 @@ double rounded(double e_n) { return std::round(e_n * 100) / 100 + 0.0; }
 void print(const Agreement& a) {
   const auto& d = a.difference;
   const auto shown = [&](double x) { return units::from_si(x, d.unit, d.si_unit, units::Kind::difference); };
-  const std::string unit = d.unit == "1" ? "" : " " + d.unit;
+  const std::string unit = units::suffix(d.unit);
   const int digits = decimals_for(shown(d.expanded_uncertainty));
   std::cout << fmt::format("{}: after - before = {}{}", d.name, fixed(shown(d.difference), digits), unit);
   if (d.expanded_uncertainty > 0)

@@ -47,7 +47,7 @@ std::string row(const EffectCard& card) {
 std::string typical_text(const QuantityCard& q) {
   const auto& [low, high, note, positive] = q.typical;
   if (high == 0) return {};
-  return (low == high ? "" : in_unit(q, low) + "-") + in_unit(q, high) + (q.unit == "1" ? "" : fmt::format(" {}", q.unit)) +
+  return (low == high ? "" : in_unit(q, low) + "-") + in_unit(q, high) + units::suffix(q.unit) +
          (positive ? ", positive" : "");
 }
 

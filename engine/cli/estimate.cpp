@@ -158,7 +158,7 @@ void print_text(const propagation::Experiment& e, const Estimate& r, const std::
     std::cout << fmt::format("chi-squared {:.4g}, {} degrees of freedom, probability of more {:.3g}\n", r.chi_squared,
                              r.degrees_of_freedom, r.chi_squared_probability);
   else
-    std::cout << fmt::format("s = {:.4g}{}, {:.4g} degrees of freedom\n", r.s * factor, unit == "1" ? "" : " " + unit,
+    std::cout << fmt::format("s = {:.4g}{}, {:.4g} degrees of freedom\n", r.s * factor, units::suffix(unit),
                              r.degrees_of_freedom);
   std::cout << fmt::format("rank {} of {}, condition number {:.3g}\n", r.rank, p, r.condition);
   for (const auto& d : r.indistinguishable) std::cout << "undetermined by these data: " << d << '\n';

@@ -80,7 +80,7 @@ Line compare(const scenario::Expected& e, const analysis::Figure& f, const std::
     const double ours = units::from_si(f.value, published.unit, f.si_unit, kind);
     const double se = std::fabs(units::from_si(f.standard_error, published.unit, f.si_unit, units::Kind::difference));
     const auto [tolerance, why] = tolerance_of(e, published.number, std::isfinite(se) ? se : 0);
-    const std::string unit = published.unit == "1" ? "" : " " + published.unit;
+    const std::string unit = units::suffix(published.unit);
     line.ours = fmt::format("{:.10g}{}", ours, unit);
     line.tolerance = fmt::format("{:.2g}{}", tolerance, unit);
     line.why = why;

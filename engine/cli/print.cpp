@@ -24,8 +24,6 @@ constexpr std::size_t most = 12; ///< outputs of one measurand, comparisons, not
 
 double point(const propagation::Output& o, double x) { return units::from_si(x, o.unit, o.si_unit); }
 
-std::string unit_text(const propagation::Output& o) { return o.unit == "1" ? "" : " " + o.unit; }
-
 /// One line per verdict and reason, with the outputs for which it holds; of reasons that differ in their numbers only,
 /// the one of the largest Monte Carlo tolerance over delta.
 void print_validations(const Results& r) {
@@ -65,7 +63,7 @@ void print_details(const Results& r, std::size_t o, bool budget) {
   if (!s.certificate.empty()) {
     std::cout << fmt::format("  u = {}; shortest {} coverage interval [{}, {}]{}", width(s.standard_uncertainty),
                              coverage_text(r.coverage_probability), fixed(point(s.output, s.shortest.low), d),
-                             fixed(point(s.output, s.shortest.high), d), unit_text(s.output));
+                             fixed(point(s.output, s.shortest.high), d), units::suffix(s.output.unit));
     if (v.verdict == "validated")
       std::cout << "; U and k of the GUM framework, validated by Monte Carlo";
     else if (b.applicable)
@@ -95,7 +93,7 @@ std::string head_line(const Summary& s) {
   if (!s.certificate.empty()) return s.certificate;
   if (s.standard_uncertainty == 0 && s.valid > 1)
     return fmt::format("{} = {:.10g}{}, the same in every sample", s.output.name, point(s.output, s.estimate),
-                       unit_text(s.output));
+                       units::suffix(s.output.unit));
   return s.statement;
 }
 
@@ -130,9 +128,9 @@ void print_range(const Results& r, const std::vector<std::size_t>& outputs, bool
   std::cout << fmt::format("{} at {} readings: from {}{} ({}) to {}{} ({}); u from {} to {}; GUM framework validated "
                            "for {}; the largest u:\n",
                            output.name.substr(0, output.name.find('[')), outputs.size(),
-                           fixed(point(output, estimate(low)), d), unit_text(output), place(low),
-                           fixed(point(output, estimate(high)), d), unit_text(output), place(high), width(u(least)),
-                           width(u(worst)),
+                           fixed(point(output, estimate(low)), d), units::suffix(output.unit), place(low),
+                           fixed(point(output, estimate(high)), d), units::suffix(output.unit), place(high),
+                           width(u(least)), width(u(worst)),
                            validated == static_cast<long>(outputs.size()) ? "all" : fmt::format("{}", validated));
   std::cout << head_line(r.summaries[worst]) << '\n';
   print_details(r, worst, budget);

@@ -9,6 +9,7 @@
 #include "analysis/gum.h"
 #include "analysis/result_fields.h"
 #include "analysis/rounding.h"
+#include "base/units.h"
 
 namespace gumshoe::cli {
 using namespace analysis;
@@ -75,8 +76,6 @@ void print_columns(const std::vector<std::vector<std::string>>& rows, std::ostre
   }
 }
 
-std::string unit_text(const std::string& unit) { return unit == "1" ? "" : " " + unit; }
-
 std::string width_text(double x, const propagation::Output& o) { return with_suitable_unit(x, o.unit, o.si_unit); }
 
 std::string number_text(double x) { return std::isfinite(x) ? fmt::format("{:.4g}", x) : "-"; }
@@ -94,12 +93,12 @@ std::vector<std::string> cells(const Contribution& c, const propagation::Output&
   const RowUnit row{c.unit, c.si_unit}, out{output.unit, output.si_unit};
   return {c.name,
           estimate_text(converted(c.estimate, In::point, row), converted(c.standard_uncertainty, In::difference, row)) +
-              unit_text(c.unit),
+              units::suffix(c.unit),
           std::isfinite(c.standard_uncertainty) ? with_suitable_unit(c.standard_uncertainty, c.unit, c.si_unit) : "-",
           std::string(1, c.evaluation),
           c.distribution,
           std::isfinite(c.degrees_of_freedom) ? fmt::format("{:.4g}", c.degrees_of_freedom) : "inf",
-          number_text(converted(c.sensitivity, In::coefficient, row, out)) + unit_text(coefficient_unit(row, out)),
+          number_text(converted(c.sensitivity, In::coefficient, row, out)) + units::suffix(coefficient_unit(row, out)),
           std::isfinite(c.contribution) ? with_suitable_unit(c.contribution, output.unit, output.si_unit) : "-",
           !shares                              ? "-"
           : std::isfinite(c.share)             ? percent(c.share)

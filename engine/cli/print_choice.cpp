@@ -28,8 +28,7 @@ double length(const Result& r, double si) { return units::from_si(si, r.unit, r.
 
 /// "3.1 um", with the decimals that U asks for.
 std::string width(const Result& r, double si, double expanded) {
-  return analysis::fixed(length(r, si), analysis::decimals_for(length(r, expanded))) +
-         (r.unit == "1" ? "" : " " + r.unit);
+  return analysis::fixed(length(r, si), analysis::decimals_for(length(r, expanded))) + units::suffix(r.unit);
 }
 
 std::string value_text(const Result& r, std::size_t variable, double value, int digits) {
@@ -73,16 +72,16 @@ void print_text(const Result& r, const std::string& file) {
     const Candidate& c = r.candidates[n.candidate];
     const Knob& knob = r.asked.variables[n.variable].knob;
     std::cout << fmt::format("instead {} {}{}: time {:+.1f} %, U {:+.1f} %{}\n", knob.name,
-                             value_text(r, n.variable, c.values[n.variable], 4),
-                             knob.unit == "1" ? "" : " " + knob.unit, 100 * (n.time_ratio - 1),
-                             100 * (n.expanded_ratio - 1), c.meets ? "" : ", misses the target");
+                             value_text(r, n.variable, c.values[n.variable], 4), units::suffix(knob.unit),
+                             100 * (n.time_ratio - 1), 100 * (n.expanded_ratio - 1),
+                             c.meets ? "" : ", misses the target");
   }
   if (r.near_count > 1) {
     std::string text;
     for (std::size_t v = 0; v < r.near.size(); ++v)
       if (const Knob& k = r.asked.variables[v].knob; k.kind != Knob::Kind::evaluation)
         text += fmt::format(", {} {} to {}{}", k.name, value_text(r, v, r.near[v].low, 4),
-                            value_text(r, v, r.near[v].high, 4), k.unit == "1" ? "" : " " + k.unit);
+                            value_text(r, v, r.near[v].high, 4), units::suffix(k.unit));
     std::cout << fmt::format("{} candidates meet the target within {:.3g} % of the least time{}\n", r.near_count,
                              100 * r.asked.near, text);
   }

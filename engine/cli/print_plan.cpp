@@ -55,13 +55,13 @@ std::string figure(const Planned& plan, const GoalReached& g, double x) {
   if (std::isinf(x)) return "unknown";
   if (plan.noise == Planned::Noise::unknown) return fmt::format("{:.3g}", x);
   const double shown = units::from_si(x, g.unit, g.si_unit, units::Kind::difference);
-  return g.unit == "1" ? fmt::format("{:.3g}", shown) : fmt::format("{:.3g} {}", shown, g.unit);
+  return fmt::format("{:.3g}{}", shown, units::suffix(g.unit));
 }
 
 std::string words(const GoalReached& g) {
   if (!is_test(g)) return "u of " + g.of;
   const double shown = units::from_si(g.size, g.unit, g.si_unit, units::Kind::difference);
-  const std::string size = g.unit == "1" ? fmt::format("{:.3g}", shown) : fmt::format("{:.3g} {}", shown, g.unit);
+  const std::string size = fmt::format("{:.3g}{}", shown, units::suffix(g.unit));
   return g.kind == GoalReached::Kind::detect ? fmt::format("{} of {} is detected", g.of, size)
                                              : fmt::format("{} of {} is not taken for {}", g.of, size, g.against);
 }

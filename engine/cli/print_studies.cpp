@@ -23,8 +23,7 @@ double difference(const propagation::Output& o, double x) {
 
 /// "0.0030 mm", "0.0030" without a unit.
 std::string shown(double x, const std::string& unit, const std::string& si_unit) {
-  return fmt::format("{:.3g}{}", units::from_si(x, unit, si_unit, units::Kind::difference),
-                     unit == "1" ? "" : " " + unit);
+  return fmt::format("{:.3g}{}", units::from_si(x, unit, si_unit, units::Kind::difference), units::suffix(unit));
 }
 
 std::string names(const std::vector<propagation::Output>& outputs) {
@@ -84,7 +83,7 @@ std::string limit(const ConformityResult& c, double x) {
   const double finest = c.guard_band != 0 ? std::fmin(width, std::fabs(c.guard_band)) : width;
   return fixed(units::from_si(x, o.unit, o.si_unit),
                std::max(0, decimals_for(units::from_si(finest, o.unit, o.si_unit, units::Kind::difference)))) +
-         (o.unit == "1" ? "" : " " + o.unit);
+         units::suffix(o.unit);
 }
 
 std::string limits(const ConformityResult& c, double low, double high) {

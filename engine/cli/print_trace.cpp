@@ -21,9 +21,7 @@ using namespace tracing;
 
 constexpr std::size_t listed = 12; // candidates and detection limits; the result file has all
 
-std::string with_unit(const std::string& text, const std::string& unit) {
-  return unit == "1" ? text : text + " " + unit;
-}
+std::string with_unit(const std::string& text, const std::string& unit) { return text + units::suffix(unit); }
 
 /// To the place that `u` asks for; without a u to four digits.
 std::string rounded(double x, double u) {

@@ -79,7 +79,7 @@ std::string sizes_of(const tracing::EffectEvidence& e) {
     const int d = analysis::decimals_for(u);
     out += fmt::format("{}{} {}, u {}{}", i == 0 ? "" : "; ", e.sizes[i].name,
                        analysis::fixed(shown(e.size[k], e.sizes[i]), d), analysis::fixed(u, d),
-                       e.sizes[i].unit == "1" ? "" : " " + e.sizes[i].unit);
+                       units::suffix(e.sizes[i].unit));
   }
   return out;
 }

@@ -43,9 +43,8 @@ std::string named_quantities(const Compiled& c, const Formula& f, std::size_t no
     if (n.operation == Operation::name && seen.insert(n.name).second)
       for (std::size_t i = 0; i < c.statement.quantities.size(); ++i)
         if (const Symbol& q = c.statement.quantities[i]; q.name == n.name)
-          named +=
-              fmt::format("{}{} = {:.6g}{}", named.empty() ? "" : ", ", q.name,
-                          units::from_si(at.quantities[i], q.unit, q.si_unit), q.unit == "1" ? "" : " " + q.unit);
+          named += fmt::format("{}{} = {:.6g}{}", named.empty() ? "" : ", ", q.name,
+                               units::from_si(at.quantities[i], q.unit, q.si_unit), units::suffix(q.unit));
     if (is_leaf(n.operation)) continue;
     if (is_binary(n.operation)) open.push_back(n.b);
     open.push_back(n.a);

@@ -48,7 +48,7 @@ std::string in_words(const Direction& direction, const std::vector<Parameter>& p
   for (const std::size_t j : who) {
     const Parameter& u = parameters[j];
     const double change = units::from_si(direction.change[j] * one, u.unit, u.si_unit, units::Kind::difference);
-    changes.push_back(fmt::format("{} {:+.4g}{}", u.name, change, u.unit == "1" ? "" : " " + u.unit));
+    changes.push_back(fmt::format("{} {:+.4g}{}", u.name, change, units::suffix(u.unit)));
     if (j != who[0]) others.push_back(u.name);
   }
   return fmt::format("{} is indistinguishable from {}{} ({} leave every indication unchanged)", first.name,

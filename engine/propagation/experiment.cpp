@@ -30,8 +30,7 @@ std::string differing_conditions(const std::vector<quantities::Reading>& reading
     if (std::ranges::all_of(alike, [&](std::size_t i) { return readings[i].conditions.at(c) == mine; })) continue;
     const VariableCard& v = conditions[c];
     text += fmt::format("{}{} {:.6g}{}", text.empty() ? "" : ", ", v.name,
-                        units::from_si(mine, std::string(v.unit), std::string(v.si_unit)),
-                        v.unit == "1" ? "" : " " + std::string(v.unit));
+                        units::from_si(mine, std::string(v.unit), std::string(v.si_unit)), units::suffix(v.unit));
   }
   return text;
 }

@@ -127,7 +127,7 @@ Shape condition_shape() {
 std::string condition_text(double value, const VariableCard& card) {
   const std::string unit(card.unit);
   const double number = units::from_si(value, unit, std::string(card.si_unit));
-  return unit == "1" ? fmt::format("{:.9g}", number) : fmt::format("{:.9g} {}", number, unit);
+  return fmt::format("{:.9g}{}", number, units::suffix(unit));
 }
 
 Conditions read_conditions(std::optional<Table> table, const ModelCard& model) {

@@ -30,8 +30,6 @@ std::string both(double si, std::string_view unit, std::string_view si_unit) {
   return fmt::format("{:.12g} {} ({:.12g} {})", si, si_unit, shown, unit);
 }
 
-std::string suffix(const std::string& si_unit) { return si_unit == "1" ? "" : " " + si_unit; }
-
 /// "rectangular (low -1e-06 m, high 1e-06 m)"
 std::string described(const Distribution& d, const std::string& si_unit) {
   using enum quantities::ParameterCard::Dimension;
@@ -41,13 +39,13 @@ std::string described(const Distribution& d, const std::string& si_unit) {
   for (std::size_t i = 0; i < card->parameters.size(); ++i) {
     const auto& p = card->parameters[i];
     out += fmt::format("{}{} {:.6g}{}", out.empty() ? "" : ", ", p.key, d.parameters[i],
-                       p.dimension == number || p.dimension == log ? "" : suffix(si_unit));
+                       p.dimension == number || p.dimension == log ? "" : units::suffix(si_unit));
   }
   return fmt::format("{} ({})", card->name, out);
 }
 
 void explain(const Component& c, const InputQuantity& q, Lines out) {
-  const std::string u = fmt::format("u {:.6g}{}", c.distribution.standard_uncertainty(), suffix(q.si_unit));
+  const std::string u = fmt::format("u {:.6g}{}", c.distribution.standard_uncertainty(), units::suffix(q.si_unit));
   fmt::format_to(out, "      {}: {}, {}, Type {}, {}", c.name, described(c.distribution, q.si_unit), u, c.evaluation,
                  c.per.empty() ? "one draw" : fmt::format("one draw per {}", fmt::join(c.per, ", ")));
   if (std::isfinite(c.degrees_of_freedom)) fmt::format_to(out, ", {:.6g} degrees of freedom", c.degrees_of_freedom);

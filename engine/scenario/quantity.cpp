@@ -47,7 +47,7 @@ const std::vector<Key>& component_keys() {
 
 std::string shown(double value, const QuantityCard& card) {
   const double number = units::from_si(value, std::string(card.unit), std::string(card.si_unit));
-  return card.unit == "1" ? fmt::format("{:.6g}", number) : fmt::format("{:.6g} {}", number, card.unit);
+  return fmt::format("{:.6g}{}", number, units::suffix(card.unit));
 }
 
 class QuantityReader {

@@ -129,8 +129,7 @@ Scatter pooled_scatter(const std::vector<Readouts>& cells) {
 
 std::string shown_scatter(double value, const VariableCard& card) {
   const std::string si_unit(card.si_unit), unit = units::error_unit(std::string(card.unit), si_unit, value);
-  return fmt::format("{:.3g}{}", units::from_si(value, unit, si_unit, units::Kind::difference),
-                     unit == "1" ? "" : " " + unit);
+  return fmt::format("{:.3g}{}", units::from_si(value, unit, si_unit, units::Kind::difference), units::suffix(unit));
 }
 
 } // namespace gumshoe::scenario

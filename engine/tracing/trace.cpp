@@ -74,7 +74,7 @@ void state_what_design_rules_out(const TraceContext& c, const scenario::Scenario
         fmt::format("{} is {:.6g}{} in every reading; an effect that grows with it cannot be distinguished from a "
                     "constant",
                     card.conditions[i].name, units::from_si(first, unit, std::string(card.conditions[i].si_unit)),
-                    unit == "1" ? "" : " " + unit));
+                    units::suffix(unit)));
   }
   state_what_goes_with_order(c.observations, out);
   state_what_means_hide(c.observations, s, out);

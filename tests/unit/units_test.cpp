@@ -58,6 +58,12 @@ TEST_CASE("angles", "[units]") {
   CHECK(units::convertible("deg/min", "rad/s"));
 }
 
+TEST_CASE("a plain number has no unit behind it", "[units]") {
+  CHECK("5" + units::suffix("mm") == "5 mm");
+  CHECK("5" + units::suffix("1") == "5");
+  CHECK("5" + units::suffix("1/min") == "5 1/min"); // nothing but "1" is a plain number
+}
+
 TEST_CASE("units of today's values", "[units]") {
   CHECK(si("1 eV", "J") == Approx(1.602176634e-19).epsilon(1e-14)); // exact since 2019
   CHECK(si("2 keV", "J") == Approx(2 * 1.602176634e-16).epsilon(1e-14));

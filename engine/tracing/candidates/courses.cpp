@@ -19,8 +19,7 @@ constexpr Index at_once = 64;
 
 /// "38 min"
 std::string shown(const Covariate& c, double si) {
-  return fmt::format("{:.2g}{}", units::from_si(si, c.unit, c.si_unit, units::Kind::difference),
-                     c.unit == "1" ? "" : " " + c.unit);
+  return fmt::format("{:.2g}{}", units::from_si(si, c.unit, c.si_unit, units::Kind::difference), units::suffix(c.unit));
 }
 
 /// The step between two successive readings of one indication.

@@ -108,7 +108,7 @@ std::string text_of(const Candidate& a, const Sizes& sizes) {
     out +=
         fmt::format("{}{:+.3g}", j > 0 ? ", " : "",
                     units::from_si(sizes[j], a.amplitudes[j].unit, a.amplitudes[j].si_unit, units::Kind::difference));
-  return out + (a.amplitudes[0].unit == "1" ? "" : " " + a.amplitudes[0].unit);
+  return out + units::suffix(a.amplitudes[0].unit);
 }
 
 /// Sizes of both signs, or of a pair in all directions, up to those that move readings several times as far as what is

@@ -107,7 +107,7 @@ Candidate wave(const Observations& o, const Covariate& c, std::size_t indication
   a.name = "wave:" + c.name + (o.indications > 1 ? " of " + o.names[indication] : "");
   const double range = c.levels.back() - c.levels.front();
   a.shape = fmt::format("period {:.4g}{}", units::from_si(range / cycles, c.unit, c.si_unit, units::Kind::difference),
-                        c.unit == "1" ? "" : " " + c.unit);
+                        units::suffix(c.unit));
   a.columns = Waves(o, c, indication).columns(cycles);
   a.form = Form::wave;
   a.parameter = cycles;

@@ -14,8 +14,7 @@
 namespace gumshoe::tracing {
 
 std::string shown_size(double si, const std::string& unit, const std::string& si_unit) {
-  return fmt::format("{:.3g}{}", units::from_si(si, unit, si_unit, units::Kind::difference),
-                     unit == "1" ? "" : " " + unit);
+  return fmt::format("{:.3g}{}", units::from_si(si, unit, si_unit, units::Kind::difference), units::suffix(unit));
 }
 
 std::string unit_of(const Rms& rms) {

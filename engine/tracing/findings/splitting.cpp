@@ -29,7 +29,7 @@ struct Proposal {
 
 std::string shown(double si, const VariableCard& card) {
   const std::string unit(card.unit);
-  return fmt::format("{:.4g}{}", units::from_si(si, unit, std::string(card.si_unit)), unit == "1" ? "" : " " + unit);
+  return fmt::format("{:.4g}{}", units::from_si(si, unit, std::string(card.si_unit)), units::suffix(unit));
 }
 
 std::vector<Proposal> proposals(const ModelCard& card, const Scenario& s) {

@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "analysis/rounding.h"
+#include "base/units.h"
 #include "tracing/criteria.h"
 #include "tracing/findings/findings.h"
 #include "tracing/findings/sizes.h"
@@ -42,7 +43,7 @@ std::string size_of(const Finding& f) {
   }
   const ShownSize s = shown(q); // to the digits that u leaves: it may differ little from what was declared
   return fmt::format(" ({} {}{})", q.name, analysis::fixed(s.value, analysis::decimals_for(s.u)),
-                     s.unit == "1" ? "" : " " + s.unit);
+                     units::suffix(s.unit));
 }
 
 /// "reading 27" of "step:time after reading 27", asked for as "step:" and " after "; empty of any other shape.

@@ -124,7 +124,7 @@ private:
         if (column.holds == scenario::PlanColumn::Holds::condition && column.condition == c) unit = column.unit;
       add(known.back(), [&](const AllowedReading& r) {
         return fmt::format("{:.6g}{}", units::from_si(r.conditions[c], unit, std::string(v.si_unit)),
-                           unit == "1" ? "" : " " + unit);
+                           units::suffix(unit));
       });
     }
     for (const auto& [label, value] : plan_.readings.front().labels)
@@ -134,7 +134,7 @@ private:
       const auto& column = s_.trace.columns[c];
       add(column.name, [&](const AllowedReading& r) {
         return fmt::format("{:.6g}{}", units::from_si(r.columns[c], column.unit, column.si_unit),
-                           column.unit == "1" ? "" : " " + column.unit);
+                           units::suffix(column.unit));
       });
     }
     for (const auto& w : words) out_.settings.push_back(fmt::format("{}", fmt::join(w, ", ")));

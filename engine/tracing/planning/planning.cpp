@@ -194,7 +194,7 @@ private:
       if (std::isinf(least)) return fmt::format("no allowed reading determines {}", a.said.of);
       return fmt::format("no number of allowed readings brings u of {} below {:.3g}{}", a.said.of,
                          units::from_si(least, a.said.unit, a.said.si_unit, units::Kind::difference),
-                         a.said.unit == "1" ? "" : " " + a.said.unit);
+                         units::suffix(a.said.unit));
     }
     if (hidden(a.alone))
       return fmt::format("no allowed reading shows {}: what is estimated explains all of it", a.said.of);

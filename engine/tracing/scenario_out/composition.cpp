@@ -240,7 +240,7 @@ private:
               : units::Kind::point;
       out += fmt::format("; 95 % interval{} [{}, {}]{}, {}", shift ? " of the shift" : "",
                          number(q.low95, q.u, q.unit, q.si_unit, kind), number(q.high95, q.u, q.unit, q.si_unit, kind),
-                         q.unit == "1" ? "" : " " + q.unit,
+                         units::suffix(q.unit),
                          f.quantities.size() == 1 ? "which allows for the search, whereas u comes from the fit and "
                                                     "does not"
                                                   : "of the fit, like u");
