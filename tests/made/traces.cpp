@@ -1,6 +1,5 @@
 #include "made/traces.h"
 
-#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -8,9 +7,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include <boost/math/distributions/normal.hpp>
-#include <fmt/format.h>
-
+#include "made/traced_rods.h"
 #include "models/model.h"
 
 namespace gumshoe::made {
@@ -18,113 +15,7 @@ using namespace tracing;
 
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN(), um = 1e-6, mm = 1e-3, ms = 1e-3, noise_u = 0.4 * um;
-constexpr int setups = 8, first_final = 7;
-constexpr double feeds[] = {4, 20, 60, 120}; // mm/min
-
-/// A standard normal value for each i < 192, in a shuffled order.
-double normal(std::size_t i) {
-  const double p = (static_cast<double>((i * 73 + 11) % 192) + 0.5) / 192;
-  return boost::math::quantile(boost::math::normal(), p);
-}
-
-scenario::Scenario rods() {
-  scenario::Scenario s;
-  s.file = "made_up.toml";
-  s.text = "# Question: what do two rods at four feeds show that the model lacks?\nschema = 1\n";
-  s.hash = "0123456789abcdef";
-  s.title = "two rods, eight set-ups, four feeds";
-  s.model = "rod_gauging";
-  s.evaluation = "full";
-  s.trace.stated = true;
-  s.trace.blocks = "setup";
-  s.trace.final_blocks = {"7", "8"};
-  s.trace.order_name = "time";
-  scenario::TraceColumn temperature{"temperature", "degC", "K", {}};
-  for (int setup = 1; setup <= setups; ++setup)
-    for (const char* rod : {"rod 1", "rod 2"})
-      for (int repeat = 0; repeat < 3; ++repeat)
-        for (const double feed : feeds) {
-          const double time = 45.0 * static_cast<double>(s.readings.size());
-          s.readings.push_back(
-              {{{"rod", rod}, {"setup", std::to_string(setup)}}, {feed / 60 * mm, time, -1}, {-329.9 * mm}, 1, {}});
-          s.trace.order.push_back(time);
-          temperature.values.push_back(293.15 + 3 * (1 - std::exp(-time / 3600)));
-        }
-  s.trace.columns.push_back(temperature);
-  return s;
-}
-
-using Effect = std::function<double(const scenario::Scenario&, std::size_t)>; ///< SI, of a reading
-
-double feed_at(const scenario::Scenario& s, std::size_t i) { return s.readings[i].conditions[0]; }
-double time_at(const scenario::Scenario& s, std::size_t i) { return s.readings[i].conditions[1]; }
-
-/// Rows in the order of time; the mean of each set-up, its offset, is subtracted.
-void add_rows(Traced& t, const Effect& there, const Effect& found) {
-  const scenario::Scenario& s = t.scenario;
-  std::map<std::string, std::pair<double, double>> sums;
-  for (std::size_t i = 0; i < s.readings.size(); ++i) {
-    Row row;
-    row.reading = i;
-    row.order = s.trace.order[i];
-    row.block = s.readings[i].labels[1].second;
-    row.held_out = std::stoi(row.block) >= first_final;
-    row.before = there(s, i) + noise_u * normal(i);
-    row.after = row.before - found(s, i);
-    row.measured = s.readings[i].indications[0] + row.before;
-    row.noise_u = noise_u;
-    sums[row.block].first += row.before;
-    sums[row.block].second += row.after;
-    t.trace.rows.push_back(row);
-  }
-  const double n = 2.0 * 3 * std::size(feeds);
-  for (Row& row : t.trace.rows) {
-    row.before -= sums[row.block].first / n;
-    row.after -= sums[row.block].second / n;
-  }
-}
-
-double root_mean_square(const std::vector<Row>& rows, double Row::*member, const std::function<bool(const Row&)>& in) {
-  double sum = 0, n = 0;
-  for (const Row& row : rows)
-    if (in(row)) sum += row.*member * row.*member, n += 1;
-  return std::sqrt(sum / n);
-}
-
-void add_rms(Trace& t) {
-  Rms& r = t.rms;
-  r.unit = "mm";
-  r.si_unit = "m";
-  const auto training = [](const Row& row) { return !row.held_out; };
-  const auto final = [](const Row& row) { return row.held_out; };
-  r.before = root_mean_square(t.rows, &Row::before, training);
-  r.after = root_mean_square(t.rows, &Row::after, training);
-  r.holdout_before = root_mean_square(t.rows, &Row::before, final);
-  r.holdout_after = root_mean_square(t.rows, &Row::after, final);
-  r.noise = noise_u * std::sqrt(23.0 / 24);
-  r.noise_low = 0.88 * r.noise, r.noise_high = 1.12 * r.noise;
-  r.holdout_noise = r.noise;
-  r.holdout_noise_low = 0.8 * r.noise, r.holdout_noise_high = 1.2 * r.noise;
-  r.holdout = "setup 7, 8";
-  for (const char* block : {"7", "8"}) {
-    const auto in = [&](const Row& row) { return row.block == block; };
-    if (const double after = root_mean_square(t.rows, &Row::after, in); !(after <= r.worst_block_after)) {
-      r.worst_block = fmt::format("setup {}", block);
-      r.worst_block_after = after;
-      r.worst_block_before = root_mean_square(t.rows, &Row::before, in);
-    }
-  }
-  for (const Row& row : t.rows)
-    if (row.held_out && !(std::fabs(row.after) <= r.worst_point_after)) {
-      r.worst_point = fmt::format("reading {}, setup {}", row.reading + 1, row.block);
-      r.worst_point_before = std::fabs(row.before);
-      r.worst_point_after = std::fabs(row.after);
-    }
-  const auto square = [](double x) { return x * x; };
-  r.share_removed =
-      (square(r.holdout_before) - square(r.holdout_after)) / (square(r.holdout_before) - square(r.holdout_noise));
-}
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 void add_search(Trace& t) {
   t.tried = 83;
@@ -200,9 +91,7 @@ const Effect wave = [](const scenario::Scenario& s, std::size_t i) {
 };
 
 Traced named() {
-  Traced t{rods(), {}, {}};
-  add_rows(t, late, late_found);
-  add_rms(t.trace);
+  Traced t = traced_rods(late, late_found);
   t.trace.outcome = Outcome::found;
   t.trace.findings = {latency()};
   t.trace.candidates = ranking();
@@ -233,12 +122,10 @@ Finding growth_class() {
 }
 
 Traced of_class() {
-  Traced t{rods(), {}, {}};
   const Effect growth = [](const scenario::Scenario& s, std::size_t i) {
     return 1.7 * um * (s.trace.columns[0].values[i] - 293.15) * (s.readings[i].labels[0].second == "rod 1" ? 1 : -1);
   };
-  add_rows(t, growth, growth);
-  add_rms(t.trace);
+  Traced t = traced_rods(growth, growth);
   t.trace.outcome = Outcome::found;
   t.trace.findings = {growth_class()};
   t.trace.candidates = {
@@ -252,10 +139,8 @@ Traced of_class() {
 }
 
 Traced scatter() {
-  Traced t{rods(), {}, {}};
   const Effect clamping = [](const scenario::Scenario&, std::size_t i) { return 1.2 * um * normal(17 * (i / 12) + 5); };
-  add_rows(t, clamping, nothing);
-  add_rms(t.trace);
+  Traced t = traced_rods(clamping, nothing);
   Finding f;
   f.kind = Kind::scatter;
   f.name = "scatter:rod,setup";
@@ -310,12 +195,10 @@ Finding unknown() {
 }
 
 Traced not_in_catalogue(bool beside_latency) {
-  Traced t{rods(), {}, {}};
   const Effect both = [=](const scenario::Scenario& s, std::size_t i) {
     return wave(s, i) + (beside_latency ? late(s, i) : 0);
   };
-  add_rows(t, both, beside_latency ? late_found : nothing);
-  add_rms(t.trace);
+  Traced t = traced_rods(both, beside_latency ? late_found : nothing);
   t.trace.outcome = Outcome::found;
   if (beside_latency) t.trace.findings = {latency()};
   t.trace.findings.push_back(unknown());
@@ -329,9 +212,7 @@ Traced not_in_catalogue(bool beside_latency) {
 }
 
 Traced nothing_found(bool vetoed) {
-  Traced t{rods(), {}, {}};
-  add_rows(t, nothing, nothing);
-  add_rms(t.trace);
+  Traced t = traced_rods(nothing, nothing);
   t.trace.candidates = ranking();
   for (RankedCandidate& c : t.trace.candidates) {
     c.statistic = c.parameters * 1.3, c.p_single = 0.25;
