@@ -19,13 +19,22 @@ namespace {
 
 using quantities::Labels;
 
-/// A parameter with its column among the fit's fixed ones; -1: held, exact.
+/// A parameter, made of columns among the fit's fixed ones; of none: held, exact.
 struct Line {
   calibration::Unknown unknown;
   double value = 0;
-  Index column = -1;
+  std::vector<std::pair<Index, double>> made_of; ///< columns and what each counts
   Taken taken;
+  double spread = 0; ///< standard uncertainty beside that of the columns
 };
+using MadeOf = std::vector<std::pair<Index, double>>;
+
+double covariance_of(const Matrix& of_columns, const MadeOf& a, const MadeOf& b) {
+  double out = 0;
+  for (const auto& [i, x] : a)
+    for (const auto& [j, y] : b) out += x * y * (of_columns(i, j) + of_columns(j, i)) / 2;
+  return out;
+}
 
 /// To the place that `u` asks for.
 std::string number(double si, double u, const std::string& unit, const std::string& si_unit, units::Kind kind) {
@@ -81,50 +90,57 @@ private:
         fmt::format("not in the catalogue{}: depends on {}", f ? fmt::format(", p = {:.2g}", f->p_value) : "",
                     fmt::join(one.candidate.depends_on, " and "));
     for (Correction& c : written_[t]->effects) {
-      const Index j = &c - written_[t]->effects.data();
+      const auto j = static_cast<std::size_t>(&c - written_[t]->effects.data());
       c.source = source + "; known at the levels measured, and linear between those of one condition";
       out_.extended.quantities.push_back({c.name + ".size", c.unit, c.si_unit, {}, true});
-      if (written_[t]->label)
-        sizes_by_label(t, *written_[t]->label, c.keys.empty() ? -1 : j, source);
-      else
-        size_of_column(t, j, source);
+      sizes(t, written_[t]->shares[j], source);
       out_.corrections.push_back(c);
     }
   }
 
-  void size_of_column(std::size_t t, Index j, const std::string& source) {
+  /// The sizes of an effect: one, or one for each group of the label.
+  void sizes(std::size_t t, const Matrix& shares, const std::string& source) {
     const std::size_t q = out_.extended.quantities.size() - 1;
-    out_.extended.quantities[q].entries = {quantities::Entry{}};
-    lines_.push_back({unknown(q, 0), fit_.terms[t].size[j], first_column(fit_, t) + j, {false, {}, source}});
-  }
-
-  /// @param by_condition the column by which one group alone depends on a condition: the loading holds what it holds;
-  ///                     -1: none
-  void sizes_by_label(std::size_t t, const Grouping& label, Index by_condition, const std::string& source) {
-    const Observations& o = c_.observations;
-    const Matrix& columns = fit_.terms[t].candidate.columns;
-    const bool of_condition = by_condition >= 0;
-    std::vector<bool> counts(label.groups.size(), false);
-    for (Index i = 0; of_condition && i < columns.rows(); ++i)
-      if (columns(i, by_condition) != 0) counts[label.group[o.sequence[index(i) / o.indications]]] = true;
-    const std::size_t q = out_.extended.quantities.size() - 1;
-    std::vector<bool> done(label.groups.size(), false);
-    for (std::size_t i = 0; i < o.readings; ++i) {
-      const std::size_t reading = o.sequence[i], group = label.group[reading];
+    auto& entries = out_.extended.quantities[q].entries;
+    const Grouping* const label = written_[t]->label;
+    std::vector<bool> done(index(shares.rows()), false);
+    for (const std::size_t reading : c_.observations.sequence) {
+      const std::size_t group = label ? label->group[reading] : 0;
       if (done[group]) continue;
       done[group] = true;
-      auto& entries = out_.extended.quantities[q].entries;
-      const auto& labels = c_.experiment.scenario().readings[reading].labels;
-      entries.push_back({{{label.name, *quantities::label_value(labels, label.name)}}, 0, {}, ""});
-      const auto rows = columns.middleRows(index(i * o.indications), index(o.indications)).colwise().sum();
-      Index column = of_condition && counts[group] ? by_condition : -1;
-      for (Index j = 0; j < rows.size() && !of_condition; ++j)
-        if (rows[j] != 0) column = j;
-      lines_.push_back({unknown(q, entries.size() - 1),
-                        column < 0 ? 0 : (of_condition ? 1 : rows[column]) * fit_.terms[t].size[column],
-                        column < 0 ? -1 : first_column(fit_, t) + column,
-                        {false, entries.back().labels, source}});
+      entries.emplace_back();
+      if (label)
+        entries.back().labels = {
+            {label->name, *quantities::label_value(c_.experiment.scenario().readings[reading].labels, label->name)}};
+      Line line{unknown(q, entries.size() - 1), 0, {}, {false, entries.back().labels, source}};
+      if (shares.row(index(group)).hasNaN())
+        of_a_group_not_measured(t, line);
+      else
+        made_of(t, shares.row(index(group)), line);
+      lines_.push_back(std::move(line));
     }
+  }
+
+  void made_of(std::size_t t, const Vector& share, Line& line) const {
+    line.value = share.dot(fit_.terms[t].size);
+    for (Index j = 0; j < share.size(); ++j)
+      if (share[j] != 0) line.made_of.emplace_back(first_column(fit_, t) + j, share[j]);
+  }
+
+  /// A group that the fit has no reading of is one more of those that it has.
+  void of_a_group_not_measured(std::size_t t, Line& line) const {
+    std::vector<Vector> measured;
+    for (const Matrix& shares : written_[t]->shares)
+      for (Index g = 0; g < shares.rows(); ++g)
+        if (!shares.row(g).hasNaN()) measured.emplace_back(shares.row(g));
+    const auto n = static_cast<double>(measured.size());
+    Vector mean = Vector::Zero(fit_.terms[t].size.size());
+    for (const Vector& one : measured) mean += one / n;
+    made_of(t, mean, line);
+    double square = 0;
+    for (const Vector& one : measured) square += std::pow((one - mean).dot(fit_.terms[t].size), 2);
+    line.spread = std::sqrt(square / std::max(1.0, n - 1) * (1 + 1 / n));
+    line.taken.source += "; not measured: what the others have, give or take their spread";
   }
 
   /// What cannot be written as a correction is noise; free unknowns take as much of it as they can follow.
@@ -175,7 +191,7 @@ private:
       const auto& entry = out_.extended.quantities[free.quantity].entries[free.entry];
       lines_.push_back({unknown(free.quantity, free.entry),
                         value_at(free.quantity, entry.labels) + absorbed_[column],
-                        column,
+                        {{column, 1}},
                         {true, entry.labels,
                          fit_.terms.empty() ? "fitted to these readings"
                                             : "fitted to these readings together with what was found"}});
@@ -195,7 +211,7 @@ private:
     const Finding* f = finding_of(t);
     for (const auto& [shape, value] : one.candidate.held)
       if (std::ranges::none_of(one.candidate.amplitudes, [&](const Amplitude& a) { return a.quantity == shape; }))
-        lines_.push_back({unknown(shape, 0), value, -1, {false, {}, "held at the best of the values tried"}});
+        lines_.push_back({unknown(shape, 0), value, {}, {false, {}, "held at the best of the values tried"}});
     for (std::size_t j = 0; j < one.candidate.amplitudes.size(); ++j) {
       const Amplitude& a = one.candidate.amplitudes[j];
       const Index column = first_column(fit_, t) + index(j);
@@ -204,13 +220,13 @@ private:
                           criteria.normal_shape * std::fabs(a.held + one.size[index(j)]))) {
         lines_.push_back({unknown(a.quantity, 0),
                           a.held + one.size[index(j)],
-                          -1,
+                          {},
                           {false, {}, source + "; held, because a normal distribution would reach beyond zero", true}});
         continue;
       }
       if (f && f->spread > 0 && !a.is_shape) widen(*f, t, index(j), column);
       if (a.quantity == Amplitude::npos)
-        lines_.push_back({unknown(stated(a), 0), one.size[index(j)], column, {false, {}, source}});
+        lines_.push_back({unknown(stated(a), 0), one.size[index(j)], {{column, 1}}, {false, {}, source}});
       else
         shifted(a, column, source);
     }
@@ -295,7 +311,7 @@ private:
       if (!moved && !null) continue;
       const Line line{unknown(a.quantity, e),
                       value_at(a.quantity, entries[e].labels),
-                      null ? -1 : column,
+                      null ? MadeOf{} : MadeOf{{column, 1}},
                       {false, moved ? a.labels : entries[e].labels, source}};
       // Found off twice, for all and for some: the later shift comes on top, and the value holds both.
       const auto known =
@@ -303,7 +319,7 @@ private:
       if (known == lines_.end())
         lines_.push_back(line);
       else if (moved)
-        known->column = column, known->taken = line.taken;
+        known->made_of = line.made_of, known->taken = line.taken;
     }
   }
 
@@ -340,18 +356,18 @@ private:
   void correlate() {
     if (out_.known.empty()) return;
     const std::size_t p = lines_.size(), n = p + known_at_.size();
-    const auto column = [&](std::size_t i) { return i < p ? lines_[i].column : known_at_[i - p]; };
+    const auto of = [&](std::size_t i) { return i < p ? lines_[i].made_of : MadeOf{{known_at_[i - p], 1}}; };
+    const auto covariance = [&](std::size_t i, std::size_t j) {
+      return covariance_of(given_, of(i), of(j)) + (i == j && i < p ? lines_[i].spread * lines_[i].spread : 0);
+    };
     out_.correlation.assign(n * n, 0);
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = 0; j < n; ++j) {
-        const Index a = column(i), b = column(j);
         double& r = out_.correlation[i * n + j];
         if (i < p && j < p)
           r = out_.estimate.correlation[i * p + j];
-        else if (a >= 0 && b >= 0 && given_(a, a) > 0 && given_(b, b) > 0)
-          r = i == j
-                  ? 1
-                  : std::clamp((given_(a, b) + given_(b, a)) / 2 / std::sqrt(given_(a, a) * given_(b, b)), -1.0, 1.0);
+        else if (const double square = covariance(i, i) * covariance(j, j); square > 0)
+          r = i == j ? 1 : std::clamp(covariance(i, j) / std::sqrt(square), -1.0, 1.0);
       }
   }
 
@@ -361,20 +377,20 @@ private:
     e.noise_declared = true; // u as found, no degrees of freedom
     e.covariance.assign(n * n, 0);
     e.correlation.assign(n * n, 0);
-    const auto u = [&](const Line& l) { return l.column < 0 ? 0 : std::sqrt(fit_.covariance(l.column, l.column)); };
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j <= i; ++j)
+        e.covariance[i * n + j] = e.covariance[j * n + i] =
+            covariance_of(fit_.covariance, lines_[i].made_of, lines_[j].made_of) +
+            (i == j ? lines_[i].spread * lines_[i].spread : 0);
+    const auto u = [&](std::size_t i) { return std::sqrt(e.covariance[i * n + i]); };
     for (std::size_t i = 0; i < n; ++i) {
-      e.parameters.push_back({lines_[i].unknown, lines_[i].value, u(lines_[i]), false});
+      e.parameters.push_back({lines_[i].unknown, lines_[i].value, u(i), false});
       out_.taken.push_back(lines_[i].taken);
       out_.extended.quantities[lines_[i].unknown.quantity].estimated = true;
-      for (std::size_t j = 0; j < n; ++j) {
-        if (lines_[i].column < 0 || lines_[j].column < 0) continue;
-        // Symmetric to the last bit.
-        const double covariance = (fit_.covariance(lines_[i].column, lines_[j].column) +
-                                   fit_.covariance(lines_[j].column, lines_[i].column)) /
-                                  2;
-        e.covariance[i * n + j] = covariance;
-        e.correlation[i * n + j] = i == j ? 1 : std::clamp(covariance / (u(lines_[i]) * u(lines_[j])), -1.0, 1.0);
-      }
+      for (std::size_t j = 0; j < n; ++j)
+        if (u(i) > 0 && u(j) > 0)
+          e.correlation[i * n + j] =
+              i == j ? 1 : std::clamp(e.covariance[i * n + j] / (u(i) * u(j)), -1.0, 1.0);
     }
     for (const Row& row : out_.rows)
       if (!row.held_out) e.rows.push_back({row.reading, row.indication});

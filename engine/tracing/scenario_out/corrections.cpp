@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -106,6 +108,94 @@ std::optional<Correction> in_a_group(const TraceContext& c, const Vector& loadin
   return out;
 }
 
+/// What a shape says of each group of a label at each level of a condition.
+class Cells {
+public:
+  /// Sizes by group and level, made of those of the term. None where a cell has several loadings, or where there are
+  /// more cells than readings.
+  static std::optional<Cells> of(const TraceContext& c, const Matrix& loading, const Grouping& g, const Covariate& key) {
+    const Observations& o = c.observations;
+    Cells out;
+    out.levels = key.levels;
+    out.by_group.resize(g.groups.size());
+    if (key.levels.size() * g.groups.size() > o.readings) return std::nullopt;
+    for (const Index row : c.fitter.rows()) {
+      const Index i = row / index(o.indications);
+      const std::size_t reading = o.sequence[index(i)];
+      const Vector here = loading.row(i);
+      const auto [known, fresh] = out.by_group[g.group[reading]].try_emplace(key.value[reading], here);
+      if (!fresh && (known->second - here).norm() > rounding * here.norm()) return std::nullopt;
+    }
+    return out;
+  }
+
+  /// Of each group at a level, linear between levels that it met.
+  Matrix at(double level, Index sizes) const {
+    Matrix out = Matrix::Constant(index(by_group.size()), sizes, std::nan(""));
+    for (std::size_t g = 0; g < by_group.size(); ++g) {
+      const auto above = by_group[g].lower_bound(level);
+      if (above == by_group[g].end()) continue;
+      if (above->first == level)
+        out.row(index(g)) = above->second;
+      else if (above != by_group[g].begin()) {
+        const auto below = std::prev(above);
+        const double share = (level - below->first) / (above->first - below->first);
+        out.row(index(g)) = (1 - share) * below->second + share * above->second;
+      }
+    }
+    return out;
+  }
+
+  std::vector<double> levels;
+
+private:
+  static constexpr double rounding = 1e-9;
+  std::vector<std::map<double, Vector>> by_group;
+};
+
+/// Groups at which a column of the loading is not zero.
+std::set<std::size_t> active_groups(const Observations& o, const Vector& loading, const Grouping& g) {
+  std::set<std::size_t> out;
+  for (std::size_t i = 0; i < o.readings; ++i)
+    if (loading[index(i)] != 0) out.insert(g.group[o.sequence[i]]);
+  return out;
+}
+
+/// Any value for each group of a label: of a group that the fit has no reading of, nothing is known, unless the shape
+/// is that of other groups alone.
+Matrix shares_by_label(const TraceContext& c, const Matrix& loading, const Grouping& g, bool any_value) {
+  const Observations& o = c.observations;
+  Matrix out = Matrix::Constant(index(g.groups.size()), loading.cols(), any_value ? std::nan("") : 0);
+  const auto take = [&](Index i) { out.row(index(g.group[o.sequence[index(i)]])) = loading.row(i); };
+  if (any_value)
+    for (const Index row : c.fitter.rows()) take(row / index(o.indications));
+  else
+    for (Index i = 0; i < loading.rows(); ++i) take(i);
+  return out;
+}
+
+/// A size for each group at each level of a condition: one effect for each level, which is one there and falls to zero
+/// at its neighbours.
+std::optional<WrittenShape> by_level(const TraceContext& c, const Matrix& loading, const Grouping& g,
+                                     const std::string& condition, const Correction& common, const std::string& name) {
+  const auto keys = keys_of(c, {condition});
+  if (keys.empty()) return std::nullopt;
+  const auto cells = Cells::of(c, loading, g, *keys[0]);
+  if (!cells) return std::nullopt;
+  WrittenShape out;
+  out.label = &g;
+  for (std::size_t level = 0; level < cells->levels.size(); ++level) {
+    Correction one = common;
+    one.name = fmt::format("{}_{}", name, level + 1);
+    one.keys = {{keys[0]->name, keys[0]->unit, keys[0]->si_unit, cells->levels}};
+    one.loading.assign(cells->levels.size(), 0);
+    one.loading[level] = 1;
+    out.effects.push_back(std::move(one));
+    out.shares.push_back(cells->at(cells->levels[level], loading.cols()));
+  }
+  return out;
+}
+
 } // namespace
 
 std::string unit_of_size(const VariableCard& card) {
@@ -125,15 +215,21 @@ std::optional<WrittenShape> written_shape(const TraceContext& c, const Term& ter
     if (depends_on == g.labels) {
       out.effects = {named(name)};
       out.label = &g;
+      out.shares = {shares_by_label(c, loading, g, term.candidate.family == Family::omnibus)};
       return out;
     }
   for (const Grouping& g : o.labels)
     if (depends_on.size() == 2 && g.labels == std::vector{depends_on[1]}) {
       for (Index j = 0; j < loading.cols(); ++j) {
+        const auto active = active_groups(o, loading.col(j), g);
+        if (active.size() > 1 || term.candidate.family == Family::omnibus)
+          return by_level(c, loading, g, depends_on[0], named(name), name);
         const std::string own = loading.cols() > 1 ? fmt::format("{}_{}", name, j + 1) : name;
         std::optional<Correction> one = in_a_group(c, loading.col(j), g, depends_on[0], named(own));
         if (!one) return std::nullopt;
         out.effects.push_back(std::move(*one));
+        out.shares.push_back(Matrix::Zero(index(g.groups.size()), loading.cols()));
+        for (const std::size_t group : active) out.shares.back()(index(group), j) = 1;
       }
       out.label = &g;
       return out;
@@ -152,6 +248,7 @@ std::optional<WrittenShape> written_shape(const TraceContext& c, const Term& ter
     }
     for (const auto& [level, here] : *rows) one.loading.push_back(here[j]);
     out.effects.push_back(std::move(one));
+    out.shares.push_back(Matrix::Identity(loading.cols(), loading.cols()).row(j));
   }
   return out;
 }

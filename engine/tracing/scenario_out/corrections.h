@@ -10,8 +10,11 @@ namespace gumshoe::tracing {
 std::string unit_of_size(const VariableCard& indication);
 
 struct WrittenShape {
-  std::vector<Correction> effects; ///< one per size of the term; one alone if it depends on nothing but a label
-  const Grouping* label = nullptr; ///< the size then takes a value for each of its groups
+  std::vector<Correction> effects; ///< one alone if it depends on nothing but a label
+  const Grouping* label = nullptr; ///< the size of each then takes a value for each of its groups
+  /// By effect: what its sizes are made of, groups of the label (or one row) x sizes of the term. A row of NaN: readings
+  /// of the fit tell nothing of this group.
+  std::vector<Matrix> shares;
 };
 
 /// The shape as a function of conditions and columns, or of a label, over all readings. Where what it is named after
