@@ -30,7 +30,9 @@ bool is_another(const Evidence& e, const Observations& o, std::size_t a, const C
     return known != o.covariates.end() && !known->commanded &&
            std::ranges::find(simpler.depends_on, name) == simpler.depends_on.end();
   };
-  return c.family == Family::shape && c.columns.cols() == 1 && std::ranges::all_of(c.depends_on, recorded);
+  // Two unknown causes with as many sizes as one are not simpler: three machines that differ, not one and a drift.
+  return c.family == Family::shape && c.columns.cols() == 1 && simpler.columns.cols() + 1 < shape.columns.cols() &&
+         std::ranges::all_of(c.depends_on, recorded);
 }
 
 bool depends_within(const Candidate& a, const Candidate& b) {
