@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "base/units.h"
+#include "scenario/starter_order.h"
 
 namespace gumshoe::scenario {
 
@@ -318,11 +319,13 @@ std::string columns_of(const RecognisedData& data, Names& names, std::set<std::s
            (c.role == ColumnRole::direction && (c.number || !c.words.empty()));
   };
   std::string first, others, ordered_by = order;
+  const RecognisedColumn* timed = data.find(ColumnRole::time);
   for (const RecognisedColumn& c : data.columns) {
     if (!fits(c) || used.contains(c.name)) continue;
     if (c.role == ColumnRole::time) {
       if (!ordered_by.empty()) continue; // there is one time
       ordered_by = names.add(course_name(c));
+      timed = &c;
       first = line(ordered_by, column_text(c), "recognised " + c.why);
     } else {
       others += line(names.add(c.name), column_text(c), "recognised " + c.why);
@@ -330,9 +333,23 @@ std::string columns_of(const RecognisedData& data, Names& names, std::set<std::s
     used.insert(c.name);
   }
   for (const auto& [name, c] : further) others += line(name, column_text(*c), "recorded with the readings");
+  const auto restarts =
+      ordered_by.empty() || !timed ? std::vector<const RecognisedColumn*>{} : restarted_by(data, *timed);
+  // A time that goes on from the first reading to the last says more than the number of a block.
+  if (!restarts.empty() || ordered_by.empty())
+    for (const RecognisedColumn* c : numbered_blocks(data))
+      others += line(names.add(c->name + "_number"), column_text(*c),
+                     fmt::format("what changes from one {} to the next", c->name));
   const std::string columns = first + others;
-  return (ordered_by.empty() ? "" : line("order", quoted(ordered_by), "")) +
-         (columns.empty() ? "" : "\n[trace.columns]\n" + columns);
+  std::string in_order = ordered_by.empty() ? "" : line("order", quoted(ordered_by), "");
+  if (!restarts.empty()) {
+    std::vector<std::string> blocks;
+    for (const RecognisedColumn* c : restarts) blocks.push_back(c->name);
+    in_order = line("# order", quoted(ordered_by),
+                    fmt::format("it starts anew with each {}: the readings are in the order of the rows",
+                                fmt::join(blocks, " or ")));
+  }
+  return in_order + (columns.empty() ? "" : "\n[trace.columns]\n" + columns);
 }
 
 } // namespace gumshoe::scenario

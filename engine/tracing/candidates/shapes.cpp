@@ -70,7 +70,7 @@ public:
     for (std::size_t i = 0; i < o_.covariates.size(); ++i)
       for (std::size_t j = i + 1; j < o_.covariates.size(); ++j) product(o_.covariates[i], o_.covariates[j]);
     for (const Covariate& c : o_.covariates)
-      if (c.levels.size() > 2) {
+      if (c.levels.size() > 2 && !(numbers_groups(c) && is_a_table(c))) {
         add(Family::omnibus, "omnibus:" + c.name, smooth_basis(o_, c, criteria.omnibus_columns), {c.name});
         // What rises and falls within a tenth of the range.
         if (c.levels.size() > criteria.levels_for_fine_omnibus)
@@ -126,6 +126,31 @@ private:
       else if (at > 0)
         out(index(i), at - 1) = 1;
     return out;
+  }
+
+  /// Whether a recorded column has one level of its own in each group of a label, or of a set-up step that was
+  /// repeated, such as the number of the day: any value at each of its levels is any value of each group, or scatter
+  /// between them.
+  bool numbers_groups(const Covariate& c) const {
+    if (c.commanded) return false;
+    const auto numbered = [&](const Grouping& g) {
+      if (g.groups.size() != c.levels.size()) return false;
+      std::vector<double> level(g.groups.size(), std::nan(""));
+      for (std::size_t r = 0; r < o_.readings; ++r) {
+        double& known = level[g.group[r]];
+        if (std::isnan(known)) known = c.value[r];
+        if (known != c.value[r]) return false;
+      }
+      return true; // as many levels as groups, and one in each
+    };
+    return std::ranges::any_of(o_.replicate_groups, numbered) || std::ranges::any_of(o_.labels, [&](const Grouping& g) {
+             return g.groups.size() <= criteria.most_omnibus_groups && numbered(g);
+           });
+  }
+
+  /// Whether a smooth dependence has a column for each level but one.
+  static bool is_a_table(const Covariate& c) {
+    return static_cast<int>(c.levels.size()) <= criteria.omnibus_columns + 1;
   }
 
   /// Time, under whatever name: it never goes back.
@@ -245,9 +270,10 @@ private:
   void tables() {
     std::vector<const Covariate*> repeated;
     for (const Covariate& c : o_.covariates)
-      if (!c.course && c.levels.size() * criteria.least_repeats <= o_.readings) repeated.push_back(&c);
+      if (!c.course && !numbers_groups(c) && c.levels.size() * criteria.least_repeats <= o_.readings)
+        repeated.push_back(&c);
     for (std::size_t i = 0; i < repeated.size(); ++i) {
-      if (static_cast<int>(repeated[i]->levels.size()) > criteria.omnibus_columns + 1) table({repeated[i]});
+      if (!is_a_table(*repeated[i])) table({repeated[i]});
       for (std::size_t j = i + 1; j < repeated.size(); ++j) table({repeated[i], repeated[j]});
     }
     if (repeated.size() > 2) table(repeated);

@@ -1,0 +1,73 @@
+#include "scenario/starter_order.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+namespace gumshoe::scenario {
+namespace {
+
+std::size_t place(const RecognisedData& data, const RecognisedColumn& c) {
+  return static_cast<std::size_t>(data.csv.find(c.name));
+}
+
+/// Numbers of a column by row; empty if a cell has none.
+std::vector<double> numbers_of(const RecognisedData& data, const RecognisedColumn& c) {
+  std::vector<double> out;
+  if (!c.number || c.gaps || !c.clock.empty()) return out;
+  for (const auto& row : data.csv.rows) out.push_back(data.csv.number(row[place(data, c)], data.decimal));
+  return out;
+}
+
+} // namespace
+
+bool counts_blocks(const RecognisedColumn& c) {
+  constexpr std::array<std::string_view, 4> days{"day", "tag", "shift", "schicht"};
+  if (c.role == ColumnRole::cycle) return true;
+  if (!names_parts(c)) return false;
+  const auto words = words_of(c.name);
+  return std::ranges::any_of(words, [&](const std::string& w) { return std::ranges::find(days, w) != days.end(); });
+}
+
+std::vector<const RecognisedColumn*> restarted_by(const RecognisedData& data, const RecognisedColumn& time) {
+  const std::vector<double> t = numbers_of(data, time);
+  std::vector<const RecognisedColumn*> blocks;
+  for (const RecognisedColumn& c : data.columns)
+    if (&c != &time && counts_blocks(c) && different(data, c) > 1) blocks.push_back(&c);
+  std::vector<bool> at(blocks.size(), false); // changes where the time goes back
+  const auto text_at = [&](std::size_t row, const RecognisedColumn& c) -> const std::string& {
+    return data.csv.rows[row][place(data, c)].text;
+  };
+  std::size_t changes = 0, back = 0;
+  for (std::size_t r = 1; r < t.size(); ++r) {
+    const bool falls = t[r] < t[r - 1];
+    bool changed = false;
+    for (std::size_t b = 0; b < blocks.size(); ++b)
+      if (text_at(r, *blocks[b]) != text_at(r - 1, *blocks[b])) {
+        changed = true;
+        if (falls) at[b] = true;
+      }
+    if (falls && !changed) return {};
+    changes += changed;
+    back += falls;
+  }
+  // Times that go back once are those of a clock that was set.
+  constexpr std::size_t rows_of_a_block = 3;
+  if (2 * back <= changes || back == 0 || rows_of_a_block * (changes + 1) > t.size()) return {};
+  for (std::size_t b = blocks.size(); b-- > 0;)
+    if (!at[b]) blocks.erase(blocks.begin() + static_cast<std::ptrdiff_t>(b));
+  return blocks;
+}
+
+std::vector<const RecognisedColumn*> numbered_blocks(const RecognisedData& data) {
+  constexpr std::size_t least = 4;
+  std::vector<const RecognisedColumn*> out;
+  for (const RecognisedColumn& c : data.columns) {
+    if (!counts_blocks(c) || different(data, c) < least) continue;
+    const std::vector<double> number = numbers_of(data, c);
+    if (!number.empty() && std::ranges::is_sorted(number)) out.push_back(&c);
+  }
+  return out;
+}
+
+} // namespace gumshoe::scenario

@@ -1,0 +1,20 @@
+#pragma once
+/// The order of the rows of a log: a time that starts anew in each block is none, and the blocks may be numbered.
+#include <string>
+#include <vector>
+
+#include "scenario/recognise.h"
+
+namespace gumshoe::scenario {
+
+/// Whether a column names blocks that are measured one after the other: cycles, runs, days.
+bool counts_blocks(const RecognisedColumn& column);
+
+/// Columns of blocks at whose changes the time goes back, while it rises within each of them: "day, run". Empty: the
+/// time is the order of the readings, or nothing says when it starts anew.
+std::vector<const RecognisedColumn*> restarted_by(const RecognisedData& data, const RecognisedColumn& time);
+
+/// Columns of blocks with four numbers or more that never fall from one row to the next.
+std::vector<const RecognisedColumn*> numbered_blocks(const RecognisedData& data);
+
+} // namespace gumshoe::scenario
