@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -15,53 +15,88 @@ namespace {
 /// Values are one level if they differ by rounding only: by this share of the range, or of the value.
 constexpr double same_level = 1e-9;
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double most_margin = 0.1; ///< farther than that, nothing was measured near it
 
 } // namespace
 
 LoadingTable::LoadingTable(std::vector<std::size_t> inputs, std::vector<std::vector<double>> levels,
-                           std::vector<double> loading)
-    : inputs_(std::move(inputs)), range_(inputs_.size(), 0) {
-  std::vector<std::size_t> order(loading.size());
-  std::iota(order.begin(), order.end(), 0);
-  if (inputs_.size() == 1)
-    std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return levels[0][a] < levels[0][b]; });
-  for (const std::size_t row : order) {
-    loading_.push_back(loading[row]);
-    levels_.emplace_back();
-    for (const auto& level : levels) levels_.back().push_back(level[row]);
+                           std::vector<double> loading, double margin)
+    : inputs_(std::move(inputs)), margin_(margin) {
+  for (std::size_t row = 0; row < loading.size(); ++row) {
+    rows_.push_back({{}, loading[row]});
+    for (const auto& level : levels) rows_.back().level.push_back(level[row]);
   }
-  for (std::size_t i = 0; i < inputs_.size(); ++i) {
-    const auto [low, high] = std::ranges::minmax(levels[i]);
-    range_[i] = std::max({high - low, std::fabs(low), std::fabs(high)});
+  for (const auto& level : levels) {
+    const auto [low, high] = std::ranges::minmax(level);
+    low_.push_back(low), high_.push_back(high);
+    rounding_.push_back(same_level * std::max({high - low, std::fabs(low), std::fabs(high)}));
   }
 }
 
-double LoadingTable::between(double x) const {
-  const auto reaches = [&](const std::vector<double>& row) { return row[0] >= x - same_level * range_[0]; };
-  const auto above = std::ranges::find_if(levels_, reaches);
-  if (above == levels_.end()) return unknown;
-  const auto i = static_cast<std::size_t>(above - levels_.begin());
-  if (std::fabs((*above)[0] - x) <= same_level * range_[0]) return loading_[i];
-  if (i == 0) return unknown;
-  const double low = levels_[i - 1][0], share = (x - low) / ((*above)[0] - low);
-  return loading_[i - 1] + share * (loading_[i] - loading_[i - 1]);
+bool LoadingTable::is_level(std::size_t input, double level, double x) const {
+  return std::fabs(level - x) <= rounding_[input];
+}
+
+std::vector<std::pair<double, double>> LoadingTable::line(std::size_t input, const std::vector<double>& known) const {
+  std::vector<std::pair<double, double>> out;
+  for (const Row& row : rows_) {
+    bool here = true;
+    for (std::size_t i = 0; i < inputs_.size() && here; ++i)
+      here = i == input || is_level(i, row.level[i], known[inputs_[i]]);
+    if (here) out.emplace_back(row.level[input], row.loading);
+  }
+  std::ranges::sort(out);
+  return out;
+}
+
+double LoadingTable::along(const std::vector<std::pair<double, double>>& line, std::size_t input, double x) const {
+  const auto through = [x](const auto& a, const auto& b) {
+    return a.second + (x - a.first) / (b.first - a.first) * (b.second - a.second);
+  };
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (is_level(input, line[i].first, x)) return line[i].second;
+    if (i > 0 && line[i - 1].first < x && x < line[i].first) return through(line[i - 1], line[i]);
+  }
+  if (line.size() < 2) return unknown;
+  const bool above = x > line.back().first;
+  const auto& end = above ? line.back() : line.front();
+  const double far = reach(input);
+  if (std::fabs(x - end.first) > far + rounding_[input]) return unknown;
+  // A chord that is shorter than the margin would enlarge what differs between neighbours by chance.
+  const auto inside = [&](const auto& level) { return std::fabs(level.first - end.first) >= far; };
+  if (above) {
+    const auto from = std::find_if(line.rbegin(), line.rend(), inside);
+    return from == line.rend() ? unknown : through(*from, end);
+  }
+  const auto from = std::ranges::find_if(line, inside);
+  return from == line.end() ? unknown : through(end, *from);
 }
 
 double LoadingTable::at(const std::vector<double>& known) const {
-  if (inputs_.size() == 1) return between(known[inputs_[0]]);
-  for (std::size_t row = 0; row < levels_.size(); ++row) {
-    bool here = true;
-    for (std::size_t i = 0; i < inputs_.size(); ++i)
-      here = here && std::fabs(levels_[row][i] - known[inputs_[i]]) <= same_level * range_[i];
-    if (here) return loading_[row];
-  }
+  for (std::size_t i = 0; i < inputs_.size(); ++i)
+    if (const double x = along(line(i, known), i, known[inputs_[i]]); !std::isnan(x)) return x;
   return unknown;
+}
+
+std::optional<LoadingTable::Limits> LoadingTable::beyond(const std::vector<double>& known) const {
+  for (std::size_t i = 0; i < inputs_.size(); ++i) {
+    const double x = known[inputs_[i]];
+    // Where the others are as they are here, and else anywhere.
+    const auto here = line(i, known);
+    const double low = (here.empty() ? low_[i] : here.front().first) - reach(i),
+                 high = (here.empty() ? high_[i] : here.back().first) + reach(i);
+    if (x < low - rounding_[i] || x > high + rounding_[i]) return Limits{inputs_[i], low, high};
+  }
+  return std::nullopt;
 }
 
 Shape loading_table_shape() {
   return shape::table(
-      {{"loading", shape::list(shape::number()), "change of the indication by a size of 1, by row", true}}, "",
-      shape::reference("series"));
+      {{"loading", shape::list(shape::number()), "change of the indication by a size of 1, by row", true},
+       {"margin", shape::number(),
+        "share of the range of a condition by which the table is continued in a straight line beyond its ends, up to "
+        "0.1; default: 0"}},
+      "", shape::reference("series"));
 }
 
 std::optional<LoadingTable> read_loading_table(Table& effect, const StatedScope& scope, Context& context) {
@@ -84,6 +119,10 @@ std::optional<LoadingTable> read_loading_table(Table& effect, const StatedScope&
   for (const TraceColumn& c : scope.columns) read(c);
   table->require("loading", "loading = [0, 1]");
   const auto loading = read_series(*table, "loading", {"1"}, context);
+  const double margin = table->number("margin").value_or(0);
+  if (!(margin >= 0 && margin <= most_margin))
+    table->refuse_key("margin", fmt::format("a table is not continued by {:g} of its range", margin),
+                      "nothing was measured so far beyond its ends", "state a share between 0 and 0.1");
   table->refuse_unknown();
   if (context.problems.size() > before || !loading) return std::nullopt;
   if (inputs.empty())
@@ -102,7 +141,7 @@ std::optional<LoadingTable> read_loading_table(Table& effect, const StatedScope&
         table->refuse(fmt::format("rows {} and {} state the same level", a + 1, b + 1), "", "remove one of them");
         return std::nullopt;
       }
-  return LoadingTable(std::move(inputs), std::move(levels), *loading);
+  return LoadingTable(std::move(inputs), std::move(levels), *loading, margin);
 }
 
 } // namespace gumshoe::scenario

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/dimension.h"
+#include "base/units.h"
 #include "formula/compile.h"
 #include "formula/interpreter.h"
 #include "scenario/loading_table.h"
@@ -31,7 +32,7 @@ Options<StatedEffect> stated_effect_options() {
           "formula for each: { X = \"cos(C)\", Y = \"sin(C)\" }"),
       by_hand("table", loading_table_shape(),
               "instead of a formula: its values at levels of conditions and columns, linear "
-              "between the levels of one; elsewhere there is no value"),
+              "between the levels of one where all others agree; elsewhere there is no value"),
       by_hand("unit", shape::text(), "unit of the size; size times formula has the dimension of what it adds to")
           .needed("unit = \"um\""),
       by_hand("size", shape::reference("quantity"),
@@ -151,7 +152,6 @@ private:
   }
 
   void tabulate(const LoadingTable& table) {
-    const Node& node = *table_.find("table");
     StatedPart& part = out_.parts.front();
     const std::size_t conditions = scope_.model.conditions.size();
     for (const std::size_t i : table.inputs()) {
@@ -170,15 +170,42 @@ private:
       return table.at(known);
     };
     try {
-      load(part, [&](std::size_t r) {
-        return Problem{{problems_.file(), node.line, node.column},
-                       fmt::format("{}: it has no value at reading {}", table_.path("table"), reading(r)),
-                       "a table says nothing beyond its levels",
-                       "add the level"};
-      });
+      load(part, [&](std::size_t r) { return without_value(table, r); });
     } catch (const InputError& error) {
-      problems_.add(error, node);
+      problems_.add(error, *table_.find("table"));
     }
+  }
+
+  /// What a reading lacks: which quantity lies beyond which limits, or levels that no rows of the table share.
+  Problem without_value(const LoadingTable& table, std::size_t r) {
+    const Node& node = *table_.find("table");
+    std::vector<double> known = scope_.readings[r].conditions;
+    for (const TraceColumn& c : scope_.columns) known.push_back(c.values[r]);
+    const std::size_t conditions = known.size() - scope_.columns.size();
+    const auto shown = [&](std::size_t place, double x) {
+      const auto of = [&](const auto& card) {
+        const std::string unit(card.unit);
+        return fmt::format("{:.6g}{}", units::from_si(x, unit, std::string(card.si_unit)), units::suffix(unit));
+      };
+      return place < conditions ? of(scope_.model.conditions[place]) : of(scope_.columns[place - conditions]);
+    };
+    std::string where;
+    const auto add = [&](std::size_t place) {
+      const std::string name = place < conditions ? std::string(scope_.model.conditions[place].name)
+                                                  : scope_.columns[place - conditions].name;
+      where += fmt::format("{}{} = {}", where.empty() ? "" : ", ", name, shown(place, known[place]));
+    };
+    const auto beyond = table.beyond(known);
+    if (beyond)
+      add(beyond->place);
+    else
+      for (const std::size_t place : table.inputs()) add(place);
+    return {{problems_.file(), node.line, node.column},
+            fmt::format("{}: it has no value at reading {}, where {}", table_.path("table"), reading(r), where),
+            beyond ? fmt::format("it is known from {} to {}", shown(beyond->place, beyond->low),
+                                 shown(beyond->place, beyond->high))
+                   : "it has no rows that differ from this in one level alone",
+            "measure there and add the level, or leave the reading out by where in [data]"};
   }
 
   /// "3 (setup 2)"

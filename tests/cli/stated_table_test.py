@@ -71,12 +71,31 @@ class Table(unittest.TestCase):
         self.assertIn(message, run.stderr)
 
     def test_beyond_the_levels_there_is_no_value(self):
+        """The message names what lies beyond which limits."""
         two = 'table = { x = ["0 mm", "50 mm"], loading = [0, 1] }'
         for x in ("-1", "51"):
-            self.refused("it has no value at reading 2 (a table says nothing beyond its levels). Add the level", two,
-                         ("0,1,0", f"{x},1,0"))
+            self.refused(f"it has no value at reading 2, where x = {x} mm (it is known from 0 mm to 50 mm). Measure there "
+                         "and add the level, or leave the reading out by where in [data]", two, ("0,1,0", f"{x},1,0"))
         both = 'table = { x = ["0 mm", "50 mm"], direction = [1, -1], loading = [0, 1] }'
-        self.refused("it has no value at reading 1", both, ("50,1,0",))
+        self.refused("it has no value at reading 1, where x = 50 mm (it is known from 0 mm to 0 mm)", both, ("50,1,0",))
+        square = 'table = { x = ["0 mm", "50 mm"], direction = [1, -1], loading = [0, 1] }'
+        self.refused("it has no value at reading 1, where x = 25 mm, direction = 0 (it has no rows that differ from this in "
+                     "one level alone)", square, ("25,0,0",))
+
+    def test_along_one_condition_where_the_other_agrees(self):
+        """x times direction, which is linear in each."""
+        bend = 'table = { x = ["0 mm", "0 mm", "50 mm", "50 mm"], direction = [1, -1, 1, -1], loading = [0, 0, 1, -1] }'
+        for a, b in zip(self.corrections(bend, ["25,1,0", "25,-1,0", "50,0.5,0"]), (1, -1, 1), strict=True):
+            self.assertAlmostEqual(a, b, places=9)
+
+    def test_a_margin_goes_on_in_a_straight_line(self):
+        """Along the chord to the first level as far inside: neighbours that differ by chance are not enlarged."""
+        bend = 'table = { x = ["0 mm", "99 mm", "100 mm"], loading = [0, 0.99, 2], margin = 0.05 }'
+        for a, b in zip(self.corrections(bend, ["-5,1,0", "105,1,0"]), (-0.1, 4.2), strict=True):
+            self.assertAlmostEqual(a, b, places=9)
+        self.refused("where x = 106 mm (it is known from -5 mm to 105 mm)", bend, ("106,1,0",))
+        self.refused("a table is not continued by 0.2 of its range (nothing was measured so far beyond its ends). State a "
+                     "share between 0 and 0.1", bend.replace("0.05", "0.2"))
 
     def test_bad_tables(self):
         for bend, message in (

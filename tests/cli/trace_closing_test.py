@@ -284,8 +284,8 @@ class Closing(InFolder):
         (self.folder / "r.csv").write_text("\n".join([lines[0], ",".join([*cells[:5], "40", cells[6]]), *lines[2:]]) + "\n")
         run = gumshoe("check", self.traced)
         self.assertIsNone(complaint(run))
-        self.assertIn("it has no value at reading 1 (setup = 1, rod = 1) (a table says nothing beyond its levels). Add the level",
-                      run.stderr)
+        self.assertRegex(run.stderr, r"it has no value at reading 1 \(setup = 1, rod = 1\), where \w+ = 40 degC \(it is known "
+                                     r"from \S+ degC to \S+ degC\)\. Measure there and add the level")
 
     def test_estimated_noise_is_written(self):
         rods = Rods()

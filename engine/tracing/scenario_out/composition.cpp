@@ -91,7 +91,9 @@ private:
                     fmt::join(one.candidate.depends_on, " and "));
     for (Correction& c : written_[t]->effects) {
       const auto j = static_cast<std::size_t>(&c - written_[t]->effects.data());
-      c.source = source + "; known at the levels measured, and linear between those of one condition";
+      const double margin = margin_of(c);
+      c.source = source + "; known at the levels measured, and linear between those of one condition" +
+                 (margin > 0 ? fmt::format(", and for {:g} % of the range beyond them", 100 * margin) : "");
       out_.extended.quantities.push_back({c.name + ".size", c.unit, c.si_unit, {}, true});
       sizes(t, written_[t]->shares[j], source);
       out_.corrections.push_back(c);

@@ -203,6 +203,16 @@ std::string unit_of_size(const VariableCard& card) {
   return units::difference_unit(units::error_unit(std::string(card.unit), si_unit), si_unit);
 }
 
+double margin_of(const Correction& c) {
+  constexpr double small = 0.05;
+  bool any = false;
+  for (const Correction::Key& key : c.keys) {
+    if (key.name == "order" || key.si_unit == "s") return 0;
+    any |= key.si_unit != "1";
+  }
+  return any ? small : 0;
+}
+
 std::optional<WrittenShape> written_shape(const TraceContext& c, const Term& term, const std::string& name) {
   const Observations& o = c.observations;
   const std::size_t indication = indication_of(o, term.candidate.columns);

@@ -9,6 +9,11 @@ namespace gumshoe::tracing {
 /// Unit in which a size that adds to an indication is written: a difference has no zero of its own (K, not degC).
 std::string unit_of_size(const VariableCard& indication);
 
+/// Share of the range by which the table of a correction is continued beyond its ends: a temperature or a position may
+/// lie a little beyond those that were measured. 0 of a course in time, because no curve says how it goes on, and of
+/// numbers without a unit.
+double margin_of(const Correction& correction);
+
 struct WrittenShape {
   std::vector<Correction> effects; ///< one alone if it depends on nothing but a label
   const Grouping* label = nullptr; ///< the size of each then takes a value for each of its groups

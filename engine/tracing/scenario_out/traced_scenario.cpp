@@ -11,6 +11,7 @@
 #include "calibration/scenario_text.h"
 #include "quantities/cells.h"
 #include "tracing/matrix.h"
+#include "tracing/scenario_out/corrections.h"
 
 namespace gumshoe::tracing {
 namespace {
@@ -186,6 +187,8 @@ private:
     std::vector<Node> loading;
     for (const double x : c.loading) loading.push_back(calibration::number_node(x));
     table.members.push_back({"loading", 0, 0, calibration::list_node(std::move(loading))});
+    if (const double margin = margin_of(c); margin > 0)
+      table.members.push_back({"margin", 0, 0, calibration::number_node(margin)});
     effect.members.push_back({"table", 0, 0, std::move(table)});
   }
 
