@@ -6,6 +6,7 @@
 
 #include <Eigen/QR>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "analysis/rounding.h"
 #include "base/units.h"
@@ -128,10 +129,32 @@ public:
     const Vector direction = term_.size / amplitude;
     const double u = std::sqrt(direction.dot(covariance_ * direction));
     const double range = covariate.levels.back() - covariate.levels.front();
+    if (const auto others = other_periods(covariate, range / cycles); !others.empty())
+      return fmt::format(
+          "period {}, or as well {}, which these readings cannot distinguish because of the gaps between "
+          "them; amplitude {}",
+          shown_period(covariate, range / cycles), fmt::join(others, " or "),
+          with_u(amplitude, u, unit_, empty_.indication_si_unit));
     return fmt::format("period {}; amplitude {}{}",
                        with_u(range / cycles, range / cycles / cycles * term_.candidate.parameter_u, covariate.unit,
                               covariate.si_unit, counted(covariate)),
                        with_u(amplitude, u, unit_, empty_.indication_si_unit), aliases(covariate, range / cycles));
+  }
+
+  /// Periods with which the training readings would show nearly the same.
+  std::vector<std::string> other_periods(const Covariate& covariate, double period) const {
+    std::vector<double> along, wave;
+    for (std::size_t i = 0; i < o_.readings; ++i) {
+      const std::size_t reading = o_.sequence[i];
+      if (o_.held_out[reading]) continue;
+      along.push_back(covariate.value[reading]);
+      wave.push_back(term_.candidate.columns.row(index(i * o_.indications + indication_)).dot(term_.size));
+    }
+    std::vector<std::string> out;
+    for (const double other : alike(Eigen::Map<const Vector>(along.data(), index(along.size())),
+                                    Eigen::Map<const Vector>(wave.data(), index(wave.size())), period))
+      out.push_back(shown_period(covariate, other));
+    return out;
   }
 
   /// "1 wave per turn 3.6 um, u = 0.1 um; 2 waves ..." of a dependence on an angle that goes round: those that exceed

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <utility>
 
 #include <Eigen/QR>
 #include <fmt/format.h>
@@ -27,7 +29,60 @@ Fitted fitted(const Vector& x, const Vector& y, double cycles) {
   return {(y - a * b).squaredNorm(), b.tail(2).norm()};
 }
 
+/// Whether the places lie in stretches with gaps between them that are far longer than their steps.
+bool in_stretches(const Vector& x) {
+  std::vector<double> places(x.data(), x.data() + x.size()), gaps;
+  std::ranges::sort(places);
+  for (std::size_t i = 1; i < places.size(); ++i)
+    if (places[i] > places[i - 1]) gaps.push_back(places[i] - places[i - 1]);
+  if (gaps.empty()) return false;
+  std::ranges::sort(gaps);
+  constexpr double far = 5;
+  return gaps.back() > far * gaps[gaps.size() / 2];
+}
+
 } // namespace
+
+std::vector<double> alike(const Vector& along, const Vector& wave, double period) {
+  const double range = along.maxCoeff() - along.minCoeff(), own = range / period;
+  const Vector x = (along.array() - along.minCoeff()) / range;
+  if (!in_stretches(x)) return {};
+  constexpr double nearly = 0.9, step = 0.02, least = 1, octaves = 4, most_work = 2e7;
+  const double most = std::min(octaves * own, least + step * most_work / static_cast<double>(x.size()));
+  const double all = (wave.array() - wave.mean()).matrix().squaredNorm();
+  const auto share = [&](double cycles) { return 1 - fitted(x, wave, cycles).squares / all; };
+  // Each run of cycles that explain so much has its best; that with the wave itself is its own.
+  std::vector<std::pair<double, double>> found; // share, cycles
+  double best = 0, at = 0, from = 0;
+  const auto end_of_run = [&](double until) {
+    if (best > 0 && !(from - step <= own && own <= until + step)) found.emplace_back(best, at);
+    best = 0;
+  };
+  for (double cycles = least; cycles <= most; cycles += step) {
+    const double here = share(cycles);
+    if (here < nearly) {
+      end_of_run(cycles);
+      continue;
+    }
+    if (best == 0) from = cycles;
+    if (here > best) best = here, at = cycles;
+  }
+  end_of_run(most);
+  std::ranges::sort(found, std::greater{});
+  constexpr std::size_t told = 4;
+  if (found.size() > told) found.resize(told);
+  std::vector<double> out;
+  for (const auto& [explained, cycles] : found) out.push_back(range / cycles);
+  std::ranges::sort(out, std::greater{});
+  return out;
+}
+
+std::string shown_period(const Covariate& c, double period) {
+  if (c.si_unit != "s" || c.unit != "s") return shown_size(period, c.unit, c.si_unit);
+  for (const auto& [unit, seconds] : {std::pair{"d", 86400.0}, {"h", 3600.0}, {"min", 60.0}})
+    if (period >= 2 * seconds) return fmt::format("{:.2g} {}", period / seconds, unit);
+  return fmt::format("{:.2g} s", period);
+}
 
 std::string aliases(const Covariate& c, double period) {
   const std::vector<double> levels = places(c);

@@ -1,6 +1,8 @@
 #pragma once
 #include <string>
+#include <vector>
 
+#include "tracing/matrix.h"
 #include "tracing/noise/observations.h"
 #include "tracing/trace.h"
 
@@ -15,5 +17,14 @@ std::string wave_of(const CellTable& table, const std::string& unit);
 /// sampling theorem). Empty where the levels are in no equal steps, which tells waves apart.
 /// @param period SI
 std::string aliases(const Covariate& covariate, double period);
+
+/// Periods of other waves, SI, with which these readings would show nearly the same, the longest first and four at
+/// most: where readings lie in stretches with gaps between, such as hours of several days, the waves that go round once
+/// more or less in a gap. Empty where the readings have no such gaps.
+/// @param along of the readings, SI  @param wave  what it adds to them
+std::vector<double> alike(const Vector& along, const Vector& wave, double period);
+
+/// "8.0 h" of seconds; other units as they are.
+std::string shown_period(const Covariate& covariate, double period);
 
 } // namespace gumshoe::tracing
