@@ -65,9 +65,12 @@ void print_verdict(const Trace& t) {
   if (t.vetoed) std::cout << "the hold-out blocks are not predicted better: nothing is added\n";
 }
 
-void print_finding(const Finding& f) {
+/// @param vetoed  by the hold-out blocks: a shape is reported and not added
+void print_finding(const Finding& f, bool vetoed) {
   const char* words[] = {"", " (a class: these data cannot distinguish its members)", " (scatter by label)", ""};
-  std::cout << fmt::format("found: {}{}, p = {}\n", f.name, words[static_cast<int>(f.kind)], probability(f.p_value));
+  const bool rejected = vetoed && f.kind == tracing::Kind::not_in_catalogue;
+  std::cout << fmt::format("found: {}{}{}, p = {}\n", f.name, words[static_cast<int>(f.kind)],
+                           rejected ? " (rejected by the hold-out blocks and not added)" : "", probability(f.p_value));
   if (!f.depends_on.empty()) std::cout << fmt::format("  depends on {}\n", fmt::join(f.depends_on, ", "));
   if (f.alternatives.empty())
     for (const SizedQuantity& q : f.quantities) std::cout << "  " << size_text(q) << '\n';
@@ -183,7 +186,7 @@ void print_trace(const Trace& t, const std::string& title, const std::vector<std
                  const std::string& traced) {
   if (!title.empty()) std::cout << printable(title) << '\n';
   print_verdict(t);
-  for (const Finding& f : t.findings) print_finding(f);
+  for (const Finding& f : t.findings) print_finding(f, t.vetoed);
   if (std::isfinite(t.rms.before)) {
     print_rms(t.rms, t.lack_of_fit.cells);
     print_noise(t.noise, t.rms);

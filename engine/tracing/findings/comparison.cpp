@@ -202,8 +202,12 @@ private:
     });
     out_.unconfirmed = !sensitive;
     if (!sensitive) {
+      const double was = scored_before_.rms[0], is = scored_after_.rms[0];
+      constexpr double visible = 0.02;
+      const bool changes = std::fabs(is - was) > visible * was;
       out_.statements.push_back(
-          "the hold-out blocks are insensitive to the finding and can neither confirm nor reject it");
+          fmt::format("the hold-out blocks are insensitive to the finding and can neither confirm nor reject it{}",
+                      changes ? "; their error changes only because everything else is fitted together with it" : ""));
       return false;
     }
     Holdout says = judge_holdout({before.whitened, before.rms[0]}, {after.whitened, after.rms[0]},

@@ -1,5 +1,6 @@
 /// What it means, in words for a machinist.
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <string_view>
 #include <vector>
@@ -149,6 +150,16 @@ std::string briefly(const Finding& f) {
   return {};
 }
 
+/// Whether the hold-out blocks rejected it: a shape that they reject is reported, and not added.
+bool is_rejected(const Trace& t, const Finding& f) { return t.vetoed && f.kind == Kind::not_in_catalogue; }
+
+/// "An unknown effect of position was found in the training data, but ..."
+std::string what_was_rejected(const Finding& f) {
+  std::string what = briefly(f);
+  what[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(what[0])));
+  return what + " was found in the training data, but it does not improve the prediction of held-out readings.";
+}
+
 std::string what_else_was_found(const std::vector<Finding>& all) {
   std::string out;
   for (std::size_t i = 1; i < all.size(); ++i) out += (i == 1 ? "Also found: " : "; ") + briefly(all[i]);
@@ -245,6 +256,8 @@ std::string which_block_differs(const Trace& t) {
                      shown_rms(b.spread, t.rms), shown_rms(b.others, t.rms));
 }
 
+constexpr const char* nothing_is_added = "Nothing is added to the model. Measure more blocks to decide.";
+
 /// First what was found and what to do; then what is left all the same.
 std::vector<std::string> verdict_in_words(const Trace& t) {
   const Rms& r = t.rms;
@@ -257,12 +270,25 @@ std::vector<std::string> verdict_in_words(const Trace& t) {
            "Declare these sizes as other measurements give them, and trace again."};
     if (!t.findings.empty()) out.push_back(what_was_found(t.findings.front()));
   } else if (!t.findings.empty()) {
-    out = {what_was_found(t.findings.front())};
-    if (t.findings.size() > 1) out.push_back(what_else_was_found(t.findings));
-    out.push_back(what_to_do(t.findings, r));
+    std::vector<Finding> stand;
+    const Finding* rejected = nullptr;
+    for (const Finding& f : t.findings)
+      if (!is_rejected(t, f))
+        stand.push_back(f);
+      else if (!rejected)
+        rejected = &f;
+    if (!stand.empty()) {
+      out = {what_was_found(stand.front())};
+      if (stand.size() > 1) out.push_back(what_else_was_found(stand));
+      out.push_back(what_to_do(stand, r));
+    }
+    if (rejected) {
+      out.push_back(what_was_rejected(*rejected));
+      out.emplace_back(nothing_is_added);
+    }
   } else if (t.vetoed)
     out = {"An effect was found in the training data, but it does not improve the prediction of held-out readings.",
-           "Nothing is added to the model. Measure more blocks to decide."};
+           nothing_is_added};
   if (t.lack_of_fit.found) {
     out.push_back(what_repeats(t));
     if (t.findings.empty())

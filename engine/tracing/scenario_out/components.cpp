@@ -50,8 +50,8 @@ public:
     out_.additions.push_back(
         {effect.name + ".size", effect.unit, effect.si_unit, u, {"reading"}, source, degrees_of_freedom});
     out_.statements.push_back(
-        fmt::format("the noise of {} grows with {}: u = {} at 0 and {} at {}; readings are weighted so", card.name,
-                    x.name, shown_size(u / grows.ratio, effect.unit, effect.si_unit),
+        fmt::format("the noise of {} grows with {}: u = {} at {} and {} at {}; readings are weighted so", card.name,
+                    x.name, shown_size(u / grows.ratio, effect.unit, effect.si_unit), "0" + units::suffix(x.unit),
                     shown_size(u, effect.unit, effect.si_unit), shown_size(grows.largest, x.unit, x.si_unit)));
     out_.growing_noise.push_back(std::move(effect));
   }
