@@ -249,7 +249,7 @@ class TraceLog(TracedLog):
         """Not a smooth surface of many sizes: readings that are far off without it are not outlying with it."""
         v = self.trace(warm_screw())
         self.assertEqual([f["described_by"] for f in v["findings"]], ["product:position*t_screw_degc"])
-        self.assertIn("growing from the lowest position", " ".join(v["findings"][0]["remarks"]))
+        self.assertIn("zero at the lowest position", " ".join(v["findings"][0]["remarks"]))
 
     def test_a_turn_shows_its_waves_and_has_no_gain(self):
         v = self.trace(rotary_table())

@@ -267,9 +267,8 @@ TEST_CASE("a reversal that grows along a slide is a shape, and what follows from
   }
   o.covariates = {covariate("x", "m", place), covariate("screw", "1", screw), covariate("direction", "1", direction)};
   const auto all = shapes(o, 60);
-  for (const auto& [from, shape] : {std::pair{0.1, "growing from the lowest x"},
-                                    {0.24, "growing from the highest x"},
-                                    {0.0, "growing from x = 0"}}) {
+  for (const auto& [from, shape] :
+       {std::pair{0.1, "zero at the lowest x"}, {0.24, "zero at the highest x"}, {0.0, "zero at x = 0"}}) {
     Vector y(static_cast<Index>(count));
     for (std::size_t r = 0; r < count; ++r) y[static_cast<Index>(r)] = direction[r] * (place[r] - from);
     CHECK(tracing_dense::outside(named(all, "product:x*direction", shape).columns, y).norm() < 1e-12 * y.norm());

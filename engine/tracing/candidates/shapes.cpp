@@ -322,7 +322,7 @@ private:
       const auto grow = [&](double from, const std::string& name) {
         add(Family::shape, "product:" + a.name + "*" + b.name,
             t.array() * (along.array() - from) / (place->levels.back() - place->levels.front()), {a.name, b.name},
-            (warms ? "growing from " : "a drift from ") + name);
+            (warms ? "" : "a drift, ") + ("zero at " + name));
       };
       grow(place->levels.front(), "the lowest " + place->name);
       grow(place->levels.back(), "the highest " + place->name);
@@ -349,7 +349,7 @@ private:
     const Vector sign = plain(o_, direction), along = plain(o_, place);
     const auto grow = [&](double from, const std::string& name) {
       add(Family::shape, "product:" + place.name + "*" + direction.name,
-          sign.array() * (along.array() - from) / (high - low), {place.name, direction.name}, "growing from " + name);
+          sign.array() * (along.array() - from) / (high - low), {place.name, direction.name}, "zero at " + name);
     };
     grow(low, "the lowest " + place.name);
     grow(high, "the highest " + place.name);
