@@ -149,6 +149,33 @@ TEST_CASE("two angles that were commanded apart have waves of the angle between 
   CHECK_THROWS(named(all, "harmonic:1xpart-along")); // the same once more
 }
 
+TEST_CASE("two labels that come back together have a table, and a step in each cell", "[tracing]") {
+  Observations o = made();
+  Grouping pair{"machine,operator", {"machine", "operator"}, {}, {}, {}};
+  for (std::size_t r = 0; r < count; ++r) pair.group.push_back(r * r / 7 % 4);
+  for (const char* machine : {"M1", "M2"})
+    for (const char* operator_ : {"anna", "ben"}) {
+      pair.groups.push_back(std::string("machine ") + machine + ", operator " + operator_);
+      pair.values.push_back({machine, operator_});
+    }
+  CHECK_THROWS(named(shapes(o, 60), "table:machine*operator"));
+  o.label_pairs = {pair};
+  const auto all = shapes(o, 60);
+  const Candidate& step = named(all, "step:machine M2, operator anna");
+  CHECK(step.depends_on == pair.labels);
+  const Candidate& table = named(all, "table:machine*operator");
+  CHECK(table.depends_on == pair.labels);
+  const std::set<std::size_t> met(pair.group.begin(), pair.group.end());
+  CHECK(table.columns.cols() + 1 == static_cast<Index>(met.size()));
+  for (const std::size_t cell : met) { // any value in each cell
+    Vector y(static_cast<Index>(count));
+    for (std::size_t i = 0; i < count; ++i) y[static_cast<Index>(i)] = pair.group[o.sequence[i]] == cell ? 1 : 0;
+    if (cell == 2) CHECK(step.columns == y);
+    CHECK(tracing_dense::outside(with_constant(table.columns), y).norm() < 1e-12);
+  }
+  CHECK_THROWS(named(shapes(o, met.size() - 1), "table:machine*operator")); // too many cells
+}
+
 TEST_CASE("shapes span what they say", "[tracing]") {
   const Observations o = made();
   const auto all = shapes(o, 60);

@@ -60,6 +60,7 @@ public:
     for (std::size_t i = 0; i < o_.covariates.size(); ++i)
       for (std::size_t j = i + 1; j < o_.covariates.size(); ++j) harmonics(o_.covariates[i], o_.covariates[j]);
     for (const Grouping& g : o_.labels) steps(g);
+    for (const Grouping& g : o_.label_pairs) steps(g);
     for (const Grouping* g : part_labels(o_))
       for (const Covariate& c : o_.covariates)
         if (c.commanded || c.course) in_groups(c, *g);
@@ -85,6 +86,9 @@ public:
     for (const Grouping& g : o_.labels)
       if (g.groups.size() > 2 && g.groups.size() <= criteria.most_omnibus_groups && !scatters(g))
         if (const Matrix m = about_their_mean(g); m.cols() > 1) add(Family::omnibus, "omnibus:" + g.name, m, {g.name});
+    for (const Grouping& g : o_.label_pairs)
+      if (g.groups.size() <= most_cells_ && g.groups.size() * criteria.least_repeats <= o_.readings)
+        add(Family::omnibus, fmt::format("table:{}", fmt::join(g.labels, "*")), about_their_mean(g), g.labels);
     return std::move(out_);
   }
 
@@ -245,7 +249,7 @@ private:
     for (std::size_t i = g.groups.size() == 2 ? 1 : 0; i < g.groups.size(); ++i) {
       Vector one(index(o_.readings));
       for (std::size_t r = 0; r < o_.readings; ++r) one[index(r)] = g.group[o_.sequence[r]] == i ? 1 : 0;
-      add(Family::shape, "step:" + g.groups[i], one, {g.name});
+      add(Family::shape, "step:" + g.groups[i], one, g.labels);
     }
   }
 

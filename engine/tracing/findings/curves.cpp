@@ -305,6 +305,8 @@ void add_curves(const TraceContext& c, const JointFit& fit, std::size_t term, co
       finding.remarks.push_back("it differs by " + step);
     else if (const std::string slope = labels.empty() ? make.slope(*covariates[0]) : ""; !slope.empty())
       finding.remarks.push_back(fmt::format("a straight line against {}: {}", covariates[0]->name, slope));
+  } else if (const std::string step = covariates.empty() ? make.step() : ""; !step.empty()) {
+    finding.remarks.push_back("it differs by " + step);
   }
   if (const Candidate& shape = fit.terms[term].candidate; shape.rare() && covariates.size() == 1)
     finding.remarks.push_back(fmt::format("{} alone has a straight line against {}: {}",

@@ -119,7 +119,7 @@ std::string what_was_found(const Finding& f) {
     if (const std::string part = part_alone(f); !part.empty())
       return fmt::format("An unknown effect changes the readings of {} alone with {}.", part, f.depends_on[0]);
     if (const std::string step = "step:";
-        f.described_by.starts_with(step) && f.described_by.find(depends_on + " ") != std::string::npos)
+        f.described_by.starts_with(step) && f.described_by.find(f.depends_on[0] + " ") != std::string::npos)
       return fmt::format("{} differs from the others by a constant.", f.described_by.substr(step.size()));
     return fmt::format("An unknown effect changes the readings {}with {}.",
                        f.described_by.starts_with("wave:") ? "periodically " : "", depends_on);

@@ -89,7 +89,8 @@ Candidate apart(const Candidate& shape, const JointFit& fit, const Observations&
   Matrix own(fixed.rows(), 0);
   const Functions functions(o, shape.depends_on);
   // By label each group keeps its own size.
-  const bool by_label = std::ranges::any_of(o.labels, [&](const Grouping& g) { return shape.depends_on == g.labels; });
+  const auto by = [&](const Grouping& g) { return shape.depends_on == g.labels; };
+  const bool by_label = std::ranges::any_of(o.labels, by) || std::ranges::any_of(o.label_pairs, by);
   for (Index j = 0; j < all.cols() && !by_label; ++j)
     if (functions.contain(all.col(j), rows)) take(own, all.col(j));
   if (!by_label && without(one, all, rows)(rows, Eigen::all).norm() <= rounding * one(rows).norm()) take(own, one);

@@ -82,6 +82,31 @@ bool says_conditions(const Scenario& s, const Grouping& g) {
   return std::ranges::all_of(groups, [](const auto& c) { return c.second.size() == 1; });
 }
 
+/// Whether groups come back: each in two blocks at least, and in half of them, on average.
+bool come_back(const Grouping& g, const Grouping& blocks) {
+  std::set<std::pair<std::size_t, std::size_t>> met;
+  for (std::size_t r = 0; r < g.group.size(); ++r) met.insert({g.group[r], blocks.group[r]});
+  return met.size() >= criteria.least_repeats * g.groups.size() &&
+         2 * met.size() >= g.groups.size() * blocks.groups.size();
+}
+
+void find_label_pairs(const Scenario& s, Observations& o) {
+  if (s.trace.blocks.empty()) return;
+  const Grouping blocks = grouping(s, o.sequence, {s.trace.blocks});
+  const auto done_anew = [&](const Grouping& label) {
+    return s.trace.redone && std::ranges::any_of(*s.trace.redone, [&](const std::vector<std::string>& set) {
+             return std::ranges::find(set, label.name) != set.end();
+           });
+  };
+  for (std::size_t i = 0; i < o.labels.size(); ++i)
+    for (std::size_t j = i + 1; j < o.labels.size(); ++j) {
+      if (done_anew(o.labels[i]) || done_anew(o.labels[j])) continue;
+      Grouping g = grouping(s, o.sequence, {o.labels[i].name, o.labels[j].name});
+      const bool crossed = g.groups.size() > std::max(o.labels[i].groups.size(), o.labels[j].groups.size());
+      if (crossed && come_back(g, blocks)) o.label_pairs.push_back(std::move(g));
+    }
+}
+
 void find_replicate_groups(const Scenario& s, Observations& o) {
   auto sets = s.trace.redone.value_or(std::vector<std::vector<std::string>>{});
   if (!s.trace.redone) {
@@ -89,6 +114,11 @@ void find_replicate_groups(const Scenario& s, Observations& o) {
     for (std::size_t i = 0; i < names.size(); ++i) {
       sets.push_back({names[i]});
       for (std::size_t j = i + 1; j < names.size(); ++j) sets.push_back({names[i], names[j]});
+    }
+    // What two labels have of each block alone does not come back: a set-up that is numbered and done anew.
+    for (const Grouping& pair : o.label_pairs) {
+      std::erase(sets, pair.labels);
+      sets.push_back({pair.labels[0], pair.labels[1], s.trace.blocks});
     }
   }
   const std::size_t least = s.trace.redone ? criteria.stated_replicates : criteria.found_replicates;
@@ -105,7 +135,8 @@ void find_replicate_groups(const Scenario& s, Observations& o) {
     // One reading each: it cannot be distinguished from the noise of a reading.
     if (g.groups.size() * 5 > s.readings.size() * criteria.most_groups_of_five) continue;
     const bool known = std::ranges::any_of(o.replicate_groups, [&](const Grouping& h) { return h.group == g.group; });
-    if (!known && o.replicate_groups.size() < criteria.most_replicate_groups)
+    const std::size_t more = !s.trace.redone && set.size() > 2 ? 1 : 0; // in place of a pair
+    if (!known && o.replicate_groups.size() < criteria.most_replicate_groups + more)
       o.replicate_groups.push_back(std::move(g));
   }
 }
@@ -219,6 +250,7 @@ Observations observe(const propagation::Experiment& e) {
     Grouping g = grouping(s, o.sequence, {label});
     if (g.groups.size() >= 2 && g.groups.size() < o.readings) o.labels.push_back(std::move(g));
   }
+  find_label_pairs(s, o);
   find_replicate_groups(s, o);
   find_blocks(s, o);
   return o;

@@ -39,6 +39,9 @@ struct Observations {
   std::vector<double> order; ///< by reading: as stated, or its number
   std::vector<Covariate> covariates;
   std::vector<Grouping> labels; ///< each label with two values or more
+  /// Two labels that are crossed and come back together from block to block: what differs by both is a table, and no
+  /// scatter. None of them is stated to be done anew.
+  std::vector<Grouping> label_pairs;
   std::vector<Grouping>
       replicate_groups;       ///< `[trace] redone`: set-up steps that were repeated, each of which may scatter
   Grouping blocks;            ///< no groups: none stated

@@ -111,9 +111,8 @@ private:
       if (done[group]) continue;
       done[group] = true;
       entries.emplace_back();
-      if (label)
-        entries.back().labels = {
-            {label->name, *quantities::label_value(c_.experiment.scenario().readings[reading].labels, label->name)}};
+      for (std::size_t l = 0; label && l < label->labels.size(); ++l)
+        entries.back().labels.emplace_back(label->labels[l], label->values[group][l]);
       Line line{unknown(q, entries.size() - 1), 0, {}, {false, entries.back().labels, source}};
       if (shares.row(index(group)).hasNaN())
         of_a_group_not_measured(t, line);

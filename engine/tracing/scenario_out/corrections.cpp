@@ -221,13 +221,14 @@ std::optional<WrittenShape> written_shape(const TraceContext& c, const Term& ter
   const auto& depends_on = term.candidate.depends_on;
   const auto named = [&](const std::string& n) { return common(c, term.candidate, n, indication); };
   WrittenShape out;
-  for (const Grouping& g : o.labels)
-    if (depends_on == g.labels) {
-      out.effects = {named(name)};
-      out.label = &g;
-      out.shares = {shares_by_label(c, loading, g, term.candidate.family == Family::omnibus)};
-      return out;
-    }
+  for (const auto* groupings : {&o.labels, &o.label_pairs})
+    for (const Grouping& g : *groupings)
+      if (depends_on == g.labels) {
+        out.effects = {named(name)};
+        out.label = &g;
+        out.shares = {shares_by_label(c, loading, g, term.candidate.family == Family::omnibus)};
+        return out;
+      }
   for (const Grouping& g : o.labels)
     if (depends_on.size() == 2 && g.labels == std::vector{depends_on[1]}) {
       for (Index j = 0; j < loading.cols(); ++j) {

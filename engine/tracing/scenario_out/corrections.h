@@ -16,7 +16,7 @@ double margin_of(const Correction& correction);
 
 struct WrittenShape {
   std::vector<Correction> effects; ///< one alone if it depends on nothing but a label
-  const Grouping* label = nullptr; ///< the size of each then takes a value for each of its groups
+  const Grouping* label = nullptr; ///< one label or two: the size of each then takes a value for each of its groups
   /// By effect: what its sizes are made of, groups of the label (or one row) x sizes of the term. A row of NaN: readings
   /// of the fit tell nothing of this group.
   std::vector<Matrix> shares;
