@@ -36,9 +36,12 @@ void straighten(const TraceContext& c, const Evidence& e, std::vector<Trial>& tr
   const bool curve = best.family == Family::omnibus && best.depends_on.size() == 1,
              of_two = best.depends_on.size() == 2;
   if (!curve && !of_two) return;
+  const bool of_labels = std::ranges::find(c.observations.label_pairs, best.depends_on, &Grouping::labels) !=
+                         c.observations.label_pairs.end();
   prefer(c, e, tried, [&](const Candidate& one) {
     const bool wave = one.form == Form::wave;
-    if (!(one.columns.cols() == 1 || (curve && wave)) || one.depends_on.size() != 1) return false;
+    const bool of_one_label = of_labels && one.family == Family::omnibus;
+    if (!(one.columns.cols() == 1 || (curve && wave) || of_one_label) || one.depends_on.size() != 1) return false;
     return curve ? one.depends_on == best.depends_on
                  : one.form == Form::fixed && std::ranges::count(best.depends_on, one.depends_on[0]) > 0;
   });

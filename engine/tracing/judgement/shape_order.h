@@ -7,9 +7,10 @@ namespace gumshoe::tracing {
 /// Puts first what says more than the shape of the highest score, which stands first. A form of one size, such as a
 /// drift that levels off, or a wave goes before a free curve in the same condition that does not exclude it: it goes on
 /// beyond the readings. One that depends on less goes before a product or a table: a step of one operator before a
-/// slope of his along the positions; a straight line in time before blocks that differ; a lower power before a higher
-/// one. Then, where noise is declared, a shape of one size that leaves noise as it was declared goes before one that
-/// leaves more, for which correlated noise would have to make up: a jump before a cubic in time.
+/// slope of his along the positions, and any value for each operator before a table by machine and operator; a straight
+/// line in time before blocks that differ; a lower power before a higher one. Then, where noise is declared, a shape of
+/// one size that leaves noise as it was declared goes before one that leaves more, for which correlated noise would
+/// have to make up: a jump before a cubic in time.
 /// @param tried  best first, at least one
 void order_shapes(const TraceContext& context, const Evidence& evidence, std::vector<Trial>& tried);
 
