@@ -207,7 +207,7 @@ double margin_of(const Correction& c) {
   constexpr double small = 0.05;
   bool any = false;
   for (const Correction::Key& key : c.keys) {
-    if (key.name == "order" || key.si_unit == "s") return 0;
+    if (key.name == "order" || key.si_unit == "s" || key.si_unit == "rad") return 0;
     any |= key.si_unit != "1";
   }
   return any ? small : 0;

@@ -10,8 +10,8 @@ namespace gumshoe::tracing {
 std::string unit_of_size(const VariableCard& indication);
 
 /// Share of the range by which the table of a correction is continued beyond its ends: a temperature or a position may
-/// lie a little beyond those that were measured. 0 of a course in time, because no curve says how it goes on, and of
-/// numbers without a unit.
+/// lie a little beyond those that were measured. 0 of a course in time, because no curve says how it goes on, of an
+/// angle, which comes round, and of numbers without a unit.
 double margin_of(const Correction& correction);
 
 struct WrittenShape {
