@@ -74,7 +74,7 @@ class Traced:
     def loading(self, effect):
         if "formula" in effect:
             return eval(compiled(effect["formula"]), FUNCTIONS, self.at)
-        table = {n: np.array([si(x) for x in v]) for n, v in effect["table"].items()}
+        table = {n: np.array([si(x) for x in v]) for n, v in effect["table"].items() if n != "margin"}  # all lie on levels
         loading = table.pop("loading")
         if len(table) == 1:
             (name, levels), = table.items()
