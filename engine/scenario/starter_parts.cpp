@@ -335,11 +335,13 @@ std::string columns_of(const RecognisedData& data, Names& names, std::set<std::s
   for (const auto& [name, c] : further) others += line(name, column_text(*c), "recorded with the readings");
   const auto restarts =
       ordered_by.empty() || !timed ? std::vector<const RecognisedColumn*>{} : restarted_by(data, *timed);
-  // A time that goes on from the first reading to the last says more than the number of a block.
+  // A time that goes on from the first reading to the last says more than the number of a block, and so does the order
+  // of the rows of cycles, which follow one another at once unless a time says otherwise.
   if (!restarts.empty() || ordered_by.empty())
     for (const RecognisedColumn* c : numbered_blocks(data))
-      others += line(names.add(c->name + "_number"), column_text(*c),
-                     fmt::format("what changes from one {} to the next", c->name));
+      if (!restarts.empty() || c->role != ColumnRole::cycle)
+        others += line(names.add(c->name + "_number"), column_text(*c),
+                       fmt::format("what changes from one {} to the next", c->name));
   const std::string columns = first + others;
   std::string in_order = ordered_by.empty() ? "" : line("order", quoted(ordered_by), "");
   if (!restarts.empty()) {

@@ -91,7 +91,7 @@ free = "laser_z"
 unconfirmed = ["film"]
 priors = { rod_length = { value = "330 mm", u = "1 um" } }
 [stated_effects.bend]
-table = { feed = ["1 mm/min", "9 mm/min"], loading = [0, 1] }
+table = { feed = ["1 mm/min", "9 mm/min"], loading = [0, 1], margin = 0.05 }
 unit = "um"
 [stated_effects.film]
 formula = "1 / feed"
