@@ -174,6 +174,7 @@ private:
       out_.order_name = *name;
       return;
     }
+    if (!context_.readings_known) return; // nor are the columns of their file
     table_.refuse_key("order", fmt::format("'{}' is neither a condition nor a column", *name), "",
                       did_you_mean(*name, names));
   }

@@ -48,6 +48,16 @@ class TraceData(InFolder):
         self.assertEqual(v["verdict"], "nothing_found")
         self.assertAlmostEqual(v["rms"]["before"], 0.0035, delta=0.00005)  # GUM, H.3.3
 
+    def test_a_missing_file_is_one_problem_and_not_also_its_columns(self):
+        text = (SCENARIOS / "trace_load_cell.toml").read_text()
+        self.assertIn('order  = "order"', text)
+        file = self.folder / "s.toml"
+        file.write_text(text.replace('"data/load_cell.csv"', '"none.csv"'))
+        run = gumshoe("trace", file, cwd=self.folder)
+        self.assertEqual(run.returncode, 2)
+        message, = run.stderr.splitlines()
+        self.assertIn("none.csv': the file does not exist", message)
+
     def test_few_readings_name_no_cause(self):
         for name in ("trace_rods", "trace_single_socket"):
             for f in self.trace(name)["findings"]:
