@@ -35,6 +35,23 @@ std::vector<const Grouping*> part_labels(const Observations& o) {
   return out;
 }
 
+bool numbers_groups(const Observations& o, const Covariate& c) {
+  if (c.commanded) return false;
+  const auto numbered = [&](const Grouping& g) {
+    if (g.groups.size() != c.levels.size()) return false;
+    std::vector<double> level(g.groups.size(), std::nan(""));
+    for (std::size_t r = 0; r < o.readings; ++r) {
+      double& known = level[g.group[r]];
+      if (std::isnan(known)) known = c.value[r];
+      if (known != c.value[r]) return false;
+    }
+    return true; // as many levels as groups, and one in each
+  };
+  return std::ranges::any_of(o.replicate_groups, numbered) || std::ranges::any_of(o.labels, [&](const Grouping& g) {
+           return g.groups.size() <= criteria.most_omnibus_groups && numbered(g);
+         });
+}
+
 std::string without_indication(const std::string& name, const Observations& o) {
   for (const std::string& indication : o.names)
     if (o.indications > 1 && name.ends_with(" of " + indication))

@@ -89,6 +89,10 @@ Candidate with_free_shape(const Candidate& candidate, const propagation::Experim
 /// Labels that name a part: a rod, a tool. Blocks and acts done anew are no parts, as what they leave behind scatters.
 std::vector<const Grouping*> part_labels(const Observations& observations);
 
+/// Whether a recorded column has one level of its own in each group of a label, or of a set-up step that was repeated,
+/// such as the number of the day: any value at each of its levels is any value of each group, or scatter between them.
+bool numbers_groups(const Observations& observations, const Covariate& covariate);
+
 /// "polynomial:t_room" of "polynomial:t_room of z": a shape without the indication that it moves, where there are
 /// several.
 std::string without_indication(const std::string& name, const Observations& observations);

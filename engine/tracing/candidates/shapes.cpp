@@ -71,7 +71,7 @@ public:
     for (std::size_t i = 0; i < o_.covariates.size(); ++i)
       for (std::size_t j = i + 1; j < o_.covariates.size(); ++j) product(o_.covariates[i], o_.covariates[j]);
     for (const Covariate& c : o_.covariates)
-      if (c.levels.size() > 2 && !(numbers_groups(c) && is_a_table(c))) {
+      if (c.levels.size() > 2 && !(numbers_groups(o_, c) && is_a_table(c))) {
         add(Family::omnibus, "omnibus:" + c.name, smooth_basis(o_, c, criteria.omnibus_columns), {c.name});
         // What rises and falls within a tenth of the range.
         if (c.levels.size() > criteria.levels_for_fine_omnibus)
@@ -130,26 +130,6 @@ private:
       else if (at > 0)
         out(index(i), at - 1) = 1;
     return out;
-  }
-
-  /// Whether a recorded column has one level of its own in each group of a label, or of a set-up step that was
-  /// repeated, such as the number of the day: any value at each of its levels is any value of each group, or scatter
-  /// between them.
-  bool numbers_groups(const Covariate& c) const {
-    if (c.commanded) return false;
-    const auto numbered = [&](const Grouping& g) {
-      if (g.groups.size() != c.levels.size()) return false;
-      std::vector<double> level(g.groups.size(), std::nan(""));
-      for (std::size_t r = 0; r < o_.readings; ++r) {
-        double& known = level[g.group[r]];
-        if (std::isnan(known)) known = c.value[r];
-        if (known != c.value[r]) return false;
-      }
-      return true; // as many levels as groups, and one in each
-    };
-    return std::ranges::any_of(o_.replicate_groups, numbered) || std::ranges::any_of(o_.labels, [&](const Grouping& g) {
-             return g.groups.size() <= criteria.most_omnibus_groups && numbered(g);
-           });
   }
 
   /// Whether a smooth dependence has a column for each level but one.
@@ -274,7 +254,7 @@ private:
   void tables() {
     std::vector<const Covariate*> repeated;
     for (const Covariate& c : o_.covariates)
-      if (!c.course && !numbers_groups(c) && c.levels.size() * criteria.least_repeats <= o_.readings)
+      if (!c.course && !numbers_groups(o_, c) && c.levels.size() * criteria.least_repeats <= o_.readings)
         repeated.push_back(&c);
     for (std::size_t i = 0; i < repeated.size(); ++i) {
       if (!is_a_table(*repeated[i])) table({repeated[i]});

@@ -106,10 +106,11 @@ public:
     with.push_back(one);
     sizes.push_back(0);
     std::pair<double, double> out{0, 0};
+    const double without = here().criterion;
     for (const double x : criteria.scatter_ratios) {
       if (!admitted(one, x)) continue;
       sizes.back() = x;
-      if (const double g = here().criterion - likelihood_.at(with, sizes).criterion; g > out.first) out = {g, x};
+      if (const double g = without - likelihood_.at(with, sizes).criterion; g > out.first) out = {g, x};
     }
     return out;
   }
@@ -156,10 +157,10 @@ private:
   }
 
   /// What comes back with the conditions is no scatter: the fit leaves out such models.
-  bool admitted(const Component& one, double ratio) const {
+  bool admitted(const Component& one, double tried) const {
     const auto& models = likelihood_.fit().design.covariance_models;
     return one.index < 0 || models.empty() || std::ranges::any_of(models, [&](const CovarianceModel& m) {
-             return m.scatter == one.index && m.ratio == ratio && m.indication == one.indication;
+             return m.scatter == one.index && m.ratio == tried && m.indication == one.indication;
            });
   }
 

@@ -282,24 +282,12 @@ private:
     return true;
   }
 
-  /// Whether another form explains the same: the model's unknowns take what they differ by, as a free reversal takes
-  /// that of errors that are zero at either end.
-  bool is_one_of_several_forms(std::size_t a) const {
-    constexpr double rounding = 1e-6;
-    const double own = evidence_->score(a);
-    for (std::size_t b = 0; b < evidence_->candidates().size(); ++b)
-      if (candidate(b).name == candidate(a).name && candidate(b).shape != candidate(a).shape &&
-          std::fabs(evidence_->score(b) - own) <= rounding * std::fabs(own))
-        return true;
-    return false;
-  }
-
   void add_shape(std::size_t a, const JointFit& fit, double p, const std::string& remark = {}) {
     SearchFinding found = found_by(a, Kind::not_in_catalogue);
     found.finding.p_value = p;
     found.finding.described_by = candidate(a).name;
     // A time constant is told as it is fitted in the end.
-    const bool fixed = candidate(a).form == Form::fixed && !is_one_of_several_forms(a);
+    const bool fixed = candidate(a).form == Form::fixed && !is_one_of_several_forms(*evidence_, a);
     found.finding.remarks.push_back("described by " + (fixed ? with_shape(candidate(a)) : candidate(a).name));
     if (!remark.empty()) found.finding.remarks.push_back(remark);
     outcomes_[a] = "describes an unknown effect";

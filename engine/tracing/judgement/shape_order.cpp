@@ -88,6 +88,17 @@ void order_shapes(const TraceContext& c, const Evidence& e, std::vector<Trial>& 
   leave_declared_noise(c, e, tried);
 }
 
+bool is_one_of_several_forms(const Evidence& e, std::size_t a) {
+  constexpr double rounding = 1e-6;
+  const Candidate& own = e.candidates()[a];
+  for (std::size_t b = 0; b < e.candidates().size(); ++b)
+    if (const Candidate& other = e.candidates()[b];
+        other.name == own.name && other.shape != own.shape &&
+        std::fabs(e.score(b) - e.score(a)) <= rounding * std::fabs(e.score(a)))
+      return true;
+  return false;
+}
+
 std::string rivals_of(const Evidence& e, std::size_t a, const std::vector<Trial>& tried) {
   const Candidate& own = e.candidates()[a];
   const double ratio = std::ranges::find(tried, a, &Trial::candidate)->ratio;

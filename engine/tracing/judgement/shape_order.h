@@ -14,6 +14,10 @@ namespace gumshoe::tracing {
 /// @param tried  best first, at least one
 void order_shapes(const TraceContext& context, const Evidence& evidence, std::vector<Trial>& tried);
 
+/// Whether another form of a shape explains the same: the model's unknowns take what they differ by, as a free reversal
+/// takes that of errors that are zero at either end.
+bool is_one_of_several_forms(const Evidence& evidence, std::size_t shape);
+
 /// "these data cannot distinguish it from ...": shapes of one size that depend on something else and describe the
 /// readings as well as `a` does: a drift with the order, or with a temperature that rose meanwhile. Empty: none.
 std::string rivals_of(const Evidence& evidence, std::size_t a, const std::vector<Trial>& tried);

@@ -106,6 +106,19 @@ public:
     }
   }
 
+  /// Noise of a reading that was not declared.
+  void estimated(const FittedScatter& scatter) {
+    const std::string source = "noise, estimated from the residuals of these readings";
+    for (std::size_t i = 0; i < fit_.design.indications; ++i) {
+      double u = fit_.design.reference[i] * std::sqrt(scatter.variance);
+      if (const auto& grows = c_.fitter.noise_growth()) {
+        u /= std::sqrt(grows->variance.mean());
+        growing(i, u * grows->ratio, *grows, source, scatter.freedom);
+      }
+      of_noise(i, u, {"reading"}, source, scatter.freedom);
+    }
+  }
+
 private:
   static std::string source_of(const Finding& f) {
     return fmt::format("scatter by {}, p = {:.2g}", fmt::join(f.depends_on, " and "), f.p_value);
@@ -126,28 +139,15 @@ private:
 
 } // namespace
 
-void add_estimated_noise(const TraceContext& c, const Search& s, Trace& out) {
-  if (c.fitter.noise_declared()) return;
-  Components components(c, s, out);
-  const std::string source = "noise, estimated from the residuals of these readings";
-  const FittedScatter scatter = fitted_scatter(c, s.found, s.findings);
-  for (std::size_t i = 0; i < s.found.design.indications; ++i) {
-    double u = s.found.design.reference[i] * std::sqrt(scatter.variance);
-    if (const auto& grows = c.fitter.noise_growth()) {
-      u /= std::sqrt(grows->variance.mean());
-      components.growing(i, u * grows->ratio, *grows, source, scatter.freedom);
-    }
-    components.of_noise(i, u, {"reading"}, source, scatter.freedom);
-  }
-}
-
 void add_components(const TraceContext& c, const Search& s, const std::vector<Vector>& left, Trace& out) {
   Components components(c, s, out);
+  const FittedScatter scatter = fitted_scatter(c, s.found, s.findings);
   for (const Finding& f : out.findings) components.larger(f);
   for (std::size_t i = 0; i < s.findings.size() && i < out.findings.size(); ++i)
     if (out.findings[i].kind == Kind::not_in_catalogue)
       components.not_in_catalogue(s.findings[i], out.findings[i], left);
-  for (const Component& one : fitted_scatter(c, s.found, s.findings).components) components.shared(one);
+  for (const Component& one : scatter.components) components.shared(one);
+  if (!c.fitter.noise_declared()) components.estimated(scatter);
 }
 
 } // namespace gumshoe::tracing

@@ -13,28 +13,12 @@
 #include "tracing/criteria.h"
 #include "tracing/scenario_out/composition.h"
 #include "tracing/scenario_out/corrections.h"
+#include "tracing/scenario_out/lines.h"
 
 namespace gumshoe::tracing {
 namespace {
 
 using quantities::Labels;
-
-/// A parameter, made of columns among the fit's fixed ones; of none: held, exact.
-struct Line {
-  calibration::Unknown unknown;
-  double value = 0;
-  std::vector<std::pair<Index, double>> made_of; ///< columns and what each counts
-  Taken taken;
-  double spread = 0; ///< standard uncertainty beside that of the columns
-};
-using MadeOf = std::vector<std::pair<Index, double>>;
-
-double covariance_of(const Matrix& of_columns, const MadeOf& a, const MadeOf& b) {
-  double out = 0;
-  for (const auto& [i, x] : a)
-    for (const auto& [j, y] : b) out += x * y * (of_columns(i, j) + of_columns(j, i)) / 2;
-  return out;
-}
 
 /// To the place that `u` asks for.
 std::string number(double si, double u, const std::string& unit, const std::string& si_unit, units::Kind kind) {
@@ -58,7 +42,6 @@ public:
       else
         term(t);
     add_components(c_, s_, left_, out_);
-    add_estimated_noise(c_, s_, out_);
     known_draws();
     write();
     correlate();
@@ -115,33 +98,11 @@ private:
         entries.back().labels.emplace_back(label->labels[l], label->values[group][l]);
       Line line{unknown(q, entries.size() - 1), 0, {}, {false, entries.back().labels, source}};
       if (shares.row(index(group)).hasNaN())
-        of_a_group_not_measured(t, line);
+        of_a_group_not_measured(fit_, t, written_[t]->shares, line);
       else
-        made_of(t, shares.row(index(group)), line);
+        of_shares(fit_, t, shares.row(index(group)), line);
       lines_.push_back(std::move(line));
     }
-  }
-
-  void made_of(std::size_t t, const Vector& share, Line& line) const {
-    line.value = share.dot(fit_.terms[t].size);
-    for (Index j = 0; j < share.size(); ++j)
-      if (share[j] != 0) line.made_of.emplace_back(first_column(fit_, t) + j, share[j]);
-  }
-
-  /// A group that the fit has no reading of is one more of those that it has.
-  void of_a_group_not_measured(std::size_t t, Line& line) const {
-    std::vector<Vector> measured;
-    for (const Matrix& shares : written_[t]->shares)
-      for (Index g = 0; g < shares.rows(); ++g)
-        if (!shares.row(g).hasNaN()) measured.emplace_back(shares.row(g));
-    const auto n = static_cast<double>(measured.size());
-    Vector mean = Vector::Zero(fit_.terms[t].size.size());
-    for (const Vector& one : measured) mean += one / n;
-    made_of(t, mean, line);
-    double square = 0;
-    for (const Vector& one : measured) square += std::pow((one - mean).dot(fit_.terms[t].size), 2);
-    line.spread = std::sqrt(square / std::max(1.0, n - 1) * (1 + 1 / n));
-    line.taken.source += "; not measured: what the others have, give or take their spread";
   }
 
   /// What cannot be written as a correction is noise; free unknowns take as much of it as they can follow.

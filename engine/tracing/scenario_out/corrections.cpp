@@ -129,7 +129,7 @@ public:
     return out;
   }
 
-  /// Of each group at a level, linear between levels that it met.
+  /// What each group has at a level; between levels that it met it is linear.
   Matrix at(double level, Index sizes) const {
     Matrix out = Matrix::Constant(index(by_group.size()), sizes, std::nan(""));
     for (std::size_t g = 0; g < by_group.size(); ++g) {
