@@ -87,6 +87,15 @@ template <class V> struct RakeBodyOf {
 };
 using RakeBody = RakeBodyOf<double>;
 
+/// Of two bodies in one beam.
+template <class V> RakeBodyOf<V> select(const Mask<V>& mask, const RakeBodyOf<V>& a, RakeBodyOf<V> b) {
+  const auto of = [&](V& x, const V& y) { x = num::select(mask, y, x); };
+  of(b.centre.x, a.centre.x), of(b.centre.y, a.centre.y), of(b.centre.z, a.centre.z);
+  of(b.normal.x, a.normal.x), of(b.normal.y, a.normal.y), of(b.normal.z, a.normal.z);
+  of(b.radius, a.radius), of(b.side, a.side), of(b.rise, a.rise);
+  return b;
+}
+
 /// The rake circle on the photodiode plane at one spindle angle, with derivatives by it.
 template <class V> struct RakeViewOf {
   V cy, cz, ny, nz, nx; ///< nx along the beam, its size

@@ -1,6 +1,7 @@
 #pragma once
 /// The first trigger of a whole tool by its inserts' windows, for doubles and for lanes: the earliest window is
 /// searched first, until no window that is left opens before the trigger found.
+#include <optional>
 #include <span>
 
 #include "chain/turning_tool.h"
@@ -91,6 +92,7 @@ public:
     auto active = wanted;
     for (int n = 0; n < most_windows && num::any(active); ++n) {
       const Next next = earliest();
+      const Pass& pass = pass_of(next.flute);
       const auto ends = active && next.first >= smaller(least, valid);
       result.found = result.found || (ends && least <= valid);
       active = active && !ends;
@@ -98,7 +100,7 @@ public:
       const auto searched = active && next.first < last;
       if (num::any(searched)) {
         const auto crossing =
-            next.pass->first_crossing(searched, next.window, next.level, fall_, next.shift, next.first, last);
+            pass.first_crossing(searched, next.window, next.level, fall_, next.shift, next.first, last);
         result.unproved = result.unproved || (searched && crossing.unproved);
         const auto met = searched && crossing.crossed && !crossing.unproved;
         least = num::select(met, crossing.turned, least);
@@ -128,22 +130,20 @@ private:
   /// The opening with the least `first`, each number its own.
   struct Next {
     V opening, flute, first, last, shift, level;
-    const Pass* pass;
     WindowOf<V> window;
   };
   Next earliest() const {
     const auto of = [&](std::size_t j) {
       const Opening& o = openings_[j];
-      return Next{
-          V(static_cast<double>(j)), V(static_cast<double>(o.flute)),   o.first, o.last, o.shift, level_[o.flute],
-          passes_[o.flute],          passes_[o.flute]->window(o.window)};
+      return Next{V(static_cast<double>(j)), V(static_cast<double>(o.flute)),   o.first, o.last, o.shift,
+                  level_[o.flute],           passes_[o.flute]->window(o.window)};
     };
     if constexpr (std::is_same_v<V, double>) {
       std::size_t least = 0;
       for (std::size_t j = 1; j < size_; ++j)
         if (openings_[j].first < openings_[least].first) least = j;
       return of(least);
-    } else { // lanes have one pass
+    } else {
       Next next = of(0);
       for (std::size_t j = 1; j < size_; ++j) {
         const auto sooner = openings_[j].first < next.first;
@@ -151,11 +151,33 @@ private:
         const Next other = of(j);
         const auto take = [&](V& x, const V& y) { x = num::select(sooner, y, x); };
         take(next.opening, other.opening), take(next.flute, other.flute), take(next.first, other.first);
-        take(next.last, other.last), take(next.shift, other.shift), take(next.level, other.level);
+        take(next.last, other.last), take(next.shift, other.shift);
+        take(next.level, other.level);
         take(next.window.from, other.window.from), take(next.window.to, other.window.to);
         next.window.crest = select<V>(sooner, other.window.crest, next.window.crest);
       }
       return next;
+    }
+  }
+  /// That of each lane's flute.
+  const Pass& pass_of(const V& flute) {
+    if constexpr (std::is_same_v<V, double>) {
+      return *passes_[static_cast<std::size_t>(flute)];
+    } else {
+      const Pass* only = nullptr;
+      bool mixed = false;
+      for (std::size_t k = 0; k < flutes_.size(); ++k) {
+        const auto here = flute == V(static_cast<double>(k));
+        if (only == passes_[k] || !num::any(here)) continue;
+        if (!only) {
+          only = passes_[k];
+          continue;
+        }
+        if (!mixed) mixed_ = *only;
+        mixed = true;
+        mixed_->take(here, *passes_[k]);
+      }
+      return mixed ? *mixed_ : *only;
     }
   }
   void advance(Opening& o, const Mask<V>& where, const V& not_before) const {
@@ -172,6 +194,7 @@ private:
   DescentMotion<V> m_;
   V cosine_, fall_, whole_;
   std::array<const Pass*, chain::most_inserts> passes_{};
+  std::optional<Pass> mixed_; ///< of lanes whose flutes are of different passes
   std::array<V, chain::most_inserts> level_;
   std::array<Opening, std::size_t{2} * chain::most_inserts> openings_;
   std::size_t size_ = 0;

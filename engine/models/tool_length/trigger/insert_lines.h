@@ -16,6 +16,13 @@ public:
   V at(const V& angle) const;
   /// True, of those wanted, only if k(angle) + fall (angle - from) < limit at all angles from `from` to `to`.
   Mask<V> below(const Mask<V>& wanted, const V& from, const V& to, const V& fall, const V& limit) const;
+  /// Becomes, where `mask`, the other.
+  void take(const Mask<V>& mask, const InsertLines& other) {
+    const auto of = [&](V& x, const V& y) { x = num::select(mask, y, x); };
+    rake_ = select<V>(mask, other.rake_, rake_);
+    of(back_radius_, other.back_radius_), of(thickness_, other.thickness_), of(shrink_share_, other.shrink_share_);
+    of(normal_spread_, other.normal_spread_), of(spread_[0], other.spread_[0]), of(spread_[1], other.spread_[1]);
+  }
 
 private:
   Mask<V> misses(const RakeViewOf<V>& v, const V& half) const;

@@ -32,6 +32,11 @@ public:
                           const V& first, const V& last) const;
 
   const InsertLines<V>& lines() const { return lines_; }
+  /// Becomes, where `mask`, the other insert in this beam, for first_crossing() alone.
+  void take(const Mask<V>& mask, const InsertPassOf& other) {
+    InsertWindows<V>::take(mask, other);
+    lines_.take(mask, other.lines_);
+  }
   /// True only if k(angle) + fall (angle - from) < limit at all angles from `from` to `to`: by tangents, or by Phi.
   bool below(double from, double to, double fall, double limit) const;
 

@@ -73,6 +73,8 @@ protected:
   template <class Past>
   CrossingOf<V> walk(const Mask<V>& wanted, const CrestOf<V>& crest, const V& level, const V& fall, const V& shift,
                      const V& first, const V& last, const V& more, const Past& past) const;
+  /// Becomes, where `mask`, the other insert in this beam, as far as a walk needs it.
+  void take(const Mask<V>& mask, const InsertWindows& other);
   /// Bound on the second derivative of Phi by the angle, in a turn; infinite where there is none.
   V curve(const RakeChordOf<V>& c) const;
   CrestOf<V> crest_at(const V& angle, bool rises) const;
@@ -233,6 +235,14 @@ Mask<V> InsertWindows<V>::only_edge_shows(const Mask<V>& wanted, V from, const V
     active = active && !done && step > V(0.02);
   }
   return proved;
+}
+
+template <class V> void InsertWindows<V>::take(const Mask<V>& mask, const InsertWindows& other) {
+  body_ = select<V>(mask, other.body_, body_);
+  for (V InsertWindows::*of : {&InsertWindows::shrink_share_, &InsertWindows::spread_, &InsertWindows::normal_spread_,
+                               &InsertWindows::nz_low_, &InsertWindows::nz_high_, &InsertWindows::amplitude_,
+                               &InsertWindows::phase_, &InsertWindows::point_, &InsertWindows::point_error_})
+    this->*of = num::select(mask, other.*of, this->*of);
 }
 
 template <class V> V InsertWindows<V>::curve(const RakeChordOf<V>& c) const {
