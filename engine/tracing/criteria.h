@@ -34,6 +34,12 @@ struct Criteria {
   /// Noise that is not declared grows with a condition if 2 ln of the likelihood says so by this much: of one
   /// condition, equal normal noise exceeds it less than once in a thousand.
   double noise_grows = 12;
+  /// Noise that is not declared differs by a label if equal normal noise would say so as plainly with this probability.
+  double noise_differs = 2e-3;
+  /// 2 ln L by which two of its groups must differ: 5 % of what chance gives.
+  double noise_alike = 3.84;
+  /// Groups with fewer degrees of freedom than this have the noise of all. Tuned.
+  double least_group_freedom = 5;
   /// Fewer degrees of freedom than this do not tell how noise grows. Tuned.
   std::ptrdiff_t freedom_for_growth = 20;
   /// Ratios tried, of the part that grows at the largest value met to the part that does not: steps of a factor that

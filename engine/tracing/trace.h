@@ -205,6 +205,7 @@ struct Addition {
   std::vector<std::string> per;
   std::string source;
   double degrees_of_freedom = std::numeric_limits<double>::infinity();
+  quantities::Labels labels = {}; ///< the readings that have it; empty: all
 };
 
 enum class Outcome { found, nothing_found, insufficient_data };
@@ -240,7 +241,7 @@ struct Trace {
   std::vector<double> correlation; ///< of the estimate's parameters, then of `known`, row-major; empty without these
   std::vector<Addition> additions;
   std::vector<Correction> corrections;
-  std::vector<Correction> growing_noise; ///< its sizes are among the additions
+  std::vector<Correction> noise_effects; ///< noise that is not equal; its sizes are among the additions
   Campaign campaign; ///< where Settings::scores
 };
 

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "tracing/noise/by_label.h"
 #include "tracing/noise/growth.h"
 #include "tracing/noise/step.h"
 #include "tracing/noise/whitened.h"
@@ -99,5 +100,45 @@ TEST_CASE("a gain that differs from pass to pass, one bad reading and levels wit
     CHECK_FALSE(bad.grows());
     for (Index i = 0; i < 80; i += 10) zeroed.about[i] = zeroed.o.measured[index(i)] = 0;
     CHECK_FALSE(zeroed.grows());
+  }
+}
+
+TEST_CASE("noise that differs by a label is told with its size, and equal noise is not", "[tracing]") {
+  // Twelve passes, each of one operator in turn, over ten levels: their cells hold readings of all three.
+  const auto passes = [](double noise, std::uint64_t seed) {
+    Passes out([&](double) { return 1; }, seed);
+    Grouping label{"operator", {"operator"}, {}, {"operator A", "operator B", "operator C"}, {{"A"}, {"B"}, {"C"}}};
+    const Matrix z = normals(120, 1, seed, 1);
+    out.o.readings = 120;
+    out.o.sequence.clear(), out.rows.clear(), out.replicates.pass.clear();
+    out.about.resize(120);
+    for (std::size_t r = 0; r < 120; ++r) {
+      const std::size_t pass = r / 10, who = pass % 3;
+      label.group.push_back(who);
+      out.about[index(r)] = (who == 1 ? noise : 1) * z(index(r), 0);
+      out.o.sequence.push_back(r);
+      out.replicates.pass.push_back(pass);
+      out.replicates.cell.push_back(r % 10);
+      out.rows.push_back(index(r));
+    }
+    out.o.labels = {label};
+    return out;
+  };
+  int alarms = 0;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    const Passes equal = passes(1, seed);
+    for (const auto& one : noise_by_labels(equal.o, equal.replicates, equal.rows, equal.about))
+      alarms += refined(one, equal.o, equal.replicates, equal.rows, equal.about).plain;
+  }
+  CHECK(alarms <= 3); // 0.4 of 200 expected
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    INFO(seed);
+    const Passes unequal = passes(4, seed);
+    const auto found = noise_by_labels(unequal.o, unequal.replicates, unequal.rows, unequal.about);
+    REQUIRE(found.size() == 1);
+    CHECK(found[0].ratio[1] > found[0].ratio[0]);
+    // 32 degrees of freedom for the one and 64 for the others tell the logarithm of their ratio to 0.15; three of
+    // these.
+    CHECK(std::fabs(std::log(found[0].ratio[1] / found[0].ratio[0] / 4)) < 0.45);
   }
 }

@@ -137,7 +137,7 @@ void describe_noise(const TraceContext& c, const Search& s, Trace& out) {
   Noise& noise = out.noise;
   noise.declared = c.fitter.noise_declared();
   noise.scale = fit.noise * std::sqrt(fit.variance);
-  if (const auto& grows = c.fitter.noise_growth()) noise.scale *= std::sqrt(grows->variance.mean());
+  noise.scale *= std::sqrt(c.fitter.mean_variance());
   noise.correlation = fit.covariance_model.correlation;
   if (const auto& model = fit.covariance_model; model.scatter >= 0) {
     noise.scatter = replicates(c, model.scatter).name;

@@ -6,6 +6,7 @@
 
 #include "tracing/candidates/candidates.h"
 #include "tracing/fit/scan.h"
+#include "tracing/noise/by_label.h"
 #include "tracing/noise/declared_response.h"
 #include "tracing/noise/growth.h"
 #include "tracing/noise/replicates.h"
@@ -108,6 +109,11 @@ public:
   const std::vector<FreeUnknown>& unknowns() const { return unknowns_; }
   bool noise_declared() const { return noise_declared_; }
   const std::optional<NoiseGrowth>& noise_growth() const { return growth_; }
+  const std::optional<NoiseByLabel>& noise_by_label() const { return by_label_; }
+  /// Mean variance of noise that is not declared, over the least: 1 where it is equal.
+  double mean_variance() const {
+    return growth_ ? growth_->variance.mean() : by_label_ ? by_label_->variance.mean() : 1;
+  }
   const std::vector<Index>& rows() const { return rows_; }
   const Replicates& replicates() const { return replicates_; }
 
@@ -156,9 +162,17 @@ private:
   void find_growth();
   /// How noise grows by the training rows without these.
   std::optional<NoiseGrowth> growth_without(const std::vector<Index>& bad) const;
+  /// Whether it differs by a label, which must say so more plainly than a condition.
+  void find_noise_by_label();
+  /// Training rows about the means of equal conditions, in units of the noise so far; none if too few repeat.
+  std::optional<Vector> about_cells(const std::vector<Index>& rows) const;
   /// Training rows of readings that stand out among those of equal conditions.
   std::vector<Index> outlying_in_cells() const;
 
+  /// Variance of a reading's noise that is not declared, over the least.
+  double relative_variance(std::size_t reading) const {
+    return growth_ ? growth_->variance[index(reading)] : by_label_ ? by_label_->variance[index(reading)] : 1;
+  }
   bool linearise(JointFit& fit) const;
   void set_fixed(const Matrix& derivative, const std::vector<std::size_t>& wanted, JointFit& fit) const;
   void set_local_noise(const Matrix& derivative, JointFit& fit) const;
@@ -200,7 +214,8 @@ private:
   bool noise_declared_ = false;
   Vector earlier_; ///< by draw: what an earlier trace of these readings said of it, in standard uncertainties
   Vector spread_;  ///< by indication: standard deviation of noise that is not declared, over that of the first
-  std::optional<NoiseGrowth> growth_;       ///< of noise that is not declared
+  std::optional<NoiseGrowth> growth_; ///< of noise that is not declared; this or the next
+  std::optional<NoiseByLabel> by_label_;
   std::vector<std::size_t> needed_;         ///< quantities whose derivatives are used, ascending
   std::vector<DeclaredResponse> responses_; ///< one per column of `needed_`
   Vector offset_;                           ///< shift of the readings' mean over these draws, by row of the simulator

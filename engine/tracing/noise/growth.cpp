@@ -8,6 +8,7 @@
 #include <Eigen/QR>
 
 #include "tracing/criteria.h"
+#include "tracing/noise/student.h"
 
 namespace gumshoe::tracing {
 namespace {
@@ -18,12 +19,10 @@ struct Pass {
   Vector left, size; ///< size: |x| over the largest
 };
 
-/// Twice the logarithm of the restricted likelihood of Student's t, its scale fitted. A residual counts by the share of
-/// its variance that the columns leave.
+/// Twice the logarithm of the restricted likelihood of Student's t, its scale fitted.
 double likelihood(const std::vector<Pass>& passes, double ratio) {
-  constexpr double nu = 5;
-  std::vector<double> share, square;
-  double out = 0, all = 0, scale = 0;
+  Residuals all;
+  double out = 0;
   for (const Pass& pass : passes) {
     const Vector u = (1 + (ratio * pass.size.array()).square()).sqrt();
     const Eigen::ColPivHouseholderQR<Matrix> qr(u.cwiseInverse().asDiagonal() * pass.columns);
@@ -31,23 +30,11 @@ double likelihood(const std::vector<Pass>& passes, double ratio) {
     const Vector left = pass.left.cwiseQuotient(u), residual = left - q * (q.transpose() * left);
     out -= 2 * u.array().log().sum() + 2 * qr.matrixR().diagonal().head(qr.rank()).array().abs().log().sum();
     for (Index i = 0; i < u.size(); ++i) {
-      share.push_back(std::max(1e-6, 1 - q.row(i).squaredNorm()));
-      square.push_back(residual[i] * residual[i] / share.back());
-      scale += share.back() * square.back();
-      all += share.back();
+      all.share.push_back(std::max(1e-6, 1 - q.row(i).squaredNorm()));
+      all.square.push_back(residual[i] * residual[i] / all.share.back());
     }
   }
-  if (!(all > 0 && scale > 0)) return -HUGE_VAL;
-  scale /= all;
-  constexpr int steps = 40; // each comes closer by half at least
-  for (int step = 0; step < steps; ++step) {
-    double sum = 0;
-    for (std::size_t i = 0; i < share.size(); ++i) sum += share[i] * (nu + 1) / (nu + square[i] / scale) * square[i];
-    scale = sum / all;
-  }
-  for (std::size_t i = 0; i < share.size(); ++i)
-    out -= share[i] * (std::log(scale) + (nu + 1) * std::log1p(square[i] / scale / nu));
-  return out;
+  return out + scale_of(all).likelihood;
 }
 
 /// Whether the others still say so, by their share, without any one pass: a bad reading decides for its own.
@@ -121,7 +108,7 @@ std::optional<NoiseGrowth> noise_growth(const Observations& o, const Replicates&
     const double ratio = criteria.growth_ratios[index(least - gains.begin())];
     if (high > most && without_any(judged, ratio)) {
       most = high;
-      best = {c, ratio, largest, Vector(index(o.readings))};
+      best = {c, ratio, largest, Vector(index(o.readings)), high - criteria.noise_grows};
     }
   }
   if (!best) return best;

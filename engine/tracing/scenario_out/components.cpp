@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -53,7 +54,42 @@ public:
         fmt::format("the noise of {} grows with {}: u = {} at {} and {} at {}; readings are weighted so", card.name,
                     x.name, shown_size(u / grows.ratio, effect.unit, effect.si_unit), "0" + units::suffix(x.unit),
                     shown_size(u, effect.unit, effect.si_unit), shown_size(grows.largest, x.unit, x.si_unit)));
-    out_.growing_noise.push_back(std::move(effect));
+    out_.noise_effects.push_back(std::move(effect));
+  }
+
+  /// The noise of an indication that the groups of a label have beyond the least of them.
+  void by_label(std::size_t indication, double u, const NoiseByLabel& differs, const std::string& source) {
+    const auto& card = c_.experiment.model().card->indications[indication];
+    const Grouping& label = *differs.label;
+    Correction effect;
+    effect.name = fmt::format("noise_of_{}_by_{}", card.name, label.name);
+    effect.indication = card.name;
+    effect.si_unit = card.si_unit;
+    effect.unit = unit_of_size(card);
+    effect.meaning = fmt::format("noise of {} that differs by {}", card.name, label.name);
+    effect.source = source;
+    std::map<double, std::vector<std::string>> told; // by ratio
+    for (std::size_t g = 0; g < label.groups.size(); ++g) {
+      quantities::Labels of;
+      for (std::size_t l = 0; l < label.labels.size(); ++l) of.emplace_back(label.labels[l], label.values[g][l]);
+      const double ratio = differs.ratio[g], freedom = differs.freedom[g];
+      out_.additions.push_back({effect.name + ".size",
+                                effect.unit,
+                                effect.si_unit,
+                                u * std::sqrt(ratio * ratio - 1),
+                                {"reading"},
+                                source,
+                                freedom > 0 ? freedom : std::numeric_limits<double>::infinity(),
+                                std::move(of)});
+      told[ratio].push_back(fmt::format("{}", fmt::join(label.values[g], " ")));
+    }
+    std::vector<std::string> sizes;
+    for (const auto& [ratio, groups] : told)
+      sizes.push_back(
+          fmt::format("{} of {}", shown_size(u * ratio, effect.unit, effect.si_unit), fmt::join(groups, " and ")));
+    out_.statements.push_back(fmt::format("the noise of {} differs by {}: u = {}; readings are weighted so", card.name,
+                                          label.name, fmt::join(sizes, ", ")));
+    out_.noise_effects.push_back(std::move(effect));
   }
 
   /// What single readings scatter beyond what is declared.
@@ -110,12 +146,15 @@ public:
   void estimated(const FittedScatter& scatter) {
     const std::string source = "noise, estimated from the residuals of these readings";
     for (std::size_t i = 0; i < fit_.design.indications; ++i) {
-      double u = fit_.design.reference[i] * std::sqrt(scatter.variance);
-      if (const auto& grows = c_.fitter.noise_growth()) {
-        u /= std::sqrt(grows->variance.mean());
-        growing(i, u * grows->ratio, *grows, source, scatter.freedom);
+      const double u = fit_.design.reference[i] * std::sqrt(scatter.variance / c_.fitter.mean_variance());
+      double freedom = scatter.freedom;
+      if (const auto& grows = c_.fitter.noise_growth()) growing(i, u * grows->ratio, *grows, source, freedom);
+      if (const auto& differs = c_.fitter.noise_by_label()) {
+        by_label(i, u, *differs, source);
+        for (std::size_t g = 0; g < differs->ratio.size(); ++g)
+          if (differs->ratio[g] == 1) freedom = std::min(freedom, differs->freedom[g]);
       }
-      of_noise(i, u, {"reading"}, source, scatter.freedom);
+      of_noise(i, u, {"reading"}, source, freedom);
     }
   }
 

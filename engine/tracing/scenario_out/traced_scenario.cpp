@@ -88,7 +88,7 @@ public:
   std::string write() {
     start_earlier();
     for (const Correction& c : t_.corrections) correct(c);
-    for (const Correction& c : t_.growing_noise) correct(c);
+    for (const Correction& c : t_.noise_effects) correct(c);
     for (std::size_t i = 0; i < t_.estimate.parameters.size(); ++i) parameter(i);
     finish_free();
     finish_unconfirmed();
@@ -336,7 +336,8 @@ private:
                          {"degrees_of_freedom", 0, 0, calibration::number_node(std::round(a.degrees_of_freedom))});
     if (!noise) {
       one.members.insert(one.members.begin(), {"value", 0, 0, measure_node(0, a.unit, a.si_unit, false)});
-      text_.quantity(a.quantity) = std::move(one);
+      if (!(a.u > 0)) one.members = {one.members.front(), one.members.back()};
+      text_.entry(a.quantity, a.labels) = std::move(one);
       return;
     }
     Node& components = member(member(member(text_.document(), "indications"), a.quantity), "components");
