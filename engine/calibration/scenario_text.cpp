@@ -130,7 +130,11 @@ Node& ScenarioText::entry(const std::string& name, const quantities::Labels& lab
     if (Node* by = find_member(*place, "by")) { // one label per by-table
       Member& label = by->members.front();
       held.emplace_back(label.key, *quantities::label_value(labels, label.key));
+      const Node* const others = find_member(label.value, "*");
+      const bool own = find_member(label.value, held.back().second);
+      const Node as_others = others && !own ? *others : Node{};
       place = &member(label.value, held.back().second);
+      if (others && !own) *place = as_others;
       continue;
     }
     const auto missing =

@@ -87,6 +87,7 @@ struct Context {
     std::string quantity, value;
   };
   std::vector<Assumed> without_value = {}; ///< uncertain quantities without any value, and the one that is taken
+  std::vector<quantities::InputQuantity> unused = {}; ///< with an entry each that no reading uses
 
   std::vector<std::string> label_names() const;
   /// False, and a problem at the node, if it is known that no reading has a label of this name.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "quantities/cells.h"
 #include "scenario/option.h"
@@ -57,14 +58,36 @@ std::optional<double> read_coefficient(Table& table) {
   return std::nullopt;
 }
 
-Correlation read_correlation(Table table, const std::vector<NamedComponent>& named) {
+/// Leaves out the members of labels that no reading has: of the others it says what it said.
+void leave_out(const std::set<std::string>& unused, const Table& table, Context& context, Correlation& c) {
+  const std::size_t n = c.quantities.size();
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < n; ++i)
+    if (unused.contains(c.quantities[i]))
+      context.notes.push_back(
+          fmt::format("{}: '{}' is left out, because no reading has it", table.path("quantities"), c.quantities[i]));
+    else
+      kept.push_back(i);
+  if (kept.size() == n) return;
+  Correlation out = c;
+  out.quantities.clear(), out.matrix.clear();
+  for (const std::size_t i : kept) {
+    out.quantities.push_back(c.quantities[i]);
+    for (const std::size_t j : kept)
+      if (c.matrix.size() == n * n) out.matrix.push_back(c.matrix[i * n + j]);
+  }
+  c = std::move(out);
+}
+
+Correlation read_correlation(Table table, const std::vector<NamedComponent>& named, const std::set<std::string>& unused,
+                             Context& context) {
   Correlation out;
   read_options(table, correlation_options(), out);
   const std::vector<std::string> names = names_of(named);
   std::vector<std::string> seen;
   const std::size_t problems = table.problems().size();
   for (const std::string& name : out.quantities) {
-    if (std::ranges::find(names, name) == names.end())
+    if (std::ranges::find(names, name) == names.end() && !unused.contains(name))
       table.refuse_key("quantities", fmt::format("'{}' is not a quantity here", name), "", did_you_mean(name, names));
     if (std::ranges::find(seen, name) != seen.end())
       table.refuse_key("quantities", fmt::format("'{}' is named twice", name));
@@ -81,7 +104,8 @@ Correlation read_correlation(Table table, const std::vector<NamedComponent>& nam
       if (table.has(key)) table.refuse_key(key, "the observations give it", "kind = \"observations\"", "leave it out");
     std::vector<NamedComponent> members;
     for (const std::string& name : out.quantities)
-      if (known) members.push_back(*std::ranges::find(named, name, &NamedComponent::name));
+      if (known && !unused.contains(name)) members.push_back(*std::ranges::find(named, name, &NamedComponent::name));
+    std::erase_if(out.quantities, [&](const std::string& name) { return unused.contains(name); });
     out.matrix = evaluate_together(table, members);
     table.refuse_unknown();
     return out;
@@ -94,6 +118,20 @@ Correlation read_correlation(Table table, const std::vector<NamedComponent>& nam
     for (std::size_t i = 0; i < n * n; ++i) out.matrix.push_back(i % n == i / n ? 1 : *coefficient);
   read_matrix(table, n, out.matrix);
   table.refuse_unknown();
+  if (known) leave_out(unused, table, context, out);
+  return out;
+}
+
+/// The names of an entry as draws have them, in the order of the components, and without one.
+std::vector<NamedComponent> cell_names(const std::string& quantity, quantities::Entry& entry) {
+  std::vector<NamedComponent> out;
+  if (entry.labels.empty()) return out;
+  auto labels = entry.labels;
+  std::sort(labels.begin(), labels.end()); // as draws are named
+  const std::string cell = quantity + '[' + quantities::text_of(labels) + ']';
+  out.push_back({cell, entry.components.size() == 1 ? &entry.components[0] : nullptr});
+  for (auto& c : entry.components)
+    if (entry.components.size() > 1) out.push_back({cell + ": " + c.name, &c});
   return out;
 }
 
@@ -106,25 +144,26 @@ Shape correlation_shape() {
                      R"({"required": ["matrix"]}]}}])");
 }
 
-std::vector<Correlation> read_correlations(Table& top, std::vector<quantities::InputQuantity>& quantities) {
+std::vector<Correlation> read_correlations(Table& top, std::vector<quantities::InputQuantity>& quantities,
+                                           Context& context) {
   std::vector<NamedComponent> names;
   for (auto& q : quantities) {
     const bool single = q.entries.size() == 1;
     const auto only = [&](quantities::Entry& e) { return e.components.size() == 1 ? &e.components[0] : nullptr; };
     names.push_back({q.name, single ? only(q.entries[0]) : nullptr});
     for (auto& entry : q.entries) {
-      auto labels = entry.labels;
-      std::sort(labels.begin(), labels.end()); // as draws are named
-      const std::string cell = q.name + '[' + quantities::text_of(labels) + ']';
-      if (!labels.empty()) names.push_back({cell, only(entry)});
-      for (auto& c : entry.components) {
-        names.push_back({q.name + '.' + c.name, single ? &c : nullptr});
-        if (!labels.empty() && entry.components.size() > 1) names.push_back({cell + ": " + c.name, &c});
-      }
+      std::ranges::copy(cell_names(q.name, entry), std::back_inserter(names));
+      for (auto& c : entry.components) names.push_back({q.name + '.' + c.name, single ? &c : nullptr});
     }
   }
+  std::set<std::string> unused;
+  for (auto& q : context.unused)
+    for (const auto& one : cell_names(q.name, q.entries.front())) unused.insert(one.name);
   std::vector<Correlation> out;
-  for (const Table& row : top.tables("correlations")) out.push_back(read_correlation(row, names));
+  for (const Table& row : top.tables("correlations")) {
+    Correlation one = read_correlation(row, names, unused, context);
+    if (one.quantities.size() > 1 || unused.empty()) out.push_back(std::move(one));
+  }
   return out;
 }
 

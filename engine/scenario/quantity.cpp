@@ -50,6 +50,9 @@ std::string shown(double value, const QuantityCard& card) {
   return fmt::format("{:.6g}{}", number, units::suffix(card.unit));
 }
 
+/// In a by-table: every value of the label that has no row of its own.
+constexpr const char* any_other = "*";
+
 class QuantityReader {
 public:
   QuantityReader(const QuantityCard& card, InputQuantity& out, Context& context)
@@ -172,20 +175,47 @@ private:
     if (!values) return;
     std::set<std::string> seen;
     std::vector<const Member*> unknown;
+    const Member* others = nullptr;
     for (const Member& row : values->members()) {
       seen.insert(row.key);
-      Labels here = labels;
-      if (quantities::label_value(here, label.key))
+      if (quantities::label_value(labels, label.key))
         return context_.problems.add(row,
                                      fmt::format("{}: the label '{}' is nested within itself", by->path(), label.key));
-      here.emplace_back(label.key, row.key);
+      if (row.key == any_other) {
+        others = &row;
+        continue;
+      }
       if (context_.readings_known && !context_.label_values[label.key].contains(row.key)) unknown.push_back(&row);
-      read(row.value, values->path(row.key), here, source);
+      read(row.value, values->path(row.key), with(labels, label.key, row.key), source);
     }
+    if (others) read_others(*others, label.key, labels, values->path(any_other), source, seen);
     const std::size_t before = context_.problems.size();
     complete(label, seen, labels, values->path());
     if (context_.problems.size() > before)
       for (const Member* row : unknown) no_reading_has(label.key, *row, values->path());
+  }
+
+  static Labels with(Labels labels, const std::string& label, const std::string& value) {
+    labels.emplace_back(label, value);
+    return labels;
+  }
+
+  /// The row for every value that has none of its own, as if each had it. A row that none needs is checked all the same.
+  void read_others(const Member& row, const std::string& label, const Labels& labels, const std::string& path,
+                   const std::string& source, std::set<std::string>& seen) {
+    std::vector<std::string> others;
+    if (context_.readings_known)
+      for (const Labels& reading : context_.readings)
+        if (const std::string* value = quantities::label_value(reading, label);
+            value && quantities::holds_for(labels, reading) && seen.insert(*value).second)
+          others.push_back(*value);
+    if (others.empty()) {
+      InputQuantity unused = out_;
+      std::vector<std::string> notes = context_.notes;
+      QuantityReader(card_, unused, context_).read(row.value, path, with(labels, label, any_other), source);
+      context_.notes = std::move(notes);
+    }
+    for (const std::string& value : others) read(row.value, path, with(labels, label, value), source);
   }
 
   /// A value that no reading has is a mistake where another is missing; else it is of readings that are not here.
@@ -217,6 +247,7 @@ private:
     if (context_.readings_known && !entry.labels.empty() &&
         std::none_of(context_.readings.begin(), context_.readings.end(), uses)) {
       context_.notes.push_back(fmt::format("{}: not used, because no reading has {}", path, text_of(entry.labels)));
+      context_.unused.push_back({out_.name, out_.unit, out_.si_unit, {std::move(entry)}});
       return;
     }
     out_.entries.push_back(std::move(entry));

@@ -84,7 +84,7 @@ public:
     if (auto stated = top.table("stated_effects")) read_stated(*stated, own);
     if (!out_.trace.free.empty()) check_free(top, own);
     if (!out_.trace.unconfirmed.empty()) check_unconfirmed(top);
-    out_.correlations = read_correlations(top, out_.quantities);
+    out_.correlations = read_correlations(top, out_.quantities, context_);
     for (auto& tied : tie_results(out_.quantities, document_, context_)) out_.correlations.push_back(std::move(tied));
     if (auto run = top.table("run")) out_.run = read_run(*run);
     if (auto analysis = top.table("analysis")) {

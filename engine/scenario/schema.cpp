@@ -49,7 +49,7 @@ std::vector<Key> definitions() {
       {"component", component_shape(), "a deviation from the value"},
       {"quantity", quantity_shape(), "an input quantity: a value alone, or with its uncertainty"},
       {"by", map(map(reference("quantity")), R"("minProperties": 1, "maxProperties": 1)"),
-       "a label with a quantity for each of its values"},
+       "a label with a quantity for each of its values; \"*\" is every value that has none of its own"},
       {"condition", condition_shape(),
        "one value, a list with a value for each reading, or values evenly spread over n readings, the last value "
        "excluded"},

@@ -241,6 +241,28 @@ TEST_CASE("values by label", "[scenario]") {
   CHECK(pitch[1].labels == quantities::Labels{{"setup", "1"}, {"rod", "rod 2"}});
 }
 
+TEST_CASE("the row of a by-table for every other value", "[scenario]") {
+  const auto of = [](const std::string& table) {
+    return head + "[indications.spindle_z]\nrows = [ { rod = \"rod 1\", values = [\"1 mm\"] }, { rod = \"rod 2\", "
+                  "values = [\"2 mm\"] }, { rod = \"rod 3\", values = [\"3 mm\"] } ]\n[quantities.rod_length.by.rod]\n" +
+           table;
+  };
+  const auto s = read_text(of("\"rod 2\" = \"160 mm\"\n\"*\" = { value = \"150 mm\", u = \"2 mm\" }\n"));
+  const auto& length = quantity(s, "rod_length").entries;
+  REQUIRE(length.size() == 3); // each other rod has a draw of its own
+  CHECK(length[0].labels == quantities::Labels{{"rod", "rod 2"}});
+  CHECK(length[1].labels == quantities::Labels{{"rod", "rod 1"}});
+  CHECK(length[2].labels == quantities::Labels{{"rod", "rod 3"}});
+  CHECK(length[2].value == 0.150);
+  CHECK(length[2].components.size() == 1);
+  // Where every rod has its own the row says nothing, and is right or wrong all the same.
+  const std::string all = "\"rod 1\" = \"1 mm\"\n\"rod 2\" = \"1 mm\"\n\"rod 3\" = \"1 mm\"\n";
+  const auto none = read_text(of(all + "\"*\" = \"150 mm\"\n"));
+  CHECK(quantity(none, "rod_length").entries.size() == 3);
+  CHECK(none.notes.size() == read_text(of(all)).notes.size());
+  CHECK_THAT(complaint(of(all + "\"*\" = \"150 deg\"\n")), Catch::Contains("quantities.rod_length.by.rod.*: '150 deg'"));
+}
+
 TEST_CASE("explain shows SI values, defaults and effects left out", "[scenario]") {
   const auto s = with("[quantities.beam_pitch]\nvalue = \"0.2836 deg\"\nu = \"0.002 deg\"\nsource = "
                       "\"level\"\n[effects.rod_runout]\nx = { u = \"2 um\" }\n");
@@ -250,6 +272,28 @@ TEST_CASE("explain shows SI values, defaults and effects left out", "[scenario]"
   CHECK_THAT(text, Catch::Contains("u 3.49066e-05 rad, Type B, one draw, source: level"));
   CHECK_THAT(text, Catch::Contains("feed 6.66666666667e-05 m/s (4 mm/min)"));
   CHECK_THAT(text, Catch::Contains("effects at their null value\n  trigger_latency\n"));
+}
+
+TEST_CASE("a correlation says of the rods that were measured what it said of all", "[scenario]") {
+  const auto of = [](const std::string& quantities, const std::string& matrix) {
+    return head + "[indications.spindle_z]\nrows = [ { rod = \"rod 1\", values = [\"1 mm\"] }, { rod = \"rod 3\", values = "
+                  "[\"3 mm\"] } ]\n[quantities.rod_length.by.rod]\n\"rod 1\" = { value = \"1 mm\", u = \"1 um\" }\n"
+                  "\"rod 2\" = { value = \"2 mm\", u = \"1 um\" }\n\"rod 3\" = { value = \"3 mm\", u = \"1 um\" }\n"
+                  "[[correlations]]\nkind = \"pearson\"\nquantities = [" + quantities + "]\nmatrix = [" + matrix + "]\n";
+  };
+  const auto s = read_text(of("\"rod_length[rod 1]\", \"rod_length[rod 2]\", \"rod_length[rod 3]\"",
+                              "[1, 0.5, 0.2], [0.5, 1, 0.3], [0.2, 0.3, 1]"));
+  REQUIRE(s.correlations.size() == 1);
+  CHECK(s.correlations[0].quantities == std::vector<std::string>{"rod_length[rod 1]", "rod_length[rod 3]"});
+  CHECK(s.correlations[0].matrix == std::vector<double>{1, 0.2, 0.2, 1});
+  CHECK(std::ranges::any_of(s.notes, [](const std::string& note) {
+    return note.find("'rod_length[rod 2]' is left out, because no reading has it") != std::string::npos;
+  }));
+  // Nothing is left of a pair of which one was not measured.
+  CHECK(read_text(of("\"rod_length[rod 1]\", \"rod_length[rod 2]\"", "[1, 0.5], [0.5, 1]")).correlations.empty());
+  // A name that no table has is a mistake as before.
+  CHECK_THAT(complaint(of("\"rod_length[rod 1]\", \"rod_length[rod 4]\"", "[1, 0.5], [0.5, 1]")),
+             Catch::Contains("'rod_length[rod 4]' is not a quantity here"));
 }
 
 TEST_CASE("correlations name their kind", "[scenario]") {
