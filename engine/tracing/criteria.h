@@ -38,6 +38,8 @@ struct Criteria {
   double noise_differs = 2e-3;
   /// 2 ln L by which two of its groups must differ: 5 % of what chance gives.
   double noise_alike = 3.84;
+  /// So many groups of a label tell what another one will have: of three, Student's t has no standard deviation.
+  std::size_t least_groups_for_others = 4;
   /// Groups with fewer degrees of freedom than this have the noise of all. Tuned.
   double least_group_freedom = 5;
   /// Fewer degrees of freedom than this do not tell how noise grows. Tuned.

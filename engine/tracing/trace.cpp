@@ -217,6 +217,7 @@ Trace traced(const scenario::Scenario& scenario, const Settings& settings, bool&
     return out;
   }
   Search found = search(c);
+  if (fitter.weigh_by_label(found.found)) found = search(c);
   converged = found.base.converged;
   if (settings.scores) out.campaign = scores_of(c, found.base);
   out.tried = found.tried;

@@ -202,10 +202,11 @@ struct Addition {
   std::string quantity; ///< "reclamp.shift", or an indication for its noise
   std::string unit, si_unit;
   double u = 0;
-  std::vector<std::string> per;
+  std::vector<std::string> per; ///< none: one draw for each value of `labels`
   std::string source;
   double degrees_of_freedom = std::numeric_limits<double>::infinity();
-  quantities::Labels labels = {}; ///< the readings that have it; empty: all
+  quantities::Labels labels = {}; ///< the readings that have it, "*": that have no value of their own; empty: all
+  double value = 0;               ///< about which it varies
 };
 
 enum class Outcome { found, nothing_found, insufficient_data };

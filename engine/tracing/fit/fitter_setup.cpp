@@ -37,7 +37,6 @@ Fitter::Fitter(const propagation::Experiment& experiment, const Simulator& simul
   find_responses();
   find_spread();
   find_growth();
-  find_noise_by_label();
   find_covariance_models();
 }
 
@@ -189,35 +188,40 @@ void Fitter::find_spread() {
 std::optional<NoiseGrowth> Fitter::growth_without(const std::vector<Index>& bad) const {
   std::vector<Index> rows;
   std::ranges::set_difference(rows_, bad, std::back_inserter(rows));
-  const auto about = about_cells(rows);
+  const JointFit fit = linearised(1);
+  if (!fit.valid) return std::nullopt;
+  const auto about = about_cells(fit, rows);
   if (!about) return std::nullopt;
   return tracing::noise_growth(observations_, replicates_, rows, *about);
 }
 
-std::optional<Vector> Fitter::about_cells(const std::vector<Index>& rows) const {
-  const JointFit fit = linearised(1);
-  if (!fit.valid) return std::nullopt;
+std::optional<Vector> Fitter::about_cells(const JointFit& fit, const std::vector<Index>& rows) const {
   const PureError pure(fit.design, rows, replicates_, threads_);
   if (!pure.known()) return std::nullopt; // what the model lacks would count as noise
   return Vector(pure.about_cells(fit.residual(rows)).col(0));
 }
 
-void Fitter::find_noise_by_label() {
-  if (noise_declared_) return;
-  std::optional<NoiseGrowth> growth;
-  growth.swap(growth_);
+bool Fitter::weigh_by_label(const JointFit& found) {
+  if (noise_declared_ || growth_) return false;
+  by_label_.reset();
+  const auto about = [&] {
+    JointFit fit = found;
+    return linearise(fit) ? about_cells(fit, rows_) : std::nullopt;
+  };
   std::optional<NoiseByLabel> best;
-  if (const auto equal = about_cells(rows_))
+  if (const auto equal = about())
     for (const NoiseByLabel& one : noise_by_labels(observations_, replicates_, rows_, *equal)) {
       by_label_ = one;
       constexpr int rounds = 4; // each comes closer by a share of about one in the readings of a condition
       for (int i = 0; i < rounds; ++i)
-        if (const auto about = about_cells(rows_))
-          by_label_ = refined(*by_label_, observations_, replicates_, rows_, *about);
+        if (const auto weighted = about())
+          by_label_ = refined(*by_label_, observations_, replicates_, rows_, *weighted);
       if (by_label_->plain && (!best || by_label_->gain > best->gain)) best = by_label_;
     }
   by_label_ = best;
-  if (growth && (!best || growth->gain > best->gain)) growth_ = growth, by_label_.reset();
+  covariance_models_.clear();
+  find_covariance_models();
+  return best.has_value();
 }
 
 std::vector<Index> Fitter::outlying_in_cells() const {

@@ -86,6 +86,9 @@ public:
 
   /// Gauss-Newton with winsorised residuals; from `start` where it is given. `noise` 0: its scale is fitted, too.
   JointFit fit(const std::vector<Term>& terms, double noise, const JointFit* start = nullptr) const;
+  /// Where no noise is declared and none grows with a condition: whether it differs by a label, by what a fit leaves.
+  /// Readings are weighted so from here on. What the model lacks may differ by a label as well: it must be found first.
+  bool weigh_by_label(const JointFit& found);
   /// The same without some of the rows.
   Fitter without_rows(const std::vector<Index>& rows) const;
   /// A fit as it is of a scenario that declares more noise.
@@ -162,10 +165,8 @@ private:
   void find_growth();
   /// How noise grows by the training rows without these.
   std::optional<NoiseGrowth> growth_without(const std::vector<Index>& bad) const;
-  /// Whether it differs by a label, which must say so more plainly than a condition.
-  void find_noise_by_label();
-  /// Training rows about the means of equal conditions, in units of the noise so far; none if too few repeat.
-  std::optional<Vector> about_cells(const std::vector<Index>& rows) const;
+  /// Rows about the fit and the means of equal conditions, in units of the noise so far; none if too few repeat.
+  std::optional<Vector> about_cells(const JointFit& fit, const std::vector<Index>& rows) const;
   /// Training rows of readings that stand out among those of equal conditions.
   std::vector<Index> outlying_in_cells() const;
 

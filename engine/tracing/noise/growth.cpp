@@ -108,7 +108,7 @@ std::optional<NoiseGrowth> noise_growth(const Observations& o, const Replicates&
     const double ratio = criteria.growth_ratios[index(least - gains.begin())];
     if (high > most && without_any(judged, ratio)) {
       most = high;
-      best = {c, ratio, largest, Vector(index(o.readings)), high - criteria.noise_grows};
+      best = {c, ratio, largest, Vector(index(o.readings))};
     }
   }
   if (!best) return best;

@@ -12,7 +12,6 @@ struct NoiseGrowth {
   double ratio = 0;          ///< b x / a at the largest x
   double largest = 0;        ///< largest |x| met, SI
   Vector variance;           ///< by reading of the scenario: u^2 / a^2
-  double gain = 0;           ///< 2 ln L over criteria.noise_grows
 };
 
 /// The condition with which the noise grows most plainly; none unless the likelihood says so by criteria.noise_grows.

@@ -83,6 +83,21 @@ public:
                                 std::move(of)});
       told[ratio].push_back(fmt::format("{}", fmt::join(label.values[g], " ")));
     }
+    if (label.labels.size() == 1) {
+      double square = 0, freedom = 0;
+      for (std::size_t g = 0; g < label.groups.size(); ++g) {
+        square += differs.freedom[g] * (differs.ratio[g] * differs.ratio[g] - 1);
+        freedom += differs.freedom[g];
+      }
+      out_.additions.push_back({effect.name + ".size",
+                                effect.unit,
+                                effect.si_unit,
+                                u * std::sqrt(square / freedom),
+                                {"reading"},
+                                source + "; of others what these have on average",
+                                HUGE_VAL,
+                                {{label.labels[0], "*"}}});
+    }
     std::vector<std::string> sizes;
     for (const auto& [ratio, groups] : told)
       sizes.push_back(

@@ -103,6 +103,25 @@ private:
         of_shares(fit_, t, shares.row(index(group)), line);
       lines_.push_back(std::move(line));
     }
+    if (label && label->labels.size() == 1) others(t, *label, shares, source);
+  }
+
+  /// A group that these data do not have is one more of those that differ.
+  void others(std::size_t t, const Grouping& label, const Matrix& shares, const std::string& source) {
+    const auto& size = out_.extended.quantities.back();
+    Line line{{}, 0, {}, {false, {}, source}};
+    const std::size_t measured = of_a_group_not_measured(fit_, t, {shares}, line);
+    if (measured < criteria.least_groups_for_others) return;
+    const double u = std::sqrt(covariance_of(fit_.covariance, line.made_of, line.made_of) + line.spread * line.spread);
+    out_.additions.push_back({size.name,
+                              size.unit,
+                              size.si_unit,
+                              u,
+                              {},
+                              line.taken.source,
+                              static_cast<double>(measured - 1),
+                              {{label.labels[0], "*"}},
+                              line.value + 0.0}); // no -0
   }
 
   /// What cannot be written as a correction is noise; free unknowns take as much of it as they can follow.
@@ -351,8 +370,7 @@ private:
       out_.extended.quantities[lines_[i].unknown.quantity].estimated = true;
       for (std::size_t j = 0; j < n; ++j)
         if (u(i) > 0 && u(j) > 0)
-          e.correlation[i * n + j] =
-              i == j ? 1 : std::clamp(e.covariance[i * n + j] / (u(i) * u(j)), -1.0, 1.0);
+          e.correlation[i * n + j] = i == j ? 1 : std::clamp(e.covariance[i * n + j] / (u(i) * u(j)), -1.0, 1.0);
     }
     for (const Row& row : out_.rows)
       if (!row.held_out) e.rows.push_back({row.reading, row.indication});

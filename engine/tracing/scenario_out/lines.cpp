@@ -18,7 +18,7 @@ void of_shares(const JointFit& fit, std::size_t term, const Vector& share, Line&
     if (share[j] != 0) line.made_of.emplace_back(first_column(fit, term) + j, share[j]);
 }
 
-void of_a_group_not_measured(const JointFit& fit, std::size_t term, const std::vector<Matrix>& shares, Line& line) {
+std::size_t of_a_group_not_measured(const JointFit& fit, std::size_t term, const std::vector<Matrix>& shares, Line& line) {
   const Vector& size = fit.terms[term].size;
   std::vector<Vector> measured;
   for (const Matrix& of_effect : shares)
@@ -32,6 +32,7 @@ void of_a_group_not_measured(const JointFit& fit, std::size_t term, const std::v
   for (const Vector& one : measured) square += std::pow((one - mean).dot(size), 2);
   line.spread = std::sqrt(square / std::max(1.0, n - 1) * (1 + 1 / n));
   line.taken.source += "; not measured: what the others have, give or take their spread";
+  return measured.size();
 }
 
 } // namespace gumshoe::tracing

@@ -30,7 +30,9 @@ double covariance_of(const Matrix& of_columns, const MadeOf& a, const MadeOf& b)
 void of_shares(const JointFit& fit, std::size_t term, const Vector& share, Line& line);
 
 /// The same of a group that the fit has no reading of: the mean of the groups that it has, with the spread of one more.
+/// Returns how many it has.
 /// @param shares  by effect, groups x sizes of the term; rows of NaN are not measured
-void of_a_group_not_measured(const JointFit& fit, std::size_t term, const std::vector<Matrix>& shares, Line& line);
+std::size_t of_a_group_not_measured(const JointFit& fit, std::size_t term, const std::vector<Matrix>& shares,
+                                    Line& line);
 
 } // namespace gumshoe::tracing

@@ -327,15 +327,16 @@ private:
     std::vector<Node> per;
     for (const std::string& label : a.per) per.push_back(text_node(label));
     Node one;
-    one.members = {{"u", 0, 0, measure_node(a.u, a.unit, a.si_unit, true)},
-                   {"per", 0, 0, per.size() == 1 ? per[0] : calibration::list_node(per)},
-                   {"evaluation", 0, 0, text_node("A")},
-                   {"source", 0, 0, text_node(source(a.source))}};
+    one.members = {{"u", 0, 0, measure_node(a.u, a.unit, a.si_unit, true)}};
+    if (!per.empty())
+      one.members.push_back({"per", 0, 0, per.size() == 1 ? per[0] : calibration::list_node(per)});
+    one.members.push_back({"evaluation", 0, 0, text_node("A")});
+    one.members.push_back({"source", 0, 0, text_node(source(a.source))});
     if (std::isfinite(a.degrees_of_freedom))
       one.members.insert(one.members.begin() + 1,
                          {"degrees_of_freedom", 0, 0, calibration::number_node(std::round(a.degrees_of_freedom))});
     if (!noise) {
-      one.members.insert(one.members.begin(), {"value", 0, 0, measure_node(0, a.unit, a.si_unit, false)});
+      one.members.insert(one.members.begin(), {"value", 0, 0, measure_node(a.value, a.unit, a.si_unit, false)});
       if (!(a.u > 0)) one.members = {one.members.front(), one.members.back()};
       text_.entry(a.quantity, a.labels) = std::move(one);
       return;
