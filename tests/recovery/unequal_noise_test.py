@@ -68,8 +68,9 @@ class UnequalNoise(unittest.TestCase):
         return run.stdout
 
     def write(self, rows):
+        rows = list(rows)
         with (self.folder / "bores.csv").open("w", newline="") as file:
-            csv.writer(file).writerows([["day", "operator", "x", "I"], *rows])
+            csv.writer(file).writerows([["day", "operator", "x", "I", "J"][:len(rows[0])], *rows])
 
     def trace(self, rows, scenario=SCENARIO):
         self.write(rows)
@@ -82,7 +83,8 @@ class UnequalNoise(unittest.TestCase):
     def inside(self, rows):
         """By operator: how many of fresh readings lie in their intervals, and how many there are."""
         self.write(rows)
-        found = json.loads(self.run_("run", "results/s.traced.toml", "--predict", "--samples", "2000", "--format", "json"))
+        found = json.loads(self.run_("run", "results/s.traced.toml", "--predict", "--samples", "2000", "--format", "json", "--out", "p.h5",
+                                     "--force"))
         all_of = collections.Counter(o["labels"]["operator"] for o in found)
         held = collections.Counter(o["labels"]["operator"] for o in found if o["predicted"]["inside"])
         return held, all_of
@@ -112,6 +114,54 @@ class UnequalNoise(unittest.TestCase):
             rows = list(every_day(random, dict(Ann=1.0, Bob=1.0, Cid=1.0), 8))
             rows[30 + seed][3] = str(float(rows[30 + seed][3]) + 25)
             self.assertEqual(self.told(self.trace(rows)), [], seed)
+
+    def test_a_bad_reading_makes_no_operator_noisy(self):
+        """25 um on one of 48 moves the means of its cell and its day, beside which others of its operator seem to scatter more."""
+        for seed in range(8):
+            random = np.random.default_rng([6, seed])
+            rows = list(every_day(random, dict(Ann=1.0, Bob=1.0), 6))
+            rows[20 + 7 * seed][3] = str(float(rows[20 + 7 * seed][3]) + 25)
+            self.assertEqual(self.told(self.trace(rows)), [], seed)
+
+    def test_one_of_six(self):
+        """As many values of a label as set-ups that may be done anew have: they come back, and these do not."""
+        random = np.random.default_rng([7, 1])
+        six = dict(Ann=1.0, Bob=1.0, Cid=1.0, Dan=1.0, Eve=1.0, Flo=5.0)
+        found = self.trace(every_day(random, six, 8))
+        [told] = self.told(found)
+        self.assertRegex(told, r"u = \S+ um of .*, \S+ um of Flo;")
+        held, all_of = self.inside(every_day(random, six, 8))
+        for operator in six:
+            self.assertGreater(held[operator] / all_of[operator], 0.85, operator)
+
+    def test_one_of_two_columns(self):
+        """Bob's gauge scatters in X alone: nothing is said of Y, and its intervals are those of all."""
+        scenario = SCENARIO.replace('indications = { I = "a + b * x" }', 'indications = { I = "a + b * x", J = "c" }').replace(
+            'I = "um" }', 'I = "um", J = "um" }').replace("[trace]", '[indications.J]\nreadings = "J"\n[trace]').replace(
+            "[quantities]", '[quantities]\nc = { estimated = true, value = "0 um" }')
+        random = np.random.default_rng([8, 1])
+        rows = [[*row, f"{random.standard_normal():.4f}"] for row in every_day(random, NOISE, 8)]
+        found = self.trace(rows, scenario)
+        [told] = self.told(found)
+        self.assertIn("the noise of I differs by operator", told)
+        again = json.loads(self.run_("run", "results/s.traced.toml", "--predict", "--samples", "2000", "--format", "json"))
+        width = lambda o: o["predicted"]["high"] - o["predicted"]["low"]
+        for name, least, most in (("I", 3.5, 7), ("J", 0.99, 1.01)):  # his s is known to 10 %
+            mean = {who: np.mean([width(o) for o in again if o["output"].startswith(name + "[") and o["labels"]["operator"] == who])
+                    for who in NOISE}
+            self.assertTrue(least < mean["Bob"] / mean["Ann"] < most, (name, mean))
+
+    def test_six_machines_that_differ_are_corrected(self):
+        """They differ by 3 um, in every one of eight days: no scatter that cannot be corrected for."""
+        random = np.random.default_rng([9, 1])
+        six = dict(zip(("Ann", "Bob", "Cid", "Dan", "Eve", "Flo"), 3 * random.standard_normal(6)))
+        rows = lambda: every_day(random, dict.fromkeys(six, 1.0), 8, lambda operator, x: six[operator])
+        found = self.trace(rows())
+        self.assertEqual([(f["kind"], f["depends_on"]) for f in found["findings"]], [("not_in_catalogue", ["operator"])])
+        held, all_of = self.inside(rows())
+        self.assertTrue(0.9 <= held.total() / all_of.total() <= 0.98, (held, all_of))
+        again = json.loads(self.run_("run", "results/s.traced.toml", "--predict", "--samples", "2000", "--format", "json", "--out", "q.h5"))
+        self.assertLess(max(o["standard_uncertainty"] for o in again), 1.5)  # um; of one machine of six: 3
 
     def test_an_effect_is_found_beside_it(self):
         """Cid's readings are 1.5 um too large. What 36 of his and 36 of Ann's tell of it has a standard deviation of 0.24 um; were the

@@ -136,9 +136,9 @@ TEST_CASE("noise that differs by a label is told with its size, and equal noise 
     const Passes unequal = passes(4, seed);
     const auto found = noise_by_labels(unequal.o, unequal.replicates, unequal.rows, unequal.about);
     REQUIRE(found.size() == 1);
-    CHECK(found[0].ratio[1] > found[0].ratio[0]);
+    CHECK(found[0].ratio[0][1] > found[0].ratio[0][0]);
     // 32 degrees of freedom for the one and 64 for the others tell the logarithm of their ratio to 0.15; three of
     // these.
-    CHECK(std::fabs(std::log(found[0].ratio[1] / found[0].ratio[0] / 4)) < 0.45);
+    CHECK(std::fabs(std::log(found[0].ratio[0][1] / found[0].ratio[0][0] / 4)) < 0.45);
   }
 }

@@ -137,12 +137,14 @@ void describe_noise(const TraceContext& c, const Search& s, Trace& out) {
   Noise& noise = out.noise;
   noise.declared = c.fitter.noise_declared();
   noise.scale = fit.noise * std::sqrt(fit.variance);
-  noise.scale *= std::sqrt(c.fitter.mean_variance());
+  noise.scale *= std::sqrt(c.fitter.mean_variance(0));
   noise.correlation = fit.covariance_model.correlation;
   if (const auto& model = fit.covariance_model; model.scatter >= 0) {
     noise.scatter = replicates(c, model.scatter).name;
-    noise.scatter_u =
-        model.ratio * fit.design.reference[index(std::max(0, model.indication))] * std::sqrt(fit.variance);
+    double ratio = model.ratio;
+    for (const Component& one : fitted_scatter(c, fit, s.findings).components)
+      if (one.index == model.scatter && one.u > 0) ratio = one.u;
+    noise.scatter_u = ratio * fit.design.reference[index(std::max(0, model.indication))] * std::sqrt(fit.variance);
   }
   noise.chi_squared_p = s.first.p_noise;
   if (s.last.noise_small && noise.declared)

@@ -201,31 +201,54 @@ std::optional<Vector> Fitter::about_cells(const JointFit& fit, const std::vector
   return Vector(pure.about_cells(fit.residual(rows)).col(0));
 }
 
-bool Fitter::weigh_by_label(const JointFit& found) {
-  if (noise_declared_ || growth_) return false;
-  by_label_.reset();
+Vector Fitter::relative_variance(std::size_t reading) const {
+  const auto k = index(observations_.indications);
+  if (growth_) return Vector::Constant(k, growth_->variance[index(reading)]);
+  return by_label_ ? Vector(by_label_->variance.row(index(reading)).transpose()) : Vector(Vector::Ones(k));
+}
+
+std::optional<NoiseByLabel> Fitter::by_label_without(const std::vector<Index>& bad, const JointFit& found) {
+  std::vector<Index> rows;
+  std::ranges::set_difference(rows_, bad, std::back_inserter(rows));
   const auto about = [&] {
     JointFit fit = found;
-    return linearise(fit) ? about_cells(fit, rows_) : std::nullopt;
+    return linearise(fit) ? about_cells(fit, rows) : std::nullopt;
   };
+  by_label_.reset();
   std::optional<NoiseByLabel> best;
   if (const auto equal = about())
-    for (const NoiseByLabel& one : noise_by_labels(observations_, replicates_, rows_, *equal)) {
+    for (const NoiseByLabel& one : noise_by_labels(observations_, replicates_, rows, *equal)) {
       by_label_ = one;
       constexpr int rounds = 4; // each comes closer by a share of about one in the readings of a condition
       for (int i = 0; i < rounds; ++i)
-        if (const auto weighted = about())
-          by_label_ = refined(*by_label_, observations_, replicates_, rows_, *weighted);
+        if (const auto weighted = about()) by_label_ = refined(*by_label_, observations_, replicates_, rows, *weighted);
       if (by_label_->plain && (!best || by_label_->gain > best->gain)) best = by_label_;
     }
-  by_label_ = best;
-  covariance_models_.clear();
-  find_covariance_models();
-  return best.has_value();
+  by_label_.reset();
+  return best;
 }
 
-std::vector<Index> Fitter::outlying_in_cells() const {
-  const JointFit fit = linearised(1);
+/// As in find_growth(), without readings that stand out with these weights and without them.
+bool Fitter::weigh_by_label(const JointFit& found) {
+  if (noise_declared_ || growth_) return false;
+  const auto best = by_label_without({}, found);
+  if (!best) return false;
+  const auto outlying = [&] {
+    JointFit fit = found;
+    return linearise(fit) ? outlying_in_cells(fit) : std::vector<Index>{};
+  };
+  const std::vector<Index> with_equal = outlying();
+  by_label_ = best;
+  std::vector<Index> bad;
+  std::ranges::set_intersection(with_equal, outlying(), std::back_inserter(bad));
+  by_label_ = bad.empty() ? best : by_label_without(bad, found);
+  if (!by_label_) return false;
+  covariance_models_.clear();
+  find_covariance_models();
+  return true;
+}
+
+std::vector<Index> Fitter::outlying_in_cells(const JointFit& fit) const {
   std::vector<Index> out;
   if (!fit.valid) return out;
   const auto k = index(observations_.indications);
@@ -242,10 +265,10 @@ void Fitter::find_growth() {
   if (noise_declared_) return;
   const auto grows = growth_without({});
   if (!grows) return;
-  const std::vector<Index> with_equal = outlying_in_cells();
+  const std::vector<Index> with_equal = outlying_in_cells(linearised(1));
   growth_ = grows;
   std::vector<Index> bad;
-  std::ranges::set_intersection(with_equal, outlying_in_cells(), std::back_inserter(bad));
+  std::ranges::set_intersection(with_equal, outlying_in_cells(linearised(1)), std::back_inserter(bad));
   if (bad.empty()) return;
   growth_.reset();
   growth_ = growth_without(bad);

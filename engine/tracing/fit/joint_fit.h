@@ -113,9 +113,9 @@ public:
   bool noise_declared() const { return noise_declared_; }
   const std::optional<NoiseGrowth>& noise_growth() const { return growth_; }
   const std::optional<NoiseByLabel>& noise_by_label() const { return by_label_; }
-  /// Mean variance of noise that is not declared, over the least: 1 where it is equal.
-  double mean_variance() const {
-    return growth_ ? growth_->variance.mean() : by_label_ ? by_label_->variance.mean() : 1;
+  /// Mean variance of an indication's noise that is not declared, in units of relative_variance().
+  double mean_variance(std::size_t indication) const {
+    return growth_ ? growth_->variance.mean() : by_label_ ? by_label_->variance.col(index(indication)).mean() : 1;
   }
   const std::vector<Index>& rows() const { return rows_; }
   const Replicates& replicates() const { return replicates_; }
@@ -167,13 +167,12 @@ private:
   std::optional<NoiseGrowth> growth_without(const std::vector<Index>& bad) const;
   /// Rows about the fit and the means of equal conditions, in units of the noise so far; none if too few repeat.
   std::optional<Vector> about_cells(const JointFit& fit, const std::vector<Index>& rows) const;
+  std::optional<NoiseByLabel> by_label_without(const std::vector<Index>& bad, const JointFit& found);
   /// Training rows of readings that stand out among those of equal conditions.
-  std::vector<Index> outlying_in_cells() const;
+  std::vector<Index> outlying_in_cells(const JointFit& fit) const;
 
-  /// Variance of a reading's noise that is not declared, over the least.
-  double relative_variance(std::size_t reading) const {
-    return growth_ ? growth_->variance[index(reading)] : by_label_ ? by_label_->variance[index(reading)] : 1;
-  }
+  /// Variance of a reading's noise that is not declared, by indication, over the least: 1 where it is equal.
+  Vector relative_variance(std::size_t reading) const;
   bool linearise(JointFit& fit) const;
   void set_fixed(const Matrix& derivative, const std::vector<std::size_t>& wanted, JointFit& fit) const;
   void set_local_noise(const Matrix& derivative, JointFit& fit) const;

@@ -94,7 +94,7 @@ void Fitter::set_local_noise(const Matrix& derivative, JointFit& fit) const {
   auto without = covariance;
   for (const std::size_t r : o.sequence) {
     if (!noise_declared_)
-      covariance[r] = spread_.cwiseAbs2().asDiagonal().toDenseMatrix() * relative_variance(r) /
+      covariance[r] = spread_.cwiseAbs2().cwiseProduct(relative_variance(r)).asDiagonal().toDenseMatrix() /
                       experiment_.scenario().readings[r].repeats;
     const double unit = noise_declared_ ? 1 : fit.noise * fit.noise;
     without[r] = covariance[r];

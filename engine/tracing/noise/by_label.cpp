@@ -24,16 +24,16 @@ struct Stretch {
 /// About a constant, and from eight readings on a straight line in time. What the mean of equal conditions takes of a
 /// reading, it takes by the reading's share of their weight.
 /// @param ratio  by group: the noise by which they are weighted
-std::vector<Stretch> stretches(const Observations& o, const Grouping& label, const Replicates& replicates,
-                               const std::vector<Index>& rows, const Vector& about, const std::vector<double>& ratio) {
-  std::map<std::size_t, double> weights;                                      // of a cell and indication
+std::vector<Stretch> stretches(const Observations& o, std::size_t indication, const Grouping& label,
+                               const Replicates& replicates, const std::vector<Index>& rows, const Vector& about,
+                               const std::vector<double>& ratio) {
+  std::map<std::size_t, double> weights;                                      // of a cell
   std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> of; // places among the chosen rows
   const auto place = [&](std::size_t i) { return index(rows[i]) / o.indications; };
-  const auto cell = [&](std::size_t i) {
-    return replicates.cell[place(i)] * o.indications + index(rows[i]) % o.indications;
-  };
+  const auto cell = [&](std::size_t i) { return replicates.cell[place(i)]; };
   const auto weight = [&](std::size_t i) { return std::pow(ratio[label.group[o.sequence[place(i)]]], -2); };
   for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (index(rows[i]) % o.indications != indication) continue;
     weights[cell(i)] += weight(i);
     of[{label.group[o.sequence[place(i)]], replicates.pass[place(i)]}].push_back(i);
   }
@@ -128,36 +128,73 @@ Groups groups(const std::vector<Stretch>& all, std::size_t count, std::size_t wi
   return out;
 }
 
-double wanted(std::size_t told) {
-  const auto freedom = static_cast<double>(told - 1);
-  return boost::math::quantile(boost::math::complement(boost::math::chi_squared(freedom), criteria.noise_differs));
+double wanted(double more) {
+  return boost::math::quantile(boost::math::complement(boost::math::chi_squared(more), criteria.noise_differs));
 }
 
-NoiseByLabel noise_of(const Grouping& label, const Groups& found, const Observations& o) {
-  NoiseByLabel out{&label, {}, found.freedom, Vector(index(o.readings))};
-  double least = HUGE_VAL, sum = 0, freedom = 0;
-  for (std::size_t g = 0; g < found.variance.size(); ++g) {
-    out.ratio.push_back(std::sqrt(found.variance[g]));
-    if (!(found.freedom[g] > 0)) continue;
-    least = std::min(least, out.ratio[g]);
-    sum += found.freedom[g] * out.ratio[g] * out.ratio[g];
-    freedom += found.freedom[g];
+/// By indication.
+using All = std::vector<std::vector<Stretch>>;
+
+struct Judged {
+  std::vector<Groups> of; ///< by indication
+  double gain = -1;       ///< 2 ln L over what is wanted
+};
+
+Judged judged(const All& all, std::size_t count, double share, std::size_t without = -1) {
+  Judged out;
+  double gain = 0, more = 0;
+  for (const auto& one : all) {
+    out.of.push_back(groups(one, count, without));
+    if (out.of.back().told < 2) continue;
+    gain += out.of.back().gain;
+    more += static_cast<double>(out.of.back().told - 1);
   }
-  for (std::size_t g = 0; g < found.variance.size(); ++g)
-    out.ratio[g] = found.freedom[g] > 0 ? out.ratio[g] / least : std::sqrt(sum / freedom) / least;
-  for (std::size_t r = 0; r < o.readings; ++r) out.variance[index(r)] = std::pow(out.ratio[label.group[r]], 2);
+  if (more > 0) out.gain = gain - share * wanted(more);
+  return out;
+}
+
+NoiseByLabel noise_of(const Grouping& label, const Judged& found, const Observations& o) {
+  NoiseByLabel out{&label, {}, {}, Matrix(index(o.readings), index(o.indications))};
+  double least = HUGE_VAL;
+  for (const Groups& one : found.of)
+    for (std::size_t g = 0; g < one.variance.size(); ++g)
+      if (one.freedom[g] > 0) least = std::min(least, std::sqrt(one.variance[g]));
+  for (std::size_t i = 0; i < found.of.size(); ++i) {
+    const Groups& one = found.of[i];
+    double sum = 0, freedom = 0;
+    for (std::size_t g = 0; g < one.variance.size(); ++g)
+      sum += one.freedom[g] * one.variance[g], freedom += one.freedom[g];
+    const double all = freedom > 0 ? sum / freedom : least * least;
+    out.ratio.emplace_back();
+    for (std::size_t g = 0; g < one.variance.size(); ++g)
+      out.ratio.back().push_back(std::sqrt(one.freedom[g] > 0 ? one.variance[g] : all) / least);
+    out.freedom.push_back(one.freedom);
+    for (std::size_t r = 0; r < o.readings; ++r)
+      out.variance(index(r), index(i)) = std::pow(out.ratio.back()[label.group[r]], 2);
+  }
   return out;
 }
 
 /// Whether the others still say so, by their share, without any one pass: a bad stretch decides for its own.
-bool without_any(const std::vector<Stretch>& all, std::size_t count) {
+bool without_any(const All& all, std::size_t count) {
   std::set<std::size_t> passes;
-  for (const Stretch& one : all) passes.insert(one.pass);
+  for (const auto& of_indication : all)
+    for (const Stretch& one : of_indication) passes.insert(one.pass);
   const auto n = static_cast<double>(passes.size());
-  return std::ranges::all_of(passes, [&](std::size_t pass) {
-    const Groups others = groups(all, count, pass);
-    return others.told > 1 && others.gain > wanted(others.told) * (n - 1) / n;
-  });
+  return std::ranges::all_of(passes, [&](std::size_t pass) { return judged(all, count, (n - 1) / n, pass).gain > 0; });
+}
+
+double largest_ratio(const NoiseByLabel& one) {
+  double out = 1;
+  for (const auto& of : one.ratio) out = std::max(out, *std::ranges::max_element(of) / *std::ranges::min_element(of));
+  return out;
+}
+
+/// Whether groups come in one pass each, on average: nobody knows the noise of the next.
+bool are_passes(const Grouping& label, const Observations& o, const Replicates& replicates) {
+  std::set<std::pair<std::size_t, std::size_t>> met;
+  for (std::size_t i = 0; i < o.sequence.size(); ++i) met.insert({label.group[o.sequence[i]], replicates.pass[i]});
+  return 2 * met.size() < 3 * label.groups.size();
 }
 
 } // namespace
@@ -166,27 +203,31 @@ std::vector<NoiseByLabel> noise_by_labels(const Observations& o, const Replicate
                                           const std::vector<Index>& rows, const Vector& about) {
   std::vector<NoiseByLabel> out;
   for (const Grouping& label : o.labels) {
-    if (label.group == o.blocks.group) continue;
-    if (std::ranges::any_of(o.replicate_groups, [&](const Grouping& g) { return g.labels == label.labels; })) continue;
+    if (label.group == o.blocks.group || are_passes(label, o, replicates)) continue;
     const std::size_t count = label.groups.size();
-    const Groups found = groups(stretches(o, label, replicates, rows, about, std::vector<double>(count, 1)), count);
-    if (found.told < 2 || found.gain < 0.5 * wanted(found.told)) continue;
-    out.push_back(noise_of(label, found, o));
+    All all;
+    for (std::size_t i = 0; i < o.indications; ++i)
+      all.push_back(stretches(o, i, label, replicates, rows, about, std::vector<double>(count, 1)));
+    if (const Judged found = judged(all, count, 0.5); found.gain > 0) out.push_back(noise_of(label, found, o));
   }
   return out;
 }
 
 NoiseByLabel refined(const NoiseByLabel& so_far, const Observations& o, const Replicates& replicates,
                      const std::vector<Index>& rows, const Vector& about) {
+  const Grouping& label = *so_far.label;
   Vector unweighted = about;
   for (std::size_t i = 0; i < rows.size(); ++i)
-    unweighted[index(i)] *= so_far.ratio[so_far.label->group[o.sequence[index(rows[i]) / o.indications]]];
-  const auto all = stretches(o, *so_far.label, replicates, rows, unweighted, so_far.ratio);
-  const std::size_t count = so_far.ratio.size();
-  const Groups found = groups(all, count);
-  NoiseByLabel out = noise_of(*so_far.label, found, o);
-  out.gain = found.gain - wanted(found.told);
-  out.plain = out.gain > 0 && *std::ranges::max_element(out.ratio) > criteria.unequal_spread && without_any(all, count);
+    unweighted[index(i)] *=
+        so_far.ratio[index(rows[i]) % o.indications][label.group[o.sequence[index(rows[i]) / o.indications]]];
+  const std::size_t count = label.groups.size();
+  All all;
+  for (std::size_t i = 0; i < o.indications; ++i)
+    all.push_back(stretches(o, i, label, replicates, rows, unweighted, so_far.ratio[i]));
+  const Judged found = judged(all, count, 1);
+  NoiseByLabel out = noise_of(label, found, o);
+  out.gain = found.gain;
+  out.plain = out.gain > 0 && largest_ratio(out) > criteria.unequal_spread && without_any(all, count);
   return out;
 }
 

@@ -115,7 +115,14 @@ void find_replicate_groups(const Scenario& s, Observations& o) {
       sets.push_back({names[i]});
       for (std::size_t j = i + 1; j < names.size(); ++j) sets.push_back({names[i], names[j]});
     }
-    // What two labels have of each block alone does not come back: a set-up that is numbered and done anew.
+    // What comes back from block to block is no scatter but a correction. What a label, or two, have of each block alone
+    // does not come back: a set-up that is numbered and done anew.
+    if (!s.trace.blocks.empty()) {
+      const Grouping blocks = grouping(s, o.sequence, {s.trace.blocks});
+      for (const Grouping& label : o.labels)
+        if (label.name != s.trace.blocks && come_back(label, blocks))
+          std::erase(sets, std::vector<std::string>{label.name});
+    }
     for (const Grouping& pair : o.label_pairs) {
       std::erase(sets, pair.labels);
       sets.push_back({pair.labels[0], pair.labels[1], s.trace.blocks});

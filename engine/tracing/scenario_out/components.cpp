@@ -57,7 +57,7 @@ public:
     out_.noise_effects.push_back(std::move(effect));
   }
 
-  /// The noise of an indication that the groups of a label have beyond the least of them.
+  /// The noise of an indication that the groups of a label have beyond the least of them. @param u  of a ratio of 1
   void by_label(std::size_t indication, double u, const NoiseByLabel& differs, const std::string& source) {
     const auto& card = c_.experiment.model().card->indications[indication];
     const Grouping& label = *differs.label;
@@ -68,15 +68,18 @@ public:
     effect.unit = unit_of_size(card);
     effect.meaning = fmt::format("noise of {} that differs by {}", card.name, label.name);
     effect.source = source;
+    const auto& ratios = differs.ratio[indication];
+    const auto& freedoms = differs.freedom[indication];
+    const double least = std::pow(*std::ranges::min_element(ratios), 2);
     std::map<double, std::vector<std::string>> told; // by ratio
     for (std::size_t g = 0; g < label.groups.size(); ++g) {
       quantities::Labels of;
       for (std::size_t l = 0; l < label.labels.size(); ++l) of.emplace_back(label.labels[l], label.values[g][l]);
-      const double ratio = differs.ratio[g], freedom = differs.freedom[g];
+      const double ratio = ratios[g], freedom = freedoms[g];
       out_.additions.push_back({effect.name + ".size",
                                 effect.unit,
                                 effect.si_unit,
-                                u * std::sqrt(ratio * ratio - 1),
+                                u * std::sqrt(ratio * ratio - least),
                                 {"reading"},
                                 source,
                                 freedom > 0 ? freedom : std::numeric_limits<double>::infinity(),
@@ -86,8 +89,8 @@ public:
     if (label.labels.size() == 1) {
       double square = 0, freedom = 0;
       for (std::size_t g = 0; g < label.groups.size(); ++g) {
-        square += differs.freedom[g] * (differs.ratio[g] * differs.ratio[g] - 1);
-        freedom += differs.freedom[g];
+        square += freedoms[g] * (ratios[g] * ratios[g] - least);
+        freedom += freedoms[g];
       }
       out_.additions.push_back({effect.name + ".size",
                                 effect.unit,
@@ -161,13 +164,16 @@ public:
   void estimated(const FittedScatter& scatter) {
     const std::string source = "noise, estimated from the residuals of these readings";
     for (std::size_t i = 0; i < fit_.design.indications; ++i) {
-      const double u = fit_.design.reference[i] * std::sqrt(scatter.variance / c_.fitter.mean_variance());
+      double u = fit_.design.reference[i] * std::sqrt(scatter.variance / c_.fitter.mean_variance(i));
       double freedom = scatter.freedom;
       if (const auto& grows = c_.fitter.noise_growth()) growing(i, u * grows->ratio, *grows, source, freedom);
       if (const auto& differs = c_.fitter.noise_by_label()) {
-        by_label(i, u, *differs, source);
-        for (std::size_t g = 0; g < differs->ratio.size(); ++g)
-          if (differs->ratio[g] == 1) freedom = std::min(freedom, differs->freedom[g]);
+        const auto& ratio = differs->ratio[i];
+        const auto least = std::ranges::min_element(ratio);
+        if (*std::ranges::max_element(ratio) > *least) by_label(i, u, *differs, source);
+        u *= *least;
+        if (const double own = differs->freedom[i][index(least - ratio.begin())]; own > 0)
+          freedom = std::min(freedom, own);
       }
       of_noise(i, u, {"reading"}, source, freedom);
     }
