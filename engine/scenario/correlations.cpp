@@ -63,12 +63,11 @@ void leave_out(const std::set<std::string>& unused, const Table& table, Context&
   const std::size_t n = c.quantities.size();
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < n; ++i)
-    if (unused.contains(c.quantities[i]))
-      context.notes.push_back(
-          fmt::format("{}: '{}' is left out, because no reading has it", table.path("quantities"), c.quantities[i]));
-    else
-      kept.push_back(i);
+    if (!unused.contains(c.quantities[i])) kept.push_back(i);
   if (kept.size() == n) return;
+  const auto first = std::ranges::find_if(c.quantities, [&](const std::string& name) { return unused.contains(name); });
+  context.notes.push_back(fmt::format("{}: {} of {} are left out, because no reading has them, such as '{}'",
+                                      table.path("quantities"), n - kept.size(), n, *first));
   Correlation out = c;
   out.quantities.clear(), out.matrix.clear();
   for (const std::size_t i : kept) {

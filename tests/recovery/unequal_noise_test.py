@@ -116,7 +116,7 @@ class UnequalNoise(unittest.TestCase):
             self.assertEqual(self.told(self.trace(rows)), [], seed)
 
     def test_a_bad_reading_makes_no_operator_noisy(self):
-        """25 um on one of 48 moves the means of its cell and its day, beside which others of its operator seem to scatter more."""
+        """One reading that is off by 25 um moves the means of its cell and of its day, so that others there seem to scatter more, too."""
         for seed in range(8):
             random = np.random.default_rng([6, seed])
             rows = list(every_day(random, dict(Ann=1.0, Bob=1.0), 6))

@@ -287,7 +287,7 @@ TEST_CASE("a correlation says of the rods that were measured what it said of all
   CHECK(s.correlations[0].quantities == std::vector<std::string>{"rod_length[rod 1]", "rod_length[rod 3]"});
   CHECK(s.correlations[0].matrix == std::vector<double>{1, 0.2, 0.2, 1});
   CHECK(std::ranges::any_of(s.notes, [](const std::string& note) {
-    return note.find("'rod_length[rod 2]' is left out, because no reading has it") != std::string::npos;
+    return note.find("1 of 3 are left out, because no reading has them, such as 'rod_length[rod 2]'") != std::string::npos;
   }));
   // Nothing is left of a pair of which one was not measured.
   CHECK(read_text(of("\"rod_length[rod 1]\", \"rod_length[rod 2]\"", "[1, 0.5], [0.5, 1]")).correlations.empty());

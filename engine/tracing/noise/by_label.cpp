@@ -81,7 +81,7 @@ struct Alike {
   ScaleFound scale;
 };
 
-/// Neighbours in noise that the readings do not tell apart have one.
+/// Merges neighbours, in the order of their noise, that the readings do not distinguish.
 void merge(std::vector<Alike>& all) {
   std::ranges::sort(all, {}, [](const Alike& one) { return one.scale.variance; });
   while (all.size() > 1) {

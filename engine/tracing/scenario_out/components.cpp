@@ -39,13 +39,7 @@ public:
                double degrees_of_freedom) {
     const auto& card = c_.experiment.model().card->indications[indication];
     const Covariate& x = c_.observations.covariates[grows.covariate];
-    Correction effect;
-    effect.name = fmt::format("noise_of_{}_by_{}", card.name, x.name);
-    effect.indication = card.name;
-    effect.si_unit = card.si_unit;
-    effect.unit = unit_of_size(card);
-    effect.meaning = fmt::format("noise of {} that grows with {}", card.name, x.name);
-    effect.source = source;
+    Correction effect = noise_effect(card, x.name, "grows with", source);
     effect.keys = {{x.name, x.unit, x.si_unit, {std::min(0.0, x.levels.front()), std::max(0.0, x.levels.back())}}};
     for (const double level : effect.keys[0].levels) effect.loading.push_back(level / grows.largest);
     out_.additions.push_back(
@@ -61,13 +55,7 @@ public:
   void by_label(std::size_t indication, double u, const NoiseByLabel& differs, const std::string& source) {
     const auto& card = c_.experiment.model().card->indications[indication];
     const Grouping& label = *differs.label;
-    Correction effect;
-    effect.name = fmt::format("noise_of_{}_by_{}", card.name, label.name);
-    effect.indication = card.name;
-    effect.si_unit = card.si_unit;
-    effect.unit = unit_of_size(card);
-    effect.meaning = fmt::format("noise of {} that differs by {}", card.name, label.name);
-    effect.source = source;
+    Correction effect = noise_effect(card, label.name, "differs by", source);
     const auto& ratios = differs.ratio[indication];
     const auto& freedoms = differs.freedom[indication];
     const double least = std::pow(*std::ranges::min_element(ratios), 2);
@@ -98,7 +86,7 @@ public:
                                 u * std::sqrt(square / freedom),
                                 {"reading"},
                                 source + "; of others what these have on average",
-                                HUGE_VAL,
+                                std::numeric_limits<double>::infinity(),
                                 {{label.labels[0], "*"}}});
     }
     std::vector<std::string> sizes;
@@ -180,6 +168,19 @@ public:
   }
 
 private:
+  /// A stated effect whose size is noise, of a reading each.
+  static Correction noise_effect(const VariableCard& card, const std::string& by, const char* how,
+                                 const std::string& source) {
+    Correction out;
+    out.name = fmt::format("noise_of_{}_by_{}", card.name, by);
+    out.indication = card.name;
+    out.si_unit = card.si_unit;
+    out.unit = unit_of_size(card);
+    out.meaning = fmt::format("noise of {} that {} {}", card.name, how, by);
+    out.source = source;
+    return out;
+  }
+
   static std::string source_of(const Finding& f) {
     return fmt::format("scatter by {}, p = {:.2g}", fmt::join(f.depends_on, " and "), f.p_value);
   }

@@ -18,7 +18,8 @@ void of_shares(const JointFit& fit, std::size_t term, const Vector& share, Line&
     if (share[j] != 0) line.made_of.emplace_back(first_column(fit, term) + j, share[j]);
 }
 
-std::size_t of_a_group_not_measured(const JointFit& fit, std::size_t term, const std::vector<Matrix>& shares, Line& line) {
+std::size_t of_a_group_not_measured(const JointFit& fit, std::size_t term, const std::vector<Matrix>& shares,
+                                    Line& line) {
   const Vector& size = fit.terms[term].size;
   std::vector<Vector> measured;
   for (const Matrix& of_effect : shares)

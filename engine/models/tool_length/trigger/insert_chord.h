@@ -87,7 +87,7 @@ template <class V> struct RakeBodyOf {
 };
 using RakeBody = RakeBodyOf<double>;
 
-/// Of two bodies in one beam.
+/// In each lane `a` where the mask holds, else `b`; both in one beam.
 template <class V> RakeBodyOf<V> select(const Mask<V>& mask, const RakeBodyOf<V>& a, RakeBodyOf<V> b) {
   const auto of = [&](V& x, const V& y) { x = num::select(mask, y, x); };
   of(b.centre.x, a.centre.x), of(b.centre.y, a.centre.y), of(b.centre.z, a.centre.z);
