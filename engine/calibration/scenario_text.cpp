@@ -8,6 +8,7 @@
 #include "base/units.h"
 #include "base/version.h"
 #include "quantities/cells.h"
+#include "scenario/quantity.h"
 #include "scenario/set_points.h"
 #include "scenario/write.h"
 
@@ -130,7 +131,7 @@ Node& ScenarioText::entry(const std::string& name, const quantities::Labels& lab
     if (Node* by = find_member(*place, "by")) { // one label per by-table
       Member& label = by->members.front();
       held.emplace_back(label.key, *quantities::label_value(labels, label.key));
-      const Node* const others = find_member(label.value, "*");
+      const Node* const others = find_member(label.value, scenario::any_other);
       const bool own = find_member(label.value, held.back().second);
       const Node as_others = others && !own ? *others : Node{};
       place = &member(label.value, held.back().second);

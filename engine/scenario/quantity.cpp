@@ -50,9 +50,6 @@ std::string shown(double value, const QuantityCard& card) {
   return fmt::format("{:.6g}{}", number, units::suffix(card.unit));
 }
 
-/// In a by-table: every value of the label that has no row of its own.
-constexpr const char* any_other = "*";
-
 class QuantityReader {
 public:
   QuantityReader(const QuantityCard& card, InputQuantity& out, Context& context)

@@ -5,6 +5,9 @@
 
 namespace gumshoe::scenario {
 
+/// The row of a by-table for every value of its label that has no row of its own.
+inline constexpr const char* any_other = "*";
+
 /// Shape of an input quantity, and of one component of its uncertainty.
 Shape quantity_shape();
 Shape component_shape();

@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "base/units.h"
+#include "scenario/quantity.h"
 #include "tracing/findings/findings.h"
 #include "tracing/findings/sizes.h"
 #include "tracing/scenario_out/composition.h"
@@ -87,7 +88,7 @@ public:
                                 {"reading"},
                                 source + "; of others what these have on average",
                                 std::numeric_limits<double>::infinity(),
-                                {{label.labels[0], "*"}}});
+                                {{label.labels[0], scenario::any_other}}});
     }
     std::vector<std::string> sizes;
     for (const auto& [ratio, groups] : told)

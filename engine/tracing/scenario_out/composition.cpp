@@ -10,6 +10,7 @@
 #include "analysis/rounding.h"
 #include "base/units.h"
 #include "quantities/cells.h"
+#include "scenario/quantity.h"
 #include "tracing/criteria.h"
 #include "tracing/scenario_out/composition.h"
 #include "tracing/scenario_out/corrections.h"
@@ -120,7 +121,7 @@ private:
                               {},
                               line.taken.source,
                               static_cast<double>(measured - 1),
-                              {{label.labels[0], "*"}},
+                              {{label.labels[0], scenario::any_other}},
                               line.value + 0.0}); // no -0
   }
 
