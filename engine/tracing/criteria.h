@@ -90,14 +90,24 @@ struct Criteria {
   double same_signature = 0.9995;
   /// A signature that moves the readings by less than this share of `secant_step` per SI unit is rounding.
   double least_signature = 1e-7;
-  /// Readings jump with a size if they move twice as far as by their derivative, and if half a step moves them by more
-  /// than `curved` of that, in a pattern whose cosine with that of the step is above this: else no size shows.
-  double follows = 0.3;
+  /// Readings jump with a size if they move twice as far as by their derivative, and if `less` of a step moves them by
+  /// more than `curved` of that, in a pattern whose cosine with that of the step is above this: else no size shows.
+  /// Half a step may not reach the first jump.
+  double less = 0.75, follows = 0.3;
   int most_halvings = 12; ///< of the size that moves readings by what is left of them, from the one by the derivative
   /// Sizes tried where readings jump: up to so many times that size, because what explains the residuals is of their
   /// size; in so many steps of each sign, or steps and directions of a pair. A step is a fraction of a jump.
   double most_start = 4;
   int steps_of_size = 32, steps_of_pair = 12, start_directions = 32;
+  /// If one of them explains something (`decisive`), more are tried about so many of the best, so many about each: this
+  /// often, first at distances of a step, then at this share of the distance before.
+  Index close_starts = 8, starts_between = 16;
+  int closer_starts = 2;
+  double closer_start = 0.3;
+  /// A size counts so many times the angle, in rad, by which its signature turns from that of its neighbour, up to one:
+  /// t / sqrt(2 pi), by which a tube of this length is more probable than one signature to reach t = 5 (Hotelling
+  /// 1939).
+  double turn_counts = 2;
   std::size_t most_cells = 60;          ///< groups of readings for which a declared quantity is tried apart, by cost
   std::size_t most_parts = 12;          ///< values of a label at which effects are tried apart, by cost
   double dependence_share = 0.1;        ///< share of a signature's variance that a condition must explain to be named

@@ -56,11 +56,11 @@ struct Candidate {
   /// Where readings jump: the sizes of all amplitudes, SI, over which its one column was taken, and from which the
   /// whole model is fitted. Empty: readings do not jump, or it is the derivative.
   std::vector<double> start;
-  Matrix tried; ///< amplitudes x sizes of which that is the best; the p-value counts as often
+  Matrix tried;           ///< amplitudes x sizes from which that was sought
+  double exact_ratio = 0; ///< 2 ln L of these sizes over none, by the exact model
   Form form = Form::fixed;
   double parameter = 0, parameter_u = 0; ///< of its form, and the standard uncertainty
   double searched = 1;                   ///< independent forms of which this is the best; the p-value counts as often
-  double tries() const { return tried.cols() > 0 ? static_cast<double>(tried.cols()) : searched; }
   /// An effect at some of the readings only: of one rod, of one set-up.
   bool in_part() const { return family == Family::effect && rare(); }
   /// Whether it acts on some of the readings only, and is therefore one of many.
@@ -68,8 +68,15 @@ struct Candidate {
   bool physical() const { return family == Family::effect || family == Family::declared || family == Family::stated; }
 };
 
-/// Column of `sizes`, each a set of the candidate's amplitudes, from which the exact model fits the readings best.
-using BestStart = std::function<std::optional<Index>(const Candidate&, const Matrix& sizes)>;
+/// The sizes that explain the readings best where readings jump with them.
+struct Start {
+  Vector sizes;     ///< by amplitude, SI
+  double ratio = 0; ///< 2 ln L over none, by the exact model
+  double tries = 1; ///< as how many independent sizes all that were tried count
+};
+/// Tries sizes, each column a set of the candidate's amplitudes `step` from its neighbours, by the exact model, and
+/// others between the best.
+using BestStart = std::function<std::optional<Start>(const Candidate&, const Matrix& sizes, double step)>;
 
 /// Signatures of all physical candidates at a point, from exact derivatives and, where the model is not linear, also
 /// over finite steps.

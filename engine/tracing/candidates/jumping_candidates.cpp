@@ -90,16 +90,16 @@ bool by_derivative(const Candidate& a) {
 
 constexpr int tested = 4; ///< directions of a pair in which jumps are looked for
 
-/// Whether readings jump, and in jumps that follow the size. @param first  of changes by whole and half steps
+/// Whether readings jump, and in jumps that follow the size. @param first  of changes by whole steps and by less
 bool jumps(const Candidate& a, const Moved& moved, std::size_t first) {
-  double whole = 0, half = 0, follows = -1;
+  double whole = 0, less = 0, follows = -1;
   for (std::size_t d = 0; d < directions(a, tested).size(); ++d, first += 2) {
     if (!moved.valid(first) || !moved.valid(first + 1)) continue;
     whole += moved.by(first).norm();
-    half += moved.by(first + 1).norm();
+    less += moved.by(first + 1).norm();
     follows = std::max(follows, cosine(moved.by(first), moved.by(first + 1)));
   }
-  return half > criteria.curved * whole && follows > criteria.follows;
+  return less > criteria.curved * whole && follows > criteria.follows;
 }
 
 std::string text_of(const Candidate& a, const Sizes& sizes) {
@@ -111,35 +111,47 @@ std::string text_of(const Candidate& a, const Sizes& sizes) {
   return out + units::suffix(a.amplitudes[0].unit);
 }
 
-/// Sizes of both signs, or of a pair in all directions, up to those that move readings several times as far as what is
-/// left of them; by column.
+int steps_of(const Candidate& a) { return a.amplitudes.size() > 1 ? criteria.steps_of_pair : criteria.steps_of_size; }
+double step_of(const Candidate& a, double unit) { return criteria.most_start * unit / steps_of(a); }
+
+/// Sizes of both signs, the most negative first, or of a pair in all directions, up to those that move readings several
+/// times as far as what is left of them; by column.
 Matrix sizes_tried(const Candidate& a, double unit) {
   std::vector<Sizes> sizes;
   const bool pair = a.amplitudes.size() > 1;
-  const int steps = pair ? criteria.steps_of_pair : criteria.steps_of_size;
-  for (int k = 1; k <= steps; ++k)
-    for (const Sizes& d : directions(a, criteria.start_directions))
-      if (const Sizes one = times(d, criteria.most_start * unit * k / steps); allowed(a, one)) sizes.push_back(one);
+  const int steps = steps_of(a);
+  const double step = step_of(a, unit);
+  const auto add = [&](const Sizes& one) {
+    if (allowed(a, one)) sizes.push_back(one);
+  };
+  for (int k = pair ? 1 : -steps; k <= steps; ++k)
+    if (pair)
+      for (const Sizes& d : directions(a, criteria.start_directions)) add(times(d, k * step));
+    else if (k != 0)
+      add({k * step});
   Matrix out(index(a.amplitudes.size()), index(sizes.size()));
   for (Index k = 0; k < out.cols(); ++k)
     for (Index j = 0; j < out.rows(); ++j) out(j, k) = sizes[index(k)][index(j)];
   return out;
 }
 
-/// The best of these sizes, as a candidate that counts as often as sizes were tried.
+/// The best of these sizes, as a candidate that counts as often as different sizes were tried.
 void add_best(const CandidateMaker& make, const Candidate& a, double unit, std::vector<Candidate>& out) {
   const Matrix sizes = sizes_tried(a, unit);
   if (sizes.cols() == 0) return;
-  const std::optional<Index> best = make.choose(a, sizes);
+  const std::optional<Start> best = make.choose(a, sizes, step_of(a, unit));
   if (!best) return;
   Candidate one = a;
-  one.start.assign(sizes.col(*best).begin(), sizes.col(*best).end());
+  const Vector& size = best->sizes;
+  one.start.assign(size.begin(), size.end());
   one.tried = sizes;
+  one.exact_ratio = best->ratio;
+  one.searched = best->tries;
   Moved moved(make);
   moved.add(a, one.start);
   moved.simulate();
-  one.finite = one.start.size() == 1 ? one.start[0] : sizes.col(*best).norm();
-  one.columns = moved.by(0) / sizes.col(*best).norm();
+  one.finite = size.size() == 1 ? size[0] : size.norm();
+  one.columns = moved.by(0) / size.norm();
   one.shape = text_of(a, one.start);
   if (moved.valid(0) && one.columns.norm() > 0) out.push_back(std::move(one));
 }
@@ -195,7 +207,7 @@ std::vector<Jumping> further_than_derivative(const CandidateMaker& make, const s
 
 std::vector<Candidate> jumping_candidates(const CandidateMaker& make, const std::vector<Candidate>& candidates) {
   if (!make.choose) return {};
-  static constexpr std::array<double, 2> parts{1.0, 0.5};
+  static constexpr std::array<double, 2> parts{1.0, criteria.less};
   const std::vector<Jumping> tried = further_than_derivative(make, candidates);
   Moved moved(make);
   std::vector<std::size_t> first{0};

@@ -101,9 +101,10 @@ public:
   /// If readings jump with a term's size, its tangent does not give its uncertainty. Replaces it in the covariance by
   /// that of the likelihood along the size or of the straight line through the jumps, whichever is larger.
   void widen_jumping(JointFit& fit) const;
-  /// Where readings jump with a candidate's size: the best of these sizes (columns) in addition to a fit, by the exact
-  /// model, all else fitted. None if the model has no value there.
-  std::optional<Index> best_start(const JointFit& fit, const Candidate& candidate, const Matrix& sizes) const;
+  /// Where readings jump with a candidate's size: the best of these sizes (columns), and of others between them, in
+  /// addition to a fit, by the exact model, all else fitted. None if the model has no value there.
+  std::optional<Start> best_start(const JointFit& fit, const Candidate& candidate, const Matrix& sizes,
+                                  double step) const;
   /// What the readings say of the declared draws that move the point of the fit, except those that are tied. Settled
   /// unknowns then follow these draws, in the fit's covariance as well.
   DrawsGivenReadings draws_given_readings(JointFit& fit) const;

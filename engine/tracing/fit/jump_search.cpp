@@ -9,6 +9,7 @@
 
 #include "tracing/criteria.h"
 #include "tracing/fit/joint_fit.h"
+#include "tracing/fit/starts.h"
 
 namespace gumshoe::tracing {
 
@@ -61,6 +62,12 @@ public:
     for (Index k = 0; k < out.size(); ++k)
       if (!valid[index(k)]) out[k] = std::numeric_limits<double>::infinity();
     return out;
+  }
+
+  /// What is left under changes of the sizes, such that its squares are those of left(); invalid where there is no
+  /// value.
+  Matrix reduced(const Matrix& changes, std::vector<bool>& valid) const {
+    return model_->reduce(residuals(changes, valid));
   }
 
   /// Standard uncertainties by the straight line through the readings over these changes.
@@ -140,16 +147,28 @@ double jump_reach(const std::vector<Term>& terms, const JointFit* before) {
   return before && before->terms.size() == terms.size() ? 0 : criteria.jump_reach_again;
 }
 
-std::optional<Index> Fitter::best_start(const JointFit& fit, const Candidate& candidate, const Matrix& sizes) const {
+std::optional<Start> Fitter::best_start(const JointFit& fit, const Candidate& candidate, const Matrix& sizes,
+                                        double step) const {
   JointFit with = fit;
   for (Term& t : with.terms) t.candidate.start.clear(); // as they are
   Term own{candidate, Vector::Zero(sizes.rows())};
   own.candidate.start.assign(index(sizes.rows()), 0);
   with.terms.push_back(std::move(own));
   if (!linearise(with)) return std::nullopt;
-  Index at = 0;
-  const double least = JumpingSizes(*this, with).left(sizes).minCoeff(&at);
-  return std::isfinite(least) ? std::optional(at) : std::nullopt;
+  const JumpingSizes jumping(*this, with);
+  std::vector<bool> valid;
+  Starts starts(jumping.reduced(Matrix::Zero(sizes.rows(), 1), valid).col(0), sizes.rows(), jumping.freedom());
+  const auto best_with = [&](const Matrix& more) {
+    const Matrix reduced = jumping.reduced(more, valid);
+    starts.add(more, reduced, valid);
+    return starts.best();
+  };
+  auto best = best_with(sizes);
+  for (int closer = 0; closer < criteria.closer_starts && best && best->ratio > criteria.decisive; ++closer) {
+    best = best_with(starts.between_best(step, closer));
+    step *= criteria.closer_start;
+  }
+  return best;
 }
 
 /// Tries sizes at random about the best so far, from far to near.

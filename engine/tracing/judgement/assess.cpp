@@ -138,9 +138,11 @@ double Null::quantile(double p) const {
 
 Assessment assess(const Scan& scan, const Vector& residuals, int draws, std::uint64_t seed, double alpha,
                   double declared, const ScatterResponse& response, const Repeats* repeats, double freedom,
-                  const std::vector<double>& rarity) {
+                  const std::vector<double>& rarity, const std::vector<double>& exact) {
   Assessment out;
   out.data = scan.run(residuals);
+  for (std::size_t j = 0; j < exact.size(); ++j)
+    out.data.ratio(index(j), 0) = std::max(out.data.ratio(index(j), 0), exact[j]);
   out.noise_shape = scan.noise_shape(residuals);
   const std::size_t k0 = out.data.without_scatter[0], k1 = out.data.covariance_model[0];
   // Two lots: one tells how each statistic is distributed, the other, as new to that as the data are, how small the
@@ -196,7 +198,7 @@ Assessment assess(const Scan& scan, const Vector& residuals, int draws, std::uin
 
 Assessment assess_surely(const Scan& scan, const Vector& residuals, int draws, std::uint64_t seed, double alpha,
                          double declared, const ScatterResponse& response, const Repeats* repeats, double freedom,
-                         const std::vector<double>& rarity) {
+                         const std::vector<double>& rarity, const std::vector<double>& exact) {
   const auto unsure = [&](double p, double n) {
     return p > criteria.unsure_low * alpha && p < criteria.unsure_high * alpha &&
            std::fabs(p - alpha) < criteria.sure * std::sqrt(alpha * (1 - alpha) / n);
@@ -204,7 +206,7 @@ Assessment assess_surely(const Scan& scan, const Vector& residuals, int draws, s
   for (double times = 1;; times *= criteria.more_draws) {
     const double n = times * draws;
     Assessment out =
-        assess(scan, residuals, static_cast<int>(n), seed, alpha, declared, response, repeats, freedom, rarity);
+        assess(scan, residuals, static_cast<int>(n), seed, alpha, declared, response, repeats, freedom, rarity, exact);
     if (times >= criteria.most_draws || !(unsure(out.p_anything, n) || unsure(out.p_signature, n))) return out;
   }
 }

@@ -52,12 +52,14 @@ struct Repeats {
 /// @param repeats   what comes back, of the same rows; null: it is not tested
 /// @param freedom   degrees of freedom of the declared noise
 /// @param rarity    by signature, Null::rarity; empty: 1
+/// @param exact     by signature, a ratio by the exact model that takes the place of a smaller one; empty: none
 Assessment assess(const Scan& scan, const Vector& residuals, int draws, std::uint64_t seed, double alpha,
                   double declared, const ScatterResponse& response = {}, const Repeats* repeats = nullptr,
-                  double freedom = std::numeric_limits<double>::infinity(), const std::vector<double>& rarity = {});
+                  double freedom = std::numeric_limits<double>::infinity(), const std::vector<double>& rarity = {},
+                  const std::vector<double>& exact = {});
 /// The same with more draws as long as a p-value that decides is near alpha (criteria.h).
 Assessment assess_surely(const Scan& scan, const Vector& residuals, int draws, std::uint64_t seed, double alpha,
                          double declared, const ScatterResponse& response, const Repeats* repeats, double freedom,
-                         const std::vector<double>& rarity);
+                         const std::vector<double>& rarity, const std::vector<double>& exact);
 
 } // namespace gumshoe::tracing

@@ -145,9 +145,10 @@ Evidence::Evidence(const TraceContext& c, const JointFit& fit, std::size_t round
     : c_(c), fit_(fit) {
   const double size = std::sqrt(std::max(1e-300, fit.variance)) * fit.design.reference[0];
   const auto known = [&](const Candidate& a) { return dropped.contains(a.name) || is_term(fit, a); };
-  candidates_ =
-      physical_candidates(c.experiment, c.simulator, fit.at, c.observations, criteria.secant_step * size, known,
-                          [&](const Candidate& a, const Matrix& sizes) { return c.fitter.best_start(fit, a, sizes); });
+  candidates_ = physical_candidates(c.experiment, c.simulator, fit.at, c.observations, criteria.secant_step * size,
+                                    known, [&](const Candidate& a, const Matrix& sizes, double size_step) {
+                                      return c.fitter.best_start(fit, a, sizes, size_step);
+                                    });
   for (Candidate& a : shapes(c.observations, wide ? wide_cells(c.observations.readings) : criteria.most_table_cells))
     if (!known(a)) candidates_.push_back(std::move(a));
   add_sought(dropped);
@@ -156,13 +157,15 @@ Evidence::Evidence(const TraceContext& c, const JointFit& fit, std::size_t round
   data_ = scan_->whitened(scan_->plain()).take(fit.residual);
   const double declared = c.fitter.noise_declared() ? 1 / fit.noise : 0;
   const Repeats repeats = repeats_of(c, fit);
-  std::vector<double> rarity;
-  for (const Candidate& a : candidates_)
-    rarity.push_back(a.in_part() || (a.family == Family::shape && a.rare()) ? criteria.rarity_of_part : a.tries());
+  std::vector<double> rarity, exact;
+  for (const Candidate& a : candidates_) {
+    exact.push_back(a.exact_ratio);
+    rarity.push_back(a.in_part() || (a.family == Family::shape && a.rare()) ? criteria.rarity_of_part : a.searched);
+  }
   assessment_ = assess_surely(
       *scan_, data_, c.draws, c.seed + round, c.alpha, declared,
       [&](const CovarianceModel& model, double variance) { return scatter_response(model, variance); }, &repeats,
-      noise_freedom(c.experiment), rarity);
+      noise_freedom(c.experiment), rarity, exact);
 }
 
 void Evidence::add_sought(const std::set<std::string>& dropped) {
@@ -208,7 +211,7 @@ Matrix Evidence::scatter_response(const CovarianceModel& model, double variance)
 double Evidence::score(std::size_t a) const { return assessment_.data.ratio(index(a), 0) - chance(a); }
 
 double Evidence::chance(std::size_t a) const {
-  return 2 * assessment_.null[a].mean + 2 * std::log(candidates_[a].tries());
+  return 2 * assessment_.null[a].mean + 2 * std::log(candidates_[a].searched);
 }
 
 double Evidence::limit(std::size_t a) const { return assessment_.null[a].quantile(assessment_.threshold); }

@@ -18,7 +18,7 @@ using Names = std::set<std::string>;
 Names depends_on(const Candidate& a) { return {a.depends_on.begin(), a.depends_on.end()}; }
 
 /// Twice what chance gives a candidate: of so many sizes, the best of so many forms.
-double chance(const Candidate& a) { return 2 * static_cast<double>(a.columns.cols()) + 2 * std::log(a.tries()); }
+double chance(const Candidate& a) { return 2 * static_cast<double>(a.columns.cols()) + 2 * std::log(a.searched); }
 
 /// A named effect and a shape among the findings, and what may be there in their place.
 class Both {

@@ -1,0 +1,94 @@
+/// Sizes with which a mill's readings jump: the best of those tried and of others between them, and how often they
+/// count.
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+#include <boost/math/distributions/students_t.hpp>
+
+#include "unit/tracing_case.h"
+
+using namespace tracing_case;
+
+namespace {
+
+constexpr int readings = 24;
+constexpr double step = 1.5e-7; // m
+
+/// Four inserts of different heights; a tooth feeds 0.2 um to 2.2 um.
+std::string mill(double u) {
+  std::string rows;
+  for (int i = 0; i < readings; ++i)
+    rows +=
+        fmt::format("{{ start_angle = \"{} deg\", feed = \"{} mm/min\", spindle_speed = \"{} rpm\", time = \"{} s\", "
+                    "values = [\"-990 mm\"] }},\n",
+                    (i * 137) % 360,
+                    (i % 3 == 0   ? 4
+                     : i % 3 == 1 ? 20
+                                  : 40),
+                    (i % 2 == 0 ? 4500 : 8000), 100 * i);
+  return "schema = 1\nmodel = { name = \"tool_length\", method = \"propagation\" }\n"
+         "[conditions]\nstart_height = \"2 mm\"\n"
+         "[quantities]\ntool_length = { estimated = true, value = \"176.6 mm\" }\nlaser_z = \"-1172.015 mm\"\n"
+         "inserts = 4\ninsert_radius = \"5 mm\"\ninsert_thickness = \"3.2 mm\"\n"
+         "wear_2 = \"0.4 um\"\nwear_3 = { value = \"0.1 um\", u = \"0.02 um\" }\nwear_4 = \"0.3 um\"\n"
+         "[indications.spindle_z]\nrows = [\n" +
+         rows +
+         fmt::format("]\ncomponents = [ {{ distribution = \"normal\", u = \"{} m\", per = \"reading\" }} ]\n", u);
+}
+
+/// Sizes of both signs, a step apart.
+gumshoe::tracing::Matrix sizes() {
+  gumshoe::tracing::Matrix out(1, 64);
+  for (Index k = 0; k < 64; ++k) out(0, k) = step * static_cast<double>(k < 32 ? k - 32 : k - 31);
+  return out;
+}
+
+Vector noise(double u, std::uint64_t seed) { return u * gumshoe::tracing::normals(readings, 1, seed, 9).col(0); }
+
+Start best(Case& c) {
+  const JointFit base = c.fitter->fit({}, 1);
+  REQUIRE(base.valid);
+  const auto out = c.fitter->best_start(base, c.term(base, "declared:wear_3").candidate, sizes(), step);
+  REQUIRE(out);
+  return *out;
+}
+
+} // namespace
+
+TEST_CASE("a height between those tried explains readings that jump", "[tracing]") {
+  constexpr double u = 1e-7;
+  Case c(mill(u));
+  for (const double off : {-0.63e-6, -0.5e-6, -0.8e-6}) {
+    Points at = c.simulator->estimates();
+    for (auto& reading : at) reading[c.quantity("wear_3")] += off;
+    c.measure(at, noise(u, 1));
+    const Start start = best(c);
+    CAPTURE(off, start.sizes[0], start.ratio, start.tries);
+    CHECK(std::fabs(start.sizes[0] - off) < step); // readings say no more than which teeth trigger
+    // What is left is the noise: 2 ln L of all squares over those of the noise, but for what chance gives the noise.
+    const JointFit base = c.fitter->fit({}, 1);
+    const double squares = base.residual.squaredNorm() / (u * u), freedom = readings - 1;
+    CHECK(start.ratio > 0.5 * freedom * std::log(squares / freedom));
+  }
+}
+
+TEST_CASE("sizes that are tried count so often that noise passes for one no more often than it may", "[tracing]") {
+  constexpr double u = 1e-6; // no size shows above it
+  Case c(mill(u));
+  constexpr int sets = 60;
+  int passed = 0;
+  double tries = 0;
+  for (int seed = 1; seed <= sets; ++seed) {
+    c.measure(c.simulator->estimates(), noise(u, static_cast<std::uint64_t>(100 + seed)));
+    const Start start = best(c);
+    tries += start.tries / sets;
+    if (start.ratio <= 0) continue;
+    const double freedom = readings - 1, t = std::sqrt((freedom - 1) * std::expm1(start.ratio / freedom));
+    const boost::math::students_t student(freedom - 1);
+    passed += 2 * boost::math::cdf(boost::math::complement(student, t)) * start.tries < 0.05;
+  }
+  CHECK(passed <= 6); // of 0.05 * 60; 7 were each to count once
+  CHECK(tries > 8);   // a tooth of each reading at least changes on the way
+  CHECK(tries <= 64 + 256);
+}
