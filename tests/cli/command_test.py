@@ -96,7 +96,8 @@ class Command(InFolder):
         body = "with open('sizes.txt', 'a') as f: f.write(f'{len(rows)}\\n')\n" + GOOD
         for batch, samples in ((10000, 20000), (100, 2000)):
             (self.folder / "sizes.txt").unlink(missing_ok=True)
-            self.assertEqual(self.run_it(self.scenario(body, batch=batch, samples=samples)).returncode, 0)
+            run = self.run_it(self.scenario(body, batch=batch, samples=samples), "r.h5", "--threads", 2)  # more share a block
+            self.assertEqual(run.returncode, 0, run.stderr)
             sizes = [int(n) for n in (self.folder / "sizes.txt").read_text().split()]
             self.assertLessEqual(max(sizes), batch)
             # two for the check, two for the budget, and the run in as few calls as blocks of 2048 allow
