@@ -6,6 +6,7 @@
 
 #include <boost/math/distributions/students_t.hpp>
 
+#include "tracing/fit/starts.h"
 #include "unit/tracing_case.h"
 
 using namespace tracing_case;
@@ -55,6 +56,43 @@ Start best(Case& c) {
 }
 
 } // namespace
+
+TEST_CASE("a narrow best size is found between those of a coarse grid", "[tracing]") {
+  // Two readings, off by 1 without a size; the second is right only within 0.01 of 0.53, the first within 0.3.
+  const auto left = [](const gumshoe::tracing::Matrix& at) {
+    gumshoe::tracing::Matrix out(2, at.cols());
+    for (Index k = 0; k < at.cols(); ++k) {
+      out(0, k) = std::fabs(at(0, k) - 0.53) < 0.3 ? 0.1 : 1;
+      out(1, k) = std::fabs(at(0, k) - 0.53) < 0.01 ? 0.1 : 1;
+    }
+    return out;
+  };
+  constexpr double grid = 0.1;
+  gumshoe::tracing::Matrix coarse(1, 20);
+  for (Index k = 0; k < 20; ++k) coarse(0, k) = grid * static_cast<double>(k < 10 ? k - 10 : k - 9);
+  gumshoe::tracing::Starts starts(Vector::Ones(2), 1, 10);
+  starts.add(coarse, left(coarse), std::vector<bool>(20, true));
+  CHECK(starts.best()->ratio == Approx(10 * std::log(2 / 1.01))); // none of the grid is right for both
+  const auto between = starts.between_best(grid, 0);
+  starts.add(between, left(between), std::vector<bool>(static_cast<std::size_t>(between.cols()), true));
+  CHECK(std::fabs(starts.best()->sizes[0] - 0.53) < 0.01);
+  CHECK(starts.best()->ratio == Approx(10 * std::log(2 / 0.02)));
+}
+
+TEST_CASE("sizes count as often as their signature turns, and without a value not at all", "[tracing]") {
+  gumshoe::tracing::Matrix at(1, 3), straight(2, 3), turning(2, 3);
+  at << 1, 2, 3;
+  straight << 0.9, 0.8, 0.7, 1, 1, 1; // one signature, three times as large
+  turning << 0.9, 1, 0.9, 1, 0.9, 1;  // one reading, the other, the one
+  const std::vector<bool> valid(3, true);
+  gumshoe::tracing::Starts once(Vector::Ones(2), 1, 10), each(Vector::Ones(2), 1, 10), none(Vector::Ones(2), 1, 10);
+  once.add(at, straight, valid);
+  each.add(at, turning, valid);
+  none.add(at, straight, std::vector<bool>(3, false));
+  CHECK(once.best()->tries == Approx(1).margin(1e-6));
+  CHECK(each.best()->tries == 3);
+  CHECK_FALSE(none.best());
+}
 
 TEST_CASE("a height between those tried explains readings that jump", "[tracing]") {
   constexpr double u = 1e-7;
