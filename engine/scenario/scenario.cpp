@@ -84,6 +84,7 @@ public:
     if (auto stated = top.table("stated_effects")) read_stated(*stated, own);
     if (!out_.trace.free.empty()) check_free(top, own);
     if (!out_.trace.unconfirmed.empty()) check_unconfirmed(top);
+    if (out_.trace.stated) read_jumping(top);
     out_.correlations = read_correlations(top, out_.quantities, context_);
     for (auto& tied : tie_results(out_.quantities, document_, context_)) out_.correlations.push_back(std::move(tied));
     if (auto run = top.table("run")) out_.run = read_run(*run);
@@ -158,6 +159,15 @@ private:
       if (std::ranges::find(effects, name) == effects.end())
         trace.refuse_key("unconfirmed", fmt::format("'{}' is no effect with a size", name), "",
                          did_you_mean(name, effects));
+  }
+
+  void read_jumping(Table& top) {
+    Table trace(*top.find("trace"), "trace", problems_);
+    auto table = trace.table("jumping");
+    if (!table) return;
+    for (const quantities::InputQuantity& q : out_.quantities)
+      if (const auto size = table->width(q.name, q.si_unit)) out_.trace.jumping.emplace_back(q.name, *size);
+    table->refuse_unknown();
   }
 
   const ModelCard* read_model(Table& top) {

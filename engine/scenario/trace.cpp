@@ -29,6 +29,7 @@ public:
     order();
     redone();
     priors();
+    table_.find("jumping"); // of quantities that are not known yet
     table_.refuse_unknown();
     return std::move(out_);
   }
@@ -251,6 +252,9 @@ Options<TraceOptions> trace_options() {
           "unconfirmed", &TraceOptions::unconfirmed, "",
           "effects that held-out readings could neither confirm nor reject; written by gumshoe trace, and left "
           "out by gumshoe compensate"),
+      option::by_hand<TraceOptions>("jumping", shape::map(shape::reference("measure")),
+                                    "sizes found where readings jump, and how large; written by gumshoe trace, so that "
+                                    "tracing these data again seeks them as it did"),
       option::share("alpha", &TraceOptions::alpha, true,
                     "false-alarm rate: probability of any finding if there is nothing to find; each finding after the "
                     "first must pass half of it"),

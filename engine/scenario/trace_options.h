@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "quantities/input_quantity.h"
@@ -56,6 +57,9 @@ struct TraceOptions {
   std::vector<quantities::InputQuantity> priors;
   /// Effects that an earlier trace added and its hold-out blocks could neither confirm nor reject.
   std::vector<std::string> unconfirmed;
+  /// Sizes that an earlier trace found where readings jump, by quantity, and how large: of a pair the length of both,
+  /// of a declared quantity its shift. No derivative leads to better ones.
+  std::vector<std::pair<std::string, double>> jumping;
   double alpha = 0.05; ///< chance that anything is found where nothing is
   int draws = 999;     ///< of the parametric bootstrap
   std::uint64_t seed = 1;

@@ -141,6 +141,21 @@ void judge_by_holdout(const TraceContext& c, Search& found, Trace& out) {
     out.statements.push_back(fmt::format("found after the others and rejected by the hold-out blocks: {}", later));
 }
 
+/// The search without what was rejected. The errors and the noise told are then those of what stands.
+Search what_stands(const TraceContext& c, const Search& found, Trace& out) {
+  if (!out.vetoed) return found;
+  Search left = without_findings(c, found);
+  Trace stands;
+  stands.rms.unit = out.rms.unit;
+  stands.rms.si_unit = out.rms.si_unit;
+  compare(c, left, stands);
+  out.rms = std::move(stands.rms);
+  out.rows = std::move(stands.rows);
+  out.outliers = std::move(stands.outliers);
+  out.noise.outliers = stands.noise.outliers;
+  return left;
+}
+
 /// Whether more than noise is left where readings jump with a size. Scatter of single readings is what is left, too.
 bool jumps_not_crossed(const TraceContext& c, const Search& found, bool vetoed) {
   if (found.jumping.empty() || vetoed || found.last.p_anything > c.alpha_given(!found.findings.empty())) return false;
@@ -239,15 +254,16 @@ Trace traced(const scenario::Scenario& scenario, const Settings& settings, bool&
     out.statements.push_back(fmt::format(
         "readings jump with some sizes, of which the search may not have found the best; nearest to the readings: {}",
         fmt::join(found.jumping, ", ")));
+  const Search stands = what_stands(c, found, out);
   describe_repeats(c, found, out);
   describe_alignments(c, found, out);
-  describe_noise(c, found, out);
+  describe_noise(c, stands, out);
   collect(c, found, out);
   if (!std::isfinite(out.p_anything)) {
     out.statements.push_back("the p-value of the search is not a finite number; nothing can be judged");
     out.outcome = Outcome::insufficient_data;
   }
-  compose(c, out.vetoed ? without_findings(found) : found, out);
+  compose(c, stands, out);
   summarise(out);
   return out;
 }

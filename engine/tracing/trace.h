@@ -209,6 +209,12 @@ struct Addition {
   double value = 0;               ///< about which it varies
 };
 
+/// A size found where readings jump, and how large, as [trace] jumping states it.
+struct JumpingSize {
+  std::string quantity, unit, si_unit;
+  double size = 0;
+};
+
 enum class Outcome { found, nothing_found, insufficient_data };
 
 struct Trace {
@@ -238,6 +244,7 @@ struct Trace {
   scenario::Scenario extended;
   calibration::Estimate estimate;
   std::vector<Taken> taken;
+  std::vector<JumpingSize> jumping;
   std::vector<KnownDraw> known;    ///< declared draws of which the readings say something
   std::vector<double> correlation; ///< of the estimate's parameters, then of `known`, row-major; empty without these
   std::vector<Addition> additions;

@@ -89,6 +89,7 @@ alpha = 0.01
 draws = 99
 free = "laser_z"
 unconfirmed = ["film"]
+jumping = { rod_length = "2 um" }
 priors = { rod_length = { value = "330 mm", u = "1 um" } }
 [stated_effects.bend]
 table = { feed = ["1 mm/min", "9 mm/min"], loading = [0, 1], margin = 0.05 }

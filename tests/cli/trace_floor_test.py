@@ -99,6 +99,18 @@ class Floor(InFolder):
                     kinds = [f["kind"] for f in v["findings"] if f["kind"] != "scatter"]
                     self.assertIn(kinds, ([], ["not_in_catalogue"]), missing)
 
+    def test_scatter_outlives_a_veto_beside_it(self):
+        """The declared model shows it, too. Its size is that of 18 clampings: within four of its standard errors of 5 um. What
+        noise there is, is that of what stands, not of what was rejected."""
+        repeats.write_turning_slope(self.folder)
+        v = json.loads(gumshoe("trace", "s.toml", "--format", "json", "--threads", "1", cwd=self.folder).stdout)
+        self.assertTrue(v["vetoed"])
+        self.assertEqual(sorted(f["kind"] for f in v["findings"]), ["not_in_catalogue", "scatter"])
+        scatter = next(f for f in v["findings"] if f["kind"] == "scatter")
+        self.assertEqual(scatter["members"], ["scatter:day,clamp"])
+        self.assertAlmostEqual(scatter["quantities"][0]["value"], 5, delta=4 * 5 / 36**0.5)
+        self.assertGreater(v["noise"]["scale"], 1.8)  # a slope over 500 mm of +-2.5 um is left, of 1.7 um
+
 
 if __name__ == "__main__":
     unittest.main()

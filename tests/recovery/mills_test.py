@@ -8,6 +8,7 @@ import pathlib
 import subprocess
 import sys
 import tempfile
+import tomllib
 import unittest
 
 GUMSHOE = str(pathlib.Path(sys.argv.pop(1)).resolve()) if len(sys.argv) > 1 and not sys.argv[1].startswith("-") else ""
@@ -90,18 +91,25 @@ class Jumps(unittest.TestCase):
 class Rounds(unittest.TestCase):
     def test_a_round_starts_where_the_one_before_ended(self):
         """24 readings, 18 to train on: a size that came back as a reading of itself would take 4 % of the error, and a declared
-        insert that started from what was declared would leave a run-out on another tooth."""
-        for what, seed in ((("declared:wear_3", 15.0), 943), (("tool_runout", 15.0), 946)):
+        insert that started from what was declared would leave a run-out on another tooth. A size keeps its uncertainty: along
+        its tangent the readings know 0.9 mrad of a run-out of 0.1 mrad."""
+        for what, seed in ((("declared:wear_3", 15.0), 943), (("tool_runout", 15.0), 946), (("tool_runout", 15.0), 3705)):
             with tempfile.TemporaryDirectory() as place:
                 folder = pathlib.Path(place)
                 d, y, truth = sets.make(GUMSHOE, mills, "several", (what,), 0, seed, clampings=1, noise=0.1)
                 scenario = sets.write(folder, folder / "truth", "set", d, y, truth, mills)
                 subprocess.run([GUMSHOE, "trace", scenario, "--loop", "2", "--draws", "199", "--out", folder / "found.h5",
                                 "--json", folder / "verdict.json"], check=True, capture_output=True)
-                first, second = json.loads((folder / "verdict.json").read_text())["rounds"]
+                verdict = json.loads((folder / "verdict.json").read_text())
+                first, second = verdict["rounds"]
                 self.assertEqual(first["added"], [what[0]])
                 for before, after in (("before", "after"), ("holdout_before", "holdout_after")):
-                    self.assertLess(abs(second[before] / first[after] - 1), 1e-3, (what, before))
+                    self.assertLess(abs(second[before] / first[after] - 1), 0.02, (what, before))
+                states = tomllib.loads((folder / f"{scenario.stem}.traced.toml").read_text())
+                sizes = states.get("effects", {}).get(what[0], {}) | states["quantities"]
+                for q in verdict["findings"][0]["quantities"]:
+                    written = sizes[q["name"]]["u"]
+                    self.assertLess(abs(float(written.split()[0]) / q["u"] - 1), 0.1, (what, q, written))
 
 
 class Oracle(unittest.TestCase):

@@ -62,3 +62,38 @@ def write_unrecorded(folder, seed=1, declared=True, draws=99, sides=1):
     labels = '{ cycle = "cycle", run = "run"' + (', side = "side"' if sides > 1 else "") + " }"
     (folder / "r.csv").write_text("\n".join(lines) + "\n")
     (folder / "s.toml").write_text(axis.scenario(declared, draws).replace('{ cycle = "cycle" }', labels))
+
+
+def write_turning_slope(folder, seed=1):
+    """Eight days of three clampings, which scatter by 5 um, and a slope that the last two days have with the other sign."""
+    chance = random.Random(f"turning {seed}")
+    lines = ["day,clamp,x,d"]
+    for day in range(1, 9):
+        for clamp in "abc":
+            offset = chance.gauss(0, 5)
+            for x in range(0, 600, 100):
+                lines.append(f"{day},{clamp},{x},{offset + (0.01 if day < 7 else -0.01) * x + chance.gauss(0, 1)}")
+    (folder / "r.csv").write_text("\n".join(lines) + "\n")
+    (folder / "s.toml").write_text("""schema = 1
+[model]
+name = "expression"
+[model.indications]
+d = "offset + 0 * x"
+[conditions]
+x = "0 mm"
+[quantities]
+offset = { estimated = true, value = "0 um" }
+[indications.d]
+components = [ { u = "1 um", per = "reading" } ]
+[indications.d.readings]
+file = "r.csv"
+column = "d"
+unit = "um"
+labels = { day = "day", clamp = "clamp" }
+conditions = { x = { column = "x", unit = "mm" } }
+[trace]
+blocks = "day"
+final = ["7", "8"]
+redone = [["day", "clamp"]]
+draws = 99
+""")

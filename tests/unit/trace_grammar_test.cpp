@@ -71,6 +71,10 @@ TEST_CASE("what [trace] says", "[scenario][trace]") {
   REQUIRE(t.columns[0].values.size() == 4);
   CHECK(t.columns[0].values[0] == Approx(293.65).epsilon(1e-14));
   CHECK(t.columns[0].values[3] == Approx(292.15).epsilon(1e-14));
+  const auto jumping = read("[trace]\njumping = { rod_radius = \"2 um\" }\n").trace.jumping;
+  REQUIRE(jumping.size() == 1);
+  CHECK(jumping[0].first == "rod_radius");
+  CHECK(jumping[0].second == Approx(2e-6));
   CHECK(read("[trace]\norder = \"temperature\"\n" + columns).trace.order == t.columns[0].values);
 }
 
@@ -104,6 +108,10 @@ TEST_CASE("mistakes in [trace] are located", "[scenario][trace][errors]") {
       {"alpha = nan", "s.toml:6:9: error: trace.alpha: the number is not finite"},
       {"draws = 98", "s.toml:6:9: error: trace.draws: 98 must lie between 99 and 1000000"},
       {"block = \"setup\"", "s.toml:6:1: error: trace: unknown key 'block'. Did you mean 'blocks'?"},
+      {"jumping = { rod_radios = \"2 um\" }",
+       "s.toml:6:13: error: trace.jumping: unknown key 'rod_radios'. Did you mean 'rod_radius'?"},
+      {"jumping = { rod_radius = \"-2 um\" }", "s.toml:6:26: error: trace.jumping.rod_radius: must be above 0"},
+      {"jumping = { rod_radius = \"2 mrad\" }", "s.toml:6:26: error: trace.jumping.rod_radius"},
       {"[trace.columns]\nt = { column = \"Tt\" }", "has no column 'Tt'. Did you mean"},
       {"[trace.columns]\nt = { unit = \"s\" }", "s.toml:7:5: error: trace.columns.t.column is missing"},
       {"[trace.columns]\nt = { column = \"T\", unit = \"degX\" }", "'degX' is not a unit"},

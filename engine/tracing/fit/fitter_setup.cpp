@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "effects/effect.h"
 #include "quantities/cells.h"
 #include "tracing/criteria.h"
 #include "tracing/fit/joint_fit.h"
@@ -62,15 +63,36 @@ Index Fitter::needed(std::size_t quantity) const {
   return std::ranges::lower_bound(needed_, quantity) - needed_.begin();
 }
 
+namespace {
+
+/// Whether this is the name of an effect's quantity that is no shape.
+bool is_size(const std::string& name) {
+  const std::size_t dot = name.find('.');
+  const EffectCard* effect = dot == std::string::npos ? nullptr : effects::find(name.substr(0, dot));
+  return effect && std::ranges::any_of(effect->quantities, [&](const QuantityCard& q) {
+           return q.name == name.substr(dot + 1) && q.role != Role::shape;
+         });
+}
+
+} // namespace
+
 void Fitter::find_unknowns() {
   const auto& s = experiment_.scenario();
+  const auto jump = [&](const std::string& name) {
+    const auto found = std::ranges::find(s.trace.jumping, name, &std::pair<std::string, double>::first);
+    return found == s.trace.jumping.end() ? 0 : found->second;
+  };
   for (std::size_t q = 0; q < s.quantities.size(); ++q) {
     if (!s.quantities[q].estimated) continue;
     for (std::size_t i = 0; i < s.quantities[q].entries.size(); ++i) {
       const auto& entry = s.quantities[q].entries[i];
       if (!entry.components.empty()) continue; // has a prior: a declared draw
-      FreeUnknown u{
-          s.quantities[q].name + (entry.labels.empty() ? "" : "[" + quantities::text_of(entry.labels) + "]"), q, i, {}};
+      FreeUnknown u{s.quantities[q].name + (entry.labels.empty() ? "" : "[" + quantities::text_of(entry.labels) + "]"),
+                    q,
+                    i,
+                    {},
+                    is_size(s.quantities[q].name),
+                    entry.labels.empty() ? jump(s.quantities[q].name) : 0};
       for (const auto& reading : s.readings) u.holds.push_back(quantities::holds_for(entry.labels, reading.labels));
       if (std::ranges::find(u.holds, true) != u.holds.end()) unknowns_.push_back(std::move(u));
     }

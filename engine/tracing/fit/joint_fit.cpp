@@ -181,7 +181,9 @@ JointFit Fitter::fit(const std::vector<Term>& terms, double noise, const JointFi
   converge(fit, noise);
   for (int lesser = 0; lesser < criteria.most_optima && fit.valid && explore(fit); ++lesser) converge(fit, noise);
   if (!fit.valid) return fit;
-  cross_jumps(fit, noise, jump_reach(terms, start));
+  double reach = jump_reach(terms, start);
+  for (int lesser = 0; lesser < criteria.most_optima && cross_jumps(fit, noise, reach); ++lesser)
+    reach = criteria.jump_reach_again;
   return fit;
 }
 
@@ -227,12 +229,14 @@ void Fitter::converge(JointFit& fit, double noise) const {
     const auto p = index(scan.used().size());
     Vector change = Vector::Zero(fit.design.fixed.cols());
     fit.covariance = Matrix::Constant(change.size(), change.size(), nan);
-    double largest = 0;
+    double largest = 0, largest_smooth = 0; // the second without sizes whose tangent leads nowhere
     for (Index i = 0; i < p; ++i) {
       const Index column = scan.used()[index(i)];
       change[column] = x[i];
       const double u = std::sqrt(std::max(0.0, fit.variance * covariance(i, i)));
       if (u > 0) largest = std::max(largest, std::fabs(x[i]) / u);
+      const bool jumps = column < index(unknowns_.size()) && unknowns_[index(column)].jump > 0;
+      if (u > 0 && !jumps) largest_smooth = std::max(largest_smooth, std::fabs(x[i]) / u);
       for (Index j = 0; j < p; ++j) fit.covariance(column, scan.used()[index(j)]) = fit.variance * covariance(i, j);
     }
     Vector drawn = Vector::Zero(fit.drawn.size());
@@ -241,12 +245,14 @@ void Fitter::converge(JointFit& fit, double noise) const {
       if (!draws_[v].fitted) continue;
       const Index i = p + index(j);
       drawn[index(v)] = x[i] - fit.drawn[index(v)];
-      largest = std::max(largest, std::fabs(drawn[index(v)]) / std::sqrt(fit.variance * covariance(i, i)));
+      const double by = std::fabs(drawn[index(v)]) / std::sqrt(fit.variance * covariance(i, i));
+      largest = std::max(largest, by);
+      largest_smooth = std::max(largest_smooth, by);
     }
     fit.converged = largest < criteria.converged;
     // The noise's scale once the fit stands, as far as the readings know it.
-    if (fit.converged || fit.iterations == criteria.most_iterations) {
-      if (noise > 0) break;
+    const auto rescaled = [&] {
+      if (noise > 0) return false;
       const auto freedom = static_cast<double>(scan.degrees_of_freedom());
       const double prior = noise_declared_ ? criteria.noise_prior : 0;
       double factor = (freedom * fit.variance + prior / (fit.noise * fit.noise)) / (freedom + prior);
@@ -261,12 +267,15 @@ void Fitter::converge(JointFit& fit, double noise) const {
         }
         if (squares > 0 && left >= 1) factor = std::min(factor, squares / left);
       }
-      if (std::fabs(std::log(factor)) < criteria.noise_settled || ++scales > criteria.most_scales) break;
+      if (std::fabs(std::log(factor)) < criteria.noise_settled || ++scales > criteria.most_scales) return false;
       fit.noise *= std::sqrt(factor);
       fit.converged = false;
       fit.iterations = 0;
-      linearise(fit);
-      continue;
+      return linearise(fit);
+    };
+    if (fit.converged || fit.iterations == criteria.most_iterations) {
+      if (rescaled()) continue;
+      break;
     }
     const double before = objective(fit, fit.covariance_model, scan);
     bool better = false;
@@ -284,7 +293,8 @@ void Fitter::converge(JointFit& fit, double noise) const {
       draws_move = false;
       --fit.iterations; // the same point is tried without
     } else {            // at the floor of what steps can do
-      fit.converged = largest < criteria.stalled;
+      if (rescaled()) continue;
+      fit.converged = largest_smooth < criteria.stalled;
       break;
     }
   }

@@ -45,6 +45,9 @@ Index first_column(const JointFit& fit, std::size_t term);
 /// Standard uncertainty of each size of a term, SI.
 Vector uncertainties(const JointFit& fit, std::size_t term);
 
+/// How large a term is with which readings jump, or was when it was started: the length of all its sizes, SI.
+double found_size(const Term& term);
+
 /// Share of the sizes of terms with which readings jump over which better ones are sought, given the fit before.
 double jump_reach(const std::vector<Term>& terms, const JointFit* before);
 
@@ -53,6 +56,8 @@ struct FreeUnknown {
   std::string name;
   std::size_t quantity = 0, entry = 0;
   std::vector<bool> holds; ///< by reading
+  bool is_size = false;    ///< size of an effect
+  double jump = 0;         ///< where readings jump with it, and an earlier trace found it: how large, SI
 };
 
 /// What the readings say of declared draws, in standard uncertainties as declared.
@@ -130,8 +135,18 @@ private:
     bool local = false;  ///< acts on one reading only
     bool fitted = false; ///< moves the point of linearisation, as priors of the model's quantities do
   };
+  /// A fitted size: of a term, or found by an earlier trace.
+  struct Size {
+    Index column = 0; ///< among the fixed ones
+    std::size_t quantity = 0;
+    std::vector<bool> holds; ///< by reading
+    double at = 0, low = -1e300, high = 1e300;
+  };
+  Size size_of(const JointFit& fit, std::size_t term, Index amplitude) const;
+  Size size_of(const JointFit& fit, std::size_t unknown) const;
   struct Profile;
   class JumpingSizes;
+  bool any_jumps(const JointFit& fit) const;
   /// True if a profile is needed: readings jump with the size, or do not follow its tangent.
   enum class Worth { jumps, tangent_wrong };
 
@@ -200,8 +215,9 @@ private:
   bool cross_jumps(JointFit& fit, double noise, double reach) const;
   void widen_across_jumps(JointFit& fit) const;
   /// @param unit  scale of the uncertainty of the size
-  std::optional<Profile> profile(const JointFit& fit, std::size_t term, Index amplitude, double unit,
-                                 Worth worth) const;
+  std::optional<Profile> profile(const JointFit& fit, const Size& size, double unit, Worth worth) const;
+  /// @param u  as it is, by the tangent. Returns 0 where that serves.
+  double widened(const JointFit& fit, const Size& size, double u) const;
 
   const propagation::Experiment& experiment_;
   const Simulator& simulator_;

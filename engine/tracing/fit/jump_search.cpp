@@ -13,22 +13,30 @@
 
 namespace gumshoe::tracing {
 
-/// Sizes of a fit's jumping terms, and the likelihood over them by the exact model, all else fitted.
+double found_size(const Term& term) {
+  const auto& start = term.candidate.start;
+  return std::max(Eigen::Map<const Vector>(start.data(), index(start.size())).norm(), term.size.norm());
+}
+
+/// Sizes of a fit with which readings jump, and the likelihood over them by the exact model, all else fitted.
 class Fitter::JumpingSizes {
 public:
-  JumpingSizes(const Fitter& fitter, const JointFit& fit) : fitter_(fitter), fit_(fit), rest_(fit.design) {
+  /// @param earlier  whether those that an earlier trace found are among them
+  JumpingSizes(const Fitter& fitter, const JointFit& fit, bool earlier = true)
+      : fitter_(fitter), fit_(fit), rest_(fit.design) {
     std::vector<Index> others;
+    const auto add = [&](Size size, double found) {
+      own_.push_back(size.column);
+      sizes_.push_back(std::move(size));
+      scale_.push_back(0.5 * found);
+    };
+    for (std::size_t u = 0; earlier && u < fitter.unknowns_.size(); ++u)
+      if (const double jump = fitter.unknowns_[u].jump; jump > 0) add(fitter.size_of(fit, u), jump);
     for (std::size_t t = 0; t < fit.terms.size(); ++t) {
       const Term& term = fit.terms[t];
       if (term.candidate.start.empty()) continue;
-      const Vector start = Eigen::Map<const Vector>(term.candidate.start.data(), index(term.candidate.start.size()));
       jumping_.push_back({&term, index(own_.size())});
-      for (Index j = 0; j < term.size.size(); ++j) {
-        own_.push_back(first_column(fit, t) + j);
-        amplitudes_.push_back(&term.candidate.amplitudes[index(j)]);
-        at_.push_back(term.size[j]);
-        scale_.push_back(0.5 * std::max(start.norm(), term.size.norm()));
-      }
+      for (Index j = 0; j < term.size.size(); ++j) add(fitter.size_of(fit, t, j), found_size(term));
     }
     for (Index j = 0; j < fit.design.fixed.cols(); ++j)
       if (std::ranges::find(own_, j) == own_.end()) others.push_back(j);
@@ -97,9 +105,9 @@ private:
       Variation v;
       within.push_back(true);
       for (std::size_t i = 0; i < own_.size(); ++i) {
-        const double by = changes(index(i), k), to = at_[i] + by;
-        within.back() = within.back() && to >= amplitudes_[i]->low && to <= amplitudes_[i]->high;
-        v.changes.push_back({amplitudes_[i]->quantity, by, false});
+        const double by = changes(index(i), k), to = sizes_[i].at + by;
+        within.back() = within.back() && to >= sizes_[i].low && to <= sizes_[i].high;
+        v.changes.push_back({sizes_[i].quantity, by, false});
       }
       if (!within.back()) v.changes.clear();
       variations.push_back(std::move(v));
@@ -120,18 +128,14 @@ private:
   Design rest_; ///< without the columns of these sizes
   std::optional<Whitened> plain_, model_;
   std::vector<Index> own_, columns_;
-  std::vector<const Amplitude*> amplitudes_;
-  std::vector<double> at_, scale_;
+  std::vector<Size> sizes_;
+  std::vector<double> scale_;
   std::vector<std::pair<const Term*, Index>> jumping_; ///< terms, and the place of their first size
 };
 
 namespace {
 
 bool starts(const Term& t) { return !t.candidate.start.empty() && std::ranges::equal(t.candidate.start, t.size); }
-
-bool any_jumps(const JointFit& fit) {
-  return std::ranges::any_of(fit.terms, [](const Term& t) { return !t.candidate.start.empty(); });
-}
 
 /// Normal numbers about zero, every other column three times as far.
 Matrix around(Index rows, int batch) {
@@ -141,6 +145,11 @@ Matrix around(Index rows, int batch) {
 }
 
 } // namespace
+
+bool Fitter::any_jumps(const JointFit& fit) const {
+  return std::ranges::any_of(unknowns_, [](const FreeUnknown& u) { return u.jump > 0; }) ||
+         std::ranges::any_of(fit.terms, [](const Term& t) { return !t.candidate.start.empty(); });
+}
 
 double jump_reach(const std::vector<Term>& terms, const JointFit* before) {
   if (std::ranges::any_of(terms, starts)) return criteria.jump_reach;
@@ -155,7 +164,7 @@ std::optional<Start> Fitter::best_start(const JointFit& fit, const Candidate& ca
   own.candidate.start.assign(index(sizes.rows()), 0);
   with.terms.push_back(std::move(own));
   if (!linearise(with)) return std::nullopt;
-  const JumpingSizes jumping(*this, with);
+  const JumpingSizes jumping(*this, with, false);
   std::vector<bool> valid;
   Starts starts(jumping.reduced(Matrix::Zero(sizes.rows(), 1), valid).col(0), sizes.rows(), jumping.freedom());
   const auto best_with = [&](const Matrix& more) {

@@ -42,28 +42,39 @@ struct Fitter::Profile {
   }
 };
 
-std::optional<Fitter::Profile> Fitter::profile(const JointFit& fit, std::size_t term, Index amplitude, double unit,
-                                               Worth worth) const {
+Fitter::Size Fitter::size_of(const JointFit& fit, std::size_t term, Index amplitude) const {
   const Term& t = fit.terms[term];
   const Amplitude& a = t.candidate.amplitudes[index(amplitude)];
+  Size out{first_column(fit, term) + amplitude, a.quantity, {}, t.size[amplitude], a.low, a.high};
+  for (const auto& reading : experiment_.scenario().readings)
+    out.holds.push_back(quantities::holds_for(a.labels, reading.labels));
+  return out;
+}
+
+Fitter::Size Fitter::size_of(const JointFit& fit, std::size_t unknown) const {
+  const FreeUnknown& u = unknowns_[unknown];
+  const auto first = std::ranges::find(u.holds, true) - u.holds.begin();
+  return {index(unknown), u.quantity, u.holds, fit.at[static_cast<std::size_t>(first)][u.quantity]};
+}
+
+std::optional<Fitter::Profile> Fitter::profile(const JointFit& fit, const Size& size, double unit, Worth worth) const {
   // The tool itself is solved anew for every size: there no more than Gauss-Newton.
-  if (a.quantity == Amplitude::npos || a.is_shape || experiment_.layout().model.contains(a.quantity) || !(unit > 0))
-    return std::nullopt;
+  if (!experiment_.layout().effects.contains(size.quantity) || !(unit > 0)) return std::nullopt;
   Profile out;
   Matrix f;
   const auto try_each = [&](double by) {
     std::vector<Variation> variations;
     out.steps.clear();
     for (double step = -criteria.profile_reach; step <= criteria.profile_reach; step += by)
-      if (const double to = t.size[amplitude] + step * unit; to >= a.low && to <= a.high) {
+      if (const double to = size.at + step * unit; to >= size.low && to <= size.high) {
         out.steps.push_back(step * unit);
-        variations.push_back({{{a.quantity, step * unit, false}}});
+        variations.push_back({{{size.quantity, step * unit, false}}});
       }
     std::vector<bool> valid;
     simulator_.vary(fit.at, variations, f, valid);
     // An effect of one part moves none of the other readings.
     for (std::size_t r = 0; r < observations_.readings; ++r)
-      if (!quantities::holds_for(a.labels, experiment_.scenario().readings[r].labels))
+      if (!size.holds[r])
         f.middleRows(index(r * observations_.indications), index(observations_.indications)).setZero();
     return out.steps.size() > 3 && std::ranges::find(valid, false) == valid.end();
   };
@@ -72,7 +83,7 @@ std::optional<Fitter::Profile> Fitter::profile(const JointFit& fit, std::size_t 
     const Vector centred = x.array() - x.mean();
     return in_sequence(observations_, f * centred / centred.squaredNorm());
   };
-  const Index own = first_column(fit, term) + amplitude;
+  const Index own = size.column;
   if (!try_each(criteria.profile_coarse)) return std::nullopt;
   const Matrix line = line_through();
   const bool tangent_serves = (line - fit.design.fixed.col(own)).norm() < criteria.tangent_serves * line.norm();
@@ -107,12 +118,13 @@ bool Fitter::explore(JointFit& fit) const {
   const std::size_t term = fit.terms.size() - 1;
   if (!fit.terms[term].candidate.start.empty()) return false;
   for (Index i = 0; i < fit.terms[term].size.size(); ++i) {
+    if (fit.terms[term].candidate.amplitudes[index(i)].is_shape) continue;
     const Index own = first_column(fit, term) + i;
     std::optional<Profile> p;
     Index best = 0;
     double unit = std::sqrt(fit.covariance(own, own));
     for (int tries = 0; tries < criteria.most_reaches; ++tries) {
-      auto other = profile(fit, term, i, unit, Worth::jumps);
+      auto other = profile(fit, size_of(fit, term, i), unit, Worth::jumps);
       if (!other) break;
       if (other->left.size() > 0) {
         p = std::move(other);
@@ -138,29 +150,37 @@ bool Fitter::explore(JointFit& fit) const {
   return false;
 }
 
+double Fitter::widened(const JointFit& fit, const Size& size, double u) const {
+  // A pattern of jumps that fits pins the size, were all else of the model exact: the line does not rely on that.
+  double unit = u, out = 0;
+  for (int tries = 0; tries < criteria.most_reaches; ++tries) {
+    const auto p = profile(fit, size, unit, Worth::tangent_wrong);
+    if (!p) break;
+    out = std::max(p->u, p->spread());
+    if (p->u > 2 * unit || p->u < 0.5 * unit)
+      unit = p->u; // the tangent's was of another size
+    else if (p->spread() > 0.4 * criteria.profile_reach * unit)
+      unit *= 2; // the likelihood reaches beyond
+    else
+      break;
+  }
+  return out;
+}
+
 void Fitter::widen_jumping(JointFit& fit) const {
   widen_across_jumps(fit);
+  std::vector<Size> sizes;
+  for (std::size_t u = 0; u < unknowns_.size(); ++u)
+    if (unknowns_[u].is_size && unknowns_[u].jump == 0) sizes.push_back(size_of(fit, u));
   for (std::size_t term = 0; term < fit.terms.size(); ++term)
-    for (Index i = 0; fit.terms[term].candidate.start.empty() && i < fit.terms[term].size.size(); ++i) {
-      const Index own = first_column(fit, term) + i;
-      const double u = std::sqrt(fit.covariance(own, own));
-      // A pattern of jumps that fits pins the size, were all else of the model exact: the line does not rely on that.
-      double unit = u, widened = 0;
-      for (int tries = 0; tries < criteria.most_reaches; ++tries) {
-        const auto p = profile(fit, term, i, unit, Worth::tangent_wrong);
-        if (!p) break;
-        widened = std::max(p->u, p->spread());
-        if (p->u > 2 * unit || p->u < 0.5 * unit)
-          unit = p->u; // the tangent's was of another size
-        else if (p->spread() > 0.4 * criteria.profile_reach * unit)
-          unit *= 2; // the likelihood reaches beyond
-        else
-          break;
-      }
-      if (!(widened > 0)) continue;
-      fit.covariance.row(own) *= widened / u;
-      fit.covariance.col(own) *= widened / u;
-    }
+    for (Index i = 0; fit.terms[term].candidate.start.empty() && i < fit.terms[term].size.size(); ++i)
+      if (!fit.terms[term].candidate.amplitudes[index(i)].is_shape) sizes.push_back(size_of(fit, term, i));
+  for (const Size& size : sizes) {
+    const double u = std::sqrt(fit.covariance(size.column, size.column)), wide = widened(fit, size, u);
+    if (!(wide > 0)) continue;
+    fit.covariance.row(size.column) *= wide / u;
+    fit.covariance.col(size.column) *= wide / u;
+  }
 }
 
 } // namespace gumshoe::tracing

@@ -38,7 +38,7 @@ struct Search {
 };
 
 /// What remains of a search whose findings were dropped: the declared model, as fitted.
-Search without_findings(Search search);
+Search without_findings(const TraceContext& context, Search search);
 
 /// Fits the declared model, then adds terms until nothing more is found.
 Search search(const TraceContext& context);

@@ -11,9 +11,11 @@
 
 namespace gumshoe::tracing {
 
-Search without_findings(Search search) {
+Search without_findings(const TraceContext& c, Search search) {
   search.found = search.base;
+  c.fitter.widen_jumping(search.found);
   search.findings.clear();
+  search.last = search.first;
   return search;
 }
 

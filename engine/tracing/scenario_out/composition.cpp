@@ -206,6 +206,7 @@ private:
                           {false, {}, source + "; held, because a normal distribution would reach beyond zero", true}});
         continue;
       }
+      if (!one.candidate.start.empty()) out_.jumping.push_back({a.scenario_name, a.unit, a.si_unit, found_size(one)});
       if (f && f->spread > 0 && !a.is_shape) widen(*f, t, index(j), column);
       if (a.quantity == Amplitude::npos)
         lines_.push_back({unknown(stated(a), 0), one.size[index(j)], {{column, 1}}, {false, {}, source}});

@@ -95,6 +95,7 @@ public:
     for (const KnownDraw& k : t_.known) keep_prior(k.quantity);
     for (const KnownDraw& k : t_.known) known(k);
     finish_released();
+    finish_jumping();
     tie();
     for (const Addition& a : t_.additions) add(a);
     return text_.text(origin_);
@@ -271,6 +272,13 @@ private:
           {"value", 0, 0, measure_node(p.value, p.unknown.unit, p.unknown.si_unit, false)},
           {"estimated", 0, 0, std::move(estimated)}};
     }
+  }
+
+  /// No derivative leads to the best of these: tracing these data again seeks them as this trace did.
+  void finish_jumping() {
+    for (const JumpingSize& j : t_.jumping)
+      member(member(member(text_.document(), "trace"), "jumping"), j.quantity) =
+          measure_node(j.size, j.unit, j.si_unit, true);
   }
 
   bool released_earlier(const std::string& name) const {
