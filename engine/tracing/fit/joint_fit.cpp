@@ -181,9 +181,7 @@ JointFit Fitter::fit(const std::vector<Term>& terms, double noise, const JointFi
   converge(fit, noise);
   for (int lesser = 0; lesser < criteria.most_optima && fit.valid && explore(fit); ++lesser) converge(fit, noise);
   if (!fit.valid) return fit;
-  double reach = jump_reach(terms, start);
-  for (int lesser = 0; lesser < criteria.most_optima && cross_jumps(fit, noise, reach); ++lesser)
-    reach = criteria.jump_reach_again;
+  cross_jumps(fit, noise, jump_reach(terms, start));
   return fit;
 }
 

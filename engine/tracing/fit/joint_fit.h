@@ -103,6 +103,8 @@ public:
   /// Fits unknowns to which only readings outside the fit are sensitive, such as the offset of a held-out block, with
   /// all others as fitted, and adds them to the covariance.
   void settle(JointFit& fit) const;
+  /// Where readings jump, seeks better sizes near those of a fit that stays, until there are none.
+  void refine(JointFit& fit) const;
   /// If readings jump with a term's size, its tangent does not give its uncertainty. Replaces it in the covariance by
   /// that of the likelihood along the size or of the straight line through the jumps, whichever is larger.
   void widen_jumping(JointFit& fit) const;

@@ -45,7 +45,9 @@ public:
 
   Search run() {
     report_progress("fitting the declared model");
-    out_.base = out_.found = c_.fitter.fit({}, 0);
+    out_.base = c_.fitter.fit({}, 0);
+    c_.fitter.refine(out_.base);
+    out_.found = out_.base;
     for (bool more = true; search_goes_on(more, out_.findings.size());) {
       const std::size_t terms = out_.found.terms.size();
       more = round();
@@ -55,6 +57,7 @@ public:
       }
       const bool took_one = out_.found.terms.size() > terms;
       if (took_one) prune(c_, out_, dropped_);
+      if (took_one) c_.fitter.refine(out_.found);
       if (took_one) out_.stages.push_back({out_.found, out_.findings, out_.dropped});
     }
     if (out_.findings.size() >= criteria.most_findings) {
