@@ -55,10 +55,10 @@ public:
         wide_ = true; // what repeats is a correction, however many values it has
         more = round();
       }
-      const bool took_one = out_.found.terms.size() > terms;
-      if (took_one) prune(c_, out_, dropped_);
-      if (took_one) c_.fitter.refine(out_.found);
-      if (took_one) out_.stages.push_back({out_.found, out_.findings, out_.dropped});
+      if (out_.found.terms.size() <= terms) continue;
+      prune(c_, out_, dropped_);
+      c_.fitter.refine(out_.found);
+      out_.stages.push_back({out_.found, out_.findings, out_.dropped});
     }
     if (out_.findings.size() >= criteria.most_findings) {
       const Evidence evidence(now(), out_.found, rounds_, dropped_);
