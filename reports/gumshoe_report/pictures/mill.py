@@ -53,7 +53,7 @@ def above(d, v, x0):
     d.path([(x0 - 6, y), (x0 + 6, y)], QUIET)
     d.path([(x0, y - 6), (x0, y + 6)], QUIET)
     d.arc(x0, y, 1.16 * radius, 1.16 * radius, 195, 262, QUIET, tip="end")
-    d.label(x0 + 116, 70, v.text("beam_yaw", "beam, yaw"), "end", ORANGE)
+    d.label(x0 + 116 * math.cos(yaw) + 6, 56 + 116 * math.sin(yaw), v.text("beam_yaw", "beam, yaw"), "start", ORANGE)
     d.label(x0, y - 1.16 * radius - 22, f"{v.text('spindle_speed')}, {flutes} insert" + ("s" if flutes > 1 else ""), "middle")
     d.label(x0, y - 1.16 * radius - 44, "from above", "middle", QUIET)
 
@@ -61,6 +61,6 @@ def above(d, v, x0):
 def picture(v):
     d = Drawing()
     along(d, v)
-    above(d, v, 330)
+    above(d, v, 350)
     return d.svg("A round-insert mill turning over a laser beam, along the beam and from above"), \
         "The mill turns while it is fed into the beam; lengths across the axis to scale." + v.caption()
