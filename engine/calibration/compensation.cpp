@@ -12,6 +12,7 @@
 #include "base/units.h"
 #include "effects/effect.h"
 #include "quantities/correlations.h"
+#include "quantities/effect_of.h"
 
 namespace gumshoe::calibration {
 namespace {
@@ -166,7 +167,7 @@ private:
     }
     const propagation::Range sizes = e_.layout().sizes;
     for (std::size_t q = sizes.begin; q < sizes.end; ++q) {
-      const std::string name = s_.quantities[q].name.substr(0, s_.quantities[q].name.find('.'));
+      const std::string name = quantities::effect_of(s_.quantities[q].name);
       if (!left_out(name)) out.push_back({name, {{q, 0}}});
     }
     for (const std::string& name : request_.with) {

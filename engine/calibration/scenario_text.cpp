@@ -8,6 +8,7 @@
 #include "base/units.h"
 #include "base/version.h"
 #include "quantities/cells.h"
+#include "quantities/effect_of.h"
 #include "scenario/quantity.h"
 #include "scenario/set_points.h"
 #include "scenario/write.h"
@@ -116,12 +117,12 @@ ScenarioText::ScenarioText(const scenario::Scenario& s, const std::string& folde
 }
 
 Node& ScenarioText::quantity(const std::string& name) {
-  const std::size_t dot = name.find('.');
-  if (dot == std::string::npos) return member(member(document_, "quantities"), name);
-  const std::string effect = name.substr(0, dot);
+  const std::string effect = quantities::effect_of(name);
+  if (effect.empty()) return member(member(document_, "quantities"), name);
   Node* effects = find_member(document_, "stated_effects");
   const bool stated = effects && find_member(*effects, effect);
-  return member(member(member(document_, stated ? "stated_effects" : "effects"), effect), name.substr(dot + 1));
+  return member(member(member(document_, stated ? "stated_effects" : "effects"), effect),
+                name.substr(effect.size() + 1));
 }
 
 Node& ScenarioText::entry(const std::string& name, const quantities::Labels& labels) {

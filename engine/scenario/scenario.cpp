@@ -9,6 +9,7 @@
 #include "base/hash.h"
 #include "base/text_file.h"
 #include "base/version.h"
+#include "quantities/effect_of.h"
 #include "scenario/analysis.h"
 #include "scenario/choose.h"
 #include "scenario/correlations.h"
@@ -153,7 +154,7 @@ private:
   void check_unconfirmed(Table& top) {
     std::vector<std::string> effects;
     for (const quantities::InputQuantity& q : out_.quantities)
-      if (const std::size_t dot = q.name.find('.'); dot != std::string::npos) effects.push_back(q.name.substr(0, dot));
+      if (const std::string effect = quantities::effect_of(q.name); !effect.empty()) effects.push_back(effect);
     Table trace(*top.find("trace"), "trace", problems_);
     for (const std::string& name : out_.trace.unconfirmed)
       if (std::ranges::find(effects, name) == effects.end())

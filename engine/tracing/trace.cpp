@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "base/units.h"
+#include "quantities/effect_of.h"
 #include "scenario/document.h"
 #include "tracing/campaigns/scores.h"
 #include "tracing/candidates/extended_scenario.h"
@@ -184,7 +185,7 @@ namespace {
 
 /// Whether the scenario is what a trace of these readings found: this search is one after it.
 bool found_before(const scenario::Scenario& s) {
-  const auto size = [](const std::string& name) { return name.find('.') != std::string::npos; };
+  const auto size = [](const std::string& name) { return !quantities::effect_of(name).empty(); };
   return s.data.empty() && (std::ranges::any_of(s.trace.free, size) ||
                             std::ranges::any_of(s.trace.priors, &quantities::InputQuantity::estimated));
 }

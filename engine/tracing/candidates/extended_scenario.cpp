@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "effects/effect.h"
+#include "quantities/effect_of.h"
 
 namespace gumshoe::tracing {
 namespace {
@@ -23,7 +24,7 @@ void free_again(Scenario& s) {
   };
   const auto freed = [&](const std::string& name) {
     return std::ranges::any_of(s.trace.free, [&](const std::string& q) {
-      return (own || q.find('.') == std::string::npos) && is_of(name, q);
+      return (own || quantities::effect_of(q).empty()) && is_of(name, q);
     });
   };
   if (own)

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "effects/effect.h"
 #include "quantities/cells.h"
+#include "quantities/effect_of.h"
 #include "tracing/criteria.h"
 #include "tracing/fit/joint_fit.h"
 #include "tracing/noise/pure_error.h"
@@ -67,10 +68,9 @@ namespace {
 
 /// Whether this is the name of an effect's quantity that is no shape.
 bool is_size(const std::string& name) {
-  const std::size_t dot = name.find('.');
-  const EffectCard* effect = dot == std::string::npos ? nullptr : effects::find(name.substr(0, dot));
+  const EffectCard* effect = effects::find(quantities::effect_of(name));
   return effect && std::ranges::any_of(effect->quantities, [&](const QuantityCard& q) {
-           return q.name == name.substr(dot + 1) && q.role != Role::shape;
+           return q.name == name.substr(effect->name.size() + 1) && q.role != Role::shape;
          });
 }
 

@@ -10,6 +10,7 @@
 #include "analysis/rounding.h"
 #include "base/units.h"
 #include "quantities/cells.h"
+#include "quantities/effect_of.h"
 #include "scenario/quantity.h"
 #include "tracing/criteria.h"
 #include "tracing/scenario_out/composition.h"
@@ -290,7 +291,7 @@ private:
     for (std::size_t e = 0; e < entries.size(); ++e) {
       const bool moved = quantities::holds_for(a.labels, entries[e].labels);
       // An effect of one part is exactly null at the others.
-      const bool null = !moved && a.scenario_name.find('.') != std::string::npos && entries[e].components.empty();
+      const bool null = !moved && !quantities::effect_of(a.scenario_name).empty() && entries[e].components.empty();
       if (!moved && !null) continue;
       const Line line{unknown(a.quantity, e),
                       value_at(a.quantity, entries[e].labels),

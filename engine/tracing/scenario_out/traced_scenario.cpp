@@ -10,6 +10,7 @@
 
 #include "calibration/scenario_text.h"
 #include "quantities/cells.h"
+#include "quantities/effect_of.h"
 #include "tracing/matrix.h"
 #include "tracing/scenario_out/corrections.h"
 
@@ -241,7 +242,8 @@ private:
   /// round starts where this one ended. A quantity with a value left that the data do not determine stays marked.
   void finish_free() {
     for (const auto& q : t_.extended.quantities)
-      if (sized(q.name) && !q.entries.empty() && fitted(q.name) == q.entries.size()) free_.insert(q.name);
+      if (!quantities::effect_of(q.name).empty() && !q.entries.empty() && fitted(q.name) == q.entries.size())
+        free_.insert(q.name);
     if (free_.empty()) return;
     Node& list = member(member(text_.document(), "trace"), "free");
     if (list.kind == Node::Kind::text) list = calibration::list_node({list});
@@ -262,7 +264,7 @@ private:
       const calibration::Parameter& p = t_.estimate.parameters[i];
       const auto& quantity = t_.extended.quantities[p.unknown.quantity];
       const bool whole = quantity.entries.size() == 1 && quantity.entries[0].labels.empty();
-      if (!whole || sized(quantity.name) || free_.contains(quantity.name) ||
+      if (!whole || !quantities::effect_of(quantity.name).empty() || free_.contains(quantity.name) ||
           declared_as_well_.contains(quantity.name) || !(p.standard_uncertainty > 0))
         continue;
       Node estimated;
@@ -290,7 +292,7 @@ private:
     std::set<std::string> found;
     for (const Finding& f : t_.findings)
       for (const SizedQuantity& q : f.quantities)
-        if (sized(q.scenario_name)) found.insert(q.scenario_name.substr(0, q.scenario_name.find('.')));
+        if (const std::string effect = quantities::effect_of(q.scenario_name); !effect.empty()) found.insert(effect);
     for (const Correction& c : t_.corrections) found.insert(c.name);
     if (!t_.unconfirmed || found.empty()) return;
     Node& list = member(member(text_.document(), "trace"), "unconfirmed");
@@ -303,7 +305,7 @@ private:
   /// How many entries of a quantity are parameters of the estimate; none if all of them are held exactly.
   std::size_t fitted(const std::string& name) const {
     std::size_t count = 0;
-    bool any = !sized(name);
+    bool any = quantities::effect_of(name).empty();
     for (std::size_t i = 0; i < t_.estimate.parameters.size(); ++i) {
       const calibration::Parameter& p = t_.estimate.parameters[i];
       if (t_.extended.quantities[p.unknown.quantity].name != name) continue;
@@ -312,8 +314,6 @@ private:
     }
     return any ? count : 0;
   }
-  /// Whether a quantity is the size of an effect.
-  static bool sized(const std::string& name) { return name.find('.') != std::string::npos; }
 
   void tie() {
     std::vector<std::size_t> tied = uncertain_;
@@ -331,7 +331,7 @@ private:
   }
 
   void add(const Addition& a) {
-    const bool noise = a.quantity.find('.') == std::string::npos;
+    const bool noise = quantities::effect_of(a.quantity).empty();
     std::vector<Node> per;
     for (const std::string& label : a.per) per.push_back(text_node(label));
     Node one;
